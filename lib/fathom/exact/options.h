@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fathom/numeric/certified.h"
+
+namespace fathom {
+
+enum class Engine { reference };
+enum class Cull { none, back, front };
+
+/// The channels of the specification, section 6, by the names that files have:
+/// Z Zlow distance id face object N (three) P (three) bary (two).
+enum class Channel { Z, Zlow, distance, id, face, object, N, P, bary };
+
+/// "Z" → Channel::Z, …; nullopt if there is no such channel.
+std::optional<Channel> channel_named(const std::string& name);
+
+/// How Z and distance are rounded: once from the exact number, whatever the file.
+struct DepthEncoding {
+  enum class Type { binary32, binary64, scaled_unorm16 } type = Type::binary32;
+  /// For scaled_unorm16: codes per unit; code = round-half-even(scale·D), 0 for no surface. A depth
+  /// whose code would be 0 or above 65535 is an OutputError that names the pixel.
+  double scale = 1000;
+};
+
+/// What was decided how.
+struct RenderStatistics {
+  std::uint64_t triangles = 0;
+  std::uint64_t degenerate_triangles = 0;  // Δ = 0, seen edge on
+  std::uint64_t culled_triangles = 0;
+  std::uint64_t samples_tested = 0;
+  std::uint64_t samples_covered = 0;
+  std::uint64_t pixels_with_surface = 0;
+  TierCounts facing, edges, visibility, range;
+};
+
+struct RenderOptions {
+  Engine engine = Engine::reference;
+  std::vector<Channel> channels{Channel::Z};
+  Cull cull = Cull::none;
+  DepthEncoding depth_encoding;
+  /// Threads to use; 0: all.
+  int threads = 0;
+  /// Called now and then, from any thread but never from two at once, with the share done in [0, 1].
+  std::function<void(double)> progress;
+  /// Where set, filled in.
+  RenderStatistics* statistics = nullptr;
+};
+
+}  // namespace fathom

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace fathom {
+
+/// Background of `id`, `face` and `object`.
+inline constexpr std::uint32_t no_surface = 0xFFFFFFFF;
+
+/// One channel: width × height values, row by row from the top, each row from the left.
+/// binary32 is what EXR and PFM hold; binary64 only `Z` and `distance` for NPY; 16 bits only PNG
+/// codes (see DepthMap::png_scale); 32-bit integers are identifiers.
+struct ImageChannel {
+  std::string name;
+  std::variant<std::vector<float>, std::vector<double>, std::vector<std::uint16_t>,
+               std::vector<std::uint32_t>>
+      values;
+};
+
+/// A rendered map: named channels of one size, and what is needed to recompute it.
+/// Values are those of the specification, section 6, already rounded. What it does not do: look
+/// at the scene or the camera; the texts here are opaque to this room.
+struct DepthMap {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<ImageChannel> channels;
+
+  /// For 16-bit codes: code = round-half-even(scale·D), 0 where there is no surface.
+  std::optional<double> png_scale;
+
+  /// Names of the objects that channel `object` numbers.
+  std::vector<std::string> object_names;
+  /// Attributes as they stand in the file: `fathom.camera`, `fathom.sources`, `fathom.engine`, …
+  /// (`fathom.objects` is made from object_names).
+  std::map<std::string, std::string> texts;
+  /// EXR's standard camera matrices for column vectors, row by row (the file holds them for row
+  /// vectors, in binary32): world to camera with x right, y up, z forward; world to NDC with
+  /// (0, 0) the top left and (1, 1) the bottom right corner.
+  std::optional<std::array<double, 16>> world_to_camera;
+  std::optional<std::array<double, 16>> world_to_ndc;
+  /// EXR's pixelAspectRatio, screenWindowCenter (x right, y up) and screenWindowWidth.
+  double pixel_aspect_ratio = 1;
+  std::array<double, 2> screen_window_centre{0, 0};
+  double screen_window_width = 1;
+
+  [[nodiscard]] const ImageChannel* find(const std::string& name) const;
+  /// The values of a channel if it exists and has this type.
+  template <class T>
+  [[nodiscard]] const std::vector<T>* values(const std::string& name) const {
+    const ImageChannel* channel = find(name);
+    return channel ? std::get_if<std::vector<T>>(&channel->values) : nullptr;
+  }
+};
+
+}  // namespace fathom

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "fathom/numeric/dyadic.h"
+#include "fathom/numeric/ratio.h"
+
+/// Certified decisions: an interval filter in binary64 first, exact arithmetic where the filter
+/// does not settle it. No decision is ever made by a tolerance.
+namespace fathom {
+
+/// How many decisions each tier settled. Passed along explicitly; there is no global count.
+struct TierCounts {
+  std::uint64_t interval = 0;
+  std::uint64_t exact = 0;
+
+  TierCounts& operator+=(const TierCounts& other) {
+    interval += other.interval;
+    exact += other.exact;
+    return *this;
+  }
+};
+
+using ExactVector3 = std::array<Dyadic, 3>;
+
+ExactVector3 cross(const ExactVector3& a, const ExactVector3& b);
+Dyadic dot(const ExactVector3& a, const ExactVector3& b);
+
+/// det(a, b, c), exactly; a, b, c are the columns (or the rows).
+Dyadic determinant(const ExactVector3& a, const ExactVector3& b, const ExactVector3& c);
+/// The sign of det(a, b, c).
+Sign sign_of_determinant(const ExactVector3& a, const ExactVector3& b, const ExactVector3& c,
+                         TierCounts& counts);
+
+/// The sign of the turn a → b → c in the plane: positive where c lies left of ab with y up.
+/// Decided by CGAL's filtered orientation predicate; exact for all finite coordinates.
+Sign orientation(const std::array<double, 2>& a, const std::array<double, 2>& b,
+                 const std::array<double, 2>& c);
+
+/// An affine function l_u·u + l_v·v + l_w on the image, with exact coefficients and an enclosure
+/// of them for the filter. Edge functions and the numerators and denominators of everything that
+/// is interpolated over a triangle have this form.
+class ImageForm {
+ public:
+  ImageForm() : ImageForm(ExactVector3{}) {}
+  explicit ImageForm(ExactVector3 coefficients);
+
+  [[nodiscard]] const ExactVector3& coefficients() const { return coefficients_; }
+  /// The exact value at the sample (u, v); u and v finite.
+  [[nodiscard]] Dyadic at(double u, double v) const;
+  /// An interval that contains the value at (u, v).
+  [[nodiscard]] Interval enclose_at(double u, double v) const;
+  /// The sign of the value at (u, v).
+  [[nodiscard]] Sign sign_at(double u, double v, TierCounts& counts) const;
+
+ private:
+  ExactVector3 coefficients_;
+  std::array<Interval, 3> enclosures_;
+};
+
+/// An interval that contains every quotient of a member of `a` and a member of `b`;
+/// [−∞, ∞] if b contains 0.
+Interval quotient(const Interval& a, const Interval& b);
+
+}  // namespace fathom

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <gmp.h>
+
+#include <string>
+
+#include "fathom/numeric/interval.h"
+
+namespace fathom {
+
+/// An exact number m·2^e with integers m, e of any size.
+///
+/// Every finite binary64 number is one, and they are closed under +, − and ×. All quantities of
+/// the specification are dyadic, quotients of dyadics (Ratio), or square roots of such quotients.
+/// What it does not do: division, and anything rounded; see ratio.h and rounding.h.
+class Dyadic {
+ public:
+  Dyadic() { mpz_init(significand_); }
+  /// The number that `value` denotes. Throws std::invalid_argument if it is not finite.
+  Dyadic(double value);  // NOLINT(google-explicit-constructor): a double is a dyadic number
+  Dyadic(const Dyadic& other);
+  Dyadic(Dyadic&& other) noexcept;
+  Dyadic& operator=(const Dyadic& other);
+  Dyadic& operator=(Dyadic&& other) noexcept;
+  ~Dyadic() { mpz_clear(significand_); }
+
+  Dyadic& operator+=(const Dyadic& other);
+  Dyadic& operator-=(const Dyadic& other);
+  Dyadic& operator*=(const Dyadic& other);
+  friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
+  friend Dyadic operator-(const Dyadic& a, const Dyadic& b);
+  friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
+  Dyadic operator-() const;
+
+  [[nodiscard]] Sign sign() const { return sign_of(mpz_sgn(significand_)); }
+  [[nodiscard]] bool is_zero() const { return mpz_sgn(significand_) == 0; }
+  /// The number times 2^power.
+  [[nodiscard]] Dyadic scaled(long power) const;
+
+  /// m and e. They are not unique: m may be even.
+  [[nodiscard]] mpz_srcptr significand() const { return significand_; }
+  [[nodiscard]] long exponent() const { return exponent_; }
+
+  friend int compare(const Dyadic& a, const Dyadic& b);
+  friend bool operator==(const Dyadic& a, const Dyadic& b) { return compare(a, b) == 0; }
+  friend bool operator<(const Dyadic& a, const Dyadic& b) { return compare(a, b) < 0; }
+  friend bool operator>(const Dyadic& a, const Dyadic& b) { return compare(a, b) > 0; }
+  friend bool operator<=(const Dyadic& a, const Dyadic& b) { return compare(a, b) <= 0; }
+  friend bool operator>=(const Dyadic& a, const Dyadic& b) { return compare(a, b) >= 0; }
+
+ private:
+  mpz_t significand_;
+  long exponent_ = 0;
+};
+
+/// The least interval of binary64 numbers that contains `x`; a point where x is representable.
+Interval enclose(const Dyadic& x);
+
+Dyadic abs(const Dyadic& x);
+
+}  // namespace fathom

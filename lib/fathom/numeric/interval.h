@@ -1,0 +1,23 @@
+#pragma once
+
+namespace fathom {
+
+/// A closed interval of binary64 numbers that contains an exact value.
+///
+/// Exact    every function that returns one rounds its ends outwards. An end may be infinite.
+///          A NaN at an end means "nothing is known"; every comparison with it is undecided.
+struct Interval {
+  double lower = 0;
+  double upper = 0;
+};
+
+/// The sign of an exact number.
+enum class Sign : signed char { negative = -1, zero = 0, positive = 1 };
+
+constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)); }
+constexpr Sign operator*(Sign a, Sign b) {
+  return static_cast<Sign>(static_cast<int>(a) * static_cast<int>(b));
+}
+constexpr Sign sign_of(int value) { return static_cast<Sign>((value > 0) - (value < 0)); }
+
+}  // namespace fathom

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "fathom/numeric/ratio.h"
+
+/// Correct rounding: the exact number rounded once, to nearest, ties to even (specification,
+/// section 6). An exact zero gives +0, a negative number that underflows gives −0, subnormals are
+/// kept, overflow gives an infinity.
+namespace fathom {
+
+/// The bits of an IEEE 754 binary16 number.
+struct Binary16 {
+  std::uint16_t bits = 0;
+  friend bool operator==(Binary16, Binary16) = default;
+};
+
+float round_to_binary32(const Ratio& x);
+double round_to_binary64(const Ratio& x);
+Binary16 round_to_binary16(const Ratio& x);
+
+/// √x rounded once. Throws std::domain_error if x < 0.
+float round_sqrt_to_binary32(const Ratio& x);
+double round_sqrt_to_binary64(const Ratio& x);
+
+/// The integer nearest to x, ties to even; nullopt if it is negative or above `greatest`.
+std::optional<std::uint64_t> round_to_integer(const Ratio& x, std::uint64_t greatest);
+
+/// The unorm-n code of x in [0, 1], n ≤ 32: the integer nearest to x·(2ⁿ − 1), ties to even.
+/// nullopt if x is outside [0, 1].
+std::optional<std::uint32_t> round_to_unorm(const Ratio& x, int bits);
+
+}  // namespace fathom

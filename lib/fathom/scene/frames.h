@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+
+#include "fathom/numeric/dyadic.h"
+
+/// A type for each frame, so that a mix-up does not compile. The frames are those of the
+/// specification, sections 2 to 4. All coordinates here are exact.
+namespace fathom {
+
+/// A corner of a mesh in the frame of its file, as read: binary64 numbers that are the truth.
+struct MeshPoint {
+  double x = 0, y = 0, z = 0;
+  friend bool operator==(const MeshPoint&, const MeshPoint&) = default;
+};
+
+/// A point in the world, in scene units.
+struct WorldPoint {
+  Dyadic x, y, z;
+};
+
+/// A point in the camera frame: x right, y down, z forward; scene units.
+struct CameraPoint {
+  Dyadic x, y, z;
+};
+
+/// A homogeneous image point: the image is (U/W, V/W) in pixels, u right, v down, where W > 0.
+struct HomogeneousImagePoint {
+  Dyadic U, V, W;
+};
+
+/// A sample position on the image in pixels, (0, 0) the top left corner; exact binary fractions.
+struct ImagePoint {
+  double u = 0, v = 0;
+};
+
+/// An exact affine map, 3×4, applied to column vectors: linear part | translation.
+template <class Target, class Source>
+struct ExactAffine {
+  std::array<std::array<Dyadic, 4>, 3> rows{{{1.0, 0.0, 0.0, 0.0},
+                                             {0.0, 1.0, 0.0, 0.0},
+                                             {0.0, 0.0, 1.0, 0.0}}};
+
+  template <class Point>
+  [[nodiscard]] Target apply(const Point& p) const {
+    const Dyadic x(p.x), y(p.y), z(p.z);
+    const auto row = [&](int i) {
+      return rows[i][0] * x + rows[i][1] * y + rows[i][2] * z + rows[i][3];
+    };
+    return {row(0), row(1), row(2)};
+  }
+  Target operator()(const Source& p) const { return apply(p); }
+};
+
+using WorldFromMesh = ExactAffine<WorldPoint, MeshPoint>;
+
+}  // namespace fathom
