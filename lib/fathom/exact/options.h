@@ -46,7 +46,8 @@ struct RenderOptions {
   DepthEncoding depth_encoding;
   /// Threads to use; 0: all.
   int threads = 0;
-  /// Called now and then, from any thread but never from two at once, with the share done in [0, 1].
+  /// Called now and then, from any thread but never from two at once, with the share done in [0,
+  /// 1].
   std::function<void(double)> progress;
   /// Where set, filled in.
   RenderStatistics* statistics = nullptr;

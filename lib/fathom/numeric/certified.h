@@ -57,6 +57,7 @@ class ImageForm {
  private:
   ExactVector3 coefficients_;
   std::array<Interval, 3> enclosures_;
+  bool filterable_ = false;
 };
 
 /// An interval that contains every quotient of a member of `a` and a member of `b`;

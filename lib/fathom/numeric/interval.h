@@ -14,10 +14,14 @@ struct Interval {
 /// The sign of an exact number.
 enum class Sign : signed char { negative = -1, zero = 0, positive = 1 };
 
-constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)); }
+constexpr Sign operator-(Sign s) {
+  return static_cast<Sign>(-static_cast<int>(s));
+}
 constexpr Sign operator*(Sign a, Sign b) {
   return static_cast<Sign>(static_cast<int>(a) * static_cast<int>(b));
 }
-constexpr Sign sign_of(int value) { return static_cast<Sign>((value > 0) - (value < 0)); }
+constexpr Sign sign_of(int value) {
+  return static_cast<Sign>((value > 0) - (value < 0));
+}
 
 }  // namespace fathom

@@ -23,8 +23,12 @@ Ratio operator+(const Ratio& a, const Ratio& b);
 Ratio operator-(const Ratio& a, const Ratio& b);
 Ratio operator*(const Ratio& a, const Ratio& b);
 int compare(const Ratio& a, const Ratio& b);
-inline bool operator==(const Ratio& a, const Ratio& b) { return compare(a, b) == 0; }
-inline bool operator<(const Ratio& a, const Ratio& b) { return compare(a, b) < 0; }
+inline bool operator==(const Ratio& a, const Ratio& b) {
+  return compare(a, b) == 0;
+}
+inline bool operator<(const Ratio& a, const Ratio& b) {
+  return compare(a, b) < 0;
+}
 
 /// "p/q" in lowest terms, "p" where q is 1.
 std::string to_fraction(const Ratio& x);

@@ -1,0 +1,176 @@
+#include "fathom/numeric/dyadic.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace fathom {
+namespace {
+
+struct Mpz {
+  mpz_t value;
+  Mpz() { mpz_init(value); }
+  ~Mpz() { mpz_clear(value); }
+  Mpz(const Mpz&) = delete;
+  Mpz& operator=(const Mpz&) = delete;
+};
+
+}  // namespace
+
+// A finite binary64 number is an integer below 2⁵³ times a power of two; trailing zeros are
+// dropped so that small integers stay small through products.
+Dyadic::Dyadic(double value) {
+  if (!std::isfinite(value)) throw std::invalid_argument("a Dyadic is made from a finite number");
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto biased_exponent = static_cast<int>(bits >> 52 & 0x7FF);
+  std::uint64_t fraction = bits & 0xFFFFFFFFFFFFF;
+  if (biased_exponent != 0) fraction |= std::uint64_t{1} << 52;
+  if (fraction == 0) {
+    mpz_init(significand_);
+    return;
+  }
+  const int trailing_zeros = std::countr_zero(fraction);
+  static_assert(sizeof(unsigned long) == 8);
+  mpz_init_set_ui(significand_, fraction >> trailing_zeros);
+  if (std::signbit(value)) mpz_neg(significand_, significand_);
+  exponent_ = (biased_exponent != 0 ? biased_exponent : 1) - 1075 + trailing_zeros;
+}
+
+Dyadic::Dyadic(const Dyadic& other) : exponent_(other.exponent_) {
+  mpz_init_set(significand_, other.significand_);
+}
+
+Dyadic::Dyadic(Dyadic&& other) noexcept : exponent_(other.exponent_) {
+  mpz_init(significand_);
+  mpz_swap(significand_, other.significand_);
+}
+
+Dyadic& Dyadic::operator=(const Dyadic& other) {
+  if (this == &other) return *this;
+  mpz_set(significand_, other.significand_);
+  exponent_ = other.exponent_;
+  return *this;
+}
+
+Dyadic& Dyadic::operator=(Dyadic&& other) noexcept {
+  mpz_swap(significand_, other.significand_);
+  std::swap(exponent_, other.exponent_);
+  return *this;
+}
+
+Dyadic& Dyadic::operator+=(const Dyadic& other) {
+  if (other.is_zero()) return *this;
+  if (is_zero()) return *this = other;
+  if (exponent_ == other.exponent_) {
+    mpz_add(significand_, significand_, other.significand_);
+  } else if (exponent_ > other.exponent_) {
+    mpz_mul_2exp(significand_, significand_, static_cast<mp_bitcnt_t>(exponent_ - other.exponent_));
+    mpz_add(significand_, significand_, other.significand_);
+    exponent_ = other.exponent_;
+  } else {
+    Mpz aligned;
+    mpz_mul_2exp(aligned.value, other.significand_,
+                 static_cast<mp_bitcnt_t>(other.exponent_ - exponent_));
+    mpz_add(significand_, significand_, aligned.value);
+  }
+  if (is_zero()) exponent_ = 0;
+  return *this;
+}
+
+Dyadic& Dyadic::operator-=(const Dyadic& other) {
+  mpz_neg(significand_, significand_);
+  *this += other;
+  mpz_neg(significand_, significand_);
+  return *this;
+}
+
+Dyadic& Dyadic::operator*=(const Dyadic& other) {
+  mpz_mul(significand_, significand_, other.significand_);
+  exponent_ = is_zero() ? 0 : exponent_ + other.exponent_;
+  return *this;
+}
+
+Dyadic operator+(const Dyadic& a, const Dyadic& b) {
+  Dyadic sum = a;
+  sum += b;
+  return sum;
+}
+
+Dyadic operator-(const Dyadic& a, const Dyadic& b) {
+  Dyadic difference = a;
+  difference -= b;
+  return difference;
+}
+
+Dyadic operator*(const Dyadic& a, const Dyadic& b) {
+  Dyadic product;
+  mpz_mul(product.significand_, a.significand_, b.significand_);
+  product.exponent_ = product.is_zero() ? 0 : a.exponent_ + b.exponent_;
+  return product;
+}
+
+Dyadic Dyadic::operator-() const {
+  Dyadic negated = *this;
+  mpz_neg(negated.significand_, negated.significand_);
+  return negated;
+}
+
+Dyadic Dyadic::scaled(long power) const {
+  Dyadic result = *this;
+  if (!is_zero()) result.exponent_ += power;
+  return result;
+}
+
+int compare(const Dyadic& a, const Dyadic& b) {
+  const int sign_a = mpz_sgn(a.significand_);
+  const int sign_b = mpz_sgn(b.significand_);
+  if (sign_a != sign_b) return sign_a < sign_b ? -1 : 1;
+  if (sign_a == 0) return 0;
+  // The bit lengths settle most comparisons without aligning numbers of very different size.
+  const long top_a = static_cast<long>(mpz_sizeinbase(a.significand_, 2)) + a.exponent_;
+  const long top_b = static_cast<long>(mpz_sizeinbase(b.significand_, 2)) + b.exponent_;
+  if (top_a != top_b) return (top_a < top_b) == (sign_a > 0) ? -1 : 1;
+  return static_cast<int>((a - b).sign());
+}
+
+// The leading 53 bits give one end (truncation towards zero), the next number away from zero the
+// other. Below the normal range the ends are multiples of the least subnormal.
+Interval enclose(const Dyadic& x) {
+  if (x.is_zero()) return {0, 0};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto length = static_cast<long>(mpz_sizeinbase(x.significand(), 2));
+  const long top = length + x.exponent();  // 2^(top−1) ≤ |x| < 2^top
+  double toward_zero;
+  bool representable;
+  if (top > 1024) {
+    toward_zero = std::numeric_limits<double>::max();
+    representable = false;
+  } else {
+    const long kept = top - 53 < -1074 ? -1074 : top - 53;  // exponent of the last bit kept
+    const long dropped = kept - x.exponent();
+    Mpz magnitude;
+    mpz_abs(magnitude.value, x.significand());
+    if (dropped > 0) {
+      representable = mpz_scan1(magnitude.value, 0) >= static_cast<mp_bitcnt_t>(dropped);
+      mpz_tdiv_q_2exp(magnitude.value, magnitude.value, static_cast<mp_bitcnt_t>(dropped));
+      toward_zero =
+          std::ldexp(static_cast<double>(mpz_get_ui(magnitude.value)), static_cast<int>(kept));
+    } else {
+      representable = true;
+      toward_zero = std::ldexp(static_cast<double>(mpz_get_ui(magnitude.value)),
+                               static_cast<int>(x.exponent()));
+    }
+  }
+  const double away = representable ? toward_zero : std::nextafter(toward_zero, infinity);
+  if (x.sign() == Sign::positive) return {toward_zero, away};
+  return {-away, -toward_zero};
+}
+
+Dyadic abs(const Dyadic& x) {
+  return x.sign() == Sign::negative ? -x : x;
+}
+
+}  // namespace fathom

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <gmp.h>
+
+#include <string>
+
+#include "fathom/numeric/ratio.h"
+
+/// Integers of any size, for the files of this room only.
+namespace fathom {
+
+/// An mpz_t that cleans up after itself.
+class Integer {
+ public:
+  Integer() { mpz_init(value_); }
+  Integer(Integer&& other) noexcept {
+    mpz_init(value_);
+    mpz_swap(value_, other.value_);
+  }
+  Integer(const Integer&) = delete;
+  Integer& operator=(const Integer&) = delete;
+  Integer& operator=(Integer&&) = delete;
+  ~Integer() { mpz_clear(value_); }
+  operator mpz_ptr() { return value_; }           // NOLINT(google-explicit-constructor)
+  operator mpz_srcptr() const { return value_; }  // NOLINT(google-explicit-constructor)
+  /// For GMP's macros, which do not see the conversions.
+  [[nodiscard]] mpz_srcptr get() const { return value_; }
+
+ private:
+  mpz_t value_;
+};
+
+/// A non-negative quotient of integers; the denominator is positive.
+struct Fraction {
+  Integer numerator;
+  Integer denominator;
+};
+
+/// |x| as a quotient of integers, not reduced.
+Fraction magnitude_as_fraction(const Ratio& x);
+
+/// The integer nearest to numerator / denominator, both non-negative, ties to even.
+void divide_to_nearest_even(mpz_ptr result, mpz_srcptr numerator, mpz_srcptr denominator);
+
+std::string to_string(const Integer& value);
+
+}  // namespace fathom

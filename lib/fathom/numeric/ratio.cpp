@@ -1,0 +1,82 @@
+#include "fathom/numeric/ratio.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "fathom/numeric/integer.h"
+
+namespace fathom {
+
+Ratio::Ratio(Dyadic num, Dyadic den) : numerator(std::move(num)), denominator(std::move(den)) {
+  if (denominator.is_zero()) throw std::domain_error("a Ratio has a denominator other than zero");
+  if (denominator.sign() == Sign::negative) {
+    numerator = -numerator;
+    denominator = -denominator;
+  }
+}
+
+Ratio operator+(const Ratio& a, const Ratio& b) {
+  return {a.numerator * b.denominator + b.numerator * a.denominator, a.denominator * b.denominator};
+}
+
+Ratio operator-(const Ratio& a, const Ratio& b) {
+  return {a.numerator * b.denominator - b.numerator * a.denominator, a.denominator * b.denominator};
+}
+
+Ratio operator*(const Ratio& a, const Ratio& b) {
+  return {a.numerator * b.numerator, a.denominator * b.denominator};
+}
+
+int compare(const Ratio& a, const Ratio& b) {
+  return compare(a.numerator * b.denominator, b.numerator * a.denominator);
+}
+
+std::string to_fraction(const Ratio& x) {
+  Fraction f = magnitude_as_fraction(x);
+  Integer divisor;
+  mpz_gcd(divisor, f.numerator, f.denominator);
+  mpz_divexact(f.numerator, f.numerator, divisor);
+  mpz_divexact(f.denominator, f.denominator, divisor);
+  std::string text = x.sign() == Sign::negative ? "-" : "";
+  text += to_string(f.numerator);
+  if (mpz_cmp_ui(f.denominator.get(), 1) != 0) text += "/" + to_string(f.denominator);
+  return text;
+}
+
+namespace {
+
+/// 10^power times a fraction, power of either sign.
+Fraction times_power_of_ten(const Fraction& f, long power) {
+  Fraction scaled;
+  Integer ten_to;
+  mpz_ui_pow_ui(ten_to, 10, static_cast<unsigned long>(power < 0 ? -power : power));
+  mpz_set(scaled.numerator, f.numerator);
+  mpz_set(scaled.denominator, f.denominator);
+  mpz_ptr side =
+      power < 0 ? static_cast<mpz_ptr>(scaled.denominator) : static_cast<mpz_ptr>(scaled.numerator);
+  mpz_mul(side, side, ten_to);
+  return scaled;
+}
+
+}  // namespace
+
+std::string to_decimal(const Ratio& x, int digits) {
+  if (x.sign() == Sign::zero) return "0";
+  const Fraction f = magnitude_as_fraction(x);
+  // GMP's count of decimal digits is right or one too high, so this is a lower bound of the decimal
+  // exponent of the first digit. Too low an exponent shows as too many digits.
+  long exponent = static_cast<long>(mpz_sizeinbase(f.numerator, 10)) -
+                  static_cast<long>(mpz_sizeinbase(f.denominator, 10)) - 2;
+  Integer code;
+  std::string text;
+  for (;; ++exponent) {
+    const Fraction scaled = times_power_of_ten(f, digits - 1 - exponent);
+    divide_to_nearest_even(code, scaled.numerator, scaled.denominator);
+    text = to_string(code);
+    if (text.size() <= static_cast<std::size_t>(digits)) break;
+  }
+  if (digits > 1) text.insert(1, ".");
+  return (x.sign() == Sign::negative ? "-" : "") + text + "e" + std::to_string(exponent);
+}
+
+}  // namespace fathom
