@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "fathom/scene/scene.h"
+
+namespace fathom {
+
+/// A box along the axes of the world, in scene units.
+struct WorldBounds {
+  std::array<double, 3> lower{};
+  std::array<double, 3> upper{};
+};
+
+/// The least box of binary64 numbers that contains every corner of every triangle in the world;
+/// vertices that no triangle uses do not count. nullopt if there is no triangle.
+///
+/// Exact    corners are placed exactly; the exact extremes are rounded outwards, once. An end that
+///          lies beyond the largest binary64 number is infinite.
+std::optional<WorldBounds> world_bounds(const Scene& scene);
+
+}  // namespace fathom

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "fathom/scene/bounds.h"
+#include "fathom/scene/camera.h"
+
+/// Cameras made from a description. What comes out is rounded to binary64 and from then on *is*
+/// the camera: the rotation is orthonormal only up to that rounding.
+namespace fathom {
+
+/// Image size and angle of view. Square pixels, the principal point in the middle of the image,
+/// pixel_centre ½, no skew.
+struct Lens {
+  std::uint32_t width = 1280;
+  std::uint32_t height = 720;
+  Projection projection = Projection::perspective;
+  /// Perspective: the angle in degrees, in (0, 180), that the image's height spans.
+  double vertical_fov = 40;
+  /// Perspective: fx = fy in pixels; takes the place of vertical_fov.
+  std::optional<double> focal;
+  /// Orthographic: scene units that the image's height spans; look_at and orbit need it.
+  std::optional<double> vertical_extent;
+  double near = 0;
+  double far = std::numeric_limits<double>::infinity();
+};
+
+using Vector3 = std::array<double, 3>;
+
+/// The camera at `eye` that looks at `target` with `up` upwards in the image.
+///
+/// Exact    R is the exact orthonormal frame with every entry rounded once, t = −R·eye computed
+///          exactly from the rounded R and rounded once.
+/// Fails    UsageError if eye and target coincide, if `up` is zero or along the line of sight (both
+///          tested exactly), if a number is not finite, or if the lens cannot be.
+Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up, const Lens& lens = {});
+
+/// The axis of the world that points up.
+enum class UpAxis { y, z };
+
+/// Where an eye is as seen from what it looks at, in degrees.
+///
+/// elevation  angle above the horizontal plane, −90 (from below) to 90 (from above).
+/// azimuth    angle around the up axis, counter-clockwise as seen from above. At 0 the image's
+///            right is +x: the eye is on the +z side (y up) or on the −y side (z up); at 90 it is
+///            on the +x side.
+struct View {
+  double azimuth = 35;
+  double elevation = 25;
+  UpAxis up = UpAxis::y;
+};
+
+/// The camera at `distance` from `centre` in the direction of `view`, looking at `centre`. Also
+/// from straight above and below, where the azimuth says how the image is turned.
+///
+/// Exact    sines and cosines are the C library's (exact at multiples of 90°), t = −R·eye is
+///          computed exactly from the rounded R and rounded once.
+/// Fails    UsageError if distance ≤ 0, elevation is outside [−90, 90], a number is not finite, or
+///          the lens cannot be.
+Camera look_from(const View& view, const Vector3& centre, double distance, const Lens& lens = {});
+
+/// A camera path of `count` views around `centre`, the first at `first`, the others at azimuths
+/// 360°/count apart.
+/// Fails    UsageError as look_from, and if count is 0.
+std::vector<Camera> orbit(const View& first, std::uint32_t count, const Vector3& centre,
+                          double distance, const Lens& lens = {});
+
+/// The camera in the direction of `view` that sees the whole of `bounds` with a margin of a
+/// twentieth of the image or more on every side, looking at its middle: every point inside projects
+/// into the image (proved exactly for the camera that is returned, by its eight corners). Bounds of
+/// a single point are seen from a distance of 1. Lens::vertical_extent is chosen if it is not
+/// given; if it is, only the distance is. Fails    UsageError if the view or the lens cannot be, or
+/// if no camera with finite numbers does
+///          it (bounds that reach to 1e308).
+Camera frame(const WorldBounds& bounds, const View& view = {}, const Lens& lens = {});
+
+/// A camera path around `bounds`, each camera looking at its middle from the same distance, chosen
+/// so that every camera sees all of it.
+/// Fails    UsageError as frame, and if count is 0.
+std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBounds& bounds,
+                          const Lens& lens = {});
+
+/// The camera that frames a scene: frame() on its world_bounds.
+/// Fails    UsageError as frame; InputError if the scene has no triangle.
+Camera frame_scene(const Scene& scene, const View& view = {}, const Lens& lens = {});
+
+}  // namespace fathom
