@@ -57,8 +57,8 @@ struct View {
 /// The camera at `distance` from `centre` in the direction of `view`, looking at `centre`. Also
 /// from straight above and below, where the azimuth says how the image is turned.
 ///
-/// Exact    sines and cosines are the C library's (exact at multiples of 90°), t = −R·eye is
-///          computed exactly from the rounded R and rounded once.
+/// Exact    sines and cosines are the C library's (exact at multiples of 90°); t = (0, 0, distance)
+///          − R·centre is computed exactly from the rounded R and rounded once.
 /// Fails    UsageError if distance ≤ 0, elevation is outside [−90, 90], a number is not finite, or
 ///          the lens cannot be.
 Camera look_from(const View& view, const Vector3& centre, double distance, const Lens& lens = {});

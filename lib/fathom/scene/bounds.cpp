@@ -1,0 +1,115 @@
+#include "fathom/scene/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace fathom {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The vertices that some triangle uses.
+std::vector<bool> used_vertices(const Mesh& mesh) {
+  std::vector<bool> used(mesh.vertices.size());
+  for (const CornerIndices& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) used[corner] = true;
+  return used;
+}
+
+void include(WorldBounds& bounds, int axis, const Interval& value) {
+  bounds.lower[axis] = std::min(bounds.lower[axis], value.lower);
+  bounds.upper[axis] = std::max(bounds.upper[axis], value.upper);
+}
+
+void include_as_is(WorldBounds& bounds, const Mesh& mesh, const std::vector<bool>& used) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!used[i]) continue;
+    const auto& [x, y, z] = mesh.vertices[i];
+    include(bounds, 0, {x, x});
+    include(bounds, 1, {y, y});
+    include(bounds, 2, {z, z});
+  }
+}
+
+/// One row of an affine map in binary64, with a bound of its error.
+class ApproximateRow {
+ public:
+  explicit ApproximateRow(const std::array<Dyadic, 4>& row) {
+    for (int k = 0; k < 4; ++k) {
+      coefficients_[k] = enclose(row[k]).lower;
+      // Below the normal numbers a coefficient's own rounding has no relative bound.
+      usable_ = usable_ && (row[k].is_zero() || std::isnormal(coefficients_[k]));
+    }
+  }
+
+  /// An interval that contains row·(x, y, z, 1). With u = 2⁻⁵³, the coefficients (truncated: an
+  /// error of 2u), the products and the two to three sums that each goes through err together by
+  /// at most (1 + 2u)(1 + u)⁴ − 1 < 2⁻⁵⁰ of the sum S of the magnitudes; S itself is computed at
+  /// most as much too small, which leaves room within 2⁻⁴⁹·S. A product that underflows adds
+  /// 2⁻¹⁰⁷⁵. Infinities and NaNs come out as the whole line.
+  [[nodiscard]] Interval at(const MeshPoint& p) const {
+    const auto& [a, b, c, d] = coefficients_;
+    const double value = a * p.x + b * p.y + c * p.z + d;
+    const double magnitude =
+        std::abs(a * p.x) + std::abs(b * p.y) + std::abs(c * p.z) + std::abs(d);
+    const double error = magnitude * 0x1p-49 + 0x1p-1070;
+    if (!usable_ || !std::isfinite(magnitude)) return {-infinity, infinity};
+    return {std::nextafter(value - error, -infinity), std::nextafter(value + error, infinity)};
+  }
+
+ private:
+  std::array<double, 4> coefficients_{};
+  bool usable_ = true;
+};
+
+/// Widens one axis of the bounds by the placed vertices: exactly, but only for those that the
+/// approximation cannot tell from an extreme one.
+void include_placed(WorldBounds& bounds, int axis, const Object& object, const Mesh& mesh,
+                    const std::vector<bool>& used) {
+  const auto& row = object.world_from_mesh.rows[axis];
+  const ApproximateRow approximate(row);
+  // The lower bounds' least upper end, and the upper bounds' greatest lower end.
+  double lowest = infinity, highest = -infinity;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!used[i]) continue;
+    const Interval value = approximate.at(mesh.vertices[i]);
+    lowest = std::min(lowest, value.upper);
+    highest = std::max(highest, value.lower);
+  }
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!used[i]) continue;
+    const MeshPoint& p = mesh.vertices[i];
+    const Interval value = approximate.at(p);
+    if (value.lower > lowest && value.upper < highest) continue;
+    include(bounds, axis, enclose(row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3]));
+  }
+}
+
+}  // namespace
+
+std::optional<WorldBounds> world_bounds(const Scene& scene) {
+  WorldBounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  bool empty = true;
+  for (const Object& object : scene.objects) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    if (mesh.triangles.empty()) continue;
+    empty = false;
+    const std::vector<bool> used = used_vertices(mesh);
+    if (object.placed_as_is) {
+      include_as_is(bounds, mesh, used);
+    } else {
+      for (int axis = 0; axis < 3; ++axis) include_placed(bounds, axis, object, mesh, used);
+    }
+  }
+  if (empty) return std::nullopt;
+  // −0 and +0 are the same number; say +0.
+  for (int axis = 0; axis < 3; ++axis) {
+    bounds.lower[axis] += 0.0;
+    bounds.upper[axis] += 0.0;
+  }
+  return bounds;
+}
+
+}  // namespace fathom

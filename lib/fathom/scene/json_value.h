@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Reading JSON strictly, with errors that name the file and the key. For this room's .cpp files
+/// only: no public header includes it.
+namespace fathom {
+
+/// The bytes of a file. Fails with InputError: not there, a directory, unreadable, larger than
+/// `limit` bytes (memory is taken only for what is there).
+std::string read_whole_file(const std::filesystem::path& file, std::uint64_t limit);
+
+/// A value in a JSON document that knows its place in it.
+class JsonValue {
+ public:
+  JsonValue(const nlohmann::json& value, const std::string& file, std::string place)
+      : value_(&value), file_(&file), place_(std::move(place)) {}
+
+  /// Throws InputError "FILE: PLACE: message".
+  [[noreturn]] void fail(const std::string& message) const;
+
+  /// An object's member; fails if it is missing or this is no object.
+  [[nodiscard]] JsonValue at(const std::string& key) const;
+  [[nodiscard]] std::optional<JsonValue> find(const std::string& key) const;
+  /// Fails if there is a key that is none of `known`.
+  void expect_only(std::initializer_list<std::string_view> known) const;
+
+  /// The elements of a list.
+  [[nodiscard]] std::vector<JsonValue> elements() const;
+  /// The elements of a list of exactly `size`.
+  [[nodiscard]] std::vector<JsonValue> elements(std::size_t size) const;
+  /// The members of an object, in the order of their keys.
+  [[nodiscard]] std::vector<std::pair<std::string, JsonValue>> members() const;
+  [[nodiscard]] std::size_t size() const { return value_->size(); }
+
+  /// The number, its decimal text rounded once to binary64.
+  [[nodiscard]] double number() const;
+  /// `size` numbers.
+  [[nodiscard]] std::vector<double> numbers(std::size_t size) const;
+  /// An integer from `least` to `greatest`; 3.0 is one too.
+  [[nodiscard]] std::uint64_t integer(std::uint64_t least, std::uint64_t greatest) const;
+  [[nodiscard]] const std::string& string() const;
+  [[nodiscard]] bool boolean() const;
+
+  [[nodiscard]] bool is_null() const { return value_->is_null(); }
+  [[nodiscard]] bool is_list() const { return value_->is_array(); }
+  [[nodiscard]] bool is_object() const { return value_->is_object(); }
+  [[nodiscard]] bool is_number() const { return value_->is_number(); }
+
+ private:
+  [[noreturn]] void fail_type(const char* expected) const;
+
+  const nlohmann::json* value_;
+  const std::string* file_;
+  std::string place_;
+};
+
+/// A JSON document.
+class JsonDocument {
+ public:
+  /// Fails with InputError: syntax ("FILE: line N: …"), a key twice in one object, a number beyond
+  /// binary64, nesting deeper than 100. `file` is the name for messages.
+  JsonDocument(std::string_view text, std::string file);
+
+  [[nodiscard]] JsonValue root() const { return {value_, file_, ""}; }
+
+ private:
+  nlohmann::json value_;
+  std::string file_;
+};
+
+}  // namespace fathom
