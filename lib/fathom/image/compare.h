@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fathom/image/depth_map.h"
+#include "fathom/image/rgb_image.h"
+
+/// How two maps of the same view differ.
+namespace fathom {
+
+struct PixelPosition {
+  std::uint32_t x = 0, y = 0;
+  friend bool operator==(PixelPosition, PixelPosition) = default;
+};
+
+/// Figures over the compared pixels (ChannelComparison::compared); all 0 where there are none.
+/// Percentiles are nearest-rank: the least value that at least p % of the pixels do not exceed.
+struct DifferenceSummary {
+  double max = 0, mean = 0;
+  double p50 = 0, p90 = 0, p99 = 0, p99_9 = 0;
+  /// The first pixel, row by row, that has `max`.
+  PixelPosition worst;
+};
+
+/// One channel of both maps. The rule, pixel by pixel:
+///   background in both        counted in `neither`, not compared
+///   a surface in one only     counted in `only_truth` or `only_other`, not compared
+///   bit patterns are equal    bit_equal, differences 0
+///   identifiers               equal or in `different_identifiers`; no differences are measured
+///   a NaN, or an infinity     `incommensurable` unless both are the same infinity or both NaN
+///   against another value     (difference 0): no difference is measured, and no tolerance is met
+///   otherwise                 absolute |a − b|; relative |a − b| / max(|a|, |b|), 0 if both are 0;
+///                             ulp: how many binary32 numbers lie from one to the other, −0 and +0
+///                             being one (binary64 numbers if both channels are binary64; steps of
+///                             the code if both are 16-bit codes of one scale)
+/// All differences are computed in binary64.
+struct ChannelComparison {
+  std::string truth_channel, other_channel;
+  bool identifiers = false;
+
+  std::uint64_t pixels = 0;
+  std::uint64_t both = 0, only_truth = 0, only_other = 0, neither = 0;
+  /// The first pixel, row by row, where only one has a surface.
+  std::optional<PixelPosition> first_coverage_disagreement;
+
+  /// Of the `both` pixels: both = compared + incommensurable for numbers.
+  std::uint64_t compared = 0;
+  std::uint64_t bit_equal = 0;
+  std::uint64_t incommensurable = 0;
+  std::uint64_t different_identifiers = 0;
+  /// The first pixel, row by row, with different identifiers or incommensurable values.
+  std::optional<PixelPosition> first_mismatch;
+  /// `both` pixels farther apart than the tolerance: above CompareOptions::tolerance_ulp,
+  /// incommensurable, or with different identifiers.
+  std::uint64_t beyond_tolerance = 0;
+
+  DifferenceSummary absolute, relative, ulp;
+  /// What the reader should know, a line each: a background that was guessed, types that differ, ….
+  std::vector<std::string> notes;
+
+  [[nodiscard]] bool within_tolerance() const {
+    return only_truth == 0 && only_other == 0 && beyond_tolerance == 0;
+  }
+};
+
+struct MapComparison {
+  std::vector<ChannelComparison> channels;
+  /// Channels that the other map does not have; not compared.
+  std::vector<std::string> only_in_truth, only_in_other;
+  std::vector<std::string> notes;
+
+  /// "Do the maps agree": in every channel compared, coverage agrees and no pixel is beyond the
+  /// tolerance.
+  [[nodiscard]] bool within_tolerance() const;
+};
+
+struct CompareOptions {
+  double tolerance_ulp = 0;
+  /// Compare this channel only; empty: all that both have. Where both have no name in common, a
+  /// depth channel of each is compared (`ViewLayer.Depth.Z`), with a note.
+  std::string channel;
+  /// Its name in the other map, where that differs.
+  std::string other_channel;
+  /// The value that stands for background in depth channels (NaN and infinities always do); where
+  /// empty, it is detected (surface.h) and noted.
+  std::optional<double> truth_background, other_background;
+};
+
+/// Fails    InputError if the sizes differ or there is nothing in common to compare; UsageError if
+///          a channel that was asked for is missing.
+MapComparison compare_maps(const DepthMap& truth, const DepthMap& other,
+                           const CompareOptions& options = {});
+
+/// A picture of the differences in one channel (empty: the first that compare_maps compares):
+/// equal pixels dark, differing ones by the logarithm of their ulp difference, surfaces in one
+/// map only and what cannot be measured in colours of their own, with a legend.
+RgbImage draw_differences(const DepthMap& truth, const DepthMap& other,
+                          const CompareOptions& options = {});
+
+}  // namespace fathom

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "fathom/image/depth_map.h"
+
+/// Conversions of maps that are already written, from their stored, rounded values: what comes out
+/// is rounded twice, unlike a channel that render wrote. Computed in binary64, then rounded to
+/// nearest-even to the type of the channel.
+namespace fathom {
+
+/// What this room needs to know of a camera; the specification's section 2 in binary64.
+struct MapView {
+  bool orthographic = false;
+  double fx = 1, fy = 1, cx = 0, cy = 0, skew = 0;
+  double pixel_centre = 0.5;
+  /// 3×4 [R | t], world to camera frame (x right, y down, z forward).
+  std::array<std::array<double, 4>, 3> world_to_camera{
+      {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+};
+
+/// The inverse [R⁻¹ | −R⁻¹·t].
+/// Exact    every entry is the exact one rounded once to binary64.
+/// Fails    InputError if det R = 0, tested exactly.
+std::array<std::array<double, 4>, 3> camera_to_world(const MapView& view);
+
+/// The camera's point (x, y, z) seen at the centre of pixel (i, j) with planar depth `z`:
+///   perspective    y' = (j + ½ − cy')/fy, x' = (i + ½ − cx' − skew·y')/fx, point (x'·z, y'·z, z)
+///   orthographic   (x', y', z)
+std::array<double, 3> point_at(const MapView& view, double i, double j, double z);
+
+enum class DepthQuantity { planar_depth, ray_distance, disparity };
+/// The channel that holds it: Z, distance, disparity.
+std::string channel_of(DepthQuantity quantity);
+
+/// A rectified stereo pair: disparity = |fx|·baseline / Z − doffs (Middlebury's calib.txt).
+struct StereoRig {
+  double baseline = 0;
+  double doffs = 0;
+};
+
+/// Returns a map with one channel: `to` computed from the map's channel `from`, of the same type,
+/// with the map's texts. Background is +∞ in all three (Middlebury's "unknown" for disparity); a
+/// depth of +∞ (overflow) stays so; NaN is taken for background.
+///   ray distance   Z·√(1 + x'² + y'²) with x', y' as in point_at (Z itself if orthographic)
+/// Fails    UsageError if the channel `from` is missing, or if disparity is asked for without a
+///          rig, with baseline ≤ 0, or with an orthographic view; InputError, naming the pixel, if
+///          a disparity with doffs is negative (nothing is there).
+DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
+                          const MapView& view, const std::optional<StereoRig>& rig = std::nullopt);
+
+/// How a depth channel is stored. Identifiers keep their 32 bits.
+enum class StoredType { binary32, binary64, scaled_unorm16 };
+
+/// Returns a map with only `channel` (empty: Z, or else the only one), stored as `type`.
+///   to binary32           rounded to nearest even; from codes, code / scale
+///   to binary64           widened; from codes, code / scale rounded once
+///   to scaled_unorm16     code = round-half-even(scale·D), computed exactly; background is 0.
+///                         `scale` is required.
+/// Fails    OutputError, naming the pixel, if a depth's code would be 0 or above 65535 (an
+///          overflowed depth as well); UsageError if the channel is missing or ambiguous, is not
+///          one of depth, or scale is not a positive number; InputError if codes carry no scale.
+DepthMap with_storage(const DepthMap& map, const std::string& channel, StoredType type,
+                      std::optional<double> scale = std::nullopt);
+
+enum class PointFrame { world, camera };
+
+struct PointCloudOptions {
+  PointFrame frame = PointFrame::world;
+  /// Coordinates as `double` (default) or as `float`.
+  bool binary64 = true;
+};
+
+/// Writes one point for each pixel that shows a surface at a finite depth, row by row, as PLY,
+/// binary little endian: x y z; nx ny nz (float) where the map has N; id, face, object (uint) where
+/// it has them. In the world frame, points of the map's own P channels are taken as they are, since
+/// they are exact numbers rounded once; otherwise points come from `Z` (or `distance`) by point_at
+/// and camera_to_world in binary64. Normals are the map's own (world), in the camera frame
+/// inverse-transposed and renormalised.
+/// Fails    UsageError if there is no Z, distance or P; OutputError: "PATH: why".
+void write_point_cloud(const DepthMap& map, const MapView& view, const std::filesystem::path& path,
+                       const PointCloudOptions& options = {});
+
+}  // namespace fathom

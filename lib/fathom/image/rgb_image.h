@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace fathom {
+
+/// A colour, 8 bits a component, in sRGB.
+using Rgb = std::array<std::uint8_t, 3>;
+
+/// A picture for people to look at: width × height colours, row by row from the top left.
+/// What it does not do: carry measurements; those are DepthMap.
+struct RgbImage {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<Rgb> pixels;
+
+  RgbImage() = default;
+  RgbImage(std::uint32_t columns, std::uint32_t rows, Rgb fill = {0, 0, 0})
+      : width(columns), height(rows), pixels(std::size_t{columns} * rows, fill) {}
+
+  [[nodiscard]] Rgb& at(std::uint32_t x, std::uint32_t y) {
+    return pixels[std::size_t{y} * width + x];
+  }
+  [[nodiscard]] const Rgb& at(std::uint32_t x, std::uint32_t y) const {
+    return pixels[std::size_t{y} * width + x];
+  }
+};
+
+/// Writes `image` as an 8-bit RGB PNG to `path` itself, in place. The bytes depend on the image
+/// only.
+/// Fails    OutputError: "PATH: why".
+void write_png(const RgbImage& image, const std::filesystem::path& path);
+
+}  // namespace fathom
