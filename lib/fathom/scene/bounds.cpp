@@ -38,9 +38,10 @@ class ApproximateRow {
  public:
   explicit ApproximateRow(const std::array<Dyadic, 4>& row) {
     for (int k = 0; k < 4; ++k) {
-      coefficients_[k] = enclose(row[k]).lower;
-      // Below the normal numbers a coefficient's own rounding has no relative bound.
-      usable_ = usable_ && (row[k].is_zero() || std::isnormal(coefficients_[k]));
+      const auto [lower, upper] = enclose(row[k]);
+      coefficients_[k] = lower;
+      // Outside the normal numbers a coefficient's own rounding has no relative bound.
+      usable_ = usable_ && (row[k].is_zero() || (std::isnormal(lower) && std::isnormal(upper)));
     }
   }
 
