@@ -1,0 +1,45 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "fathom/scene/camera.h"
+#include "fathom/scene/camera_making.h"
+#include "fathom/scene/scene.h"
+
+namespace fathom::app {
+
+/// `--view --up`: where a camera stands as seen from what it looks at.
+struct ViewOptions {
+  std::string view;
+  std::string up = "y";
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] View get() const;
+};
+
+/// `--camera FILE`, or the camera that frames the scene with `--view --up --size --fov`.
+class CameraOptions {
+ public:
+  void add_to(CLI::App& command);
+  /// Whether the cameras come from a file.
+  [[nodiscard]] bool from_file() const { return !file_.empty(); }
+  /// Fails with InputError where the scene has no triangle to frame.
+  [[nodiscard]] std::vector<Camera> get(const Scene& scene) const;
+  /// The options' own faults, before any work.
+  void check() const {
+    (void)lens();
+    (void)view_.get();
+  }
+
+ private:
+  [[nodiscard]] Lens lens() const;
+
+  std::string file_;
+  ViewOptions view_;
+  std::string size_ = "1280x720";
+  std::string fov_ = "40";
+};
+
+}  // namespace fathom::app

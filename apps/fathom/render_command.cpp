@@ -1,0 +1,219 @@
+// fathom render SCENE… -o MAP
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "camera_options.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/render.h"
+#include "fathom/scene/read_scene.h"
+#include "numbers.h"
+#include "output_file.h"
+#include "program.h"
+#include "progress.h"
+#include "render_options.h"
+#include "scene_options.h"
+
+namespace fathom::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct RenderArguments {
+  SceneOptions scene;
+  CameraOptions camera;
+  StorageOptions storage;
+  std::string output, save_camera, statistics;
+  std::string engine = "reference", channels = "Z", cull = "none";
+};
+
+class Stopwatch {
+ public:
+  /// Seconds since the last lap.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+RenderOptions render_options(const RenderArguments& arguments, MapFormat format) {
+  if (arguments.engine != "reference") {
+    const bool announced = arguments.engine == "fast" || arguments.engine == "pipeline";
+    throw UsageError(fmt::format("--engine: '{}' does not exist{}; there is reference",
+                                 arguments.engine, announced ? " yet" : ""));
+  }
+  RenderOptions options;
+  options.channels = parse_channels(arguments.channels);
+  options.cull = cull_named(arguments.cull);
+  options.threads = arguments.scene.thread_count();
+  options.depth_encoding = arguments.storage.encoding_for(format);
+  if (format != MapFormat::exr &&
+      (options.channels.size() != 1 || parts_of(options.channels.front()) != 1)) {
+    throw UsageError(fmt::format("{} holds one channel, not '{}'; .exr holds them all",
+                                 arguments.output, arguments.channels));
+  }
+  return options;
+}
+
+/// The names of the maps: of a camera path, a pattern with {index} filled in.
+std::vector<std::string> map_names(const std::string& pattern, std::size_t cameras) {
+  const bool has_index = pattern.find("{index") != std::string::npos;
+  if (!has_index) {
+    if (cameras == 1) return {pattern};
+    throw UsageError(fmt::format(
+        "the camera file is a path of {} cameras: -o needs a pattern such as maps/{{index:04}}.exr",
+        cameras));
+  }
+  std::vector<std::string> names;
+  try {
+    for (std::size_t i = 0; i < cameras; ++i) {
+      names.push_back(fmt::format(fmt::runtime(pattern), fmt::arg("index", i)));
+    }
+  } catch (const fmt::format_error& error) {
+    throw UsageError(fmt::format("-o: '{}' is not a pattern like maps/{{index:04}}.exr: {}",
+                                 pattern, error.what()));
+  }
+  return names;
+}
+
+/// Refuses an image that this machine cannot hold, before it tries.
+void check_size(const Camera& camera, const RenderOptions& options) {
+  double channels = 0;
+  for (const Channel channel : options.channels) {
+    channels += static_cast<double>(parts_of(channel));
+  }
+  const double bytes_per_value =
+      options.depth_encoding.type == DepthEncoding::Type::binary64 ? 8 : 4;
+  const double needed = 1.0 * camera.width * camera.height * channels * bytes_per_value;
+  const double memory = 1.0 * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+                        static_cast<double>(::sysconf(_SC_PAGESIZE));
+  if (needed > memory) {
+    throw InputError(fmt::format(
+        "an image of {}x{} pixels needs {:.1f} GB for its channels; this machine has {:.1f} GB",
+        camera.width, camera.height, needed / 1e9, memory / 1e9));
+  }
+}
+
+Json to_json(const TierCounts& counts) {
+  return {{"interval", counts.interval}, {"exact", counts.exact}};
+}
+
+Json to_json(const RenderStatistics& statistics) {
+  return {{"triangles", statistics.triangles},
+          {"degenerate_triangles", statistics.degenerate_triangles},
+          {"culled_triangles", statistics.culled_triangles},
+          {"samples_tested", statistics.samples_tested},
+          {"samples_covered", statistics.samples_covered},
+          {"pixels_with_surface", statistics.pixels_with_surface},
+          {"decisions",
+           {{"facing", to_json(statistics.facing)},
+            {"edges", to_json(statistics.edges)},
+            {"visibility", to_json(statistics.visibility)},
+            {"range", to_json(statistics.range)}}}};
+}
+
+void warn_of(const RenderStatistics& statistics, const Console& console) {
+  if (statistics.triangles == 0) {
+    console.warn("the scene has no triangle: the map is background");
+  } else if (statistics.degenerate_triangles > 0) {
+    console.warn(fmt::format("{} of {} triangles are degenerate or seen edge on and cover nothing",
+                             statistics.degenerate_triangles, statistics.triangles));
+  }
+}
+
+int run_render(const RenderArguments& arguments, const Console& console) {
+  const MapFormat format = arguments.storage.format_of(arguments.output);
+  RenderOptions options = render_options(arguments, format);
+  const WriteOptions write_options = arguments.storage.write_options(options.threads);
+  arguments.camera.check();
+
+  Stopwatch stopwatch;
+  const Scene scene = arguments.scene.read(console, true);
+  const double seconds_reading = stopwatch.lap();
+  const std::vector<Camera> cameras = arguments.camera.get(scene);
+  const std::vector<std::string> names = map_names(arguments.output, cameras.size());
+  for (const Camera& camera : cameras) check_size(camera, options);
+
+  // Every output is opened before the work, and put in its place when all of them are written.
+  std::vector<OutputFile> maps(names.begin(), names.end());
+  std::vector<OutputFile> notes;
+  notes.reserve(2);
+  if (!arguments.save_camera.empty() && arguments.save_camera != "-") {
+    notes.emplace_back(arguments.save_camera).write(fathom::to_json(cameras) + "\n");
+  }
+
+  Json report = Json::array();
+  {
+    Progress progress(console, "rendering");
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      RenderStatistics statistics;
+      options.statistics = &statistics;
+      options.progress = progress.reporter(i, cameras.size());
+      stopwatch.lap();
+      const DepthMap map = render(scene, cameras[i], options);
+      const double seconds_rendering = stopwatch.lap();
+      maps[i].write([&](const auto& path) { write_map(map, path, format, write_options); });
+
+      if (i == 0) warn_of(statistics, console);
+      Json entry{{"map", names[i]},
+                 {"engine", arguments.engine},
+                 {"width", map.width},
+                 {"height", map.height}};
+      entry.update(to_json(statistics));
+      entry["seconds"] = {
+          {"read", seconds_reading}, {"render", seconds_rendering}, {"write", stopwatch.lap()}};
+      report.push_back(std::move(entry));
+    }
+  }
+  const std::string statistics = (report.size() == 1 ? report[0] : report).dump(2) + "\n";
+  if (!arguments.statistics.empty() && arguments.statistics != "-") {
+    notes.emplace_back(arguments.statistics).write(statistics);
+  }
+
+  for (OutputFile& output : notes) output.commit();
+  for (OutputFile& output : maps) output.commit();
+  if (arguments.save_camera == "-") print(fathom::to_json(cameras) + "\n");
+  if (arguments.statistics == "-") print(statistics);
+  return done;
+}
+
+}  // namespace
+
+void add_render(Program& program) {
+  const auto arguments = std::make_shared<RenderArguments>();
+  CLI::App* command = program.add_command(
+      "render", "Render an exact depth map of a scene",
+      "  fathom render data/meshes/spot.obj -o spot.exr\n"
+      "  fathom render room.json --camera camera.json --channels Z,id,N -o room.exr\n"
+      "  fathom render spot.obj --view 90,0 --size 640x480 --save-camera side.json -o side.pfm\n"
+      "  fathom render spot.obj -o spot.png --png-scale 1000      (16 bit, millimetres)\n"
+      "  fathom render spot.obj --camera path.json -o 'maps/{index:04}.exr'");
+  arguments->scene.add_to(*command);
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "The map; its suffix decides the format: .exr, .pfm, .png (16 bit) or .npy")
+      ->required();
+  arguments->camera.add_to(*command);
+  command->add_option("--save-camera", arguments->save_camera,
+                      "Write the camera to this file (JSON; - is standard output)");
+  command->add_option("--channels", arguments->channels,
+                      "Of Z, Zlow, distance, id, face, object, N, P, bary (default Z)");
+  command->add_option("--engine", arguments->engine, "reference (default)");
+  add_cull_option(*command, arguments->cull);
+  arguments->storage.add_to(*command);
+  command->add_option("--stats", arguments->statistics,
+                      "Write what was decided how to this file (JSON; - is standard output)");
+  command->callback([arguments, &program] {
+    program.run = [arguments, &program] { return run_render(*arguments, program.console); };
+  });
+}
+
+}  // namespace fathom::app

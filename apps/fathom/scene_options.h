@@ -1,0 +1,24 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "console.h"
+#include "fathom/scene/scene.h"
+
+namespace fathom::app {
+
+/// `SCENE… --mesh-format --threads`: what every command that looks at a scene takes.
+struct SceneOptions {
+  std::vector<std::string> files;
+  std::string mesh_format;
+  std::string threads = "0";
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] int thread_count() const;
+  /// Reads the scene, says the warnings. `hash` computes the sources' SHA-256.
+  [[nodiscard]] Scene read(const Console& console, bool hash) const;
+};
+
+}  // namespace fathom::app
