@@ -5,14 +5,12 @@
 #include <string>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/scene/input_file.h"
 #include "fathom/scene/json_value.h"
 #include "fathom/scene/read_scene.h"
 
 namespace fathom {
 namespace {
-
-/// Camera files are small; a path of a million cameras stays below this.
-constexpr std::uint64_t largest_camera_file = std::uint64_t{1} << 30;
 
 Projection read_projection(const JsonValue& value) {
   if (value.string() == "perspective") return Projection::perspective;
@@ -71,7 +69,7 @@ std::string to_json(double number) {
 }  // namespace
 
 std::vector<Camera> read_cameras(const std::filesystem::path& file) {
-  const JsonDocument document(read_whole_file(file, largest_camera_file), file.string());
+  const JsonDocument document(InputFile(file).text(), file.string());
   const JsonValue root = document.root();
   if (!root.is_list()) return {read_camera(root)};
   std::vector<Camera> cameras;

@@ -3,6 +3,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/camera_import_internal.h"
+#include "fathom/scene/input_file.h"
 #include "fathom/scene/json_value.h"
 
 namespace fathom {
@@ -64,7 +65,7 @@ std::vector<ImportedCamera> parse_bop(std::string_view text, const std::string& 
 
 std::vector<ImportedCamera> import_bop(const std::filesystem::path& file, std::uint32_t width,
                                        std::uint32_t height) {
-  return parse_bop(read_whole_file(file, std::uint64_t{1} << 30), file.string(), width, height);
+  return parse_bop(InputFile(file).text(), file.string(), width, height);
 }
 
 }  // namespace fathom

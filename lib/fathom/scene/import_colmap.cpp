@@ -3,7 +3,6 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -12,6 +11,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/scene/camera_import_internal.h"
+#include "fathom/scene/decimal.h"
 #include "fathom/scene/pose.h"
 
 namespace fathom {
@@ -235,24 +235,31 @@ bool next_line(NamedStream& file, std::size_t& number, Line& line) {
   return false;
 }
 
-template <class T>
-T read_word(Line& line, const char* what) {
+std::string read_word(Line& line, const char* what) {
   std::string word;
   if (!(line.words >> word)) throw InputError(line.where + ": " + what + " is missing");
-  const char* first = word.data() + (word.size() > 1 && word.front() == '+' ? 1 : 0);
-  const char* last = word.data() + word.size();
-  T value{};
-  auto [end, error] = std::from_chars(first, last, value);
-  if constexpr (std::is_floating_point_v<T>) {
-    // from_chars tells underflow, which is a number here, from overflow not at all.
-    if (error == std::errc::result_out_of_range) {
-      value = std::strtod(first, nullptr);
-      if (std::isfinite(value)) error = {};
-    }
-  }
-  if (error != std::errc{} || end != last)
-    throw InputError(line.where + ": expected " + what + ", found '" + word + "'");
+  return word;
+}
+
+[[noreturn]] void refuse(const Line& line, const char* what, const std::string& word) {
+  throw InputError(line.where + ": expected " + what + ", found '" + word + "'");
+}
+
+template <class Integer>
+Integer read_integer(Line& line, const char* what) {
+  const std::string word = read_word(line, what);
+  Integer value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size()) refuse(line, what, word);
   return value;
+}
+
+double read_number(Line& line, const char* what) {
+  const std::string word = read_word(line, what);
+  const auto result = parse_decimal<double>(word.data(), word.data() + word.size());
+  if (result.fault != DecimalFault::none || result.end != word.data() + word.size())
+    refuse(line, what, word);
+  return result.value;
 }
 
 Cameras read_text_cameras(NamedStream file) {
@@ -260,17 +267,17 @@ Cameras read_text_cameras(NamedStream file) {
   Line line;
   for (std::size_t number = 0; next_line(file, number, line);) {
     CameraRecord record;
-    record.id = read_word<std::uint32_t>(line, "a camera id");
+    record.id = read_integer<std::uint32_t>(line, "a camera id");
     std::string name;
     line.words >> name;
     const auto* model =
         std::find_if(models.begin(), models.end(), [&](const Model& m) { return name == m.name; });
     if (model == models.end())
       throw InputError(line.where + ": unknown camera model '" + name + "'");
-    record.width = read_word<std::uint64_t>(line, "a width");
-    record.height = read_word<std::uint64_t>(line, "a height");
+    record.width = read_integer<std::uint64_t>(line, "a width");
+    record.height = read_integer<std::uint64_t>(line, "a height");
     for (std::size_t k = 0; k < model->parameters; ++k)
-      record.parameters.push_back(read_word<double>(line, "a camera parameter"));
+      record.parameters.push_back(read_number(line, "a camera parameter"));
     if (std::string rest; line.words >> rest)
       throw InputError(line.where + ": the model " + model->name + " has " +
                        std::to_string(model->parameters) + " parameters, found more");
@@ -284,10 +291,10 @@ std::vector<ImportedCamera> read_text_images(NamedStream file, const Cameras& ca
   Line line;
   for (std::size_t number = 0; next_line(file, number, line);) {
     ImageRecord image;
-    read_word<std::uint32_t>(line, "an image id");
-    for (double& q : image.quaternion) q = read_word<double>(line, "a quaternion's number");
-    for (double& t : image.translation) t = read_word<double>(line, "a translation's number");
-    image.camera = read_word<std::uint32_t>(line, "a camera id");
+    read_integer<std::uint32_t>(line, "an image id");
+    for (double& q : image.quaternion) q = read_number(line, "a quaternion's number");
+    for (double& t : image.translation) t = read_number(line, "a translation's number");
+    image.camera = read_integer<std::uint32_t>(line, "a camera id");
     std::getline(line.words >> std::ws, image.name);
     if (image.name.empty()) throw InputError(line.where + ": the image's name is missing");
     images.push_back(place(image, cameras, line.where));
@@ -319,15 +326,15 @@ std::vector<ImportedCamera> parse_colmap_text(NamedStream cameras, NamedStream i
 }
 
 std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder) {
-  for (const char* suffix : {".bin", ".txt"}) {
+  using Parse = std::vector<ImportedCamera> (*)(NamedStream, NamedStream);
+  const std::pair<const char*, Parse> forms[] = {{".bin", parse_colmap_binary},
+                                                 {".txt", parse_colmap_text}};
+  for (const auto& [suffix, parse] : forms) {
     const auto cameras_file = folder / (std::string("cameras") + suffix);
     const auto images_file = folder / (std::string("images") + suffix);
     std::ifstream cameras(cameras_file, std::ios::binary), images(images_file, std::ios::binary);
-    if (!cameras.is_open() || !images.is_open()) continue;
-    const NamedStream named_cameras{cameras, cameras_file.string()};
-    const NamedStream named_images{images, images_file.string()};
-    return *suffix == '.' && suffix[1] == 'b' ? parse_colmap_binary(named_cameras, named_images)
-                                              : parse_colmap_text(named_cameras, named_images);
+    if (cameras.is_open() && images.is_open())
+      return parse({cameras, cameras_file.string()}, {images, images_file.string()});
   }
   throw InputError(folder.string() +
                    ": expected a COLMAP model, a folder with cameras.bin and images.bin or "

@@ -4,6 +4,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/scene/camera_import_internal.h"
+#include "fathom/scene/input_file.h"
 #include "fathom/scene/json_value.h"
 #include "fathom/scene/pose.h"
 
@@ -126,8 +127,7 @@ std::vector<ImportedCamera> parse_nerf(std::string_view text, const std::string&
 
 std::vector<ImportedCamera> import_nerf(const std::filesystem::path& file, std::uint32_t width,
                                         std::uint32_t height, Warnings& warnings) {
-  return parse_nerf(read_whole_file(file, std::uint64_t{1} << 30), file.string(), width, height,
-                    warnings);
+  return parse_nerf(InputFile(file).text(), file.string(), width, height, warnings);
 }
 
 }  // namespace fathom

@@ -4,6 +4,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/scene/camera_import_internal.h"
+#include "fathom/scene/input_file.h"
 #include "fathom/scene/json_value.h"
 #include "fathom/scene/pose.h"
 
@@ -143,7 +144,7 @@ std::vector<ImportedCamera> parse_opengl(std::string_view text, const std::strin
 }
 
 std::vector<ImportedCamera> import_opengl(const std::filesystem::path& file) {
-  return parse_opengl(read_whole_file(file, std::uint64_t{1} << 30), file.string());
+  return parse_opengl(InputFile(file).text(), file.string());
 }
 
 }  // namespace fathom

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include "fathom/numeric/errors.h"
@@ -16,7 +14,7 @@ using nlohmann::json;
 
 constexpr int deepest_nesting = 100;
 
-std::string quoted(const std::string& key) {
+std::string in_quotes(const std::string& key) {
   // dump() escapes what would break the line; keys that are no UTF-8 never get here.
   return json(key).dump();
 }
@@ -34,7 +32,7 @@ class StrictBuilder {
     if (event != Event::key) return true;
     last_key_ = parsed.get<std::string>();
     if (!keys_.back().insert(last_key_).second)
-      throw InputError("the key " + quoted(last_key_) + " stands twice in one object");
+      throw InputError("the key " + in_quotes(last_key_) + " stands twice in one object");
     return true;
   }
 
@@ -97,23 +95,6 @@ const char* kind_of(const json& value) {
 
 }  // namespace
 
-std::string read_whole_file(const std::filesystem::path& file, std::uint64_t limit) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    throw InputError(file.string() + ": is a directory, expected a file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file.string() + ": cannot be opened");
-  std::string bytes;
-  std::vector<char> chunk(1 << 16);
-  while (in.read(chunk.data(), static_cast<std::streamsize>(chunk.size())), in.gcount() > 0) {
-    bytes.append(chunk.data(), static_cast<std::size_t>(in.gcount()));
-    if (bytes.size() > limit)
-      throw InputError(file.string() + ": is larger than " + std::to_string(limit) + " bytes");
-  }
-  if (in.bad()) throw InputError(file.string() + ": cannot be read");
-  return bytes;
-}
-
 JsonDocument::JsonDocument(std::string_view text, std::string file)
     : value_(parse_strictly(text, file)), file_(std::move(file)) {}
 
@@ -127,7 +108,7 @@ void JsonValue::fail_type(const char* expected) const {
 
 JsonValue JsonValue::at(const std::string& key) const {
   if (auto member = find(key)) return *std::move(member);
-  fail("the key " + quoted(key) + " is missing");
+  fail("the key " + in_quotes(key) + " is missing");
 }
 
 std::optional<JsonValue> JsonValue::find(const std::string& key) const {
@@ -143,7 +124,7 @@ void JsonValue::expect_only(std::initializer_list<std::string_view> known) const
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     std::string list;
     for (const auto& name : known) list += (list.empty() ? "" : ", ") + std::string(name);
-    fail("unknown key " + quoted(key) + ", expected one of " + list);
+    fail("unknown key " + in_quotes(key) + ", expected one of " + list);
   }
 }
 
@@ -151,9 +132,13 @@ std::vector<JsonValue> JsonValue::elements() const {
   if (!value_->is_array()) fail_type("a list");
   std::vector<JsonValue> result;
   result.reserve(value_->size());
-  for (std::size_t i = 0; i < value_->size(); ++i)
-    result.emplace_back((*value_)[i], *file_, place_ + "[" + std::to_string(i) + "]");
+  for (std::size_t i = 0; i < value_->size(); ++i) result.push_back(element(i));
   return result;
+}
+
+JsonValue JsonValue::element(std::size_t i) const {
+  if (!value_->is_array()) fail_type("a list");
+  return {(*value_)[i], *file_, place_ + "[" + std::to_string(i) + "]"};
 }
 
 std::vector<JsonValue> JsonValue::elements(std::size_t size) const {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,10 +11,6 @@
 /// Reading JSON strictly, with errors that name the file and the key. For this room's .cpp files
 /// only: no public header includes it.
 namespace fathom {
-
-/// The bytes of a file. Fails with InputError: not there, a directory, unreadable, larger than
-/// `limit` bytes (memory is taken only for what is there).
-std::string read_whole_file(const std::filesystem::path& file, std::uint64_t limit);
 
 /// A value in a JSON document that knows its place in it.
 class JsonValue {
@@ -34,6 +29,8 @@ class JsonValue {
 
   /// The elements of a list.
   [[nodiscard]] std::vector<JsonValue> elements() const;
+  /// Element `i` of a list that has it.
+  [[nodiscard]] JsonValue element(std::size_t i) const;
   /// The elements of a list of exactly `size`.
   [[nodiscard]] std::vector<JsonValue> elements(std::size_t size) const;
   /// The members of an object, in the order of their keys.
