@@ -73,32 +73,42 @@ std::uint64_t round_quotient(const Format& format, const Ratio& x) {
   });
 }
 
-/// √x rounded to the format's bits. √x is compared with the midpoint m + ½ by the squares:
-/// √y > m + ½ ⇔ 4y > (2m + 1)², where m = ⌊√y⌋ = ⌊√⌊y⌋⌋. No tie is lost: y may be (m + ½)².
-std::uint64_t round_root(const Format& format, const Ratio& x) {
+/// q = the integer nearest to √(n / d), ties to even, for n ≥ 0 and d > 0. The root is compared
+/// with the midpoint m + ½ by the squares: √y > m + ½ ⇔ 4y > (2m + 1)², m = ⌊√y⌋ = ⌊√⌊y⌋⌋.
+void root_to_nearest_even(mpz_ptr q, mpz_srcptr n, mpz_srcptr d) {
+  Integer floor_y;
+  mpz_tdiv_q(floor_y, n, d);
+  mpz_sqrt(q, floor_y);
+  Integer midpoint;  // (2m + 1)²·d
+  mpz_mul_2exp(midpoint, q, 1);
+  mpz_add_ui(midpoint, midpoint, 1);
+  mpz_mul(midpoint, midpoint, midpoint);
+  mpz_mul(midpoint, midpoint, d);
+  Integer four_n;
+  mpz_mul_2exp(four_n, n, 2);
+  const int against_midpoint = mpz_cmp(four_n, midpoint);
+  if (against_midpoint > 0 || (against_midpoint == 0 && mpz_odd_p(q))) mpz_add_ui(q, q, 1);
+}
+
+void refuse_negative(const Ratio& x) {
   if (x.sign() == Sign::negative) throw std::domain_error("the root of a negative number");
+}
+
+/// √x rounded to the format's bits.
+std::uint64_t round_root(const Format& format, const Ratio& x) {
+  refuse_negative(x);
   if (x.sign() == Sign::zero) return 0;
   const Fraction f = magnitude_as_fraction(x);
   const long difference = bit_length(f.numerator) - bit_length(f.denominator);
-  // √x lies in (2^((difference−1)/2), 2^((difference+1)/2)); halves are rounded down.
+  // √x lies in (2^((difference−1)/2), 2^((difference+1)/2)).
   const long top = (difference + 1) >> 1;
   return round_magnitude(format, top, [&](mpz_ptr q, long e) {
-    // y = x / 2^(2e) = n / d
+    // √(x / 2^(2e))
     Integer n, d;
     const auto shift = static_cast<mp_bitcnt_t>(e < 0 ? -2 * e : 2 * e);
     mpz_mul_2exp(n, f.numerator, e < 0 ? shift : 0);
     mpz_mul_2exp(d, f.denominator, e < 0 ? 0 : shift);
-    Integer floor_y;
-    mpz_tdiv_q(floor_y, n, d);
-    mpz_sqrt(q, floor_y);
-    Integer midpoint;  // 2m + 1
-    mpz_mul_2exp(midpoint, q, 1);
-    mpz_add_ui(midpoint, midpoint, 1);
-    mpz_mul(midpoint, midpoint, midpoint);
-    mpz_mul(midpoint, midpoint, d);
-    mpz_mul_2exp(n, n, 2);
-    const int against_midpoint = mpz_cmp(n, midpoint);
-    if (against_midpoint > 0 || (against_midpoint == 0 && mpz_odd_p(q))) mpz_add_ui(q, q, 1);
+    root_to_nearest_even(q, n, d);
   });
 }
 
@@ -136,6 +146,15 @@ std::optional<std::uint64_t> round_to_integer(const Ratio& x, std::uint64_t grea
   Integer q;
   divide_to_nearest_even(q, f.numerator, f.denominator);
   if (is_negative(x) && mpz_sgn(q.get()) != 0) return std::nullopt;
+  if (mpz_cmp_ui(q.get(), greatest) > 0) return std::nullopt;
+  return mpz_get_ui(q);
+}
+
+std::optional<std::uint64_t> round_sqrt_to_integer(const Ratio& x, std::uint64_t greatest) {
+  refuse_negative(x);
+  const Fraction f = magnitude_as_fraction(x);
+  Integer q;
+  root_to_nearest_even(q, f.numerator, f.denominator);
   if (mpz_cmp_ui(q.get(), greatest) > 0) return std::nullopt;
   return mpz_get_ui(q);
 }

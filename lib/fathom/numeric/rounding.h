@@ -27,6 +27,10 @@ double round_sqrt_to_binary64(const Ratio& x);
 /// The integer nearest to x, ties to even; nullopt if it is negative or above `greatest`.
 std::optional<std::uint64_t> round_to_integer(const Ratio& x, std::uint64_t greatest);
 
+/// The integer nearest to √x, ties to even; nullopt if it is above `greatest`.
+/// Throws std::domain_error if x < 0.
+std::optional<std::uint64_t> round_sqrt_to_integer(const Ratio& x, std::uint64_t greatest);
+
 /// The unorm-n code of x in [0, 1], n ≤ 32: the integer nearest to x·(2ⁿ − 1), ties to even.
 /// nullopt if x is outside [0, 1].
 std::optional<std::uint32_t> round_to_unorm(const Ratio& x, int bits);
