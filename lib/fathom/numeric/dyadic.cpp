@@ -80,7 +80,9 @@ Dyadic& Dyadic::operator+=(const Dyadic& other) {
   return *this;
 }
 
+// −((−a) + b). Where b is a itself, the first negation would change it too.
 Dyadic& Dyadic::operator-=(const Dyadic& other) {
+  if (this == &other) return *this = Dyadic();
   mpz_neg(significand_, significand_);
   *this += other;
   mpz_neg(significand_, significand_);
