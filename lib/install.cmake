@@ -1,0 +1,15 @@
+# The installed package: find_package(Fathom) gives fathom::fathom and a target per room.
+include(CMakePackageConfigHelpers)
+set(FATHOM_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/Fathom")
+
+install(EXPORT FathomTargets NAMESPACE fathom:: DESTINATION "${FATHOM_PACKAGE_DIR}")
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/FathomConfig.cmake.in"
+                              "${PROJECT_BINARY_DIR}/FathomConfig.cmake"
+                              INSTALL_DESTINATION "${FATHOM_PACKAGE_DIR}")
+# Before 1.0 a minor version may break the interface.
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/FathomConfigVersion.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/FathomConfig.cmake"
+              "${PROJECT_BINARY_DIR}/FathomConfigVersion.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/FindGMP.cmake"
+        DESTINATION "${FATHOM_PACKAGE_DIR}")

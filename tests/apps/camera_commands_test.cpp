@@ -1,0 +1,190 @@
+// fathom camera …: points are projected with the formulas of the other program and with ours.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_program.h"
+#include "sample_files.h"
+#include "test_folder.h"
+
+namespace fathom::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Our camera file's formula (specification, section 2), as Python. Pixels are of the order of
+/// 1000 and every entry was rounded to binary64 once, so a few roundings in between move an image
+/// point by less than 1e-9 pixels.
+const std::string our_projection = R"(
+import json
+import numpy as np
+def load(name):
+    cameras = json.load(open(name))
+    return cameras if isinstance(cameras, list) else [cameras]
+def ours(camera, X):
+    M = np.array(camera['world_to_camera'])
+    x, y, z = M[:3, :3] @ X + M[:3, 3]
+    shift = 0.5 - camera.get('pixel_centre', 0.5)
+    w = 1 if camera.get('projection') == 'orthographic' else z
+    u = camera['fx'] * x + camera.get('skew', 0) * y + (camera['cx'] + shift) * w
+    v = camera['fy'] * y + (camera['cy'] + shift) * w
+    return np.array([u / w, v / w]), z
+def close(a, b):
+    assert np.abs(np.array(a) - np.array(b)).max() < 1e-9, (a, b)
+points = [np.array(p) for p in ((0.1, 0.2, 0.3), (-0.4, 0.25, 0.1), (0.3, -0.2, -0.35))]
+)";
+
+class CameraCommands : public ::testing::Test {
+ protected:
+  void fathom(const std::vector<std::string>& arguments) const {
+    const Outcome outcome = run_fathom(arguments, {.folder = folder_.path()});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.err, "");
+  }
+  void python(const std::string& script) const {
+    const Outcome outcome =
+        run({"python3", "-c", our_projection + script}, {.folder = folder_.path()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(CameraCommands, LookAtPutsTheTargetInTheMiddle) {
+  fathom({"camera", "look-at", "--eye", "2,1,3", "--target", "0.5,0,-1", "--size", "640x480",
+          "--fov", "60", "--near", "0.1", "--far", "50", "-o", "camera.json"});
+  python(R"(
+camera, = load('camera.json')
+image, depth = ours(camera, np.array([0.5, 0, -1]))
+close(image, [320, 240])
+close(depth, np.sqrt(1.5**2 + 1 + 16))
+close(camera['fy'], 240 / np.tan(np.radians(30)))
+above, _ = ours(camera, np.array([0.5, 0.1, -1]))
+assert above[1] < 240 and abs(above[0] - 320) < 1e-9   # up is up
+assert (camera['near'], camera['far']) == (0.1, 50)
+)");
+}
+
+TEST_F(CameraCommands, LookAtWithParallelProjectionGoesToStandardOutput) {
+  const Outcome outcome = run_fathom(
+      {"camera", "look-at", "--eye", "0,0,5", "--orthographic", "2", "--size", "300x200"});
+  const auto camera = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(camera["projection"], "orthographic");
+  EXPECT_EQ(camera["fx"], 100);
+}
+
+TEST_F(CameraCommands, OrbitGoesAroundAPoint) {
+  fathom({"camera", "orbit", "--views", "4", "--centre", "1,2,3", "--distance", "5", "--view",
+          "0,30", "-o", "path.json"});
+  python(R"(
+cameras = load('path.json')
+assert len(cameras) == 4
+eyes = []
+for camera in cameras:
+    image, depth = ours(camera, np.array([1, 2, 3]))
+    close(image, [640, 360])
+    close(depth, 5)
+    M = np.array(camera['world_to_camera'])
+    eyes.append(-M[:, :3].T @ M[:, 3])
+# From azimuth 0 on the +z side, counter-clockwise from above, at a height of 5·sin 30°.
+r = 5 * np.cos(np.radians(30))
+for eye, offset in zip(eyes, ((0, r), (r, 0), (0, -r), (-r, 0))):
+    close(eye, [1 + offset[0], 4.5, 3 + offset[1]])
+)");
+}
+
+TEST_F(CameraCommands, OrbitFramesAScene) {
+  folder_.write("square.obj", square_obj);
+  fathom({"camera", "orbit", "square.obj", "--views", "5", "-o", "path.json"});
+  python(R"(
+for camera in load('path.json'):
+    for corner in ((-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)):
+        (u, v), depth = ours(camera, np.array(corner))
+        assert depth > 0 and 0 < u < 1280 and 0 < v < 720
+)");
+}
+
+TEST_F(CameraCommands, ImportColmap) {
+  folder_.write("cameras.txt", "# comment\n1 PINHOLE 640 480 525.5 526.25 320.25 239.75\n");
+  folder_.write("images.txt",
+                "# comment\n"
+                "1 0.9 0.1 -0.2 0.3 0.125 -0.25 2.5 1 b.jpg\n\n"
+                "2 1 0 0 0 0 0 3 1 a.jpg\n\n");
+  fathom({"camera", "import", "colmap", ".", "--image", "b.jpg", "-o", "camera.json"});
+  python(R"(
+camera, = load('camera.json')
+w, x, y, z = np.array([0.9, 0.1, -0.2, 0.3]) / np.linalg.norm([0.9, 0.1, -0.2, 0.3])
+R = np.array([[1 - 2*y*y - 2*z*z, 2*x*y - 2*w*z, 2*z*x + 2*w*y],
+              [2*x*y + 2*w*z, 1 - 2*x*x - 2*z*z, 2*y*z - 2*w*x],
+              [2*z*x - 2*w*y, 2*y*z + 2*w*x, 1 - 2*x*x - 2*y*y]])
+for X in points:
+    a, b, c = R @ X + [0.125, -0.25, 2.5]
+    close(ours(camera, X)[0], [525.5 * a / c + 320.25, 526.25 * b / c + 239.75])
+)");
+  const Outcome names = run_fathom({"camera", "import", "colmap", folder_.path(), "--list"});
+  EXPECT_EQ(names.out, "a.jpg\nb.jpg\n");
+}
+
+TEST_F(CameraCommands, ImportNerf) {
+  folder_.write("transforms.json", R"({"fl_x": 500, "fl_y": 501, "cx": 321, "cy": 239, "w": 640,
+      "h": 480, "frames": [{"file_path": "a.png", "transform_matrix":
+      [[0, 0, 1, 3], [1, 0, 0, 0.5], [0, 1, 0, 0.25], [0, 0, 0, 1]]}]})");
+  fathom({"camera", "import", "nerf", "transforms.json", "-o", "camera.json"});
+  python(R"(
+camera, = load('camera.json')
+c2w = np.array([[0, 0, 1, 3], [1, 0, 0, 0.5], [0, 1, 0, 0.25], [0, 0, 0, 1.0]])
+for X in points:
+    x, y, z, _ = np.linalg.inv(c2w) @ np.append(X, 1)     # x right, y up, z backward
+    close(ours(camera, X)[0], [321 + 500 * x / -z, 239 - 501 * y / -z])
+    close(ours(camera, X)[1], -z)
+)");
+}
+
+TEST_F(CameraCommands, ImportBop) {
+  folder_.write("scene_camera.json", R"({"7": {"cam_K": [572.4, 0, 325.3, 0, 573.6, 242, 0, 0, 1],
+      "cam_R_w2c": [0, 1, 0, 0, 0, -1, -1, 0, 0], "cam_t_w2c": [10, 20, 900],
+      "depth_scale": 1.0}})");
+  fathom({"camera", "import", "bop", "scene_camera.json", "--size", "640x480", "-o", "c.json"});
+  python(R"(
+camera, = load('c.json')
+R = np.array([[0, 1, 0], [0, 0, -1], [-1, 0, 0]])
+for X in points:
+    x, y, z = R @ X + [10, 20, 900]
+    # BOP's images have pixel centres at integers; Fathom's image begins half a pixel earlier.
+    close(ours(camera, X)[0], [572.4 * x / z + 325.3 + 0.5, 573.6 * y / z + 242 + 0.5])
+)");
+}
+
+TEST_F(CameraCommands, ImportOpenGl) {
+  folder_.write("matrices.json", R"({"projection": [[1.5, 0, 0.1, 0], [0, 2, -0.05, 0],
+      [0, 0, -1.002, -0.2002], [0, 0, -1, 0]],
+      "modelview": [[0, 0, 1, 0.5], [1, 0, 0, 0.25], [0, 1, 0, -4], [0, 0, 0, 1]],
+      "viewport": [0, 0, 800, 600]})");
+  fathom({"camera", "import", "opengl", "matrices.json", "-o", "camera.json"});
+  python(R"(
+camera, = load('camera.json')
+P = np.array([[1.5, 0, 0.1, 0], [0, 2, -0.05, 0], [0, 0, -1.002, -0.2002], [0, 0, -1, 0]])
+V = np.array([[0, 0, 1, 0.5], [1, 0, 0, 0.25], [0, 1, 0, -4], [0, 0, 0, 1]])
+for X in points:
+    clip = P @ V @ np.append(X, 1)
+    ndc = clip[:3] / clip[3]
+    # The window's y grows up, the image's v down.
+    close(ours(camera, X)[0], [400 * (ndc[0] + 1), 600 - 300 * (ndc[1] + 1)])
+    close(ours(camera, X)[1], clip[3])
+)");
+}
+
+TEST_F(CameraCommands, ImportRefusesDistortion) {
+  folder_.write("cameras.txt", "1 OPENCV 640 480 525 525 320 240 0.1 0 0 0\n");
+  folder_.write("images.txt", "1 1 0 0 0 0 0 3 1 a.jpg\n\n");
+  const Outcome outcome =
+      run_fathom({"camera", "import", "colmap", "."}, {.folder = folder_.path()});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("distortion"));
+  EXPECT_EQ(outcome.out, "");
+}
+
+}  // namespace
+}  // namespace fathom::test

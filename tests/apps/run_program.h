@@ -1,0 +1,41 @@
+#pragma once
+
+#include <sys/resource.h>
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fathom::test {
+
+/// How a program ended and what it said. `status` is 128 + the signal if one ended it.
+struct Outcome {
+  int status = -1;
+  std::string out, err;
+};
+
+struct RunOptions {
+  std::filesystem::path folder = ".";
+  /// Text on standard input.
+  std::string input;
+  /// Limits of the process in bytes: the size of files, the address space.
+  std::optional<rlim_t> file_size, memory;
+  /// Run as the user nobody where the test is root, whom permissions do not hold.
+  bool as_nobody = false;
+};
+
+/// Runs the built `fathom` with these arguments.
+Outcome run_fathom(const std::vector<std::string>& arguments, const RunOptions& options = {});
+/// Runs any program, found on the PATH.
+Outcome run(const std::vector<std::string>& command, const RunOptions& options = {});
+/// Starts `fathom` and returns its process id; its output goes to nowhere.
+pid_t start_fathom(const std::vector<std::string>& arguments, const RunOptions& options);
+/// Waits for a process that start_fathom started; its status as in Outcome.
+int wait_for(pid_t process);
+
+/// Where the built program lies.
+std::string program_path();
+
+}  // namespace fathom::test

@@ -1,0 +1,180 @@
+// Wrong usage is exit status 2 and one line; help and version are there for every command.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "run_program.h"
+#include "sample_files.h"
+#include "test_folder.h"
+
+namespace fathom::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+struct Usage {
+  std::string name;
+  std::vector<std::string> arguments;
+  std::string said;
+};
+
+void PrintTo(const Usage& usage, std::ostream* stream) {
+  *stream << usage.name;
+}
+
+std::vector<Usage> wrong_usages() {
+  const auto render = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "square.obj", "-o", "map.exr"});
+    return more;
+  };
+  return {
+      {"NoCommand", {}, "--help"},
+      {"UnknownCommand", {"rendre", "square.obj"}, "did you mean 'render'"},
+      {"AnnouncedCommand", {"bench"}, "'bench' does not exist yet"},
+      {"UnknownOption", render({"--frobnicate"}), "--frobnicate"},
+      {"NoOutput", {"render", "square.obj"}, "--output"},
+      {"NoScene", {"render", "-o", "map.exr"}, "SCENE"},
+      {"NoSuffix", {"render", "square.obj", "-o", "map"}, ".exr"},
+      {"UnknownSuffix", {"render", "square.obj", "-o", "map.tiff"}, ".exr"},
+      {"EngineFast", render({"--engine", "fast"}), "there is reference"},
+      {"EnginePipeline", render({"--engine", "pipeline"}), "there is reference"},
+      {"EngineUnknown", render({"--engine", "warp"}), "there is reference"},
+      {"ChannelA", render({"--channels", "Z,A"}), "'A' does not exist yet; there are Z"},
+      {"ChannelUnknown", render({"--channels", "depth"}), "there are Z"},
+      {"ChannelTwice", render({"--channels", "Z,Z"}), "twice"},
+      {"Stream", render({"--stream"}), "--stream does not exist yet"},
+      {"Deep", render({"--deep"}), "--deep does not exist yet"},
+      {"Verify", render({"--verify", "100"}), "--verify does not exist yet"},
+      {"VerifyWithEquals", render({"--verify=100"}), "--verify does not exist yet"},
+      {"CullUnknown", render({"--cull", "some"}), "back, front and none"},
+      {"LossyCompression", render({"--compression", "pxr24"}), "loses"},
+      {"UnknownCompression", render({"--compression", "lzma"}), "zip"},
+      {"PngScaleForExr", render({"--png-scale", "10"}), "--png-scale is for .png"},
+      {"DtypeForExr", render({"--dtype", "float64"}), "--dtype is for .npy"},
+      {"CompressionForPng",
+       {"render", "square.obj", "-o", "map.png", "--compression", "zip"},
+       "--compression is for .exr"},
+      {"NegativePngScale",
+       {"render", "square.obj", "-o", "map.png", "--png-scale", "-1"},
+       "positive"},
+      {"UnknownDtype", {"render", "square.obj", "-o", "map.npy", "--dtype", "int8"}, "float64"},
+      {"TwoChannelsInPfm",
+       {"render", "square.obj", "-o", "map.pfm", "--channels", "Z,id"},
+       "one channel"},
+      {"NormalsInNpy", {"render", "square.obj", "-o", "map.npy", "--channels", "N"}, "one channel"},
+      {"SizeNoNumber", render({"--size", "big"}), "--size"},
+      {"SizeZero", render({"--size", "0x10"}), "--size"},
+      {"FovStraight", render({"--fov", "180"}), "--fov"},
+      {"FovNan", render({"--fov", "nan"}), "--fov"},
+      {"ViewOneNumber", render({"--view", "30"}), "--view"},
+      {"ViewBeyondPole", render({"--view", "0,91"}), "90"},
+      {"UpUnknown", render({"--up", "w"}), "--up"},
+      {"ThreadsNegative", render({"--threads", "-1"}), "--threads"},
+      {"ThreadsText", render({"--threads", "all"}), "--threads"},
+      {"CameraWithView", render({"--camera", "camera.json", "--view", "0,0"}), "--camera"},
+      {"StandardInputWithoutFormat", {"render", "-", "-o", "map.exr"}, "--mesh-format"},
+      {"StandardInputTwice", {"render", "-", "-", "--mesh-format", "obj", "-o", "map.exr"}, "once"},
+      {"MeshFormatUnknown", render({"--mesh-format", "fbx"}), "--mesh-format"},
+      {"PathWithoutPattern", render({"--camera", "path.json"}), "{index"},
+      {"PatternWrong",
+       {"render", "square.obj", "--camera", "path.json", "-o", "{index:x!}.exr"},
+       "pattern"},
+      {"ProbeWithoutPixel", {"probe", "square.obj"}, "--pixel"},
+      {"ProbePixelOutside",
+       {"probe", "square.obj", "--camera", "camera.json", "--pixel", "8,0"},
+       "8x6"},
+      {"ProbePixelText", {"probe", "square.obj", "--pixel", "middle"}, "--pixel"},
+      {"ProbePath", {"probe", "square.obj", "--camera", "path.json", "--pixel", "0,0"}, "path"},
+      {"ColourMapUnknown", {"preview", "map.exr", "-o", "p.png", "--colormap", "jet"}, "viridis"},
+      {"ToleranceNegative",
+       {"compare", "a.exr", "b.exr", "--tolerance-ulp", "-1"},
+       "--tolerance-ulp"},
+      {"ConvertToUnknown", {"convert", "older.exr", "-o", "map.tiff"}, ".exr"},
+      {"CameraWithoutKind", {"camera"}, "--help"},
+      {"LookAtItself", {"camera", "look-at", "--eye", "1,2,3", "--target", "1,2,3"}, ""},
+      {"OrbitNothing", {"camera", "orbit", "--views", "3"}, "SCENE"},
+      {"OrbitNoViews", {"camera", "orbit", "square.obj", "--views", "0"}, "--views"},
+      {"BopWithoutSize", {"camera", "import", "bop", "scene_camera.json"}, "--size"},
+  };
+}
+
+class WrongUsage : public ::testing::TestWithParam<Usage> {};
+
+TEST_P(WrongUsage, IsStatusTwoInOneLine) {
+  const TestFolder folder;
+  folder.write("square.obj", square_obj);
+  folder.write("camera.json", square_camera);
+  folder.write("path.json", "[" + square_camera + "," + square_camera + "]");
+  folder.write("map.exr", "older");
+  const auto before = folder.names();
+  const Outcome outcome = run_fathom(GetParam().arguments, {.folder = folder.path()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_THAT(outcome.err, AllOf(StartsWith("fathom: error: "), HasSubstr(GetParam().said)));
+  EXPECT_EQ(folder.read("map.exr"), "older");
+  EXPECT_EQ(folder.names(), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WrongUsage, ::testing::ValuesIn(wrong_usages()),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(Help, OfEveryCommandShowsAnExample) {
+  const std::vector<std::vector<std::string>> commands{{},
+                                                       {"render"},
+                                                       {"probe"},
+                                                       {"info"},
+                                                       {"preview"},
+                                                       {"compare"},
+                                                       {"convert"},
+                                                       {"camera"},
+                                                       {"camera", "look-at"},
+                                                       {"camera", "orbit"},
+                                                       {"camera", "import"},
+                                                       {"camera", "import", "colmap"},
+                                                       {"camera", "import", "nerf"},
+                                                       {"camera", "import", "bop"},
+                                                       {"camera", "import", "opengl"}};
+  for (std::vector<std::string> command : commands) {
+    std::string name = "fathom";
+    for (const std::string& word : command) name += " " + word;
+    command.emplace_back("--help");
+    const Outcome help = run_fathom(command);
+    EXPECT_EQ(help.status, 0);
+    EXPECT_EQ(help.err, "");
+    EXPECT_THAT(help.out, HasSubstr("Examples:\n  " + name));
+    EXPECT_THAT(help.out, HasSubstr("--quiet"));
+    command.back() = "--version";
+    EXPECT_THAT(run_fathom(command).out, StartsWith("fathom 0."));
+  }
+}
+
+TEST(Help, OfTheProgramNamesEveryCommand) {
+  const std::string help = run_fathom({"--help"}).out;
+  for (const char* name : {"render", "probe", "info", "preview", "compare", "convert", "camera"}) {
+    EXPECT_THAT(help, HasSubstr(std::string("\n  ") + name));
+  }
+}
+
+TEST(Help, ThatCannotBeWrittenIsAnError) {
+  const Outcome outcome = run({"sh", "-c", "exec \"$0\" --help > /dev/full", program_path()});
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_THAT(outcome.err, StartsWith("fathom: error: standard output: "));
+}
+
+TEST(Companion, IsStartedInPlaceOfTheProgram) {
+  const TestFolder folder;
+  std::filesystem::copy_file(program_path(), folder / "fathom");
+  folder.write("fathom-greet", "#!/bin/sh\necho \"greeting $1 and $2\"\nexit 7\n");
+  std::filesystem::permissions(folder / "fathom-greet", std::filesystem::perms::owner_all);
+  const Outcome outcome = run({folder / "fathom", "greet", "--one", "two words"});
+  EXPECT_EQ(outcome.status, 7);
+  EXPECT_EQ(outcome.out, "greeting --one and two words\n");
+}
+
+}  // namespace
+}  // namespace fathom::test
