@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -18,8 +17,7 @@ struct MapView {
   double fx = 1, fy = 1, cx = 0, cy = 0, skew = 0;
   double pixel_centre = 0.5;
   /// 3×4 [R | t], world to camera frame (x right, y down, z forward).
-  std::array<std::array<double, 4>, 3> world_to_camera{
-      {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  std::array<std::array<double, 4>, 3> world_to_camera{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 };
 
 /// The inverse [R⁻¹ | −R⁻¹·t].
@@ -65,23 +63,5 @@ enum class StoredType { binary32, binary64, scaled_unorm16 };
 ///          one of depth, or scale is not a positive number; InputError if codes carry no scale.
 DepthMap with_storage(const DepthMap& map, const std::string& channel, StoredType type,
                       std::optional<double> scale = std::nullopt);
-
-enum class PointFrame { world, camera };
-
-struct PointCloudOptions {
-  PointFrame frame = PointFrame::world;
-  /// Coordinates as `double` (default) or as `float`.
-  bool binary64 = true;
-};
-
-/// Writes one point for each pixel that shows a surface at a finite depth, row by row, as PLY,
-/// binary little endian: x y z; nx ny nz (float) where the map has N; id, face, object (uint) where
-/// it has them. In the world frame, points of the map's own P channels are taken as they are, since
-/// they are exact numbers rounded once; otherwise points come from `Z` (or `distance`) by point_at
-/// and camera_to_world in binary64. Normals are the map's own (world), in the camera frame
-/// inverse-transposed and renormalised.
-/// Fails    UsageError if there is no Z, distance or P; OutputError: "PATH: why".
-void write_point_cloud(const DepthMap& map, const MapView& view, const std::filesystem::path& path,
-                       const PointCloudOptions& options = {});
 
 }  // namespace fathom

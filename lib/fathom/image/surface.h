@@ -40,12 +40,16 @@ struct BackgroundRule {
 ///   otherwise there is no background.
 BackgroundRule detect_background(const ImageChannel& channel);
 
+/// The values of `id`, `object` or `face`, the first that the map has.
+const std::vector<std::uint32_t>* identifiers_of(const DepthMap& map);
+
 /// One byte a pixel: 1 where `channel` of `map` shows a surface.
-/// Where the map has an identifier channel (`id`, `object` or `face`), that one decides; this tells
-/// a depth that overflowed to +∞ from background. Otherwise the channel's own background does (the
-/// rule for depths, given or detected); a channel without one follows the map's `Z`, if there is
-/// one; else every pixel counts.
+/// `A` shows something at every pixel. Where the map has an identifier channel, that one decides
+/// (unless `by_identifiers` is false); this tells a depth that overflowed to +∞ from background.
+/// Otherwise the channel's own background does (the rule for depths, given or detected); a channel
+/// without one follows the map's `Z`, if there is one; else every pixel counts.
 std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& channel,
-                                       const std::optional<BackgroundRule>& rule = std::nullopt);
+                                       const std::optional<BackgroundRule>& rule = std::nullopt,
+                                       bool by_identifiers = true);
 
 }  // namespace fathom

@@ -1,0 +1,276 @@
+#include "fathom/image/compare.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "fathom/image/compare_internal.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom {
+namespace {
+
+PixelPosition position_of(std::size_t k, std::uint32_t width) {
+  return {static_cast<std::uint32_t>(k % width), static_cast<std::uint32_t>(k / width)};
+}
+
+/// Numbers in the order of their values, one apart where nothing lies between; both zeros are 0.
+template <class Float, class Integer>
+Integer ordinal(Float value) {
+  const auto bits = std::bit_cast<Integer>(value);
+  return bits < 0 ? std::numeric_limits<Integer>::min() - bits : bits;
+}
+
+double steps_binary32(float a, float b) {
+  const auto from = std::int64_t{ordinal<float, std::int32_t>(a)};
+  const auto to = std::int64_t{ordinal<float, std::int32_t>(b)};
+  return static_cast<double>(std::abs(from - to));
+}
+
+double steps_binary64(double a, double b) {
+  const auto from = ordinal<double, std::int64_t>(a), to = ordinal<double, std::int64_t>(b);
+  const auto distance = from > to
+                            ? static_cast<std::uint64_t>(from) - static_cast<std::uint64_t>(to)
+                            : static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from);
+  return static_cast<double>(distance);
+}
+
+BackgroundRule rule_for(const ImageChannel& channel, const std::optional<double>& given) {
+  if (kind_of(channel) != ChannelKind::depth) return {};
+  if (!given) return detect_background(channel);
+  return {std::isfinite(*given) ? given : std::nullopt, ""};
+}
+
+/// A depth channel under whatever name.
+const ImageChannel* lone_depth(const DepthMap& map) {
+  const ImageChannel* found = nullptr;
+  for (const ImageChannel& channel : map.channels) {
+    if (kind_of(channel) != ChannelKind::depth) continue;
+    if (found) return nullptr;
+    found = &channel;
+  }
+  return found;
+}
+
+const ImageChannel& named(const DepthMap& map, const std::string& name, const char* which) {
+  if (const ImageChannel* channel = map.find(name)) return *channel;
+  throw UsageError(std::string("the ") + which + " map has no channel '" + name + "'");
+}
+
+/// What is measured at one pixel that shows a surface in both maps.
+struct Measure {
+  bool bit_equal = false, commensurable = true;
+  double absolute = 0, relative = 0, ulp = 0;
+};
+
+Measure measure(const Reading& a, const Reading& b, std::size_t k) {
+  const double x = a.value(k), y = b.value(k);
+  Measure m;
+  m.bit_equal = a.bits(k) == b.bits(k) && a.type() == b.type();
+  if (m.bit_equal || x == y || (std::isnan(x) && std::isnan(y))) return m;
+  if (!std::isfinite(x) || !std::isfinite(y)) return {false, false, 0, 0, 0};
+  m.absolute = std::abs(x - y);
+  m.relative = m.absolute / std::max(std::abs(x), std::abs(y));
+  if (a.is_codes() && b.is_codes() && a.scale() == b.scale())
+    m.ulp = std::abs(static_cast<double>(a.bits(k)) - static_cast<double>(b.bits(k)));
+  else if (a.is_binary64() && b.is_binary64())
+    m.ulp = steps_binary64(x, y);
+  else
+    m.ulp = steps_binary32(static_cast<float>(x), static_cast<float>(y));
+  return m;
+}
+
+/// A kind of difference at every compared pixel, and where.
+struct Differences {
+  std::vector<double> values;
+  std::size_t worst = 0;
+  double max = -1;
+
+  void add(double value, std::size_t pixel) {
+    if (value > max) {
+      max = value;
+      worst = pixel;
+    }
+    values.push_back(value);
+  }
+
+  DifferenceSummary summary(std::uint32_t width) {
+    if (values.empty()) return {};
+    DifferenceSummary s;
+    s.max = max;
+    s.worst = position_of(worst, width);
+    double sum = 0;
+    for (const double v : values) sum += v;
+    s.mean = sum / static_cast<double>(values.size());
+    std::sort(values.begin(), values.end());
+    // Nearest rank: the ⌈n·p⌉-th value; p in thousandths, so that n·p is an integer.
+    const auto percentile = [&](std::size_t thousandths) {
+      const std::size_t rank = (values.size() * thousandths + 999) / 1000;
+      return values[std::max<std::size_t>(rank, 1) - 1];
+    };
+    s.p50 = percentile(500);
+    s.p90 = percentile(900);
+    s.p99 = percentile(990);
+    s.p99_9 = percentile(999);
+    return s;
+  }
+};
+
+void add_notes(ChannelComparison& result, const ChannelPair& pair) {
+  if (!pair.truth_rule.note.empty()) result.notes.push_back("truth: " + pair.truth_rule.note);
+  if (!pair.other_rule.note.empty()) result.notes.push_back("other: " + pair.other_rule.note);
+  const Reading a(pair.truth, pair.truth_scale), b(pair.other, pair.other_scale);
+  if (a.type() != b.type())
+    result.notes.emplace_back(
+        "the channels are stored in different types: ulp differences count binary32 numbers");
+}
+
+ChannelComparison compare_channel(const ChannelPair& pair, const CompareOptions& options) {
+  ChannelComparison result;
+  result.truth_channel = pair.truth.name;
+  result.other_channel = pair.other.name;
+  result.identifiers = pair.identifiers();
+  result.pixels = pair.truth_mask.size();
+  add_notes(result, pair);
+  const Reading a(pair.truth, pair.truth_scale), b(pair.other, pair.other_scale);
+  Differences absolute, relative, ulp;
+  const auto mark = [&](std::optional<PixelPosition>& first, std::size_t k) {
+    if (!first) first = position_of(k, pair.width);
+  };
+  for (std::size_t k = 0; k < result.pixels; ++k) {
+    const bool in_truth = pair.truth_mask[k] != 0, in_other = pair.other_mask[k] != 0;
+    result.both += in_truth && in_other;
+    result.neither += !in_truth && !in_other;
+    result.only_truth += in_truth && !in_other;
+    result.only_other += !in_truth && in_other;
+    if (in_truth != in_other) mark(result.first_coverage_disagreement, k);
+    if (!in_truth || !in_other) continue;
+    if (result.identifiers) {
+      const bool equal = a.bits(k) == b.bits(k);
+      result.bit_equal += equal;
+      result.different_identifiers += !equal;
+      result.beyond_tolerance += !equal;
+      if (!equal) mark(result.first_mismatch, k);
+      continue;
+    }
+    const Measure m = measure(a, b, k);
+    result.bit_equal += m.bit_equal;
+    result.incommensurable += !m.commensurable;
+    result.beyond_tolerance += !m.commensurable || m.ulp > options.tolerance_ulp;
+    if (!m.commensurable) {
+      mark(result.first_mismatch, k);
+      continue;
+    }
+    ++result.compared;
+    absolute.add(m.absolute, k);
+    relative.add(m.relative, k);
+    ulp.add(m.ulp, k);
+  }
+  result.absolute = absolute.summary(pair.width);
+  result.relative = relative.summary(pair.width);
+  result.ulp = ulp.summary(pair.width);
+  return result;
+}
+
+}  // namespace
+
+ChannelPair make_pair(const DepthMap& truth, const ImageChannel& a, const DepthMap& other,
+                      const ImageChannel& b, const CompareOptions& options) {
+  const bool integers_a = std::holds_alternative<std::vector<std::uint32_t>>(a.values);
+  const bool integers_b = std::holds_alternative<std::vector<std::uint32_t>>(b.values);
+  if (integers_a != integers_b)
+    throw InputError("channel '" + a.name +
+                     "' holds identifiers in one map and numbers in the other");
+  ChannelPair pair{a,
+                   b,
+                   truth.png_scale,
+                   other.png_scale,
+                   rule_for(a, options.truth_background),
+                   rule_for(b, options.other_background),
+                   {},
+                   {},
+                   truth.width};
+  // Identifiers tell an overflowed depth from background, but only where both maps have them.
+  const bool by_identifiers = identifiers_of(truth) && identifiers_of(other);
+  pair.truth_mask = surface_mask(truth, a,
+                                 options.truth_background || kind_of(a) == ChannelKind::depth
+                                     ? std::optional(pair.truth_rule)
+                                     : std::nullopt,
+                                 by_identifiers);
+  pair.other_mask = surface_mask(other, b,
+                                 options.other_background || kind_of(b) == ChannelKind::depth
+                                     ? std::optional(pair.other_rule)
+                                     : std::nullopt,
+                                 by_identifiers);
+  return pair;
+}
+
+PairedNames paired_channels(const DepthMap& truth, const DepthMap& other,
+                            const CompareOptions& options) {
+  if (truth.width != other.width || truth.height != other.height)
+    throw InputError("the maps differ in size: " + std::to_string(truth.width) + "×" +
+                     std::to_string(truth.height) + " and " + std::to_string(other.width) + "×" +
+                     std::to_string(other.height));
+  PairedNames result;
+  if (!options.channel.empty() || !options.other_channel.empty()) {
+    const std::string& a = options.channel.empty() ? options.other_channel : options.channel;
+    const std::string& b = options.other_channel.empty() ? a : options.other_channel;
+    result.pairs.emplace_back(&named(truth, a, "first"), &named(other, b, "second"));
+    return result;
+  }
+  for (const ImageChannel& channel : truth.channels)
+    if (const ImageChannel* match = other.find(channel.name))
+      result.pairs.emplace_back(&channel, match);
+  if (!result.pairs.empty()) return result;
+  const ImageChannel *a = lone_depth(truth), *b = lone_depth(other);
+  if (const ImageChannel* z = truth.find("Z")) a = z;
+  if (const ImageChannel* z = other.find("Z")) b = z;
+  if (!a || !b) throw InputError("the maps have no channel in common: name one of each");
+  result.pairs.emplace_back(a, b);
+  result.note = "no channel in common: '" + a->name + "' is compared with '" + b->name + "'";
+  return result;
+}
+
+bool MapComparison::within_tolerance() const {
+  return std::all_of(channels.begin(), channels.end(),
+                     [](const ChannelComparison& c) { return c.within_tolerance(); });
+}
+
+MapComparison compare_maps(const DepthMap& truth, const DepthMap& other,
+                           const CompareOptions& options) {
+  const PairedNames names = paired_channels(truth, other, options);
+  MapComparison result;
+  if (!names.note.empty()) result.notes.push_back(names.note);
+  for (const auto& [a, b] : names.pairs)
+    result.channels.push_back(compare_channel(make_pair(truth, *a, other, *b, options), options));
+  for (const ImageChannel& channel : truth.channels)
+    if (!other.find(channel.name)) result.only_in_truth.push_back(channel.name);
+  for (const ImageChannel& channel : other.channels)
+    if (!truth.find(channel.name)) result.only_in_other.push_back(channel.name);
+  return result;
+}
+
+std::vector<PixelDifference> pixel_differences(const ChannelPair& pair) {
+  const Reading a(pair.truth, pair.truth_scale), b(pair.other, pair.other_scale);
+  std::vector<PixelDifference> result(pair.truth_mask.size());
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    using Kind = PixelDifference::Kind;
+    const bool in_truth = pair.truth_mask[k] != 0, in_other = pair.other_mask[k] != 0;
+    if (!in_truth && !in_other) continue;
+    if (in_truth != in_other) {
+      result[k].kind = in_truth ? Kind::only_truth : Kind::only_other;
+    } else if (pair.identifiers()) {
+      result[k].kind = a.bits(k) == b.bits(k) ? Kind::equal : Kind::incommensurable;
+    } else {
+      const Measure m = measure(a, b, k);
+      result[k] = {!m.commensurable ? Kind::incommensurable
+                   : m.ulp == 0     ? Kind::equal
+                                    : Kind::different,
+                   m.ulp};
+    }
+  }
+  return result;
+}
+
+}  // namespace fathom

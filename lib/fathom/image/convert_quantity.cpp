@@ -1,0 +1,105 @@
+#include <cmath>
+#include <limits>
+
+#include "fathom/image/convert.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// √(1 + x'² + y'²) at the centre of pixel (i, j): ray distance over planar depth.
+double stretch_at(const MapView& view, double i, double j) {
+  if (view.orthographic) return 1;
+  const auto [x, y, one] = point_at(view, i, j, 1);
+  return std::hypot(one, x, y);
+}
+
+/// Conversions of one pixel, all by way of planar depth.
+struct Converter {
+  DepthQuantity from, to;
+  const MapView& view;
+  StereoRig rig;
+
+  [[nodiscard]] double planar(double value, double i, double j) const {
+    switch (from) {
+      case DepthQuantity::planar_depth:
+        return value;
+      case DepthQuantity::ray_distance:
+        return value / stretch_at(view, i, j);
+      case DepthQuantity::disparity:
+        break;
+    }
+    if (value + rig.doffs < 0)
+      throw InputError("pixel (" + std::to_string(static_cast<long>(i)) + ", " +
+                       std::to_string(static_cast<long>(j)) +
+                       "): the disparity with its offset is negative, so nothing can be there");
+    return std::abs(view.fx) * rig.baseline / (value + rig.doffs);
+  }
+
+  [[nodiscard]] double operator()(double value, double i, double j) const {
+    if (from == to) return value;
+    if (!std::isfinite(value)) return infinity;
+    const double z = planar(value, i, j);
+    if (to == DepthQuantity::planar_depth) return z;
+    if (to == DepthQuantity::ray_distance) return z * stretch_at(view, i, j);
+    // Disparity 0 is as far as can be; "unknown" is kept for what is not finite.
+    return std::isfinite(z) ? std::abs(view.fx) * rig.baseline / z - rig.doffs : infinity;
+  }
+};
+
+StereoRig checked(const MapView& view, const std::optional<StereoRig>& rig) {
+  if (!rig || !(rig->baseline > 0) || !std::isfinite(rig->baseline) || !std::isfinite(rig->doffs))
+    throw UsageError("disparity needs a baseline that is a positive number");
+  if (view.orthographic) throw UsageError("there is no disparity between orthographic views");
+  return *rig;
+}
+
+template <class T>
+std::vector<T> converted(const std::vector<T>& values, std::size_t width,
+                         const Converter& convert) {
+  std::vector<T> result(values.size());
+  for (std::size_t k = 0; k < values.size(); ++k)
+    result[k] =
+        static_cast<T>(convert(static_cast<double>(values[k]), static_cast<double>(k % width),
+                               static_cast<double>(k / width)));
+  return result;
+}
+
+}  // namespace
+
+std::string channel_of(DepthQuantity quantity) {
+  switch (quantity) {
+    case DepthQuantity::planar_depth:
+      return "Z";
+    case DepthQuantity::ray_distance:
+      return "distance";
+    case DepthQuantity::disparity:
+      return "disparity";
+  }
+  return "Z";
+}
+
+DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
+                          const MapView& view, const std::optional<StereoRig>& rig) {
+  const std::string name = channel_of(from);
+  const ImageChannel* source = map.find(name);
+  if (!source) throw UsageError("the map has no channel '" + name + "' to convert from");
+  Converter convert{from, to, view, {}};
+  if (from == DepthQuantity::disparity || to == DepthQuantity::disparity)
+    convert.rig = checked(view, rig);
+
+  DepthMap result = map;
+  result.channels.clear();
+  result.png_scale.reset();
+  if (const auto* floats = std::get_if<std::vector<float>>(&source->values))
+    result.channels.push_back({channel_of(to), converted(*floats, map.width, convert)});
+  else if (const auto* doubles = std::get_if<std::vector<double>>(&source->values))
+    result.channels.push_back({channel_of(to), converted(*doubles, map.width, convert)});
+  else
+    throw UsageError("channel '" + name + "' holds codes: decode them first");
+  return result;
+}
+
+}  // namespace fathom

@@ -1,0 +1,101 @@
+#include <cmath>
+#include <limits>
+
+#include "fathom/image/convert.h"
+#include "fathom/image/surface.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/numeric/rounding.h"
+
+namespace fathom {
+namespace {
+
+const ImageChannel& depth_channel(const DepthMap& map, const std::string& asked) {
+  const ImageChannel* channel = map.find(asked.empty() ? "Z" : asked);
+  if (!channel && asked.empty() && map.channels.size() == 1) channel = &map.channels.front();
+  if (!channel)
+    throw UsageError(asked.empty() ? "the map has several channels and no Z: name one"
+                                   : "the map has no channel '" + asked + "'");
+  return *channel;
+}
+
+/// Decodes 16-bit codes: code / scale in binary64, which rounds once; binary32 from the exact
+/// quotient, lest it be rounded twice.
+template <class T>
+std::vector<T> decode(const std::vector<std::uint16_t>& codes, const std::optional<double>& scale) {
+  if (!scale)
+    throw InputError("the codes carry no scale (fathom:scale), so their depth is not known");
+  std::vector<T> depth_of(65536);
+  depth_of[0] = std::numeric_limits<T>::infinity();
+  for (std::size_t code = 1; code < depth_of.size(); ++code) {
+    if constexpr (std::is_same_v<T, double>)
+      depth_of[code] = static_cast<double>(code) / *scale;
+    else
+      depth_of[code] = round_to_binary32(Ratio(Dyadic(static_cast<double>(code)), Dyadic(*scale)));
+  }
+  std::vector<T> values(codes.size());
+  for (std::size_t k = 0; k < codes.size(); ++k) values[k] = depth_of[codes[k]];
+  return values;
+}
+
+template <class T>
+std::vector<T> as_floating_point(const DepthMap& map, const ImageChannel& channel) {
+  return std::visit(
+      [&](const auto& values) -> std::vector<T> {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        if constexpr (std::is_same_v<Value, std::uint16_t>)
+          return decode<T>(values, map.png_scale);
+        else if constexpr (std::is_same_v<Value, std::uint32_t>)
+          throw UsageError("channel '" + channel.name + "' holds integers, not depths");
+        else
+          return std::vector<T>(values.begin(), values.end());
+      },
+      channel.values);
+}
+
+std::vector<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, double scale) {
+  const std::vector<double> depths = as_floating_point<double>(map, channel);
+  const std::vector<std::uint8_t> surface = surface_mask(map, channel);
+  std::vector<std::uint16_t> codes(depths.size(), 0);
+  for (std::size_t k = 0; k < depths.size(); ++k) {
+    if (!surface[k]) continue;
+    std::optional<std::uint64_t> code;
+    if (std::isfinite(depths[k])) code = round_to_integer(Dyadic(scale) * Dyadic(depths[k]), 65535);
+    if (!code || *code == 0)
+      throw OutputError("pixel (" + std::to_string(k % map.width) + ", " +
+                        std::to_string(k / map.width) + "): depth " + std::to_string(depths[k]) +
+                        " times the scale " + std::to_string(scale) +
+                        " does not fit the codes 1 to 65535");
+    codes[k] = static_cast<std::uint16_t>(*code);
+  }
+  return codes;
+}
+
+}  // namespace
+
+DepthMap with_storage(const DepthMap& map, const std::string& asked, StoredType type,
+                      std::optional<double> scale) {
+  const ImageChannel& channel = depth_channel(map, asked);
+  DepthMap result = map;
+  result.channels.clear();
+  result.png_scale.reset();
+  switch (type) {
+    case StoredType::binary32:
+      result.channels.push_back({channel.name, as_floating_point<float>(map, channel)});
+      break;
+    case StoredType::binary64:
+      result.channels.push_back({channel.name, as_floating_point<double>(map, channel)});
+      break;
+    case StoredType::scaled_unorm16:
+      if (!scale || !(*scale > 0) || !std::isfinite(*scale))
+        throw UsageError("16-bit codes need a scale that is a positive number");
+      if (kind_of(channel) != ChannelKind::depth)
+        throw UsageError("channel '" + channel.name +
+                         "' is not one of depth: it has no 16-bit codes");
+      result.channels.push_back({channel.name, encode(map, channel, *scale)});
+      result.png_scale = scale;
+      break;
+  }
+  return result;
+}
+
+}  // namespace fathom

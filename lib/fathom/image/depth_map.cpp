@@ -1,0 +1,13 @@
+#include "fathom/image/depth_map.h"
+
+#include <algorithm>
+
+namespace fathom {
+
+const ImageChannel* DepthMap::find(const std::string& name) const {
+  const auto found = std::find_if(channels.begin(), channels.end(),
+                                  [&](const ImageChannel& c) { return c.name == name; });
+  return found == channels.end() ? nullptr : &*found;
+}
+
+}  // namespace fathom

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include "fathom/image/byte_order.h"
+#include "fathom/image/map_codecs.h"
+#include "fathom/numeric/errors.h"
+
+/// What an OpenEXR header claims, checked against the size of the file before OpenEXR, which
+/// allocates by those claims, sees it. Layout: "OpenEXR File Layout" of the format's documentation.
+namespace fathom {
+namespace {
+
+constexpr std::uint32_t flag_deep = 0x800, flag_multipart = 0x1000;
+
+/// OpenEXR's compression codes 0 … 9: scan lines in a chunk, and a bound of image bytes per file
+/// byte. RLE: 128 from 2. DEFLATE: 1032, doubled for PXR24, which drops a byte of four first. PIZ:
+/// a code of one bit and a run length of 8 stand for at most 256 16-bit values, 455. B44: 32
+/// from 3. DWA: DEFLATE of one 16-bit coefficient for a block of 64 values.
+struct CompressionBound {
+  std::uint64_t lines, ratio;
+};
+constexpr std::array<CompressionBound, 10> compression_bounds{{{1, 1},
+                                                               {1, 64},
+                                                               {1, greatest_deflate_ratio},
+                                                               {16, greatest_deflate_ratio},
+                                                               {32, greatest_deflate_ratio},
+                                                               {16, greatest_deflate_ratio},
+                                                               {32, greatest_deflate_ratio},
+                                                               {32, greatest_deflate_ratio},
+                                                               {32, 64 * greatest_deflate_ratio},
+                                                               {256, 64 * greatest_deflate_ratio}}};
+
+/// The attributes of one part, by name: their bytes. Types are left to OpenEXR.
+using Attributes = std::map<std::string_view, ByteView>;
+
+class Claims {
+ public:
+  Claims(ByteView bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  void check() {
+    if (bytes_.size() < 8) fail("truncated: expected a header");
+    const auto version = load<std::uint32_t>(&bytes_[4], std::endian::little);
+    if ((version & 0xFF) != 2) fail("expected version 2 of the format");
+    position_ = 8;
+    Attributes part = read_attributes();
+    if ((version & flag_deep && !(version & flag_multipart)) || is_deep(part))
+      fail("deep images are not read as maps: expected scan lines or tiles");
+    for (bool first = true; !part.empty(); first = false) {
+      check_part(part, first);
+      if (!(version & flag_multipart)) return;
+      part = read_attributes();
+    }
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
+
+  std::string_view read_name() {
+    const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(position_);
+    const auto end = std::find(begin, bytes_.end(), std::byte{0});
+    if (end == bytes_.end()) fail("truncated: its header does not end");
+    const auto length = static_cast<std::size_t>(end - begin);
+    const std::string_view text(reinterpret_cast<const char*>(bytes_.data()) + position_, length);
+    position_ += length + 1;
+    return text;
+  }
+
+  Attributes read_attributes() {
+    Attributes attributes;
+    while (true) {
+      const std::string_view name = read_name();
+      if (name.empty()) return attributes;
+      read_name();  // the type
+      if (bytes_.size() - position_ < 4) fail("truncated: its header does not end");
+      const auto size = load<std::uint32_t>(&bytes_[position_], std::endian::little);
+      position_ += 4;
+      if (size > bytes_.size() - position_)
+        fail("corrupt or truncated: an attribute of its header is longer than the file");
+      attributes[name] = bytes_.subspan(position_, size);
+      position_ += size;
+    }
+  }
+
+  static bool is_deep(const Attributes& part) {
+    const auto type = part.find("type");
+    return type != part.end() && type->second.size() >= 4 &&
+           std::equal(type->second.begin(), type->second.begin() + 4,
+                      std::as_bytes(std::span("deep")).begin());
+  }
+
+  ByteView attribute(const Attributes& part, std::string_view name, std::size_t least_size) const {
+    const auto found = part.find(name);
+    if (found == part.end() || found->second.size() < least_size)
+      fail("corrupt: its header has no usable '" + std::string(name) + "'");
+    return found->second;
+  }
+
+  static std::int64_t int_at(ByteView bytes, std::size_t offset) {
+    return load<std::int32_t>(&bytes[offset], std::endian::little);
+  }
+
+  std::uint64_t bytes_of_a_pixel(ByteView list) const {
+    std::uint64_t sum = 0;
+    for (std::size_t k = 0; k < list.size() && list[k] != std::byte{0};) {
+      while (k < list.size() && list[k] != std::byte{0}) ++k;
+      if (list.size() - k < 17) fail("corrupt: its list of channels is truncated");
+      sum += int_at(list, k + 1) == 1 ? 2 : 4;  // HALF; FLOAT and UINT
+      if (int_at(list, k + 9) != 1 || int_at(list, k + 13) != 1)
+        fail("subsampled channels are not read: expected every channel at every pixel");
+      k += 17;
+    }
+    if (sum == 0) fail("it has no channels");
+    return sum;
+  }
+
+  void check_part(const Attributes& part, bool first) const {
+    const ByteView window = attribute(part, "dataWindow", 16);
+    const std::int64_t columns = int_at(window, 8) - int_at(window, 0) + 1;
+    const std::int64_t rows = int_at(window, 12) - int_at(window, 4) + 1;
+    if (columns < 1 || rows < 1) fail("corrupt: its data window is empty");
+    const auto code = static_cast<std::size_t>(attribute(part, "compression", 1)[0]);
+    if (code >= compression_bounds.size()) fail("its compression is not known");
+    const CompressionBound bound = compression_bounds[code];
+    const auto width = static_cast<std::uint64_t>(columns),
+               height = static_cast<std::uint64_t>(rows);
+    const bool tiled = part.contains("tiles");
+    if (part.contains("chunkCount") &&
+        static_cast<std::uint64_t>(int_at(attribute(part, "chunkCount", 4), 0)) > bytes_.size() / 8)
+      refuse(width, height);
+    if (!tiled && (height - 1) / bound.lines >= bytes_.size() / 8) refuse(width, height);
+    if (!first) return;
+
+    // width·height < 2^64, so the quotient is compared, not the product with a pixel's bytes.
+    const std::uint64_t most_pixels =
+        bytes_.size() * bound.ratio / bytes_of_a_pixel(attribute(part, "channels", 1));
+    if (width * height > most_pixels) refuse(width, height);
+    if (tiled) check_tiles(attribute(part, "tiles", 9), width, height, most_pixels);
+  }
+
+  /// OpenEXR allocates whole tiles also where the image ends inside them: beyond the pixels that
+  /// the file can hold, 2^24 are let pass.
+  void check_tiles(ByteView tiles, std::uint64_t width, std::uint64_t height,
+                   std::uint64_t most_pixels) const {
+    const std::int64_t tile_width = int_at(tiles, 0), tile_height = int_at(tiles, 4);
+    if (tile_width < 1 || tile_height < 1) fail("corrupt: its tiles are empty");
+    const auto w = static_cast<std::uint64_t>(tile_width),
+               h = static_cast<std::uint64_t>(tile_height);
+    const std::uint64_t allowed = std::max<std::uint64_t>(most_pixels, std::uint64_t{1} << 24);
+    if (w * h > allowed || (width + w) > allowed / h) refuse(width, height);
+    if ((width + w - 1) / w > bytes_.size() / 8 / ((height + h - 1) / h)) refuse(width, height);
+  }
+
+  [[noreturn]] void refuse(std::uint64_t width, std::uint64_t height) const {
+    fail("corrupt or truncated: its header claims " + std::to_string(width) + "×" +
+         std::to_string(height) + " pixels, more than " + std::to_string(bytes_.size()) +
+         " bytes can hold");
+  }
+
+  ByteView bytes_;
+  const std::string& name_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace
+
+void check_exr_claims(ByteView bytes, const std::string& name) {
+  Claims(bytes, name).check();
+}
+
+}  // namespace fathom

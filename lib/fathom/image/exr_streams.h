@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Iex.h>
+#include <ImfIO.h>
+
+#include <cstring>
+#include <mutex>
+
+#include "fathom/image/file_bytes.h"
+
+namespace fathom {
+
+/// OpenEXR reading from bytes in memory.
+class ByteInput : public Imf::IStream {
+ public:
+  ByteInput(ByteView bytes, const std::string& name) : IStream(name.c_str()), bytes_(bytes) {}
+
+  bool read(char to[], int count) override {
+    if (count < 0 || static_cast<std::size_t>(count) > bytes_.size() - position_)
+      throw Iex::InputExc("unexpected end of file");
+    std::memcpy(to, bytes_.data() + position_, static_cast<std::size_t>(count));
+    position_ += static_cast<std::size_t>(count);
+    return position_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return position_; }
+  void seekg(std::uint64_t position) override {
+    if (position > bytes_.size()) throw Iex::InputExc("unexpected end of file");
+    position_ = position;
+  }
+
+ private:
+  ByteView bytes_;
+  std::size_t position_ = 0;
+};
+
+/// OpenEXR writing to bytes in memory.
+class ByteOutput : public Imf::OStream {
+ public:
+  explicit ByteOutput(const std::string& name) : OStream(name.c_str()) {}
+
+  void write(const char from[], int count) override {
+    const auto length = static_cast<std::size_t>(count);
+    if (position_ + length > bytes_.size()) bytes_.resize(position_ + length);
+    std::memcpy(bytes_.data() + position_, from, length);
+    position_ += length;
+  }
+  std::uint64_t tellp() override { return position_; }
+  void seekp(std::uint64_t position) override { position_ = position; }
+
+  [[nodiscard]] Bytes take() { return std::move(bytes_); }
+
+ private:
+  Bytes bytes_;
+  std::size_t position_ = 0;
+};
+
+/// The threads that OpenEXR shall use, 0 meaning all of the machine. OpenEXR has one pool for the
+/// whole process: it is grown to that number, never shrunk.
+int reserve_exr_threads(int threads);
+
+/// What OpenEXR says of a failure, on one line.
+std::string exr_reason(const std::exception& failure);
+
+}  // namespace fathom

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fathom/image/rgb_image.h"
+
+/// Puts a picture together with its title, colour bar and legend.
+namespace fathom {
+
+struct ColourBar {
+  /// The colour at t in [0, 1], from the low end to the high one.
+  std::function<Rgb(double)> colour;
+  /// Marks: where in [0, 1], and what is written there. The ends come first and are always drawn.
+  struct Mark {
+    double t;
+    std::string text;
+  };
+  std::vector<Mark> marks;
+};
+
+struct LegendEntry {
+  Rgb colour;
+  std::string text;
+};
+
+struct Sheet {
+  std::string title, subtitle;
+  RgbImage picture;
+  std::optional<ColourBar> bar;
+  std::vector<LegendEntry> entries;
+};
+
+/// The marks of a linear scale: both ends in full, and round numbers between.
+std::vector<ColourBar::Mark> linear_marks(double low, double high);
+
+RgbImage lay_out(const Sheet& sheet);
+
+/// `picture` with every pixel a block of k × k if it is small, or with every k-th pixel of every
+/// k-th row if it is large; says so in a few words, empty if nothing was done.
+struct FittedPicture {
+  RgbImage image;
+  std::string remark;
+};
+FittedPicture fit_to_screen(RgbImage picture);
+
+}  // namespace fathom

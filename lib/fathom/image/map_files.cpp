@@ -1,0 +1,96 @@
+#include "fathom/image/map_files.h"
+
+#include <algorithm>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "fathom/image/map_codecs.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom {
+namespace {
+
+const ImageChannel& channel_to_write(const DepthMap& map, const std::string& asked) {
+  if (!asked.empty()) {
+    if (const ImageChannel* channel = map.find(asked)) return *channel;
+    throw UsageError("the map has no channel '" + asked + "'");
+  }
+  if (map.channels.size() != 1)
+    throw UsageError("this format holds one channel, and the map has " +
+                     std::to_string(map.channels.size()) + ": name the one to write");
+  return map.channels.front();
+}
+
+void require_consistent(const DepthMap& map) {
+  const std::size_t pixels = std::size_t{map.width} * map.height;
+  if (pixels == 0 || map.channels.empty())
+    throw std::invalid_argument("a map to be written needs pixels and channels");
+  for (const ImageChannel& channel : map.channels)
+    if (std::visit([](const auto& values) { return values.size(); }, channel.values) != pixels)
+      throw std::invalid_argument("channel '" + channel.name + "' does not have the map's size");
+}
+
+bool starts_with(ByteView bytes, std::string_view magic) {
+  return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
+}
+
+}  // namespace
+
+std::optional<MapFormat> map_format_of(const std::filesystem::path& path) {
+  std::string suffix = path.extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](char c) {
+    return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  if (suffix == ".exr") return MapFormat::exr;
+  if (suffix == ".pfm") return MapFormat::pfm;
+  if (suffix == ".png") return MapFormat::png;
+  if (suffix == ".npy") return MapFormat::npy;
+  return std::nullopt;
+}
+
+void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat format,
+               const WriteOptions& options) {
+  require_consistent(map);
+  const std::string name = path.string();
+  const auto one = [&]() -> const ImageChannel& { return channel_to_write(map, options.channel); };
+  switch (format) {
+    case MapFormat::exr:
+      return write_file(path, encode_exr(map, options.compression, options.threads, name));
+    case MapFormat::pfm:
+      return write_file(path, encode_pfm(map, one(), name));
+    case MapFormat::png:
+      return write_file(path, encode_png(map, one(), name));
+    case MapFormat::npy:
+      return write_file(path, encode_npy(map, one(), name));
+  }
+}
+
+DepthMap decode_map(ByteView bytes, const std::string& name) {
+  if (starts_with(bytes, "\x76\x2f\x31\x01")) return decode_exr(bytes, name);
+  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return decode_png(bytes, name);
+  if (starts_with(bytes, "\x93NUMPY")) return decode_npy(bytes, name);
+  if (starts_with(bytes, "Pf") || starts_with(bytes, "PF")) return decode_pfm(bytes, name);
+  throw InputError(name + ": not a map: expected an OpenEXR, PFM, PNG or NPY file");
+}
+
+DepthMap read_map(const std::filesystem::path& path) {
+  return decode_map(read_file(path), path.string());
+}
+
+std::string object_names_as_json(const std::vector<std::string>& names) {
+  return nlohmann::json(names).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::vector<std::string> object_names_from_json(const std::string& text) {
+  const auto list = nlohmann::json::parse(text, nullptr, false);
+  if (!list.is_array()) return {};
+  std::vector<std::string> names;
+  for (const auto& entry : list) {
+    if (!entry.is_string()) return {};
+    names.push_back(entry.get<std::string>());
+  }
+  return names;
+}
+
+}  // namespace fathom

@@ -1,0 +1,155 @@
+#include "fathom/image/point_cloud.h"
+
+#include <array>
+#include <cmath>
+
+#include "fathom/image/byte_order.h"
+#include "fathom/image/file_bytes.h"
+#include "fathom/image/surface.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom {
+namespace {
+
+using Vector = std::array<double, 3>;
+using Affine = std::array<std::array<double, 4>, 3>;
+
+Vector transform_point(const Affine& m, const Vector& p) {
+  Vector result{};
+  for (std::size_t k = 0; k < 3; ++k)
+    result[k] = m[k][0] * p[0] + m[k][1] * p[1] + m[k][2] * p[2] + m[k][3];
+  return result;
+}
+
+/// Three channels `GROUP.X`, `GROUP.Y`, `GROUP.Z`, if the map has them all.
+struct Triple {
+  std::array<const std::vector<float>*, 3> parts{};
+  Triple(const DepthMap& map, const std::string& group) {
+    for (std::size_t k = 0; k < 3; ++k)
+      parts[k] = map.values<float>(group + "." + std::string(1, "XYZ"[k]));
+  }
+  explicit operator bool() const { return parts[0] && parts[1] && parts[2]; }
+  Vector operator[](std::size_t k) const {
+    return {(*parts[0])[k], (*parts[1])[k], (*parts[2])[k]};
+  }
+};
+
+/// Where the points come from.
+class Points {
+ public:
+  Points(const DepthMap& map, const MapView& view, PointFrame frame)
+      : map_(map), view_(view), frame_(frame), position_(map, "P"), normal_(map, "N") {
+    world_from_camera_ = camera_to_world(view);
+    if (position_) {
+      source_ = map.find("P.X");
+    } else {
+      source_ = map.find("Z");
+      if (!source_) {
+        source_ = map.find("distance");
+        ray_distance_ = true;
+      }
+      if (!source_) throw UsageError("a point cloud needs a channel Z, distance or P");
+      const DepthMap depth = with_storage(map, source_->name, StoredType::binary64);
+      depth_ = *depth.values<double>(source_->name);
+    }
+    surface_ = surface_mask(map, *source_);
+  }
+
+  [[nodiscard]] bool has_normals() const { return static_cast<bool>(normal_); }
+
+  [[nodiscard]] std::optional<Vector> point(std::size_t k) const {
+    if (!surface_[k]) return std::nullopt;
+    const Vector p = position_ ? given_point(k) : computed_point(k);
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) return std::nullopt;
+    return p;
+  }
+
+  [[nodiscard]] Vector normal(std::size_t k) const {
+    const Vector n = normal_[k];
+    if (frame_ == PointFrame::world) return n;
+    // Normals go by the inverse transpose: (n in the camera)_r = Σ_c (R⁻¹)_cr n_c.
+    Vector turned{};
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 3; ++c) turned[r] += world_from_camera_[c][r] * n[c];
+    const double length = std::hypot(turned[0], turned[1], turned[2]);
+    if (length > 0)
+      for (double& x : turned) x /= length;
+    return turned;
+  }
+
+ private:
+  [[nodiscard]] Vector given_point(std::size_t k) const {
+    return frame_ == PointFrame::world ? position_[k] : transform_point(view_.world_to_camera, position_[k]);
+  }
+
+  [[nodiscard]] Vector computed_point(std::size_t k) const {
+    const auto i = static_cast<double>(k % map_.width), j = static_cast<double>(k / map_.width);
+    double z = depth_[k];
+    if (ray_distance_ && !view_.orthographic) {
+      const Vector ray = point_at(view_, i, j, 1);
+      z /= std::hypot(ray[0], ray[1], ray[2]);
+    }
+    const Vector p = point_at(view_, i, j, z);
+    return frame_ == PointFrame::world ? transform_point(world_from_camera_, p) : p;
+  }
+
+  const DepthMap& map_;
+  const MapView& view_;
+  PointFrame frame_;
+  Triple position_, normal_;
+  Affine world_from_camera_{};
+  const ImageChannel* source_ = nullptr;
+  bool ray_distance_ = false;
+  std::vector<double> depth_;
+  std::vector<std::uint8_t> surface_;
+};
+
+template <class T>
+void put(Bytes& bytes, T value) {
+  bytes.resize(bytes.size() + sizeof(T));
+  store(&bytes[bytes.size() - sizeof(T)], value, std::endian::little);
+}
+
+std::string header_of(std::size_t points, bool binary64, bool normals,
+                      const std::vector<std::string>& identifiers, PointFrame frame) {
+  std::string text = "ply\nformat binary_little_endian 1.0\n";
+  text += frame == PointFrame::world ? "comment world frame\n"
+                                     : "comment camera frame: x right, y down, z forward\n";
+  text += "element vertex " + std::to_string(points) + "\n";
+  for (const char* axis : {"x", "y", "z"})
+    text += std::string("property ") + (binary64 ? "double " : "float ") + axis + "\n";
+  if (normals)
+    for (const char* axis : {"nx", "ny", "nz"})
+      text += std::string("property float ") + axis + "\n";
+  for (const std::string& name : identifiers) text += "property uint " + name + "\n";
+  return text + "end_header\n";
+}
+
+}  // namespace
+
+void write_point_cloud(const DepthMap& map, const MapView& view, const std::filesystem::path& path,
+                       const PointCloudOptions& options) {
+  const Points points(map, view, options.frame);
+  std::vector<std::string> identifiers;
+  for (const char* name : {"id", "face", "object"})
+    if (map.values<std::uint32_t>(name)) identifiers.emplace_back(name);
+
+  Bytes body;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < std::size_t{map.width} * map.height; ++k) {
+    const std::optional<Vector> p = points.point(k);
+    if (!p) continue;
+    ++count;
+    for (const double x : *p) options.binary64 ? put(body, x) : put(body, static_cast<float>(x));
+    if (points.has_normals())
+      for (const double x : points.normal(k)) put(body, static_cast<float>(x));
+    for (const std::string& name : identifiers) put(body, (*map.values<std::uint32_t>(name))[k]);
+  }
+  Bytes file;
+  append(file,
+         header_of(count, options.binary64, points.has_normals(), identifiers, options.frame));
+  append(file, body);
+  write_file(path, file);
+}
+
+}  // namespace fathom

@@ -1,0 +1,217 @@
+#include "fathom/image/preview.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "fathom/image/compare_internal.h"
+#include "fathom/image/legend.h"
+#include "fathom/image/surface.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom {
+namespace {
+
+constexpr Rgb plus_infinity_colour{230, 25, 120}, minus_infinity_colour{120, 40, 200},
+    nan_colour{255, 120, 0};
+
+/// A neutral colour that the colour map does not have.
+Rgb background_colour(ColourMap colours) {
+  return colours == ColourMap::grey ? Rgb{74, 92, 122} : Rgb{206, 210, 216};
+}
+
+std::string description_of(const DepthMap& map, const ImageChannel& channel) {
+  static const std::map<std::string, std::string> words{{"Z", "planar depth"},
+                                                        {"Zlow", "exact depth minus Z"},
+                                                        {"distance", "ray distance"},
+                                                        {"disparity", "disparity"},
+                                                        {"A", "coverage"},
+                                                        {"id", "triangle"},
+                                                        {"face", "face"},
+                                                        {"object", "object"},
+                                                        {"N", "normal in the world"}};
+  std::string text = channel.name;
+  if (const auto found = words.find(channel.name); found != words.end())
+    text += " – " + found->second;
+  const bool codes = std::holds_alternative<std::vector<std::uint16_t>>(channel.values);
+  if (codes && !map.png_scale) text += " (codes of unknown scale)";
+  return text;
+}
+
+std::string percentage(std::uint64_t part, std::uint64_t whole) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), " (%.1f %%)",
+                100 * static_cast<double>(part) / static_cast<double>(whole));
+  return text.data();
+}
+
+/// Legend entries for the pixels that are no plain value, if there are any.
+class Specials {
+ public:
+  void count(const std::string& what, Rgb colour) {
+    auto& [seen, shade] = counts_[what];
+    ++seen;
+    shade = colour;
+  }
+  void add_to(Sheet& sheet, std::uint64_t pixels) const {
+    for (const char* what : {"no surface", "+∞", "−∞", "not a number"})
+      if (const auto found = counts_.find(what); found != counts_.end())
+        sheet.entries.push_back(
+            {found->second.second, what + percentage(found->second.first, pixels)});
+  }
+
+ private:
+  std::map<std::string, std::pair<std::uint64_t, Rgb>> counts_;
+};
+
+struct Range {
+  double low = 0, high = 0;
+  bool any = false;
+};
+
+Range range_of(const Reading& values, const std::vector<std::uint8_t>& mask) {
+  Range range;
+  for (std::size_t k = 0; k < mask.size(); ++k) {
+    const double value = values.value(k);
+    if (!mask[k] || !std::isfinite(value)) continue;
+    range.low = range.any ? std::min(range.low, value) : value;
+    range.high = range.any ? std::max(range.high, value) : value;
+    range.any = true;
+  }
+  return range;
+}
+
+/// Where `value` lies between the ends; halves, so that no difference overflows.
+double share(double value, const Range& range) {
+  if (range.low == range.high) return 0.5;
+  return (value / 2 - range.low / 2) / (range.high / 2 - range.low / 2);
+}
+
+Range bar_range(const Reading& values, const std::vector<std::uint8_t>& mask,
+                const ImageChannel& channel, const PreviewOptions& options) {
+  Range range = channel.name == "A" ? Range{0, 1, true} : range_of(values, mask);
+  if (options.low) range.low = *options.low;
+  if (options.high) range.high = *options.high;
+  if (options.low || options.high) {
+    range.any = true;
+    if (!(range.low < range.high) || !std::isfinite(range.low) || !std::isfinite(range.high))
+      throw UsageError("the colour bar's low end is not below its high end");
+  }
+  return range;
+}
+
+void draw_numbers(Sheet& sheet, const DepthMap& map, const ImageChannel& channel,
+                  const PreviewOptions& options) {
+  const Reading values(channel, map.png_scale);
+  const std::vector<std::uint8_t> mask = surface_mask(map, channel);
+  const Range range = bar_range(values, mask, channel, options);
+  Specials specials;
+  for (std::size_t k = 0; k < mask.size(); ++k) {
+    Rgb& pixel = sheet.picture.pixels[k];
+    const double value = values.value(k);
+    const auto special = [&](const char* what, Rgb colour) {
+      specials.count(what, colour);
+      pixel = colour;
+    };
+    if (!mask[k])
+      special("no surface", background_colour(options.colours));
+    else if (std::isnan(value))
+      special("not a number", nan_colour);
+    else if (std::isinf(value))
+      value > 0 ? special("+∞", plus_infinity_colour) : special("−∞", minus_infinity_colour);
+    else
+      pixel = colour_at(options.colours, share(value, range));
+  }
+  if (range.any && range.low < range.high) {
+    sheet.bar = ColourBar{[&options](double t) { return colour_at(options.colours, t); },
+                          linear_marks(range.low, range.high)};
+  } else if (range.any) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.9g everywhere", range.low);
+    sheet.entries.push_back({colour_at(options.colours, 0.5), text.data()});
+  }
+  specials.add_to(sheet, mask.size());
+}
+
+void draw_identifiers(Sheet& sheet, const DepthMap& map, const ImageChannel& channel,
+                      const PreviewOptions& options) {
+  const auto& ids = std::get<std::vector<std::uint32_t>>(channel.values);
+  Specials specials;
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const bool none = ids[k] == no_surface;
+    const Rgb background = background_colour(options.colours);
+    if (none) specials.count("no surface", background);
+    sheet.picture.pixels[k] = none ? background : colour_of_identifier(ids[k]);
+  }
+  std::vector<std::uint32_t> distinct = ids;
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  if (!distinct.empty() && distinct.back() == no_surface) distinct.pop_back();
+  constexpr std::size_t most_listed = 12;
+  for (std::size_t k = 0; k < std::min(distinct.size(), most_listed); ++k) {
+    const std::uint32_t id = distinct[k];
+    std::string text = std::to_string(id);
+    if (channel.name == "object" && id < map.object_names.size())
+      text += "  " + map.object_names[id];
+    sheet.entries.push_back({colour_of_identifier(id), text});
+  }
+  if (distinct.size() > most_listed)
+    sheet.entries.push_back(
+        {{255, 255, 255}, "and " + std::to_string(distinct.size() - most_listed) + " more"});
+  specials.add_to(sheet, ids.size());
+}
+
+void draw_normals(Sheet& sheet, const DepthMap& map, const PreviewOptions& options) {
+  std::array<const std::vector<float>*, 3> parts{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    parts[c] = map.values<float>("N." + std::string(1, "XYZ"[c]));
+    if (!parts[c]) throw UsageError("the map has no normals N.X, N.Y, N.Z");
+  }
+  const std::vector<std::uint8_t> mask = surface_mask(map, *map.find("N.X"));
+  Specials specials;
+  for (std::size_t k = 0; k < mask.size(); ++k) {
+    const Rgb background = background_colour(options.colours);
+    if (!mask[k]) specials.count("no surface", background);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double n = std::clamp(double{(*parts[c])[k]}, -1.0, 1.0);
+      const double shade = std::isnan(n) ? 0 : 127.5 * (n + 1);
+      sheet.picture.pixels[k][c] =
+          mask[k] ? static_cast<std::uint8_t>(std::lround(shade)) : background[c];
+    }
+  }
+  sheet.entries = {{{255, 128, 128}, "+x"}, {{0, 128, 128}, "−x"},   {{128, 255, 128}, "+y"},
+                   {{128, 0, 128}, "−y"},   {{128, 128, 255}, "+z"}, {{128, 128, 0}, "−z"}};
+  specials.add_to(sheet, mask.size());
+}
+
+}  // namespace
+
+RgbImage draw_preview(const DepthMap& map, const PreviewOptions& options) {
+  Sheet sheet;
+  sheet.picture = RgbImage(map.width, map.height);
+  if (options.channel == "N") {
+    sheet.title = description_of(map, {"N", std::vector<float>{}});
+    draw_normals(sheet, map, options);
+  } else {
+    const ImageChannel* channel = options.channel.empty() && !map.find("Z") && !map.channels.empty()
+                                      ? &map.channels.front()
+                                      : map.find(options.channel.empty() ? "Z" : options.channel);
+    if (!channel) throw UsageError("the map has no channel '" + options.channel + "'");
+    sheet.title = description_of(map, *channel);
+    if (!options.unit.empty()) sheet.title += " [" + options.unit + "]";
+    if (kind_of(*channel) == ChannelKind::identifier)
+      draw_identifiers(sheet, map, *channel, options);
+    else
+      draw_numbers(sheet, map, *channel, options);
+  }
+  sheet.subtitle = std::to_string(map.width) + " × " + std::to_string(map.height) + " pixels";
+  FittedPicture fitted = fit_to_screen(std::move(sheet.picture));
+  if (!fitted.remark.empty()) sheet.subtitle += ", " + fitted.remark;
+  sheet.picture = std::move(fitted.image);
+  return lay_out(sheet);
+}
+
+}  // namespace fathom

@@ -1,0 +1,154 @@
+#include "fathom/image/surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+namespace fathom {
+namespace {
+
+/// `N.X` and `ViewLayer.N.X` → {"N", "X"}; `Z` → {"", "Z"}.
+struct NameTail {
+  std::string_view group, last;
+};
+
+NameTail tail_of(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos) return {"", name};
+  const std::string_view head = name.substr(0, dot);
+  const std::size_t before = head.rfind('.');
+  return {before == std::string_view::npos ? head : head.substr(before + 1), name.substr(dot + 1)};
+}
+
+template <class T>
+std::vector<std::uint8_t> mask_of_numbers(const std::vector<T>& values,
+                                          const BackgroundRule& rule) {
+  // A rule of 0 covers the values below as well: no depth is negative.
+  std::vector<std::uint8_t> mask(values.size());
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const auto value = static_cast<double>(values[k]);
+    const bool background =
+        !std::isfinite(value) ||
+        (rule.value && (value == *rule.value || (*rule.value == 0 && value < 0)));
+    mask[k] = !background;
+  }
+  return mask;
+}
+
+std::vector<std::uint8_t> mask_of_identifiers(const std::vector<std::uint32_t>& ids) {
+  std::vector<std::uint8_t> mask(ids.size());
+  std::transform(ids.begin(), ids.end(), mask.begin(),
+                 [](std::uint32_t id) { return id != no_surface; });
+  return mask;
+}
+
+std::vector<std::uint8_t> depth_mask(const ImageChannel& channel, const BackgroundRule& rule) {
+  return std::visit(
+      [&](const auto& values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        if constexpr (std::is_same_v<Value, std::uint32_t>)
+          return mask_of_identifiers(values);
+        else
+          return mask_of_numbers(values, rule);
+      },
+      channel.values);
+}
+
+/// Where any channel of the group is not `background` (NaN: is a number).
+std::vector<std::uint8_t> group_mask(const DepthMap& map, const ImageChannel& channel, bool nan) {
+  const std::string group = channel.name.substr(0, channel.name.rfind('.') + 1);
+  std::vector<std::uint8_t> mask(std::size_t{map.width} * map.height);
+  for (const ImageChannel& other : map.channels) {
+    const auto* values = std::get_if<std::vector<float>>(&other.values);
+    if (!values || !other.name.starts_with(group) || kind_of(other) != kind_of(channel)) continue;
+    for (std::size_t k = 0; k < values->size(); ++k)
+      mask[k] |= nan ? !std::isnan((*values)[k]) : (*values)[k] != 0;
+  }
+  return mask;
+}
+
+}  // namespace
+
+ChannelKind kind_of(const ImageChannel& channel) {
+  if (std::holds_alternative<std::vector<std::uint32_t>>(channel.values)) {
+    return channel.name == "Zwindow" ? ChannelKind::quantity : ChannelKind::identifier;
+  }
+  const auto [group, last] = tail_of(channel.name);
+  if (std::holds_alternative<std::vector<std::uint16_t>>(channel.values)) return ChannelKind::depth;
+  if (group == "N" || group == "Normal") return ChannelKind::direction;
+  if (group == "P" || group == "Position" || group == "bary") return ChannelKind::position;
+  static constexpr std::array<std::string_view, 8> depths{
+      "Z", "ZBack", "distance", "disparity", "Zdecoded", "depth", "Depth", "V"};
+  const bool depth = std::find(depths.begin(), depths.end(), last) != depths.end();
+  if (last == "V" && group != "Depth" && group != "depth") return ChannelKind::quantity;
+  return depth ? ChannelKind::depth : ChannelKind::quantity;
+}
+
+const std::vector<std::uint32_t>* identifiers_of(const DepthMap& map) {
+  for (const char* name : {"id", "object", "face"})
+    if (const auto* ids = map.values<std::uint32_t>(name)) return ids;
+  return nullptr;
+}
+
+BackgroundRule detect_background(const ImageChannel& channel) {
+  if (std::holds_alternative<std::vector<std::uint16_t>>(channel.values)) return {0.0, ""};
+  std::uint64_t count = 0;
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  std::uint64_t at_greatest = 0, not_positive = 0;
+  std::visit(
+      [&](const auto& values) {
+        for (const auto stored : values) {
+          const auto value = static_cast<double>(stored);
+          if (!std::isfinite(value)) {
+            ++count;
+            continue;
+          }
+          if (value > greatest) at_greatest = 0;
+          greatest = std::max(greatest, value);
+          least = std::min(least, value);
+          at_greatest += value == greatest;
+          not_positive += value <= 0;
+        }
+      },
+      channel.values);
+  if (count > 0) return {};
+  const auto note = [](const char* value, std::uint64_t pixels) {
+    return "no infinity or NaN; " + std::string(value) + " at " + std::to_string(pixels) +
+           " pixels is taken for background";
+  };
+  if (greatest == 1e10) return {1e10, note("1e10", at_greatest)};
+  if (greatest == 65504) return {65504.0, note("65504", at_greatest)};
+  if (greatest == static_cast<double>(std::numeric_limits<float>::max()))
+    return {greatest, note("the greatest binary32", at_greatest)};
+  if (not_positive > 0) return {0.0, note(least < 0 ? "0 or below" : "0", not_positive)};
+  return {};
+}
+
+std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& channel,
+                                       const std::optional<BackgroundRule>& rule,
+                                       bool by_identifiers) {
+  const std::vector<std::uint8_t> everywhere(std::size_t{map.width} * map.height, 1);
+  // `A` says itself how much of a pixel is covered: no pixel of it is background.
+  if (channel.name == "A") return everywhere;
+  const std::vector<std::uint32_t>* ids = by_identifiers ? identifiers_of(map) : nullptr;
+  if (ids) return mask_of_identifiers(*ids);
+  switch (kind_of(channel)) {
+    case ChannelKind::identifier:
+    case ChannelKind::depth:
+      return depth_mask(channel, rule ? *rule : detect_background(channel));
+    case ChannelKind::direction:
+      return group_mask(map, channel, false);
+    case ChannelKind::position:
+      return group_mask(map, channel, true);
+    case ChannelKind::quantity:
+      break;
+  }
+  const ImageChannel* depth = map.find("Z");
+  if (depth && kind_of(*depth) == ChannelKind::depth)
+    return depth_mask(*depth, rule ? *rule : detect_background(*depth));
+  return everywhere;
+}
+
+}  // namespace fathom
