@@ -64,6 +64,13 @@ ChannelSummary summarise(const DepthMap& map, const ImageChannel& channel) {
   return summary;
 }
 
+/// The shortest text that denotes the value in the channel's type; "-" where there is none.
+std::string figure(const ChannelSummary& summary, double value) {
+  if (summary.finite == 0) return "-";
+  return summary.type == "float32" ? fmt::format("{}", static_cast<float>(value))
+                                   : fmt::format("{}", value);
+}
+
 }  // namespace
 
 Json describe(const DepthMap& map) {
@@ -101,8 +108,7 @@ std::string describe_as_text(const DepthMap& map, const std::string& file) {
   for (const ImageChannel& channel : map.channels) {
     const ChannelSummary s = summarise(map, channel);
     text += fmt::format("  {:<10} {:<8} {:>14} ", channel.name, s.type, s.surface);
-    text += s.finite > 0 ? fmt::format("{:>24} {:>24}", s.least, s.greatest)
-                         : fmt::format("{:>24} {:>24}", "-", "-");
+    text += fmt::format("{:>24} {:>24}", figure(s, s.least), figure(s, s.greatest));
     if (s.infinite > 0) text += fmt::format("  {} infinite", s.infinite);
     if (s.nan > 0) text += fmt::format("  {} NaN", s.nan);
     text += "\n";

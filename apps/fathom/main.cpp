@@ -38,6 +38,12 @@ const CLI::App& chosen_command(const CLI::App& app) {
   return *command;
 }
 
+/// "fathom camera " for `fathom camera orbit`.
+std::string names_above(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return parent == nullptr ? "" : names_above(*parent) + parent->get_name() + " ";
+}
+
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error,
                           const std::vector<char*>& arguments) {
   const CLI::App& command = chosen_command(app);
@@ -47,11 +53,8 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error,
       if (!message.empty()) return message;
     }
   }
-  std::string full_name = command.get_name();
-  for (const CLI::App* up = command.get_parent(); up != nullptr; up = up->get_parent()) {
-    full_name = up->get_name() + " " + full_name;
-  }
-  return std::string(error.what()) + "; see '" + full_name + " --help'";
+  return std::string(error.what()) + "; see '" + names_above(command) + command.get_name() +
+         " --help'";
 }
 
 /// Help and version are printed here; everything else is run by the command.
@@ -61,7 +64,10 @@ int parse_and_run(Program& program, int argc, char** argv) {
   try {
     program.app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    print(chosen_command(program.app).help());
+    const CLI::App& command = chosen_command(program.app);
+    std::string above = names_above(command);
+    if (!above.empty()) above.pop_back();
+    print(command.help(above));
     return done;
   } catch (const CLI::CallForVersion& version) {
     print(std::string(version.what()) + "\n");
@@ -88,6 +94,7 @@ int main_guarded(int argc, char** argv) {
     add_compare(program);
     add_convert(program);
     add_camera(program);
+    program.name_values();
     return parse_and_run(program, argc, argv);
   } catch (const UsageError& error) {
     return report(wrong_usage, error.what());

@@ -1,5 +1,7 @@
 #include "program.h"
 
+#include <map>
+
 namespace fathom::app {
 namespace {
 
@@ -10,6 +12,46 @@ void add_common(CLI::App& command, Console& console, const std::string& examples
   command.set_version_flag("--version", version_line, "Show the version");
   command.add_flag("--quiet", console.quiet, "No warnings and no progress");
   command.footer("Examples:\n" + examples);
+}
+
+/// What options take, as the help shows it.
+const std::map<std::string, std::string> value_names{{"--baseline", "B"},
+                                                     {"--camera", "FILE"},
+                                                     {"--centre", "X,Y,Z"},
+                                                     {"--distance", "D"},
+                                                     {"--doffs", "D"},
+                                                     {"--eye", "X,Y,Z"},
+                                                     {"--far", "D"},
+                                                     {"--focal", "PIXELS"},
+                                                     {"--fov", "DEG"},
+                                                     {"--heatmap", "PNG"},
+                                                     {"--near", "D"},
+                                                     {"--orthographic", "HEIGHT"},
+                                                     {"--other-background", "D"},
+                                                     {"--output", "FILE"},
+                                                     {"--pixel", "X,Y"},
+                                                     {"--png-scale", "N"},
+                                                     {"--range", "LOW,HIGH"},
+                                                     {"--save-camera", "FILE"},
+                                                     {"--size", "WxH"},
+                                                     {"--stats", "FILE"},
+                                                     {"--target", "X,Y,Z"},
+                                                     {"--threads", "N"},
+                                                     {"--tolerance-ulp", "N"},
+                                                     {"--truth-background", "D"},
+                                                     {"--view", "AZ,EL"},
+                                                     {"--views", "N"}};
+
+void name_values_of(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    if (option->get_type_size() == 0) continue;
+    const auto name = value_names.find(option->get_name());
+    option->type_name(name != value_names.end()            ? name->second
+                      : option->get_lnames().empty()       ? ""
+                      : option->get_name() == "--channels" ? "LIST"
+                                                           : "NAME");
+  }
+  for (CLI::App* child : command.get_subcommands({})) name_values_of(*child);
 }
 
 }  // namespace
@@ -29,6 +71,10 @@ CLI::App* Program::add_command(const std::string& name, const std::string& descr
   CLI::App* command = (parent != nullptr ? parent : &app)->add_subcommand(name, description);
   add_common(*command, console, examples);
   return command;
+}
+
+void Program::name_values() {
+  name_values_of(app);
 }
 
 }  // namespace fathom::app

@@ -31,6 +31,9 @@ struct Program {
   /// `examples` is shown at the end of its help.
   CLI::App* add_command(const std::string& name, const std::string& description,
                         const std::string& examples, CLI::App* parent = nullptr);
+
+  /// Says in the help what kind of value each option takes; called when all commands are there.
+  void name_values();
 };
 
 void add_render(Program& program);
