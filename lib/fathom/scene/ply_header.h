@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fathom {
+
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+/// Size of a value in bytes.
+std::size_t size_of(PlyType type);
+inline bool is_integer(PlyType type) {
+  return type < PlyType::float32;
+}
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::float32;
+  /// Of a list: the type of its count.
+  std::optional<PlyType> count_type;
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+
+  /// The place of the first property that has one of these names.
+  [[nodiscard]] std::optional<std::size_t> find(
+      std::initializer_list<std::string_view> names) const;
+  /// Least number of bytes of a binary row: of lists the count only.
+  [[nodiscard]] std::size_t least_row_size() const;
+  [[nodiscard]] bool has_lists() const;
+};
+
+struct PlyHeader {
+  enum class Encoding { ascii, little_endian, big_endian } encoding = Encoding::ascii;
+  std::vector<PlyElement> elements;
+  /// Bytes and lines that the header takes.
+  std::size_t size = 0;
+  std::uint64_t lines = 0;
+
+  [[nodiscard]] const PlyElement* find(std::string_view name) const;
+};
+
+/// Reads the header of a PLY file; lines end with LF, CR LF or CR, as the first one does.
+/// Fails    InputError "FILE: line N: …".
+PlyHeader read_ply_header(std::string_view text, const std::string& file);
+
+}  // namespace fathom

@@ -1,0 +1,169 @@
+#include "fathom/scene/read_scene.h"
+
+#include <future>
+#include <map>
+#include <utility>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/input_file.h"
+#include "fathom/scene/mesh_faces.h"
+#include "fathom/scene/read_gltf.h"
+#include "fathom/scene/read_mesh.h"
+#include "fathom/scene/recognise_format.h"
+#include "fathom/scene/scene_json.h"
+#include "fathom/scene/sha256.h"
+
+namespace fathom {
+namespace {
+
+FileKind kind_of(MeshFormat format) {
+  switch (format) {
+    case MeshFormat::obj:
+      return FileKind::obj;
+    case MeshFormat::ply:
+      return FileKind::ply;
+    case MeshFormat::stl:
+      return FileKind::stl;
+    case MeshFormat::off:
+      return FileKind::off;
+    default:
+      return FileKind::gltf;
+  }
+}
+
+Mesh read_mesh(FileKind kind, const InputFile& input, const std::string& file,
+               const ReadOptions& options, Warnings& warnings) {
+  switch (kind) {
+    case FileKind::obj:
+      return read_obj(input.text(), file, options, warnings);
+    case FileKind::ply:
+      return read_ply(input.bytes(), file, options, warnings);
+    case FileKind::stl:
+      return read_stl(input.bytes(), file, options, warnings);
+    default:
+      return read_off(input.text(), file, options, warnings);
+  }
+}
+
+/// outer ∘ inner, exactly.
+WorldFromMesh composed(const WorldFromMesh& outer, const WorldFromMesh& inner) {
+  WorldFromMesh result;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 4; ++k) {
+      Dyadic sum = k == 3 ? outer.rows[i][3] : Dyadic();
+      for (int j = 0; j < 3; ++j) sum += outer.rows[i][j] * inner.rows[j][k];
+      result.rows[i][k] = std::move(sum);
+    }
+  }
+  return result;
+}
+
+/// Reads files one after the other into one scene.
+class SceneReader {
+ public:
+  SceneReader(const ReadOptions& options, Warnings& warnings)
+      : options_(options), warnings_(warnings) {}
+
+  void add_file(const std::filesystem::path& path) {
+    const std::string file = path.string();
+    const InputFile input(path);
+    const FileKind kind = options_.format ? kind_of(*options_.format) : recognise(input, path);
+    if (kind != FileKind::scene_json) {
+      add_mesh_file(kind, input, path);
+      return;
+    }
+    add_source(file, options_.hash ? sha256(input.bytes()) : "");
+    const std::vector<PlacedFile> meshes = read_scene_json(input.text(), path);
+    // A mesh file that is placed more than once is read once: its objects, as they were read.
+    ObjectsOfFile known;
+    for (const PlacedFile& placed : meshes) add_placed(placed, known);
+  }
+
+  Scene finish() { return std::move(scene_); }
+
+ private:
+  using ObjectsOfFile = std::map<std::string, std::vector<Object>>;
+
+  FileKind recognise(const InputFile& input, const std::filesystem::path& path) const {
+    if (input.bytes().empty())
+      throw InputError(path.string() + ": is empty, expected a mesh or a scene file");
+    if (const auto kind = recognise_format(input.bytes(), path)) return *kind;
+    throw InputError(path.string() +
+                     ": its format is not recognised, expected OBJ, PLY, STL, OFF, glTF or a scene "
+                     "file (JSON)");
+  }
+
+  void add_source(const std::string& path, std::string hash) {
+    for (const Source& source : scene_.sources)
+      if (source.path == path && source.sha256 == hash) return;
+    scene_.sources.push_back({path, std::move(hash)});
+  }
+
+  /// The hash is computed beside the reading, in a thread of its own.
+  void add_mesh_file(FileKind kind, const InputFile& input, const std::filesystem::path& path) {
+    std::future<std::string> hash;
+    if (options_.hash) hash = std::async(std::launch::async, [&] { return sha256(input.bytes()); });
+    const std::string file = path.string();
+    const std::size_t source = scene_.sources.size();
+    scene_.sources.push_back({file, ""});
+    if (kind == FileKind::gltf) {
+      append_gltf(scene_, input.bytes(), path, options_, warnings_);
+    } else {
+      if (input.bytes().empty()) throw InputError(file + ": is empty, expected a mesh");
+      Mesh mesh = read_mesh(kind, input, file, options_, warnings_);
+      if (mesh.triangles.empty()) warnings_.push_back(file + ": has no faces");
+      Object object;
+      object.mesh = scene_.meshes.size();
+      object.name = file == "-" ? file : path.stem().string();
+      scene_.meshes.push_back(std::move(mesh));
+      scene_.objects.push_back(std::move(object));
+    }
+    if (hash.valid()) scene_.sources[source].sha256 = hash.get();
+    expect_countable(triangle_count(scene_), "triangles in all", file);
+  }
+
+  void add_placed(const PlacedFile& placed, ObjectsOfFile& known) {
+    const std::string file = placed.file.string();
+    const std::size_t first = scene_.objects.size();
+    if (const auto found = known.find(file); found != known.end()) {
+      scene_.objects.insert(scene_.objects.end(), found->second.begin(), found->second.end());
+      expect_countable(triangle_count(scene_), "triangles in all", file);
+    } else {
+      const InputFile input(placed.file);
+      const FileKind kind = recognise(input, placed.file);
+      if (kind == FileKind::scene_json)
+        throw InputError(file + ": is no mesh, expected OBJ, PLY, STL, OFF or glTF");
+      add_mesh_file(kind, input, placed.file);
+      known[file].assign(scene_.objects.begin() + static_cast<std::ptrdiff_t>(first),
+                         scene_.objects.end());
+    }
+    place(placed, first);
+  }
+
+  /// Names and places the objects from `first` on, which come from one mesh file.
+  void place(const PlacedFile& placed, std::size_t first) {
+    const bool single = scene_.objects.size() == first + 1;
+    for (std::size_t i = first; i < scene_.objects.size(); ++i) {
+      Object& object = scene_.objects[i];
+      if (placed.name) object.name = single ? *placed.name : *placed.name + "/" + object.name;
+      if (!placed.transform) continue;
+      object.world_from_mesh = composed(*placed.transform, object.world_from_mesh);
+      object.placed_as_is = false;
+    }
+  }
+
+  const ReadOptions& options_;
+  Warnings& warnings_;
+  Scene scene_;
+};
+
+}  // namespace
+
+Scene read_scene(const std::vector<std::filesystem::path>& files, const ReadOptions& options,
+                 Warnings& warnings) {
+  SceneReader reader(options, warnings);
+  for (const std::filesystem::path& file : files) reader.add_file(file);
+  return reader.finish();
+}
+
+}  // namespace fathom

@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/mesh_faces.h"
+#include "fathom/scene/read_mesh.h"
+#include "fathom/scene/text_cursor.h"
+
+static_assert(std::endian::native == std::endian::little, "binary STL is read as it lies");
+
+namespace fathom {
+namespace {
+
+constexpr std::size_t header_size = 84, triangle_size = 50;
+
+std::uint32_t claimed_triangles(std::span<const std::byte> bytes) {
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, sizeof count);
+  return count;
+}
+
+Mesh read_binary(std::span<const std::byte> bytes, const std::string& file, bool attributes,
+                 Warnings& warnings) {
+  if (bytes.size() < header_size)
+    throw InputError(file + ": byte " + std::to_string(bytes.size()) +
+                     ": the file ends, expected a binary STL header of 84 bytes");
+  const std::uint64_t count = claimed_triangles(bytes);
+  const std::uint64_t expected = header_size + triangle_size * count;
+  if (bytes.size() < expected)
+    throw InputError(file + ": byte " + std::to_string(bytes.size()) +
+                     ": the file ends, expected " + std::to_string(expected) + " bytes for " +
+                     std::to_string(count) + " triangles");
+  if (bytes.size() > expected)
+    warnings.push_back(file + ": " + std::to_string(bytes.size() - expected) +
+                       " bytes after the last triangle are ignored");
+  expect_countable(3 * count, "vertices", file);
+  Mesh mesh;
+  mesh.face_count = count;
+  mesh.vertices.resize(3 * count);
+  mesh.triangles.resize(count);
+  if (attributes) mesh.normals.resize(count), mesh.normal_triangles.resize(count);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    std::array<float, 12> values;
+    const std::size_t at = header_size + triangle_size * t;
+    std::memcpy(values.data(), bytes.data() + at, sizeof values);
+    for (int i = 3; i < 12; ++i)
+      if (!std::isfinite(values[i]))
+        throw InputError(file + ": byte " + std::to_string(at + 4 * i) +
+                         ": a coordinate of triangle " + std::to_string(t) +
+                         " is not finite, expected a finite number");
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const float* p = &values[3 + 3 * k];
+      mesh.vertices[3 * t + k] = {p[0], p[1], p[2]};
+      mesh.triangles[t][k] = 3 * t + k;
+    }
+    if (!attributes) continue;
+    mesh.normals[t] = {values[0], values[1], values[2]};
+    mesh.normal_triangles[t] = {t, t, t};
+  }
+  return mesh;
+}
+
+class AsciiStlReader {
+ public:
+  AsciiStlReader(std::string_view text, const std::string& file, const ReadOptions& options)
+      : cursor_(text, file, {}), file_(file), keep_attributes_(options.attributes) {}
+
+  /// solid NAME, facets, endsolid NAME; again and again.
+  Mesh read() {
+    reserve();
+    while (cursor_.next_line_with_words()) {
+      expect_word("solid");
+      cursor_.skip_line();
+      read_facets();
+    }
+    mesh_.face_count = mesh_.triangles.size();
+    return std::move(mesh_);
+  }
+
+ private:
+  /// Room for as many corners as there are lines that begin with "vertex".
+  void reserve() {
+    TextCursor ahead = cursor_;
+    std::uint64_t corners = 0;
+    for (; ahead.next_line_with_words(); ahead.skip_line())
+      if (*ahead.position() == 'v' || *ahead.position() == 'V') ++corners;
+    expect_countable(corners, "vertices", file_);
+    mesh_.vertices.reserve(corners);
+    mesh_.triangles.reserve(corners / 3);
+    if (!keep_attributes_) return;
+    mesh_.normals.reserve(corners / 3);
+    mesh_.normal_triangles.reserve(corners / 3);
+  }
+
+  /// The next word in small letters, on this line or a later one.
+  std::string_view next_word() {
+    if (!cursor_.next_line_with_words()) cursor_.fail("the file ends, expected endsolid");
+    const std::string_view word = cursor_.word();
+    const std::size_t size = std::min(word.size(), word_.size());
+    std::transform(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(size), word_.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return {word_.data(), size};
+  }
+
+  void expect_word(std::string_view expected) {
+    if (next_word() != expected) cursor_.fail("expected '" + std::string(expected) + "'");
+  }
+
+  double next_number(const char* what) {
+    if (!cursor_.next_line_with_words())
+      cursor_.fail(std::string("the file ends, expected ") + what);
+    return cursor_.number<double>(what);
+  }
+
+  void read_facets() {
+    while (true) {
+      const std::string_view word = next_word();
+      if (word == "endsolid") {
+        cursor_.skip_line();
+        return;
+      }
+      if (word != "facet") cursor_.fail("expected 'facet' or 'endsolid'");
+      read_facet();
+    }
+  }
+
+  void read_facet() {
+    expect_word("normal");
+    std::array<double, 3> normal{};
+    for (double& c : normal) c = read_normal_component();
+    expect_word("outer");
+    expect_word("loop");
+    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+    for (int k = 0; k < 3; ++k) {
+      expect_word("vertex");
+      const double x = next_number("coordinate x");
+      const double y = next_number("coordinate y");
+      const double z = next_number("coordinate z");
+      mesh_.vertices.push_back({x, y, z});
+    }
+    expect_countable(mesh_.vertices.size(), "vertices", file_);
+    expect_word("endloop");
+    expect_word("endfacet");
+    mesh_.triangles.push_back({first, first + 1, first + 2});
+    if (!keep_attributes_) return;
+    const auto n = static_cast<std::uint32_t>(mesh_.normals.size());
+    mesh_.normals.push_back(normal);
+    mesh_.normal_triangles.push_back({n, n, n});
+  }
+
+  double read_normal_component() {
+    if (!cursor_.next_line_with_words()) cursor_.fail("the file ends, expected a normal");
+    return cursor_.attribute<double>("a component of the normal");
+  }
+
+  TextCursor cursor_;
+  const std::string& file_;
+  bool keep_attributes_;
+  Mesh mesh_;
+  std::array<char, 16> word_{};
+};
+
+}  // namespace
+
+bool is_binary_stl(std::span<const std::byte> bytes) {
+  if (bytes.size() >= header_size &&
+      bytes.size() == header_size + triangle_size * std::uint64_t{claimed_triangles(bytes)})
+    return true;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                              std::min<std::size_t>(bytes.size(), 512));
+  const std::string no_name;
+  TextCursor cursor(text, no_name, {});
+  if (!cursor.next_line_with_words()) return true;
+  std::string word(cursor.word().substr(0, 6));
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return word != "solid" || text.find('\0') != text.npos;
+}
+
+Mesh read_stl(std::span<const std::byte> bytes, const std::string& file, const ReadOptions& options,
+              Warnings& warnings) {
+  if (is_binary_stl(bytes)) return read_binary(bytes, file, options.attributes, warnings);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return AsciiStlReader(text, file, options).read();
+}
+
+}  // namespace fathom

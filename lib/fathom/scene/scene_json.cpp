@@ -1,0 +1,48 @@
+#include "fathom/scene/scene_json.h"
+
+#include "fathom/scene/json_value.h"
+
+namespace fathom {
+namespace {
+
+WorldFromMesh read_transform(const JsonValue& value) {
+  WorldFromMesh result;
+  const bool square = value.is_list() && value.size() == 4;
+  const std::vector<JsonValue> rows = value.elements(square ? 4 : 3);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::vector<double> row = rows[i].numbers(4);
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (i < 3) {
+        result.rows[i][k] = row[k];
+      } else if (row[k] != (k == 3 ? 1 : 0)) {
+        rows[i].fail("expected 0 0 0 1, the last row of an affine transform");
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesystem::path& path) {
+  const JsonDocument document(text, path.string());
+  const JsonValue root = document.root();
+  if (!root.is_object()) root.fail("is no object, expected a scene file: {\"meshes\": […]}");
+  root.expect_only({"meshes"});
+  std::vector<PlacedFile> result;
+  for (const JsonValue& mesh : root.at("meshes").elements()) {
+    mesh.expect_only({"file", "transform", "name"});
+    PlacedFile placed;
+    const std::string& file = mesh.at("file").string();
+    if (file.empty() || file == "-") mesh.at("file").fail("expected the path of a mesh file");
+    if (file.find('\0') != file.npos) mesh.at("file").fail("holds a NUL, expected a path");
+    placed.file = path.parent_path() / file;
+    if (const auto name = mesh.find("name")) placed.name = name->string();
+    if (const auto transform = mesh.find("transform"))
+      placed.transform = read_transform(*transform);
+    result.push_back(std::move(placed));
+  }
+  return result;
+}
+
+}  // namespace fathom

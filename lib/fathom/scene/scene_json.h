@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fathom/scene/scene.h"
+
+namespace fathom {
+
+/// One mesh of a scene file.
+struct PlacedFile {
+  /// As the scene file says, from its folder where relative.
+  std::filesystem::path file;
+  std::optional<std::string> name;
+  std::optional<WorldFromMesh> transform;
+};
+
+/// Reads a scene file (interface.md, "Scene file"): {"meshes": [{"file", "transform", "name"}]}.
+/// A transform is 3×4, or 4×4 with the last row 0 0 0 1.
+/// Fails    InputError, naming the key; unknown keys are errors.
+std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesystem::path& path);
+
+}  // namespace fathom
