@@ -6,7 +6,9 @@ include(GNUInstallDirs)
 
 function(fathom_target_options target)
   target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow
-                                           -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual)
+                                           -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual
+                                           # designated initializers leave out what has a default
+                                           -Wno-missing-field-initializers)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False alarms on string concatenation: https://gcc.gnu.org/PR105651.
     target_compile_options(${target} PRIVATE -Wno-restrict)
