@@ -11,6 +11,7 @@ namespace fathom {
 struct WorldBounds {
   std::array<double, 3> lower{};
   std::array<double, 3> upper{};
+  friend bool operator==(const WorldBounds&, const WorldBounds&) = default;
 };
 
 /// The least box of binary64 numbers that contains every corner of every triangle in the world;

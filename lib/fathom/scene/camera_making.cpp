@@ -165,6 +165,7 @@ Placement estimate_placement(const Box& box, const Matrix3& R, const Lens& lens)
     half_height = std::max({half_height, y, x * lens.height / lens.width});
     radius = std::max(radius, std::hypot(x, y, z));
   }
+  if (half_height == 0) half_height = radius;  // a line seen end on
   // Half a radius in front of a box that is thin across the view or seen through a wide lens.
   if (lens.projection == Projection::orthographic) distance = 0;
   distance = std::max(distance, 1.5 * radius) * (1 + 0x1p-40);
