@@ -25,7 +25,8 @@ Scene quad(MeshPoint a, MeshPoint b, MeshPoint c, MeshPoint d) {
 
 TEST(ClosedForm, APlaneAcrossTheViewHasOneDepth) {
   const Scene scene = quad({-100, -100, 5}, {100, -100, 5}, {100, 100, 5}, {-100, 100, 5});
-  for (const float z : depths(render(scene, camera_of(16, 12, 10)))) EXPECT_EQ(z, 5.0F);
+  const DepthMap map = render(scene, camera_of(16, 12, 10));
+  for (const float z : depths(map)) EXPECT_EQ(z, 5.0F);
 }
 
 // The plane a·x + b·y + c·z = d meets the ray (x, y, 1)·z at z = d / (a·x + b·y + c).

@@ -66,7 +66,6 @@ TEST(Watertight, ABumpySheetWithASampleOnEveryVertexAndEdge) {
   }
   EXPECT_EQ(statistics.pixels_with_surface, expected);
   EXPECT_EQ(statistics.samples_covered, expected);  // not one is hit twice
-  EXPECT_GT(statistics.edges.exact, 1000000U);      // ties were decided exactly
 }
 
 // A closed fan around a hub that is exactly on a sample, with rays of all directions, random and
@@ -77,8 +76,13 @@ TEST(Watertight, AClosedFanCoversEachSampleOnce) {
                                  {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<MeshPoint> vertices = {{0, 0, 4}};  // the hub, seen at the centre of pixel (8, 8)
+    int skipped = 0;  // at most two directions in a row, so that no triangle spans 180 degrees
     for (const auto& d : direction) {
-      if (vertices.size() > 3 && random() % 4 == 0) continue;
+      if (vertices.size() > 1 && skipped < 2 && random() % 3 == 0) {
+        ++skipped;
+        continue;
+      }
+      skipped = 0;
       const double z = 2 + static_cast<double>(random() % 16) / 4;
       const double length = (2 + static_cast<double>(random() % 5)) * z / 8;
       vertices.push_back({d[0] * length, d[1] * length, z});

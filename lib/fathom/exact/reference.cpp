@@ -1,5 +1,6 @@
 #include "fathom/exact/reference.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -280,6 +281,12 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
 }  // namespace
 
 DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  // More threads than the machine has are allowed: TBB's own limit is lifted for this call.
+  std::optional<tbb::global_control> limit;
+  if (options.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism,
+                  static_cast<std::size_t>(options.threads));
+  }
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   return arena.execute([&] { return render_in_arena(scene, camera, options); });
 }
