@@ -55,7 +55,9 @@ DepthMap decode_exr(ByteView bytes, const std::string& name) {
   check_exr_claims(bytes, name);
   try {
     ByteInput stream(bytes, name);
-    Imf::MultiPartInputFile file(stream, reserve_exr_threads(0), false);
+    // Starting threads costs more than a small file does.
+    const int threads = bytes.size() < (std::size_t{1} << 18) ? 0 : reserve_exr_threads(0);
+    Imf::MultiPartInputFile file(stream, threads, false);
     Imf::InputPart part(file, 0);
     return read_part(part, name);
   } catch (const Error&) {

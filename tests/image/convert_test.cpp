@@ -1,0 +1,230 @@
+#include "fathom/image/convert.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "fathom/image/byte_order.h"
+#include "fathom/image/point_cloud.h"
+#include "fathom/numeric/errors.h"
+#include "tests/image/map_samples.h"
+
+namespace fathom {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using namespace fathom::testing;
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+/// The ray of pixel (0, 0) is the z axis; its neighbours are 1/fx and 1/fy away.
+MapView easy_view() {
+  MapView view;
+  view.fx = 1;
+  view.fy = 1;
+  view.cx = 0.5;
+  view.cy = 0.5;
+  return view;
+}
+
+TEST(Inverse, IsExactUpToOneRounding) {
+  MapView view;
+  view.world_to_camera = {{{3, 0, 0, 6}, {0, 0, -2, 5}, {0, 7, 1, -1}}};
+  const auto m = camera_to_world(view);
+  // x = (x' − 6)/3; z = −(y' − 5)/2; y = (z' + 1 − z)/7 = (z' + 1 + (y' − 5)/2)/7
+  EXPECT_EQ(m[0], (std::array<double, 4>{1.0 / 3, 0, 0, -2}));
+  EXPECT_EQ(m[1], (std::array<double, 4>{0, 1.0 / 14, 1.0 / 7, -1.5 / 7}));
+  EXPECT_EQ(m[2], (std::array<double, 4>{0, -0.5, 0, 2.5}));
+  view.world_to_camera[0][0] = 0;
+  EXPECT_THROW(camera_to_world(view), InputError);
+}
+
+TEST(PointAt, ObeysTheSpecification) {
+  MapView view;
+  view.fx = 2;
+  view.fy = 4;
+  view.cx = 1;
+  view.cy = 3;
+  view.skew = 0.5;
+  view.pixel_centre = 0;
+  // Forward: U/W = fx·x' + skew·y' + cx + ½ must be i + ½, V/W likewise.
+  const auto [x, y, z] = point_at(view, 7, 5, 8);
+  EXPECT_EQ(2 * x / z + 0.5 * y / z + 1.5, 7.5);
+  EXPECT_EQ(4 * y / z + 3.5, 5.5);
+  EXPECT_EQ(z, 8);
+  view.orthographic = true;
+  view.pixel_centre = 0.5;
+  const auto p = point_at(view, 7, 5, 8);
+  EXPECT_EQ(2 * p[0] + 0.5 * p[1] + 1, 7.5);
+  EXPECT_EQ(4 * p[1] + 3, 5.5);
+  EXPECT_EQ(p[2], 8);
+}
+
+TEST(Quantities, DistanceAndDepthOfAThreeFourFiveTriangle) {
+  MapView view = easy_view();
+  view.fx = 4;  // pixel 3 lies (3 + ½ − ½)/4 = ¾ to the right: a ray of length 5/4
+  const DepthMap map = map_of(4, 1, "Z", std::vector<float>{8, inf, std::nanf(""), 8});
+  const DepthMap distance =
+      convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::ray_distance, view);
+  EXPECT_EQ(*distance.values<float>("distance"), (std::vector<float>{8, inf, inf, 10}));
+  const DepthMap back =
+      convert_quantity(distance, DepthQuantity::ray_distance, DepthQuantity::planar_depth, view);
+  EXPECT_EQ(*back.values<float>("Z"), (std::vector<float>{8, inf, inf, 8}));
+  view.orthographic = true;
+  const DepthMap flat =
+      convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::ray_distance, view);
+  EXPECT_EQ(flat.values<float>("distance")->at(3), 8);
+}
+
+TEST(Quantities, DisparityIsMiddleburys) {
+  MapView view = easy_view();
+  view.fx = 100;
+  const StereoRig rig{0.5, 4};
+  const DepthMap map = map_of(3, 1, "Z", std::vector<double>{10, INFINITY, 2.5});
+  const DepthMap d =
+      convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::disparity, view, rig);
+  EXPECT_THAT(*d.values<double>("disparity"), ElementsAre(1, INFINITY, 16));
+  const DepthMap back =
+      convert_quantity(d, DepthQuantity::disparity, DepthQuantity::planar_depth, view, rig);
+  EXPECT_THAT(*back.values<double>("Z"), ElementsAre(10, INFINITY, 2.5));
+  const DepthMap behind = map_of(2, 1, "disparity", std::vector<float>{-4, -4.5f});
+  try {
+    convert_quantity(behind, DepthQuantity::disparity, DepthQuantity::planar_depth, view, rig);
+    FAIL();
+  } catch (const InputError& failure) {
+    EXPECT_THAT(failure.what(), HasSubstr("pixel (1, 0)"));
+  }
+  const auto to_disparity = [&](const MapView& v, std::optional<StereoRig> r) {
+    convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::disparity, v, r);
+  };
+  EXPECT_THROW(to_disparity(view, std::nullopt), UsageError);
+  EXPECT_THROW(to_disparity(view, StereoRig{0, 0}), UsageError);
+  view.orthographic = true;
+  EXPECT_THROW(to_disparity(view, rig), UsageError);
+  EXPECT_THROW(
+      convert_quantity(map, DepthQuantity::ray_distance, DepthQuantity::disparity, view, rig),
+      UsageError);
+}
+
+TEST(Storage, CodesRoundHalfToEvenExactly) {
+  // 2.5 → 2 and 3.5 → 4; just above and below 2.5 go their ways.
+  const DepthMap map = map_of(6, 1, "Z",
+                              std::vector<float>{2.5f, 3.5f, std::nextafterf(2.5f, 3),
+                                                 std::nextafterf(2.5f, 2), inf, 65535.25f});
+  const DepthMap codes = with_storage(map, "Z", StoredType::scaled_unorm16, 1.0);
+  EXPECT_THAT(*codes.values<std::uint16_t>("Z"), ElementsAre(2, 4, 3, 2, 0, 65535));
+  EXPECT_EQ(codes.png_scale, 1.0);
+  // 0.1 is a little above a tenth: 0.1·25 is above 2.5, though binary64 multiplies it to 2.5.
+  ASSERT_EQ(0.1 * 25, 2.5);
+  const DepthMap above = map_of(1, 1, "Z", std::vector<double>{25});
+  EXPECT_THAT(*with_storage(above, "", StoredType::scaled_unorm16, 0.1).values<std::uint16_t>("Z"),
+              ElementsAre(3));
+}
+
+TEST(Storage, CodesThatDoNotFitAreErrors) {
+  for (const float depth : {0.5f, 0.25f, 65535.5f, 1e30f}) {
+    const DepthMap map = map_of(2, 1, "Z", std::vector<float>{1, depth});
+    try {
+      with_storage(map, "Z", StoredType::scaled_unorm16, 1.0);
+      FAIL() << depth;
+    } catch (const OutputError& failure) {
+      EXPECT_THAT(failure.what(), HasSubstr("pixel (1, 0)"));
+    }
+  }
+  const DepthMap map = map_of(1, 1, "Z", std::vector<float>{1});
+  EXPECT_THROW(with_storage(map, "Z", StoredType::scaled_unorm16), UsageError);
+  EXPECT_THROW(with_storage(map, "Z", StoredType::scaled_unorm16, -1.0), UsageError);
+  EXPECT_THROW(with_storage(map, "A", StoredType::binary32), UsageError);
+}
+
+TEST(Storage, CodesDecodeWithTheirScaleAndARoundingOnly) {
+  DepthMap map = map_of(3, 1, "Z", std::vector<std::uint16_t>{0, 1000, 1});
+  EXPECT_THROW(with_storage(map, "Z", StoredType::binary32), InputError);
+  map.png_scale = 3000;
+  EXPECT_THAT(*with_storage(map, "Z", StoredType::binary32).values<float>("Z"),
+              ElementsAre(inf, 1.0f / 3, 1.0f / 3000));
+  EXPECT_THAT(*with_storage(map, "Z", StoredType::binary64).values<double>("Z"),
+              ElementsAre(INFINITY, 1.0 / 3, 1.0 / 3000));
+}
+
+TEST(Storage, AllCodesSurviveDecodingAndEncoding) {
+  std::vector<std::uint16_t> codes(65536);
+  for (std::size_t k = 0; k < codes.size(); ++k) codes[k] = static_cast<std::uint16_t>(k);
+  DepthMap map = map_of(256, 256, "Z", codes);
+  map.png_scale = 5000;
+  for (const StoredType type : {StoredType::binary32, StoredType::binary64}) {
+    const DepthMap depth = with_storage(map, "Z", type);
+    const DepthMap back = with_storage(depth, "Z", StoredType::scaled_unorm16, 5000);
+    EXPECT_EQ(*back.values<std::uint16_t>("Z"), codes);
+  }
+}
+
+std::string contents_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(PointCloud, HoldsPointsNormalsAndIdentifiers) {
+  const Folder folder;
+  MapView view = easy_view();
+  view.fx = 4;
+  view.world_to_camera = {{{0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 1, -100}}};
+  DepthMap map = map_of(4, 1, "Z", std::vector<float>{8, inf, inf, 8});
+  map.channels.push_back({"id", std::vector<std::uint32_t>{5, no_surface, 6, 7}});
+  for (const char* axis : {"N.X", "N.Y", "N.Z"})
+    map.channels.push_back({axis, std::vector<float>(4, axis[2] == 'X' ? 1.0f : 0.0f)});
+  PointCloudOptions options;
+  write_point_cloud(map, view, folder / "a.ply", options);
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\ncomment world frame\nelement vertex 2\n"
+      "property double x\nproperty double y\nproperty double z\n"
+      "property float nx\nproperty float ny\nproperty float nz\nproperty uint id\nend_header\n";
+  const std::string file = contents_of(folder / "a.ply");
+  ASSERT_EQ(file.substr(0, header.size()), header);
+  ASSERT_EQ(file.size(), header.size() + 2 * (24 + 12 + 4));
+  const auto* data = reinterpret_cast<const std::byte*>(file.data()) + header.size();
+  const auto number = [&](std::size_t at) { return load<double>(data + at, std::endian::little); };
+  // Pixel 3: (6, 0, 8) in the camera; the world's y is the camera's x, its x minus the camera's y.
+  EXPECT_EQ(number(40), 0);
+  EXPECT_EQ(number(48), 6);
+  EXPECT_EQ(number(56), 108);
+  EXPECT_EQ(load<float>(data + 64, std::endian::little), 1);
+  EXPECT_EQ(load<std::uint32_t>(data + 76, std::endian::little), 7u);
+
+  options.frame = PointFrame::camera;
+  options.binary64 = false;
+  write_point_cloud(map, view, folder / "a.ply", options);
+  const std::string camera = contents_of(folder / "a.ply");
+  const auto* last = reinterpret_cast<const std::byte*>(camera.data()) + camera.size() - 28;
+  const auto small = [&](std::size_t k) { return load<float>(last + 4 * k, std::endian::little); };
+  EXPECT_EQ(small(0), 6);
+  EXPECT_EQ(small(1), 0);
+  EXPECT_EQ(small(2), 8);
+  EXPECT_EQ(small(3), 0);  // the world's x is the camera's −y
+  EXPECT_EQ(small(4), -1);
+}
+
+TEST(PointCloud, TakesExactPositionsWhereTheMapHasThem) {
+  const Folder folder;
+  DepthMap map = map_of(1, 1, "Z", std::vector<float>{8});
+  for (const char* axis : {"P.X", "P.Y", "P.Z"})
+    map.channels.push_back({axis, std::vector<float>{static_cast<float>(axis[2])}});
+  write_point_cloud(map, easy_view(), folder / "a.ply");
+  const std::string file = contents_of(folder / "a.ply");
+  const auto* data = reinterpret_cast<const std::byte*>(file.data()) + file.size() - 24;
+  EXPECT_EQ(load<double>(data, std::endian::little), 'X');
+  EXPECT_EQ(load<double>(data + 16, std::endian::little), 'Z');
+  EXPECT_THROW(
+      write_point_cloud(map_of(1, 1, "A", std::vector<float>{1}), easy_view(), folder / "b.ply"),
+      UsageError);
+  EXPECT_THROW(write_point_cloud(map, easy_view(), "/dev/full"), OutputError);
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,152 @@
+#include "fathom/image/preview.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fathom/image/legend.h"
+#include "fathom/image/surface.h"
+#include "fathom/numeric/errors.h"
+#include "tests/image/map_samples.h"
+
+namespace fathom {
+namespace {
+
+using namespace fathom::testing;
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+constexpr Rgb neutral{206, 210, 216};
+
+/// The middle of a pixel of a map of five pixels, which is enlarged 96 times.
+Rgb block(const RgbImage& image, std::uint32_t k) {
+  return image.at(20 + 96 * k + 48, 72 + 48);
+}
+
+TEST(Preview, GoesFromOneEndOfTheColoursToTheOther) {
+  const DepthMap map = map_of(5, 1, "Z", std::vector<float>{2, 4, 3, inf, 2});
+  const RgbImage image = draw_preview(map);
+  EXPECT_EQ(block(image, 0), colour_at(ColourMap::viridis, 0));
+  EXPECT_EQ(block(image, 1), colour_at(ColourMap::viridis, 1));
+  EXPECT_EQ(block(image, 2), colour_at(ColourMap::viridis, 0.5));
+  EXPECT_EQ(block(image, 3), neutral);
+}
+
+TEST(Preview, RangeCanBeGiven) {
+  const DepthMap map = map_of(5, 1, "Z", std::vector<float>{2, 4, 3, inf, 1});
+  PreviewOptions options;
+  options.low = 2;
+  options.high = 3;
+  options.colours = ColourMap::turbo;
+  const RgbImage image = draw_preview(map, options);
+  EXPECT_EQ(block(image, 1), colour_at(ColourMap::turbo, 1));
+  EXPECT_EQ(block(image, 4), colour_at(ColourMap::turbo, 0));
+  options.low = 3;
+  EXPECT_THROW(draw_preview(map, options), UsageError);
+  options.channel = "distance";
+  EXPECT_THROW(draw_preview(map, options), UsageError);
+  options.channel = "N";
+  EXPECT_THROW(draw_preview(map, options), UsageError);
+}
+
+TEST(Preview, OddMapsAreDrawn) {
+  const auto drawn = [](std::vector<float> values) {
+    return draw_preview(map_of(5, 1, "Z", std::move(values)));
+  };
+  EXPECT_EQ(block(drawn(std::vector<float>(5, inf)), 2), neutral);
+  EXPECT_EQ(block(drawn(std::vector<float>(5, 7)), 2), colour_at(ColourMap::viridis, 0.5));
+  const float greatest = std::numeric_limits<float>::max();
+  EXPECT_EQ(block(drawn({-greatest, greatest, inf, inf, inf}), 1),
+            colour_at(ColourMap::viridis, 1));
+  DepthMap huge = map_of(5, 1, "Z", std::vector<double>{-1.7e308, 1.7e308, 0, INFINITY, 0});
+  EXPECT_EQ(block(draw_preview(huge), 2), colour_at(ColourMap::viridis, 0.5));
+  huge.channels[0].values = std::vector<double>{1e-310, 2e-310, 0, INFINITY, 3e-310};
+  EXPECT_NO_THROW(draw_preview(huge));
+  DepthMap overflowed = map_of(5, 1, "Z", std::vector<float>{1, inf, inf, -inf, NAN});
+  overflowed.channels.push_back({"id", std::vector<std::uint32_t>{0, 1, no_surface, 3, 4}});
+  const RgbImage image = draw_preview(overflowed);
+  EXPECT_EQ(block(image, 1), (Rgb{230, 25, 120}));
+  EXPECT_EQ(block(image, 2), neutral);
+  EXPECT_EQ(block(image, 3), (Rgb{120, 40, 200}));
+  EXPECT_EQ(block(image, 4), (Rgb{255, 120, 0}));
+  EXPECT_NO_THROW(draw_preview(map_of(5000, 2, "Z", random_bits<float>(10000, 11))));
+}
+
+TEST(Preview, IdentifiersHaveColoursOfTheirOwn) {
+  DepthMap map = map_of(5, 1, "object", std::vector<std::uint32_t>{0, 1, 0, no_surface, 2});
+  map.object_names = {"spot"};
+  const RgbImage image = draw_preview(map);
+  EXPECT_EQ(block(image, 0), block(image, 2));
+  EXPECT_NE(block(image, 0), block(image, 1));
+  EXPECT_EQ(block(image, 3), neutral);
+}
+
+TEST(Preview, NormalsAreRgb) {
+  DepthMap map = map_of(5, 1, "N.X", std::vector<float>{1, 0, 0, 0, -1});
+  map.channels.push_back({"N.Y", std::vector<float>{0, 1, 0, 0, 0}});
+  map.channels.push_back({"N.Z", std::vector<float>{0, 0, 1, 0, 0}});
+  PreviewOptions options;
+  options.channel = "N";
+  const RgbImage image = draw_preview(map, options);
+  EXPECT_EQ(block(image, 0), (Rgb{255, 128, 128}));
+  EXPECT_EQ(block(image, 4), (Rgb{0, 128, 128}));
+  EXPECT_EQ(block(image, 3), neutral);
+}
+
+/// Relative luminance of sRGB (IEC 61966-2-1).
+double luminance(Rgb colour) {
+  const auto linear = [](std::uint8_t byte) {
+    const double c = byte / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(colour[0]) + 0.7152 * linear(colour[1]) + 0.0722 * linear(colour[2]);
+}
+
+TEST(ColourMaps, BrightenAllTheWay) {
+  for (const ColourMap map : {ColourMap::viridis, ColourMap::magma, ColourMap::grey})
+    for (int k = 1; k <= 64; ++k)
+      EXPECT_GT(luminance(colour_at(map, k / 64.0)), luminance(colour_at(map, (k - 1) / 64.0)))
+          << k;
+}
+
+/// The published tables' ends and middles, in 8 bits. The polynomials are said to be within 2 % of
+/// them; 0.04·255 ≈ 10 allows for twice that.
+TEST(ColourMaps, AreTheOnesTheyAreCalled) {
+  const auto near = [](Rgb a, Rgb b) {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (std::abs(a[c] - b[c]) > 10) return false;
+    return true;
+  };
+  EXPECT_TRUE(near(colour_at(ColourMap::viridis, 0), {68, 1, 84}));
+  EXPECT_TRUE(near(colour_at(ColourMap::viridis, 0.5), {33, 145, 140}));
+  EXPECT_TRUE(near(colour_at(ColourMap::viridis, 1), {253, 231, 37}));
+  EXPECT_TRUE(near(colour_at(ColourMap::magma, 0), {0, 0, 4}));
+  EXPECT_TRUE(near(colour_at(ColourMap::magma, 0.5), {183, 55, 121}));
+  EXPECT_TRUE(near(colour_at(ColourMap::magma, 1), {252, 253, 191}));
+  // Turbo's polynomial follows its table less closely: blue, green, red in turn.
+  const auto strongest = [](double t) {
+    const Rgb c = colour_at(ColourMap::turbo, t);
+    return std::max_element(c.begin(), c.end()) - c.begin();
+  };
+  EXPECT_EQ(strongest(0.15), 2);
+  EXPECT_EQ(strongest(0.5), 1);
+  EXPECT_EQ(strongest(0.85), 0);
+}
+
+TEST(LinearMarks, AreTheEndsAndRoundNumbersBetween) {
+  const auto marks = linear_marks(0.25, 3.5);
+  EXPECT_EQ(marks[0].text, "0.25");
+  EXPECT_EQ(marks[1].text, "3.5");
+  ASSERT_EQ(marks.size(), 5u);  // and 1, 2, 3
+  EXPECT_EQ(marks[2].text, "1");
+  EXPECT_EQ(marks[4].text, "3");
+  EXPECT_EQ(marks[3].t, (2 - 0.25) / 3.25);
+  // Ends that differ in the last digits only are told apart.
+  const auto close = linear_marks(1000000, std::nextafter(1000000, 2e6));
+  EXPECT_NE(close[0].text, close[1].text);
+  EXPECT_LE(linear_marks(-1e308, 1.7e308).size(), 12u);
+}
+
+}  // namespace
+}  // namespace fathom
