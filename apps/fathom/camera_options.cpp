@@ -62,6 +62,10 @@ std::vector<Camera> CameraOptions::get(const Scene& scene) const {
     }
     return cameras;
   }
+  if (triangle_count(scene) == 0) {
+    const std::string& file = scene.sources.empty() ? "scene" : scene.sources.back().path;
+    throw InputError(file + ": the scene has no triangle; expected one to frame, or --camera");
+  }
   return {frame_scene(scene, view_.get(), lens())};
 }
 

@@ -9,6 +9,7 @@
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/point_cloud.h"
+#include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
 #include "map_view.h"
@@ -93,6 +94,9 @@ int write_points(const DepthMap& map, const ConvertArguments& arguments) {
   if (!arguments.to.empty() || !arguments.channel.empty()) {
     throw UsageError("--to and --channel do not go with a point cloud");
   }
+  if (!arguments.storage.compression.empty() || !arguments.storage.png_scale.empty()) {
+    throw UsageError("--compression and --png-scale do not go with a point cloud");
+  }
   const MapView view = view_for(map, arguments);
   OutputFile output(arguments.output);
   output.write([&](const auto& path) { write_point_cloud(map, view, path, options); });
@@ -108,7 +112,15 @@ DepthMap converted(DepthMap map, const ConvertArguments& arguments) {
   const DepthQuantity to = quantity_named("--to", arguments.to);
   const DepthQuantity from =
       quantity_named("--from", arguments.from.empty() ? "Z" : arguments.from);
+  // PFM, PNG and NPY do not name their channel: it is what the user says it is.
+  if (map.channels.size() == 1 && map.texts.empty()) map.channels[0].name = channel_of(from);
   return convert_quantity(map, from, to, view_for(map, arguments), rig(arguments));
+}
+
+/// The map with this channel only.
+DepthMap only(DepthMap map, const ImageChannel& channel) {
+  map.channels = std::vector<ImageChannel>{channel};
+  return map;
 }
 
 /// The map in the type that the format asks for; an EXR keeps all channels as they are.
@@ -118,15 +130,17 @@ DepthMap stored(DepthMap map, const ConvertArguments& arguments, MapFormat forma
     return map;
   }
   const ImageChannel* channel = map.find(arguments.channel.empty() ? "Z" : arguments.channel);
-  if (channel == nullptr && map.channels.size() == 1) channel = &map.channels[0];
-  const bool identifiers =
-      channel != nullptr && std::holds_alternative<std::vector<std::uint32_t>>(channel->values);
+  if (channel == nullptr && arguments.channel.empty() && map.channels.size() == 1) {
+    channel = &map.channels[0];
+  }
+  // Identifiers, normals and so on are not depths: they keep their type.
+  if (channel != nullptr && kind_of(*channel) != ChannelKind::depth) return only(map, *channel);
 
   const DepthEncoding encoding = arguments.storage.encoding_for(format);
   StoredType type = StoredType::binary32;
   std::optional<double> scale;
   if (encoding.type == DepthEncoding::Type::binary64) type = StoredType::binary64;
-  if (encoding.type == DepthEncoding::Type::scaled_unorm16 && !identifiers) {
+  if (encoding.type == DepthEncoding::Type::scaled_unorm16) {
     type = StoredType::scaled_unorm16;
     scale = encoding.scale;
     // A PNG that is written again as it was keeps its scale.

@@ -44,7 +44,7 @@ const std::map<std::string, std::string> value_names{{"--baseline", "B"},
 
 void name_values_of(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
-    if (option->get_type_size() == 0) continue;
+    if (option->get_expected_max() == 0) continue;
     const auto name = value_names.find(option->get_name());
     option->type_name(name != value_names.end()            ? name->second
                       : option->get_lnames().empty()       ? ""

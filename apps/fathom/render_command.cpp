@@ -1,12 +1,15 @@
 // fathom render SCENE… -o MAP
 
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "camera_options.h"
 #include "fathom/numeric/errors.h"
@@ -134,6 +137,12 @@ int run_render(const RenderArguments& arguments, const Console& console) {
   RenderOptions options = render_options(arguments, format);
   const WriteOptions write_options = arguments.storage.write_options(options.threads);
   arguments.camera.check();
+  // Without this the pool keeps to the number of processors and prints a warning of its own.
+  std::optional<tbb::global_control> pool;
+  if (options.threads > 0) {
+    pool.emplace(tbb::global_control::max_allowed_parallelism,
+                 static_cast<std::size_t>(options.threads));
+  }
 
   Stopwatch stopwatch;
   const Scene scene = arguments.scene.read(console, true);

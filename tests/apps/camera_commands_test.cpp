@@ -43,9 +43,9 @@ class CameraCommands : public ::testing::Test {
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.err, "");
   }
-  void python(const std::string& script) const {
+  void run_python(const std::string& script) const {
     const Outcome outcome =
-        run({"python3", "-c", our_projection + script}, {.folder = folder_.path()});
+        run({python, "-c", our_projection + script}, {.folder = folder_.path()});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
   }
 
@@ -55,7 +55,7 @@ class CameraCommands : public ::testing::Test {
 TEST_F(CameraCommands, LookAtPutsTheTargetInTheMiddle) {
   fathom({"camera", "look-at", "--eye", "2,1,3", "--target", "0.5,0,-1", "--size", "640x480",
           "--fov", "60", "--near", "0.1", "--far", "50", "-o", "camera.json"});
-  python(R"(
+  run_python(R"(
 camera, = load('camera.json')
 image, depth = ours(camera, np.array([0.5, 0, -1]))
 close(image, [320, 240])
@@ -78,7 +78,7 @@ TEST_F(CameraCommands, LookAtWithParallelProjectionGoesToStandardOutput) {
 TEST_F(CameraCommands, OrbitGoesAroundAPoint) {
   fathom({"camera", "orbit", "--views", "4", "--centre", "1,2,3", "--distance", "5", "--view",
           "0,30", "-o", "path.json"});
-  python(R"(
+  run_python(R"(
 cameras = load('path.json')
 assert len(cameras) == 4
 eyes = []
@@ -98,7 +98,7 @@ for eye, offset in zip(eyes, ((0, r), (r, 0), (0, -r), (-r, 0))):
 TEST_F(CameraCommands, OrbitFramesAScene) {
   folder_.write("square.obj", square_obj);
   fathom({"camera", "orbit", "square.obj", "--views", "5", "-o", "path.json"});
-  python(R"(
+  run_python(R"(
 for camera in load('path.json'):
     for corner in ((-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)):
         (u, v), depth = ours(camera, np.array(corner))
@@ -113,7 +113,7 @@ TEST_F(CameraCommands, ImportColmap) {
                 "1 0.9 0.1 -0.2 0.3 0.125 -0.25 2.5 1 b.jpg\n\n"
                 "2 1 0 0 0 0 0 3 1 a.jpg\n\n");
   fathom({"camera", "import", "colmap", ".", "--image", "b.jpg", "-o", "camera.json"});
-  python(R"(
+  run_python(R"(
 camera, = load('camera.json')
 w, x, y, z = np.array([0.9, 0.1, -0.2, 0.3]) / np.linalg.norm([0.9, 0.1, -0.2, 0.3])
 R = np.array([[1 - 2*y*y - 2*z*z, 2*x*y - 2*w*z, 2*z*x + 2*w*y],
@@ -132,7 +132,7 @@ TEST_F(CameraCommands, ImportNerf) {
       "h": 480, "frames": [{"file_path": "a.png", "transform_matrix":
       [[0, 0, 1, 3], [1, 0, 0, 0.5], [0, 1, 0, 0.25], [0, 0, 0, 1]]}]})");
   fathom({"camera", "import", "nerf", "transforms.json", "-o", "camera.json"});
-  python(R"(
+  run_python(R"(
 camera, = load('camera.json')
 c2w = np.array([[0, 0, 1, 3], [1, 0, 0, 0.5], [0, 1, 0, 0.25], [0, 0, 0, 1.0]])
 for X in points:
@@ -147,7 +147,7 @@ TEST_F(CameraCommands, ImportBop) {
       "cam_R_w2c": [0, 1, 0, 0, 0, -1, -1, 0, 0], "cam_t_w2c": [10, 20, 900],
       "depth_scale": 1.0}})");
   fathom({"camera", "import", "bop", "scene_camera.json", "--size", "640x480", "-o", "c.json"});
-  python(R"(
+  run_python(R"(
 camera, = load('c.json')
 R = np.array([[0, 1, 0], [0, 0, -1], [-1, 0, 0]])
 for X in points:
@@ -163,7 +163,7 @@ TEST_F(CameraCommands, ImportOpenGl) {
       "modelview": [[0, 0, 1, 0.5], [1, 0, 0, 0.25], [0, 1, 0, -4], [0, 0, 0, 1]],
       "viewport": [0, 0, 800, 600]})");
   fathom({"camera", "import", "opengl", "matrices.json", "-o", "camera.json"});
-  python(R"(
+  run_python(R"(
 camera, = load('camera.json')
 P = np.array([[1.5, 0, 0.1, 0], [0, 2, -0.05, 0], [0, 0, -1.002, -0.2002], [0, 0, -1, 0]])
 V = np.array([[0, 0, 1, 0.5], [1, 0, 0, 0.25], [0, 1, 0, -4], [0, 0, 0, 1]])

@@ -38,8 +38,8 @@ class MapCommands : public ::testing::Test {
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.err, "");
   }
-  void python(const std::string& script) const {
-    const Outcome outcome = run({"python3", "-c", script}, {.folder = folder_.path()});
+  void run_python(const std::string& script) const {
+    const Outcome outcome = run({python, "-c", script}, {.folder = folder_.path()});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
   }
 
@@ -53,7 +53,7 @@ TEST_F(MapCommands, PreviewIsAPictureForOpenImageIo) {
     EXPECT_THAT(info.out, HasSubstr("3 channel, uint8 png"));
   }
   expect_done({"preview", "square.exr", "-o", "id.png", "--channel", "id"});
-  python(R"(
+  run_python(R"(
 import numpy as np
 import OpenImageIO as oiio
 def pixels(name):
@@ -105,7 +105,7 @@ TEST_F(MapCommands, ConvertBetweenTheFormatsIsReadByPython) {
   expect_done({"convert", "square.exr", "-o", "z.png", "--png-scale", "100"});
   expect_done({"convert", "z.png", "-o", "back.exr"});
   expect_done({"convert", "square.exr", "-o", "id.npy", "--channel", "id"});
-  python(R"(
+  run_python(R"(
 import numpy as np
 import OpenImageIO as oiio
 inside = np.zeros((6, 8), bool)
@@ -128,7 +128,7 @@ TEST_F(MapCommands, ConvertBetweenTheQuantitiesIsReadByPython) {
   expect_done({"convert", "distance.npy", "--from", "distance", "--to", "Z", "--camera",
                "camera.json", "-o", "z.npy"});
   expect_done({"convert", "square.exr", "--to", "disparity", "--baseline", "0.5", "-o", "d.npy"});
-  python(R"(
+  run_python(R"(
 import numpy as np
 inside = np.zeros((6, 8), bool)
 inside[1:5, 2:6] = True
@@ -152,7 +152,7 @@ TEST_F(MapCommands, ConvertToAPointCloudIsReadByPython) {
   expect_done({"convert", "square.exr", "-o", "points.ply"});
   expect_done(
       {"convert", "square.exr", "-o", "points32.ply", "--dtype", "float32", "--frame", "camera"});
-  python(R"(
+  run_python(R"(
 import numpy as np
 def read(name, kind):
     header, body = open(name, 'rb').read().split(b'end_header\n', 1)

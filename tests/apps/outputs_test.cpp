@@ -221,7 +221,7 @@ TEST_F(Outputs, EveryCommandWritesBesideAndRenames) {
     folder_.write("output.pfm", "older");
     const auto before = folder_.names();
     command.emplace_back("output.pfm");
-    const Outcome outcome = run_fathom(command, {.folder = folder_.path(), .file_size = 10});
+    const Outcome outcome = run_fathom(command, {.folder = folder_.path(), .file_size = 150});
     EXPECT_EQ(outcome.status, 4) << command[0] << " " << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_EQ(folder_.read("output.pfm"), "older");

@@ -42,8 +42,8 @@ class Rendering : public ::testing::Test {
     EXPECT_EQ(fathom({"compare", a, b, "--channel", "Z"}).status, 0) << a << " and " << b;
   }
   /// Runs a Python script in the folder. Its assertions are the test.
-  void python(const std::string& script) const {
-    const Outcome outcome = run({"python3", "-c", script}, {.folder = folder_.path()});
+  void run_python(const std::string& script) const {
+    const Outcome outcome = run({python, "-c", script}, {.folder = folder_.path()});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
   }
 
@@ -59,7 +59,7 @@ inside[1:5, 2:6] = True
 
 TEST_F(Rendering, ExrWithEveryChannelIsReadByOpenImageIo) {
   render("map.exr", {"--channels", "Z,Zlow,distance,id,face,object,N,P,bary"});
-  python(inside_in_python + R"(
+  run_python(inside_in_python + R"(
 import json, math
 import OpenImageIO as oiio
 image = oiio.ImageInput.open('map.exr')
@@ -116,7 +116,7 @@ TEST_F(Rendering, PfmNpyAndPngAreReadByPython) {
   render("distance.npy", {"--channels", "distance", "--dtype", "float64"});
   render("map.png", {"--png-scale", "250"});
   render("id.png", {"--channels", "id"});
-  python(inside_in_python + R"(
+  run_python(inside_in_python + R"(
 import OpenImageIO as oiio
 data = open('map.pfm', 'rb').read()
 header = b'Pf\n8 6\n-1'
@@ -161,7 +161,7 @@ TEST_F(Rendering, TheSavedCameraGivesTheSameMap) {
           "33", "--save-camera", "saved.json", "-o", "first.exr"});
   answer({"render", "square.obj", "--camera", "saved.json", "-o", "second.exr"});
   expect_same_depth("first.exr", "second.exr");
-  python(inside_in_python + R"(
+  run_python(inside_in_python + R"(
 import OpenImageIO as oiio
 depth = np.asarray(oiio.ImageInput.open('first.exr').read_image(oiio.FLOAT)).reshape(48, 64)
 seen = np.isfinite(depth)
@@ -190,7 +190,7 @@ TEST_F(Rendering, ASceneFilePlacesItsMeshes) {
       {"file": "square.obj", "transform": [[2,0,0,0],[0,2,0,0],[0,0,2,0.5]], "name": "far"}]})");
   answer({"render", "scene.json", "--camera", "camera.json", "--channels", "Z,object", "-o",
           "map.exr"});
-  python(inside_in_python + R"(
+  run_python(inside_in_python + R"(
 import OpenImageIO as oiio
 image = oiio.ImageInput.open('map.exr')
 names = list(image.spec().channelnames)
@@ -216,7 +216,7 @@ TEST_F(Rendering, AnEmptySceneThroughACameraIsBackgroundWithAWarning) {
   const Outcome outcome = fathom(arguments);
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.err, HasSubstr("fathom: warning: the scene has no triangle"));
-  python("import numpy as np\nassert np.isposinf(np.load('map.npy')).all()");
+  run_python("import numpy as np\nassert np.isposinf(np.load('map.npy')).all()");
 
   std::vector<std::string> quiet = arguments;
   quiet.emplace_back("--quiet");

@@ -35,6 +35,9 @@ pid_t start_fathom(const std::vector<std::string>& arguments, const RunOptions& 
 /// Waits for a process that start_fathom started; its status as in Outcome.
 int wait_for(pid_t process);
 
+/// Debian's Python, which has the packages that the tests use; another may come first on the PATH.
+inline const std::string python = "/usr/bin/python3";
+
 /// Where the built program lies.
 std::string program_path();
 
