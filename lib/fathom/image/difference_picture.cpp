@@ -24,9 +24,9 @@ constexpr std::array<KindLook, 5> looks{
      {Kind::incommensurable, {255, 0, 255}, "cannot be measured (NaN, infinity)"},
      {Kind::neither, {206, 210, 216}, "no surface in either"}}};
 
-/// Above a dark ground: the upper four fifths of magma.
+/// Above a dark ground: the upper three fifths of magma.
 Rgb heat(double t) {
-  return colour_at(ColourMap::magma, 0.3 + 0.7 * t);
+  return colour_at(ColourMap::magma, 0.4 + 0.6 * t);
 }
 
 /// Marks at the powers of two or of ten, whichever are few.
