@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/scene/camera_json_internal.h"
 #include "fathom/scene/input_file.h"
 #include "fathom/scene/json_value.h"
 #include "fathom/scene/read_scene.h"
@@ -68,14 +69,18 @@ std::string to_json(double number) {
 
 }  // namespace
 
-std::vector<Camera> read_cameras(const std::filesystem::path& file) {
-  const JsonDocument document(InputFile(file).text(), file.string());
+std::vector<Camera> parse_cameras(std::string_view text, const std::string& name) {
+  const JsonDocument document(text, name);
   const JsonValue root = document.root();
   if (!root.is_list()) return {read_camera(root)};
   std::vector<Camera> cameras;
   for (const JsonValue& element : root.elements()) cameras.push_back(read_camera(element));
   if (cameras.empty()) root.fail("the list of cameras is empty");
   return cameras;
+}
+
+std::vector<Camera> read_cameras(const std::filesystem::path& file) {
+  return parse_cameras(InputFile(file).text(), file.string());
 }
 
 std::string to_json(const Camera& camera) {

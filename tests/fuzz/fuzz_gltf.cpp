@@ -1,0 +1,33 @@
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <string>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/bounds.h"
+#include "fathom/scene/read_gltf.h"
+
+/// Any bytes as a glTF asset: an InputError of one line, or a scene that keeps its promises.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace fathom;
+  Scene scene;
+  Warnings warnings;
+  ReadOptions options;
+  options.attributes = size % 2 == 0;
+  options.hash = false;
+  try {
+    append_gltf(scene, std::as_bytes(std::span(data, size)), "input", options, warnings);
+  } catch (const InputError& e) {
+    if (std::string(e.what()).find('\n') != std::string::npos) std::abort();
+    return 0;
+  }
+  for (const Object& object : scene.objects)
+    if (object.mesh >= scene.meshes.size()) std::abort();
+  for (const Mesh& mesh : scene.meshes)
+    for (const CornerIndices& triangle : mesh.triangles)
+      for (const std::uint32_t corner : triangle)
+        if (corner >= mesh.vertices.size()) std::abort();
+  world_bounds(scene);
+  return 0;
+}
