@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -37,8 +38,14 @@ struct Probe {
   std::vector<CoveringTriangle> triangles;
 };
 
+/// The file that an object comes from where the scene tells: it has one source, or one source per
+/// object with the object named after it. Elsewhere (objects of a scene file) the object's name.
 std::string file_of(const Scene& scene, const CoveringTriangle& triangle) {
-  return scene.objects[triangle.origin.object].name;
+  const std::string& name = scene.objects[triangle.origin.object].name;
+  if (scene.sources.size() == 1) return scene.sources[0].path;
+  if (scene.sources.size() != scene.objects.size()) return name;
+  const std::filesystem::path path = scene.sources[triangle.origin.object].path;
+  return path.stem() == name ? path.string() : name;
 }
 
 /// Why a triangle that covers the sample does not count (specification, section 5).
@@ -135,6 +142,7 @@ Json to_json(const Probe& probe, std::size_t i) {
   return {{"number", triangle.number},
           {"file", file_of(probe.scene, triangle)},
           {"object", triangle.origin.object},
+          {"object_name", probe.scene.objects[triangle.origin.object].name},
           {"face", triangle.origin.face},
           {"corners", corners},
           {"front_facing", triangle.front_facing},

@@ -269,6 +269,7 @@ TEST_F(Rendering, ProbeExplainsATieOnAnEdge) {
   }
   EXPECT_EQ(on_edge, 1);
   EXPECT_EQ(triangle["visible"], true);
+  EXPECT_EQ(triangle["file"], "square.obj");
 }
 
 TEST_F(Rendering, ProbeNamesTheRuleThatDecided) {
