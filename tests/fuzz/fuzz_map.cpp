@@ -1,0 +1,21 @@
+#include <cstdint>
+#include <span>
+
+#include "fathom/image/map_codecs.h"
+#include "fathom/numeric/errors.h"
+
+/// Readers of EXR, PFM, PNG and NPY: any bytes are a map or an InputError. A map that was read has
+/// as many values as pixels.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    const fathom::DepthMap map = fathom::decode_map(std::as_bytes(std::span(data, size)), "input");
+    for (const fathom::ImageChannel& channel : map.channels)
+      std::visit(
+          [&](const auto& values) {
+            if (values.size() != std::size_t{map.width} * map.height) __builtin_trap();
+          },
+          channel.values);
+  } catch (const fathom::InputError&) {
+  }
+  return 0;
+}
