@@ -332,6 +332,8 @@ Mesh read_obj(std::string_view text, const std::string& file, const ReadOptions&
   }
   const ObjCounts& total = before.back();
 
+  if (total.vertices + total.faces == 0 && !total.unknown.empty())
+    throw InputError(file + ": holds neither vertices nor faces, expected an OBJ file");
   Mesh mesh;
   make_room(total, options.attributes, file, mesh);
   for_each_chunk(chunks.size(), options.threads, [&](std::size_t i) {
