@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fathom/exact/options.h"
+#include "fathom/image/depth_map.h"
+#include "fathom/scene/camera.h"
+#include "fathom/scene/scene.h"
+#include "tests/oracle/ray_caster.h"
+
+namespace fathom::testing {
+
+/// Rays through the pixels of `camera` at every triangle of the scene.
+oracle::RayCaster cast_at(const Scene& scene, const Camera& camera);
+
+/// All channels of section 6 except A.
+std::vector<Channel> all_channels();
+
+/// Holds every channel at a pixel to what the ray met, its value rounded by MPFR.
+void expect_pixel(const DepthMap& map, int x, int y, const std::optional<oracle::Hit>& hit,
+                  const Scene& scene);
+
+}  // namespace fathom::testing
