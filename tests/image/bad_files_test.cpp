@@ -155,6 +155,21 @@ TEST(BadFiles, PngPfmAndNpyOfAClaimedSizeAreRefusedBeforeAllocating) {
   EXPECT_THAT(refusal_of(npy), HasSubstr("expected 4000000000×4000000000 values"));
 }
 
+/// A text of 1.4 GB claimed in a file of 200 bytes; libpng alone would allocate and clear it.
+TEST(BadFiles, PngTextOfAClaimedSizeIsNotAllocated) {
+  DepthMap codes = map_of(5, 4, "Z", random_bits<std::uint16_t>(20, 1));
+  codes.object_names = {"é"};
+  Bytes png = encode_png(codes, codes.channels[0], "a.png");
+  const std::string text(reinterpret_cast<const char*>(png.data()), png.size());
+  const std::size_t chunk = text.find("iTXt");
+  ASSERT_NE(chunk, std::string::npos);
+  png[chunk - 4] = std::byte{0x54};
+  refusal_of(png);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  EXPECT_LT(usage.ru_maxrss, 800000) << "kilobytes";
+}
+
 TEST(BadFiles, OfOtherKindsAreNamed) {
   const auto refusal = [](const std::string& text) {
     Bytes bytes;

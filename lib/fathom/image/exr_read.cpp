@@ -29,8 +29,8 @@ DepthMap read_part(Imf::InputPart& part, const std::string& name) {
   const std::size_t pixels = std::size_t{map.width} * map.height;
   Imf::FrameBuffer target;
   const auto add = [&](const char* channel, Imf::PixelType type, void* values) {
-    target.insert(channel, Imf::Slice::Make(type, values, window, sizeof(float),
-                                            sizeof(float) * map.width));
+    target.insert(channel,
+                  Imf::Slice::Make(type, values, window, sizeof(float), sizeof(float) * map.width));
   };
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
     if (channel.channel().type == Imf::UINT) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <csetjmp>
@@ -50,10 +51,25 @@ void read_bytes(png_structp png, png_bytep to, std::size_t count) {
   reading->position += count;
 }
 
+/// libpng allocates as long a chunk as its header claims. Walks over the chunks (length, type,
+/// data, sum), since a chunk may be no longer than what is left of the file.
+bool chunks_fit(ByteView bytes) {
+  constexpr std::size_t signature = 8, around = 12;
+  for (std::size_t at = signature; at < bytes.size();) {
+    if (bytes.size() - at < around) return false;
+    const std::size_t length = load<std::uint32_t>(&bytes[at], std::endian::big);
+    if (length > bytes.size() - at - around) return false;
+    at += around + length;
+  }
+  return true;
+}
+
 bool read_header(Reading& reading) {
   if (setjmp(png_jmpbuf(reading.png))) return false;
   png_set_read_fn(reading.png, &reading, read_bytes);
   png_set_user_limits(reading.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+  // Compressed texts: libpng's usual limit.
+  png_set_chunk_malloc_max(reading.png, std::max<std::size_t>(reading.bytes.size(), 8000000));
   png_read_info(reading.png, reading.info);
   return true;
 }
@@ -97,6 +113,7 @@ DepthMap decode_png(ByteView bytes, const std::string& name) {
   const auto fail = [&](const std::string& reason) {
     throw InputError(name + ": corrupt or truncated PNG file: " + reason);
   };
+  if (!chunks_fit(bytes)) fail("a chunk is longer than the file");
   if (!read_header(reading)) fail(reading.failure.reason);
   DepthMap map;
   map.width = png_get_image_width(reading.png, reading.info);
