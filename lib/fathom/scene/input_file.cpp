@@ -48,21 +48,26 @@ InputFile::InputFile(const std::filesystem::path& path) {
       return;
     }
   }
-  read(file.number, name);
+  read(file.number, S_ISREG(status.st_mode) ? size + 1 : std::size_t{1} << 16, name);
 }
 
-void InputFile::read(int descriptor, const std::string& name) {
+void InputFile::read(int descriptor, std::size_t capacity, const std::string& name) {
+  buffer_ = std::make_unique_for_overwrite<std::byte[]>(capacity);
   std::size_t filled = 0;
   while (true) {
-    if (filled == buffer_.size()) buffer_.resize(std::max<std::size_t>(1 << 16, 2 * filled));
-    const ssize_t got = ::read(descriptor, buffer_.data() + filled, buffer_.size() - filled);
+    if (filled == capacity) {
+      auto larger = std::make_unique_for_overwrite<std::byte[]>(2 * capacity);
+      std::copy_n(buffer_.get(), filled, larger.get());
+      buffer_ = std::move(larger);
+      capacity *= 2;
+    }
+    const ssize_t got = ::read(descriptor, buffer_.get() + filled, capacity - filled);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) fail(name, "cannot be read");
     if (got == 0) break;
     filled += static_cast<std::size_t>(got);
   }
-  buffer_.resize(filled);
-  bytes_ = buffer_;
+  bytes_ = {buffer_.get(), filled};
 }
 
 InputFile::~InputFile() {

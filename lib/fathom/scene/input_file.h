@@ -2,10 +2,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace fathom {
 
@@ -27,10 +27,10 @@ class InputFile {
   }
 
  private:
-  void read(int descriptor, const std::string& name);
+  void read(int descriptor, std::size_t capacity, const std::string& name);
 
   std::span<const std::byte> bytes_;
-  std::vector<std::byte> buffer_;
+  std::unique_ptr<std::byte[]> buffer_;
   void* mapping_ = nullptr;
 };
 

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <string_view>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/mesh_faces.h"
+#include "fathom/scene/read_mesh.h"
+
+namespace fathom::fuzz {
+
+/// Ends the program unless the mesh keeps what Mesh promises.
+inline void check(const Mesh& mesh) {
+  const auto require = [](bool kept) {
+    if (!kept) std::abort();
+  };
+  for (const MeshPoint& p : mesh.vertices)
+    require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+  for (const CornerIndices& t : mesh.triangles)
+    for (const std::uint32_t i : t) require(i < mesh.vertices.size());
+  const auto require_indices = [&](const auto& triangles, std::size_t count) {
+    require(triangles.empty() || triangles.size() == mesh.triangles.size());
+    for (const CornerIndices& t : triangles)
+      for (const std::uint32_t i : t) require(i == no_index || i < count);
+  };
+  require_indices(mesh.texture_triangles, mesh.texture_coordinates.size());
+  require_indices(mesh.normal_triangles, mesh.normals.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    require(mesh.face_of(static_cast<std::uint32_t>(t)) < mesh.face_count);
+}
+
+/// Reads `bytes` with `read(options, warnings)`: a valid mesh or an InputError, nothing else.
+template <class Read>
+int one_input(const Read& read) {
+  for (const bool attributes : {false, true}) {
+    try {
+      Warnings warnings;
+      check(read(ReadOptions{.format = {}, .threads = 1, .attributes = attributes, .hash = false},
+                 warnings));
+    } catch (const InputError&) {
+    }
+  }
+  return 0;
+}
+
+inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+}  // namespace fathom::fuzz

@@ -1,0 +1,9 @@
+#include "tests/fuzz/fuzz_mesh.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace fathom;
+  using namespace fathom::fuzz;
+  return one_input([&](const ReadOptions& options, Warnings& warnings) {
+    return read_ply(std::as_bytes(std::span(data, size)), "input", options, warnings);
+  });
+}

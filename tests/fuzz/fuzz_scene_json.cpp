@@ -1,0 +1,17 @@
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/recognise_format.h"
+#include "fathom/scene/scene_json.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fathom::recognise_format(std::as_bytes(std::span(data, size)), "input");
+  try {
+    fathom::read_scene_json({reinterpret_cast<const char*>(data), size}, "input");
+  } catch (const fathom::InputError&) {
+  }
+  return 0;
+}
