@@ -33,6 +33,43 @@ constexpr std::array<CompressionBound, 10> compression_bounds{{{1, 1},
                                                                {32, 64 * greatest_deflate_ratio},
                                                                {256, 64 * greatest_deflate_ratio}}};
 
+/// OpenEXR reads these types in their own size whatever the file says, and would lose step.
+constexpr std::array<std::pair<std::string_view, std::size_t>, 24> fixed_sizes{
+    {{"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
+     {"compression", 1}, {"double", 8},   {"envmap", 1},
+     {"float", 4},       {"int", 4},      {"keycode", 28},
+     {"lineOrder", 1},   {"m33f", 36},    {"m33d", 72},
+     {"m44f", 64},       {"m44d", 128},   {"rational", 8},
+     {"timecode", 8},    {"tiledesc", 9}, {"v2i", 8},
+     {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
+     {"v3f", 12},        {"v3d", 24},     {"deepImageState", 1}}};
+
+/// Whether a value is as long as its own contents say, for the types whose length they tell.
+bool is_consistent(std::string_view type, ByteView value) {
+  const auto count_at = [&](std::size_t at) {
+    return std::uint64_t{load<std::uint32_t>(&value[at], std::endian::little)};
+  };
+  for (const auto& [name, size] : fixed_sizes)
+    if (type == name) return value.size() == size;
+  if (type == "preview")
+    return value.size() >= 8 && count_at(0) <= value.size() && count_at(4) <= value.size() &&
+           8 + 4 * count_at(0) * count_at(4) == value.size();
+  if (type == "stringvector") {
+    std::size_t at = 0;
+    while (value.size() - at >= 4 && count_at(at) <= value.size() - at - 4) at += 4 + count_at(at);
+    return at == value.size();
+  }
+  if (type == "chlist") {
+    std::size_t at = 0;
+    while (at < value.size() && value[at] != std::byte{0}) {
+      while (at < value.size() && value[at] != std::byte{0}) ++at;
+      at += 17;
+    }
+    return at + 1 == value.size();
+  }
+  return true;
+}
+
 /// The attributes of one part, by name: their bytes. Types are left to OpenEXR.
 using Attributes = std::map<std::string_view, ByteView>;
 
@@ -73,13 +110,15 @@ class Claims {
     while (true) {
       const std::string_view name = read_name();
       if (name.empty()) return attributes;
-      read_name();  // the type
+      const std::string_view type = read_name();
       if (bytes_.size() - position_ < 4) fail("truncated: its header does not end");
       const auto size = load<std::uint32_t>(&bytes_[position_], std::endian::little);
       position_ += 4;
       if (size > bytes_.size() - position_)
         fail("corrupt or truncated: an attribute of its header is longer than the file");
       attributes[name] = bytes_.subspan(position_, size);
+      if (!is_consistent(type, attributes[name]))
+        fail("corrupt: an attribute of its header has the wrong size for its type");
       position_ += size;
     }
   }
