@@ -200,6 +200,7 @@ const BadCase bad_cases[] = {
      "line 2: expected a number of vertices, found a negative one"},
     {"binary.off", "OFF BINARY\n...", "line 1: binary OFF is not supported"},
     {"four.off", "4OFF\n0 0 0\n", "line 1: 4OFF is not supported"},
+    {"one byte.off", "4", "expected a number of faces"},
     {"empty.off", "#\n", "expected OFF and the counts"},
     {"nan.stl", stl_with(std::numeric_limits<float>::quiet_NaN()),
      "byte 116: a coordinate of triangle 0 is not finite"},

@@ -38,7 +38,8 @@ class OffReader {
   void read_header() {
     if (!cursor_.next_line_with_words()) cursor_.fail("expected OFF and the counts, found nothing");
     const char first = *cursor_.position();
-    if (first < '0' || first > '9' || (first == '4' && cursor_.position()[1] == 'O'))
+    if (first < '0' || first > '9' ||
+        (cursor_.rest() > 1 && first == '4' && cursor_.position()[1] == 'O'))
       read_keyword();
     header_.vertices = read_count("a number of vertices");
     header_.faces = read_count("a number of faces");
