@@ -79,7 +79,8 @@ class Points {
 
  private:
   [[nodiscard]] Vector given_point(std::size_t k) const {
-    return frame_ == PointFrame::world ? position_[k] : transform_point(view_.world_to_camera, position_[k]);
+    return frame_ == PointFrame::world ? position_[k]
+                                       : transform_point(view_.world_to_camera, position_[k]);
   }
 
   [[nodiscard]] Vector computed_point(std::size_t k) const {

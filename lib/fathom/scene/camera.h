@@ -23,8 +23,7 @@ struct Camera {
   /// or 0 (OpenCV).
   double pixel_centre = 0.5;
   /// [R | t], 3×4; R need not be a rotation.
-  std::array<std::array<double, 4>, 3> world_to_camera{
-      {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  std::array<std::array<double, 4>, 3> world_to_camera{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   double near = 0;
   double far = std::numeric_limits<double>::infinity();
 };

@@ -37,9 +37,8 @@ struct ImagePoint {
 /// An exact affine map, 3×4, applied to column vectors: linear part | translation.
 template <class Target, class Source>
 struct ExactAffine {
-  std::array<std::array<Dyadic, 4>, 3> rows{{{1.0, 0.0, 0.0, 0.0},
-                                             {0.0, 1.0, 0.0, 0.0},
-                                             {0.0, 0.0, 1.0, 0.0}}};
+  std::array<std::array<Dyadic, 4>, 3> rows{
+      {{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}}};
 
   template <class Point>
   [[nodiscard]] Target apply(const Point& p) const {
