@@ -214,8 +214,8 @@ const BadCase bad_cases[] = {
     {"ascii four.stl", stl_head + "vertex 0 1 0\nvertex 0 1 1\n", "line 7: expected 'endloop'"},
     {"ascii word.stl", "solid a\nfacette\n", "line 2: expected 'facet' or 'endsolid'"},
 };
-INSTANTIATE_TEST_SUITE_P(All, BadMeshCase, testing::ValuesIn(bad_cases), [](const auto& info) {
-  std::string name = info.param.name;
+INSTANTIATE_TEST_SUITE_P(All, BadMeshCase, testing::ValuesIn(bad_cases), [](const auto& test) {
+  std::string name = test.param.name;
   for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   return name;
