@@ -318,5 +318,16 @@ TEST(Paths, ThatCannotBeUsedAreNamed) {
   }
 }
 
+// OpenEXR 3.1 takes four bytes too many for an idManifest; the attribute behind it had a short name
+// here, and a length was read where there is none: an allocation of 1.6 GB.
+TEST(BadFiles, AnIdManifestDoesNotMakeTheReaderLoseStep) {
+  try {
+    read_map(FATHOM_SOURCE_DIR "/tests/fuzz/corpus/map/lost_step.exr");
+    FAIL() << "expected an InputError";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("Unexpected data block"));
+  }
+}
+
 }  // namespace
 }  // namespace fathom

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "fathom/image/byte_order.h"
 #include "fathom/image/map_codecs.h"
@@ -77,7 +78,7 @@ class Claims {
  public:
   Claims(ByteView bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
-  void check() {
+  std::vector<std::size_t> check() {
     if (bytes_.size() < 8) fail("truncated: expected a header");
     const auto version = load<std::uint32_t>(&bytes_[4], std::endian::little);
     if ((version & 0xFF) != 2) fail("expected version 2 of the format");
@@ -87,9 +88,10 @@ class Claims {
       fail("deep images are not read as maps: expected scan lines or tiles");
     for (bool first = true; !part.empty(); first = false) {
       check_part(part, first);
-      if (!(version & flag_multipart)) return;
+      if (!(version & flag_multipart)) break;
       part = read_attributes();
     }
+    return defused_;
   }
 
  private:
@@ -110,7 +112,11 @@ class Claims {
     while (true) {
       const std::string_view name = read_name();
       if (name.empty()) return attributes;
+      const std::size_t type_at = position_;
       const std::string_view type = read_name();
+      // OpenEXR 3.1 takes four bytes more than such an attribute has, and what follows is misread.
+      // It passes over a type that it does not know.
+      if (type == "idmanifest") defused_.push_back(type_at);
       if (bytes_.size() - position_ < 4) fail("truncated: its header does not end");
       const auto size = load<std::uint32_t>(&bytes_[position_], std::endian::little);
       position_ += 4;
@@ -201,12 +207,13 @@ class Claims {
   ByteView bytes_;
   const std::string& name_;
   std::size_t position_ = 0;
+  std::vector<std::size_t> defused_;
 };
 
 }  // namespace
 
-void check_exr_claims(ByteView bytes, const std::string& name) {
-  Claims(bytes, name).check();
+std::vector<std::size_t> check_exr_claims(ByteView bytes, const std::string& name) {
+  return Claims(bytes, name).check();
 }
 
 }  // namespace fathom

@@ -52,9 +52,9 @@ DepthMap read_part(Imf::InputPart& part, const std::string& name) {
 }  // namespace
 
 DepthMap decode_exr(ByteView bytes, const std::string& name) {
-  check_exr_claims(bytes, name);
+  std::vector<std::size_t> defused = check_exr_claims(bytes, name);
   try {
-    ByteInput stream(bytes, name);
+    ByteInput stream(bytes, name, std::move(defused));
     // Starting threads costs more than a small file does.
     const int threads = bytes.size() < (std::size_t{1} << 18) ? 0 : reserve_exr_threads(0);
     Imf::MultiPartInputFile file(stream, threads, false);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "fathom/image/depth_map.h"
 #include "fathom/image/file_bytes.h"
@@ -29,7 +30,8 @@ DepthMap decode_map(ByteView bytes, const std::string& name);
 
 /// Throws InputError if an OpenEXR file's header (its first part) claims more than the file can
 /// hold, is not a plain image, or cannot be followed. See exr_claims.cpp.
-void check_exr_claims(ByteView bytes, const std::string& name);
+/// Returns where the types of attributes stand that OpenEXR must not interpret (see ByteInput).
+std::vector<std::size_t> check_exr_claims(ByteView bytes, const std::string& name);
 
 /// Greatest ratio of image bytes to file bytes that DEFLATE reaches (1032:1, zlib's documentation),
 /// doubled so as not to depend on the last detail.
