@@ -38,14 +38,9 @@ struct Probe {
   std::vector<CoveringTriangle> triangles;
 };
 
-/// The file that an object comes from where the scene tells: it has one source, or one source per
-/// object with the object named after it. Elsewhere (objects of a scene file) the object's name.
+/// The file that a triangle comes from.
 std::string file_of(const Scene& scene, const CoveringTriangle& triangle) {
-  const std::string& name = scene.objects[triangle.origin.object].name;
-  if (scene.sources.size() == 1) return scene.sources[0].path;
-  if (scene.sources.size() != scene.objects.size()) return name;
-  const std::filesystem::path path = scene.sources[triangle.origin.object].path;
-  return path.stem() == name ? path.string() : name;
+  return scene.sources[scene.objects[triangle.origin.object].source].path;
 }
 
 /// Why a triangle that covers the sample does not count (specification, section 5).

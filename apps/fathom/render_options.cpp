@@ -1,6 +1,7 @@
 #include "render_options.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "fathom/numeric/errors.h"
@@ -44,8 +45,20 @@ void StorageOptions::add_to(CLI::App& command) {
   command.add_option("--dtype", dtype, "Of an NPY: float32 (default) or float64");
 }
 
+namespace {
+
+/// A device or a pipe, which is written through and need not have a suffix.
+bool is_written_through(const std::string& target) {
+  std::error_code error;
+  const auto status = std::filesystem::status(target, error);
+  return std::filesystem::is_other(status);
+}
+
+}  // namespace
+
 MapFormat StorageOptions::format_of(const std::string& target) const {
-  const std::optional<MapFormat> format = map_format_of(target);
+  std::optional<MapFormat> format = map_format_of(target);
+  if (!format && is_written_through(target)) format = MapFormat::exr;
   if (!format) {
     throw UsageError(target + ": the suffix of a map is one of .exr, .pfm, .png and .npy");
   }

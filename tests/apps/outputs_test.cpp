@@ -103,6 +103,14 @@ TEST_F(Outputs, WriteThroughADevice) {
   EXPECT_TRUE(fs::is_symlink(folder_ / "map.exr"));
 }
 
+TEST_F(Outputs, ADeviceNeedsNoSuffix) {
+  const Outcome outcome = render_to("/dev/null");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  expect_failure("/dev/full", "No space left on device");
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
 TEST_F(Outputs, WriteThroughANamedPipe) {
   ASSERT_EQ(::mkfifo((folder_ / "map.pfm").c_str(), 0600), 0);
   std::string received;

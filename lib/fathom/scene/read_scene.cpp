@@ -104,7 +104,7 @@ class SceneReader {
     std::future<std::string> hash;
     if (options_.hash) hash = std::async(std::launch::async, [&] { return sha256(input.bytes()); });
     const std::string file = path.string();
-    const std::size_t source = scene_.sources.size();
+    const std::size_t source = scene_.sources.size(), first = scene_.objects.size();
     scene_.sources.push_back({file, ""});
     if (kind == FileKind::gltf) {
       append_gltf(scene_, input.bytes(), path, options_, warnings_);
@@ -118,6 +118,7 @@ class SceneReader {
       scene_.meshes.push_back(std::move(mesh));
       scene_.objects.push_back(std::move(object));
     }
+    for (std::size_t i = first; i < scene_.objects.size(); ++i) scene_.objects[i].source = source;
     if (hash.valid()) scene_.sources[source].sha256 = hash.get();
     expect_countable(triangle_count(scene_), "triangles in all", file);
   }

@@ -18,6 +18,8 @@ struct Object {
   std::string name;
   /// Number, in its file, of this object's first face (glTF: faces run over all nodes of a file).
   std::uint64_t first_face = 0;
+  /// Index into Scene::sources of the file that the mesh comes from.
+  std::size_t source = 0;
 };
 
 /// A file that went into a scene, for provenance.
