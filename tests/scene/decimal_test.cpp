@@ -222,8 +222,11 @@ TYPED_TEST(DecimalTest, TakesTheEdgesOfTheRange) {
   for (const std::string& text :
        {std::string("0"), std::string("-0"), std::string("+0"), std::string("-0.0e5"),
         std::string("0e999999999999999999999"), std::string("1e400"), std::string("-1e400"),
-        std::string("1e-400"), std::string("-1e-400"), std::string("1E+05"), std::string(".5"),
-        std::string("5."), std::string("+.5e-0"), std::string("1e5"),
+        std::string("1e-400"), std::string("-1e-400"),
+        // the exponent alone does not tell which way it leaves the range
+        "0." + std::string(400, '0') + "1e10", "-0." + std::string(400, '0') + "1e800",
+        std::string(400, '9') + "e-10", std::string(400, '9') + ".5e-800", std::string("1E+05"),
+        std::string(".5"), std::string("5."), std::string("+.5e-0"), std::string("1e5"),
         std::string("1e-99999999999999999999"), std::string("1e99999999999999999999"),
         "0." + zeros + "1e501", "1" + zeros + "e-500", "1" + zeros + "e-900", "0." + zeros + "1",
         "1" + zeros, long_digits, "0." + long_digits, long_digits + "e-3000",
