@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "fathom/exact/fast.h"
 #include "fathom/exact/reference.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
@@ -69,7 +70,7 @@ void describe(const Scene& scene, const Camera& camera, const RenderOptions& opt
   for (const Object& object : scene.objects) map.object_names.push_back(object.name);
   map.texts["fathom.camera"] = to_json(camera);
   map.texts["fathom.sources"] = sources_as_json(scene.sources);
-  map.texts["fathom.engine"] = "reference";
+  map.texts["fathom.engine"] = options.engine == Engine::fast ? "fast" : "reference";
   if (options.cull != Cull::none) {
     map.texts["fathom.cull"] = options.cull == Cull::back ? "back" : "front";
   }
@@ -79,7 +80,8 @@ void describe(const Scene& scene, const Camera& camera, const RenderOptions& opt
 
 DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& options) {
   if (const auto fault = find_fault(camera)) throw InputError("camera: " + *fault);
-  DepthMap map = render_reference(scene, camera, options);
+  DepthMap map = options.engine == Engine::fast ? render_fast(scene, camera, options)
+                                                : render_reference(scene, camera, options);
   describe(scene, camera, options, map);
   return map;
 }

@@ -105,6 +105,9 @@ ChannelWriter::ChannelWriter(DepthMap& map, const Scene& scene, const Camera& ca
       handedness_(Dyadic(camera.fx).sign() * Dyadic(camera.fy).sign() *
                   determinant_of_rotation(camera).sign()) {
   depth_ = channel("Z");
+  if (depth_ && std::holds_alternative<std::vector<float>>(depth_->values)) {
+    depth32_ = floats("Z");
+  }
   distance_ = channel("distance");
   low_ = floats("Zlow");
   id_ = integers("id");
@@ -130,6 +133,16 @@ float* ChannelWriter::floats(const std::string& name) {
 std::uint32_t* ChannelWriter::integers(const std::string& name) {
   ImageChannel* c = channel(name);
   return c ? std::get<std::vector<std::uint32_t>>(c->values).data() : nullptr;
+}
+
+bool ChannelWriter::takes_rounded_depths() const {
+  const bool others = distance_ || low_ || normal_[0] || position_[0] || barycentric_[0];
+  return !others && (!depth_ || depth32_);
+}
+
+void ChannelWriter::write(std::size_t pixel, std::uint32_t triangle, float depth) {
+  if (depth32_) depth32_[pixel] = depth;
+  if (id_ || face_ || object_) write_origin(pixel, triangle);
 }
 
 std::optional<EncodingFault> ChannelWriter::write(std::size_t pixel, const ProjectedTriangle& t,

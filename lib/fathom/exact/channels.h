@@ -30,6 +30,13 @@ class ChannelWriter {
   std::optional<EncodingFault> write(std::size_t pixel, const ProjectedTriangle& triangle,
                                      const ImagePoint& s);
 
+  /// True where the channels are Z as binary32, id, face and object, or fewer: then a surface whose
+  /// rounded depth is known can be written without exact numbers.
+  [[nodiscard]] bool takes_rounded_depths() const;
+  /// Writes a visible surface; `depth` is its exact depth rounded to binary32. Only if
+  /// takes_rounded_depths().
+  void write(std::size_t pixel, std::uint32_t triangle, float depth);
+
  private:
   std::optional<EncodingFault> write_depth(std::size_t pixel, const Ratio& depth);
   std::optional<EncodingFault> write_distance(std::size_t pixel, const ProjectedTriangle& triangle,
@@ -51,6 +58,8 @@ class ChannelWriter {
   /// sign(fx·fy·det R)
   Sign handedness_;
   ImageChannel* depth_ = nullptr;
+  /// The values of `depth_` where they are binary32.
+  float* depth32_ = nullptr;
   ImageChannel* distance_ = nullptr;
   float* low_ = nullptr;
   std::uint32_t *id_ = nullptr, *face_ = nullptr, *object_ = nullptr;

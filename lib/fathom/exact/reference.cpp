@@ -1,18 +1,15 @@
 #include "fathom/exact/reference.h"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <optional>
 
 #include "fathom/exact/channels.h"
+#include "fathom/exact/engine_frame.h"
 #include "fathom/exact/projected_triangle.h"
-#include "fathom/numeric/errors.h"
 
 // How to read this file: render_reference() at the end is the whole story. The image is cut into
 // bands of rows. For each band, every triangle whose box meets it is tested at every sample of its
@@ -154,18 +151,6 @@ class Band {
   std::vector<Nearest> nearest_;
 };
 
-void add(RenderStatistics& sum, const RenderStatistics& part) {
-  sum.degenerate_triangles += part.degenerate_triangles;
-  sum.culled_triangles += part.culled_triangles;
-  sum.samples_tested += part.samples_tested;
-  sum.samples_covered += part.samples_covered;
-  sum.pixels_with_surface += part.pixels_with_surface;
-  sum.facing += part.facing;
-  sum.edges += part.edges;
-  sum.visibility += part.visibility;
-  sum.range += part.range;
-}
-
 /// The candidates among the triangles of one object, in the order of their numbers.
 std::vector<Candidate> find_candidates(const Scene& scene, const Camera& camera, Cull cull,
                                        std::uint32_t object, std::uint32_t first_number,
@@ -228,30 +213,6 @@ std::optional<EncodingFault> render_band(const Scene& scene, const Camera& camer
   return band.resolve(writer, statistics);
 }
 
-[[noreturn]] void fail(const EncodingFault& fault, const DepthMap& map) {
-  throw OutputError("pixel (" + std::to_string(fault.pixel % map.width) + ", " +
-                    std::to_string(fault.pixel / map.width) + "): " + fault.why +
-                    "; choose another scale");
-}
-
-/// Reports the share of bands done, from one thread at a time.
-class Progress {
- public:
-  Progress(const std::function<void(double)>& report, std::uint32_t bands)
-      : report_(report), bands_(bands) {}
-  void band_done() {
-    if (!report_) return;
-    const std::lock_guard lock(mutex_);
-    report_(static_cast<double>(++done_) / bands_);
-  }
-
- private:
-  const std::function<void(double)>& report_;
-  std::uint32_t bands_;
-  std::uint32_t done_ = 0;
-  std::mutex mutex_;
-};
-
 DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options) {
   RenderStatistics statistics;
   statistics.triangles = triangle_count(scene);
@@ -267,7 +228,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   tbb::parallel_for(std::uint32_t{0}, bands, [&](std::uint32_t band) {
     faults[band] =
         render_band(scene, camera, candidates, band * rows_per_band, writer, parts[band]);
-    progress.band_done();
+    progress.part_done();
   });
 
   for (std::uint32_t band = 0; band < bands; ++band) {
@@ -281,14 +242,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
 }  // namespace
 
 DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options) {
-  // More threads than the machine has are allowed: TBB's own limit is lifted for this call.
-  std::optional<tbb::global_control> limit;
-  if (options.threads > 0) {
-    limit.emplace(tbb::global_control::max_allowed_parallelism,
-                  static_cast<std::size_t>(options.threads));
-  }
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  return arena.execute([&] { return render_in_arena(scene, camera, options); });
+  return with_threads(options.threads, [&] { return render_in_arena(scene, camera, options); });
 }
 
 }  // namespace fathom

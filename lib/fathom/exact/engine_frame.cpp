@@ -1,0 +1,28 @@
+#include "fathom/exact/engine_frame.h"
+
+#include "fathom/numeric/errors.h"
+
+namespace fathom {
+
+void fail(const EncodingFault& fault, const DepthMap& map) {
+  throw OutputError("pixel (" + std::to_string(fault.pixel % map.width) + ", " +
+                    std::to_string(fault.pixel / map.width) + "): " + fault.why +
+                    "; choose another scale");
+}
+
+void add(RenderStatistics& sum, const RenderStatistics& part) {
+  sum.degenerate_triangles += part.degenerate_triangles;
+  sum.culled_triangles += part.culled_triangles;
+  sum.samples_tested += part.samples_tested;
+  sum.samples_covered += part.samples_covered;
+  sum.pixels_with_surface += part.pixels_with_surface;
+  sum.facing += part.facing;
+  sum.edges += part.edges;
+  sum.visibility += part.visibility;
+  sum.range += part.range;
+  sum.rounding += part.rounding;
+  sum.exact_setups += part.exact_setups;
+  sum.same_plane += part.same_plane;
+}
+
+}  // namespace fathom

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "fathom/exact/options.h"
+#include "fathom/image/depth_map.h"
+#include "fathom/scene/camera.h"
+#include "fathom/scene/scene.h"
+
+namespace fathom {
+
+/// The fast engine: floating point with proved bounds, exact arithmetic where a bound does not
+/// settle a decision (specification, section 7). Its map equals that of render_reference bit for
+/// bit, on every input; docs/error-analysis.md gathers the bounds.
+///
+/// Needs    a camera without fault (find_fault) and a valid scene.
+/// Fails    as render_reference.
+DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options);
+
+}  // namespace fathom

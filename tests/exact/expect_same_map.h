@@ -1,0 +1,61 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+
+#include "fathom/exact/fast.h"
+#include "fathom/exact/reference.h"
+
+namespace fathom::testing {
+
+inline const std::vector<Channel> every_channel{Channel::Z,  Channel::Zlow, Channel::distance,
+                                                Channel::id, Channel::face, Channel::object,
+                                                Channel::N,  Channel::P,    Channel::bary};
+inline const std::vector<Channel> quick_channels{Channel::Z, Channel::id, Channel::face,
+                                                 Channel::object};
+
+/// The first pixel at which the values differ in a bit; nullopt if none.
+template <class T>
+std::optional<std::size_t> first_difference(const std::vector<T>& a, const std::vector<T>& b) {
+  if (a.size() != b.size()) return std::min(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::memcmp(&a[i], &b[i], sizeof(T)) != 0) return i;
+  }
+  return std::nullopt;
+}
+
+inline void expect_same_map(const DepthMap& ours, const DepthMap& truth) {
+  ASSERT_EQ(ours.channels.size(), truth.channels.size());
+  for (std::size_t k = 0; k < truth.channels.size(); ++k) {
+    const ImageChannel& a = ours.channels[k];
+    const ImageChannel& b = truth.channels[k];
+    ASSERT_EQ(a.name, b.name);
+    ASSERT_EQ(a.values.index(), b.values.index());
+    std::visit(
+        [&](const auto& values) {
+          const auto& others = std::get<std::decay_t<decltype(values)>>(a.values);
+          const auto pixel = first_difference(others, values);
+          if (!pixel) return;
+          ADD_FAILURE() << b.name << " differs first at pixel (" << *pixel % truth.width << ", "
+                        << *pixel / truth.width << "): " << std::hexfloat << others[*pixel]
+                        << ", the reference has " << values[*pixel];
+        },
+        b.values);
+  }
+}
+
+/// Renders with both engines and compares; returns the fast engine's statistics.
+inline RenderStatistics expect_same(const Scene& scene, const Camera& camera,
+                                    RenderOptions options) {
+  RenderStatistics statistics;
+  options.statistics = nullptr;
+  const DepthMap truth = render_reference(scene, camera, options);
+  options.statistics = &statistics;
+  const DepthMap ours = render_fast(scene, camera, options);
+  expect_same_map(ours, truth);
+  return statistics;
+}
+
+}  // namespace fathom::testing
