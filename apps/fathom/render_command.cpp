@@ -47,13 +47,16 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+Engine engine_named(const std::string& name) {
+  if (name == "reference") return Engine::reference;
+  if (name == "fast") return Engine::fast;
+  throw UsageError(fmt::format("--engine: '{}' does not exist{}; there are reference and fast",
+                               name, name == "pipeline" ? " yet" : ""));
+}
+
 RenderOptions render_options(const RenderArguments& arguments, MapFormat format) {
-  if (arguments.engine != "reference") {
-    const bool announced = arguments.engine == "fast" || arguments.engine == "pipeline";
-    throw UsageError(fmt::format("--engine: '{}' does not exist{}; there is reference",
-                                 arguments.engine, announced ? " yet" : ""));
-  }
   RenderOptions options;
+  options.engine = engine_named(arguments.engine);
   options.channels = parse_channels(arguments.channels);
   options.cull = cull_named(arguments.cull);
   options.threads = arguments.scene.thread_count();
@@ -116,11 +119,14 @@ Json to_json(const RenderStatistics& statistics) {
           {"samples_tested", statistics.samples_tested},
           {"samples_covered", statistics.samples_covered},
           {"pixels_with_surface", statistics.pixels_with_surface},
+          {"exact_setups", statistics.exact_setups},
+          {"same_plane", statistics.same_plane},
           {"decisions",
            {{"facing", to_json(statistics.facing)},
             {"edges", to_json(statistics.edges)},
             {"visibility", to_json(statistics.visibility)},
-            {"range", to_json(statistics.range)}}}};
+            {"range", to_json(statistics.range)},
+            {"rounding", to_json(statistics.rounding)}}}};
 }
 
 void warn_of(const RenderStatistics& statistics, const Console& console) {
@@ -215,7 +221,8 @@ void add_render(Program& program) {
                       "Write the camera to this file (JSON; - is standard output)");
   command->add_option("--channels", arguments->channels,
                       "Of Z, Zlow, distance, id, face, object, N, P, bary (default Z)");
-  command->add_option("--engine", arguments->engine, "reference (default)");
+  command->add_option("--engine", arguments->engine,
+                      "reference (default), or fast: the same map bit for bit, sooner");
   add_cull_option(*command, arguments->cull);
   arguments->storage.add_to(*command);
   command->add_option("--stats", arguments->statistics,

@@ -245,6 +245,18 @@ TEST_F(Rendering, CullingByFacing) {
   }
 }
 
+TEST_F(Rendering, TheEngineChangesNothing) {
+  const auto map_by = [&](const std::string& engine) {
+    const std::string file = engine + ".npy";
+    const Json stats = Json::parse(answer({"render", "square.obj", "--size", "90x70", "--engine",
+                                           engine, "-o", file, "--stats", "-"}));
+    EXPECT_EQ(stats["engine"], engine);
+    EXPECT_GT(stats["pixels_with_surface"], 100);
+    return folder_.read(file);
+  };
+  EXPECT_EQ(map_by("fast"), map_by("reference"));
+}
+
 TEST_F(Rendering, TheNumberOfThreadsChangesNothing) {
   answer({"render", "square.obj", "--size", "90x70", "--threads", "1", "-o", "one.npy"});
   answer({"render", "square.obj", "--size", "90x70", "--threads", "7", "-o", "seven.npy"});
