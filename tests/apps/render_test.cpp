@@ -228,10 +228,12 @@ TEST_F(Rendering, AnEmptySceneThroughACameraIsBackgroundWithAWarning) {
 
 TEST_F(Rendering, DegenerateTrianglesAreOneWarningWithTheirCount) {
   folder_.write("square.obj", square_obj + "f 1 1 2\nf 3 3 3\n");
-  const Outcome outcome =
-      fathom({"render", "square.obj", "--camera", "camera.json", "-o", "map.exr"});
-  EXPECT_EQ(outcome.status, 0);
-  EXPECT_THAT(outcome.err, HasSubstr("fathom: warning: 2 of 4 triangles"));
+  for (const char* engine : {"reference", "fast"}) {
+    const Outcome outcome = fathom(
+        {"render", "square.obj", "--camera", "camera.json", "--engine", engine, "-o", "map.exr"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("fathom: warning: 2 of 4 triangles")) << engine;
+  }
 }
 
 TEST_F(Rendering, CullingByFacing) {

@@ -79,17 +79,14 @@ PixelBox Bins::visible_box(std::uint32_t triangle, const Context& context) const
   if (!A.is_usable() || !B.is_usable() || !C.is_usable()) {
     return visible_box_exactly(triangle, context);
   }
-  const PixelBox box = sample_box(A, B, C, context.grid.width, context.grid.height);
-  if (box.is_empty()) return box;
-
   RenderStatistics& statistics = context.statistics;
   auto orientation = certified_orientation(A, B, C);
   if (orientation) {
     ++statistics.facing.interval;
   } else {
     ++statistics.facing.exact;
-    const bool has_edge = a != b && b != c && c != a;
-    orientation = has_edge ? context.referee.projected(object_->first_number + triangle).orientation
+    const bool distinct = a != b && b != c && c != a;
+    orientation = distinct ? context.referee.projected(object_->first_number + triangle).orientation
                            : Sign::zero;
   }
   if (orientation == Sign::zero) {
@@ -100,7 +97,7 @@ PixelBox Bins::visible_box(std::uint32_t triangle, const Context& context) const
     ++statistics.culled_triangles;
     return {};
   }
-  return box;
+  return sample_box(A, B, C, context.grid.width, context.grid.height);
 }
 
 PixelBox Bins::visible_box_exactly(std::uint32_t triangle, const Context& context) const {

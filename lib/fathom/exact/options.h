@@ -29,8 +29,8 @@ struct DepthEncoding {
 };
 
 /// What was decided how. The fast engine asks fewer questions: it does not count as degenerate or
-/// culled the triangles that its boxes leave out (those that reach no sample of the image), and as
-/// covered only samples where the triangle was not behind one drawn before.
+/// culled a triangle that reaches behind the camera and misses the image, and as covered only
+/// samples where the triangle was not behind one drawn before.
 struct RenderStatistics {
   std::uint64_t triangles = 0;
   std::uint64_t degenerate_triangles = 0;  // Δ = 0, seen edge on
