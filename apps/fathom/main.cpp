@@ -49,7 +49,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error,
   const CLI::App& command = chosen_command(app);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     for (const char* argument : arguments) {
-      const std::string message = announced_option(command.get_name(), argument);
+      std::string message = announced_option(command.get_name(), argument);
       if (!message.empty()) return message;
     }
   }

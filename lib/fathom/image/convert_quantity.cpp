@@ -60,10 +60,11 @@ template <class T>
 std::vector<T> converted(const std::vector<T>& values, std::size_t width,
                          const Converter& convert) {
   std::vector<T> result(values.size());
-  for (std::size_t k = 0; k < values.size(); ++k)
-    result[k] =
-        static_cast<T>(convert(static_cast<double>(values[k]), static_cast<double>(k % width),
-                               static_cast<double>(k / width)));
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const std::size_t column = k % width, row = k / width;
+    result[k] = static_cast<T>(convert(static_cast<double>(values[k]), static_cast<double>(column),
+                                       static_cast<double>(row)));
+  }
   return result;
 }
 

@@ -44,17 +44,14 @@ bool is_reserved(std::string_view name) {
 /// Imath multiplies row vectors: the transpose of the matrix for column vectors.
 Imath::M44f for_row_vectors(const std::array<double, 16>& matrix) {
   Imath::M44f result;
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-      result[column][row] = static_cast<float>(matrix[static_cast<std::size_t>(4 * row + column)]);
+  for (int k = 0; k < 16; ++k)
+    result[k % 4][k / 4] = static_cast<float>(matrix[static_cast<std::size_t>(k)]);
   return result;
 }
 
 std::array<double, 16> for_column_vectors(const Imath::M44f& matrix) {
   std::array<double, 16> result{};
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-      result[static_cast<std::size_t>(4 * row + column)] = matrix[column][row];
+  for (int k = 0; k < 16; ++k) result[static_cast<std::size_t>(k)] = matrix[k % 4][k / 4];
   return result;
 }
 

@@ -84,7 +84,8 @@ class Points {
   }
 
   [[nodiscard]] Vector computed_point(std::size_t k) const {
-    const auto i = static_cast<double>(k % map_.width), j = static_cast<double>(k / map_.width);
+    const std::size_t column = k % map_.width, row = k / map_.width;
+    const auto i = static_cast<double>(column), j = static_cast<double>(row);
     double z = depth_[k];
     if (ray_distance_ && !view_.orthographic) {
       const Vector ray = point_at(view_, i, j, 1);

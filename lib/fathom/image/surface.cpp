@@ -129,7 +129,7 @@ BackgroundRule detect_background(const ImageChannel& channel) {
 std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& channel,
                                        const std::optional<BackgroundRule>& rule,
                                        bool by_identifiers) {
-  const std::vector<std::uint8_t> everywhere(std::size_t{map.width} * map.height, 1);
+  std::vector<std::uint8_t> everywhere(std::size_t{map.width} * map.height, 1);
   // `A` says itself how much of a pixel is covered: no pixel of it is background.
   if (channel.name == "A") return everywhere;
   const std::vector<std::uint32_t>* ids = by_identifiers ? identifiers_of(map) : nullptr;

@@ -59,6 +59,7 @@ std::vector<ImportedCamera> parse_bop(std::string_view text, const std::string& 
   std::stable_sort(cameras.begin(), cameras.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<ImportedCamera> result;
+  result.reserve(cameras.size());
   for (auto& [id, camera] : cameras) result.push_back(std::move(camera));
   return result;
 }

@@ -72,7 +72,7 @@ Transform read_matrix(const JsonValue& value) {
 
 /// T·R·S, R being the polynomial matrix of the quaternion (x, y, z, w), whatever its length.
 Transform read_parts(const JsonValue& node) {
-  const auto numbers = [&](const char* key, std::vector<double> otherwise) {
+  const auto numbers = [&](const char* key, const std::vector<double>& otherwise) {
     const auto value = node.find(key);
     return value ? value->numbers(otherwise.size()) : otherwise;
   };
