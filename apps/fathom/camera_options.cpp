@@ -4,6 +4,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
+#include "known_files.h"
 #include "numbers.h"
 
 namespace fathom::app {
@@ -52,6 +53,7 @@ Lens CameraOptions::lens() const {
 
 std::vector<Camera> CameraOptions::get(const Scene& scene) const {
   if (from_file()) {
+    note_input(file_);
     std::vector<Camera> cameras = read_cameras(file_);
     if (cameras.empty()) throw InputError(file_ + ": an empty list; expected at least one camera");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -62,11 +64,15 @@ std::vector<Camera> CameraOptions::get(const Scene& scene) const {
     }
     return cameras;
   }
+  const std::string file = scene.sources.empty() ? "scene" : scene.sources.back().path;
   if (triangle_count(scene) == 0) {
-    const std::string& file = scene.sources.empty() ? "scene" : scene.sources.back().path;
     throw InputError(file + ": the scene has no triangle; expected one to frame, or --camera");
   }
-  return {frame_scene(scene, view_.get(), lens())};
+  try {
+    return {frame_scene(scene, view_.get(), lens())};
+  } catch (const InputError& error) {
+    throw InputError(file + ": " + error.what() + "; give --camera");
+  }
 }
 
 }  // namespace fathom::app

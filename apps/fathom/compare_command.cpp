@@ -9,6 +9,7 @@
 #include "fathom/image/compare.h"
 #include "fathom/image/map_files.h"
 #include "fathom/numeric/errors.h"
+#include "known_files.h"
 #include "numbers.h"
 #include "output_file.h"
 #include "program.h"
@@ -154,6 +155,9 @@ std::string as_json(const MapComparison& comparison, const CompareArguments& arg
 
 int run_compare(const CompareArguments& arguments) {
   const CompareOptions options = compare_options(arguments);
+  if (!arguments.heatmap.empty()) expect_png("--heatmap", arguments.heatmap);
+  note_input(arguments.truth);
+  note_input(arguments.other);
   const DepthMap truth = read_map(arguments.truth);
   const DepthMap other = read_map(arguments.other);
   const MapComparison comparison = compare_maps(truth, other, options);

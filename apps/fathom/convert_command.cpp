@@ -12,6 +12,7 @@
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
+#include "known_files.h"
 #include "map_view.h"
 #include "numbers.h"
 #include "output_file.h"
@@ -47,6 +48,7 @@ DepthQuantity quantity_named(const std::string& option, const std::string& name)
 
 MapView view_for(const DepthMap& map, const ConvertArguments& arguments) {
   if (!arguments.camera.empty()) {
+    note_input(arguments.camera);
     const std::vector<Camera> cameras = read_cameras(arguments.camera);
     if (cameras.size() != 1) {
       throw UsageError(
@@ -150,6 +152,7 @@ DepthMap stored(DepthMap map, const ConvertArguments& arguments, MapFormat forma
 }
 
 int run_convert(const ConvertArguments& arguments) {
+  note_input(arguments.map);
   if (ends_with_ply(arguments.output)) {
     return write_points(read_map(arguments.map), arguments);
   }

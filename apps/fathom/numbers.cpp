@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <system_error>
 
 #include "fathom/numeric/errors.h"
@@ -89,6 +90,14 @@ std::vector<std::string> split_list(std::string_view text) {
     }
   }
   return parts;
+}
+
+void expect_png(const std::string& option, const std::string& name) {
+  const std::string suffix = std::filesystem::path(name).extension().string();
+  std::error_code error;
+  if (suffix == ".png" || suffix == ".PNG") return;
+  if (std::filesystem::is_other(std::filesystem::status(name, error))) return;  // a device, a pipe
+  throw UsageError(option + ": '" + name + "' does not end in .png");
 }
 
 }  // namespace fathom::app

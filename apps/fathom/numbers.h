@@ -29,4 +29,7 @@ std::array<double, 3> parse_vector(const std::string& option, std::string_view t
 /// The parts of a text between commas.
 std::vector<std::string> split_list(std::string_view text);
 
+/// Refuses a picture's name that does not end in .png.
+void expect_png(const std::string& option, const std::string& name);
+
 }  // namespace fathom::app

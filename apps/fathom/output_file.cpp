@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "fathom/numeric/errors.h"
+#include "known_files.h"
 #include "pending_files.h"
 
 namespace fathom::app {
@@ -129,6 +130,7 @@ OutputFile::OutputFile(fs::path target) : target_(std::move(target)) {
     fail_with_errno(target_, errno);
   }
   place_ = write_through_ ? fs::temp_directory_path() / "output" : *place;
+  if (!write_through_) claim_output(target_, place_);
   create_temporary();
 
   if (exists && !write_through_) {

@@ -5,6 +5,7 @@
 #include "fathom/image/map_files.h"
 #include "fathom/image/preview.h"
 #include "fathom/numeric/errors.h"
+#include "known_files.h"
 #include "numbers.h"
 #include "output_file.h"
 #include "program.h"
@@ -31,6 +32,8 @@ int run_preview(const PreviewArguments& arguments) {
     options.low = low;
     options.high = high;
   }
+  expect_png("--output", arguments.output);
+  note_input(arguments.map);
   const DepthMap map = read_map(arguments.map);
   const RgbImage picture = draw_preview(map, options);
   OutputFile output(arguments.output);

@@ -138,6 +138,16 @@ void warn_of(const RenderStatistics& statistics, const Console& console) {
   }
 }
 
+/// A depth that the file cannot hold is told with the name of its map.
+DepthMap render_to(const std::string& name, const Scene& scene, const Camera& camera,
+                   const RenderOptions& options) {
+  try {
+    return render(scene, camera, options);
+  } catch (const OutputError& error) {
+    throw OutputError(name + ": " + error.what());
+  }
+}
+
 int run_render(const RenderArguments& arguments, const Console& console) {
   const MapFormat format = arguments.storage.format_of(arguments.output);
   RenderOptions options = render_options(arguments, format);
@@ -173,7 +183,7 @@ int run_render(const RenderArguments& arguments, const Console& console) {
       options.statistics = &statistics;
       options.progress = progress.reporter(i, cameras.size());
       stopwatch.lap();
-      const DepthMap map = render(scene, cameras[i], options);
+      const DepthMap map = render_to(names[i], scene, cameras[i], options);
       const double seconds_rendering = stopwatch.lap();
       maps[i].write([&](const auto& path) { write_map(map, path, format, write_options); });
 
@@ -210,7 +220,7 @@ void add_render(Program& program) {
       "  fathom render room.json --camera camera.json --channels Z,id,N -o room.exr\n"
       "  fathom render spot.obj --view 90,0 --size 640x480 --save-camera side.json -o side.pfm\n"
       "  fathom render spot.obj -o spot.png --png-scale 1000      (16 bit, millimetres)\n"
-      "  fathom render spot.obj --camera path.json -o 'maps/{index:04}.exr'");
+      "  fathom render spot.obj --camera path.json -o 'view-{index:04}.exr'");
   arguments->scene.add_to(*command);
   command
       ->add_option("-o,--output", arguments->output,

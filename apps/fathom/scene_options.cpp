@@ -6,6 +6,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
+#include "known_files.h"
 #include "numbers.h"
 
 namespace fathom::app {
@@ -38,7 +39,7 @@ void SceneOptions::add_to(CLI::App& command) {
 
 int SceneOptions::thread_count() const {
   const std::uint32_t count = parse_count("--threads", threads);
-  if (count > 65536) throw UsageError("--threads: '" + threads + "' is more than 65536");
+  if (count > 1024) throw UsageError("--threads: '" + threads + "' is more than 1024");
   return static_cast<int>(count);
 }
 
@@ -55,6 +56,8 @@ Scene SceneOptions::read(const Console& console, bool hash) const {
   Warnings warnings;
   Scene scene = read_scene({files.begin(), files.end()}, options, warnings);
   console.warn(warnings);
+  for (const std::string& file : files) note_input(file);
+  for (const Source& source : scene.sources) note_input(source.path);
   return scene;
 }
 

@@ -47,6 +47,18 @@ class Outputs : public ::testing::Test {
     EXPECT_EQ(folder_.names(), before);
   }
 
+  /// A command whose output cannot be written in full leaves the older one and nothing else.
+  void expect_kept(std::vector<std::string> command, const std::string& output) {
+    folder_.write(output, "older");
+    const auto before = folder_.names();
+    command.push_back(output);
+    const Outcome outcome = run_fathom(command, {.folder = folder_.path(), .file_size = 150});
+    EXPECT_EQ(outcome.status, 4) << command[0] << " " << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(folder_.read(output), "older");
+    EXPECT_EQ(folder_.names(), before);
+  }
+
   [[nodiscard]] mode_t mode_of(const std::string& name) const {
     struct stat status {};
     ::stat((folder_ / name).c_str(), &status);
@@ -109,6 +121,34 @@ TEST_F(Outputs, ADeviceNeedsNoSuffix) {
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   expect_failure("/dev/full", "No space left on device");
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(Outputs, NeverReplaceAnInputOrEachOther) {
+  ASSERT_EQ(render_to("map.exr").status, 0);
+  const std::string mesh = folder_.read("square.obj"), map = folder_.read("map.exr");
+  ASSERT_EQ(run_fathom({"camera", "orbit", "square.obj", "--views", "2", "-o", "path.json"},
+                       {.folder = folder_.path()})
+                .status,
+            0);
+  const std::vector<std::vector<std::string>> clashes = {
+      {"render", "square.obj", "-o", "new.exr", "--save-camera", "./new.exr"},
+      {"render", "square.obj", "-o", "new.exr", "--stats", "square.obj"},
+      {"render", "square.obj", "--camera", "path.json", "-o", "{{index}}.exr"},
+      {"render", "square.obj", "--camera", "path.json", "-o", "{index}.exr", "--stats",
+       "path.json"},
+      {"convert", "map.exr", "-o", "map.exr"},
+      {"compare", "map.exr", "map.exr", "--json", "map.exr"},
+      {"preview", "map.exr", "-o", "map.exr"},
+  };
+  const auto before = folder_.names();
+  for (const auto& arguments : clashes) {
+    const Outcome outcome = run_fathom(arguments, {.folder = folder_.path()});
+    EXPECT_EQ(outcome.status, 2) << arguments.back();
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(folder_.names(), before) << arguments.back();
+  }
+  EXPECT_EQ(folder_.read("square.obj"), mesh);
+  EXPECT_EQ(folder_.read("map.exr"), map);
 }
 
 TEST_F(Outputs, WriteThroughANamedPipe) {
@@ -217,24 +257,15 @@ TEST_F(Outputs, OneThatFailsTakesTheOthersAlong) {
 TEST_F(Outputs, EveryCommandWritesBesideAndRenames) {
   ASSERT_EQ(render_to("map.exr").status, 0);
   const std::vector<std::vector<std::string>> commands{
-      {"preview", "map.exr", "-o"},
       {"convert", "map.exr", "-o"},
       {"compare", "map.exr", "map.exr", "--json"},
-      {"compare", "map.exr", "map.exr", "--heatmap"},
       {"camera", "look-at", "--eye", "0,0,1", "-o"},
       {"camera", "orbit", "square.obj", "--views", "2", "-o"},
       {"render", "square.obj", "-o", "map.exr", "--stats"},
       {"render", "square.obj", "-o", "map.exr", "--save-camera"}};
-  for (std::vector<std::string> command : commands) {
-    folder_.write("output.pfm", "older");
-    const auto before = folder_.names();
-    command.emplace_back("output.pfm");
-    const Outcome outcome = run_fathom(command, {.folder = folder_.path(), .file_size = 150});
-    EXPECT_EQ(outcome.status, 4) << command[0] << " " << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_EQ(folder_.read("output.pfm"), "older");
-    EXPECT_EQ(folder_.names(), before);
-  }
+  for (std::vector<std::string> command : commands) expect_kept(command, "output.pfm");
+  expect_kept({"preview", "map.exr", "-o"}, "output.png");
+  expect_kept({"compare", "map.exr", "map.exr", "--heatmap"}, "output.png");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/camera_making.h"
+#include "tests/exact/effort.h"
 #include "tests/exact/expect_same_map.h"
 #include "tests/exact/random_scenes.h"
 
@@ -34,7 +35,7 @@ TEST_P(RandomScenes, AreTheSame) {
   const auto [kind, part] = GetParam();
   CaseMaker maker(static_cast<std::uint64_t>(777000 + 10 * static_cast<int>(kind) + part), kind);
   RenderStatistics sum;
-  for (int i = 0; i < 2500 && !HasFailure(); ++i) {
+  for (int i = 0; i < 2500 / testing::effort && !HasFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     const testing::Case c = maker.make();
     RenderOptions options;
@@ -44,16 +45,16 @@ TEST_P(RandomScenes, AreTheSame) {
     add(sum, expect_same(c.scene, c.camera, options));
   }
   // Every tier was reached.
-  EXPECT_GT(sum.exact_setups, 100U);
-  EXPECT_GT(sum.edges.exact, 100U);
-  EXPECT_GT(sum.visibility.exact, 100U);
-  EXPECT_GT(sum.rounding.exact, 100U);
-  EXPECT_GT(sum.facing.exact, 100U);
-  EXPECT_GT(sum.same_plane, 100U);
-  EXPECT_GT(sum.range.exact, 10U);
+  EXPECT_GT(sum.exact_setups, 100U / testing::effort);
+  EXPECT_GT(sum.edges.exact, 100U / testing::effort);
+  EXPECT_GT(sum.visibility.exact, 100U / testing::effort);
+  EXPECT_GT(sum.rounding.exact, 100U / testing::effort);
+  EXPECT_GT(sum.facing.exact, 100U / testing::effort);
+  EXPECT_GT(sum.same_plane, 100U / testing::effort);
+  EXPECT_GT(sum.range.exact, 10U / testing::effort);
   if (kind == Kind::few_bits || kind == Kind::neighbours) {
-    EXPECT_GT(sum.facing.interval, 100U);
-    EXPECT_GT(sum.rounding.interval, 100U);
+    EXPECT_GT(sum.facing.interval, 100U / testing::effort);
+    EXPECT_GT(sum.rounding.interval, 100U / testing::effort);
   }
 }
 
@@ -103,9 +104,9 @@ TEST(Fast, TrianglesAcrossTilesOfAnyNumberOfThreads) {
     options.threads = i % 3 == 0 ? 1 : i % 3 == 1 ? 2 : 5;
     add(sum, expect_same(scene, camera, options));
   }
-  EXPECT_GT(sum.edges.exact, 1000U);
+  EXPECT_GT(sum.edges.exact, 1000U / testing::effort);
   EXPECT_GT(sum.visibility.exact, 5U);
-  EXPECT_GT(sum.rounding.interval, 100000U);
+  EXPECT_GT(sum.rounding.interval, 100000U / testing::effort);
 }
 
 TEST(Fast, TheCameraInsideASoup) {
@@ -126,7 +127,7 @@ TEST(Fast, TheCameraInsideASoup) {
     add(sum, expect_same(scene, camera, options));
   }
   EXPECT_GT(sum.exact_setups, 20U);
-  EXPECT_GT(sum.rounding.interval, 10000U);
+  EXPECT_GT(sum.rounding.interval, 10000U / testing::effort);
 }
 
 TEST(Fast, OrthographicWithDepthsOnTheLimits) {
@@ -146,7 +147,7 @@ TEST(Fast, OrthographicWithDepthsOnTheLimits) {
     options.channels = quick_channels;
     add(sum, expect_same(scene, camera, options));
   }
-  EXPECT_GT(sum.range.exact, 100U);
+  EXPECT_GT(sum.range.exact, 100U / testing::effort);
 }
 
 /// Copies of one triangle and others in its plane, in an order of numbers that is not theirs.
@@ -177,14 +178,14 @@ TEST(Fast, CoplanarStacks) {
     add(sum, expect_same(testing::scene_of(vertices, triangles), testing::camera_of(64, 48, 41),
                          options));
   }
-  EXPECT_GT(sum.same_plane, 1000U);
+  EXPECT_GT(sum.same_plane, 1000U / testing::effort);
 }
 
 /// Needles: two corners next to each other, one ulp apart, and a third far away.
 TEST(Fast, SliversOneUlpWide) {
   std::mt19937_64 random(4715);
   RenderStatistics sum;
-  for (int i = 0; i < 200 && !HasFailure(); ++i) {
+  for (int i = 0; i < 200 / testing::effort && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
     std::vector<MeshPoint> vertices;
     std::vector<CornerIndices> triangles;
@@ -205,8 +206,8 @@ TEST(Fast, SliversOneUlpWide) {
     add(sum, expect_same(testing::scene_of(vertices, triangles), testing::camera_of(16, 16, 16),
                          options));
   }
-  EXPECT_GT(sum.exact_setups, 100U);
-  EXPECT_GT(sum.edges.exact, 100U);
+  EXPECT_GT(sum.exact_setups, 100U / testing::effort);
+  EXPECT_GT(sum.edges.exact, 100U / testing::effort);
 }
 
 /// A grid of squares whose corners are samples, with shared vertices: every edge is on samples.

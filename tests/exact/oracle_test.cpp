@@ -4,6 +4,7 @@
 #include "fathom/exact/probe.h"
 #include "fathom/render.h"
 #include "tests/exact/against_oracle.h"
+#include "tests/exact/effort.h"
 #include "tests/exact/random_scenes.h"
 
 namespace fathom {
@@ -55,21 +56,21 @@ TEST_P(Oracle, EveryChannelOfEveryPixelAgrees) {
   const auto [kind, part] = GetParam();
   CaseMaker maker(static_cast<std::uint64_t>(1000 * static_cast<int>(kind) + part), kind);
   Tally tally;
-  for (int i = 0; i < 1200 && !HasFailure(); ++i) {
+  for (int i = 0; i < 1200 / testing::effort && !HasFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     check(maker.make(), tally);
   }
   // The scenes are worth their time: things were seen, and the hard cases were among them.
   // The scenes are worth their time: the hard cases are among them, and every tier was reached
   // (samples on edges of few bits are settled by the filter: its interval is the point 0).
-  EXPECT_GT(tally.hits, 5000);
-  EXPECT_GT(tally.on_edges, 400);
-  EXPECT_GT(tally.ties, 500);
-  EXPECT_GT(tally.statistics.visibility.exact, 500U);
-  EXPECT_GT(tally.statistics.edges.interval, kind == Kind::huge ? 0U : 10000U);
+  EXPECT_GT(tally.hits, 5000 / testing::effort);
+  EXPECT_GT(tally.on_edges, 400 / testing::effort);
+  EXPECT_GT(tally.ties, 500 / testing::effort);
+  EXPECT_GT(tally.statistics.visibility.exact, 500U / testing::effort);
+  EXPECT_GT(tally.statistics.edges.interval, kind == Kind::huge ? 0U : 10000U / testing::effort);
   if (kind == Kind::neighbours || kind == Kind::huge) {
-    EXPECT_GT(tally.statistics.edges.exact, 1000U);
-    EXPECT_GT(tally.statistics.facing.exact, 1000U);
+    EXPECT_GT(tally.statistics.edges.exact, 1000U / testing::effort);
+    EXPECT_GT(tally.statistics.facing.exact, 1000U / testing::effort);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "fathom/exact/probe.h"
 #include "fathom/render.h"
+#include "tests/exact/effort.h"
 #include "tests/exact/scene_building.h"
 
 namespace fathom {
@@ -14,7 +15,7 @@ namespace {
 using testing::camera_of;
 using testing::scene_of;
 
-constexpr int side = 400;
+constexpr int side = testing::effort == 1 ? 400 : 60;
 
 // Vertex (i, j) at (u·z, v·z, z), u and v multiples of ½, z of few bits: seen from the origin it
 // projects to (u, v) exactly. With fx = 4, neighbours are 2 pixels apart and every vertex and every
@@ -42,19 +43,19 @@ Scene bumpy_sheet() {
 
 TEST(Watertight, ABumpySheetWithASampleOnEveryVertexAndEdge) {
   const Scene sheet = bumpy_sheet();
-  Camera camera = camera_of(801, 801, 4);
-  camera.cx = camera.cy = 401.5;  // vertex (i, j) at pixel (2i + 1, 2j + 1)
+  Camera camera = camera_of(2 * side + 1, 2 * side + 1, 4);
+  camera.cx = camera.cy = side + 1.5;  // vertex (i, j) at pixel (2i + 1, 2j + 1)
   RenderStatistics statistics;
   RenderOptions options;
   options.statistics = &statistics;
   const DepthMap map = render(sheet, camera, options);
   const std::vector<float>& Z = *map.values<float>("Z");
-  // The sheet spans the samples 1 … 799; those on its right and bottom edges are another's.
-  const auto inside = [](int x) { return x >= 1 && x < 799; };
+  // The sheet spans the samples 1 … 2·side − 1; those on its right and bottom edges are another's.
+  const auto inside = [](int x) { return x >= 1 && x < 2 * side - 1; };
   std::uint64_t expected = 0;
-  for (int y = 0; y < 801; ++y) {
-    for (int x = 0; x < 801; ++x) {
-      const float z = Z[static_cast<std::size_t>(y * 801 + x)];
+  for (int y = 0; y < 2 * side + 1; ++y) {
+    for (int x = 0; x < 2 * side + 1; ++x) {
+      const float z = Z[static_cast<std::size_t>(y * (2 * side + 1) + x)];
       const bool is_inside = inside(x) && inside(y);
       expected += is_inside;
       ASSERT_EQ(std::isfinite(z), is_inside) << x << ' ' << y;
@@ -74,7 +75,7 @@ TEST(Watertight, AClosedFanCoversEachSampleOnce) {
   std::mt19937 random(8);
   const double direction[][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                  {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int trial = 0; trial < 300 / testing::effort; ++trial) {
     std::vector<MeshPoint> vertices = {{0, 0, 4}};  // the hub, seen at the centre of pixel (8, 8)
     int skipped = 0;  // at most two directions in a row, so that no triangle spans 180 degrees
     for (const auto& d : direction) {

@@ -314,7 +314,7 @@ TEST(Frame, KeepsAGivenExtent) {
 TEST(Frame, RefusesWhatCannotBe) {
   EXPECT_THAT(message_of<InputError>([] { frame_scene(Scene()); }), HasSubstr("no triangle"));
   const double most = std::numeric_limits<double>::max();
-  EXPECT_THAT(message_of<UsageError>([&] {
+  EXPECT_THAT(message_of<InputError>([&] {
                 frame({{-most, -most, -most}, {most, most, most}});
               }),
               HasSubstr("no camera with finite numbers"));

@@ -268,7 +268,7 @@ std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBou
     }
     if (path.size() == count) return path;
   }
-  throw UsageError("no camera with finite numbers sees the whole scene");
+  throw InputError("no camera with finite numbers sees the whole scene");
 }
 
 Camera frame(const WorldBounds& bounds, const View& view, const Lens& lens) {

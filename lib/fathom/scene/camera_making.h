@@ -73,9 +73,10 @@ std::vector<Camera> orbit(const View& first, std::uint32_t count, const Vector3&
 /// twentieth of the image or more on every side, looking at its middle: every point inside projects
 /// into the image (proved exactly for the camera that is returned, by its eight corners). Bounds of
 /// a single point are seen from a distance of 1. Lens::vertical_extent is chosen if it is not
-/// given; if it is, only the distance is. Fails    UsageError if the view or the lens cannot be, or
-/// if no camera with finite numbers does
-///          it (bounds that reach to 1e308).
+/// given; if it is, only the distance is.
+///
+/// Fails    UsageError if the view or the lens cannot be; InputError if no camera with finite
+///          numbers does it (bounds that reach to 1e308).
 Camera frame(const WorldBounds& bounds, const View& view = {}, const Lens& lens = {});
 
 /// A camera path around `bounds`, each camera looking at its middle from the same distance, chosen
