@@ -17,7 +17,7 @@ class Dyadic {
  public:
   Dyadic() { mpz_init(significand_); }
   /// The number that `value` denotes. Throws std::invalid_argument if it is not finite.
-  Dyadic(double value);  // NOLINT(google-explicit-constructor): a double is a dyadic number
+  Dyadic(double value);  // implicit: a double is a dyadic number
   Dyadic(const Dyadic& other);
   Dyadic(Dyadic&& other) noexcept;
   Dyadic& operator=(const Dyadic& other);

@@ -21,8 +21,8 @@ class Integer {
   Integer& operator=(const Integer&) = delete;
   Integer& operator=(Integer&&) = delete;
   ~Integer() { mpz_clear(value_); }
-  operator mpz_ptr() { return value_; }           // NOLINT(google-explicit-constructor)
-  operator mpz_srcptr() const { return value_; }  // NOLINT(google-explicit-constructor)
+  operator mpz_ptr() { return value_; }
+  operator mpz_srcptr() const { return value_; }
   /// For GMP's macros, which do not see the conversions.
   [[nodiscard]] mpz_srcptr get() const { return value_; }
 

@@ -12,7 +12,7 @@ struct Ratio {
   Dyadic denominator = 1.0;
 
   Ratio() = default;
-  Ratio(Dyadic value) : numerator(std::move(value)) {}  // NOLINT(google-explicit-constructor)
+  Ratio(Dyadic value) : numerator(std::move(value)) {}
   /// Throws std::domain_error if the denominator is zero.
   Ratio(Dyadic num, Dyadic den);
 
