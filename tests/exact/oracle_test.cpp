@@ -60,17 +60,17 @@ TEST_P(Oracle, EveryChannelOfEveryPixelAgrees) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     check(maker.make(), tally);
   }
-  // The scenes are worth their time: things were seen, and the hard cases were among them.
   // The scenes are worth their time: the hard cases are among them, and every tier was reached
   // (samples on edges of few bits are settled by the filter: its interval is the point 0).
-  EXPECT_GT(tally.hits, 5000 / testing::effort);
-  EXPECT_GT(tally.on_edges, 400 / testing::effort);
-  EXPECT_GT(tally.ties, 500 / testing::effort);
-  EXPECT_GT(tally.statistics.visibility.exact, 500U / testing::effort);
-  EXPECT_GT(tally.statistics.edges.interval, kind == Kind::huge ? 0U : 10000U / testing::effort);
+  if (testing::effort > 1) return;
+  EXPECT_GT(tally.hits, 5000);
+  EXPECT_GT(tally.on_edges, 400);
+  EXPECT_GT(tally.ties, 500);
+  EXPECT_GT(tally.statistics.visibility.exact, 500U);
+  EXPECT_GT(tally.statistics.edges.interval, kind == Kind::huge ? 0U : 10000U);
   if (kind == Kind::neighbours || kind == Kind::huge) {
-    EXPECT_GT(tally.statistics.edges.exact, 1000U / testing::effort);
-    EXPECT_GT(tally.statistics.facing.exact, 1000U / testing::effort);
+    EXPECT_GT(tally.statistics.edges.exact, 1000U);
+    EXPECT_GT(tally.statistics.facing.exact, 1000U);
   }
 }
 
