@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "fathom/exact/engine_frame.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/camera_making.h"
 #include "tests/exact/effort.h"
@@ -17,17 +18,6 @@ using testing::every_channel;
 using testing::expect_same;
 using testing::Kind;
 using testing::quick_channels;
-
-void add(RenderStatistics& sum, const RenderStatistics& part) {
-  sum.facing += part.facing;
-  sum.edges += part.edges;
-  sum.visibility += part.visibility;
-  sum.range += part.range;
-  sum.rounding += part.rounding;
-  sum.exact_setups += part.exact_setups;
-  sum.same_plane += part.same_plane;
-  sum.samples_tested += part.samples_tested;
-}
 
 class RandomScenes : public ::testing::TestWithParam<std::tuple<Kind, int>> {};
 

@@ -1,6 +1,7 @@
 // The reference engine against rays cast in rational numbers, every channel, over random scenes.
 #include <gtest/gtest.h>
 
+#include "fathom/exact/engine_frame.h"
 #include "fathom/exact/probe.h"
 #include "fathom/render.h"
 #include "tests/exact/against_oracle.h"
@@ -34,10 +35,7 @@ void check(const Case& c, Tally& tally) {
   RenderStatistics statistics;
   options.statistics = &statistics;
   const DepthMap map = render(c.scene, c.camera, options);
-  tally.statistics.edges += statistics.edges;
-  tally.statistics.visibility += statistics.visibility;
-  tally.statistics.range += statistics.range;
-  tally.statistics.facing += statistics.facing;
+  add(tally.statistics, statistics);
   const oracle::RayCaster rays = testing::cast_at(c.scene, c.camera);
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 6; ++x) {
