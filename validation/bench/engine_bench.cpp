@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/render.h"
+#include "validation/bench/scenes.h"
+
+/// Times render(), from mesh and camera in memory to the complete map in memory, without any peer:
+///   engine_bench [SCENE…] [--size WxH] [--threads N] [--repeat N] [--engine fast|reference]
+///                [--channels Z,id,…]
+/// The scenes are those of scenes.h, or mesh files. The first run of each is not counted.
+namespace {
+
+using namespace fathom;
+using Clock = std::chrono::steady_clock;
+
+struct Arguments {
+  std::vector<std::string> scenes;
+  unsigned width = 1920, height = 1080;
+  int repeat = 9;
+  RenderOptions options{.engine = Engine::fast};
+};
+
+std::vector<Channel> channels_of(const std::string& list) {
+  std::vector<Channel> channels;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    const auto channel = channel_named(list.substr(begin, end - begin));
+    if (!channel)
+      throw UsageError("--channels: '" + list + "' names a channel that does not exist");
+    channels.push_back(*channel);
+    begin = end + 1;
+  }
+  return channels;
+}
+
+Arguments parse(int argc, char** argv) {
+  Arguments arguments;
+  for (int i = 1; i < argc; ++i) {
+    const std::string name = argv[i];
+    if (!name.starts_with("--")) {
+      arguments.scenes.push_back(name);
+      continue;
+    }
+    if (++i == argc) throw UsageError(name + " needs a value");
+    const std::string value = argv[i];
+    if (name == "--size") {
+      if (std::sscanf(value.c_str(), "%ux%u", &arguments.width, &arguments.height) != 2) {
+        throw UsageError("--size: '" + value + "' is not a size like 1280x720");
+      }
+    } else if (name == "--threads") {
+      arguments.options.threads = std::atoi(value.c_str());
+    } else if (name == "--repeat") {
+      arguments.repeat = std::max(1, std::atoi(value.c_str()));
+    } else if (name == "--engine") {
+      arguments.options.engine = value == "reference" ? Engine::reference : Engine::fast;
+    } else if (name == "--channels") {
+      arguments.options.channels = channels_of(value);
+    } else {
+      throw UsageError("there is no option " + name);
+    }
+  }
+  if (arguments.scenes.empty()) arguments.scenes = bench::default_scene_names();
+  return arguments;
+}
+
+void time_scene(const std::string& name, const Arguments& arguments) {
+  const bench::BenchScene bench = bench::make_scene(name, arguments.width, arguments.height);
+  std::vector<double> milliseconds;
+  std::size_t covered = 0;
+  for (int run = 0; run <= arguments.repeat; ++run) {
+    const auto start = Clock::now();
+    const DepthMap map = render(bench.scene, bench.camera, arguments.options);
+    const std::chrono::duration<double, std::milli> time = Clock::now() - start;
+    if (run > 0) milliseconds.push_back(time.count());
+    if (const auto* Z = map.values<float>("Z"); Z != nullptr && run == 0) {
+      covered = static_cast<std::size_t>(
+          std::count_if(Z->begin(), Z->end(), [](float z) { return std::isfinite(z); }));
+    }
+  }
+  std::sort(milliseconds.begin(), milliseconds.end());
+  std::printf("%-16s %10llu triangles %9zu pixels  median %9.2f ms  min %9.2f ms\n", name.c_str(),
+              static_cast<unsigned long long>(triangle_count(bench.scene)), covered,
+              milliseconds[milliseconds.size() / 2], milliseconds.front());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const Arguments arguments = parse(argc, argv);
+    for (const std::string& scene : arguments.scenes) time_scene(scene, arguments);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "engine_bench: error: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,112 @@
+#include "validation/bench/scenes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/camera_making.h"
+#include "fathom/scene/read_scene.h"
+#include "validation/bench/shapes.h"
+
+namespace fathom::bench {
+namespace {
+
+struct Size {
+  std::uint32_t width, height;
+  [[nodiscard]] std::uint32_t least() const { return std::min(width, height); }
+};
+
+const std::vector<std::string> made_names{"mesh",         "soup", "few-large",   "grid-aligned",
+                                          "grid-shifted", "room", "room-outside"};
+
+/// The N of "sphere-N": a number, which may end in k or m.
+std::optional<std::uint64_t> sphere_size(const std::string& name) {
+  if (!name.starts_with("sphere-")) return std::nullopt;
+  const char* const end = name.data() + name.size();
+  std::uint64_t number = 0;
+  const auto [rest, error] = std::from_chars(name.data() + 7, end, number);
+  const std::string suffix(rest, end);
+  if (suffix == "k") number *= 1000;
+  if (suffix == "m") number *= 1'000'000;
+  const bool known = suffix.empty() || suffix == "k" || suffix == "m";
+  if (error != std::errc() || !known || number < 8 || number > 3'000'000'000) return std::nullopt;
+  return number;
+}
+
+/// At the origin, looking along +z.
+Camera simple_camera(const Size& size) {
+  Camera camera{.width = size.width, .height = size.height};
+  camera.fx = camera.fy = 1.2 * size.height;
+  camera.cx = size.width / 2.0;
+  camera.cy = size.height / 2.0;
+  return camera;
+}
+
+/// The sphere's outline has the radius focal / √(3² − 1): 523.5 pixels of 1080.
+Camera sphere_camera(const Size& size) {
+  const double radius = 523.5 / 1080 * size.least();
+  return look_from({.azimuth = 35, .elevation = 25}, {0, 0, 0}, 3,
+                   {.width = size.width, .height = size.height, .focal = radius * std::sqrt(8.0)});
+}
+
+/// One unit of the world is one pixel.
+BenchScene grid_scene(const std::string& name, const Size& size) {
+  Camera camera{.width = size.width, .height = size.height, .projection = Projection::orthographic};
+  const std::uint32_t step = std::max(1U, size.least() / 1000);
+  const std::uint32_t columns = std::min(1000U, size.width / step);
+  const std::uint32_t rows = std::min(1000U, size.height / step);
+  const bool shifted = name == "grid-shifted";
+  const double left = (size.width - columns * step) / 2 + 0.5 + (shifted ? 0.1234567 : 0);
+  const double top = (size.height - rows * step) / 2 + 0.5 + (shifted ? 0.7654321 : 0);
+  return {name, as_scene({grid(columns, rows, left, top, step)}, name), camera};
+}
+
+BenchScene room_scene(const std::string& name, const Size& size) {
+  const Lens lens{.width = size.width, .height = size.height, .vertical_fov = 60};
+  const Camera camera = name == "room"
+                            ? look_at({-2.9, 0.4, 2.3}, {1.5, -0.5, -1.2}, {0, 1, 0}, lens)
+                            : look_at({-7, 2.5, 8}, {0, 0, 0}, {0, 1, 0}, lens);
+  return {name, as_scene(room(100), name), camera};
+}
+
+Scene read(const std::string& file) {
+  Warnings warnings;
+  return read_scene({file}, {.hash = false}, warnings);
+}
+
+BenchScene framed(const std::string& name, Scene scene, const Size& size) {
+  const Camera camera = frame_scene(scene, {}, {.width = size.width, .height = size.height});
+  return {name, std::move(scene), camera};
+}
+
+}  // namespace
+
+std::vector<std::string> default_scene_names() {
+  return {"sphere-20k", "sphere-200k",  "sphere-2m",    "mesh", "soup",
+          "few-large",  "grid-aligned", "grid-shifted", "room"};
+}
+
+bool is_made_scene(const std::string& name) {
+  return sphere_size(name) ||
+         std::find(made_names.begin(), made_names.end(), name) != made_names.end();
+}
+
+BenchScene make_scene(const std::string& name, std::uint32_t width, std::uint32_t height) {
+  const Size size{width, height};
+  if (const auto triangles = sphere_size(name)) {
+    return {name, as_scene({sphere(*triangles)}, name), sphere_camera(size)};
+  }
+  if (name == "mesh") return framed(name, read(FATHOM_DATA_DIR "/meshes/teapot.obj"), size);
+  if (name == "soup" || name == "few-large") {
+    const Camera camera = simple_camera(size);
+    Mesh mesh = name == "soup" ? soup(100'000, 50, camera) : few_large(12, camera);
+    return {name, as_scene({std::move(mesh)}, name), camera};
+  }
+  if (name.starts_with("grid-") && is_made_scene(name)) return grid_scene(name, size);
+  if (name.starts_with("room") && is_made_scene(name)) return room_scene(name, size);
+  return framed(name, read(name), size);
+}
+
+}  // namespace fathom::bench

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "fathom/scene/camera.h"
+#include "fathom/scene/scene.h"
+
+/// The meshes that engines and peers are timed on. All are made from fixed seeds; coordinates are
+/// binary64 numbers that need not be binary32 ones.
+namespace fathom::bench {
+
+/// A scene of one object per mesh, placed as it is.
+Scene as_scene(std::vector<Mesh> meshes, const std::string& name);
+
+/// The unit sphere about `centre`, scaled by `radius`: an octahedron subdivided into rings, 8·n²
+/// triangles with n chosen so that their number is nearest to `triangles` (at least 8), all of
+/// about the same size, counter-clockwise from outside.
+Mesh sphere(std::uint64_t triangles, const std::array<double, 3>& centre = {0, 0, 0},
+            double radius = 1);
+
+/// `count` triangles at random in front of `camera` (perspective), between depths 2 and 6, so large
+/// that on average `depth_complexity` of them lie over each pixel.
+Mesh soup(std::uint32_t count, double depth_complexity, const Camera& camera);
+
+/// `count` triangles each of which covers the whole image of `camera` (perspective) and reaches far
+/// beyond it, tilted, so that each is nearest somewhere.
+Mesh few_large(std::uint32_t count, const Camera& camera);
+
+/// columns × rows quads of two triangles, the corners of the first at (left, top), one `step`
+/// apart in x and y; z is a smooth wave about 4.
+Mesh grid(std::uint32_t columns, std::uint32_t rows, double left, double top, double step);
+
+/// A closed room, the box [−4, 4] × [−1.5, 1.5] × [−3, 3] (y up): walls of `cells` × `cells` quads
+/// each, floor and ceiling of two triangles each, facing inwards, and two spheres of 20 thousand
+/// triangles in it.
+std::vector<Mesh> room(std::uint32_t cells);
+
+}  // namespace fathom::bench
