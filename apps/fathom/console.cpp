@@ -8,8 +8,8 @@ namespace fathom::app {
 namespace {
 
 /// One line whatever the text, which may hold a file's name: control characters become '?'.
-void say(const std::string& kind, const std::string& text) {
-  std::string line = "fathom: " + kind + ": " + text;
+void say(const std::string& text) {
+  std::string line = "fathom: " + text;
   for (char& c : line) {
     if (c == '\n' || c == '\r' || c == '\t') c = ' ';
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
@@ -22,15 +22,19 @@ void say(const std::string& kind, const std::string& text) {
 }  // namespace
 
 void Console::warn(const std::string& text) const {
-  if (!quiet) say("warning", text);
+  if (!quiet) say("warning: " + text);
 }
 
 void Console::warn(const Warnings& warnings) const {
   for (const std::string& text : warnings) warn(text);
 }
 
+void Console::note(const std::string& text) const {
+  if (!quiet) say(text);
+}
+
 void Console::error(const std::string& text) {
-  say("error", text);
+  say("error: " + text);
 }
 
 bool Console::shows_progress() const {

@@ -14,6 +14,8 @@ class Console {
 
   void warn(const std::string& text) const;
   void warn(const Warnings& warnings) const;
+  /// The result of a check that the user asked for: "fathom: TEXT".
+  void note(const std::string& text) const;
   /// The one line of a failure.
   static void error(const std::string& text);
   /// Whether progress is shown: standard error is a terminal, and not quiet.

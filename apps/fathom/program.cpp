@@ -39,6 +39,7 @@ const std::map<std::string, std::string> value_names{{"--baseline", "B"},
                                                      {"--threads", "N"},
                                                      {"--tolerance-ulp", "N"},
                                                      {"--truth-background", "D"},
+                                                     {"--verify", "N"},
                                                      {"--view", "AZ,EL"},
                                                      {"--views", "N"}};
 

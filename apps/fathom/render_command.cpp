@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "camera_options.h"
+#include "fathom/exact/verify.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
 #include "fathom/scene/read_scene.h"
@@ -31,7 +32,7 @@ struct RenderArguments {
   SceneOptions scene;
   CameraOptions camera;
   StorageOptions storage;
-  std::string output, save_camera, statistics;
+  std::string output, save_camera, statistics, verify;
   std::string engine = "reference", channels = "Z", cull = "none";
 };
 
@@ -148,11 +149,34 @@ DepthMap render_to(const std::string& name, const Scene& scene, const Camera& ca
   }
 }
 
+/// Says how the map fares and notes it in the report; false where it is not exact.
+bool verify_map(const DepthMap& map, const std::string& name, const Scene& scene,
+                const Camera& camera, RenderOptions options, std::uint64_t pixels,
+                const Console& console, Json& report) {
+  Progress progress(console, "verifying");
+  options.progress = progress.reporter();
+  const PixelChoice chosen = choose_pixels(camera.width, camera.height, pixels);
+  const Verification v = verify(map, scene, camera, options, chosen);
+  report["verified"] = v.verified;
+  report["differing"] = v.differing;
+  if (!v.first) {
+    console.note(fmt::format("{}: {} of {} pixels verified by exact arithmetic, all agree", name,
+                             v.verified, chosen.size()));
+    return true;
+  }
+  Console::error(fmt::format(
+      "{}: pixel ({}, {}): {} is {}, exact arithmetic gives {}; {} of {} verified pixels differ",
+      name, v.first->x, v.first->y, v.first->channel, v.first->found, v.first->expected,
+      v.differing, v.verified));
+  return false;
+}
+
 int run_render(const RenderArguments& arguments, const Console& console) {
   const MapFormat format = arguments.storage.format_of(arguments.output);
   RenderOptions options = render_options(arguments, format);
   const WriteOptions write_options = arguments.storage.write_options(options.threads);
   arguments.camera.check();
+  const std::uint64_t verified_pixels = pixels_to_verify(arguments.verify);
   // Without this the pool keeps to the number of processors and prints a warning of its own.
   std::optional<tbb::global_control> pool;
   if (options.threads > 0) {
@@ -176,6 +200,7 @@ int run_render(const RenderArguments& arguments, const Console& console) {
   }
 
   Json report = Json::array();
+  bool exact = true;
   {
     Progress progress(console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -185,6 +210,12 @@ int run_render(const RenderArguments& arguments, const Console& console) {
       stopwatch.lap();
       const DepthMap map = render_to(names[i], scene, cameras[i], options);
       const double seconds_rendering = stopwatch.lap();
+      Json verification = Json::object();
+      if (verified_pixels > 0) {
+        exact &= verify_map(map, names[i], scene, cameras[i], options, verified_pixels, console,
+                            verification);
+      }
+      const double seconds_verifying = stopwatch.lap();
       maps[i].write([&](const auto& path) { write_map(map, path, format, write_options); });
 
       if (i == 0) warn_of(statistics, console);
@@ -193,8 +224,10 @@ int run_render(const RenderArguments& arguments, const Console& console) {
                  {"width", map.width},
                  {"height", map.height}};
       entry.update(to_json(statistics));
+      entry.update(verification);
       entry["seconds"] = {
           {"read", seconds_reading}, {"render", seconds_rendering}, {"write", stopwatch.lap()}};
+      if (verified_pixels > 0) entry["seconds"]["verify"] = seconds_verifying;
       report.push_back(std::move(entry));
     }
   }
@@ -207,7 +240,7 @@ int run_render(const RenderArguments& arguments, const Console& console) {
   for (OutputFile& output : maps) output.commit();
   if (arguments.save_camera == "-") print(fathom::to_json(cameras) + "\n");
   if (arguments.statistics == "-") print(statistics);
-  return done;
+  return exact ? done : answer_is_no;
 }
 
 }  // namespace
@@ -220,6 +253,7 @@ void add_render(Program& program) {
       "  fathom render room.json --camera camera.json --channels Z,id,N -o room.exr\n"
       "  fathom render spot.obj --view 90,0 --size 640x480 --save-camera side.json -o side.pfm\n"
       "  fathom render spot.obj -o spot.png --png-scale 1000      (16 bit, millimetres)\n"
+      "  fathom render scan.ply --engine fast --verify 1000 -o scan.exr\n"
       "  fathom render spot.obj --camera path.json -o 'view-{index:04}.exr'");
   arguments->scene.add_to(*command);
   command
@@ -237,6 +271,10 @@ void add_render(Program& program) {
   arguments->storage.add_to(*command);
   command->add_option("--stats", arguments->statistics,
                       "Write what was decided how to this file (JSON; - is standard output)");
+  command->add_option(
+      "--verify", arguments->verify,
+      "Compute this many pixels, or all, again by exact arithmetic and compare every "
+      "channel bit for bit; exit status 1 if one differs");
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return run_render(*arguments, program.console); };
   });

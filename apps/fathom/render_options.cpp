@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 
 #include "fathom/numeric/errors.h"
@@ -111,6 +112,12 @@ std::vector<Channel> parse_channels(const std::string& list) {
     channels.push_back(*channel);
   }
   return channels;
+}
+
+std::uint64_t pixels_to_verify(const std::string& text) {
+  if (text.empty()) return 0;
+  if (text == "all") return std::numeric_limits<std::uint64_t>::max();
+  return parse_count("--verify", text, 1);
 }
 
 std::size_t parts_of(Channel channel) {

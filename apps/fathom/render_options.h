@@ -28,6 +28,8 @@ struct StorageOptions {
 
 /// "Z,id,N" as channels. Fails with UsageError where one does not exist or stands twice.
 std::vector<Channel> parse_channels(const std::string& list);
+/// "1000" or "all" (the greatest number) as a number of pixels; 0 for "", nothing asked for.
+std::uint64_t pixels_to_verify(const std::string& text);
 /// How many channels of the file a channel of the list becomes: N and P three, bary two.
 std::size_t parts_of(Channel channel);
 
