@@ -1,4 +1,4 @@
-# MPFR ships no package config: MPFR::MPFR from its header and library. Tests only.
+# MPFR ships no package config: MPFR::MPFR from its header and library.
 find_path(MPFR_INCLUDE_DIR mpfr.h)
 find_library(MPFR_LIBRARY mpfr)
 include(FindPackageHandleStandardArgs)

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+/// What a depth buffer stores: a map from depth to [0, 1], rounded to a storage type
+/// (specification, section 9).
+namespace fathom {
+
+/// The map f from depth D to the stored value, given near, far and C.
+enum class Mapping {
+  standard,           ///< far·(D − near) / (D·(far − near))
+  reversed,           ///< near·(far − D) / (D·(far − near))
+  infinite,           ///< 1 − near/D
+  reversed_infinite,  ///< near/D
+  opengl,             ///< as standard; a pipeline goes through z_ndc in [−1, 1]
+  linear,             ///< (D − near) / (far − near)
+  w,                  ///< D / far
+  log,                ///< log(1 + C·D) / log(1 + C·far)
+  log_ulrich,         ///< log(D / near) / log(far / near)
+};
+inline constexpr Mapping all_mappings[] = {
+    Mapping::standard,  Mapping::reversed, Mapping::infinite, Mapping::reversed_infinite,
+    Mapping::opengl,    Mapping::linear,   Mapping::w,        Mapping::log,
+    Mapping::log_ulrich};
+
+/// How the value in [0, 1] is kept: as the nearest multiple of 1/(2ⁿ − 1), or in an IEEE 754
+/// format.
+enum class Storage { unorm16, unorm24, unorm32, float16, float32, float64 };
+inline constexpr Storage all_storages[] = {Storage::unorm16, Storage::unorm24, Storage::unorm32,
+                                           Storage::float16, Storage::float32, Storage::float64};
+
+/// A depth format. `near` and `far` bound the depths it takes, in scene units; far is +∞ where the
+/// mapping allows it. `c` belongs to `log` alone.
+struct DepthFormat {
+  Mapping mapping = Mapping::standard;
+  Storage storage = Storage::float32;
+  double near = 0.1;
+  double far = 1000;
+  double c = 1;
+};
+
+/// Refuses a format that means nothing; the functions of this room expect one that passed.
+/// Fails    UsageError, naming the value and the combinations that exist.
+void require_meaningful(const DepthFormat& format);
+
+/// The names of the specification. Fails with UsageError, naming those that exist.
+std::string_view name_of(Mapping mapping);
+std::string_view name_of(Storage storage);
+Mapping mapping_named(std::string_view name);
+Storage storage_named(std::string_view name);
+
+/// Whether nearer depths have greater stored values.
+constexpr bool is_reversed(Mapping mapping) {
+  return mapping == Mapping::reversed || mapping == Mapping::reversed_infinite;
+}
+/// Whether far may be +∞.
+constexpr bool takes_infinite_far(Mapping mapping) {
+  return mapping == Mapping::infinite || mapping == Mapping::reversed_infinite;
+}
+/// Whether the map is a quotient of logarithms.
+constexpr bool is_logarithmic(Mapping mapping) {
+  return mapping == Mapping::log || mapping == Mapping::log_ulrich;
+}
+constexpr bool is_unorm(Storage storage) {
+  return storage <= Storage::unorm32;
+}
+/// Bits of a unorm storage; bits of the significand, without the hidden one, of a float storage.
+constexpr int bits_of(Storage storage) {
+  constexpr int bits[] = {16, 24, 32, 10, 23, 52};
+  return bits[static_cast<int>(storage)];
+}
+
+}  // namespace fathom

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+
+#include "fathom/depth_format/depth_format.h"
+#include "fathom/numeric/real.h"
+
+/// The map f of a depth format and its inverse, exactly. Neither looks at the storage or at whether
+/// the depth is between near and far.
+namespace fathom {
+
+/// f(D), for D > 0, and D ≥ near for log-ulrich.
+Real stored_value(const DepthFormat& format, const Ratio& depth);
+
+/// The depth D with f(D) = `value`, for a value in [0, 1]; nullopt where that is infinity.
+/// Rational where it is, also for logarithms.
+std::optional<Real> depth_of(const DepthFormat& format, const Ratio& value);
+
+}  // namespace fathom

@@ -1,0 +1,69 @@
+#include "fathom/depth_format/stored_depth.h"
+
+#include <bit>
+#include <stdexcept>
+
+namespace fathom {
+namespace {
+
+/// The value of the bits of a number in [0, 1] of an IEEE 754 format.
+Ratio value_of_float(std::uint64_t bits, int fraction_bits, long bias) {
+  const std::uint64_t hidden = std::uint64_t{1} << fraction_bits;
+  const auto exponent = static_cast<long>(bits >> fraction_bits);
+  const std::uint64_t fraction = bits & (hidden - 1);
+  const long least = 1 - bias - fraction_bits;
+  if (exponent == 0) return Dyadic(static_cast<double>(fraction)).scaled(least);
+  return Dyadic(static_cast<double>(fraction | hidden)).scaled(least + exponent - 1);
+}
+
+long bias_of(Storage storage) {
+  return storage == Storage::float16 ? 15 : storage == Storage::float32 ? 127 : 1023;
+}
+
+std::uint64_t steps_of(Storage storage) {
+  return (std::uint64_t{1} << bits_of(storage)) - 1;
+}
+
+/// The bits of a float storage nearest to an exact number.
+std::uint64_t round_to_float(Storage storage, const Real& value) {
+  switch (storage) {
+    case Storage::float16:
+      return round_to_binary16(value).bits;
+    case Storage::float32:
+      return std::bit_cast<std::uint32_t>(round_to_binary32(value));
+    default:
+      return std::bit_cast<std::uint64_t>(round_to_binary64(value));
+  }
+}
+
+}  // namespace
+
+StoredDepth greatest_stored(Storage storage) {
+  if (is_unorm(storage)) return {steps_of(storage)};
+  return {static_cast<std::uint64_t>(bias_of(storage)) << bits_of(storage)};
+}
+
+Ratio value_of(Storage storage, StoredDepth stored) {
+  if (!is_unorm(storage)) return value_of_float(stored.bits, bits_of(storage), bias_of(storage));
+  return {Dyadic(static_cast<double>(stored.bits)), Dyadic(static_cast<double>(steps_of(storage)))};
+}
+
+StoredDepth round_to_storage(Storage storage, const Real& value) {
+  if (is_unorm(storage)) {
+    const std::optional<std::uint32_t> code = round_to_unorm(value, bits_of(storage));
+    if (!code) throw std::domain_error("a depth format stores values in [0, 1]");
+    return {*code};
+  }
+  const StoredDepth stored{round_to_float(storage, value)};
+  if (stored > greatest_stored(storage)) {
+    throw std::domain_error("a depth format stores values in [0, 1]");
+  }
+  return stored;
+}
+
+Ratio boundary_above(Storage storage, StoredDepth stored) {
+  const Ratio sum = value_of(storage, stored) + value_of(storage, {stored.bits + 1});
+  return {sum.numerator.scaled(-1), sum.denominator};
+}
+
+}  // namespace fathom

@@ -1,0 +1,47 @@
+#include "fathom/numeric/real.h"
+
+#include <utility>
+
+namespace fathom {
+
+std::optional<Ratio> Real::rational() const {
+  return rational_ ? rational_ : decide_();
+}
+
+Enclosure Real::enclose(long bits) const {
+  return rational_ ? Enclosure{*rational_, *rational_} : enclose_(bits);
+}
+
+float round_to_binary32(const Real& x) {
+  return x.rounded([](const Ratio& r) { return round_to_binary32(r); });
+}
+
+double round_to_binary64(const Real& x) {
+  return x.rounded([](const Ratio& r) { return round_to_binary64(r); });
+}
+
+Binary16 round_to_binary16(const Real& x) {
+  return x.rounded([](const Ratio& r) { return round_to_binary16(r); });
+}
+
+std::optional<std::uint32_t> round_to_unorm(const Real& x, int bits) {
+  return x.rounded([bits](const Ratio& r) { return round_to_unorm(r, bits); });
+}
+
+int compare(const Real& x, const Ratio& y) {
+  return x.rounded([&y](const Ratio& r) { return compare(r, y); });
+}
+
+Real affine(const Real& x, const Ratio& factor, const Ratio& offset) {
+  const auto map = [factor, offset](const Ratio& r) { return offset + factor * r; };
+  return {[x, map, falls = factor.sign() == Sign::negative](long bits) {
+            const Enclosure e = x.enclose(bits);
+            return falls ? Enclosure{map(e.high), map(e.low)} : Enclosure{map(e.low), map(e.high)};
+          },
+          [x, map]() -> std::optional<Ratio> {
+            const std::optional<Ratio> r = x.rational();
+            return r ? std::optional(map(*r)) : std::nullopt;
+          }};
+}
+
+}  // namespace fathom

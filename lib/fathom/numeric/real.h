@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "fathom/numeric/rounding.h"
+
+namespace fathom {
+
+/// A closed interval with exact ends.
+struct Enclosure {
+  Ratio low, high;
+};
+
+/// A real number that rounds correctly: a quotient, or a number that can be enclosed as tightly as
+/// asked for and of which it can be decided whether it is a quotient.
+///
+/// Rounding follows Ziv: enclose, round both ends, and go on with twice the bits while they differ.
+/// That ends for an irrational number, which lies on no boundary of rounding. So a number that is
+/// rational after all has to be told apart, and is, before the bits are raised for the first time.
+/// What it does not do: arithmetic. Irrational numbers are made where the proof that they are
+/// stands.
+class Real {
+ public:
+  /// An enclosure whose width goes to zero as `bits` grows; `bits` is about its relative precision.
+  using Enclose = std::function<Enclosure(long bits)>;
+  /// The value where it is rational, nullopt only where it is proved not to be.
+  using Decide = std::function<std::optional<Ratio>()>;
+
+  Real(Ratio value) : rational_(std::move(value)) {}
+  Real(Enclose enclose, Decide decide) : enclose_(std::move(enclose)), decide_(std::move(decide)) {}
+
+  /// The value where it is rational, else nullopt. Decides if that has not been done.
+  [[nodiscard]] std::optional<Ratio> rational() const;
+  [[nodiscard]] Enclosure enclose(long bits) const;
+
+  /// `round` of the number, for a `round` that is monotone and steps at rational numbers only.
+  template <class Round>
+  auto rounded(const Round& round) const {
+    if (rational_) return round(*rational_);
+    for (long bits = first_bits;; bits *= 2) {
+      const Enclosure around = enclose_(bits);
+      const auto low = round(around.low);
+      if (low == round(around.high)) return low;
+      if (bits > first_bits) continue;
+      if (const std::optional<Ratio> exact = decide_()) return round(*exact);
+    }
+  }
+
+ private:
+  /// Settles all but about one in 2⁶⁰ roundings to binary32, one in 2³⁰ to binary64.
+  static constexpr long first_bits = 96;
+
+  std::optional<Ratio> rational_;
+  Enclose enclose_;
+  Decide decide_;
+};
+
+/// Correct rounding as in rounding.h.
+float round_to_binary32(const Real& x);
+double round_to_binary64(const Real& x);
+Binary16 round_to_binary16(const Real& x);
+std::optional<std::uint32_t> round_to_unorm(const Real& x, int bits);
+
+/// The sign of x − y.
+int compare(const Real& x, const Ratio& y);
+
+/// offset + factor·x
+Real affine(const Real& x, const Ratio& factor, const Ratio& offset);
+
+}  // namespace fathom

@@ -1,0 +1,149 @@
+#include "tests/depth_format/exact_map.h"
+
+#include <mpfr.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "tests/numeric/random_numbers.h"
+
+namespace fathom::test {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+int sign(int x) {
+  return x < 0 ? -1 : x > 0 ? 1 : 0;
+}
+
+std::uint64_t greatest(Storage storage) {
+  switch (storage) {
+    case Storage::unorm16:
+      return 0xFFFF;
+    case Storage::unorm24:
+      return 0xFFFFFF;
+    case Storage::unorm32:
+      return 0xFFFFFFFF;
+    case Storage::float16:
+      return 0x3C00;
+    case Storage::float32:
+      return std::bit_cast<std::uint32_t>(1.0F);
+    case Storage::float64:
+      return std::bit_cast<std::uint64_t>(1.0);
+  }
+  return 0;
+}
+
+/// log q for q ≥ 1, 300 bits; of q − 1, so that nothing is lost where q is near 1.
+class Logarithm {
+ public:
+  explicit Logarithm(const Rational& q) {
+    mpfr_init2(value, 300);
+    mpfr_set_q(value, (q - Rational(1.0)).get(), MPFR_RNDN);
+    mpfr_log1p(value, value, MPFR_RNDN);
+  }
+  Logarithm(const Logarithm&) = delete;
+  Logarithm& operator=(const Logarithm&) = delete;
+  ~Logarithm() { mpfr_clear(value); }
+  mpfr_t value;
+};
+
+/// The sign of log a / log b − s.
+int compare_logarithms(const Rational& a, const Rational& b, const Rational& s) {
+  Logarithm left(a), right(b);
+  mpfr_mul_z(left.value, left.value, mpq_denref(s.get()), MPFR_RNDN);
+  mpfr_mul_z(right.value, right.value, mpq_numref(s.get()), MPFR_RNDN);
+  if (mpfr_eq(left.value, right.value, 250) != 0) return 0;
+  return sign(mpfr_cmp(left.value, right.value));
+}
+
+}  // namespace
+
+Rational::Rational(const Ratio& x) {
+  mpq_init(q_);
+  fathom::testing::set(q_, x);
+}
+
+Rational number(Storage storage, std::uint64_t bits) {
+  switch (storage) {
+    case Storage::float16: {
+      const auto fraction = static_cast<double>(bits & 1023);
+      const int exponent = static_cast<int>(bits >> 10);
+      return exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
+    }
+    case Storage::float32:
+      return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+    case Storage::float64:
+      return std::bit_cast<double>(bits);
+    default:
+      return {static_cast<double>(bits), static_cast<double>(greatest(storage))};
+  }
+}
+
+int compare_map(const DepthFormat& format, const Rational& depth, const Rational& value) {
+  const Rational& D = depth;
+  const Rational n = format.near;
+  const bool finite = std::isfinite(format.far);
+  const Rational f = finite ? format.far : 0.0;
+  const Rational one = 1.0;
+  switch (format.mapping) {
+    case Mapping::standard:
+    case Mapping::opengl:  // z_ndc = (f + n)/(f − n) − 2fn/(D(f − n)), then (z_ndc + 1)/2
+      return sign(
+          compare(((f + n) / (f - n) - Rational(2.0) * f * n / (D * (f - n)) + one) * Rational(0.5),
+                  value));
+    case Mapping::reversed:
+      return sign(compare(one - f / (f - n) * (one - n / D), value));
+    case Mapping::infinite:
+      return sign(compare(one - n / D, value));
+    case Mapping::reversed_infinite:
+      return sign(compare(n, value * D));
+    case Mapping::linear:
+      return sign(compare(D - n, value * (f - n)));
+    case Mapping::w:
+      return sign(compare(D, value * f));
+    case Mapping::log:
+      return compare_logarithms(one + Rational(format.c) * D, one + Rational(format.c) * f, value);
+    case Mapping::log_ulrich:
+      return compare_logarithms(D / n, f / n, value);
+  }
+  return 0;
+}
+
+bool is_rounded_correctly(const DepthFormat& format, double depth, std::uint64_t bits) {
+  const bool even = bits % 2 == 0;
+  const Rational D = depth, half = 0.5, here = number(format.storage, bits);
+  if (bits > greatest(format.storage)) return false;
+  if (bits > 0) {
+    const Rational below = (here + number(format.storage, bits - 1)) * half;
+    const int against = compare_map(format, D, below);
+    if (against < 0 || (against == 0 && !even)) return false;
+  }
+  if (bits < greatest(format.storage)) {
+    const Rational above = (here + number(format.storage, bits + 1)) * half;
+    const int against = compare_map(format, D, above);
+    if (against > 0 || (against == 0 && !even)) return false;
+  }
+  return true;
+}
+
+bool is_decoded_correctly(const DepthFormat& format, std::uint64_t bits, double depth) {
+  const bool falls =
+      format.mapping == Mapping::reversed || format.mapping == Mapping::reversed_infinite;
+  const Rational value = number(format.storage, bits);
+  if (std::isinf(depth)) {
+    const int greatest = compare_map(format, std::numeric_limits<double>::max(), value);
+    return falls ? greatest > 0 : greatest < 0;
+  }
+  if (depth == 0) return compare(value, 0.0) == 0;
+  const bool even = std::bit_cast<std::uint64_t>(depth) % 2 == 0;
+  const Rational half = 0.5;
+  const Rational below = (Rational(depth) + Rational(std::nextafter(depth, -infinity))) * half;
+  const Rational above = (Rational(depth) + Rational(std::nextafter(depth, infinity))) * half;
+  const int low = compare_map(format, below, value) * (falls ? -1 : 1);
+  const int high = compare_map(format, above, value) * (falls ? -1 : 1);
+  return even ? low <= 0 && high >= 0 : low < 0 && high > 0;
+}
+
+}  // namespace fathom::test
