@@ -1,0 +1,40 @@
+#pragma once
+
+#include <CGAL/Gmpq.h>
+
+#include <string>
+
+#include "fathom/clipping/points.h"
+#include "fathom/numeric/ratio.h"
+
+/// The exact kernel. This is the one header of the room that shows CGAL.
+namespace fathom::clipping {
+
+/// A rational number of any size, in lowest terms.
+using Rational = CGAL::Gmpq;
+
+/// The same number for numeric/, which rounds and prints.
+Ratio to_ratio(const Rational& x);
+
+/// Rounded once to binary64, to nearest, ties to even.
+double to_binary64(const Rational& x);
+inline double to_binary64(double x) {
+  return x;
+}
+
+/// "p/q" in lowest terms, "p" where q is 1.
+std::string to_fraction(const Rational& x);
+
+/// The number that is `x`; x finite.
+template <class Number>
+Rational to_rational(const Number& x) {
+  return Rational(x);
+}
+
+/// The same rings over another kernel: exact to binary64 rounds each coordinate once.
+Rings<Rational> to_exact(const Rings<double>& rings);
+inline Rings<Rational> to_exact(const Rings<Rational>& rings) {
+  return rings;
+}
+
+}  // namespace fathom::clipping

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fathom/clipping/liang_barsky.h"
+#include "fathom/clipping/points.h"
+#include "fathom/clipping/sutherland_hodgman.h"
+
+/// Clipping in homogeneous coordinates, before the division by w.
+/// Source   James F. Blinn and Martin E. Newell, Clipping using homogeneous coordinates, SIGGRAPH
+///          1978; the polygon goes through the six boundaries as in sutherland_hodgman.h.
+///
+/// The six boundaries bound an hourglass in (x, y, z, w) with its waist at the origin. The upper
+/// half, w > 0, is what a projection shows. A point of the lower half, w < 0, stands for the same
+/// (x/w, y/w, z/w) as its negative in the upper one; a perspective projection never puts a point
+/// in front of the eye there, rational curves do.
+namespace fathom::clipping {
+
+enum class Volume {
+  /// −w ≤ x, y, z ≤ w
+  opengl,
+  /// −w ≤ x, y ≤ w and 0 ≤ z ≤ w
+  zero_one,
+};
+
+enum class Half { upper, lower };
+
+/// The boundaries in the order in which they clip: left, right, bottom, top, near, far.
+constexpr int boundary_count = 6;
+const char* boundary_name(int k);
+
+/// What is not negative on the inner side of boundary k in the upper half: w + x, w − x, …
+template <class Number>
+Number boundary_value(int k, const Point4<Number>& point, Volume volume);
+
+template <class Number>
+struct Segment4 {
+  Point4<Number> start, end;
+};
+
+/// The part of the polygon in one half of the hourglass, with w > 0 (upper) or w < 0 (lower)
+/// throughout. A corner at the waist (0, 0, 0, 0) is dropped: both its edges project to points.
+/// Exact    over Rational.
+/// Fails    InputError if a corner is (0, 0, 0, 0).
+template <class Number>
+std::vector<Corner4<Number>> clip_homogeneous(const std::vector<Corner4<Number>>& polygon,
+                                              Volume volume, Half half = Half::upper,
+                                              ClipStages<Point4, Number>* trace = nullptr);
+
+/// The part of the segment in one half of the hourglass, by the order of parameters; a segment from
+/// one half to the other has a part in each, and between them runs through infinity. Where an end
+/// of the part is the waist, it projects to one point, and both ends are that point.
+/// Exact    over Rational.
+/// Fails    InputError if an end is (0, 0, 0, 0).
+template <class Number>
+std::optional<Segment4<Number>> clip_homogeneous(const Segment4<Number>& segment, Volume volume,
+                                                 Half half = Half::upper,
+                                                 LiangBarskyTrace<Number>* trace = nullptr);
+
+/// (x/w, y/w, z/w). Fails with InputError where w = 0.
+template <class Number>
+Point3<Number> divided(const Point4<Number>& point);
+
+/// The wrong order, to be shown: divides first and clips the result against the volume's box. An
+/// edge from a point in front of the eye to one behind it runs through infinity after the
+/// projection; here it is joined straight, and the polygon is a wrong one.
+/// Fails    InputError where w = 0.
+template <class Number>
+std::vector<Corner3<Number>> clip_after_division(const std::vector<Corner4<Number>>& polygon,
+                                                 Volume volume);
+
+}  // namespace fathom::clipping

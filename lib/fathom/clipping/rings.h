@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+
+#include "fathom/clipping/points.h"
+
+/// Rings: their area, and what the polygon clippers ask of them.
+namespace fathom::clipping {
+
+/// Half the sum of cross products: positive for counter-clockwise simple rings.
+template <class Number>
+Number signed_area(const Ring<Number>& ring);
+
+/// The sum of the signed areas.
+template <class Number>
+Number signed_area(const Rings<Number>& rings);
+
+/// The rings of one side as the clippers take them: corners that repeat the one before are dropped,
+/// outlines run counter-clockwise and holes clockwise, so that the polygon (even-odd) lies to the
+/// left. Rings may touch each other in points and along edges.
+///
+/// Fails    InputError "SIDE ring N …": a coordinate that is not finite, fewer than three distinct
+///          corners, all corners on one line, a ring that meets itself, two rings that cross. The
+///          tests are exact over both kernels.
+template <class Number>
+Rings<Number> checked_rings(const Rings<Number>& rings, const std::string& side);
+
+/// Fails    InputError unless the counter-clockwise simple ring is convex; straight corners may be.
+template <class Number>
+void check_convex(const Ring<Number>& ring, const std::string& side);
+
+/// The ring without the corners at which it goes straight on, from its least corner. The same point
+/// set always gives the same list.
+template <class Number>
+Ring<Number> canonical(const Ring<Number>& ring);
+
+}  // namespace fathom::clipping

@@ -1,0 +1,154 @@
+#include "fathom/clipping/weiler_atherton.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "fathom/clipping/contacts.h"
+#include "fathom/clipping/even_odd.h"
+#include "fathom/clipping/exact_kernel.h"
+#include "fathom/clipping/rings.h"
+#include "fathom/clipping/weiler_atherton_labels.h"
+#include "fathom/clipping/weiler_atherton_walk.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::clipping {
+namespace {
+
+/// Step 1.
+template <class Number>
+ContactLists<Number> enter_contacts_of(const Rings<Number>& subject, const Rings<Number>& clip) {
+  Rings<Number> all = subject;
+  all.insert(all.end(), clip.begin(), clip.end());
+  all = enter_contacts(all);
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(subject.size());
+  return {{all.begin(), middle}, {middle, all.end()}};
+}
+
+bool in_result(bool in_subject, bool in_clip, SetOperation operation) {
+  return operation == SetOperation::intersection ? in_subject && in_clip : in_subject && !in_clip;
+}
+
+/// The edge as a piece of the result's border; nullopt if the result lies on both sides of it or on
+/// neither. So a subject edge counts where it is inside (outside, for a difference), a clip edge
+/// where it is inside the subject (run backwards, for a difference), a shared one according to
+/// whether both polygons lie on the same side of it.
+template <class Number>
+std::optional<BorderEdge<Number>> border_of(const LabelledEdge<Number>& edge,
+                                            SetOperation operation) {
+  const bool left = in_result(edge.of_subject.left, edge.of_clip.left, operation);
+  const bool right = in_result(edge.of_subject.right, edge.of_clip.right, operation);
+  if (left == right) return std::nullopt;
+  if (left) return BorderEdge<Number>{edge.from, edge.to, edge.border};
+  return BorderEdge<Number>{edge.to, edge.from, edge.border};
+}
+
+/// The border of the result. Subject edges that begin at an entering contact come first: the walk
+/// starts there, as in the paper.
+template <class Number>
+std::vector<BorderEdge<Number>> border_of(const std::vector<LabelledEdge<Number>>& edges,
+                                          const std::vector<Contact<Number>>& contacts,
+                                          SetOperation operation) {
+  std::vector<BorderEdge<Number>> border;
+  for (const LabelledEdge<Number>& edge : edges)
+    if (const auto piece = border_of(edge, operation)) border.push_back(*piece);
+  const ContactKind start =
+      operation == SetOperation::intersection ? ContactKind::entering : ContactKind::leaving;
+  std::set<Point2<Number>> starts;
+  for (const Contact<Number>& contact : contacts)
+    if (contact.kind == start) starts.insert(contact.point);
+  std::stable_partition(border.begin(), border.end(), [&](const BorderEdge<Number>& edge) {
+    return edge.along != Border::clip && starts.contains(edge.from);
+  });
+  return border;
+}
+
+template <class Number>
+bool lies_in(const Ring<Number>& hole, const Ring<Number>& outline) {
+  return inside_beside(hole[0], hole[1], Rings<Number>{outline}).left;
+}
+
+/// Step 4: each hole goes to the least outline that it lies in. The rings still have the corners at
+/// which they touch others, so the middle of a hole's edge lies on no outline.
+template <class Number>
+std::vector<Polygon<Number>> nest(const Rings<Number>& rings) {
+  std::vector<Polygon<Number>> polygons;
+  for (const Ring<Number>& ring : rings)
+    if (signed_area(ring) > 0) polygons.push_back({ring, {}});
+  for (const Ring<Number>& ring : rings) {
+    if (!(signed_area(ring) < 0)) continue;
+    Polygon<Number>* around = nullptr;
+    for (Polygon<Number>& polygon : polygons)
+      if (lies_in(ring, polygon.outline) &&
+          (around == nullptr || signed_area(polygon.outline) < signed_area(around->outline)))
+        around = &polygon;
+    if (around == nullptr)
+      throw InputError(
+          "rounding to binary64 has left a hole without an outline; the exact kernel does it");
+    around->holes.push_back(ring);
+  }
+  return polygons;
+}
+
+template <class Number>
+std::vector<Polygon<Number>> in_canonical_order(std::vector<Polygon<Number>> polygons) {
+  for (Polygon<Number>& polygon : polygons) {
+    polygon.outline = canonical(polygon.outline);
+    for (Ring<Number>& hole : polygon.holes) hole = canonical(hole);
+    std::sort(polygon.holes.begin(), polygon.holes.end());
+  }
+  std::sort(polygons.begin(), polygons.end(),
+            [](const auto& a, const auto& b) { return a.outline < b.outline; });
+  return polygons;
+}
+
+template <class Number>
+std::vector<WalkStep<Number>> steps_of(const std::vector<BorderEdge<Number>>& closed_walk) {
+  std::vector<WalkStep<Number>> steps;
+  for (const BorderEdge<Number>& edge : closed_walk) steps.push_back({edge.from, edge.along});
+  return steps;
+}
+
+}  // namespace
+
+template <class Number>
+std::vector<Polygon<Number>> weiler_atherton(const Rings<Number>& subject_rings,
+                                             const Rings<Number>& clip_rings,
+                                             SetOperation operation,
+                                             WeilerAthertonTrace<Number>* trace) {
+  const Rings<Number> subject = checked_rings(subject_rings, "subject");
+  const Rings<Number> clip = checked_rings(clip_rings, "clip");
+
+  const ContactLists<Number> lists = enter_contacts_of(subject, clip);
+  const auto edges = label_edges(lists, subject, clip);
+  const auto contacts = label_contacts(lists, clip);
+  const auto walks = walk(border_of(edges, contacts, operation));
+  Rings<Number> rings;
+  for (const auto& closed_walk : walks)
+    for (Ring<Number>& ring : simple_rings(closed_walk)) rings.push_back(std::move(ring));
+
+  if (trace != nullptr) {
+    trace->contacts = contacts;
+    for (const auto& closed_walk : walks) trace->walks.push_back(steps_of(closed_walk));
+  }
+  return in_canonical_order(nest(rings));
+}
+
+template <class Number>
+Number area_of(const std::vector<Polygon<Number>>& polygons) {
+  Number area(0);
+  for (const Polygon<Number>& polygon : polygons)
+    area += signed_area(polygon.outline) + signed_area(polygon.holes);
+  return area;
+}
+
+#define FATHOM_INSTANTIATE(Number)                                                             \
+  template std::vector<Polygon<Number>> weiler_atherton(                                       \
+      const Rings<Number>&, const Rings<Number>&, SetOperation, WeilerAthertonTrace<Number>*); \
+  template Number area_of(const std::vector<Polygon<Number>>&);
+FATHOM_INSTANTIATE(double)
+FATHOM_INSTANTIATE(Rational)
+#undef FATHOM_INSTANTIATE
+
+}  // namespace fathom::clipping

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "fathom/clipping/points.h"
+#include "fathom/clipping/weiler_atherton.h"
+
+/// Weiler–Atherton, step 3: the walk.
+namespace fathom::clipping {
+
+/// A piece of the result's border, run so that the result lies to its left.
+template <class Number>
+struct BorderEdge {
+  Point2<Number> from, to;
+  Border along;
+};
+
+/// Closed walks that together run along every edge once. Where several edges leave a point, the
+/// walk takes the first one clockwise from where it came: the one that bounds, with the edge it
+/// came by, the same wedge of the result. So pieces that only touch are walked separately.
+///
+/// The first edges are started from in the order given.
+/// Fails    InputError where no edge leads on; over Rational that cannot be.
+template <class Number>
+std::vector<std::vector<BorderEdge<Number>>> walk(const std::vector<BorderEdge<Number>>& edges);
+
+/// The rings of a walk: taken apart where it comes through a point again, so each ring is simple.
+template <class Number>
+Rings<Number> simple_rings(const std::vector<BorderEdge<Number>>& closed_walk);
+
+}  // namespace fathom::clipping
