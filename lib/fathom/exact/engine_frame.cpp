@@ -23,6 +23,7 @@ void add(RenderStatistics& sum, const RenderStatistics& part) {
   sum.rounding += part.rounding;
   sum.exact_setups += part.exact_setups;
   sum.same_plane += part.same_plane;
+  sum.grid_setups += part.grid_setups;
 }
 
 }  // namespace fathom

@@ -13,8 +13,9 @@
 #include "fathom/exact/fast_tile.h"
 
 // How to read this file: render_in_arena() is the whole story. Vertices are transformed to the
-// image with bounds of their errors (fast_vertex), triangles are sorted into tiles (fast_bins),
-// each tile draws its triangles (fast_setup, fast_tile) and writes what is visible. What the bounds
+// image with bounds of their errors (fast_vertex), triangles are sorted into tiles (fast_boxes,
+// fast_bins), each tile draws its triangles (fast_setup, fast_tile) and writes what is visible
+// (fast_resolve). What the bounds
 // do not settle goes to the referee (fast_referee), who computes exactly.
 namespace fathom {
 namespace {
@@ -38,47 +39,8 @@ struct Frame {
   bool perspective;
 };
 
-/// Whether depths at samples of the triangle may leave the range that counts: q of a covered sample
-/// lies between those of the corners.
-bool may_leave_range(const ImageVertex& A, const ImageVertex& B, const ImageVertex& C,
-                     const DepthRange& range) {
-  const double error = 2 * static_cast<double>(std::max({A.q_error, B.q_error, C.q_error}));
-  return !range.certainly_contains(std::min({A.q, B.q, C.q}) - error,
-                                   std::max({A.q, B.q, C.q}) + error);
-}
-
-PixelBox intersection(const PixelBox& a, const PixelBox& b) {
-  return {std::max(a.first_column, b.first_column), std::min(a.last_column, b.last_column),
-          std::max(a.first_row, b.first_row), std::min(a.last_row, b.last_row)};
-}
-
-/// Draws one triangle in the worker's tile.
-void draw(const ImageObject& object, std::uint32_t triangle, const Frame& frame, Worker& worker,
-          const Tile::Context& context) {
-  Tile& tile = *worker.tile;
-  const auto& [a, b, c] = object.mesh.triangles[triangle];
-  const ImageVertex& A = object.vertices[a];
-  const ImageVertex& B = object.vertices[b];
-  const ImageVertex& C = object.vertices[c];
-  PixelBox box = tile.area();
-  bool test_range = true;
-  TriangleSetup setup;
-  setup.number = object.first_number + triangle;
-  if (A.is_usable() && B.is_usable() && C.is_usable()) {
-    box = intersection(box, sample_box(A, B, C, frame.grid.width, frame.grid.height));
-    test_range = may_leave_range(A, B, C, frame.range);
-    if (certified_setup(A, B, C, box, setup)) {
-      tile.draw(setup, box, test_range, context);
-      return;
-    }
-  }
-  ++worker.statistics.exact_setups;
-  tile.draw(exact_setup(worker.referee.projected(setup.number), frame.perspective, box), box,
-            test_range, context);
-}
-
-std::deque<ImageObject> transform(const Scene& scene, const Camera& camera) {
-  std::deque<ImageObject> objects;
+ImageObjects transform(const Scene& scene, const Camera& camera) {
+  ImageObjects objects;
   std::uint32_t first_number = 0;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     objects.emplace_back(scene, camera, i, first_number);
@@ -89,31 +51,52 @@ std::deque<ImageObject> transform(const Scene& scene, const Camera& camera) {
 
 /// Equal parts of all triangles: enough for every thread to have several, few enough for their
 /// tables of tiles to stay small.
-std::vector<Bins> cut(const std::deque<ImageObject>& objects, std::uint64_t triangles) {
+std::vector<Bins> cut(std::uint64_t triangles) {
   constexpr std::uint64_t parts = 64, least = 4096;
   const std::uint64_t length = std::max(least, triangles / parts + 1);
   std::vector<Bins> all;
-  for (const ImageObject& object : objects) {
-    const std::uint64_t count = object.mesh.triangles.size();
-    for (std::uint64_t first = 0; first < count; first += length) {
-      all.emplace_back(object, static_cast<std::uint32_t>(first),
-                       static_cast<std::uint32_t>(std::min(first + length, count)));
-    }
+  for (std::uint64_t first = 0; first < triangles; first += length) {
+    all.emplace_back(static_cast<std::uint32_t>(first),
+                     static_cast<std::uint32_t>(std::min(first + length, triangles)));
   }
   return all;
 }
 
-std::optional<EncodingFault> render_tile(std::uint32_t number, const std::vector<Bins>& all_bins,
-                                         const Frame& frame, Worker& worker,
-                                         ChannelWriter& writer) {
-  const Tile::Context context{worker.referee, worker.statistics, frame.range, frame.perspective};
-  worker.tile->start(frame.grid.area(number));
-  for (const Bins& bins : all_bins) {
-    for (const std::uint32_t triangle : bins.in_tile(number)) {
-      draw(bins.object(), triangle, frame, worker, context);
-    }
+/// Draws triangles that may be of several objects, those of an object beside each other.
+void draw(std::span<const std::uint32_t> numbers, const ImageObjects& objects, Tile& tile,
+          const Tile::Context& context) {
+  while (!numbers.empty()) {
+    const ImageObject& object = object_of(objects, numbers.front());
+    const auto next = std::find_if(numbers.begin(), numbers.end(), [&](std::uint32_t number) {
+      return number < object.first_number || number >= object.end_number();
+    });
+    const auto count = static_cast<std::size_t>(next - numbers.begin());
+    tile.draw(object, numbers.first(count), context);
+    numbers = numbers.subspan(count);
   }
-  return worker.tile->resolve(writer, frame.grid.width, context);
+}
+
+/// Where the tiles write.
+struct Output {
+  ChannelWriter& writer;
+  /// The values of Z, if that is the only channel and binary32.
+  float* depths;
+};
+
+std::optional<EncodingFault> render_tile(std::uint32_t number, const std::vector<Bins>& all_bins,
+                                         const ImageObjects& objects, const Frame& frame,
+                                         Worker& worker, const Output& output) {
+  const Tile::Context context{worker.referee, worker.statistics, frame.range, frame.perspective,
+                              frame.options.fast};
+  worker.tile->start(frame.grid.area(number));
+  for (const Bins& bins : all_bins) draw(bins.in_tile(number), objects, *worker.tile, context);
+  return worker.tile->resolve(output.writer, output.depths, frame.grid.width, context);
+}
+
+float* depths_alone(DepthMap& map) {
+  if (map.channels.size() != 1 || map.channels[0].name != "Z") return nullptr;
+  auto* values = std::get_if<std::vector<float>>(&map.channels[0].values);
+  return values ? values->data() : nullptr;
 }
 
 /// The fault of the first pixel in row order, over all tiles.
@@ -143,20 +126,20 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
                     camera.projection == Projection::perspective};
   Workers workers([&] { return Worker(scene, camera); });
 
-  const std::deque<ImageObject> objects = transform(scene, camera);
-  std::vector<Bins> bins = cut(objects, triangle_count(scene));
+  const ImageObjects objects = transform(scene, camera);
+  std::vector<Bins> bins = cut(triangle_count(scene));
   tbb::parallel_for(std::size_t{0}, bins.size(), [&](std::size_t i) {
     Worker& worker = workers.local();
-    bins[i].fill(
-        {camera, options.cull, frame.range, frame.grid, worker.referee, worker.statistics});
+    bins[i].fill({objects, camera, options.cull, frame.grid, worker.referee, worker.statistics});
   });
 
   DepthMap map = make_background(camera, options);
   ChannelWriter writer(map, scene, camera, options);
+  const Output output{writer, depths_alone(map)};
   FirstFault fault;
   Progress progress(options.progress, frame.grid.count());
   tbb::parallel_for(std::uint32_t{0}, frame.grid.count(), [&](std::uint32_t tile) {
-    fault.add(render_tile(tile, bins, frame, workers.local(), writer));
+    fault.add(render_tile(tile, bins, objects, frame, workers.local(), output));
     progress.part_done();
   });
   if (fault.get()) fail(*fault.get(), map);

@@ -4,24 +4,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <optional>
 
-#include "fathom/exact/fast_setup.h"
+#include "fathom/exact/fast_boxes.h"
 #include "fathom/exact/fast_tile.h"
 
 namespace fathom {
-namespace {
-
-struct Entry {
-  std::uint32_t tile;
-  std::uint32_t triangle;
-};
-
-bool keeps(Cull cull, Sign orientation) {
-  if (cull == Cull::none) return true;
-  return orientation == (cull == Cull::back ? Sign::negative : Sign::positive);
-}
-
-}  // namespace
 
 ImageObject::ImageObject(const Scene& scene, const Camera& camera, std::size_t object,
                          std::uint32_t first_triangle)
@@ -31,10 +19,16 @@ ImageObject::ImageObject(const Scene& scene, const Camera& camera, std::size_t o
       vertices(std::make_unique_for_overwrite<ImageVertex[]>(mesh.vertices.size())) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertices.size(), 4096),
                     [&](const auto& range) {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        vertices[i] = transform(mesh.vertices[i]);
-                      }
+                      transform(std::span(mesh.vertices).subspan(range.begin(), range.size()),
+                                vertices.get() + range.begin());
                     });
+}
+
+const ImageObject& object_of(const ImageObjects& objects, std::uint32_t number) {
+  const auto next = std::upper_bound(
+      objects.begin(), objects.end(), number,
+      [](std::uint32_t n, const ImageObject& object) { return n < object.first_number; });
+  return *std::prev(next);
 }
 
 TileGrid::TileGrid(std::uint32_t image_width, std::uint32_t image_height)
@@ -50,76 +44,92 @@ PixelBox TileGrid::area(std::uint32_t tile) const {
 }
 
 void Bins::fill(const Context& context) {
-  const TileGrid& grid = context.grid;
-  std::vector<Entry> entries;
-  starts_.assign(grid.count() + 1, 0);
-  for (std::uint32_t triangle = first_; triangle < end_; ++triangle) {
-    const PixelBox box = visible_box(triangle, context);
-    if (box.is_empty()) continue;
-    for (std::uint32_t row = box.first_row / Tile::size; row <= box.last_row / Tile::size; ++row) {
-      for (std::uint32_t column = box.first_column / Tile::size;
-           column <= box.last_column / Tile::size; ++column) {
-        entries.push_back({row * grid.columns + column, triangle});
-        ++starts_[entries.back().tile + 1];
-      }
-    }
+  entries_.reserve(end_ - first_);
+  starts_.assign(context.grid.count() + std::size_t{1}, 0);
+  for (const ImageObject& object : context.objects) {
+    if (object.end_number() > first_ && object.first_number < end_) add_object(object, context);
   }
-  for (std::size_t tile = 0; tile < grid.count(); ++tile) starts_[tile + 1] += starts_[tile];
-  sorted_.resize(entries.size());
-  std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-  for (const Entry& entry : entries) sorted_[next[entry.tile]++] = entry.triangle;
+  sort(context.grid.count());
 }
 
-/// Where the triangle can be visible; empty where it is not.
-PixelBox Bins::visible_box(std::uint32_t triangle, const Context& context) const {
-  const auto& [a, b, c] = object_->mesh.triangles[triangle];
-  const ImageVertex& A = object_->vertices[a];
-  const ImageVertex& B = object_->vertices[b];
-  const ImageVertex& C = object_->vertices[c];
-  if (!A.is_usable() || !B.is_usable() || !C.is_usable()) {
-    return visible_box_exactly(triangle, context);
-  }
-  RenderStatistics& statistics = context.statistics;
-  auto orientation = certified_orientation(A, B, C);
-  if (orientation) {
-    ++statistics.facing.interval;
-  } else {
-    ++statistics.facing.exact;
-    const bool distinct = a != b && b != c && c != a;
-    orientation = distinct ? context.referee.projected(object_->first_number + triangle).orientation
-                           : Sign::zero;
-  }
-  if (orientation == Sign::zero) {
-    ++statistics.degenerate_triangles;
-    return {};
-  }
-  if (!keeps(context.cull, *orientation)) {
-    ++statistics.culled_triangles;
-    return {};
-  }
-  return sample_box(A, B, C, context.grid.width, context.grid.height);
-}
+namespace {
 
-PixelBox Bins::visible_box_exactly(std::uint32_t triangle, const Context& context) const {
-  const Mesh& mesh = object_->mesh;
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  const auto& vertices = object_->vertices;
+/// Where a triangle of which nothing was certain can be visible; empty where it is not.
+PixelBox visible_box_exactly(const ImageObject& object, std::uint32_t number,
+                             const Bins::Context& context) {
+  const Mesh& mesh = object.mesh;
+  const auto& [a, b, c] = mesh.triangles[number - object.first_number];
+  const auto& vertices = object.vertices;
   if (vertices[a].is_behind() && vertices[b].is_behind() && vertices[c].is_behind()) return {};
-  if (object_->transform.misses_image({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]})) {
+  const bool usable = vertices[a].is_usable() && vertices[b].is_usable() && vertices[c].is_usable();
+  if (!usable &&
+      object.transform.misses_image({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]})) {
     return {};
   }
   RenderStatistics& statistics = context.statistics;
   ++statistics.facing.exact;
-  const ProjectedTriangle& t = context.referee.projected(object_->first_number + triangle);
-  if (t.orientation == Sign::zero) {
+  const bool distinct = a != b && b != c && c != a;
+  const ProjectedTriangle* t = distinct ? &context.referee.projected(number) : nullptr;
+  if (!t || t->orientation == Sign::zero) {
     ++statistics.degenerate_triangles;
     return {};
   }
-  if (!is_kept(t, context.cull)) {
+  if (!is_kept(*t, context.cull)) {
     ++statistics.culled_triangles;
     return {};
   }
-  return bounding_box(t, context.camera);
+  return bounding_box(*t, context.camera);
+}
+
+}  // namespace
+
+void Bins::add_object(const ImageObject& object, const Context& context) {
+  const std::uint32_t first = std::max(first_, object.first_number);
+  const std::uint32_t end = std::min(end_, object.end_number());
+  const auto boxes = std::make_unique_for_overwrite<TriangleBoxes>();
+  RenderStatistics& statistics = context.statistics;
+  for (std::uint32_t next = first; next < end; next += TriangleBoxes::most) {
+    const std::uint32_t count = std::min<std::uint32_t>(TriangleBoxes::most, end - next);
+    box_triangles(
+        {object.vertices.get(), &object.mesh.triangles[next - object.first_number], count, next,
+         context.cull, context.grid.width, context.grid.height, context.grid.columns},
+        *boxes);
+    statistics.facing.interval += count - boxes->unsettled;
+    statistics.degenerate_triangles += boxes->degenerate;
+    statistics.culled_triangles += boxes->culled;
+    for (std::size_t i = 0; i < boxes->in_one_tile; ++i) ++starts_[(boxes->entries[i] >> 32) + 1];
+    entries_.insert(entries_.end(), boxes->entries.begin(),
+                    boxes->entries.begin() + static_cast<std::ptrdiff_t>(boxes->in_one_tile));
+    for (std::size_t i = 0; i < boxes->in_more_tiles; ++i) {
+      add(boxes->number[i], boxes->box[i], context.grid);
+    }
+    for (std::size_t i = 0; i < boxes->unsettled; ++i) {
+      const std::uint32_t number = boxes->unsettled_number[i];
+      const PixelBox box = visible_box_exactly(object, number, context);
+      if (!box.is_empty()) add(number, box, context.grid);
+    }
+  }
+}
+
+void Bins::add(std::uint32_t number, const PixelBox& box, const TileGrid& grid) {
+  for (std::uint32_t row = box.first_row / Tile::size; row <= box.last_row / Tile::size; ++row) {
+    for (std::uint32_t column = box.first_column / Tile::size;
+         column <= box.last_column / Tile::size; ++column) {
+      const std::uint64_t tile = row * grid.columns + column;
+      entries_.push_back(tile << 32 | number);
+      ++starts_[tile + 1];
+    }
+  }
+}
+
+void Bins::sort(std::uint32_t tiles) {
+  for (std::size_t tile = 0; tile < tiles; ++tile) starts_[tile + 1] += starts_[tile];
+  sorted_.resize(entries_.size());
+  std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
+  for (const std::uint64_t entry : entries_) {
+    sorted_[next[entry >> 32]++] = static_cast<std::uint32_t>(entry);
+  }
+  entries_ = {};
 }
 
 }  // namespace fathom

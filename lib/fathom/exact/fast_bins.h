@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,7 +23,16 @@ struct ImageObject {
   VertexTransform transform;
   /// One for each vertex of the mesh.
   std::unique_ptr<ImageVertex[]> vertices;
+
+  [[nodiscard]] std::uint32_t end_number() const {
+    return first_number + static_cast<std::uint32_t>(mesh.triangles.size());
+  }
 };
+/// In the order of the scene, so that the numbers of their triangles follow each other.
+using ImageObjects = std::deque<ImageObject>;
+
+/// The object that a triangle belongs to.
+const ImageObject& object_of(const ImageObjects& objects, std::uint32_t number);
 
 /// The image cut into tiles, numbered row by row.
 struct TileGrid {
@@ -34,34 +44,35 @@ struct TileGrid {
   std::uint32_t columns, rows;
 };
 
-/// Consecutive triangles of an object, and for each tile those that can be visible in it.
+/// Consecutive triangles, and for each tile those that can be visible in it.
 class Bins {
  public:
-  Bins(const ImageObject& object, std::uint32_t first, std::uint32_t end)
-      : object_(&object), first_(first), end_(end) {}
+  /// Triangles first ≤ number < end of the scene.
+  Bins(std::uint32_t first, std::uint32_t end) : first_(first), end_(end) {}
 
   struct Context {
+    const ImageObjects& objects;
     const Camera& camera;
     Cull cull;
-    const DepthRange& range;
     const TileGrid& grid;
     Referee& referee;
     RenderStatistics& statistics;
   };
   void fill(const Context& context);
 
-  [[nodiscard]] const ImageObject& object() const { return *object_; }
-  /// Numbers within the object's mesh, in ascending order.
+  /// Numbers of triangles, those of an object beside each other.
   [[nodiscard]] std::span<const std::uint32_t> in_tile(std::uint32_t tile) const {
     return std::span(sorted_).subspan(starts_[tile], starts_[tile + 1] - starts_[tile]);
   }
 
  private:
-  [[nodiscard]] PixelBox visible_box(std::uint32_t triangle, const Context& context) const;
-  [[nodiscard]] PixelBox visible_box_exactly(std::uint32_t triangle, const Context& context) const;
+  void add_object(const ImageObject& object, const Context& context);
+  void add(std::uint32_t number, const PixelBox& box, const TileGrid& grid);
+  void sort(std::uint32_t tiles);
 
-  const ImageObject* object_;
   std::uint32_t first_, end_;
+  /// Tile (upper half) and triangle.
+  std::vector<std::uint64_t> entries_;
   std::vector<std::uint32_t> sorted_;
   std::vector<std::size_t> starts_;
 };

@@ -35,8 +35,9 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
   setup.column = box.first_column;
   setup.row = box.first_row;
   const double origin_u = box.first_column + 0.5, origin_v = box.first_row + 0.5;
+  // Samples up to 8 beyond the box count too.
   const double extent =
-      std::max({box.last_column - box.first_column, box.last_row - box.first_row, 1U});
+      std::max(box.last_column - box.first_column, box.last_row - box.first_row) + 8.0;
   const long extent_bits = std::ilogb(extent) + 1;
 
   for (std::size_t i = 0; i < 3; ++i) {
@@ -62,10 +63,10 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
   setup.q_c = coefficient(numerator.at(origin_u, origin_v));
   const double S = std::abs(setup.q_c) + (std::abs(setup.q_a) + std::abs(setup.q_b)) * extent;
   if (S < 0x1p100) {
-    setup.q_error = static_cast<float>((5 * unit_roundoff * S + 0x1p-100) * (1 + 0x1p-19));
+    setup.q_error = (5 * unit_roundoff * S + 0x1p-100) * (1 + 0x1p-19);
   } else {
     setup.q_a = setup.q_b = setup.q_c = 0;
-    setup.q_error = std::numeric_limits<float>::infinity();
+    setup.q_error = std::numeric_limits<double>::infinity();
   }
   return setup;
 }

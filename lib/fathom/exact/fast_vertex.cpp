@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "fathom/exact/fast_vertex_bounds.h"
 #include "fathom/numeric/rounding.h"
 
 // The bounds of this file, with u = 2⁻⁵³ (docs/error-analysis.md, "Vertices").
@@ -20,24 +20,16 @@
 namespace fathom {
 namespace {
 
-constexpr double affine_error = 6 * unit_roundoff;
-/// Relative slack of a bound: covers the roundings in its own evaluation (fewer than 2⁵ of them,
-/// 2⁻⁴⁸), the terms of second order named below (2⁻¹⁸) and its conversion to binary32 (2⁻²⁴).
-constexpr double slack = 1 + 0x1p-15;
-/// Absolute floor of every bound, above all effects of underflow: these are errors of 2⁻¹⁰⁷⁵ in U,
-/// V, W or D, grown by at most 2¹⁵⁰ by the divisions below. A normal binary32 number.
-constexpr double underflow_floor = 0x1p-100;
+using vertex_bounds::affine_error;
+using vertex_bounds::underflow_floor;
+using Row = ImageRows::Row;
 
-constexpr double least_W = 0x1p-60, greatest_W = 0x1p60;
-constexpr double greatest_coordinate = 0x1p30;
-constexpr double greatest_position_error = 0x1p-12;
-
-double apply(const std::array<double, 4>& m, double x, double y, double z) {
+double apply(const Row& m, double x, double y, double z) {
   return m[0] * x + m[1] * y + m[2] * z + m[3];
 }
 
-std::array<double, 4> magnitudes(const std::array<double, 4>& a, const std::array<double, 4>& b) {
-  std::array<double, 4> greatest;
+Row magnitudes(const Row& a, const Row& b) {
+  Row greatest;
   for (std::size_t k = 0; k < 4; ++k) greatest[k] = std::max(std::abs(a[k]), std::abs(b[k]));
   return greatest;
 }
@@ -49,20 +41,29 @@ std::array<Dyadic, 4> exact_image(const Object& object, const Camera& camera, co
   return {image.U, image.V, image.W, p.z};
 }
 
+struct RoundedRows {
+  std::array<Row, 4> rows;
+  /// Whether no entry was changed by rounding.
+  bool exact = true;
+
+  void set(std::size_t i, std::size_t k, const Dyadic& entry) {
+    rows[i][k] = round_to_binary64(Ratio(entry));
+    exact = exact && std::isfinite(rows[i][k]) && compare(Dyadic(rows[i][k]), entry) == 0;
+  }
+};
+
 /// The rows of the affine map from the mesh to U, V, W, D: its values at the origin and how they
 /// change along the axes; rounded.
-std::array<std::array<double, 4>, 4> rounded_rows(const Object& object, const Camera& camera) {
+RoundedRows rounded_rows(const Object& object, const Camera& camera) {
   const MeshPoint axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const auto origin = exact_image(object, camera, {0, 0, 0});
-  std::array<std::array<double, 4>, 4> rows;
-  for (std::size_t i = 0; i < 4; ++i) rows[i][3] = round_to_binary64(Ratio(origin[i]));
+  RoundedRows rounded;
+  for (std::size_t i = 0; i < 4; ++i) rounded.set(i, 3, origin[i]);
   for (std::size_t k = 0; k < 3; ++k) {
     const auto end = exact_image(object, camera, axes[k]);
-    for (std::size_t i = 0; i < 4; ++i) {
-      rows[i][k] = round_to_binary64(Ratio(end[i] - origin[i]));
-    }
+    for (std::size_t i = 0; i < 4; ++i) rounded.set(i, k, end[i] - origin[i]);
   }
-  return rows;
+  return rounded;
 }
 
 bool is_safe(double entry) {
@@ -70,8 +71,27 @@ bool is_safe(double entry) {
   return size == 0 || (size >= 0x1p-200 && size <= 0x1p200);
 }
 
-ImageVertex unusable(bool behind) {
-  return {0, 0, behind ? -1.0 : 0.0, std::numeric_limits<float>::infinity(), 0};
+/// m·x without rounding, or not known.
+bool multiply_exactly(double m, double x, double& product) {
+  product = m * x;
+  if (m == 0 || x == 0) return true;
+  const bool no_underflow = std::abs(product) > 0x1p-900;
+  return no_underflow && std::fma(m, x, -product) == 0;
+}
+
+/// a + b without rounding, or not known (Knuth's TwoSum gives the rounding error).
+bool add_exactly(double a, double b, double& sum) {
+  sum = a + b;
+  const double b_part = sum - a;
+  return (a - (sum - b_part)) + (b - b_part) == 0;
+}
+
+/// The affine value without any rounding, or not known.
+bool apply_exactly(const Row& m, const MeshPoint& X, double& value) {
+  double mx, my, mz, xy, xyz;
+  return multiply_exactly(m[0], X.x, mx) && multiply_exactly(m[1], X.y, my) &&
+         multiply_exactly(m[2], X.z, mz) && add_exactly(mx, my, xy) && add_exactly(xy, mz, xyz) &&
+         add_exactly(xyz, m[3], value);
 }
 
 }  // namespace
@@ -80,67 +100,42 @@ VertexTransform::VertexTransform(const Object& object, const Camera& camera)
     : perspective_(camera.projection == Projection::perspective),
       last_u_(camera.width - 0.5),
       last_v_(camera.height - 0.5) {
-  const auto rows = rounded_rows(object, camera);
-  for (const Row& row : rows) {
+  const RoundedRows rounded = rounded_rows(object, camera);
+  for (const Row& row : rounded.rows) {
     usable_ = usable_ && std::all_of(row.begin(), row.end(), is_safe);
   }
-  U_ = rows[0];
-  V_ = rows[1];
-  W_ = rows[2];
-  D_ = rows[3];
-  size_UV_ = magnitudes(U_, V_);
-  size_W_ = magnitudes(W_, W_);
-  size_D_ = magnitudes(D_, D_);
+  exact_ = rounded.exact;
+  rows_.U = rounded.rows[0];
+  rows_.V = rounded.rows[1];
+  rows_.W = rounded.rows[2];
+  rows_.D = rounded.rows[3];
+  rows_.size_UV = magnitudes(rows_.U, rows_.V);
+  rows_.size_W = magnitudes(rows_.W, rows_.W);
+  rows_.size_D = magnitudes(rows_.D, rows_.D);
+}
+
+ImageVertex VertexTransform::operator()(const MeshPoint& X) const {
+  ImageVertex vertex;
+  (*this)(std::span(&X, 1), &vertex);
+  return vertex;
+}
+
+// If U, V and W are computed without rounding, u = U/W is the multiple given exactly if u·W = U;
+// the fused multiply-add rounds u·W − U once, and a number that is not 0 does not round to 0 here
+// (no underflow: u·W and U are multiples of 2⁻⁹⁰⁰⁻⁵³⁻⁸).
+bool VertexTransform::lies_exactly_at(const MeshPoint& X, double u, double v) const {
+  double U, V, W;
+  if (!exact_ || !apply_exactly(rows_.U, X, U) || !apply_exactly(rows_.V, X, V)) return false;
+  if (!perspective_) return U == u && V == v;
+  return apply_exactly(rows_.W, X, W) && std::fma(u, W, -U) == 0 && std::fma(v, W, -V) == 0;
 }
 
 VertexTransform::Homogeneous VertexTransform::homogeneous(const MeshPoint& X) const {
   const auto [x, y, z] = X;
   const double ax = std::abs(x), ay = std::abs(y), az = std::abs(z);
-  return {apply(U_, x, y, z), apply(V_, x, y, z), apply(W_, x, y, z),
-          affine_error * apply(size_UV_, ax, ay, az), affine_error * apply(size_W_, ax, ay, az)};
-}
-
-ImageVertex VertexTransform::operator()(const MeshPoint& X) const {
-  if (!usable_) return unusable(false);
-  return perspective_ ? perspective_vertex(X) : orthographic_vertex(X);
-}
-
-// Û, Ŵ computed, E_U, E_W their bounds, r = Û/Ŵ the real quotient, U, W exact. Then
-//   |r − U/W| = |(Û − U) + (U/W)(W − Ŵ)| / Ŵ ≤ (E_U + (|r| + |r − U/W|)·E_W) / Ŵ,
-// so with E_W ≤ 2⁻²⁰·Ŵ: |r − U/W| ≤ (1 + 2⁻¹⁹)·(E_U + |r|·E_W) / Ŵ. And û = fl(Û·fl(1/Ŵ)) differs
-// from r by at most 2.01u·|r|; 3u is written. 2⁻¹⁹ and the difference of r and û go into `slack`.
-// Likewise |1/Ŵ − 1/W| ≤ E_W/(Ŵ·W) ≤ (1 + 2⁻¹⁹)·E_W/Ŵ², and the division rounds once more.
-// Overflow anywhere makes a condition of the last `if` false.
-ImageVertex VertexTransform::perspective_vertex(const MeshPoint& X) const {
-  const Homogeneous p = homogeneous(X);
-  const double q = 1 / p.W;
-  const double u = p.U * q, v = p.V * q;
-  const double size = std::max(std::abs(u), std::abs(v));
-  const double position_error =
-      ((p.error_UV + size * p.error_W) * q + 3 * unit_roundoff * size) * slack + underflow_floor;
-  if (p.W >= least_W && p.W <= greatest_W && p.error_W <= p.W * 0x1p-20 &&
-      std::abs(u) <= greatest_coordinate && std::abs(v) <= greatest_coordinate &&
-      position_error <= greatest_position_error) {
-    const double q_error = (p.error_W * q + unit_roundoff) * q * slack;
-    return {u, v, q, static_cast<float>(position_error), static_cast<float>(q_error)};
-  }
-  return unusable(p.W + (p.error_W + underflow_floor) * slack < 0);
-}
-
-// W = 1: no division.
-ImageVertex VertexTransform::orthographic_vertex(const MeshPoint& X) const {
-  const Homogeneous p = homogeneous(X);
-  const double D = apply(D_, X.x, X.y, X.z);
-  const double D_error =
-      affine_error * apply(size_D_, std::abs(X.x), std::abs(X.y), std::abs(X.z)) * slack +
-      underflow_floor;
-  const double position_error = p.error_UV * slack + underflow_floor;
-  if (std::abs(p.U) <= greatest_coordinate && std::abs(p.V) <= greatest_coordinate &&
-      position_error <= greatest_position_error && std::abs(D) <= greatest_W &&
-      D_error <= greatest_W) {
-    return {p.U, p.V, -D, static_cast<float>(position_error), static_cast<float>(D_error)};
-  }
-  return unusable(false);
+  return {apply(rows_.U, x, y, z), apply(rows_.V, x, y, z), apply(rows_.W, x, y, z),
+          affine_error * apply(rows_.size_UV, ax, ay, az),
+          affine_error * apply(rows_.size_W, ax, ay, az)};
 }
 
 // A covered sample s is a combination of the corners with weights that are not negative (divided by

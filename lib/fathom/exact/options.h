@@ -47,6 +47,17 @@ struct RenderStatistics {
   std::uint64_t exact_setups = 0;
   /// Of visibility.exact: settled by the two triangles' lying in one plane.
   std::uint64_t same_plane = 0;
+  /// How often a triangle was set up with corners exactly on the grid on which edge functions have
+  /// no error, once for each tile.
+  std::uint64_t grid_setups = 0;
+};
+
+/// What the fast engine may leave out, for measurements: its time changes, never its map.
+struct FastSwitches {
+  /// Blocks of samples are tested before samples.
+  bool hierarchy = true;
+  /// Blocks behind what is drawn already are skipped.
+  bool early_rejection = true;
 };
 
 struct RenderOptions {
@@ -54,6 +65,7 @@ struct RenderOptions {
   std::vector<Channel> channels{Channel::Z};
   Cull cull = Cull::none;
   DepthEncoding depth_encoding;
+  FastSwitches fast;
   /// Threads to use; 0: all.
   int threads = 0;
   /// Called now and then, from any thread but never from two at once, with the share done in [0,
