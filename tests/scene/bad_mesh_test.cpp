@@ -164,6 +164,10 @@ const BadCase bad_cases[] = {
     {"no vertex.ply", "ply\nformat ascii 1.0\nend_header\n", "has no element vertex"},
     {"no x.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float y\nend_header\n0\n",
      "lacks x, y or z"},
+    {"no properties.ply",
+     "ply\nformat ascii 1.0\nelement vertex 3\nelement face 1\nproperty list uchar int "
+     "vertex_indices\nend_header\n3 0 1 2\n",
+     "lacks x, y or z"},
     {"no indices.ply",
      "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float "
      "z\nelement face "

@@ -49,16 +49,25 @@ void FaceCollector::note_odd_face(std::size_t corners) {
   std::iota(mesh_.face_of_triangle.begin(), mesh_.face_of_triangle.end(), 0U);
 }
 
-void FaceCollector::fail_too_many() const {
-  throw InputError(file_ + ": more than the 4294967294 triangles that can be numbered");
+void fail_too_many_triangles(const std::string& file) {
+  throw InputError(file + ": more than the 4294967294 triangles that can be numbered");
+}
+
+void warn_of_faces(std::uint64_t skipped, std::uint64_t odd, const std::string& file,
+                   Warnings& warnings) {
+  if (skipped > 0)
+    warnings.push_back(file + ": " +
+                       counted(skipped, "face of fewer than three corners is skipped",
+                               "faces of fewer than three corners are skipped"));
+  if (odd > 0)
+    warnings.push_back(
+        file + ": " +
+        counted(odd, "face that is not a simple polygon or has no normal is cut into a fan",
+                "faces that are not simple polygons or have no normal are cut into fans"));
 }
 
 void cut_polygons(Mesh& mesh, std::uint64_t skipped_faces, const std::string& file,
                   Warnings& warnings) {
-  if (skipped_faces > 0)
-    warnings.push_back(file + ": " +
-                       counted(skipped_faces, "face of fewer than three corners is skipped",
-                               "faces of fewer than three corners are skipped"));
   const auto& faces = mesh.face_of_triangle;
   std::uint64_t odd_shapes = 0;
   std::vector<std::uint32_t> ring;
@@ -79,11 +88,7 @@ void cut_polygons(Mesh& mesh, std::uint64_t skipped_faces, const std::string& fi
     write_cut(mesh.texture_triangles, fan, cut, ring);
     write_cut(mesh.normal_triangles, fan, cut, ring);
   }
-  if (odd_shapes > 0)
-    warnings.push_back(
-        file + ": " +
-        counted(odd_shapes, "face that is not a simple polygon or has no normal is cut into a fan",
-                "faces that are not simple polygons or have no normal are cut into fans"));
+  warn_of_faces(skipped_faces, odd_shapes, file, warnings);
 }
 
 }  // namespace fathom

@@ -15,6 +15,13 @@ inline constexpr std::uint64_t most_elements = 0xFFFFFFFE;
 /// Throws InputError "FILE: N WHAT are more than …" where `count` is above most_elements.
 void expect_countable(std::uint64_t count, const char* what, const std::string& file);
 
+/// Throws the InputError of a file with more triangles or faces than that.
+[[noreturn]] void fail_too_many_triangles(const std::string& file);
+
+/// Warns of faces that were skipped, and of `odd` ones that were cut in spite of their shape.
+void warn_of_faces(std::uint64_t skipped, std::uint64_t odd, const std::string& file,
+                   Warnings& warnings);
+
 /// Adds the faces of a file one by one; each as a fan for now, see cut_polygons().
 class FaceCollector {
  public:
@@ -28,14 +35,14 @@ class FaceCollector {
       if (odd_) mesh_.face_of_triangle.push_back(static_cast<std::uint32_t>(mesh_.face_count));
     }
     ++mesh_.face_count;
-    if (mesh_.triangles.size() > most_elements || mesh_.face_count > most_elements) fail_too_many();
+    if (mesh_.triangles.size() > most_elements || mesh_.face_count > most_elements)
+      fail_too_many_triangles(file_);
   }
 
   [[nodiscard]] std::uint64_t skipped() const { return skipped_; }
 
  private:
   void note_odd_face(std::size_t corners);
-  [[noreturn]] void fail_too_many() const;
 
   Mesh& mesh_;
   const std::string& file_;

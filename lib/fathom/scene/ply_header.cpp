@@ -8,8 +8,6 @@
 namespace fathom {
 namespace {
 
-constexpr std::size_t longest_header = std::size_t{128} << 10;
-
 std::optional<PlyType> type_named(std::string_view name) {
   static constexpr std::pair<std::string_view, PlyType> names[] = {
       {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
@@ -116,7 +114,7 @@ const PlyElement* PlyHeader::find(std::string_view name) const {
 
 PlyHeader read_ply_header(std::string_view text, const std::string& file) {
   PlyHeader header;
-  TextCursor cursor(text.substr(0, longest_header), file, {}, line_end_of_first(text));
+  TextCursor cursor(text.substr(0, longest_ply_header), file, {}, line_end_of_first(text));
   if (cursor.word() != "ply") cursor.fail("expected ply");
   bool has_format = false;
   while (true) {

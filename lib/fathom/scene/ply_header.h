@@ -48,6 +48,9 @@ struct PlyHeader {
   [[nodiscard]] const PlyElement* find(std::string_view name) const;
 };
 
+/// Only so many bytes of a file are searched for the end of its header.
+inline constexpr std::size_t longest_ply_header = std::size_t{128} << 10;
+
 /// Reads the header of a PLY file; lines end with LF, CR LF or CR, as the first one does.
 /// Fails    InputError "FILE: line N: …".
 PlyHeader read_ply_header(std::string_view text, const std::string& file);

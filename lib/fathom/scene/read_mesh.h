@@ -39,8 +39,4 @@ Mesh read_stl(std::span<const std::byte> bytes, const std::string& file, const R
 Mesh read_off(std::string_view text, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 
-/// Whether STL in `bytes` is binary: its size is what its count of triangles says, or it does not
-/// read "solid" followed by text.
-bool is_binary_stl(std::span<const std::byte> bytes);
-
 }  // namespace fathom

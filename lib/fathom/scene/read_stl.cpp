@@ -1,42 +1,19 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cctype>
-#include <cmath>
-#include <cstring>
 
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/mesh_faces.h"
 #include "fathom/scene/read_mesh.h"
+#include "fathom/scene/stl_binary.h"
 #include "fathom/scene/text_cursor.h"
-
-static_assert(std::endian::native == std::endian::little, "binary STL is read as it lies");
 
 namespace fathom {
 namespace {
 
-constexpr std::size_t header_size = 84, triangle_size = 50;
-
-std::uint32_t claimed_triangles(std::span<const std::byte> bytes) {
-  std::uint32_t count = 0;
-  std::memcpy(&count, bytes.data() + 80, sizeof count);
-  return count;
-}
-
 Mesh read_binary(std::span<const std::byte> bytes, const std::string& file, bool attributes,
                  Warnings& warnings) {
-  if (bytes.size() < header_size)
-    throw InputError(file + ": byte " + std::to_string(bytes.size()) +
-                     ": the file ends, expected a binary STL header of 84 bytes");
-  const std::uint64_t count = claimed_triangles(bytes);
-  const std::uint64_t expected = header_size + triangle_size * count;
-  if (bytes.size() < expected)
-    throw InputError(file + ": byte " + std::to_string(bytes.size()) +
-                     ": the file ends, expected " + std::to_string(expected) + " bytes for " +
-                     std::to_string(count) + " triangles");
-  if (bytes.size() > expected)
-    warnings.push_back(file + ": " + std::to_string(bytes.size() - expected) +
-                       " bytes after the last triangle are ignored");
+  const std::uint64_t count = count_binary_stl(bytes, bytes.size(), file, warnings);
   expect_countable(3 * count, "vertices", file);
   Mesh mesh;
   mesh.face_count = count;
@@ -44,14 +21,8 @@ Mesh read_binary(std::span<const std::byte> bytes, const std::string& file, bool
   mesh.triangles.resize(count);
   if (attributes) mesh.normals.resize(count), mesh.normal_triangles.resize(count);
   for (std::uint32_t t = 0; t < count; ++t) {
-    std::array<float, 12> values;
-    const std::size_t at = header_size + triangle_size * t;
-    std::memcpy(values.data(), bytes.data() + at, sizeof values);
-    for (int i = 3; i < 12; ++i)
-      if (!std::isfinite(values[i]))
-        throw InputError(file + ": byte " + std::to_string(at + 4 * i) +
-                         ": a coordinate of triangle " + std::to_string(t) +
-                         " is not finite, expected a finite number");
+    const std::byte* record = bytes.data() + stl_header_size + stl_triangle_size * t;
+    const std::array<float, 12> values = read_stl_triangle(record, t, file);
     for (std::uint32_t k = 0; k < 3; ++k) {
       const float* p = &values[3 + 3 * k];
       mesh.vertices[3 * t + k] = {p[0], p[1], p[2]};
@@ -166,23 +137,10 @@ class AsciiStlReader {
 
 }  // namespace
 
-bool is_binary_stl(std::span<const std::byte> bytes) {
-  if (bytes.size() >= header_size &&
-      bytes.size() == header_size + triangle_size * std::uint64_t{claimed_triangles(bytes)})
-    return true;
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
-                              std::min<std::size_t>(bytes.size(), 512));
-  const std::string no_name;
-  TextCursor cursor(text, no_name, {});
-  if (!cursor.next_line_with_words()) return true;
-  std::string word(cursor.word().substr(0, 6));
-  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return word != "solid" || text.find('\0') != text.npos;
-}
-
 Mesh read_stl(std::span<const std::byte> bytes, const std::string& file, const ReadOptions& options,
               Warnings& warnings) {
-  if (is_binary_stl(bytes)) return read_binary(bytes, file, options.attributes, warnings);
+  if (is_binary_stl(bytes, bytes.size()))
+    return read_binary(bytes, file, options.attributes, warnings);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   return AsciiStlReader(text, file, options).read();
 }

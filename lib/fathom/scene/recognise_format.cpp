@@ -41,11 +41,11 @@ bool is_obj_keyword(std::string_view word) {
   return std::find(std::begin(known), std::end(known), word) != std::end(known);
 }
 
-bool is_binary_stl_by_size(std::span<const std::byte> bytes) {
+bool is_binary_stl_by_size(std::span<const std::byte> bytes, std::uint64_t size) {
   if (bytes.size() < 84) return false;
   std::uint32_t count = 0;
   std::memcpy(&count, bytes.data() + 80, sizeof count);
-  return bytes.size() == 84 + 50 * std::uint64_t{count};
+  return size == 84 + 50 * std::uint64_t{count};
 }
 
 /// An asset has the key "asset", which a scene file must not have. (A mesh may be named so, but no
@@ -61,13 +61,13 @@ bool has_asset_key(std::string_view text) {
 
 }  // namespace
 
-std::optional<FileKind> recognise_format(std::span<const std::byte> bytes,
+std::optional<FileKind> recognise_format(std::span<const std::byte> bytes, std::uint64_t size,
                                          const std::filesystem::path& path) {
   const std::string_view text =
       TextCursor::without_mark({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   if (text.starts_with("glTF")) return FileKind::gltf;
   if (text.starts_with("ply\n") || text.starts_with("ply\r")) return FileKind::ply;
-  if (is_binary_stl_by_size(bytes)) return FileKind::stl;
+  if (is_binary_stl_by_size(bytes, size)) return FileKind::stl;
 
   const std::string no_name;
   TextCursor cursor(text, no_name, {.comments = true, .continuation = false});
