@@ -17,7 +17,8 @@ class ByteWindow {
   ByteWindow(std::string_view bytes, std::uint64_t offset)
       : at_(bytes.data()), end_(at_ + bytes.size()), end_offset_(offset + bytes.size()) {}
   /// The bytes [offset, end) of a file, which must stay, at most `capacity` at a time (at least 8).
-  ByteWindow(const RandomAccessFile& file, std::uint64_t offset, std::uint64_t end, std::size_t capacity)
+  ByteWindow(const RandomAccessFile& file, std::uint64_t offset, std::uint64_t end,
+             std::size_t capacity)
       : end_offset_(offset),
         file_(&file),
         unread_(end - offset),
