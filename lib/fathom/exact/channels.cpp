@@ -96,10 +96,10 @@ DepthMap make_background(const Camera& camera, const RenderOptions& options) {
   return map;
 }
 
-ChannelWriter::ChannelWriter(DepthMap& map, const Scene& scene, const Camera& camera,
+ChannelWriter::ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                              const RenderOptions& options)
     : map_(map),
-      scene_(scene),
+      triangles_(triangles),
       perspective_(camera.projection == Projection::perspective),
       encoding_(options.depth_encoding),
       handedness_(Dyadic(camera.fx).sign() * Dyadic(camera.fy).sign() *
@@ -195,7 +195,7 @@ void ChannelWriter::write_low_part(std::size_t pixel, const Ratio& depth) {
 void ChannelWriter::write_origin(std::size_t pixel, std::uint32_t number) {
   if (id_) id_[pixel] = number;
   if (!face_ && !object_) return;
-  const TriangleOrigin origin = origin_of(scene_, number);
+  const TriangleOrigin origin = triangles_.origin(number);
   if (face_) face_[pixel] = origin.face;
   if (object_) object_[pixel] = origin.object;
 }

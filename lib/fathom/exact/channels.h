@@ -6,6 +6,7 @@
 
 #include "fathom/exact/options.h"
 #include "fathom/exact/projected_triangle.h"
+#include "fathom/exact/triangle_source.h"
 #include "fathom/image/depth_map.h"
 
 namespace fathom {
@@ -24,7 +25,7 @@ DepthMap make_background(const Camera& camera, const RenderOptions& options);
 /// else. Different pixels may be written at the same time.
 class ChannelWriter {
  public:
-  ChannelWriter(DepthMap& map, const Scene& scene, const Camera& camera,
+  ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                 const RenderOptions& options);
   /// Returns what is wrong if the encoding cannot hold the depth.
   std::optional<EncodingFault> write(std::size_t pixel, const ProjectedTriangle& triangle,
@@ -52,7 +53,7 @@ class ChannelWriter {
   std::uint32_t* integers(const std::string& name);
 
   DepthMap& map_;
-  const Scene& scene_;
+  TriangleSource triangles_;
   bool perspective_;
   DepthEncoding encoding_;
   /// sign(fx·fy·det R)

@@ -21,6 +21,7 @@ void add(RenderStatistics& sum, const RenderStatistics& part) {
   sum.visibility += part.visibility;
   sum.range += part.range;
   sum.rounding += part.rounding;
+  sum.double_word_roundings += part.double_word_roundings;
   sum.exact_setups += part.exact_setups;
   sum.same_plane += part.same_plane;
   sum.grid_setups += part.grid_setups;

@@ -79,6 +79,8 @@ void draw(std::span<const std::uint32_t> numbers, const ImageObjects& objects, T
 /// Where the tiles write.
 struct Output {
   ChannelWriter& writer;
+  /// For each thread one.
+  tbb::enumerable_thread_specific<CertifiedWriter>& certified;
   /// The values of Z, if that is the only channel and binary32.
   float* depths;
 };
@@ -90,7 +92,8 @@ std::optional<EncodingFault> render_tile(std::uint32_t number, const std::vector
                               frame.options.fast};
   worker.tile->start(frame.grid.area(number));
   for (const Bins& bins : all_bins) draw(bins.in_tile(number), objects, *worker.tile, context);
-  return worker.tile->resolve(output.writer, output.depths, frame.grid.width, context);
+  return worker.tile->resolve(output.writer, output.certified.local(), output.depths,
+                              frame.grid.width, context);
 }
 
 float* depths_alone(DepthMap& map) {
@@ -135,7 +138,10 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
 
   DepthMap map = make_background(camera, options);
   ChannelWriter writer(map, scene, camera, options);
-  const Output output{writer, depths_alone(map)};
+  const SceneRays rays(scene, camera);
+  tbb::enumerable_thread_specific<CertifiedWriter> certified(
+      [&] { return CertifiedWriter(writer, rays); });
+  const Output output{writer, certified, depths_alone(map)};
   FirstFault fault;
   Progress progress(options.progress, frame.grid.count());
   tbb::parallel_for(std::uint32_t{0}, frame.grid.count(), [&](std::uint32_t tile) {

@@ -87,8 +87,8 @@ namespace fathom {
 
 HWY_EXPORT(RoundRow);
 
-std::optional<EncodingFault> Tile::resolve(ChannelWriter& writer, float* depths,
-                                           std::uint32_t image_width,
+std::optional<EncodingFault> Tile::resolve(ChannelWriter& writer, CertifiedWriter& certified,
+                                           float* depths, std::uint32_t image_width,
                                            const Context& context) const {
   const std::uint32_t columns = area_.last_column - area_.first_column + 1;
   const bool any_rounded = writer.takes_rounded_depths();
@@ -109,15 +109,13 @@ std::optional<EncodingFault> Tile::resolve(ChannelWriter& writer, float* depths,
     }
     for (std::uint64_t bits = surface & ~settled; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
-      const ImagePoint s{area_.first_column + k + 0.5, row + 0.5};
-      const ProjectedTriangle& triangle = context.referee.projected(number_at(first + k));
-      if (auto fault = writer.write(first_pixel + k, triangle, s)) return fault;
+      const VisibleSurface visible{first_pixel + k,        number_at(first + k),
+                                   area_.first_column + k, row,
+                                   q_[first + k],          error_at(first + k)};
+      if (auto fault = certified.write(visible, context.referee, statistics)) return fault;
     }
-    const auto exact = static_cast<std::uint64_t>(std::popcount(surface & ~settled));
-    const auto all = static_cast<std::uint64_t>(std::popcount(surface));
-    statistics.pixels_with_surface += all;
-    statistics.rounding.exact += exact;
-    statistics.rounding.interval += all - exact;
+    statistics.pixels_with_surface += static_cast<std::uint64_t>(std::popcount(surface));
+    statistics.rounding.interval += static_cast<std::uint64_t>(std::popcount(settled));
   }
   return std::nullopt;
 }

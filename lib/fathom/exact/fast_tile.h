@@ -8,6 +8,7 @@
 
 #include "fathom/exact/channels.h"
 #include "fathom/exact/fast_bins.h"
+#include "fathom/exact/fast_channels.h"
 #include "fathom/exact/fast_range.h"
 #include "fathom/exact/fast_referee.h"
 #include "fathom/exact/fast_setup.h"
@@ -42,8 +43,9 @@ class Tile {
 
   /// Writes the visible surfaces; the first fault in row order ends it. `depths`: where not null,
   /// the values of channel Z, the only channel, written here for the whole area.
-  std::optional<EncodingFault> resolve(ChannelWriter& writer, float* depths,
-                                       std::uint32_t image_width, const Context& context) const;
+  std::optional<EncodingFault> resolve(ChannelWriter& writer, CertifiedWriter& certified,
+                                       float* depths, std::uint32_t image_width,
+                                       const Context& context) const;
 
   // For the vector code.
   /// Index of a sample by its column and row within the tile.

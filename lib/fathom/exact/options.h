@@ -41,8 +41,10 @@ struct RenderStatistics {
   TierCounts facing, edges, visibility, range;
 
   // The fast engine alone:
-  /// Depths rounded from an interval, and values written from exact numbers.
+  /// Values rounded from an interval, and values written from exact numbers.
   TierCounts rounding;
+  /// Of rounding.interval: those that binary64 did not settle, but double-words did.
+  std::uint64_t double_word_roundings = 0;
   /// How often a triangle was set up from exact numbers, once for each tile that it meets.
   std::uint64_t exact_setups = 0;
   /// Of visibility.exact: settled by the two triangles' lying in one plane.

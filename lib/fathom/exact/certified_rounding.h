@@ -1,0 +1,78 @@
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "fathom/exact/double_word.h"
+
+/// Correct rounding of a number known up to an error: |computed − exact| ≤ error. The rounded
+/// number comes out only if every number that the bound allows rounds to it, ties excluded; so it
+/// is the exact number rounded once (specification, section 6). nullopt: not settled. An error that
+/// is +∞ or NaN, or a value that is NaN, settles nothing.
+namespace fathom {
+
+/// Magnitudes for which the bounds of the fast engine's channels are derived.
+inline constexpr double least_safe = 0x1p-100, greatest_safe = 0x1p100;
+
+/// Rounding is monotone: both ends of the interval round to the same number. The ends are moved
+/// outwards by 2⁻⁵¹ of themselves against their own rounding. An interval that holds 0 is not
+/// settled, but for the point 0.
+inline std::optional<float> to_binary32(double value, double error) {
+  if (value == 0 && error == 0) return 0.0F;
+  const double margin = error + std::abs(value) * 0x1p-51;
+  const double low = value - margin, high = value + margin;
+  if (!(low > 0) && !(high < 0)) return std::nullopt;
+  const auto rounded = static_cast<float>(low);
+  if (rounded != static_cast<float>(high)) return std::nullopt;
+  return rounded;
+}
+
+/// Half the distance from |x| to the next number towards 0, the nearer neighbour of the two; x
+/// normal.
+inline double half_gap(float x) {
+  const float size = std::abs(x);
+  const auto next = std::bit_cast<float>(std::bit_cast<std::uint32_t>(size) - 1);
+  return 0.5 * (static_cast<double>(size) - static_cast<double>(next));
+}
+inline double half_gap(double x) {
+  const double size = std::abs(x);
+  return 0.5 * (size - std::bit_cast<double>(std::bit_cast<std::uint64_t>(size) - 1));
+}
+
+/// The candidate f is the nearest to hi; hi − f is exact (both are multiples of the last bit of
+/// hi), the rest is rounded once: a number whose distance to f stays below half of the smaller gap
+/// beside f rounds to f.
+inline std::optional<float> to_binary32(const WordPair& x, double error) {
+  if (x.hi == 0 && error == 0) return 0.0F;
+  const double size = std::abs(x.hi);
+  if (!(size >= least_safe && size <= greatest_safe)) return std::nullopt;
+  const auto candidate = static_cast<float>(x.hi);
+  const double rest = (x.hi - static_cast<double>(candidate)) + x.lo;
+  if (!(std::abs(rest) * (1 + 0x1p-50) + error < half_gap(candidate))) return std::nullopt;
+  return candidate;
+}
+
+inline std::optional<double> to_binary64(const WordPair& x, double error) {
+  const double size = std::abs(x.hi);
+  if (!(size >= least_safe && size <= greatest_safe)) return std::nullopt;
+  if (!((std::abs(x.lo) + error) * (1 + 0x1p-50) < half_gap(x.hi))) return std::nullopt;
+  return x.hi;
+}
+
+/// The code of 16 bits nearest to x, ties to even; nullopt also where it would be 0 or above 65535.
+/// Where x is known exactly and a binary64 number, a tie is settled too.
+inline std::optional<std::uint16_t> to_code(const WordPair& x, double error) {
+  if (!(x.hi > 0.25 && x.hi < 65536)) return std::nullopt;
+  auto code = static_cast<std::uint32_t>(x.hi);
+  const double fraction = x.hi - code;
+  if (fraction > 0.5 || (fraction == 0.5 && code % 2 == 1)) ++code;
+  const bool is_exact = error == 0 && x.lo == 0;
+  const double rest = (x.hi - code) + x.lo;
+  if (!is_exact && !(std::abs(rest) * (1 + 0x1p-50) + error < 0.5)) return std::nullopt;
+  if (code == 0 || code > 65535) return std::nullopt;
+  return static_cast<std::uint16_t>(code);
+}
+
+}  // namespace fathom

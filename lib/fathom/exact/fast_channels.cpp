@@ -1,0 +1,422 @@
+#include "fathom/exact/fast_channels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+// How to read this file: CertifiedWriter::write() is the list of channels; Pixel has a function for
+// each, which goes through the tiers. Values and their bounds come from fast_surface.h and
+// fast_wide.h, roundings from certified_rounding.h.
+namespace fathom {
+namespace {
+
+/// Triangles remembered, a power of two; neighbours in the image often are neighbours in number.
+constexpr std::size_t most_remembered = 512;
+
+/// D from the tile's q: 1/q (perspective) or −q. |1/q̂ − 1/q| = |q − q̂|/(q·q̂), and q ≥ q̂·(1 − 2⁻²⁰).
+Certified<double> depth_from_q(double q, double q_error, bool perspective) {
+  if (!perspective) return {-q, q_error};
+  if (!(q_error <= q * 0x1p-20)) return {};
+  const double depth = 1 / q;
+  return {depth, (q_error * depth + epsilon<double>)*depth * slack};
+}
+
+/// n such that x is 0 or a multiple of 2ⁿ.
+long last_bit(double x) {
+  if (x == 0) return 1L << 40;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const long biased = static_cast<long>(bits >> 52 & 0x7FF);
+  const std::uint64_t significand = (bits & 0xFFFFFFFFFFFFF) | std::uint64_t{biased != 0} << 52;
+  return std::max(biased, 1L) - 1075 + std::countr_zero(significand);
+}
+
+bool store(const EncodedValues& values, std::size_t pixel, const Certified<double>& x,
+           double scale) {
+  if (values.binary32) {
+    const auto rounded = to_binary32(x.value, x.error);
+    if (rounded) values.binary32[pixel] = *rounded;
+    return rounded.has_value();
+  }
+  if (!values.codes) return false;
+  const double scaled = x.value * scale;
+  const auto code = to_code({scaled, 0}, (x.error * scale + scaled * epsilon<double>)*slack);
+  if (code) values.codes[pixel] = *code;
+  return code.has_value();
+}
+
+/// A double-word that is exact and of one word makes a product with `scale` that is exact.
+bool store(const EncodedValues& values, std::size_t pixel, const Certified<WordPair>& x,
+           double scale) {
+  if (values.binary32) {
+    const auto rounded = to_binary32(x.value, x.error);
+    if (rounded) values.binary32[pixel] = *rounded;
+    return rounded.has_value();
+  }
+  if (values.binary64) {
+    const auto rounded = to_binary64(x.value, x.error);
+    if (rounded) values.binary64[pixel] = *rounded;
+    return rounded.has_value();
+  }
+  using Real = DoubleWord<false>;
+  const Real scaled = Real(x.value) * scale;
+  const bool is_exact = x.error == 0 && x.value.lo == 0;
+  const double error = is_exact ? 0 : (x.error * scale + scaled.hi * epsilon<Real>)*slack;
+  const auto code = to_code(scaled, error);
+  if (code) values.codes[pixel] = *code;
+  return code.has_value();
+}
+
+/// At least |n·d| at a sample: from the leading words, whose own errors are 3u of the terms.
+double divisor_size(const DepthForms<WordPair>& depth, const Sample& s, bool perspective) {
+  if (!perspective) return std::abs(depth.constant.value.hi) * slack + depth.constant.error;
+  const auto& [a, b, c, error] = depth.varying;
+  const double terms = std::abs(c.hi) + std::abs(b.hi) * s.v + std::abs(a.hi) * s.u;
+  return std::abs((c.hi + b.hi * s.v) + a.hi * s.u) + terms * 0x1p-50 + error;
+}
+
+}  // namespace
+
+/// One pixel while it is written. What several channels need is computed when first asked for.
+class CertifiedWriter::Pixel {
+ public:
+  Pixel(CertifiedWriter& writer, const VisibleSurface& surface, Referee& referee,
+        RenderStatistics& statistics)
+      : writer_(writer),
+        values_(writer.values_),
+        surface_(surface),
+        referee_(referee),
+        statistics_(statistics),
+        s_{surface.column + 0.5, surface.row + 0.5},
+        narrow_(depth_from_q(surface.q, surface.q_error, writer.image_.perspective)) {}
+
+  void write_origin() {
+    if (values_.id) values_.id[surface_.pixel] = surface_.triangle;
+    if (values_.face) values_.face[surface_.pixel] = triangle().origin.face;
+    if (values_.object) values_.object[surface_.pixel] = triangle().origin.object;
+  }
+
+  /// The normal is the same at all pixels of a triangle.
+  void write_normal() {
+    Triangle& t = triangle();
+    if (!t.has_normal) {
+      find_normal();
+      t.has_normal = true;
+    }
+    for (std::size_t i = 0; i < 3; ++i) values_.normal[i][surface_.pixel] = t.normal[i];
+  }
+
+  void write_position(std::size_t k) {
+    if (!have_position_) {
+      position_ = position<double>(writer_.rays_.world().rays, writer_.image_, s_, narrow_);
+      have_position_ = true;
+    }
+    const bool usable = writer_.rays_.world().usable;
+    float& target = values_.position[k][surface_.pixel];
+    if (usable && take(to_binary32(position_[k].value, position_[k].error), target)) {
+      return count_narrow();
+    }
+    if (triangle().usable) {
+      if (const auto c = constant(k); c && take(to_binary32(*c, 0), target)) return count_wide();
+      const Certified<WordPair> x = wide_position()[k];
+      if (take(to_binary32(x.value, x.error), target)) return count_wide();
+      if (is_zero(x, weight_bits() + world_bits(k))) {
+        target = 0;
+        return count_wide();
+      }
+    }
+    count_exact();
+    writer_.exact_.write_position(surface_.pixel, k, projected(), sample());
+  }
+
+  void write_barycentric(std::size_t k) {
+    Triangle& t = triangle();
+    float& target = values_.barycentric[k][surface_.pixel];
+    if (t.usable) {
+      if (!t.has_weights) {
+        t.weights = weight_forms<double>(t.corners, t.object->rays, writer_.image_);
+        t.has_weights = true;
+      }
+      const Certified<double> narrow = t.weights.at(k, s_);
+      if (take(to_binary32(narrow.value, narrow.error), target)) return count_narrow();
+      if (!wide_weights_) {
+        wide_weights_ = writer_.wide_.weights(t.corners, t.object->rays, writer_.image_, s_);
+      }
+      const Certified<WordPair> x = (*wide_weights_)[k];
+      if (take(to_binary32(x.value, x.error), target)) return count_wide();
+      if (is_zero(x, weight_bits())) {
+        target = 0;
+        return count_wide();
+      }
+    }
+    count_exact();
+    writer_.exact_.write_barycentric(surface_.pixel, k, projected(), sample());
+  }
+
+  std::optional<EncodingFault> write_depth() {
+    if (store_depth(values_.depth)) return std::nullopt;
+    return writer_.exact_.write_depth(surface_.pixel, projected(), sample());
+  }
+
+  /// Perspective: depth times the length of the ray at depth 1. Orthographic: the depth.
+  std::optional<EncodingFault> write_distance() {
+    if (!writer_.image_.perspective) {
+      if (store_depth(values_.distance)) return std::nullopt;
+    } else if (store_distance()) {
+      return std::nullopt;
+    }
+    return writer_.exact_.write_distance(surface_.pixel, projected(), sample());
+  }
+
+  void write_low_part() {
+    if (triangle().usable &&
+        (store_low_part(wide_depth()) || (exact_depth() && store_low_part({*exact_depth(), 0})))) {
+      return count_wide();
+    }
+    count_exact();
+    writer_.exact_.write_low_part(surface_.pixel, projected(), sample());
+  }
+
+ private:
+  template <class T>
+  static bool take(const std::optional<T>& rounded, T& target) {
+    if (rounded) target = *rounded;
+    return rounded.has_value();
+  }
+
+  void count_narrow() { ++statistics_.rounding.interval; }
+  void count_wide() {
+    ++statistics_.rounding.interval;
+    ++statistics_.double_word_roundings;
+  }
+  void count_exact() { ++statistics_.rounding.exact; }
+
+  Triangle& triangle() {
+    if (!triangle_) triangle_ = &writer_.remember(surface_.triangle);
+    return *triangle_;
+  }
+  const ProjectedTriangle& projected() { return referee_.projected(surface_.triangle); }
+  [[nodiscard]] ImagePoint sample() const { return {s_.u, s_.v}; }
+
+  /// Each component in its own tier; needs any pixel at which the triangle is visible.
+  void find_normal() {
+    Triangle& t = triangle();
+    std::array<bool, 3> known{};
+    if (t.usable) {
+      const ObjectRays& world = writer_.rays_.world();
+      const auto narrow = unit_normal<double>(t.corners, *t.object, world, writer_.image_, s_);
+      std::optional<Vector<Certified<WordPair>>> wide;
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (take(to_binary32(narrow[i].value, narrow[i].error), t.normal[i])) {
+          known[i] = true;
+          count_narrow();
+          continue;
+        }
+        if (!wide) wide = writer_.wide_.normal(t.corners, *t.object, world, writer_.image_, s_);
+        if (take(to_binary32((*wide)[i].value, (*wide)[i].error), t.normal[i])) {
+          known[i] = true;
+          count_wide();
+        }
+      }
+    }
+    if (known[0] && known[1] && known[2]) return;
+    count_exact();
+    writer_.exact_.write_normal(surface_.pixel, projected());
+    for (std::size_t i = 0; i < 3; ++i) t.normal[i] = values_.normal[i][surface_.pixel];
+  }
+
+  bool store_depth(const EncodedValues& values) {
+    const double scale = writer_.exact_.scale();
+    if (store(values, surface_.pixel, narrow_, scale)) {
+      count_narrow();
+      return true;
+    }
+    if (triangle().usable &&
+        (store(values, surface_.pixel, wide_depth(), scale) ||
+         (exact_depth() &&
+          store(values, surface_.pixel, Certified<WordPair>{*exact_depth(), 0}, scale)))) {
+      count_wide();
+      return true;
+    }
+    count_exact();
+    return false;
+  }
+
+  bool store_distance() {
+    const EncodedValues& values = values_.distance;
+    const double scale = writer_.exact_.scale();
+    if (!values.binary64) {
+      const auto narrow = product(narrow_, ray_length<double>(writer_.rays_, s_));
+      if (store(values, surface_.pixel, narrow, scale)) {
+        count_narrow();
+        return true;
+      }
+    }
+    if (triangle().usable) {
+      const auto wide = [&](const Certified<WordPair>& depth) {
+        return writer_.wide_.distance(depth, writer_.rays_, s_);
+      };
+      if (store(values, surface_.pixel, wide(wide_depth()), scale)) {
+        count_wide();
+        return true;
+      }
+    }
+    count_exact();
+    return false;
+  }
+
+  /// D − Z: hi − Z is exact, as Z is the binary32 number nearest to hi.
+  bool store_low_part(const Certified<WordPair>& depth) {
+    const auto Z = to_binary32(depth.value, depth.error);
+    if (!Z) return false;
+    const WordPair low = two_sum(depth.value.hi - static_cast<double>(*Z), depth.value.lo);
+    return take(to_binary32(low, depth.error), values_.low[surface_.pixel]);
+  }
+
+  const Certified<WordPair>& wide_depth() {
+    if (!have_wide_depth_) {
+      Triangle& t = triangle();
+      if (!t.has_depth) {
+        t.depth = writer_.wide_.depth_forms(t.corners, t.object->rays, writer_.image_);
+        t.has_depth = true;
+      }
+      wide_depth_ = writer_.wide_.depth(t.depth, s_, writer_.image_.perspective);
+      have_wide_depth_ = true;
+    }
+    return wide_depth_;
+  }
+
+  const Vector<Certified<WordPair>>& wide_position() {
+    if (!wide_position_) {
+      wide_position_ =
+          writer_.wide_.position(writer_.rays_.world().rays, writer_.image_, s_, wide_depth());
+    }
+    return *wide_position_;
+  }
+
+  /// The depth where it is known exactly: that of all three corners, or the binary32 number
+  /// nearest to it.
+  const std::optional<WordPair>& exact_depth() {
+    if (!looked_for_exact_depth_) {
+      looked_for_exact_depth_ = true;
+      exact_depth_ = constant(3);
+      const Certified<WordPair>& D = wide_depth();
+      const auto candidate = static_cast<double>(static_cast<float>(D.value.hi));
+      const Certified<WordPair> rest{two_sum(D.value.hi - candidate, D.value.lo), D.error};
+      const long bits = std::min(image_bits(2), last_bit(candidate));
+      if (!exact_depth_ && is_zero(rest, weight_bits() + bits)) exact_depth_ = {candidate, 0};
+    }
+    return exact_depth_;
+  }
+
+  /// World coordinate k, or the depth (3), where it is the same number at all corners and found to
+  /// be so.
+  const std::optional<WordPair>& constant(std::size_t k) {
+    Triangle& t = triangle();
+    if ((t.constants_known >> k & 1) == 0) {
+      t.constants_known |= static_cast<std::uint8_t>(1U << k);
+      const ExactRow& row = k < 3 ? t.object->world_rows[k] : t.object->image_rows[2];
+      const auto at_A = row.value_at(t.corners[0]);
+      const auto is_at = [&](const MeshPoint& X) {
+        const auto value = row.value_at(X);
+        return value && value->hi == at_A->hi && value->lo == at_A->lo;
+      };
+      if (at_A && is_at(t.corners[1]) && is_at(t.corners[2])) t.constant[k] = at_A;
+    }
+    return t.constant[k];
+  }
+
+  // Values that are exactly 0. At a sample every interpolated value is Σ eᵢ·xᵢ / Σ eᵢ. The
+  // coordinates of the corners are multiples of some powers of two, and so are U, V, W, the edge
+  // functions eᵢ and the numerator; Σ eᵢ = det(H)·(n·d) up to its sign (fast_surface.h). So
+  // |value|·|det H|·|n·d| is |numerator|, and if a bound of it is below the power of two of which
+  // the numerator is a multiple, the value is 0.
+
+  /// Exponents of powers of two of which the corners' coordinates are multiples.
+  const std::array<long, 3>& corner_bits() {
+    if (!corner_bits_) {
+      const auto& [A, B, C] = triangle().corners;
+      corner_bits_ = {std::min({last_bit(A.x), last_bit(B.x), last_bit(C.x)}),
+                      std::min({last_bit(A.y), last_bit(B.y), last_bit(C.y)}),
+                      std::min({last_bit(A.z), last_bit(B.z), last_bit(C.z)})};
+    }
+    return *corner_bits_;
+  }
+  long world_bits(std::size_t k) {
+    return triangle().object->world_rows[k].last_bit_at(corner_bits());
+  }
+  long image_bits(std::size_t k) {
+    return triangle().object->image_rows[k].last_bit_at(corner_bits());
+  }
+  /// Of the edge functions: det of two corners and a sample (multiples of ½).
+  long weight_bits() {
+    const long U = image_bits(0), V = image_bits(1);
+    const long W = writer_.image_.perspective ? image_bits(2) : 0;
+    return std::min({U + V, U + W - 1, V + W - 1});
+  }
+  /// 2⁻⁶⁰⁰: products that underflow on the way are below 2⁻⁷⁷⁴.
+  bool is_zero(const Certified<WordPair>& value, long numerator_bits) {
+    if (numerator_bits < -600) return false;
+    Triangle& t = triangle();
+    wide_depth();  // sets up t.depth
+    const double divisor = divisor_size(t.depth, s_, writer_.image_.perspective);
+    const double bound =
+        (std::abs(value.value.hi) + value.error) * divisor * t.object->determinant * slack;
+    return bound < std::ldexp(1.0, static_cast<int>(std::min(numerator_bits, 900L)));
+  }
+
+  CertifiedWriter& writer_;
+  const ChannelValues& values_;
+  const VisibleSurface& surface_;
+  Referee& referee_;
+  RenderStatistics& statistics_;
+  Sample s_;
+  Certified<double> narrow_;
+  Triangle* triangle_ = nullptr;
+  bool have_position_ = false, have_wide_depth_ = false, looked_for_exact_depth_ = false;
+  Vector<Certified<double>> position_;
+  Certified<WordPair> wide_depth_;
+  std::optional<Vector<Certified<WordPair>>> wide_position_;
+  std::optional<std::array<Certified<WordPair>, 2>> wide_weights_;
+  std::optional<WordPair> exact_depth_;
+  std::optional<std::array<long, 3>> corner_bits_;
+};
+
+CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays)
+    : exact_(exact),
+      values_(exact.values()),
+      rays_(rays),
+      wide_(wide_arithmetic()),
+      image_{rays.perspective(), rays.greatest_u(), rays.greatest_v()},
+      remembered_(most_remembered) {}
+
+CertifiedWriter::Triangle& CertifiedWriter::remember(std::uint32_t number) {
+  Triangle& t = remembered_[number % most_remembered];
+  if (t.number == number) return t;
+  t.number = number;
+  t.has_weights = t.has_depth = t.has_normal = false;
+  t.constants_known = 0;
+  t.constant.fill(std::nullopt);
+  t.origin = rays_.origin(number);
+  t.object = &rays_.object(t.origin.object);
+  const Mesh& mesh = rays_.scene().meshes[rays_.scene().objects[t.origin.object].mesh];
+  const CornerIndices& corners = mesh.triangles[t.origin.triangle];
+  for (std::size_t i = 0; i < 3; ++i) t.corners[i] = mesh.vertices[corners[i]];
+  t.usable = t.object->usable && rays_.world().usable && is_safe(t.corners);
+  return t;
+}
+
+std::optional<EncodingFault> CertifiedWriter::write(const VisibleSurface& surface, Referee& referee,
+                                                    RenderStatistics& statistics) {
+  Pixel pixel(*this, surface, referee, statistics);
+  pixel.write_origin();
+  if (values_.normal[0]) pixel.write_normal();
+  for (std::size_t k = 0; values_.position[0] && k < 3; ++k) pixel.write_position(k);
+  for (std::size_t k = 0; values_.barycentric[0] && k < 2; ++k) pixel.write_barycentric(k);
+  if (values_.distance.wanted()) {
+    if (auto fault = pixel.write_distance()) return fault;
+  }
+  if (values_.low) pixel.write_low_part();
+  return values_.depth.wanted() ? pixel.write_depth() : std::nullopt;
+}
+
+}  // namespace fathom
