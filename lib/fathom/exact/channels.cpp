@@ -55,24 +55,43 @@ std::vector<ImageChannel> channels_for(Channel channel, std::size_t n, DepthEnco
 }
 
 /// Stores a non-negative quantity x, or √x where `root`, in the channel's type.
-std::optional<std::string> store(ImageChannel& channel, std::size_t pixel, const Ratio& x,
+std::optional<std::string> store(const EncodedValues& values, std::size_t pixel, const Ratio& x,
                                  bool root, double scale) {
-  if (auto* binary32 = std::get_if<std::vector<float>>(&channel.values)) {
-    (*binary32)[pixel] = root ? round_sqrt_to_binary32(x) : round_to_binary32(x);
+  if (values.binary32) {
+    values.binary32[pixel] = root ? round_sqrt_to_binary32(x) : round_to_binary32(x);
     return std::nullopt;
   }
-  if (auto* binary64 = std::get_if<std::vector<double>>(&channel.values)) {
-    (*binary64)[pixel] = root ? round_sqrt_to_binary64(x) : round_to_binary64(x);
+  if (values.binary64) {
+    values.binary64[pixel] = root ? round_sqrt_to_binary64(x) : round_to_binary64(x);
     return std::nullopt;
   }
-  auto& codes = std::get<std::vector<std::uint16_t>>(channel.values);
   const Dyadic factor(scale);
   const auto code = root ? round_sqrt_to_integer(x * Ratio(factor * factor), 65535)
                          : round_to_integer(x * Ratio(factor), 65535);
   if (!code) return "above 65535";
   if (*code == 0) return "0, which means no surface";
-  codes[pixel] = static_cast<std::uint16_t>(*code);
+  values.codes[pixel] = static_cast<std::uint16_t>(*code);
   return std::nullopt;
+}
+
+ImageChannel* channel(DepthMap& map, const std::string& name) {
+  for (ImageChannel& c : map.channels) {
+    if (c.name == name) return &c;
+  }
+  return nullptr;
+}
+
+/// The values of a channel if it exists and has this type.
+template <class T>
+T* values_of(DepthMap& map, const std::string& name) {
+  ImageChannel* c = channel(map, name);
+  auto* values = c ? std::get_if<std::vector<T>>(&c->values) : nullptr;
+  return values ? values->data() : nullptr;
+}
+
+EncodedValues encoded_values_of(DepthMap& map, const std::string& name) {
+  return {values_of<float>(map, name), values_of<double>(map, name),
+          values_of<std::uint16_t>(map, name)};
 }
 
 }  // namespace
@@ -96,72 +115,67 @@ DepthMap make_background(const Camera& camera, const RenderOptions& options) {
   return map;
 }
 
-ChannelWriter::ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
+ChannelValues::ChannelValues(DepthMap& map)
+    : depth(encoded_values_of(map, "Z")),
+      distance(encoded_values_of(map, "distance")),
+      low(values_of<float>(map, "Zlow")),
+      id(values_of<std::uint32_t>(map, "id")),
+      face(values_of<std::uint32_t>(map, "face")),
+      object(values_of<std::uint32_t>(map, "object")),
+      normal{values_of<float>(map, "N.X"), values_of<float>(map, "N.Y"),
+             values_of<float>(map, "N.Z")},
+      position{values_of<float>(map, "P.X"), values_of<float>(map, "P.Y"),
+               values_of<float>(map, "P.Z")},
+      barycentric{values_of<float>(map, "bary.U"), values_of<float>(map, "bary.V")} {}
+
+ChannelWriter::ChannelWriter(DepthMap& map, const Scene& scene, const Camera& camera,
                              const RenderOptions& options)
-    : map_(map),
-      triangles_(triangles),
+    : scene_(scene),
       perspective_(camera.projection == Projection::perspective),
       encoding_(options.depth_encoding),
       handedness_(Dyadic(camera.fx).sign() * Dyadic(camera.fy).sign() *
-                  determinant_of_rotation(camera).sign()) {
-  depth_ = channel("Z");
-  if (depth_ && std::holds_alternative<std::vector<float>>(depth_->values)) {
-    depth32_ = floats("Z");
-  }
-  distance_ = channel("distance");
-  low_ = floats("Zlow");
-  id_ = integers("id");
-  face_ = integers("face");
-  object_ = integers("object");
-  normal_ = {floats("N.X"), floats("N.Y"), floats("N.Z")};
-  position_ = {floats("P.X"), floats("P.Y"), floats("P.Z")};
-  barycentric_ = {floats("bary.U"), floats("bary.V")};
-}
-
-ImageChannel* ChannelWriter::channel(const std::string& name) {
-  for (ImageChannel& c : map_.channels) {
-    if (c.name == name) return &c;
-  }
-  return nullptr;
-}
-
-float* ChannelWriter::floats(const std::string& name) {
-  ImageChannel* c = channel(name);
-  return c ? std::get<std::vector<float>>(c->values).data() : nullptr;
-}
-
-std::uint32_t* ChannelWriter::integers(const std::string& name) {
-  ImageChannel* c = channel(name);
-  return c ? std::get<std::vector<std::uint32_t>>(c->values).data() : nullptr;
-}
+                  determinant_of_rotation(camera).sign()),
+      values_(map) {}
 
 bool ChannelWriter::takes_rounded_depths() const {
-  const bool others = distance_ || low_ || normal_[0] || position_[0] || barycentric_[0];
-  return !others && (!depth_ || depth32_);
+  const bool others = values_.distance.wanted() || values_.low || values_.normal[0] ||
+                      values_.position[0] || values_.barycentric[0];
+  return !others && (!values_.depth.wanted() || values_.depth.binary32);
 }
 
 void ChannelWriter::write(std::size_t pixel, std::uint32_t triangle, float depth) {
-  if (depth32_) depth32_[pixel] = depth;
-  if (id_ || face_ || object_) write_origin(pixel, triangle);
+  if (values_.depth.binary32) values_.depth.binary32[pixel] = depth;
+  write_origin(pixel, triangle);
 }
 
 std::optional<EncodingFault> ChannelWriter::write(std::size_t pixel, const ProjectedTriangle& t,
                                                   const ImagePoint& s) {
-  if (id_ || face_ || object_) write_origin(pixel, t.number);
-  if (normal_[0]) write_normal(pixel, t);
-  if (position_[0]) write_position(pixel, t, s);
-  if (barycentric_[0]) write_barycentric(pixel, t, s);
-  if (distance_) {
+  write_origin(pixel, t.number);
+  if (values_.normal[0]) write_normal(pixel, t);
+  for (std::size_t k = 0; values_.position[0] && k < 3; ++k) write_position(pixel, k, t, s);
+  for (std::size_t k = 0; values_.barycentric[0] && k < 2; ++k) write_barycentric(pixel, k, t, s);
+  if (values_.distance.wanted()) {
     if (auto fault = write_distance(pixel, t, s)) return fault;
   }
-  if (!depth_ && !low_) return std::nullopt;
+  if (!values_.depth.wanted() && !values_.low) return std::nullopt;
   const Ratio depth = depth_at(t, s);
-  if (low_) write_low_part(pixel, depth);
-  return depth_ ? write_depth(pixel, depth) : std::nullopt;
+  if (values_.low) write_low_part(pixel, depth);
+  return values_.depth.wanted() ? write_depth(pixel, depth) : std::nullopt;
+}
+
+std::optional<EncodingFault> ChannelWriter::write_depth(std::size_t pixel,
+                                                        const ProjectedTriangle& t,
+                                                        const ImagePoint& s) {
+  return write_depth(pixel, depth_at(t, s));
+}
+
+void ChannelWriter::write_low_part(std::size_t pixel, const ProjectedTriangle& t,
+                                   const ImagePoint& s) {
+  write_low_part(pixel, depth_at(t, s));
 }
 
 std::optional<EncodingFault> ChannelWriter::write_depth(std::size_t pixel, const Ratio& depth) {
-  if (auto why = store(*depth_, pixel, depth, false, encoding_.scale)) {
+  if (auto why = store(values_.depth, pixel, depth, false, encoding_.scale)) {
     return EncodingFault{pixel, "depth " + to_decimal(depth, 6) + " would be the code " + *why};
   }
   return std::nullopt;
@@ -181,7 +195,7 @@ std::optional<EncodingFault> ChannelWriter::write_distance(std::size_t pixel,
     value = {x.numerator * x.numerator + y.numerator * y.numerator + z.numerator * z.numerator,
              z.denominator * z.denominator};
   }
-  if (auto why = store(*distance_, pixel, value, perspective_, encoding_.scale)) {
+  if (auto why = store(values_.distance, pixel, value, perspective_, encoding_.scale)) {
     return EncodingFault{pixel, "the ray distance would be the code " + *why};
   }
   return std::nullopt;
@@ -189,15 +203,15 @@ std::optional<EncodingFault> ChannelWriter::write_distance(std::size_t pixel,
 
 void ChannelWriter::write_low_part(std::size_t pixel, const Ratio& depth) {
   const float high = round_to_binary32(depth);
-  low_[pixel] = std::isinf(high) ? 0.0F : round_to_binary32(depth - Ratio(Dyadic(high)));
+  values_.low[pixel] = std::isinf(high) ? 0.0F : round_to_binary32(depth - Ratio(Dyadic(high)));
 }
 
 void ChannelWriter::write_origin(std::size_t pixel, std::uint32_t number) {
-  if (id_) id_[pixel] = number;
-  if (!face_ && !object_) return;
-  const TriangleOrigin origin = triangles_.origin(number);
-  if (face_) face_[pixel] = origin.face;
-  if (object_) object_[pixel] = origin.object;
+  if (values_.id) values_.id[pixel] = number;
+  if (!values_.face && !values_.object) return;
+  const TriangleOrigin origin = origin_of(scene_, number);
+  if (values_.face) values_.face[pixel] = origin.face;
+  if (values_.object) values_.object[pixel] = origin.object;
 }
 
 // n / |n| with n = ±(B − A) × (C − A): each component is ±√(nᵢ² / n·n).
@@ -209,22 +223,24 @@ void ChannelWriter::write_normal(std::size_t pixel, const ProjectedTriangle& t) 
   const Sign turn = -t.orientation * handedness_;
   for (std::size_t i = 0; i < 3; ++i) {
     const float magnitude = round_sqrt_to_binary32({n[i] * n[i], squared_length});
-    normal_[i][pixel] = n[i].sign() * turn == Sign::negative ? -magnitude : magnitude;
+    values_.normal[i][pixel] = n[i].sign() * turn == Sign::negative ? -magnitude : magnitude;
   }
 }
 
-void ChannelWriter::write_position(std::size_t pixel, const ProjectedTriangle& t,
-                                   const ImagePoint& s) {
+void ChannelWriter::write_position(std::size_t pixel, std::size_t component,
+                                   const ProjectedTriangle& t, const ImagePoint& s) {
+  constexpr Dyadic WorldPoint::*coordinates[] = {&WorldPoint::x, &WorldPoint::y, &WorldPoint::z};
+  const auto coordinate = coordinates[component];
   const auto& [A, B, C] = t.world;
-  position_[0][pixel] = round_to_binary32(interpolate(t, s, {A.x, B.x, C.x}));
-  position_[1][pixel] = round_to_binary32(interpolate(t, s, {A.y, B.y, C.y}));
-  position_[2][pixel] = round_to_binary32(interpolate(t, s, {A.z, B.z, C.z}));
+  values_.position[component][pixel] =
+      round_to_binary32(interpolate(t, s, {A.*coordinate, B.*coordinate, C.*coordinate}));
 }
 
-void ChannelWriter::write_barycentric(std::size_t pixel, const ProjectedTriangle& t,
-                                      const ImagePoint& s) {
-  barycentric_[0][pixel] = round_to_binary32(interpolate(t, s, {0.0, 1.0, 0.0}));
-  barycentric_[1][pixel] = round_to_binary32(interpolate(t, s, {0.0, 0.0, 1.0}));
+void ChannelWriter::write_barycentric(std::size_t pixel, std::size_t component,
+                                      const ProjectedTriangle& t, const ImagePoint& s) {
+  const double of_B = component == 0 ? 1 : 0;
+  values_.barycentric[component][pixel] =
+      round_to_binary32(interpolate(t, s, {0.0, of_B, 1 - of_B}));
 }
 
 }  // namespace fathom

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "fathom/exact/options.h"
 #include "fathom/exact/projected_triangle.h"
-#include "fathom/exact/triangle_source.h"
 #include "fathom/image/depth_map.h"
 
 namespace fathom {
@@ -21,13 +21,35 @@ struct EncodingFault {
 /// background (specification, section 6), in the encoding asked for.
 DepthMap make_background(const Camera& camera, const RenderOptions& options);
 
+/// Where the values of a channel that is encoded as DepthEncoding says are kept: one is not null,
+/// or none where the channel was not asked for.
+struct EncodedValues {
+  float* binary32 = nullptr;
+  double* binary64 = nullptr;
+  std::uint16_t* codes = nullptr;
+
+  [[nodiscard]] bool wanted() const { return binary32 || binary64 || codes; }
+};
+
+/// Where the values of a map's channels are kept; null where a channel was not asked for.
+struct ChannelValues {
+  explicit ChannelValues(DepthMap& map);
+
+  EncodedValues depth, distance;
+  float* low = nullptr;
+  std::uint32_t *id = nullptr, *face = nullptr, *object = nullptr;
+  std::array<float*, 3> normal{};
+  std::array<float*, 3> position{};
+  std::array<float*, 2> barycentric{};
+};
+
 /// Writes the values of one visible surface: exact numbers, each rounded once, here and nowhere
 /// else. Different pixels may be written at the same time.
 class ChannelWriter {
  public:
-  ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
+  ChannelWriter(DepthMap& map, const Scene& scene, const Camera& camera,
                 const RenderOptions& options);
-  /// Returns what is wrong if the encoding cannot hold the depth.
+  /// Writes every channel. Returns what is wrong if the encoding cannot hold the depth.
   std::optional<EncodingFault> write(std::size_t pixel, const ProjectedTriangle& triangle,
                                      const ImagePoint& s);
 
@@ -38,35 +60,31 @@ class ChannelWriter {
   /// takes_rounded_depths().
   void write(std::size_t pixel, std::uint32_t triangle, float depth);
 
- private:
-  std::optional<EncodingFault> write_depth(std::size_t pixel, const Ratio& depth);
+  /// For writing one channel, or a component of one: it must have been asked for.
+  [[nodiscard]] const ChannelValues& values() const { return values_; }
+  [[nodiscard]] double scale() const { return encoding_.scale; }
+  std::optional<EncodingFault> write_depth(std::size_t pixel, const ProjectedTriangle& triangle,
+                                           const ImagePoint& s);
   std::optional<EncodingFault> write_distance(std::size_t pixel, const ProjectedTriangle& triangle,
                                               const ImagePoint& s);
+  void write_low_part(std::size_t pixel, const ProjectedTriangle& triangle, const ImagePoint& s);
+  void write_normal(std::size_t pixel, const ProjectedTriangle& triangle);
+  void write_position(std::size_t pixel, std::size_t component, const ProjectedTriangle& triangle,
+                      const ImagePoint& s);
+  void write_barycentric(std::size_t pixel, std::size_t component,
+                         const ProjectedTriangle& triangle, const ImagePoint& s);
+
+ private:
+  std::optional<EncodingFault> write_depth(std::size_t pixel, const Ratio& depth);
   void write_low_part(std::size_t pixel, const Ratio& depth);
   void write_origin(std::size_t pixel, std::uint32_t number);
-  void write_normal(std::size_t pixel, const ProjectedTriangle& triangle);
-  void write_position(std::size_t pixel, const ProjectedTriangle& triangle, const ImagePoint& s);
-  void write_barycentric(std::size_t pixel, const ProjectedTriangle& triangle, const ImagePoint& s);
 
-  ImageChannel* channel(const std::string& name);
-  float* floats(const std::string& name);
-  std::uint32_t* integers(const std::string& name);
-
-  DepthMap& map_;
-  TriangleSource triangles_;
+  const Scene& scene_;
   bool perspective_;
   DepthEncoding encoding_;
   /// sign(fx·fy·det R)
   Sign handedness_;
-  ImageChannel* depth_ = nullptr;
-  /// The values of `depth_` where they are binary32.
-  float* depth32_ = nullptr;
-  ImageChannel* distance_ = nullptr;
-  float* low_ = nullptr;
-  std::uint32_t *id_ = nullptr, *face_ = nullptr, *object_ = nullptr;
-  std::array<float*, 3> normal_{};
-  std::array<float*, 3> position_{};
-  std::array<float*, 2> barycentric_{};
+  ChannelValues values_;
 };
 
 }  // namespace fathom
