@@ -16,8 +16,11 @@
 namespace fathom::app {
 namespace {
 
-constexpr std::string_view announced_commands[] = {
-    "visible", "coplanar", "clip", "scan", "depth", "pipeline", "study", "validate", "bench"};
+constexpr std::string_view announced_commands[] = {"visible", "coplanar", "clip",  "scan",
+                                                   "depth",   "pipeline", "study", "validate"};
+
+/// Commands that are programs of their own, because of what they are built with.
+constexpr std::string_view companions[] = {"bench"};
 
 constexpr std::string_view announced_render_options[] = {
     "--stream",        "--verify",         "--deep",          "--cryptomatte",
@@ -70,6 +73,12 @@ std::string unknown_command(const std::string& name, const std::vector<std::stri
   const std::string list = fmt::format("{}", fmt::join(existing, ", "));
   if (contains(announced_commands, name)) {
     return fmt::format("'{}' does not exist yet; the commands are {}", name, list);
+  }
+  if (contains(companions, name)) {
+    return fmt::format(
+        "'{}' is a program of its own, fathom-{}, that is not built: 'scripts/fathom {}' installs "
+        "what it needs and builds it",
+        name, name, name);
   }
   const auto nearest = std::min_element(existing.begin(), existing.end(),
                                         [&](const std::string& a, const std::string& b) {
