@@ -43,6 +43,7 @@ void add_preview(Program& program);
 void add_compare(Program& program);
 void add_convert(Program& program);
 void add_camera(Program& program);
+void add_clip(Program& program);
 /// `fathom camera import …`.
 void add_camera_import(Program& program, CLI::App& camera);
 
