@@ -1,7 +1,9 @@
 #include "fathom/depth_format/encode.h"
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <string>
 
 #include "fathom/numeric/errors.h"
 
@@ -13,7 +15,9 @@ bool is_beyond_far(const DepthFormat& format, const Ratio& depth) {
 }
 
 std::string text_of(const Ratio& x) {
-  return to_decimal(x, 17);
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", round_to_binary64(x));
+  return text;
 }
 
 }  // namespace

@@ -1,0 +1,59 @@
+#include "fathom/depth_format/depth_bias.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+namespace {
+
+Ratio magnitude(const Ratio& x) {
+  return {abs(x.numerator), x.denominator};
+}
+
+long bit_length(const Dyadic& x) {
+  return static_cast<long>(mpz_sizeinbase(x.significand(), 2)) + x.exponent();
+}
+
+/// The exponent e with 2^e ≤ x < 2^(e+1), for x > 0.
+long exponent_of(const Ratio& x) {
+  // n / d lies in (2^(ln−ld−1), 2^(ln−ld+1)).
+  const long e = bit_length(x.numerator) - bit_length(x.denominator);
+  return compare(x, Dyadic(1.0).scaled(e)) < 0 ? e - 1 : e;
+}
+
+/// The exponent of the least normal number.
+long least_exponent(Storage storage) {
+  return storage == Storage::float16 ? -14 : storage == Storage::float32 ? -126 : -1022;
+}
+
+}  // namespace
+
+Ratio resolvable_difference(Storage storage, const Ratio& greatest_z) {
+  const int n = bits_of(storage);
+  if (is_unorm(storage)) return {Dyadic(1.0), Dyadic(std::ldexp(1.0, n) - 1)};
+  // Below the least normal number the steps stay as they are there.
+  const long e = greatest_z.sign() == Sign::zero
+                     ? least_exponent(storage)
+                     : std::max(exponent_of(magnitude(greatest_z)), least_exponent(storage));
+  return Dyadic(1.0).scaled(e - n);
+}
+
+Ratio depth_offset(Storage storage, const DepthBias& bias, const WindowSlopes& slopes) {
+  const Ratio x = magnitude(slopes.dz_dx), y = magnitude(slopes.dz_dy);
+  const Ratio m = x < y ? y : x;
+  const Ratio r = resolvable_difference(storage, slopes.greatest_z);
+  const Ratio o = m * Dyadic(bias.slope_factor) + r * Dyadic(bias.constant_factor);
+  if (std::isnan(bias.clamp) || std::isinf(bias.clamp) || bias.clamp == 0) return o;
+  const Ratio limit = Dyadic(bias.clamp);
+  const bool beyond = bias.clamp > 0 ? limit < o : o < limit;
+  return beyond ? limit : o;
+}
+
+Ratio biased_depth(const Ratio& window_depth, const Ratio& offset) {
+  const Ratio sum = window_depth + offset;
+  if (sum.sign() == Sign::negative) return Ratio();
+  const Ratio one = Dyadic(1.0);
+  return one < sum ? one : sum;
+}
+
+}  // namespace fathom
