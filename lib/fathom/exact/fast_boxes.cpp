@@ -46,7 +46,7 @@ struct Sorted {
 HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles, M valid,
                              TriangleBoxes& out) {
   const D d;
-  const Corners t = gather_corners(r.vertices, triangles);
+  const Corners t = load_corners(r.vertices, triangles);
   const Orientation o = certified_orientation(t);
   const M usable = hn::And(valid, are_usable(t));
   const M positive = hn::And(usable, o.positive), negative = hn::And(usable, o.negative);

@@ -57,28 +57,61 @@ struct Corners {
   V position_error, q_error;
 };
 
-HWY_INLINE Corner gather_corner(const ImageVertex* vertices, hn::Vec<DI> index) {
+HWY_INLINE Corner corner_from(V u, V v, V q, V errors) {
   const D d;
-  const DU du;
+  const auto bits = hn::BitCast(DU(), errors);
+  return {u, v, q, hn::BitCast(d, hn::And(bits, hn::Set(DU(), 0xFFFFFFFF00000000))),
+          hn::BitCast(d, hn::ShiftLeft<32>(bits))};
+}
+
+/// Corner `which` of as many triangles as there are lanes. A vertex is four numbers in a row, so
+/// whole vertices are loaded and transposed.
+template <std::size_t which>
+HWY_INLINE Corner load_corner(const ImageVertex* vertices, const CornerIndices* triangles) {
+  const D d;
+  const auto vertex = [&](std::size_t lane)
+                          HWY_ATTR { return &vertices[triangles[lane][which]].u; };
+#if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
+  HWY_ALIGN std::int64_t offsets[SetupBatch::most];
+  for (std::size_t k = 0; k < hn::Lanes(d); ++k) {
+    offsets[k] = vertex(k) - &vertices->u;
+  }
+  const auto offset = hn::Load(DI(), offsets);
   const double* base = &vertices->u;
-  const auto offset = hn::ShiftLeft<2>(index);
-  const auto errors = hn::BitCast(du, hn::GatherIndex(d, base + 3, offset));
-  return {hn::GatherIndex(d, base, offset), hn::GatherIndex(d, base + 1, offset),
-          hn::GatherIndex(d, base + 2, offset),
-          hn::BitCast(d, hn::And(errors, hn::Set(du, 0xFFFFFFFF00000000))),
-          hn::BitCast(d, hn::ShiftLeft<32>(errors))};
+  return corner_from(hn::GatherIndex(d, base, offset), hn::GatherIndex(d, base + 1, offset),
+                     hn::GatherIndex(d, base + 2, offset), hn::GatherIndex(d, base + 3, offset));
+#else
+  if constexpr (hn::MaxLanes(D()) == 2) {
+    const V uv0 = hn::Load(d, vertex(0)), uv1 = hn::Load(d, vertex(1));
+    const V qe0 = hn::Load(d, vertex(0) + 2), qe1 = hn::Load(d, vertex(1) + 2);
+    return corner_from(hn::InterleaveLower(d, uv0, uv1), hn::InterleaveUpper(d, uv0, uv1),
+                       hn::InterleaveLower(d, qe0, qe1), hn::InterleaveUpper(d, qe0, qe1));
+  } else {
+    // Blocks of 128 bits: (u v)(q e) of one vertex, of a second in the upper half if that is wide.
+    const hn::CappedTag<double, 4> d4;
+    const auto load = [&](std::size_t lane) HWY_ATTR {
+      if constexpr (hn::MaxLanes(D()) == 8) {
+        return hn::Combine(d, hn::Load(d4, vertex(lane + 4)), hn::Load(d4, vertex(lane)));
+      } else {
+        return hn::Load(d4, vertex(lane));
+      }
+    };
+    const V v0 = load(0), v1 = load(1), v2 = load(2), v3 = load(3);
+    const V uq01 = hn::InterleaveLower(d, v0, v1), ve01 = hn::InterleaveUpper(d, v0, v1);
+    const V uq23 = hn::InterleaveLower(d, v2, v3), ve23 = hn::InterleaveUpper(d, v2, v3);
+    return corner_from(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(uq23), uq01),
+                       hn::OddEvenBlocks(hn::SwapAdjacentBlocks(ve23), ve01),
+                       hn::OddEvenBlocks(uq23, hn::SwapAdjacentBlocks(uq01)),
+                       hn::OddEvenBlocks(ve23, hn::SwapAdjacentBlocks(ve01)));
+  }
+#endif
 }
 
 /// As many triangles as there are lanes.
-HWY_INLINE Corners gather_corners(const ImageVertex* vertices, const CornerIndices* triangles) {
-  const hn::Rebind<std::uint32_t, D> d32;
-  hn::Vec<decltype(d32)> a, b, c;
-  hn::LoadInterleaved3(d32, triangles->data(), a, b, c);
-  const auto wide = [](auto index)
-                        HWY_ATTR { return hn::BitCast(DI(), hn::PromoteTo(DU(), index)); };
-  Corners t{gather_corner(vertices, wide(a)),
-            gather_corner(vertices, wide(b)),
-            gather_corner(vertices, wide(c)),
+HWY_INLINE Corners load_corners(const ImageVertex* vertices, const CornerIndices* triangles) {
+  Corners t{load_corner<0>(vertices, triangles),
+            load_corner<1>(vertices, triangles),
+            load_corner<2>(vertices, triangles),
             {},
             {}};
   t.position_error = greatest_of(t.A.position_error, t.B.position_error, t.C.position_error);
@@ -280,7 +313,7 @@ HWY_INLINE void store(V v, SetupBatch::Numbers& numbers) {
 /// As many triangles as there are lanes; see certified_setups in fast_setup.h.
 HWY_INLINE void set_up_lanes(const ImageVertex* vertices, const CornerIndices* triangles,
                              const PixelBox& area, const DepthRange& range, SetupBatch& batch) {
-  const Corners t = gather_corners(vertices, triangles);
+  const Corners t = load_corners(vertices, triangles);
   const M usable = are_usable(t);
   const Boxes box = sample_boxes(t, area);
   const LocalTriangles l = localise(t, box);

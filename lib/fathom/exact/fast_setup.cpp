@@ -38,7 +38,7 @@ void SetUp(const ImageVertex* vertices, const CornerIndices* triangles, std::siz
 void Orient(const ImageVertex* vertices, const CornerIndices& triangle, int& sign, bool& certain) {
   CornerIndices corners[SetupBatch::most];
   std::fill(std::begin(corners), std::end(corners), triangle);
-  const Orientation o = certified_orientation(gather_corners(vertices, corners));
+  const Orientation o = certified_orientation(load_corners(vertices, corners));
   const bool positive = bits_of(o.positive) & 1, negative = bits_of(o.negative) & 1;
   sign = positive ? 1 : negative ? -1 : 0;
   certain = positive || negative || (bits_of(o.zero) & 1);

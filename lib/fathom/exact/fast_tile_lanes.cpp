@@ -1,6 +1,7 @@
 // Triangles drawn into a tile, a row of eight samples at once.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fathom/exact/fast_tile_lanes.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
@@ -280,6 +281,64 @@ HWY_INLINE void draw_triangle(Tile& tile, const SetupBatch& batch, std::size_t l
   }
 }
 
+/// The lanes of a batch whose boxes have at most two columns and two rows.
+HWY_INLINE unsigned small_lanes(const SetupBatch& batch) {
+  const D d;
+  const V columns =
+      hn::Sub(hn::Load(d, batch.last_column.data()), hn::Load(d, batch.first_column.data()));
+  const V rows = hn::Sub(hn::Load(d, batch.last_row.data()), hn::Load(d, batch.first_row.data()));
+  return bits_of(hn::Le(hn::Max(columns, rows), constant(1)));
+}
+
+/// One sample of each of the small triangles, by its column and row in their boxes: the decisions
+/// of draw_strip, those about edges for all triangles at once.
+HWY_INLINE void draw_sample_of_each(Tile& tile, const SetupBatch& batch, unsigned drawn, int column,
+                                    int row, const Tile::Context& context) {
+  const D d;
+  const V x = constant(column), y = constant(row);
+  const V columns =
+      hn::Sub(hn::Load(d, batch.last_column.data()), hn::Load(d, batch.first_column.data()));
+  const V rows = hn::Sub(hn::Load(d, batch.last_row.data()), hn::Load(d, batch.first_row.data()));
+  const unsigned within = drawn & bits_of(hn::And(hn::Ge(columns, x), hn::Ge(rows, y)));
+  V e[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    e[i] = hn::MulAdd(
+        hn::Load(d, batch.edge_b[i].data()), y,
+        hn::MulAdd(hn::Load(d, batch.edge_a[i].data()), x, hn::Load(d, batch.edge_c[i].data())));
+  }
+  const V least = least_of(e[0], e[1], e[2]);
+  const V error = hn::Load(d, batch.edge_error.data());
+  const unsigned open = within & bits_of(hn::Ge(least, hn::Neg(error)));
+  const unsigned covered = bits_of(hn::Gt(least, error)) & ~batch.test_range;
+  alignas(64) double q_of[SetupBatch::most];
+  hn::Store(hn::MulAdd(hn::Load(d, batch.q_b.data()), y,
+                       hn::MulAdd(hn::Load(d, batch.q_a.data()), x, hn::Load(d, batch.q_c.data()))),
+            d, q_of);
+  std::uint64_t wins = 0;
+  for (unsigned bits = open; bits != 0; bits &= bits - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+    const auto image_column =
+        static_cast<std::uint32_t>(batch.first_column[k]) + static_cast<std::uint32_t>(column);
+    const auto image_row =
+        static_cast<std::uint32_t>(batch.first_row[k]) + static_cast<std::uint32_t>(row);
+    const std::size_t i =
+        Tile::index(image_column - tile.area().first_column, image_row - tile.area().first_row);
+    const std::uint64_t tag = surface_tag(batch.number[k], batch.q_error[k]);
+    const double difference = q_of[k] - tile.q()[i];
+    const double sum = std::bit_cast<double>(tag) + std::bit_cast<double>(tile.tags()[i]);
+    if (difference < -sum) continue;
+    if (difference > sum && (covered >> k & 1)) {
+      tile.q()[i] = q_of[k];
+      tile.tags()[i] = tag;
+      ++wins;
+    } else {
+      tile.settle(batch.get(k), batch.test_range >> k & 1, image_column, image_row, context);
+    }
+  }
+  context.statistics.samples_tested += static_cast<unsigned>(std::popcount(within));
+  context.statistics.samples_covered += wins;
+}
+
 HWY_NOINLINE void draw_exactly(Tile& tile, std::uint32_t number, const PixelBox& box,
                                const Tile::Context& context) {
   SetupBatch exact;
@@ -287,23 +346,50 @@ HWY_NOINLINE void draw_exactly(Tile& tile, std::uint32_t number, const PixelBox&
   draw_triangle(tile, exact, 0, true, context);
 }
 
+/// Triangles to draw, as many as there are lanes (the last one repeated where there are fewer).
+struct Triangles {
+  std::array<std::uint32_t, SetupBatch::most> number;
+  std::array<CornerIndices, SetupBatch::most> corners;
+};
+
+/// Reads those from `first` on, and asks the memory for what comes next: triangles of a tile lie
+/// anywhere in the mesh.
+HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> numbers,
+                      std::size_t first, Triangles& next) {
+  const std::size_t lanes = hn::Lanes(D());
+  const CornerIndices* triangles = object.mesh.triangles.data();
+  for (std::size_t k = 0; k < lanes; ++k) {
+    const std::size_t i = std::min(first + k, numbers.size() - 1);
+    const std::size_t later = std::min(i + 2 * lanes, numbers.size() - 1);
+    hwy::Prefetch(triangles + (numbers[later] - object.first_number));
+    next.number[k] = numbers[i];
+    next.corners[k] = triangles[numbers[i] - object.first_number];
+    for (const std::uint32_t vertex : next.corners[k]) hwy::Prefetch(&object.vertices[vertex]);
+  }
+}
+
 void DrawTriangles(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
                    const Tile::Context& context) {
   const std::size_t lanes = hn::Lanes(D());
-  const CornerIndices* triangles = object.mesh.triangles.data();
-  CornerIndices corners[SetupBatch::most];
+  Triangles next;
   SetupBatch batch;
+  fetch(object, numbers, 0, next);
   for (std::size_t first = 0; first < numbers.size(); first += lanes) {
     const std::size_t count = std::min(lanes, numbers.size() - first);
-    for (std::size_t k = 0; k < lanes; ++k) {
-      batch.number[k] = numbers[first + std::min(k, count - 1)];
-      corners[k] = triangles[batch.number[k] - object.first_number];
-    }
-    set_up_lanes(object.vertices.get(), corners, tile.area(), context.range, batch);
+    const Triangles now = next;
+    fetch(object, numbers, first + lanes, next);
+    batch.number = now.number;
+    set_up_lanes(object.vertices.get(), now.corners.data(), tile.area(), context.range, batch);
     const unsigned drawn_lanes = ((1U << count) - 1) & ~batch.empty;
     context.statistics.grid_setups +=
         static_cast<unsigned>(std::popcount(drawn_lanes & batch.snapped & ~batch.refused));
-    for (unsigned bits = drawn_lanes; bits != 0; bits &= bits - 1) {
+    const unsigned small = drawn_lanes & ~batch.refused & small_lanes(batch);
+    if (small != 0) {
+      for (int sample = 0; sample < 4; ++sample) {
+        draw_sample_of_each(tile, batch, small, sample % 2, sample / 2, context);
+      }
+    }
+    for (unsigned bits = drawn_lanes & ~small; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(bits));
       if (HWY_UNLIKELY(batch.refused >> k & 1)) {
         draw_exactly(tile, batch.number[k], batch.box(k), context);

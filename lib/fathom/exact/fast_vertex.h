@@ -21,7 +21,7 @@ inline constexpr double snap_step = 0x1p-8, snap_limit = 0x1p15;
 ///
 /// q is affine in the image over every triangle, and of two surfaces at a sample the nearer has the
 /// greater q: 1/D under a perspective camera, −D under an orthographic one.
-struct ImageVertex {
+struct alignas(32) ImageVertex {
   double u, v;  // pixels
   double q;
   /// Two bounds as the upper halves of their binary64 representations, rounded up: of the errors of
