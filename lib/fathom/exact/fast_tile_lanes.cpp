@@ -371,7 +371,7 @@ HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> 
 void DrawTriangles(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
                    const Tile::Context& context) {
   const std::size_t lanes = hn::Lanes(D());
-  Triangles next;
+  Triangles next{};
   SetupBatch batch;
   fetch(object, numbers, 0, next);
   for (std::size_t first = 0; first < numbers.size(); first += lanes) {
