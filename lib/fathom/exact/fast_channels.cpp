@@ -30,6 +30,7 @@ long last_bit(double x) {
   return std::max(biased, 1L) - 1075 + std::countr_zero(significand);
 }
 
+/// Not for binary64 values.
 bool store(const EncodedValues& values, std::size_t pixel, const Certified<double>& x,
            double scale) {
   if (values.binary32) {
@@ -37,7 +38,6 @@ bool store(const EncodedValues& values, std::size_t pixel, const Certified<doubl
     if (rounded) values.binary32[pixel] = *rounded;
     return rounded.has_value();
   }
-  if (!values.codes) return false;
   const double scaled = x.value * scale;
   const auto code = to_code({scaled, 0}, (x.error * scale + scaled * epsilon<double>)*slack);
   if (code) values.codes[pixel] = *code;
@@ -86,8 +86,7 @@ class CertifiedWriter::Pixel {
         surface_(surface),
         referee_(referee),
         statistics_(statistics),
-        s_{surface.column + 0.5, surface.row + 0.5},
-        narrow_(depth_from_q(surface.q, surface.q_error, writer.image_.perspective)) {}
+        s_{surface.column + 0.5, surface.row + 0.5} {}
 
   void write_origin() {
     if (values_.id) values_.id[surface_.pixel] = surface_.triangle;
@@ -106,14 +105,15 @@ class CertifiedWriter::Pixel {
   }
 
   void write_position(std::size_t k) {
-    if (!have_position_) {
-      position_ = position<double>(writer_.rays_.world().rays, writer_.image_, s_, narrow_);
-      have_position_ = true;
-    }
-    const bool usable = writer_.rays_.world().usable;
+    const ObjectRays& world = writer_.rays_.world();
     float& target = values_.position[k][surface_.pixel];
-    if (usable && take(to_binary32(position_[k].value, position_[k].error), target)) {
-      return count_narrow();
+    if (world.usable) {
+      if (!position_) {
+        position_ = position<double>(world.rays, writer_.world_sizes_, writer_.image_.perspective,
+                                     s_, narrow_depth());
+      }
+      const Certified<double>& x = (*position_)[k];
+      if (take(to_binary32(x.value, x.error), target)) return count_narrow();
     }
     if (triangle().usable) {
       if (const auto c = constant(k); c && take(to_binary32(*c, 0), target)) return count_wide();
@@ -226,7 +226,7 @@ class CertifiedWriter::Pixel {
 
   bool store_depth(const EncodedValues& values) {
     const double scale = writer_.exact_.scale();
-    if (store(values, surface_.pixel, narrow_, scale)) {
+    if (!values.binary64 && store(values, surface_.pixel, narrow_depth(), scale)) {
       count_narrow();
       return true;
     }
@@ -245,7 +245,7 @@ class CertifiedWriter::Pixel {
     const EncodedValues& values = values_.distance;
     const double scale = writer_.exact_.scale();
     if (!values.binary64) {
-      const auto narrow = product(narrow_, ray_length<double>(writer_.rays_, s_));
+      const auto narrow = product(narrow_depth(), ray_length<double>(writer_.rays_, s_));
       if (store(values, surface_.pixel, narrow, scale)) {
         count_narrow();
         return true;
@@ -272,23 +272,29 @@ class CertifiedWriter::Pixel {
     return take(to_binary32(low, depth.error), values_.low[surface_.pixel]);
   }
 
+  const Certified<double>& narrow_depth() {
+    if (!narrow_depth_) {
+      narrow_depth_ = depth_from_q(surface_.q, surface_.q_error, writer_.image_.perspective);
+    }
+    return *narrow_depth_;
+  }
+
   const Certified<WordPair>& wide_depth() {
-    if (!have_wide_depth_) {
+    if (!wide_depth_) {
       Triangle& t = triangle();
       if (!t.has_depth) {
         t.depth = writer_.wide_.depth_forms(t.corners, t.object->rays, writer_.image_);
         t.has_depth = true;
       }
       wide_depth_ = writer_.wide_.depth(t.depth, s_, writer_.image_.perspective);
-      have_wide_depth_ = true;
     }
-    return wide_depth_;
+    return *wide_depth_;
   }
 
   const Vector<Certified<WordPair>>& wide_position() {
     if (!wide_position_) {
-      wide_position_ =
-          writer_.wide_.position(writer_.rays_.world().rays, writer_.image_, s_, wide_depth());
+      wide_position_ = writer_.wide_.position(writer_.rays_.world().rays, writer_.world_sizes_,
+                                              writer_.image_.perspective, s_, wide_depth());
     }
     return *wide_position_;
   }
@@ -370,13 +376,13 @@ class CertifiedWriter::Pixel {
   Referee& referee_;
   RenderStatistics& statistics_;
   Sample s_;
-  Certified<double> narrow_;
   Triangle* triangle_ = nullptr;
-  bool have_position_ = false, have_wide_depth_ = false, looked_for_exact_depth_ = false;
-  Vector<Certified<double>> position_;
-  Certified<WordPair> wide_depth_;
+  std::optional<Certified<double>> narrow_depth_;
+  std::optional<Certified<WordPair>> wide_depth_;
+  std::optional<Vector<Certified<double>>> position_;
   std::optional<Vector<Certified<WordPair>>> wide_position_;
   std::optional<std::array<Certified<WordPair>, 2>> wide_weights_;
+  bool looked_for_exact_depth_ = false;
   std::optional<WordPair> exact_depth_;
   std::optional<std::array<long, 3>> corner_bits_;
 };
@@ -387,6 +393,7 @@ CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays)
       rays_(rays),
       wide_(wide_arithmetic()),
       image_{rays.perspective(), rays.greatest_u(), rays.greatest_v()},
+      world_sizes_(rays.world().rays, image_),
       remembered_(most_remembered) {}
 
 CertifiedWriter::Triangle& CertifiedWriter::remember(std::uint32_t number) {

@@ -65,6 +65,7 @@ class CertifiedWriter {
   const SceneRays& rays_;
   const WideArithmetic& wide_;
   ImageBounds image_;
+  RaySizes world_sizes_;
   std::vector<Triangle> remembered_;
 };
 

@@ -245,23 +245,38 @@ WeightForms<Real> weight_forms(const MeshTriangle& corners, const Rays& rays,
       {Real{}, Real{}, dot(edges.n, d), 12 * epsilon<Real> * slack * dot(edges.n_size, d_size)}};
 }
 
-/// Direction of the ray of a sample; each component with an error of at most 4ε times `size`,
-/// which holds for the whole image: an entry, a product, two sums.
+/// Origin and direction of the ray of a sample. One of them varies over the image, as
+/// a + b·v + c·u: entries, one product, two sums. Errors are at most 4ε times RaySizes.
 template <class Real>
-Vector<Real> direction(const Rays& rays, const ImageBounds& image, const Sample& s,
-                       Vector<double>& size) {
-  if (!image.perspective) {
-    size = rays.sizes[2];
-    return entries<Real>(rays.columns[2]);
-  }
-  Vector<Real> d;
-  for (std::size_t i = 0; i < 3; ++i) {
-    d[i] = (entry<Real>(rays.columns[2][i]) + entry<Real>(rays.columns[1][i]) * s.v) +
-           entry<Real>(rays.columns[0][i]) * s.u;
-    size[i] = rays.sizes[0][i] * image.u + rays.sizes[1][i] * image.v + rays.sizes[2][i];
-  }
-  return d;
+struct Ray {
+  Vector<Real> origin, direction;
+};
+template <class Real>
+Ray<Real> ray_at(const Rays& rays, bool perspective, const Sample& s) {
+  const auto& [m0, m1, m2, O] = rays.columns;
+  const auto varying = [&](const std::array<WordPair, 3>& constant) {
+    Vector<Real> sum;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum[i] = (entry<Real>(constant[i]) + entry<Real>(m1[i]) * s.v) + entry<Real>(m0[i]) * s.u;
+    }
+    return sum;
+  };
+  if (perspective) return {entries<Real>(O), varying(m2)};
+  return {varying(O), entries<Real>(m2)};
 }
+
+/// What the magnitudes of the terms of origin and direction add up to, at no sample more.
+struct RaySizes {
+  Vector<double> origin, direction;
+
+  RaySizes(const Rays& rays, const ImageBounds& image)
+      : origin(rays.sizes[3]), direction(rays.sizes[2]) {
+    Vector<double>& varying = image.perspective ? direction : origin;
+    for (std::size_t i = 0; i < 3; ++i) {
+      varying[i] += rays.sizes[0][i] * image.u + rays.sizes[1][i] * image.v;
+    }
+  }
+};
 
 /// Whether n = p × r has components that are exactly 0 for a reason that can be seen: one factor
 /// of either product is 0, or p and r are binary64 numbers and the two products are the same.
@@ -333,8 +348,8 @@ Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRay
   constexpr double e = epsilon<Real> * slack;
   Vector<Certified<Real>> result;
   WorldNormal<Real> normal = world_normal<Real>(corners, object);
-  Vector<double> d_size;
-  const Vector<Real> d = direction<Real>(world.rays, image, s, d_size);
+  const Vector<Real> d = ray_at<Real>(world.rays, image.perspective, s).direction;
+  const Vector<double> d_size = RaySizes(world.rays, image).direction;
   const double nd = nearest(dot(normal.n, d));
   if (!(std::abs(nd) > 15 * e * dot(normal.size, d_size))) return result;
 

@@ -39,9 +39,10 @@ struct Wide {
                                       const Sample& s) {
     return as<WordPair>(product(as<Real>(depth), ray_length<Real>(rays, s)));
   }
-  static Vector<Certified<WordPair>> position(const Rays& rays, const ImageBounds& image,
-                                              const Sample& s, const Certified<WordPair>& depth) {
-    return as<WordPair>(fathom::position(rays, image, s, as<Real>(depth)));
+  static Vector<Certified<WordPair>> position(const Rays& rays, const RaySizes& sizes,
+                                              bool perspective, const Sample& s,
+                                              const Certified<WordPair>& depth) {
+    return as<WordPair>(fathom::position(rays, sizes, perspective, s, as<Real>(depth)));
   }
   static std::array<Certified<WordPair>, 2> weights(const MeshTriangle& corners, const Rays& rays,
                                                     const ImageBounds& image, const Sample& s) {
@@ -77,10 +78,10 @@ FATHOM_WITH_FMA Certified<WordPair> distance_with_fma(const Certified<WordPair>&
   return Wide<true>::distance(depth, rays, s);
 }
 FATHOM_WITH_FMA Vector<Certified<WordPair>> position_with_fma(const Rays& rays,
-                                                              const ImageBounds& image,
-                                                              const Sample& s,
+                                                              const RaySizes& sizes,
+                                                              bool perspective, const Sample& s,
                                                               const Certified<WordPair>& depth) {
-  return Wide<true>::position(rays, image, s, depth);
+  return Wide<true>::position(rays, sizes, perspective, s, depth);
 }
 FATHOM_WITH_FMA std::array<Certified<WordPair>, 2> weights_with_fma(const MeshTriangle& corners,
                                                                     const Rays& rays,

@@ -25,26 +25,18 @@ Certified<Real> product(const Certified<Real>& x, const Certified<Real>& y) {
   return {value, (error + epsilon<Real> * std::abs(nearest(value))) * slack};
 }
 
-/// The point of depth D on the ray of a sample: base + d·D. Base and d err by 4ε of their sizes, so
-/// that the point errs by (5ε·d̄·|D̂| + d̄·E_D + 4ε·base) for its terms and ε for the sum.
+/// The point of depth D on the ray of a sample, o + d·D. o and d err by 4ε of their sizes ō and d̄,
+/// so that the point errs by 5ε·d̄·|D̂| + d̄·E_D + 4ε·ō for its terms and by ε for the sum.
 template <class Real>
-Vector<Certified<Real>> position(const Rays& rays, const ImageBounds& image, const Sample& s,
-                                 const Certified<Real>& depth) {
-  Vector<double> d_size;
-  const Vector<Real> d = direction<Real>(rays, image, s, d_size);
-  const double depth_size = std::abs(nearest(depth.value));
+Vector<Certified<Real>> position(const Rays& rays, const RaySizes& sizes, bool perspective,
+                                 const Sample& s, const Certified<Real>& depth) {
+  const Ray<Real> ray = ray_at<Real>(rays, perspective, s);
+  const double D_size = std::abs(nearest(depth.value));
   Vector<Certified<Real>> point;
   for (std::size_t i = 0; i < 3; ++i) {
-    Real base = entry<Real>(rays.columns[3][i]);
-    double base_size = rays.sizes[3][i];
-    if (!image.perspective) {
-      base = (base + entry<Real>(rays.columns[1][i]) * s.v) + entry<Real>(rays.columns[0][i]) * s.u;
-      base_size += rays.sizes[0][i] * image.u + rays.sizes[1][i] * image.v;
-    }
-    point[i] = {
-        base + d[i] * depth.value,
-        (6 * epsilon<Real> * (base_size + d_size[i] * depth_size) + d_size[i] * depth.error) *
-            slack};
+    const double size = sizes.origin[i] + sizes.direction[i] * D_size;
+    point[i] = {ray.origin[i] + ray.direction[i] * depth.value,
+                (6 * epsilon<Real> * size + sizes.direction[i] * depth.error) * slack};
   }
   return point;
 }
@@ -56,8 +48,8 @@ struct WideArithmetic {
   Certified<WordPair> (*depth)(const DepthForms<WordPair>&, const Sample&, bool perspective);
   Certified<WordPair> (*distance)(const Certified<WordPair>& depth, const SceneRays&,
                                   const Sample&);
-  Vector<Certified<WordPair>> (*position)(const Rays&, const ImageBounds&, const Sample&,
-                                          const Certified<WordPair>& depth);
+  Vector<Certified<WordPair>> (*position)(const Rays&, const RaySizes&, bool perspective,
+                                          const Sample&, const Certified<WordPair>& depth);
   std::array<Certified<WordPair>, 2> (*weights)(const MeshTriangle&, const Rays&,
                                                 const ImageBounds&, const Sample&);
   Vector<Certified<WordPair>> (*normal)(const MeshTriangle&, const ObjectRays& object,
