@@ -1,0 +1,56 @@
+#include "validation/bench/measurement.h"
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+namespace fathom::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds time_there_is{20};
+
+}  // namespace
+
+double Measurement::median_ms() const {
+  const std::size_t half = milliseconds.size() / 2;
+  return milliseconds.size() % 2 == 1 ? milliseconds[half]
+                                      : (milliseconds[half - 1] + milliseconds[half]) / 2;
+}
+
+Frames time_frames(int repeat, const std::function<void()>& draw,
+                   const std::function<void()>& clear) {
+  const auto timed = [&] {
+    clear();
+    const Clock::time_point start = Clock::now();
+    draw();
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  };
+  const Clock::time_point start = Clock::now();
+  Frames frames{.first_ms = timed()};
+  for (int i = 0; i < repeat && Clock::now() - start < time_there_is; ++i) {
+    frames.milliseconds.push_back(timed());
+  }
+  if (frames.milliseconds.empty()) frames.milliseconds.push_back(frames.first_ms);
+  std::sort(frames.milliseconds.begin(), frames.milliseconds.end());
+  return frames;
+}
+
+std::string to_text(const std::vector<Measurement>& measurements) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Measurement& m : measurements) {
+    list.push_back(
+        {m.renderer, m.description, m.first_ms, m.milliseconds, m.peak_bytes, m.covered_pixels});
+  }
+  return list.dump();
+}
+
+std::vector<Measurement> measurements_from_text(const std::string& text) {
+  std::vector<Measurement> measurements;
+  for (const nlohmann::json& m : nlohmann::json::parse(text)) {
+    measurements.push_back({m[0], m[1], m[2], m[3], m[4], m[5]});
+  }
+  return measurements;
+}
+
+}  // namespace fathom::bench

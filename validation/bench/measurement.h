@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fathom/exact/options.h"
+
+namespace fathom::bench {
+
+/// What is timed, and how often.
+struct Plan {
+  /// A name of scenes.h.
+  std::string scene;
+  std::uint32_t width = 1920, height = 1080;
+  int threads = 1;
+  int repeat = 9;
+  /// What our engines write; the others write depths.
+  std::vector<Channel> channels{Channel::Z};
+};
+
+/// One renderer on one scene.
+struct Measurement {
+  /// fast, reference, vtk, embree, embree-robust, or embree-build: building the hierarchy that
+  /// embree then traces.
+  std::string renderer;
+  /// Its version and what it runs on, "" for ours.
+  std::string description;
+  /// Of the first frame, which also fills caches and compiles shaders.
+  double first_ms = 0;
+  /// Of the frames after it, in increasing order; not empty.
+  std::vector<double> milliseconds;
+  /// The most memory that its process had in RAM while it rendered, above what the process had
+  /// before it made the scene: the scene as this renderer holds it, what it builds, the image.
+  std::uint64_t peak_bytes = 0;
+  /// Pixels that show a surface; 0 for embree-build.
+  std::uint64_t covered_pixels = 0;
+
+  [[nodiscard]] double median_ms() const;
+};
+
+struct Frames {
+  double first_ms = 0;
+  /// In increasing order; the first frame's time where that alone took all of the time there is.
+  std::vector<double> milliseconds;
+};
+
+/// Times `draw` once and then `repeat` times more, but begins no further frame after 20 seconds.
+/// `clear` is called before each and not timed.
+Frames time_frames(
+    int repeat, const std::function<void()>& draw, const std::function<void()>& clear = [] {});
+
+/// Writes measurements as text and reads them back, for the way from one process to another.
+std::string to_text(const std::vector<Measurement>& measurements);
+std::vector<Measurement> measurements_from_text(const std::string& text);
+
+}  // namespace fathom::bench

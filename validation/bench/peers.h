@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "validation/bench/measurement.h"
+#include "validation/bench/scenes.h"
+
+/// VTK and Embree on a bench scene; see renderers.h. `idle_bytes` is the memory that the process
+/// had before it made the scene.
+namespace fathom::bench {
+
+std::vector<Measurement> measure_vtk(BenchScene bench, const Plan& plan, std::uint64_t idle_bytes);
+std::vector<Measurement> measure_embree(BenchScene bench, const Plan& plan, bool robust,
+                                        std::uint64_t idle_bytes);
+
+}  // namespace fathom::bench

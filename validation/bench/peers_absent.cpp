@@ -1,0 +1,30 @@
+#include "fathom/numeric/errors.h"
+#include "validation/bench/peers.h"
+#include "validation/bench/renderers.h"
+
+namespace fathom::bench {
+namespace {
+
+[[noreturn]] void refuse(const char* peer) {
+  throw UsageError(std::string(peer) +
+                   " is not built in: 'scripts/install-dependencies peers' installs it, and "
+                   "-DFATHOM_PEERS=ON builds with it; 'scripts/fathom bench' does both");
+}
+
+}  // namespace
+
+bool peers_are_built() {
+  return false;
+}
+
+std::vector<Measurement> measure_vtk(BenchScene /*bench*/, const Plan& /*plan*/,
+                                     std::uint64_t /*idle_bytes*/) {
+  refuse("vtk");
+}
+
+std::vector<Measurement> measure_embree(BenchScene /*bench*/, const Plan& /*plan*/, bool /*robust*/,
+                                        std::uint64_t /*idle_bytes*/) {
+  refuse("embree");
+}
+
+}  // namespace fathom::bench

@@ -1,0 +1,50 @@
+#include "validation/bench/renderers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/render.h"
+#include "validation/bench/peers.h"
+#include "validation/bench/processors.h"
+#include "validation/bench/resident_memory.h"
+#include "validation/bench/scenes.h"
+
+namespace fathom::bench {
+namespace {
+
+std::uint64_t covered_pixels(const DepthMap& map) {
+  const std::vector<float>* Z = map.values<float>("Z");
+  if (Z == nullptr) return 0;
+  const auto covered = std::count_if(Z->begin(), Z->end(), [](float z) { return !std::isinf(z); });
+  return static_cast<std::uint64_t>(covered);
+}
+
+std::vector<Measurement> measure_engine(Engine engine, const BenchScene& bench, const Plan& plan,
+                                        std::uint64_t idle_bytes) {
+  const RenderOptions options{.engine = engine, .channels = plan.channels, .threads = plan.threads};
+  forget_peak();
+  DepthMap map;
+  Frames frames = time_frames(
+      plan.repeat, [&] { map = render(bench.scene, bench.camera, options); }, [&] { map = {}; });
+  return {{engine == Engine::fast ? "fast" : "reference", "", frames.first_ms,
+           std::move(frames.milliseconds), peak_resident_bytes() - idle_bytes,
+           covered_pixels(map)}};
+}
+
+}  // namespace
+
+std::vector<Measurement> measure(const std::string& renderer, const Plan& plan) {
+  const std::uint64_t idle_bytes = resident_bytes();
+  BenchScene bench = make_scene(plan.scene, plan.width, plan.height);
+  keep_to_processors(plan.threads);
+  if (renderer == "fast") return measure_engine(Engine::fast, bench, plan, idle_bytes);
+  if (renderer == "reference") return measure_engine(Engine::reference, bench, plan, idle_bytes);
+  if (renderer == "vtk") return measure_vtk(std::move(bench), plan, idle_bytes);
+  if (renderer == "embree") return measure_embree(std::move(bench), plan, false, idle_bytes);
+  if (renderer == "embree-robust") return measure_embree(std::move(bench), plan, true, idle_bytes);
+  throw UsageError("'" + renderer + "' is no renderer");
+}
+
+}  // namespace fathom::bench

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "validation/bench/machine.h"
+#include "validation/bench/measurement.h"
+
+namespace fathom::bench {
+
+/// All renderers on one scene, size and number of threads.
+struct Comparison {
+  Plan plan;
+  std::uint64_t triangles = 0;
+  std::vector<Measurement> measurements;
+};
+
+/// A line that says what is compared and a table, a row a renderer: times in milliseconds, their
+/// median also as a multiple of fast's, peak memory, and what they come to in triangles and pixels
+/// of the image per second. Ends with an empty line.
+std::string table(const Comparison& comparison);
+
+/// {"machine": …, "results": [ … ]} as docs/performance.md explains it. Ends without a newline.
+std::string to_json(const Machine& machine, const std::vector<Comparison>& comparisons);
+
+}  // namespace fathom::bench

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+
+#include "fathom/scene/camera.h"
+
+namespace fathom::validation {
+
+/// The viewing rays of a camera, as affine functions of the image position: the point at depth D of
+/// what (u, v) shows is origin + D·direction, so that the parameter along the ray is the depth.
+///
+/// Frame    world; (u, v) in pixels, (0, 0) the top left corner of the image.
+/// Exact    rounded to binary64 several times: for renderers that compute in binary32.
+struct CameraRays {
+  using Vector3 = std::array<double, 3>;
+  /// f(u, v) = at_corner + u·per_u + v·per_v
+  struct Affine {
+    Vector3 at_corner{}, per_u{}, per_v{};
+  };
+  Affine origin, direction;
+};
+
+CameraRays camera_rays(const Camera& camera);
+
+}  // namespace fathom::validation

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/studies/study.h"
+
+namespace fathom::studies {
+
+/// Runs a script, which ends with a plot command and sets no terminal, twice: for NAME.png and for
+/// NAME.svg. The script itself, as it can be run again, is NAME.gp.
+/// Fails    OutputError if gnuplot is missing or fails, with what it said.
+std::vector<StudyFile> run_gnuplot(const std::string& name, const std::string& script);
+
+}  // namespace fathom::studies

@@ -1,0 +1,63 @@
+#include "validation/studies/page.h"
+
+namespace fathom::studies {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  }
+  return result;
+}
+
+std::string row_of(const std::vector<std::string>& cells, const char* tag) {
+  std::string row = "<tr>";
+  for (const std::string& cell : cells) {
+    row += std::string("<") + tag + ">" + escaped(cell) + "</" + tag + ">";
+  }
+  return row + "</tr>\n";
+}
+
+}  // namespace
+
+Page::Page(const std::string& title) : title_(title) {
+  body_ = "<h1>" + escaped(title) + "</h1>\n";
+}
+
+Page& Page::heading(const std::string& text) {
+  body_ += "<h2>" + escaped(text) + "</h2>\n";
+  return *this;
+}
+
+Page& Page::paragraph(const std::string& text) {
+  body_ += "<p>" + escaped(text) + "</p>\n";
+  return *this;
+}
+
+Page& Page::plot(const std::string& name, const std::string& caption) {
+  body_ += "<figure><a href=\"" + name + ".svg\"><img src=\"" + name + ".png\" alt=\"" +
+           escaped(caption) + "\"></a><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+  return *this;
+}
+
+Page& Page::table(const std::vector<std::string>& head,
+                  const std::vector<std::vector<std::string>>& rows) {
+  body_ += "<table>\n" + row_of(head, "th");
+  for (const std::vector<std::string>& row : rows) body_ += row_of(row, "td");
+  body_ += "</table>\n";
+  return *this;
+}
+
+StudyFile Page::file() const {
+  return {"index.html",
+          "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
+              escaped(title_) +
+              "</title>\n<style>body{font-family:sans-serif;max-width:70em;margin:2em auto}"
+              "table{border-collapse:collapse}td,th{border:1px solid #888;padding:0.2em 0.6em;"
+              "text-align:right}td:first-child,th:first-child{text-align:left}"
+              "img{max-width:100%}</style></head>\n<body>\n" +
+              body_ + "</body></html>\n"};
+}
+
+}  // namespace fathom::studies

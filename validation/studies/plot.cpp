@@ -1,0 +1,89 @@
+#include "validation/studies/plot.h"
+
+#include <fmt/format.h>
+
+#include "validation/studies/gnuplot.h"
+
+namespace fathom::studies {
+namespace {
+
+/// Text between double quotes in a script, in plain letters: no markup, no escapes.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+/// Colours that are told apart by the colour-blind (Okabe and Ito), darkest first.
+constexpr const char* colours[] = {"#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                   "#56B4E9", "#E69F00", "#7F7F7F", "#8B4513"};
+constexpr int colour_count = 9;
+
+std::string axes(const std::string& title, const std::string& y_label) {
+  return fmt::format(
+      "set title {} noenhanced\nset ylabel {} noenhanced\nset key outside right noenhanced\n"
+      "set grid\n",
+      quoted(title), quoted(y_label));
+}
+
+std::string script_of(const Plot& plot) {
+  std::string script;
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    script += fmt::format("$series{} << END\n", i);
+    for (const auto& [x, y] : plot.series[i].points) {
+      script += fmt::format("{:.17g} {:.17g}\n", x, y);
+    }
+    script += "END\n";
+  }
+  script += axes(plot.title, plot.y_label);
+  script += fmt::format("set xlabel {} noenhanced\n", quoted(plot.x_label));
+  if (plot.logarithmic_x) script += "set logscale x\nset format x \"10^{%L}\"\n";
+  if (plot.logarithmic_y) script += "set logscale y\nset format y \"10^{%L}\"\n";
+  script += "plot \\\n";
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    const std::size_t marks = 1 + plot.series[i].points.size() / 12;
+    script += fmt::format(
+        "  $series{} with linespoints title {} lw 1.5 dt {} pt {} ps 0.8 pi {} lc rgb \"{}\"{}\n",
+        i, quoted(plot.series[i].label), i % 5 + 1, i % 13 + 1, marks, colours[i % colour_count],
+        i + 1 < plot.series.size() ? ", \\" : "");
+  }
+  return script;
+}
+
+std::string script_of(const BarChart& chart) {
+  std::string script = "$bars << END\n";
+  for (std::size_t i = 0; i < chart.categories.size(); ++i) {
+    script += quoted(chart.categories[i]);
+    for (const BarChart::Bars& bars : chart.series)
+      script += fmt::format(" {:.6g}", bars.heights[i]);
+    script += "\n";
+  }
+  script += "END\n" + axes(chart.title, chart.y_label);
+  script +=
+      "set style data histograms\nset style histogram clustered gap 1\nset yrange [0:*]\n"
+      "set boxwidth 0.9\nset xtics rotate by -35 noenhanced\nset bmargin 9\nplot \\\n";
+  for (std::size_t i = 0; i < chart.series.size(); ++i) {
+    script += fmt::format(
+        "  $bars using {}{} title {} fs pattern {} border lc rgb \"{}\" lc rgb "
+        "\"{}\"{}\n",
+        i + 2, i == 0 ? ":xtic(1)" : "", quoted(chart.series[i].label), i % 7 + 1,
+        colours[i % colour_count], colours[i % colour_count],
+        i + 1 < chart.series.size() ? ", \\" : "");
+  }
+  return script;
+}
+
+}  // namespace
+
+std::vector<StudyFile> draw(const Plot& plot) {
+  return run_gnuplot(plot.name, script_of(plot));
+}
+
+std::vector<StudyFile> draw(const BarChart& chart) {
+  return run_gnuplot(chart.name, script_of(chart));
+}
+
+}  // namespace fathom::studies

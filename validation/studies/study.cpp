@@ -1,0 +1,28 @@
+#include "validation/studies/study.h"
+
+#include "fathom/numeric/errors.h"
+#include "validation/studies/depth_resolution.h"
+#include "validation/studies/indistinguishable.h"
+
+namespace fathom::studies {
+
+const std::vector<Study>& all_studies() {
+  static const std::vector<Study> studies{
+      {"depth-resolution", "The step of every depth format against depth, near and far",
+       study_depth_resolution},
+      {"indistinguishable",
+       "Which of many depths become equal or swap in a pipeline, after Reed, Upchurch and Desbrun",
+       study_indistinguishable}};
+  return studies;
+}
+
+const Study& study_named(const std::string& name) {
+  std::string names;
+  for (const Study& study : all_studies()) {
+    if (study.name == name) return study;
+    names += (names.empty() ? "" : ", ") + std::string(study.name);
+  }
+  throw UsageError("there is no study '" + name + "'; there are " + names);
+}
+
+}  // namespace fathom::studies

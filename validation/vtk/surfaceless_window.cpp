@@ -1,0 +1,30 @@
+#include "validation/vtk/surfaceless_window.h"
+
+#include <vtkObjectFactory.h>
+
+#include "validation/vtk/quiet_stderr.h"
+
+namespace fathom::validation {
+
+vtkStandardNewMacro(SurfacelessWindow);
+
+SurfacelessWindow::SurfacelessWindow() {
+  SetOwnContext(0);
+  SetIsDirect(1);
+  SetSupportsOpenGL(1);
+  SetIsCurrent(true);
+  SetReadyForRendering(true);
+  SetMultiSamples(0);
+  SetFrameBlitModeToNoBlit();
+}
+
+void SurfacelessWindow::OpenGLInitContext() {
+  if (prepared_) return;
+  const QuietStderr quiet;
+  Superclass::OpenGLInitContext();
+  Initialized = true;
+  GlewInitValid = true;
+  prepared_ = true;
+}
+
+}  // namespace fathom::validation

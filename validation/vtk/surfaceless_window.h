@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vtkGenericOpenGLRenderWindow.h>
+
+namespace fathom::validation {
+
+/// A VTK window that draws into framebuffer objects of the context that is current, one without a
+/// display (EglContext).
+///
+/// VTK prepares OpenGL through GLEW, and Debian's GLEW looks for an X display: it loads all that is
+/// needed, then fails, and VTK would try again, and hand the meshes to OpenGL again, in every
+/// frame. Here it is done once, and quietly.
+class SurfacelessWindow : public vtkGenericOpenGLRenderWindow {
+ public:
+  static SurfacelessWindow* New();
+  // clang-format off
+  vtkTypeMacro(SurfacelessWindow, vtkGenericOpenGLRenderWindow)
+      // clang-format on
+
+      void OpenGLInitContext() override;
+
+ protected:
+  SurfacelessWindow();
+
+ private:
+  bool prepared_ = false;
+};
+
+}  // namespace fathom::validation

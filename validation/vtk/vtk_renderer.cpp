@@ -1,0 +1,116 @@
+#include "validation/vtk/vtk_renderer.h"
+
+#include <vtkActor.h>
+#include <vtkAutoInit.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkVersion.h>
+
+#include <algorithm>
+
+#include "validation/vtk/egl_context.h"
+#include "validation/vtk/surfaceless_window.h"
+
+VTK_MODULE_INIT(vtkRenderingOpenGL2)
+
+namespace fathom::validation {
+namespace {
+
+vtkSmartPointer<vtkPolyData> polygons_of(const WorldMesh& mesh) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    points->SetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
+  }
+  vtkNew<vtkCellArray> cells;
+  cells->AllocateExact(static_cast<vtkIdType>(mesh.triangles.size()),
+                       static_cast<vtkIdType>(3 * mesh.triangles.size()));
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const vtkIdType corners[3] = {a, b, c};
+    cells->InsertNextCell(3, corners);
+  }
+  auto polygons = vtkSmartPointer<vtkPolyData>::New();
+  polygons->SetPoints(points);
+  polygons->SetPolys(cells);
+  return polygons;
+}
+
+/// VTK's own view transform is the identity; ours stands in its model transform, so that R need not
+/// be a rotation.
+void set_camera(vtkCamera& camera, const Camera& ours, const ClipRange& range) {
+  camera.SetPosition(0, 0, 0);
+  camera.SetFocalPoint(0, 0, -1);
+  camera.SetViewUp(0, 1, 0);
+  camera.SetModelTransformMatrix(eye_from_world(ours).data());
+  vtkNew<vtkMatrix4x4> projection;
+  projection->DeepCopy(clip_from_eye(ours, range).data());
+  camera.SetExplicitProjectionTransformMatrix(projection);
+  camera.UseExplicitProjectionTransformMatrixOn();
+  camera.SetParallelProjection(ours.projection == Projection::orthographic ? 1 : 0);
+  camera.SetClippingRange(range.near, range.far);
+}
+
+}  // namespace
+
+struct VtkRenderer::Parts {
+  EglContext context;  // outlives the window
+  vtkNew<SurfacelessWindow> window;
+  int width = 0, height = 0;
+};
+
+VtkRenderer::VtkRenderer(const WorldMesh& mesh, const Camera& camera, const ClipRange& range)
+    : parts_(std::make_unique<Parts>()) {
+  parts_->width = static_cast<int>(camera.width);
+  parts_->height = static_cast<int>(camera.height);
+
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(polygons_of(mesh));
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  vtkNew<vtkRenderer> renderer;
+  renderer->AddActor(actor);
+  set_camera(*renderer->GetActiveCamera(), camera, range);
+
+  parts_->window->SetSize(parts_->width, parts_->height);
+  parts_->window->AddRenderer(renderer);
+}
+
+VtkRenderer::~VtkRenderer() {
+  parts_->window->Finalize();
+}
+
+void VtkRenderer::draw() {
+  parts_->window->Render();
+  parts_->window->WaitForCompletion();
+}
+
+std::vector<float> VtkRenderer::window_depths() {
+  const int width = parts_->width, height = parts_->height;
+  vtkNew<vtkFloatArray> read;
+  parts_->window->GetZbufferData(0, 0, width - 1, height - 1, read);
+  const auto row_length = static_cast<std::size_t>(width);
+  std::vector<float> depths(row_length * static_cast<std::size_t>(height));
+  for (int row = 0; row < height; ++row) {  // OpenGL's rows run from the bottom
+    const float* from = read->GetPointer(static_cast<vtkIdType>(height - 1 - row) * width);
+    std::copy(from, from + width, depths.begin() + row * row_length);
+  }
+  return depths;
+}
+
+std::string VtkRenderer::description() const {
+  return std::string("VTK ") + vtkVersion::GetVTKVersion() + " on " + parts_->context.description();
+}
+
+}  // namespace fathom::validation

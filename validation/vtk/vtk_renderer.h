@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "validation/vtk/opengl_matrices.h"
+#include "validation/world_mesh.h"
+
+namespace fathom::validation {
+
+/// A mesh drawn by VTK into a framebuffer without a display: points in binary64, our camera as
+/// explicit model-view and projection matrices, one sample per pixel, no lighting, no culling, no
+/// coordinate written but the depth and a constant colour.
+///
+/// Does not  read the mesh again: it may go once this is made.
+/// Threads   all calls from the thread that made it. Mesa's software renderer takes as many
+///           threads as LP_NUM_THREADS says when this is made.
+/// Fails     InputError where there is no OpenGL (see EglContext).
+class VtkRenderer {
+ public:
+  VtkRenderer(const WorldMesh& mesh, const Camera& camera, const ClipRange& range);
+  ~VtkRenderer();
+  VtkRenderer(const VtkRenderer&) = delete;
+  VtkRenderer& operator=(const VtkRenderer&) = delete;
+
+  /// Draws a frame and waits until it is done. The first one also compiles shaders and hands the
+  /// mesh to OpenGL.
+  void draw();
+
+  /// Window depths of the last frame in [0, 1], width × height, rows from the top; 1 where nothing
+  /// was drawn.
+  [[nodiscard]] std::vector<float> window_depths();
+
+  /// "VTK 9.1.0 on llvmpipe (…)".
+  [[nodiscard]] std::string description() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace fathom::validation
