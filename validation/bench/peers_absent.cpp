@@ -7,7 +7,7 @@ namespace {
 
 [[noreturn]] void refuse(const char* peer) {
   throw UsageError(std::string(peer) +
-                   " is not built in: 'scripts/install-dependencies peers' installs it, and "
+                   " is not built in: 'scripts/install-dependencies bench' installs it, and "
                    "-DFATHOM_PEERS=ON builds with it; 'scripts/fathom bench' does both");
 }
 
