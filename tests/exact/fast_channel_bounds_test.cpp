@@ -230,7 +230,9 @@ TEST(CertifiedRounding, ExactNumbersZeroesAndTies) {
   EXPECT_EQ(to_binary32(WordPair{1, 0}, std::nan("")), std::nullopt);
   EXPECT_EQ(to_binary64(WordPair{1, 0}, std::nan("")), std::nullopt);
   EXPECT_EQ(to_code(WordPair{1, 0}, std::nan("")), std::nullopt);
-  EXPECT_EQ(to_binary32(WordPair{1 + 0x1p-24, 0}, 0.0), std::nullopt);  // a tie
+  EXPECT_EQ(to_binary32(WordPair{1 + 0x1p-24, 0}, 0x1p-1000), std::nullopt);  // a tie
+  EXPECT_EQ(to_binary32(WordPair{1 + 0x1p-24, 0}, 0.0), 1.0F);                // known to be one
+  EXPECT_EQ(to_binary64(WordPair{1, 0x1p-53}, 0.0), std::nullopt);
   EXPECT_EQ(to_binary32(WordPair{1 + 0x1p-23, -0x1p-77}, 0x1p-77), 1 + 0x1p-23F);
   EXPECT_EQ(to_code(WordPair{2.5, 0}, 0.0), 2);  // to even
   EXPECT_EQ(to_code(WordPair{3.5, 0}, 0.0), 4);

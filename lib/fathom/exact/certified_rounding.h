@@ -43,9 +43,10 @@ inline double half_gap(double x) {
 
 /// The candidate f is the nearest to hi; hi − f is exact (both are multiples of the last bit of
 /// hi), the rest is rounded once: a number whose distance to f stays below half of the smaller gap
-/// beside f rounds to f.
+/// beside f rounds to f. A binary64 number that is exact is rounded once by its conversion, ties
+/// too.
 inline std::optional<float> to_binary32(const WordPair& x, double error) {
-  if (x.hi == 0 && error == 0) return 0.0F;
+  if (error == 0 && x.lo == 0) return static_cast<float>(x.hi);
   const double size = std::abs(x.hi);
   if (!(size >= least_safe && size <= greatest_safe)) return std::nullopt;
   const auto candidate = static_cast<float>(x.hi);
@@ -55,6 +56,7 @@ inline std::optional<float> to_binary32(const WordPair& x, double error) {
 }
 
 inline std::optional<double> to_binary64(const WordPair& x, double error) {
+  if (error == 0 && x.lo == 0) return x.hi;
   const double size = std::abs(x.hi);
   if (!(size >= least_safe && size <= greatest_safe)) return std::nullopt;
   if (!((std::abs(x.lo) + error) * (1 + 0x1p-50) < half_gap(x.hi))) return std::nullopt;

@@ -138,6 +138,12 @@ class CertifiedWriter::Pixel {
       }
       const Certified<double> narrow = t.weights.at(k, s_);
       if (take(to_binary32(narrow.value, narrow.error), target)) return count_narrow();
+      const Certified<double> divisor = t.weights.divisor.at(s_);
+      if (is_zero(std::abs(narrow.value) + narrow.error, std::abs(divisor.value) + divisor.error,
+                  weight_bits())) {
+        target = 0;
+        return count_narrow();
+      }
       if (!wide_weights_) {
         wide_weights_ = writer_.wide_.weights(t.corners, t.object->rays, writer_.image_, s_);
       }
@@ -299,17 +305,20 @@ class CertifiedWriter::Pixel {
     return *wide_position_;
   }
 
-  /// The depth where it is known exactly: that of all three corners, or the binary32 number
-  /// nearest to it.
+  /// The depth where it is known exactly: that of all three corners, or the binary32 or binary64
+  /// number nearest to it.
   const std::optional<WordPair>& exact_depth() {
     if (!looked_for_exact_depth_) {
       looked_for_exact_depth_ = true;
       exact_depth_ = constant(3);
       const Certified<WordPair>& D = wide_depth();
-      const auto candidate = static_cast<double>(static_cast<float>(D.value.hi));
-      const Certified<WordPair> rest{two_sum(D.value.hi - candidate, D.value.lo), D.error};
-      const long bits = std::min(image_bits(2), last_bit(candidate));
-      if (!exact_depth_ && is_zero(rest, weight_bits() + bits)) exact_depth_ = {candidate, 0};
+      for (const double candidate :
+           {static_cast<double>(static_cast<float>(D.value.hi)), D.value.hi}) {
+        if (exact_depth_) break;
+        const WordPair rest = two_sum(D.value.hi - candidate, D.value.lo);
+        const long bits = std::min(image_bits(2), last_bit(candidate));
+        if (is_zero({rest, D.error}, weight_bits() + bits)) exact_depth_ = {candidate, 0};
+      }
     }
     return exact_depth_;
   }
@@ -359,15 +368,18 @@ class CertifiedWriter::Pixel {
     const long W = writer_.image_.perspective ? image_bits(2) : 0;
     return std::min({U + V, U + W - 1, V + W - 1});
   }
-  /// 2⁻⁶⁰⁰: products that underflow on the way are below 2⁻⁷⁷⁴.
-  bool is_zero(const Certified<WordPair>& value, long numerator_bits) {
+  /// Bounds of the magnitudes of the value and of n·d. 2⁻⁶⁰⁰: products that underflow on the way
+  /// are below 2⁻⁷⁷⁴.
+  bool is_zero(double value, double divisor, long numerator_bits) {
     if (numerator_bits < -600) return false;
+    const double bound = value * divisor * triangle().object->determinant * slack;
+    return bound < std::ldexp(1.0, static_cast<int>(std::min(numerator_bits, 900L)));
+  }
+  bool is_zero(const Certified<WordPair>& value, long numerator_bits) {
     Triangle& t = triangle();
     wide_depth();  // sets up t.depth
-    const double divisor = divisor_size(t.depth, s_, writer_.image_.perspective);
-    const double bound =
-        (std::abs(value.value.hi) + value.error) * divisor * t.object->determinant * slack;
-    return bound < std::ldexp(1.0, static_cast<int>(std::min(numerator_bits, 900L)));
+    return is_zero(std::abs(value.value.hi) + value.error,
+                   divisor_size(t.depth, s_, writer_.image_.perspective), numerator_bits);
   }
 
   CertifiedWriter& writer_;
