@@ -86,4 +86,15 @@ DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& o
   return map;
 }
 
+DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options,
+                const StreamLimits& limits) {
+  if (const auto fault = find_fault(camera)) throw InputError("camera: " + *fault);
+  if (options.engine != Engine::fast) {
+    throw UsageError("only the fast engine renders a scene that stays in its files");
+  }
+  DepthMap map = render_streamed(scene, camera, options, limits);
+  describe(outline_of(scene), camera, options, map);
+  return map;
+}
+
 }  // namespace fathom

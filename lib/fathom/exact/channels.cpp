@@ -128,9 +128,9 @@ ChannelValues::ChannelValues(DepthMap& map)
                values_of<float>(map, "P.Z")},
       barycentric{values_of<float>(map, "bary.U"), values_of<float>(map, "bary.V")} {}
 
-ChannelWriter::ChannelWriter(DepthMap& map, const Scene& scene, const Camera& camera,
+ChannelWriter::ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                              const RenderOptions& options)
-    : scene_(scene),
+    : triangles_(triangles),
       perspective_(camera.projection == Projection::perspective),
       encoding_(options.depth_encoding),
       handedness_(Dyadic(camera.fx).sign() * Dyadic(camera.fy).sign() *
@@ -209,7 +209,7 @@ void ChannelWriter::write_low_part(std::size_t pixel, const Ratio& depth) {
 void ChannelWriter::write_origin(std::size_t pixel, std::uint32_t number) {
   if (values_.id) values_.id[pixel] = number;
   if (!values_.face && !values_.object) return;
-  const TriangleOrigin origin = origin_of(scene_, number);
+  const TriangleOrigin origin = triangles_.origin(number);
   if (values_.face) values_.face[pixel] = origin.face;
   if (values_.object) values_.object[pixel] = origin.object;
 }

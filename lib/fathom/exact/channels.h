@@ -7,6 +7,7 @@
 
 #include "fathom/exact/options.h"
 #include "fathom/exact/projected_triangle.h"
+#include "fathom/exact/triangle_source.h"
 #include "fathom/image/depth_map.h"
 
 namespace fathom {
@@ -47,7 +48,7 @@ struct ChannelValues {
 /// else. Different pixels may be written at the same time.
 class ChannelWriter {
  public:
-  ChannelWriter(DepthMap& map, const Scene& scene, const Camera& camera,
+  ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                 const RenderOptions& options);
   /// Writes every channel. Returns what is wrong if the encoding cannot hold the depth.
   std::optional<EncodingFault> write(std::size_t pixel, const ProjectedTriangle& triangle,
@@ -79,7 +80,7 @@ class ChannelWriter {
   void write_low_part(std::size_t pixel, const Ratio& depth);
   void write_origin(std::size_t pixel, std::uint32_t number);
 
-  const Scene& scene_;
+  TriangleSource triangles_;
   bool perspective_;
   DepthEncoding encoding_;
   /// sign(fx·fy·det R)

@@ -11,11 +11,11 @@
 
 namespace fathom {
 
-ImageObject::ImageObject(const Scene& scene, const Camera& camera, std::size_t object,
+ImageObject::ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
                          std::uint32_t first_triangle)
-    : mesh(scene.meshes[scene.objects[object].mesh]),
+    : mesh(its_mesh),
       first_number(first_triangle),
-      transform(scene.objects[object], camera),
+      transform(object, camera),
       vertices(std::make_unique_for_overwrite<ImageVertex[]>(mesh.vertices.size())) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertices.size(), 4096),
                     [&](const auto& range) {

@@ -14,7 +14,8 @@ namespace fathom {
 
 /// One object with its vertices in the image.
 struct ImageObject {
-  ImageObject(const Scene& scene, const Camera& camera, std::size_t object,
+  /// Of an object or a part of it, whose triangles in the scene begin with `first_triangle`.
+  ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
               std::uint32_t first_triangle);
 
   const Mesh& mesh;

@@ -415,11 +415,10 @@ CertifiedWriter::Triangle& CertifiedWriter::remember(std::uint32_t number) {
   t.has_weights = t.has_depth = t.has_normal = false;
   t.constants_known = 0;
   t.constant.fill(std::nullopt);
-  t.origin = rays_.origin(number);
+  const TriangleSource::Triangle triangle = rays_.triangles().triangle(number);
+  t.origin = triangle.origin;
   t.object = &rays_.object(t.origin.object);
-  const Mesh& mesh = rays_.scene().meshes[rays_.scene().objects[t.origin.object].mesh];
-  const CornerIndices& corners = mesh.triangles[t.origin.triangle];
-  for (std::size_t i = 0; i < 3; ++i) t.corners[i] = mesh.vertices[corners[i]];
+  t.corners = triangle.corners;
   t.usable = t.object->usable && rays_.world().usable && is_safe(t.corners);
   return t;
 }

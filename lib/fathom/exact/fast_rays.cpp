@@ -159,19 +159,14 @@ ObjectRays::ObjectRays(const Object& object, const Camera& camera)
 }
 
 // x = (u − cx' − skew·y)/fx with y = (v − cy')/fy. cx' is −(U of the point (0, 0, 1) at W = 1).
-SceneRays::SceneRays(const Scene& scene, const Camera& camera)
-    : scene_(scene),
+SceneRays::SceneRays(const TriangleSource& triangles, const Camera& camera)
+    : triangles_(triangles),
       camera_(camera),
       perspective_(camera.projection == Projection::perspective),
       greatest_u_(camera.width),
       greatest_v_(camera.height),
       world_(identity(), camera),
-      objects_(scene.objects.size()) {
-  std::uint64_t first = 0;
-  for (const Object& object : scene.objects) {
-    first_numbers_.push_back(first);
-    first += scene.meshes[object.mesh].triangles.size();
-  }
+      objects_(triangles.objects().size()) {
   const Dyadic half_less_centre = Dyadic(0.5) - camera.pixel_centre;
   const Dyadic fx(camera.fx), fy(camera.fy), skew(camera.skew);
   const Dyadic cx = Dyadic(camera.cx) + half_less_centre, cy = Dyadic(camera.cy) + half_less_centre;
@@ -191,22 +186,11 @@ SceneRays::SceneRays(const Scene& scene, const Camera& camera)
 }
 
 const ObjectRays& SceneRays::object(std::uint32_t number) const {
-  const Object& object = scene_.objects[number];
+  const Object& object = triangles_.objects()[number];
   if (object.placed_as_is) return world_;
   Slot& slot = objects_[number];
   std::call_once(slot.made, [&] { slot.rays.emplace(object, camera_); });
   return *slot.rays;
-}
-
-TriangleOrigin SceneRays::origin(std::uint32_t number) const {
-  const auto after = std::upper_bound(first_numbers_.begin(), first_numbers_.end(), number);
-  // Objects without triangles share the first number of the next: the last of them has them.
-  const auto index = static_cast<std::size_t>(after - first_numbers_.begin()) - 1;
-  const Object& object = scene_.objects[index];
-  const auto triangle = static_cast<std::uint32_t>(number - first_numbers_[index]);
-  return {
-      static_cast<std::uint32_t>(index), triangle,
-      static_cast<std::uint32_t>(object.first_face + scene_.meshes[object.mesh].face_of(triangle))};
 }
 
 }  // namespace fathom

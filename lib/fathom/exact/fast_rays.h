@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "fathom/exact/double_word.h"
+#include "fathom/exact/triangle_source.h"
 #include "fathom/scene/camera.h"
 #include "fathom/scene/scene.h"
 
@@ -71,9 +72,9 @@ struct Sample {
 /// thread.
 class SceneRays {
  public:
-  SceneRays(const Scene& scene, const Camera& camera);
+  SceneRays(const TriangleSource& triangles, const Camera& camera);
 
-  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const TriangleSource& triangles() const { return triangles_; }
   [[nodiscard]] bool perspective() const { return perspective_; }
   /// Bounds of the samples' coordinates.
   [[nodiscard]] double greatest_u() const { return greatest_u_; }
@@ -81,8 +82,6 @@ class SceneRays {
   /// Rays in the world.
   [[nodiscard]] const ObjectRays& world() const { return world_; }
   [[nodiscard]] const ObjectRays& object(std::uint32_t number) const;
-  /// The origin of triangle `number` of the scene; like origin_of, by bisection.
-  [[nodiscard]] TriangleOrigin origin(std::uint32_t number) const;
 
   /// x and y of the camera-frame point of depth 1 on the ray of (u, v), as k₀u + k₁v + k₂.
   [[nodiscard]] const std::array<std::array<WordPair, 3>, 2>& lens() const { return lens_; }
@@ -91,14 +90,13 @@ class SceneRays {
   [[nodiscard]] double lens_size() const { return lens_size_; }
 
  private:
-  const Scene& scene_;
+  TriangleSource triangles_;
   const Camera& camera_;
   bool perspective_;
   double greatest_u_, greatest_v_;
   ObjectRays world_;
   std::array<std::array<WordPair, 3>, 2> lens_;
   double lens_size_;
-  std::vector<std::uint64_t> first_numbers_;
   struct Slot {
     std::once_flag made;
     std::optional<ObjectRays> rays;

@@ -34,12 +34,9 @@ void Referee::make_room() {
 const ProjectedTriangle& Referee::remember(std::uint32_t number) {
   auto& slot = remembered_[number];
   if (!slot) {
-    const TriangleOrigin origin = origin_of(scene_, number);
-    const Object& object = scene_.objects[origin.object];
     TierCounts counted_before;  // facing is counted when triangles are binned
     slot = std::make_unique<ProjectedTriangle>(
-        project(world_corners(object, scene_.meshes[object.mesh], origin.triangle), number, camera_,
-                counted_before));
+        project(triangles_.world_corners(number), number, camera_, counted_before));
   }
   return *slot;
 }

@@ -6,6 +6,7 @@
 
 #include "fathom/exact/options.h"
 #include "fathom/exact/projected_triangle.h"
+#include "fathom/exact/triangle_source.h"
 
 namespace fathom {
 
@@ -13,7 +14,8 @@ namespace fathom {
 /// triangles that it was asked about last.
 class Referee {
  public:
-  Referee(const Scene& scene, const Camera& camera) : scene_(scene), camera_(camera) {}
+  Referee(const TriangleSource& triangles, const Camera& camera)
+      : triangles_(triangles), camera_(camera) {}
 
   /// Valid until the next question.
   const ProjectedTriangle& projected(std::uint32_t number);
@@ -30,7 +32,7 @@ class Referee {
   void make_room();
   const ProjectedTriangle& remember(std::uint32_t number);
 
-  const Scene& scene_;
+  TriangleSource triangles_;
   const Camera& camera_;
   std::unordered_map<std::uint32_t, std::unique_ptr<ProjectedTriangle>> remembered_;
   /// The pair asked about last, lower number first, and whether they lie in one plane.

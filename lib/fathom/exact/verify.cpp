@@ -26,12 +26,11 @@ namespace {
 constexpr std::size_t pixels_per_group = std::size_t{1} << 22;
 constexpr std::uint32_t triangles_per_chunk = 4096;
 constexpr std::uint32_t rows_per_band = 16;
+constexpr std::uint32_t triangles_of_file = 1U << 19;
 
 /// A triangle that may cover a chosen pixel.
 struct Candidate {
   std::uint32_t number;
-  std::uint32_t object;
-  std::uint32_t triangle;  // within its object's mesh
   PixelBox box;
 };
 
@@ -44,7 +43,7 @@ struct Visible {
 /// What is the same for all pixels.
 struct Frame {
   const DepthMap& map;
-  const Scene& scene;
+  const TriangleSource& triangles;
   const Camera& camera;
   const RenderOptions& options;
 };
@@ -54,10 +53,8 @@ ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
 }
 
 ProjectedTriangle project(const Frame& frame, const Candidate& c) {
-  const Object& object = frame.scene.objects[c.object];
   TierCounts counts;
-  return project(world_corners(object, frame.scene.meshes[object.mesh], c.triangle), c.number,
-                 frame.camera, counts);
+  return project(frame.triangles.world_corners(c.number), c.number, frame.camera, counts);
 }
 
 /// D > 0 and near ≤ D ≤ far.
@@ -67,34 +64,31 @@ bool in_range(const Ratio& depth, const Camera& camera) {
          !(Ratio(Dyadic(camera.far)) < depth);
 }
 
-/// The candidates of one object, in the order of their numbers.
-void find_candidates(const Frame& frame, const ChosenRows& chosen, std::uint32_t object,
-                     std::uint32_t first_number, std::vector<Candidate>& all) {
-  const Object& placed = frame.scene.objects[object];
-  const Mesh& mesh = frame.scene.meshes[placed.mesh];
-  const std::size_t count = mesh.triangles.size();
+/// Adds the candidates of a part of the scene, in the order of their numbers.
+void find_candidates(const TriangleSource::Part& part, const Camera& camera,
+                     const ChosenRows& chosen, std::vector<Candidate>& all) {
+  const std::size_t count = part.mesh.triangles.size();
   std::vector<std::vector<Candidate>> found((count + triangles_per_chunk - 1) /
                                             triangles_per_chunk);
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
-    TriangleBoxes boxes(placed, mesh, frame.camera);
+    TriangleBoxes boxes(part.object, part.mesh, camera);
     const std::size_t end = std::min(count, (k + 1) * triangles_per_chunk);
     for (std::size_t i = k * triangles_per_chunk; i < end; ++i) {
       const auto triangle = static_cast<std::uint32_t>(i);
       const PixelBox box = boxes.box(triangle);
-      if (chosen.meet(box)) found[k].push_back({first_number + triangle, object, triangle, box});
+      if (chosen.meet(box)) found[k].push_back({part.first_number + triangle, box});
     }
   });
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  for (const auto& candidates : found) {
+    all.insert(all.end(), candidates.begin(), candidates.end());
+  }
 }
 
 std::vector<Candidate> find_candidates(const Frame& frame, const ChosenRows& chosen) {
   std::vector<Candidate> all;
-  std::uint32_t first_number = 0;
-  for (std::uint32_t object = 0; object < frame.scene.objects.size(); ++object) {
-    find_candidates(frame, chosen, object, first_number, all);
-    const Mesh& mesh = frame.scene.meshes[frame.scene.objects[object].mesh];
-    first_number += static_cast<std::uint32_t>(mesh.triangles.size());
-  }
+  frame.triangles.for_each_part(triangles_of_file, [&](const TriangleSource::Part& part) {
+    find_candidates(part, frame.camera, chosen, all);
+  });
   return all;
 }
 
@@ -129,7 +123,7 @@ class ExactRow {
       : frame_(frame),
         chosen_(chosen),
         map_(make_background(row_camera(frame.camera, chosen.size()), frame.options)),
-        writer_(map_, frame.scene, frame.camera, frame.options) {}
+        writer_(map_, frame.triangles, frame.camera, frame.options) {}
 
   /// Different bands may be computed at the same time.
   void compute(const Band& band) {
@@ -297,10 +291,10 @@ PixelChoice choose_pixels(std::uint32_t width, std::uint32_t height, std::uint64
   return chosen;
 }
 
-Verification verify(const DepthMap& map, const Scene& scene, const Camera& camera,
+Verification verify(const DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                     const RenderOptions& options, const PixelChoice& chosen) {
   return with_threads(options.threads, [&] {
-    return verify_in_arena({map, scene, camera, options}, chosen);
+    return verify_in_arena({map, triangles, camera, options}, chosen);
   });
 }
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "fathom/exact/options.h"
+#include "fathom/exact/triangle_source.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/camera.h"
-#include "fathom/scene/scene.h"
 
 namespace fathom {
 
@@ -48,7 +48,7 @@ struct Verification {
 ///          then only triangles whose box contains a chosen pixel are looked at.
 /// Needs    `options` (channels, culling, encoding) as the map was rendered with; threads and
 ///          progress are this call's own.
-Verification verify(const DepthMap& map, const Scene& scene, const Camera& camera,
+Verification verify(const DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                     const RenderOptions& options, const PixelChoice& chosen);
 
 }  // namespace fathom

@@ -204,6 +204,10 @@ class PlyStream : public TriangleStream {
     return result;
   }
 
+  [[nodiscard]] std::uint32_t face_of(std::uint32_t number) const override {
+    return scan_.faces.triangles_only() ? number : triangle(number).face;
+  }
+
  private:
   void find_bounds() {
     for (std::size_t i = 0; i < scan_.used.size(); ++i) {

@@ -52,6 +52,8 @@ class StlStream : public TriangleStream {
     return result;
   }
 
+  [[nodiscard]] std::uint32_t face_of(std::uint32_t number) const override { return number; }
+
  private:
   /// Reads the file through and finds the bounds.
   void check() {

@@ -56,6 +56,9 @@ class TriangleStream {
   /// One triangle, in time that does not depend on the size of the file.
   [[nodiscard]] virtual Triangle triangle(std::uint32_t number) const = 0;
 
+  /// Of that triangle, the face alone.
+  [[nodiscard]] virtual std::uint32_t face_of(std::uint32_t number) const = 0;
+
   /// The file and, if it was asked for, its hash.
   Source source;
 };

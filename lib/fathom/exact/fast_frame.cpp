@@ -1,0 +1,80 @@
+#include "fathom/exact/fast_frame.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace fathom {
+
+FastFrame::FastFrame(const Camera& the_camera, const RenderOptions& the_options)
+    : camera(the_camera),
+      options(the_options),
+      grid(camera.width, camera.height),
+      range(depth_range(camera)),
+      perspective(camera.projection == Projection::perspective) {}
+
+std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
+                                  std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
+                                  FastWorkers& workers) {
+  constexpr std::uint64_t least = 4096;
+  const std::uint64_t length = std::max(least, std::uint64_t{end - first} / parts + 1);
+  std::vector<Bins> bins;
+  for (std::uint64_t next = first; next < end; next += length) {
+    bins.emplace_back(static_cast<std::uint32_t>(next),
+                      static_cast<std::uint32_t>(std::min<std::uint64_t>(next + length, end)));
+  }
+  tbb::parallel_for(std::size_t{0}, bins.size(), [&](std::size_t i) {
+    FastWorker& worker = workers.local();
+    bins[i].fill(
+        {objects, frame.camera, frame.options.cull, frame.grid, worker.referee, worker.statistics});
+  });
+  return bins;
+}
+
+namespace {
+
+/// Draws triangles that may be of several objects, those of an object beside each other.
+void draw(std::span<const std::uint32_t> numbers, const ImageObjects& objects, Tile& tile,
+          const Tile::Context& context) {
+  while (!numbers.empty()) {
+    const ImageObject& object = object_of(objects, numbers.front());
+    const auto next = std::find_if(numbers.begin(), numbers.end(), [&](std::uint32_t number) {
+      return number < object.first_number || number >= object.end_number();
+    });
+    const auto count = static_cast<std::size_t>(next - numbers.begin());
+    tile.draw(object, numbers.first(count), context);
+    numbers = numbers.subspan(count);
+  }
+}
+
+/// Samples settled by the bounds are those that were not settled exactly.
+void count_intervals(RenderStatistics& statistics) {
+  statistics.edges.interval = statistics.samples_tested - statistics.edges.exact;
+  statistics.visibility.interval = statistics.samples_tested - statistics.visibility.exact;
+  statistics.range.interval = statistics.samples_tested - statistics.range.exact;
+}
+
+}  // namespace
+
+void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bins,
+               const ImageObjects& objects, const Tile::Context& context) {
+  for (const Bins& bins : all_bins) draw(bins.in_tile(number), objects, tile, context);
+}
+
+RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles) {
+  RenderStatistics statistics;
+  statistics.triangles = triangles;
+  for (const FastWorker& worker : workers) add(statistics, worker.statistics);
+  count_intervals(statistics);
+  return statistics;
+}
+
+FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays)
+    : writer_(writer), certified_([&] { return CertifiedWriter(writer, rays); }) {
+  if (map.channels.size() != 1 || map.channels[0].name != "Z") return;
+  if (auto* values = std::get_if<std::vector<float>>(&map.channels[0].values)) {
+    depths_ = values->data();
+  }
+}
+
+}  // namespace fathom

@@ -1,0 +1,103 @@
+#include "fathom/exact/triangle_source.h"
+
+#include <algorithm>
+#include <future>
+
+namespace fathom {
+
+TriangleSource::TriangleSource(const Scene& scene) : scene_(&scene) {
+  for (const Object& object : scene.objects) {
+    first_numbers_.push_back(count() + scene.meshes[object.mesh].triangles.size());
+  }
+}
+
+TriangleSource::TriangleSource(const StreamedScene& scene) : streamed_(&scene) {
+  for (const Object& object : scene.objects) {
+    first_numbers_.push_back(count() + scene.streams[object.mesh]->triangle_count());
+  }
+}
+
+TriangleSource::Place TriangleSource::place_of(std::uint32_t number) const {
+  const auto after = std::upper_bound(first_numbers_.begin(), first_numbers_.end(), number);
+  // Objects without triangles share the first number of the next: the last of them has them.
+  const auto object = static_cast<std::size_t>(after - first_numbers_.begin()) - 1;
+  return {static_cast<std::uint32_t>(object),
+          static_cast<std::uint32_t>(number - first_numbers_[object])};
+}
+
+TriangleOrigin TriangleSource::origin(std::uint32_t number) const {
+  const Place place = place_of(number);
+  const Object& object = objects()[place.object];
+  const std::uint32_t face = scene_ ? scene_->meshes[object.mesh].face_of(place.triangle)
+                                    : stream(place.object).face_of(place.triangle);
+  return {place.object, place.triangle, static_cast<std::uint32_t>(object.first_face + face)};
+}
+
+TriangleSource::Triangle TriangleSource::triangle(std::uint32_t number) const {
+  const Place place = place_of(number);
+  const Object& object = objects()[place.object];
+  Triangle result{{place.object, place.triangle, 0}, {}};
+  if (scene_) {
+    const Mesh& mesh = scene_->meshes[object.mesh];
+    for (std::size_t i = 0; i < 3; ++i) {
+      result.corners[i] = mesh.vertices[mesh.triangles[place.triangle][i]];
+    }
+    result.origin.face =
+        static_cast<std::uint32_t>(object.first_face + mesh.face_of(place.triangle));
+  } else {
+    const TriangleStream::Triangle read = stream(place.object).triangle(place.triangle);
+    result.corners = read.corners;
+    result.origin.face = static_cast<std::uint32_t>(object.first_face + read.face);
+  }
+  return result;
+}
+
+std::array<WorldPoint, 3> TriangleSource::world_corners(std::uint32_t number) const {
+  const Triangle mesh_triangle = triangle(number);
+  const Object& object = objects()[mesh_triangle.origin.object];
+  std::array<WorldPoint, 3> world;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const MeshPoint& p = mesh_triangle.corners[i];
+    world[i] = object.placed_as_is ? WorldPoint{p.x, p.y, p.z} : object.world_from_mesh(p);
+  }
+  return world;
+}
+
+namespace {
+
+/// visit(chunk) for a whole file; the next chunk is read meanwhile.
+template <class Visit>
+void for_each_chunk(const TriangleStream& stream, std::uint32_t triangles, const Visit& visit) {
+  const auto read = [&](std::uint32_t first) {
+    return std::async(std::launch::async,
+                      [&stream, first, triangles] { return stream.read(first, triangles); });
+  };
+  const std::uint32_t end = stream.triangle_count();
+  std::future<TriangleChunk> next;
+  if (end > 0) next = read(0);
+  while (next.valid()) {
+    const TriangleChunk chunk = next.get();
+    const auto count = static_cast<std::uint32_t>(chunk.mesh.triangles.size());
+    if (chunk.first + count < end) next = read(chunk.first + count);
+    visit(chunk);
+  }
+}
+
+}  // namespace
+
+void TriangleSource::for_each_part(std::uint32_t triangles_of_file,
+                                   const std::function<void(const Part&)>& visit) const {
+  for (std::uint32_t i = 0; i < objects().size(); ++i) {
+    const Object& object = objects()[i];
+    const auto first = static_cast<std::uint32_t>(first_numbers_[i]);
+    if (scene_) {
+      visit({object, scene_->meshes[object.mesh], first});
+    } else {
+      for_each_chunk(stream(i), triangles_of_file, [&](const TriangleChunk& chunk) {
+        visit({object, chunk.mesh, first + chunk.first});
+      });
+    }
+  }
+}
+
+}  // namespace fathom

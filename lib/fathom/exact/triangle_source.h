@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "fathom/scene/scene.h"
+#include "fathom/scene/streamed_scene.h"
+
+namespace fathom {
+
+/// Triangles by their numbers, whether the scene lies in memory or in files. A view: the scene must
+/// stay, and must not change. Different threads may ask at the same time.
+class TriangleSource {
+ public:
+  TriangleSource(const Scene& scene);          // implicit: a scene is a source,
+  TriangleSource(const StreamedScene& scene);  // and so is this one
+
+  /// Of triangles.
+  [[nodiscard]] std::uint64_t count() const { return first_numbers_.back(); }
+  [[nodiscard]] const std::vector<Object>& objects() const {
+    return scene_ ? scene_->objects : streamed_->objects;
+  }
+
+  /// As fathom::origin_of(), by bisection over the objects.
+  [[nodiscard]] TriangleOrigin origin(std::uint32_t number) const;
+  struct Triangle {
+    TriangleOrigin origin;
+    /// In the frame of the object's mesh.
+    std::array<MeshPoint, 3> corners;
+  };
+  [[nodiscard]] Triangle triangle(std::uint32_t number) const;
+  /// The corners in the world, exactly.
+  [[nodiscard]] std::array<WorldPoint, 3> world_corners(std::uint32_t number) const;
+
+  /// A part of an object: `mesh` holds its triangles from `first_number` on.
+  struct Part {
+    const Object& object;
+    const Mesh& mesh;
+    std::uint32_t first_number;
+  };
+  /// visit(part) for parts that together are the scene, in the order of their triangles, one after
+  /// the other in this thread: whole objects in memory, at most so many triangles of a file.
+  void for_each_part(std::uint32_t triangles_of_file,
+                     const std::function<void(const Part&)>& visit) const;
+
+ private:
+  /// Object, and number of the triangle within it.
+  struct Place {
+    std::uint32_t object, triangle;
+  };
+  [[nodiscard]] Place place_of(std::uint32_t number) const;
+  [[nodiscard]] const TriangleStream& stream(std::uint32_t object) const {
+    return *streamed_->streams[streamed_->objects[object].mesh];
+  }
+
+  const Scene* scene_ = nullptr;
+  const StreamedScene* streamed_ = nullptr;
+  /// Number of each object's first triangle, and of all triangles.
+  std::vector<std::uint64_t> first_numbers_{0};
+};
+
+}  // namespace fathom

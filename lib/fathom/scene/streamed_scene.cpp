@@ -1,0 +1,63 @@
+#include "fathom/scene/streamed_scene.h"
+
+#include <cassert>
+
+#include "fathom/scene/mesh_faces.h"
+
+namespace fathom {
+
+StreamedScene stream_scene(const std::vector<std::filesystem::path>& files,
+                           const ReadOptions& options, Warnings& warnings) {
+  StreamedScene scene;
+  for (const std::filesystem::path& path : files) {
+    auto stream = open_triangle_stream(path, options, warnings);
+    if (stream->triangle_count() == 0) warnings.push_back(path.string() + ": has no faces");
+    Object object;
+    object.mesh = object.source = scene.streams.size();
+    object.name = path.stem().string();
+    scene.sources.push_back(stream->source);
+    scene.objects.push_back(std::move(object));
+    scene.streams.push_back(std::move(stream));
+    expect_countable(triangle_count(scene), "triangles in all", path.string());
+  }
+  return scene;
+}
+
+std::uint64_t triangle_count(const StreamedScene& scene) {
+  std::uint64_t count = 0;
+  for (const Object& object : scene.objects) count += scene.streams[object.mesh]->triangle_count();
+  return count;
+}
+
+TriangleOrigin origin_of(const StreamedScene& scene, std::uint32_t number) {
+  std::uint32_t rest = number;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    const TriangleStream& stream = *scene.streams[object.mesh];
+    if (rest < stream.triangle_count()) {
+      return {static_cast<std::uint32_t>(i), rest,
+              static_cast<std::uint32_t>(object.first_face + stream.face_of(rest))};
+    }
+    rest -= stream.triangle_count();
+  }
+  assert(!"triangle number out of range");
+  return {};
+}
+
+Scene outline_of(const StreamedScene& scene) {
+  Scene outline;
+  outline.objects = scene.objects;
+  outline.sources = scene.sources;
+  for (const auto& stream : scene.streams) {
+    Mesh mesh;
+    if (const auto bounds = stream->bounds()) {
+      mesh.vertices = {bounds->lower, bounds->upper};
+      mesh.triangles = {{0, 1, 1}};
+      mesh.face_count = 1;
+    }
+    outline.meshes.push_back(std::move(mesh));
+  }
+  return outline;
+}
+
+}  // namespace fathom
