@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "fathom/clipping/exact_kernel.h"
@@ -11,6 +14,7 @@
 #include "fathom/numeric/errors.h"
 #include "tests/clipping/cgal_judge.h"
 #include "tests/clipping/pieces.h"
+#include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
 
 namespace fathom::clipping::test {
@@ -56,25 +60,176 @@ void expect_as_cgal(const Rings<double>& subject, const Rings<double>& clip) {
       << to_text(subject, clip);
 }
 
-/// `pairs` random pairs on a grid from 0 to `size`.
-void expect_random_pairs(std::uint64_t seed, int pairs, int size, int corners) {
+/// Random pairs on a grid from 0 to `size`: the smaller it is, the more they touch.
+struct RandomPairs {
+  std::uint64_t seed;
+  int pairs, size, corners;
+};
+
+void PrintTo(const RandomPairs& r, std::ostream* stream) {
+  *stream << r.pairs << " pairs on a grid of " << r.size << ", seed " << r.seed;
+}
+
+class WeilerAthertonRandom : public ::testing::TestWithParam<RandomPairs> {};
+
+TEST_P(WeilerAthertonRandom, IsAsCgal) {
+  const auto [seed, pairs, size, corners] = GetParam();
   PolygonMaker maker(seed);
-  for (int i = 0; i < pairs && !::testing::Test::HasFatalFailure(); ++i) {
-    const Rings<double> subject =
-        maker.polygon(size, 3 + maker.below(corners - 2), cross_each_other);
-    const Rings<double> clip = maker.polygon(size, 3 + maker.below(corners - 2), cross_each_other);
+  for (int i = 0; i < pairs && !HasFatalFailure(); ++i) {
+    const auto side = [&, most = corners] {
+      return maker.polygon(size, 3 + maker.below(most - 2), cross_each_other);
+    };
+    const Rings<double> subject = side(), clip = side();
     expect_as_cgal(subject, clip);
   }
 }
 
-TEST(WeilerAtherton, RandomPairsOnAGridOf3) {
-  expect_random_pairs(1, 1000, 3, 8);
+// 21,000 pairs, each with both operations.
+INSTANTIATE_TEST_SUITE_P(Grids, WeilerAthertonRandom,
+                         ::testing::Values(RandomPairs{1, 6000, 3, 8}, RandomPairs{2, 5000, 4, 10},
+                                           RandomPairs{3, 4000, 5, 8}, RandomPairs{4, 3000, 6, 12},
+                                           RandomPairs{5, 2000, 8, 16},
+                                           RandomPairs{6, 1000, 20, 24}),
+                         [](const auto& test) { return "Seed" + std::to_string(test.param.seed); });
+
+using Json = nlohmann::json;
+
+std::vector<Json> lines_of(const std::string& file) {
+  std::ifstream stream(std::string(FATHOM_SOURCE_DIR "/data/clipping/") + file);
+  std::vector<Json> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(Json::parse(line));
+  return lines;
 }
-TEST(WeilerAtherton, RandomPairsOnAGridOf4) {
-  expect_random_pairs(2, 1000, 4, 10);
+
+Rings<double> rings_of(const Json& json) {
+  Rings<double> rings;
+  for (const Json& ring : json) {
+    rings.emplace_back();
+    for (const Json& p : ring) rings.back().push_back({p[0].get<double>(), p[1].get<double>()});
+  }
+  return rings;
 }
-TEST(WeilerAtherton, RandomPairsOnAGridOf8) {
-  expect_random_pairs(3, 500, 8, 16);
+
+// The named degenerate contacts of data/: CGAL has the same point set, and the file of answers the
+// same area.
+TEST(WeilerAtherton, NamedDegenerateCases) {
+  const auto cases = lines_of("degenerate.jsonl"), answers = lines_of("degenerate.answers.jsonl");
+  ASSERT_GE(cases.size(), 130u);
+  ASSERT_EQ(cases.size(), answers.size());
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    SCOPED_TRACE(cases[i]["name"]);
+    const auto operation =
+        cases[i]["op"] == "intersection" ? SetOperation::intersection : SetOperation::difference;
+    const Rings<Rational> subject = to_exact(rings_of(cases[i]["subject"]));
+    const Rings<Rational> clip = to_exact(rings_of(cases[i]["clip"]));
+    const auto answer = weiler_atherton(subject, clip, operation);
+    const Judge judge(subject, clip);
+    EXPECT_EQ(judge.fault(operation, answer), std::nullopt);
+    EXPECT_EQ(piece_fault(answer), std::nullopt);
+    EXPECT_EQ(to_fraction(judge.area(operation)), answers[i]["area_exact"]);
+    EXPECT_EQ(area_of(answer), judge.area(operation));
+  }
+}
+
+Ring<Rational> rectangle(int x0, int y0, int x1, int y1) {
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
+
+std::string borders_of(const std::vector<WalkStep<Rational>>& walk) {
+  std::string borders;
+  for (const auto& step : walk) borders += "scb"[static_cast<int>(step.along)];
+  return borders;
+}
+
+// The lecture closes a piece at 'the most recently entered point'. A diamond whose four corners
+// stick out of a square enters it four times before its first piece is closed: the walk follows the
+// clip polygon to the next entering point and goes on along the subject.
+TEST(WeilerAtherton, WalksToTheNextEnteringPointNotToTheLastOne) {
+  const Ring<Rational> diamond{{3, -1}, {7, 3}, {3, 7}, {-1, 3}};
+  WeilerAthertonTrace<Rational> trace;
+  const auto answer = weiler_atherton<Rational>({diamond}, {rectangle(0, 0, 6, 6)},
+                                                SetOperation::intersection, &trace);
+  ASSERT_EQ(trace.walks.size(), 1u);
+  EXPECT_EQ(borders_of(trace.walks[0]), "scscscsc");
+  EXPECT_EQ(area_of(answer), 32 - 4);
+  // Closed at the point last entered, each of the four pieces would be a subject edge and the clip
+  // edge beside it: a quarter of the octagon's border each, with no area at all.
+  std::string kinds;
+  for (const auto& contact : trace.contacts) kinds += "elta"[static_cast<int>(contact.kind)];
+  EXPECT_EQ(kinds, "elelelel");
+}
+
+std::string kinds_of(const Ring<Rational>& subject, const Ring<Rational>& clip) {
+  WeilerAthertonTrace<Rational> trace;
+  weiler_atherton<Rational>({subject}, {clip}, SetOperation::intersection, &trace);
+  std::string kinds;
+  for (const auto& contact : trace.contacts) kinds += "elta"[static_cast<int>(contact.kind)];
+  return kinds;
+}
+
+// Foster, Hormann and Popa's cases as labels: crossing, touching, and both behind a shared piece.
+TEST(WeilerAtherton, ContactsAreLabelled) {
+  const Ring<Rational> clip = rectangle(0, 0, 6, 6);
+  EXPECT_EQ(kinds_of({{3, 2}, {9, 2}, {9, 4}, {3, 4}}, clip), "le");
+  EXPECT_EQ(kinds_of({{6, 3}, {9, 1}, {9, 5}}, clip), "t");   // from outside
+  EXPECT_EQ(kinds_of({{6, 3}, {3, 5}, {3, 1}}, clip), "t");   // from inside
+  EXPECT_EQ(kinds_of({{6, 2}, {6, 4}, {3, 3}}, clip), "at");  // a piece shared from inside
+  EXPECT_EQ(kinds_of({{6, 4}, {6, 2}, {9, 3}}, clip), "at");  // and from outside
+  EXPECT_EQ(kinds_of({{3, 3}, {6, 2}, {6, 4}, {9, 9}, {3, 9}}, clip), "ale");  // delayed crossing
+  EXPECT_EQ(kinds_of(clip, clip), "aaaa");
+}
+
+TEST(WeilerAtherton, Laws) {
+  PolygonMaker maker(7);
+  for (int i = 0; i < 500; ++i) {
+    const auto A = to_exact(maker.polygon(5, 9, cross_each_other));
+    const auto B = to_exact(maker.polygon(5, 9, cross_each_other));
+    const auto is_same = [](const auto& p, const auto& q) {
+      return std::equal(p.begin(), p.end(), q.begin(), q.end(), [](const auto& a, const auto& b) {
+        return a.outline == b.outline && a.holes == b.holes;
+      });
+    };
+    const auto both = weiler_atherton(A, B, SetOperation::intersection);
+    EXPECT_TRUE(is_same(both, weiler_atherton(B, A, SetOperation::intersection)));
+    EXPECT_TRUE(weiler_atherton(A, A, SetOperation::difference).empty());
+    EXPECT_TRUE(is_same(weiler_atherton(A, A, SetOperation::intersection),
+                        weiler_atherton(A, Rings<Rational>{}, SetOperation::difference)));
+    EXPECT_TRUE(weiler_atherton(A, Rings<Rational>{}, SetOperation::intersection).empty());
+    // A − B and A ∩ B have nothing in common; the answers are rings that can be clipped again.
+    Rings<Rational> rest, common;
+    for (auto* list : {&rest, &common})
+      for (const auto& polygon :
+           list == &common ? both : weiler_atherton(A, B, SetOperation::difference)) {
+        list->push_back(polygon.outline);
+        list->insert(list->end(), polygon.holes.begin(), polygon.holes.end());
+      }
+    EXPECT_TRUE(weiler_atherton(rest, common, SetOperation::intersection).empty());
+    EXPECT_TRUE(is_same(weiler_atherton(rest, common, SetOperation::difference),
+                        weiler_atherton(A, B, SetOperation::difference)));
+  }
+}
+
+// Binary64 agrees where nothing is rounded.
+TEST(WeilerAtherton, WithoutRoundingBothKernelsAgree) {
+  PolygonMaker maker(8);
+  for (int i = 0; i < 500; ++i) {
+    // Axis-parallel rectangles: all crossings have integer coordinates.
+    const auto box = [&] {
+      const double x = maker.below(6), y = maker.below(6);
+      const double w = 1 + maker.below(4), h = 1 + maker.below(4);
+      return Rings<double>{{{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}}};
+    };
+    const Rings<double> a = box(), b = box();
+    for (const SetOperation operation : {SetOperation::intersection, SetOperation::difference}) {
+      const auto exact = weiler_atherton(to_exact(a), to_exact(b), operation);
+      const auto rounded = weiler_atherton(a, b, operation);
+      ASSERT_EQ(exact.size(), rounded.size());
+      for (std::size_t k = 0; k < exact.size(); ++k) {
+        EXPECT_EQ(exact[k].outline, to_exact(Rings<double>{rounded[k].outline})[0]);
+        EXPECT_EQ(exact[k].holes, to_exact(rounded[k].holes));
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "fathom/clipping/points.h"
 
 /// The even-odd rule beside an edge: the one question that the clippers of polygons ask of space.
@@ -12,11 +14,33 @@ struct Beside {
   friend bool operator==(const Beside&, const Beside&) = default;
 };
 
-/// `a` → `b` against `rings`, read by the even-odd rule: a ray from the middle M of ab counts the
-/// edges that it crosses, half-open at their ends; an edge through M itself tells left from right.
-/// So one answer says inside (both), outside (neither), or along a border (one of them).
-/// Exact    over Rational, if an edge through M covers all of ab (contacts.h).
+/// Rings read by the even-odd rule, to be asked more than once. The rings must outlive it.
 template <class Number>
-Beside inside_beside(const Point2<Number>& a, const Point2<Number>& b, const Rings<Number>& rings);
+class EvenOdd {
+ public:
+  explicit EvenOdd(const Rings<Number>& rings);
+
+  /// What lies beside a → b: a ray from the middle M of ab counts the edges that it crosses,
+  /// half-open at their ends; the edges that are ab itself tell left from right. So one answer says
+  /// inside (both), outside (neither), or along a border (one of them).
+  /// Exact    over Rational, if no other edge comes through M: contacts are entered (contacts.h).
+  [[nodiscard]] Beside beside(const Point2<Number>& a, const Point2<Number>& b) const;
+
+ private:
+  struct Edge {
+    const Point2<Number>*p, *q;
+  };
+  /// Bands across one axis, each with the edges that reach into it.
+  struct Bands {
+    /// Where bands end and the next begin.
+    std::vector<Number> limits;
+    std::vector<std::vector<Edge>> edges;
+    [[nodiscard]] std::size_t band_of(const Number& coordinate) const;
+  };
+  static Bands bands_of(const std::vector<Edge>& edges, Number Point2<Number>::*axis);
+
+  /// Across y, for rays towards +x, and across x, for rays towards +y.
+  Bands across_y_, across_x_;
+};
 
 }  // namespace fathom::clipping

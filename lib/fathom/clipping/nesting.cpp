@@ -18,15 +18,14 @@ struct Placement {
   std::optional<Point2<Rational>> crossing;
 };
 
-/// `split` is the ring with its contacts entered.
-Placement place_of(const Ring<Rational>& split, const Ring<Rational>& other) {
+/// Both rings with their contacts entered.
+Placement place_of(const Ring<Rational>& ring, const EvenOdd<Rational>& other) {
   Placement placement;
-  const Rings<Rational> others{other};
-  for (std::size_t i = 0; i < split.size() && !placement.crossing; ++i) {
-    const Beside beside = inside_beside(split[i], split[(i + 1) % split.size()], others);
+  for (std::size_t i = 0; i < ring.size() && !placement.crossing; ++i) {
+    const Beside beside = other.beside(ring[i], ring[(i + 1) % ring.size()]);
     if (beside.left != beside.right) continue;
     const Place here = beside.left ? Place::inside : Place::outside;
-    if (placement.place != Place::along && placement.place != here) placement.crossing = split[i];
+    if (placement.place != Place::along && placement.place != here) placement.crossing = ring[i];
     placement.place = here;
   }
   return placement;
@@ -38,10 +37,12 @@ std::vector<int> nesting_depths(const Rings<Rational>& rings, const std::string&
   std::vector<int> depths(rings.size(), 0);
   if (rings.size() < 2) return depths;
   const Rings<Rational> split = enter_contacts(rings);
-  for (std::size_t i = 0; i < rings.size(); ++i)
-    for (std::size_t j = 0; j < rings.size(); ++j) {
+  for (std::size_t j = 0; j < rings.size(); ++j) {
+    const Rings<Rational> ring_j{split[j]};
+    const EvenOdd<Rational> other(ring_j);
+    for (std::size_t i = 0; i < rings.size(); ++i) {
       if (i == j) continue;
-      const Placement placement = place_of(split[i], rings[j]);
+      const Placement placement = place_of(split[i], other);
       if (placement.crossing)
         throw InputError(side + " rings " + std::to_string(std::min(i, j)) + " and " +
                          std::to_string(std::max(i, j)) + " cross at " +
@@ -49,6 +50,7 @@ std::vector<int> nesting_depths(const Rings<Rational>& rings, const std::string&
       if (placement.place == Place::inside || (placement.place == Place::along && j < i))
         ++depths[i];
     }
+  }
   return depths;
 }
 

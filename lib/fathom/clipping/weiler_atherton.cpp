@@ -66,7 +66,8 @@ std::vector<BorderEdge<Number>> border_of(const std::vector<LabelledEdge<Number>
 
 template <class Number>
 bool lies_in(const Ring<Number>& hole, const Ring<Number>& outline) {
-  return inside_beside(hole[0], hole[1], Rings<Number>{outline}).left;
+  const Rings<Number> rings{outline};
+  return EvenOdd<Number>(rings).beside(hole[0], hole[1]).left;
 }
 
 /// Step 4: each hole goes to the least outline that it lies in. The rings still have the corners at
@@ -121,8 +122,8 @@ std::vector<Polygon<Number>> weiler_atherton(const Rings<Number>& subject_rings,
   const Rings<Number> clip = checked_rings(clip_rings, "clip");
 
   const ContactLists<Number> lists = enter_contacts_of(subject, clip);
-  const auto edges = label_edges(lists, subject, clip);
-  const auto contacts = label_contacts(lists, clip);
+  const auto edges = label_edges(lists);
+  const auto contacts = label_contacts(lists);
   const auto walks = walk(border_of(edges, contacts, operation));
   Rings<Number> rings;
   for (const auto& closed_walk : walks)

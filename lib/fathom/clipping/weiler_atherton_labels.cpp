@@ -49,9 +49,8 @@ Relation last_side(const std::vector<Relation>& relations, std::size_t i) {
 }  // namespace
 
 template <class Number>
-std::vector<LabelledEdge<Number>> label_edges(const ContactLists<Number>& lists,
-                                              const Rings<Number>& subject,
-                                              const Rings<Number>& clip) {
+std::vector<LabelledEdge<Number>> label_edges(const ContactLists<Number>& lists) {
+  const EvenOdd<Number> subject(lists.subject), clip(lists.clip);
   std::vector<LabelledEdge<Number>> edges;
   std::map<EdgeKey<Number>, std::size_t> numbers;
   const auto enter = [&](Border border) {
@@ -62,8 +61,7 @@ std::vector<LabelledEdge<Number>> label_edges(const ContactLists<Number>& lists,
         if (known != border) known = Border::both;
         return;
       }
-      edges.push_back(
-          {from, to, border, inside_beside(from, to, subject), inside_beside(from, to, clip)});
+      edges.push_back({from, to, border, subject.beside(from, to), clip.beside(from, to)});
     };
   };
   visit_edges(lists.subject, enter(Border::subject));
@@ -72,18 +70,18 @@ std::vector<LabelledEdge<Number>> label_edges(const ContactLists<Number>& lists,
 }
 
 template <class Number>
-std::vector<Contact<Number>> label_contacts(const ContactLists<Number>& lists,
-                                            const Rings<Number>& clip) {
+std::vector<Contact<Number>> label_contacts(const ContactLists<Number>& lists) {
   std::set<Point2<Number>> clip_points;
   visit_edges(lists.clip, [&](const auto& from, const auto&) { clip_points.insert(from); });
 
+  const EvenOdd<Number> clip(lists.clip);
   std::vector<Contact<Number>> contacts;
   for (std::size_t r = 0; r < lists.subject.size(); ++r) {
     const Ring<Number>& ring = lists.subject[r];
     const std::size_t n = ring.size();
     std::vector<Relation> relations;
     for (std::size_t i = 0; i < n; ++i)
-      relations.push_back(relation_of(inside_beside(ring[i], ring[(i + 1) % n], clip)));
+      relations.push_back(relation_of(clip.beside(ring[i], ring[(i + 1) % n])));
     for (std::size_t i = 0; i < n; ++i)
       if (clip_points.contains(ring[i]))
         contacts.push_back({r, ring[i], relations[(i + n - 1) % n], relations[i],
@@ -92,11 +90,9 @@ std::vector<Contact<Number>> label_contacts(const ContactLists<Number>& lists,
   return contacts;
 }
 
-#define FATHOM_INSTANTIATE(Number)                                                  \
-  template std::vector<LabelledEdge<Number>> label_edges(                           \
-      const ContactLists<Number>&, const Rings<Number>&, const Rings<Number>&);     \
-  template std::vector<Contact<Number>> label_contacts(const ContactLists<Number>&, \
-                                                       const Rings<Number>&);
+#define FATHOM_INSTANTIATE(Number)                                                     \
+  template std::vector<LabelledEdge<Number>> label_edges(const ContactLists<Number>&); \
+  template std::vector<Contact<Number>> label_contacts(const ContactLists<Number>&);
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(Rational)
 #undef FATHOM_INSTANTIATE

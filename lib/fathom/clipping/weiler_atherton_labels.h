@@ -27,13 +27,10 @@ struct ContactLists {
 
 /// The labelled edges, in the order of the rings.
 template <class Number>
-std::vector<LabelledEdge<Number>> label_edges(const ContactLists<Number>& lists,
-                                              const Rings<Number>& subject,
-                                              const Rings<Number>& clip);
+std::vector<LabelledEdge<Number>> label_edges(const ContactLists<Number>& lists);
 
 /// The contacts of the subject rings with the clip rings, in the order of the rings.
 template <class Number>
-std::vector<Contact<Number>> label_contacts(const ContactLists<Number>& lists,
-                                            const Rings<Number>& clip);
+std::vector<Contact<Number>> label_contacts(const ContactLists<Number>& lists);
 
 }  // namespace fathom::clipping
