@@ -137,7 +137,12 @@ std::optional<SelfContact> self_contact(const Ring<Rational>& ring) {
 }
 
 std::string to_text(const Point2<Rational>& point) {
-  return "(" + to_fraction(point.x) + ", " + to_fraction(point.y) + ")";
+  constexpr std::size_t longest = 24;
+  const auto text = [](const Rational& x) {
+    const std::string fraction = to_fraction(x);
+    return fraction.size() <= longest ? fraction : to_decimal(to_ratio(x), 17);
+  };
+  return "(" + text(point.x) + ", " + text(point.y) + ")";
 }
 
 template std::vector<Point2<double>> contacts(const Segment2<double>&, const Segment2<double>&);

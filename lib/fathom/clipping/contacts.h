@@ -29,7 +29,7 @@ struct SelfContact {
 };
 std::optional<SelfContact> self_contact(const Ring<Rational>& ring);
 
-/// "(1/3, 2)".
+/// "(1/3, 2)", long fractions to 17 digits: for messages.
 std::string to_text(const Point2<Rational>& point);
 
 }  // namespace fathom::clipping

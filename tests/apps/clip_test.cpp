@@ -1,0 +1,211 @@
+// fathom clip: JSON lines in, JSON lines out.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "run_program.h"
+#include "test_folder.h"
+
+namespace fathom::test {
+namespace {
+
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+
+struct Clipped {
+  Outcome outcome;
+  std::vector<Json> answers;
+};
+
+Clipped clip(const std::string& algorithm, const std::string& cases,
+             std::vector<std::string> options = {}) {
+  options.insert(options.begin(), {"clip", "--algorithm", algorithm});
+  Clipped result{run_fathom(options, {.input = cases}), {}};
+  std::istringstream lines(result.outcome.out);
+  for (std::string line; std::getline(lines, line);) result.answers.push_back(Json::parse(line));
+  return result;
+}
+
+/// The one answer to one case.
+Json answer(const std::string& algorithm, const std::string& object,
+            const std::vector<std::string>& options = {}) {
+  const Clipped clipped = clip(algorithm, object + "\n", options);
+  EXPECT_EQ(clipped.outcome.status, 0) << clipped.outcome.err;
+  EXPECT_EQ(clipped.answers.size(), 1u);
+  return clipped.answers.empty() ? Json() : clipped.answers[0];
+}
+
+TEST(Clip, NamedDegenerateCasesAnswerTheFileOfAnswers) {
+  const std::string folder = FATHOM_SOURCE_DIR "/data/clipping/";
+  const Outcome outcome = run_fathom(
+      {"clip", "--algorithm", "weiler-atherton", "--exact", folder + "degenerate.jsonl"});
+  std::ifstream stream(folder + "degenerate.answers.jsonl");
+  const std::string expected{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(outcome.out, expected);
+}
+
+TEST(Clip, AreaIsAFractionAndSeventeenDigits) {
+  const std::string object =
+      R"({"name": "n", "subject": [[[0,0],[3,1],[0,1]]], "clip": [[[0,1],[1,0],[2,2]]]})";
+  const Json exact = answer("weiler-atherton", object, {"--exact"});
+  EXPECT_EQ(exact["name"], "n");
+  EXPECT_EQ(exact["area_exact"], "27/40");
+  EXPECT_EQ(exact["area"], "6.7500000000000000e-1");
+  EXPECT_EQ(exact["polygons"].size(), 1u);
+  for (const Json& p : exact["polygons"][0][0]) EXPECT_TRUE(p[0].is_string() && p[1].is_string());
+  const Json rounded = answer("weiler-atherton", object);
+  EXPECT_EQ(rounded["area_exact"], "27/40");
+  EXPECT_TRUE(rounded["polygons"][0][0][0][0].is_number());
+  const Json binary64 = answer("weiler-atherton", object, {"--kernel", "double"});
+  EXPECT_FALSE(binary64.contains("area_exact"));
+  // Six crossings, cross products and sums below 2, each rounded by at most 2^-53: far below 1e-14.
+  EXPECT_NEAR(std::stod(binary64["area"].get<std::string>()), 0.675, 1e-14);
+}
+
+TEST(Clip, AreaOfTooManyDigitsIsLeftOut) {
+  // Coordinates of 1e±150 give denominators of thousands of digits.
+  const Json huge =
+      answer("weiler-atherton", R"({"subject": [[[1e-150,3e-151],[7e150,1e-149],[2e149,9e150]]],)"
+                                R"( "clip": [[[1e-150,1e150],[1e150,3e-150],[8e150,7e150]]]})");
+  EXPECT_FALSE(huge.contains("area_exact"));
+  EXPECT_THAT(huge["area"].get<std::string>(), HasSubstr("e300"));
+}
+
+TEST(Clip, CasesThatCannotBeDoneDoNotStopTheOthers) {
+  const std::string square = "[[0,0],[4,0],[4,4],[0,4]]";
+  const std::string good = R"({"name": "good", "subject": [)" + square + R"(], "clip": []})";
+  const Clipped clipped =
+      clip("weiler-atherton",
+           good + "\n" +
+               R"({"name": "bow", "subject": [[[0,0],[4,4],[4,0],[0,4]]], "clip": []})"
+               "\n" +
+               R"({"name": 3, "subject": [[[0,0],[4,0],[4,NaN]]], "clip": []})"
+               "\n" +
+               R"({"name": "far", "subject": [], "clip": [)" + square +
+               R"(, [[0,0],[1e999,0],[1,1]]]})"
+               "\n" +
+               R"({"name": "two", "subject": [[[0,0],[1,1],[0,0]]], "clip": []})"
+               "\n" +
+               R"({"name": "flat", "subject": [[[0,0],[1,1],[2,2]]], "clip": []})"
+               "\n" +
+               R"({"name": "typo", "subject": [], "clip": [], "operation": "difference"})"
+               "\n" +
+               R"({"name": "text", "subject": [[["0",0],[1,1],[2,2]]], "clip": []})"
+               "\n" +
+               R"({"name": "half", "subject": [)"
+               "\n\n" +
+               good + "\n");
+  EXPECT_EQ(clipped.outcome.status, 3);
+  const std::vector<std::string> errors{
+      "",
+      "subject ring 0 is not simple: its edges 0 and 2 meet at (2, 2)",
+      "subject ring 0 has a coordinate that is not finite, at corner 2",
+      "clip ring 1 has a coordinate that is not finite, at corner 1",
+      "subject ring 0 has 2 distinct corners; expected at least 3",
+      "subject ring 0 has no area: its corners lie on one line",
+      "\"operation\" is no key of this algorithm; it takes subject, clip, op",
+      "subject ring 0, corner 0[0]: expected finite numbers, found string",
+      "not JSON at character 30",
+      ""};
+  ASSERT_EQ(clipped.answers.size(), errors.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    EXPECT_TRUE(clipped.answers[i].contains("name"));
+    EXPECT_EQ(clipped.answers[i].value("error", ""), errors[i]);
+    EXPECT_EQ(clipped.answers[i].contains("polygons"), errors[i].empty());
+  }
+  EXPECT_EQ(clipped.answers[2]["name"], 3);
+  EXPECT_EQ(
+      clipped.outcome.err,
+      "fathom: error: standard input: line 2: subject ring 0 is not simple: its edges 0 and 2 "
+      "meet at (2, 2) (the first of 8 cases of 10 that cannot be done)\n");
+}
+
+TEST(Clip, SegmentsWithBothTraces) {
+  const std::string object = R"({"segment": [[-2,3],[2,9]], "window": [0,0,4,4]})";
+  const Json cohen = answer("cohen-sutherland", object, {"--trace", "--exact"});
+  EXPECT_TRUE(cohen["segment"].is_null());
+  ASSERT_EQ(cohen["trace"].size(), 2u);
+  EXPECT_EQ(cohen["trace"][0]["outcodes"], Json::parse(R"(["0001", "1000"])"));
+  EXPECT_EQ(cohen["trace"][0]["test"], 4);
+  EXPECT_EQ(cohen["trace"][0]["edge"], "left");
+  EXPECT_EQ(cohen["trace"][1]["and"], "1000");
+  EXPECT_EQ(cohen["trace"][1]["test"], 2);
+  const Json liang = answer("liang-barsky", R"({"segment": [[0,2],[2,0]], "window": [1,1,6,3]})",
+                            {"--trace", "--exact"});
+  EXPECT_EQ(liang["segment"], Json::parse(R"([["1", "1"], ["1", "1"]])"));  // a corner touched
+  std::string order;
+  for (const Json& parameter : liang["trace"]["parameters"])
+    order += parameter["edge"].get<std::string>() + " " + parameter["t"].get<std::string>() + ", ";
+  EXPECT_EQ(order, "top -1/2, left 1/2, bottom 1/2, right 3, ");
+  EXPECT_EQ(liang["trace"]["t_entering"], "1/2");
+}
+
+TEST(Clip, SutherlandHodgmanRingByRingAndInSpace) {
+  const std::string notched = R"({"subject": [[[0,0],[4,0],[4,4],[3,1],[1,1],[0,4]]],)"
+                              R"( "clip": [[[-1,2],[5,2],[5,3],[-1,3]]]})";
+  const Json one = answer("sutherland-hodgman", notched, {"--trace"});
+  EXPECT_EQ(one["polygons"].size(), 1u);
+  EXPECT_EQ(one["area_exact"], "1");
+  EXPECT_EQ(one["trace"].size(), 4u);
+  EXPECT_EQ(answer("weiler-atherton", notched)["polygons"].size(), 2u);
+  const Json space = answer(
+      "sutherland-hodgman",
+      R"({"polygon3": [[0,0,0],[2,0,0],[0,2,0]], "planes": [[1,0,0,-1]], "attributes": [[0],[2],[4]]})",
+      {"--trace"});
+  EXPECT_EQ(space["polygon3"], Json::parse("[[0.0,0,0],[1,0,0],[1,1,0],[0,2,0]]"));
+  EXPECT_EQ(space["attributes"], Json::parse("[[0.0],[1],[3],[4]]"));
+  EXPECT_EQ(space["trace"].size(), 1u);
+  const Clipped concave =
+      clip("sutherland-hodgman", R"({"subject": [], "clip": [[[0,0],[4,0],[1,1],[0,4]]]})"
+                                 "\n"
+                                 R"({"subject": [], "clip": [], "op": "difference"})"
+                                 "\n");
+  EXPECT_EQ(concave.outcome.status, 3);
+  EXPECT_THAT(concave.answers[0]["error"].get<std::string>(), HasSubstr("not convex at (1, 1)"));
+  EXPECT_THAT(concave.answers[1]["error"].get<std::string>(), HasSubstr("intersections only"));
+}
+
+TEST(Clip, HomogeneousBeforeAndAfterTheDivision) {
+  const std::string open = R"({"polygon": [[0,0,0.5,1.5],[0.25,0,0.5,1.5],[0,0,-7,-1]])";
+  const Json before = answer("homogeneous", open + "}", {"--trace"});
+  for (const Json& p : before["polygon"]) EXPECT_GT(p[3].get<double>(), 0);
+  EXPECT_EQ(before["polygon"][0], Json::parse("[0.0, 0, -1, 1]"));
+  EXPECT_EQ(before["trace"].size(), 6u);
+  const Json after = answer("homogeneous", open + R"(, "after_division": true})");
+  EXPECT_EQ(after["polygon"][0], Json::parse("[0.0, 0, 1, 1]"));  // the far plane: wrong
+  const Json halves = answer(
+      "homogeneous", R"({"segment": [[0,0,0,1],[-1,0,0,-2]], "hourglass": "both"})", {"--exact"});
+  EXPECT_EQ(halves["segment"], Json::parse(R"([["0","0","0","1"],["-1/4","0","0","1/4"]])"));
+  EXPECT_EQ(halves["lower"], Json::parse(R"([["-1/2","0","0","-1/2"],["-1","0","0","-2"]])"));
+}
+
+TEST(Clip, PlaneSidesDistancesAndLine) {
+  const Json plane = answer(
+      "plane", R"({"plane": [1,1,1,-1], "points": [[1,0,0],[0,0,0],[2,3,4],[2,3,4,-1],[1,1,1,0]],)"
+               R"( "line": [[0,0,0],[2,3,4]]})");
+  EXPECT_EQ(plane["sides"], Json::parse("[0, -1, 1, -1, 1]"));
+  EXPECT_EQ(plane["distances"][2], 4.618802153517006116);  // 8/√3
+  EXPECT_TRUE(plane["distances"][4].is_null());
+  EXPECT_EQ(plane["t"], 1.0 / 9);
+}
+
+TEST(Clip, WrongUsage) {
+  EXPECT_EQ(run_fathom({"clip"}).status, 2);
+  EXPECT_THAT(run_fathom({"clip", "--algorithm", "greiner-hormann"}).err,
+              HasSubstr("there are weiler-atherton, sutherland-hodgman"));
+  EXPECT_THAT(run_fathom({"clip", "--algorithm", "plane", "--kernel", "single"}).err,
+              HasSubstr("there are exact and double"));
+  EXPECT_EQ(run_fathom({"clip", "--algorithm", "plane", "no-such-file"}).status, 3);
+  const Outcome help = run_fathom({"clip", "--help"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_THAT(help.out, HasSubstr("Examples:\n"));
+}
+
+}  // namespace
+}  // namespace fathom::test
