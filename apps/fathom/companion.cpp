@@ -16,8 +16,8 @@
 namespace fathom::app {
 namespace {
 
-constexpr std::string_view announced_commands[] = {"visible", "coplanar", "clip",  "scan",
-                                                   "depth",   "pipeline", "study", "validate"};
+constexpr std::string_view announced_commands[] = {"visible", "coplanar", "scan", "pipeline",
+                                                   "validate"};
 
 /// Commands that are programs of their own, because of what they are built with.
 constexpr std::string_view companions[] = {"bench"};

@@ -45,6 +45,7 @@ void add_convert(Program& program);
 void add_camera(Program& program);
 void add_clip(Program& program);
 void add_depth(Program& program);
+void add_study(Program& program);
 /// `fathom camera import …`.
 void add_camera_import(Program& program, CLI::App& camera);
 

@@ -96,8 +96,8 @@ std::vector<StudyFile> run_gnuplot(const std::string& name, const std::string& s
            "\"\n";
   };
   const auto twice = [&](const std::string& place) {
-    return terminal("pngcairo noenhanced font \"DejaVu Sans,11\"", "1100,650", place + ".png") +
-           script + terminal("svg noenhanced font \"DejaVu Sans,11\"", "1100,650", place + ".svg") +
+    return terminal("pngcairo font \"DejaVu Sans,11\"", "1100,650", place + ".png") + script +
+           terminal("svg font \"DejaVu Sans,11\"", "1100,650", place + ".svg") +
            "replot\nset output\n";
   };
   const fs::path file = folder.path() / "script.gp", said = folder.path() / "said";

@@ -213,10 +213,11 @@ StudyFile page_of(double near, double far, const std::vector<Row>& rows,
       "Premultiplied, the standard and OpenGL matrices swap neighbours: z_clip and w_clip are then "
       "two sums of rounded products that err independently of each other, and their quotient lies "
       "where 1/D hardly changes. Applied one by one, w_clip enters z_clip as it is, the errors "
-      "agree, and nothing is swapped; what is equal is equal because float32 and unorm24 have as "
-      "good as the same codes near 1. Reversed with float32 loses nothing, however the matrices "
-      "are applied and wherever far is. With an integer buffer reversed is no better than "
-      "infinite, but it loses nothing to the matrices either.");
+      "agree, and hardly anything is swapped; what is equal is equal because float32 and unorm24 "
+      "have as good as the same codes near 1. With an infinite far, z_clip is w_clip minus near, "
+      "so that premultiplying does little harm. Reversed with float32 keeps every pair apart, "
+      "however the matrices are applied and wherever far is. With an integer buffer reversed is no "
+      "better than the others, but it loses nothing to premultiplied matrices either.");
   std::vector<std::vector<std::string>> cells;
   for (const Mapping mapping : projections) {
     std::vector<std::string> row{std::string(name_of(mapping))};

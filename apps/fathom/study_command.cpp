@@ -1,0 +1,116 @@
+// fathom study NAME --out DIR
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <list>
+#include <memory>
+
+#include "fathom/numeric/errors.h"
+#include "numbers.h"
+#include "output_file.h"
+#include "program.h"
+#include "validation/studies/study.h"
+
+namespace fathom::app {
+namespace {
+
+using studies::Study;
+using studies::StudyFile;
+
+struct StudyArguments {
+  std::string name, out, near, far, samples;
+  bool list = false;
+};
+
+std::string list_of_studies() {
+  std::string text;
+  for (const Study& study : studies::all_studies()) {
+    text += fmt::format("{:<18} {}\n", study.name, study.description);
+  }
+  return text;
+}
+
+studies::StudyOptions options_of(const StudyArguments& arguments) {
+  studies::StudyOptions options;
+  if (!arguments.near.empty()) options.near = parse_number("--near", arguments.near);
+  if (!arguments.far.empty()) options.far = parse_number("--far", arguments.far);
+  if (!arguments.samples.empty()) options.samples = parse_count("--samples", arguments.samples, 2);
+  return options;
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) {
+    throw OutputError(fmt::format("{}: cannot make this folder: {}", folder.string(),
+                                  error ? error.message() : "it is a file"));
+  }
+}
+
+/// All files are written before the first is put in its place.
+void write_files(const std::filesystem::path& folder, const std::vector<StudyFile>& files) {
+  std::list<OutputFile> outputs;
+  for (const StudyFile& file : files) {
+    outputs.emplace_back(folder / file.name);
+    outputs.back().write(file.content);
+  }
+  for (OutputFile& output : outputs) output.commit();
+}
+
+/// Shows the share that is done, after the first second.
+class Percentage {
+ public:
+  explicit Percentage(bool shown) : shown_(shown) {}
+  void operator()(double share) {
+    if (!shown_ || std::chrono::steady_clock::now() - start_ < std::chrono::seconds(1)) return;
+    std::fprintf(stderr, "\r%3d %%%s", static_cast<int>(100 * share),
+                 share >= 1 ? "\r     \r" : "");
+  }
+
+ private:
+  bool shown_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+int run_study(const StudyArguments& arguments, const Console& console) {
+  if (arguments.list) {
+    print(list_of_studies());
+    return done;
+  }
+  if (arguments.name.empty()) throw UsageError("NAME is missing: 'fathom study --list' lists them");
+  const Study& study = studies::study_named(arguments.name);
+  if (arguments.out.empty()) throw UsageError("--out DIR is missing: where the files go");
+  const studies::StudyOptions options = options_of(arguments);
+  Percentage percentage(console.shows_progress());
+  const std::vector<StudyFile> files =
+      study.run(options, [&percentage](double share) { percentage(share); });
+  make_folder(arguments.out);
+  write_files(arguments.out, files);
+  return done;
+}
+
+}  // namespace
+
+void add_study(Program& program) {
+  auto arguments = std::make_shared<StudyArguments>();
+  CLI::App* command = program.add_command(
+      "study", "Precision of depth buffers, measured: figures, plots and a page that explains them",
+      "  fathom study --list\n"
+      "  fathom study depth-resolution --near 0.1 --far 1000 --out resolution\n"
+      "  fathom study indistinguishable --out reed");
+  command->add_option("NAME", arguments->name, "The study");
+  command->add_option("--out", arguments->out,
+                      "Folder for CSV, PNG, SVG, summary.json, index.html");
+  command->add_option("--near", arguments->near, "Least depth");
+  command->add_option("--far", arguments->far, "Greatest depth");
+  command->add_option("--samples", arguments->samples, "Number of depths");
+  command->add_flag("--list", arguments->list, "List the studies");
+  command->callback([&program, arguments] {
+    program.run = [&program, arguments] { return run_study(*arguments, program.console); };
+  });
+}
+
+}  // namespace fathom::app
