@@ -23,13 +23,15 @@ constexpr std::string_view announced_commands[] = {"visible", "coplanar", "scan"
 constexpr std::string_view companions[] = {"bench"};
 
 constexpr std::string_view announced_render_options[] = {
-    "--stream",        "--verify",         "--deep",          "--cryptomatte",
-    "--samples",       "--depth-format",   "--mapping",       "--c",
-    "--against-exact", "--image",          "--background",    "--shading",
-    "--texture",       "--filter",         "--interpolation", "--line",
-    "--scan",          "--hidden-surface", "--antialias",     "--subpixel-bits",
-    "--precision",     "--viewport",       "--depth-range",   "--scissor",
-    "--front-face",    "--blend",          "--polygon-offset"};
+    "--deep",           "--cryptomatte", "--samples",
+    "--depth-format",   "--mapping",     "--c",
+    "--against-exact",  "--image",       "--background",
+    "--shading",        "--texture",     "--filter",
+    "--interpolation",  "--line",        "--scan",
+    "--hidden-surface", "--antialias",   "--subpixel-bits",
+    "--precision",      "--viewport",    "--depth-range",
+    "--scissor",        "--front-face",  "--blend",
+    "--polygon-offset"};
 
 /// Levenshtein's distance: the least number of letters to insert, remove or replace.
 std::size_t edit_distance(std::string_view a, std::string_view b) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,7 +34,13 @@ struct RenderArguments {
   CameraOptions camera;
   StorageOptions storage;
   std::string output, save_camera, statistics, verify;
-  std::string engine = "reference", channels = "Z", cull = "none";
+  std::string engine, channels = "Z", cull = "none";
+  bool stream = false;
+
+  [[nodiscard]] std::string engine_name() const {
+    if (!engine.empty()) return engine;
+    return stream ? "fast" : "reference";
+  }
 };
 
 class Stopwatch {
@@ -57,7 +64,10 @@ Engine engine_named(const std::string& name) {
 
 RenderOptions render_options(const RenderArguments& arguments, MapFormat format) {
   RenderOptions options;
-  options.engine = engine_named(arguments.engine);
+  options.engine = engine_named(arguments.engine_name());
+  if (arguments.stream && options.engine != Engine::fast) {
+    throw UsageError("--stream is for the fast engine, not for " + arguments.engine);
+  }
   options.channels = parse_channels(arguments.channels);
   options.cull = cull_named(arguments.cull);
   options.threads = arguments.scene.thread_count();
@@ -91,17 +101,25 @@ std::vector<std::string> map_names(const std::string& pattern, std::size_t camer
   return names;
 }
 
-/// Refuses an image that this machine cannot hold, before it tries.
-void check_size(const Camera& camera, const RenderOptions& options) {
+/// Bytes that the channels of a map take.
+double size_of_map(const Camera& camera, const RenderOptions& options) {
   double channels = 0;
   for (const Channel channel : options.channels) {
     channels += static_cast<double>(parts_of(channel));
   }
   const double bytes_per_value =
       options.depth_encoding.type == DepthEncoding::Type::binary64 ? 8 : 4;
-  const double needed = 1.0 * camera.width * camera.height * channels * bytes_per_value;
-  const double memory = 1.0 * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
-                        static_cast<double>(::sysconf(_SC_PAGESIZE));
+  return 1.0 * camera.width * camera.height * channels * bytes_per_value;
+}
+
+double memory_of_machine() {
+  return 1.0 * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+         static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+/// Refuses an image that this machine cannot hold, before it tries.
+void check_size(const Camera& camera, const RenderOptions& options) {
+  const double needed = size_of_map(camera, options), memory = memory_of_machine();
   if (needed > memory) {
     throw InputError(fmt::format(
         "an image of {}x{} pixels needs {:.1f} GB for its channels; this machine has {:.1f} GB",
@@ -139,24 +157,67 @@ void warn_of(const RenderStatistics& statistics, const Console& console) {
   }
 }
 
+/// What is rendered: a scene in memory, or one that stays in its files.
+class Input {
+ public:
+  Input(const RenderArguments& arguments, const Console& console) {
+    if (arguments.stream) {
+      streamed_ = arguments.scene.stream(console);
+      scene_ = outline_of(*streamed_);
+    } else {
+      scene_ = arguments.scene.read(console, true);
+    }
+  }
+
+  /// With the bounds and sources of the scene: what cameras are made from.
+  [[nodiscard]] const Scene& outline() const { return scene_; }
+  [[nodiscard]] TriangleSource triangles() const {
+    return streamed_ ? TriangleSource(*streamed_) : TriangleSource(scene_);
+  }
+  [[nodiscard]] DepthMap render(const Camera& camera, const RenderOptions& options) const {
+    return streamed_ ? fathom::render(*streamed_, camera, options, limits(camera, options))
+                     : fathom::render(scene_, camera, options);
+  }
+
+ private:
+  /// Of the memory that the map leaves over, of this machine or allowed to this process, a quarter
+  /// for tiles, a sixteenth for triangles.
+  static StreamLimits limits(const Camera& camera, const RenderOptions& options) {
+    double memory = memory_of_machine();
+    rlimit allowed{};
+    if (::getrlimit(RLIMIT_AS, &allowed) == 0 && allowed.rlim_cur != RLIM_INFINITY) {
+      memory = std::min(memory, static_cast<double>(allowed.rlim_cur));
+    }
+    const double left = std::max(memory - size_of_map(camera, options), 0x1p28);
+    StreamLimits limits;
+    limits.tile_bytes = static_cast<std::uint64_t>(left / 4);
+    limits.triangles_at_once = static_cast<std::uint32_t>(
+        std::min<double>(limits.triangles_at_once, left / 16 / StreamLimits::bytes_per_triangle));
+    return limits;
+  }
+
+  Scene scene_;
+  std::optional<StreamedScene> streamed_;
+};
+
 /// A depth that the file cannot hold is told with the name of its map.
-DepthMap render_to(const std::string& name, const Scene& scene, const Camera& camera,
+DepthMap render_to(const std::string& name, const Input& scene, const Camera& camera,
                    const RenderOptions& options) {
   try {
-    return render(scene, camera, options);
+    return scene.render(camera, options);
   } catch (const OutputError& error) {
     throw OutputError(name + ": " + error.what());
   }
 }
 
 /// Says how the map fares and notes it in the report; false where it is not exact.
-bool verify_map(const DepthMap& map, const std::string& name, const Scene& scene,
+bool verify_map(const DepthMap& map, const std::string& name, const TriangleSource& triangles,
                 const Camera& camera, RenderOptions options, std::uint64_t pixels,
                 const Console& console, Json& report) {
   Progress progress(console, "verifying");
   options.progress = progress.reporter();
   const PixelChoice chosen = choose_pixels(camera.width, camera.height, pixels);
-  const Verification v = verify(map, scene, camera, options, chosen);
+  const Verification v = verify(map, triangles, camera, options, chosen);
   report["verified"] = v.verified;
   report["differing"] = v.differing;
   if (!v.first) {
@@ -185,9 +246,9 @@ int run_render(const RenderArguments& arguments, const Console& console) {
   }
 
   Stopwatch stopwatch;
-  const Scene scene = arguments.scene.read(console, true);
+  const Input scene(arguments, console);
   const double seconds_reading = stopwatch.lap();
-  const std::vector<Camera> cameras = arguments.camera.get(scene);
+  const std::vector<Camera> cameras = arguments.camera.get(scene.outline());
   const std::vector<std::string> names = map_names(arguments.output, cameras.size());
   for (const Camera& camera : cameras) check_size(camera, options);
 
@@ -212,15 +273,15 @@ int run_render(const RenderArguments& arguments, const Console& console) {
       const double seconds_rendering = stopwatch.lap();
       Json verification = Json::object();
       if (verified_pixels > 0) {
-        exact &= verify_map(map, names[i], scene, cameras[i], options, verified_pixels, console,
-                            verification);
+        exact &= verify_map(map, names[i], scene.triangles(), cameras[i], options, verified_pixels,
+                            console, verification);
       }
       const double seconds_verifying = stopwatch.lap();
       maps[i].write([&](const auto& path) { write_map(map, path, format, write_options); });
 
       if (i == 0) warn_of(statistics, console);
       Json entry{{"map", names[i]},
-                 {"engine", arguments.engine},
+                 {"engine", arguments.engine_name()},
                  {"width", map.width},
                  {"height", map.height}};
       entry.update(to_json(statistics));
@@ -253,6 +314,7 @@ void add_render(Program& program) {
       "  fathom render room.json --camera camera.json --channels Z,id,N -o room.exr\n"
       "  fathom render spot.obj --view 90,0 --size 640x480 --save-camera side.json -o side.pfm\n"
       "  fathom render spot.obj -o spot.png --png-scale 1000      (16 bit, millimetres)\n"
+      "  fathom render city.stl --stream --size 16384x16384 -o city.exr\n"
       "  fathom render scan.ply --engine fast --verify 1000 -o scan.exr\n"
       "  fathom render spot.obj --camera path.json -o 'view-{index:04}.exr'");
   arguments->scene.add_to(*command);
@@ -269,6 +331,9 @@ void add_render(Program& program) {
                       "reference (default), or fast: the same map bit for bit, sooner");
   add_cull_option(*command, arguments->cull);
   arguments->storage.add_to(*command);
+  command->add_flag("--stream", arguments->stream,
+                    "Leave the meshes, binary STL or PLY, in their files, which may be larger than "
+                    "memory; implies --engine fast");
   command->add_option("--stats", arguments->statistics,
                       "Write what was decided how to this file (JSON; - is standard output)");
   command->add_option(

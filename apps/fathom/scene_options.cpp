@@ -43,21 +43,36 @@ int SceneOptions::thread_count() const {
   return static_cast<int>(count);
 }
 
+ReadOptions SceneOptions::read_options(bool hash) const {
+  ReadOptions options;
+  if (!mesh_format.empty()) options.format = mesh_format_named(mesh_format);
+  options.threads = thread_count();
+  options.hash = hash;
+  return options;
+}
+
 Scene SceneOptions::read(const Console& console, bool hash) const {
   const auto standard_inputs = std::count(files.begin(), files.end(), "-");
   if (standard_inputs > 1) throw UsageError("SCENE: '-', standard input, can be read only once");
   if (standard_inputs == 1 && mesh_format.empty()) {
     throw UsageError("SCENE: '-', standard input, needs --mesh-format");
   }
-  ReadOptions options;
-  if (!mesh_format.empty()) options.format = mesh_format_named(mesh_format);
-  options.threads = thread_count();
-  options.hash = hash;
   Warnings warnings;
-  Scene scene = read_scene({files.begin(), files.end()}, options, warnings);
+  Scene scene = read_scene({files.begin(), files.end()}, read_options(hash), warnings);
   console.warn(warnings);
   for (const std::string& file : files) note_input(file);
   for (const Source& source : scene.sources) note_input(source.path);
+  return scene;
+}
+
+StreamedScene SceneOptions::stream(const Console& console) const {
+  if (std::count(files.begin(), files.end(), "-") > 0) {
+    throw UsageError("--stream: '-', standard input, cannot be read in parts; expected files");
+  }
+  Warnings warnings;
+  StreamedScene scene = stream_scene({files.begin(), files.end()}, read_options(true), warnings);
+  console.warn(warnings);
+  for (const std::string& file : files) note_input(file);
   return scene;
 }
 

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "console.h"
+#include "fathom/scene/read_scene.h"
 #include "fathom/scene/scene.h"
+#include "fathom/scene/streamed_scene.h"
 
 namespace fathom::app {
 
@@ -19,6 +21,11 @@ struct SceneOptions {
   [[nodiscard]] int thread_count() const;
   /// Reads the scene, says the warnings. `hash` computes the sources' SHA-256.
   [[nodiscard]] Scene read(const Console& console, bool hash) const;
+  /// Opens the scene, which stays in its files, says the warnings.
+  [[nodiscard]] StreamedScene stream(const Console& console) const;
+
+ private:
+  [[nodiscard]] ReadOptions read_options(bool hash) const;
 };
 
 }  // namespace fathom::app
