@@ -73,11 +73,11 @@ void PrintTo(const RandomPairs& r, std::ostream* stream) {
 class WeilerAthertonRandom : public ::testing::TestWithParam<RandomPairs> {};
 
 TEST_P(WeilerAthertonRandom, IsAsCgal) {
-  const auto [seed, pairs, size, corners] = GetParam();
-  PolygonMaker maker(seed);
-  for (int i = 0; i < pairs && !HasFatalFailure(); ++i) {
-    const auto side = [&, most = corners] {
-      return maker.polygon(size, 3 + maker.below(most - 2), cross_each_other);
+  const RandomPairs& random = GetParam();
+  PolygonMaker maker(random.seed);
+  for (int i = 0; i < random.pairs && !HasFatalFailure(); ++i) {
+    const auto side = [&] {
+      return maker.polygon(random.size, 3 + maker.below(random.corners - 2), cross_each_other);
     };
     const Rings<double> subject = side(), clip = side();
     expect_as_cgal(subject, clip);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "fathom/clipping/exact_kernel.h"
+#include "fathom/clipping/rings.h"
 #include "fathom/clipping/weiler_atherton.h"
 #include "fathom/numeric/errors.h"
 #include "tests/clipping/cgal_judge.h"
@@ -46,7 +47,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const SetOperation operation : {SetOperation::intersection, SetOperation::difference}) {
     try {
       const auto answer = weiler_atherton(to_exact(subject), to_exact(clip), operation);
-      const test::Judge judge(to_exact(subject), to_exact(clip));
+      // CGAL takes no corners that repeat the one before.
+      const test::Judge judge(checked_rings(to_exact(subject), "subject"),
+                              checked_rings(to_exact(clip), "clip"));
       if (area_of(answer) != judge.area(operation)) std::abort();
       if (judge.fault(operation, answer) || test::piece_fault(answer)) std::abort();
     } catch (const InputError& error) {

@@ -52,7 +52,7 @@ void visit_neighbours(const Rings<Number>& rings, const Visit& visit) {
 /// Appends the start of an edge and the contacts strictly inside it, in order along it.
 template <class Number>
 void append_split(Ring<Number>& ring, const Segment2<Number>& edge, Ring<Number> contacts) {
-  const auto& [start, end] = edge;
+  const Point2<Number>&start = edge.start, &end = edge.end;
   const bool ascending = start < end;
   const auto comes_before = [&](const Point2<Number>& a, const Point2<Number>& b) {
     return ascending ? a < b : b < a;
