@@ -71,13 +71,29 @@ TEST(BenchScenes, SpheresAreSeenWholeAndCoverTheirShare) {
   EXPECT_NEAR(covered_share(make_scene("sphere-20k", 640, 360)), disc, border);
 }
 
+// Each of 200 samples is covered by a number of triangles with mean 50 and standard deviation
+// √50, so that their mean strays by 5 only at ten times its own standard deviation, ½.
 TEST(BenchScenes, SoupHasDepthComplexityFifty) {
-  RenderStatistics statistics;
-  const BenchScene bench = make_scene("soup", 64, 36);
-  render(bench.scene, bench.camera, {.engine = Engine::reference, .statistics = &statistics});
-  const double complexity = static_cast<double>(statistics.samples_covered) / (64.0 * 36.0);
-  EXPECT_GT(complexity, 45);
-  EXPECT_LT(complexity, 55);
+  const BenchScene bench = make_scene("soup", 1920, 1080);
+  const Camera& camera = bench.camera;
+  const Mesh& mesh = bench.scene.meshes[0];
+  std::vector<ImagePoint> corners;
+  for (const MeshPoint& p : mesh.vertices) {
+    corners.push_back({camera.fx * p.x / p.z + camera.cx, camera.fy * p.y / p.z + camera.cy});
+  }
+  const auto side = [](const ImagePoint& a, const ImagePoint& b, const ImagePoint& s) {
+    return (b.u - a.u) * (s.v - a.v) > (b.v - a.v) * (s.u - a.u);
+  };
+  int covered = 0;
+  for (int i = 0; i < 200; ++i) {
+    const ImagePoint s{1920.0 * (i % 20 + 0.5) / 20, 1080.0 * (i / 20 + 0.5) / 10};
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const bool first = side(corners[a], corners[b], s);
+      covered += static_cast<int>(first == side(corners[b], corners[c], s) &&
+                                  first == side(corners[c], corners[a], s));
+    }
+  }
+  EXPECT_NEAR(covered / 200.0, 50, 5);
 }
 
 TEST(BenchScenes, FewLargeTrianglesCoverTheImageAndAreAllSeen) {

@@ -1,0 +1,103 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/apps/run_program.h"
+#include "tests/apps/test_folder.h"
+
+/// `fathom bench`, which starts fathom-bench, as users run it.
+namespace fathom::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A small comparison with the reference engine.
+std::vector<std::string> small(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"bench", "--size",  "40x30",    "--repeat",
+                                     "2",     "--peers", "reference"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(BenchProgram, ShowsATableAndWritesJson) {
+  const TestFolder folder;
+  const Outcome outcome =
+      run_fathom(small({"--scene", "sphere-200,few-large", "--threads", "1", "--json", "t.json"}),
+                 {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("sphere-200: 200 triangles, 40x30, 1 thread\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\n  reference "));
+
+  const auto json = nlohmann::json::parse(folder.read("t.json"));
+  EXPECT_TRUE(json.contains("machine"));
+  ASSERT_EQ(json["results"].size(), 4U);
+  EXPECT_EQ(json["results"][0]["renderer"], "fast");
+  EXPECT_EQ(json["results"][1]["renderer"], "reference");
+  EXPECT_EQ(json["results"][2]["scene"], "few-large");
+  EXPECT_EQ(json["results"][0]["covered_pixels"], json["results"][1]["covered_pixels"]);
+}
+
+TEST(BenchProgram, JsonAloneOnStandardOutput) {
+  const Outcome outcome = run_fathom(small({"--scene", "sphere-8", "--json", "-"}));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["results"].size(), 2U);
+}
+
+TEST(BenchProgram, TimesAMeshFileAndEverySizeAndNumberOfThreads) {
+  const std::string mesh = FATHOM_SOURCE_DIR "/data/meshes/cube.obj";
+  const Outcome outcome = run_fathom({"bench", "--scene", mesh, "--size", "16x16,8x8", "--threads",
+                                      "1,1", "--peers", "none", "--repeat", "1", "--json", "-"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(json["results"].size(), 4U);
+  EXPECT_EQ(json["results"][3]["width"], 8);
+  EXPECT_EQ(json["results"][3]["triangles"], 12);
+}
+
+struct Refused {
+  std::string name;
+  std::vector<std::string> arguments;
+  int status;
+  std::string message;
+};
+
+void PrintTo(const Refused& refused, std::ostream* stream) {
+  *stream << refused.name;
+}
+
+class BenchRefuses : public testing::TestWithParam<Refused> {};
+
+TEST_P(BenchRefuses, InOneLineAndLeavesNoFile) {
+  const TestFolder folder;
+  const Outcome outcome = run_fathom(GetParam().arguments, {.folder = folder.path()});
+  EXPECT_EQ(outcome.status, GetParam().status);
+  EXPECT_THAT(outcome.err, HasSubstr(GetParam().message));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BenchRefuses,
+    testing::Values(Refused{"Scene", small({"--scene", "sphere"}), 2, "there is no scene 'sphere'"},
+                    Refused{"SphereOfNothing", small({"--scene", "sphere-0"}), 2, "sphere-0"},
+                    Refused{"Peer", {"bench", "--peers", "opengl"}, 2, "'opengl' is none of"},
+                    Refused{"Size", {"bench", "--size", "40"}, 2, "--size"},
+                    Refused{"NoThreads", small({"--threads", "x"}), 2, "--threads"},
+                    Refused{"TooManyThreads", small({"--threads", "100000"}), 2, "more than the"},
+                    Refused{"NoRepeat", {"bench", "--repeat", "0"}, 2, "--repeat"},
+                    Refused{"Channel", small({"--channels", "depth"}), 2, "'depth' is no channel"},
+                    Refused{"Option", small({"--frobnicate"}), 2, "--frobnicate"},
+                    Refused{"MissingMesh", small({"--scene", "missing.obj", "--json", "t.json"}), 3,
+                            "missing.obj"},
+                    Refused{"NoFolder", small({"--scene", "sphere-8", "--json", "no/t.json"}), 4,
+                            "no/t.json"}),
+    [](const auto& refused) { return refused.param.name; });
+
+}  // namespace
+}  // namespace fathom::test

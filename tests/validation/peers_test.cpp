@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "fathom/render.h"
+#include "validation/bench/shapes.h"
+#include "validation/embree/embree_tracer.h"
+#include "validation/vtk/vtk_renderer.h"
+#include "validation/world_mesh.h"
+
+/// VTK and Embree see what we see, through a camera with everything that a camera has. Built where
+/// they are (FATHOM_PEERS).
+namespace fathom::validation {
+namespace {
+
+Camera odd_camera(Projection projection) {
+  Camera camera{.width = 160, .height = 90, .projection = projection};
+  const bool perspective = projection == Projection::perspective;
+  camera.fx = perspective ? 150 : 30;
+  camera.fy = perspective ? -130 : -28;  // mirrored
+  camera.cx = 70.25;
+  camera.cy = 48.5;
+  camera.skew = perspective ? 12 : 3;
+  camera.pixel_centre = 0;
+  camera.world_to_camera = {{{0.9, 0.1, -0.2, 0.1}, {-0.1, 1.1, 0.3, -0.2}, {0.2, -0.3, 0.8, 4}}};
+  return camera;
+}
+
+struct Difference {
+  std::size_t coverage = 0;
+  double depth = 0;
+};
+
+/// Pixels that only one of the two covers, and the greatest difference of depth elsewhere.
+Difference difference(const std::vector<float>& ours, const std::vector<float>& theirs) {
+  Difference found;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    if (std::isinf(ours[i]) != std::isinf(theirs[i])) {
+      ++found.coverage;
+    } else if (!std::isinf(ours[i])) {
+      found.depth = std::max(found.depth, std::abs(double{ours[i]} - theirs[i]));
+    }
+  }
+  return found;
+}
+
+class Peers : public testing::TestWithParam<Projection> {
+ protected:
+  const Camera camera = odd_camera(GetParam());
+  const Scene scene = bench::as_scene({bench::sphere(800)}, "sphere");
+  const WorldMesh mesh = world_mesh(scene);
+  const DepthMap map = render(scene, camera, {.engine = Engine::fast});
+  const std::vector<float>& ours = *map.values<float>("Z");
+};
+
+// Both compute positions in binary32, off by a few ulp of 160 pixels (2⁻¹⁵ pixel), and VTK snaps
+// corners to 2⁻⁸ pixel. So one sample in about 2⁸ of those whose pixel the outline passes, fewer
+// than 400, may be covered differently: 2 at most. A pixel is 0.03 units wide here, so depths of a
+// facet of slope k differ by 0.03·k·2⁻⁸ for VTK and by 2⁻⁷ of that for Embree, besides the rounding
+// of the depth, 2⁻²²: the limits allow k = 150 and more, facets within 0.4° of edge-on, which are
+// narrower than a tenth of a pixel. A camera read wrongly in one sign differs in 400 pixels and by
+// 0.3 units.
+TEST_P(Peers, VtkSeesTheSame) {
+  const ClipRange range = clip_range(mesh, camera);
+  VtkRenderer renderer(mesh, camera, range);
+  renderer.draw();
+  std::vector<float> depths = renderer.window_depths();
+  for (float& depth : depths) {
+    const double z = depth, length = range.far - range.near;
+    depth = depth == 1 ? INFINITY
+            : camera.projection == Projection::perspective
+                ? static_cast<float>(range.near * range.far / (range.far - z * length))
+                : static_cast<float>(range.near + z * length);
+  }
+  const Difference found = difference(ours, depths);
+  EXPECT_LE(found.coverage, 2U);
+  EXPECT_LE(found.depth, 0.02);
+}
+
+TEST_P(Peers, EmbreeSeesTheSame) {
+  EmbreeTracer tracer(mesh, {.robust = true, .threads = 1});
+  tracer.build();
+  for (const RayStream stream : {RayStream::packets, RayStream::arrays}) {
+    std::vector<float> depths;
+    tracer.trace(camera, stream, depths);
+    const Difference found = difference(ours, depths);
+    EXPECT_LE(found.coverage, 2U);
+    EXPECT_LE(found.depth, 0.001);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Peers,
+                         testing::Values(Projection::perspective, Projection::orthographic),
+                         [](const auto& projection) {
+                           return projection.param == Projection::perspective ? "Perspective"
+                                                                              : "Orthographic";
+                         });
+
+}  // namespace
+}  // namespace fathom::validation
