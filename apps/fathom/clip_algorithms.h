@@ -17,7 +17,7 @@ Json liang_barsky(const Json& object, Form form);
 /// {"subject", "clip", "op"}
 template <class Number>
 Json weiler_atherton(const Json& object, Form form);
-/// {"subject", "clip"} or {"polygon3", "planes"}
+/// {"subject", "clip", "decompose"} or {"polygon3", "planes"}
 template <class Number>
 Json sutherland_hodgman(const Json& object, Form form);
 

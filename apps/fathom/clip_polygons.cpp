@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clip_algorithms.h"
+#include "fathom/clipping/convex_pieces.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/sutherland_hodgman.h"
 #include "fathom/clipping/weiler_atherton.h"
@@ -71,18 +72,33 @@ Json to_json(const clipping::WeilerAthertonTrace<Number>& trace, Form form) {
   return {{"contacts", contacts}, {"walks", walks}};
 }
 
+/// Convex pieces of rings, which must be no holes.
+template <class Number>
+Rings<Number> pieces_of(const Rings<Number>& subject) {
+  Rings<Number> pieces;
+  for (std::size_t r = 0; r < subject.size(); ++r) {
+    if (clipping::signed_area(subject[r]) < 0)
+      throw InputError("subject ring " + std::to_string(r) +
+                       " is a hole; \"decompose\" takes outlines only");
+    for (Ring<Number>& piece : clipping::convex_pieces(subject[r])) pieces.push_back(piece);
+  }
+  return pieces;
+}
+
 template <class Number>
 Json sutherland_hodgman_2(const Json& object, Form form) {
-  expect_only(object, {"subject", "clip", "op"});
+  expect_only(object, {"subject", "clip", "op", "decompose"});
   if (word(object, "op", {"intersection", "difference"}) == "difference")
     throw InputError("sutherland-hodgman does intersections only; weiler-atherton does both");
-  const auto subject =
+  const bool decompose = flag(object, "decompose");
+  Rings<Number> subject =
       clipping::checked_rings(over_kernel<Number>(rings(object, "subject")), "subject");
   const auto clip = clipping::checked_rings(over_kernel<Number>(rings(object, "clip")), "clip");
   if (clip.size() != 1)
     throw InputError("sutherland-hodgman clips against one convex ring; clip has " +
                      std::to_string(clip.size()));
   clipping::check_convex(clip[0], "clip ring 0");
+  if (decompose) subject = pieces_of(subject);
 
   Rings<Number> clipped;
   Json trace = Json::array();
@@ -92,14 +108,18 @@ Json sutherland_hodgman_2(const Json& object, Form form) {
         clipping::sutherland_hodgman(clipping::corners_of(subject[r]), clip[0], &stages);
     if (!corners.empty()) clipped.push_back(clipping::ring_of(corners));
     for (std::size_t i = 0; i < stages.size(); ++i)
-      trace.push_back({{"ring", r},
+      trace.push_back({{decompose ? "piece" : "ring", r},
                        {"edge",
                         {clip::to_json(clip[0][i], form),
                          clip::to_json(clip[0][(i + 1) % clip[0].size()], form)}},
                        {"polygon", clip::to_json(clipping::ring_of(stages[i]), form)}});
   }
   Json result{{"polygons", Json::array()}};
-  if (!clipped.empty()) result["polygons"].push_back(clip::to_json(clipped, form));
+  if (decompose)
+    for (const Ring<Number>& ring : clipped)
+      result["polygons"].push_back(Json::array({clip::to_json(ring, form)}));
+  else if (!clipped.empty())
+    result["polygons"].push_back(clip::to_json(clipped, form));
   put_area(result, clipping::signed_area(clipped), form);
   if (form.trace) result["trace"] = trace;
   return result;

@@ -72,6 +72,7 @@ Json after_division(const Json& object, Form form) {
   const auto polygon = corners<clipping::Point4, Number>(object, "polygon", 4, point4<Number>);
   const auto clipped = clipping::clip_after_division(polygon, volume_of(object));
   std::vector<clipping::Corner4<Number>> with_w;
+  with_w.reserve(clipped.size());
   for (const auto& [p, carried] : clipped) with_w.push_back({{p.x, p.y, p.z, Number(1)}, carried});
   Json result;
   put_polygon(result, object, "polygon", with_w, form);

@@ -154,6 +154,11 @@ TEST(Clip, SutherlandHodgmanRingByRingAndInSpace) {
   EXPECT_EQ(one["area_exact"], "1");
   EXPECT_EQ(one["trace"].size(), 4u);
   EXPECT_EQ(answer("weiler-atherton", notched)["polygons"].size(), 2u);
+  std::string in_pieces = notched;
+  in_pieces.insert(1, R"("decompose": true, )");
+  const Json pieces = answer("sutherland-hodgman", in_pieces);
+  EXPECT_EQ(pieces["polygons"].size(), 2u);
+  EXPECT_EQ(pieces["area_exact"], "1");
   const Json space = answer(
       "sutherland-hodgman",
       R"({"polygon3": [[0,0,0],[2,0,0],[0,2,0]], "planes": [[1,0,0,-1]], "attributes": [[0],[2],[4]]})",

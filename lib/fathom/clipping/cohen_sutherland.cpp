@@ -37,10 +37,10 @@ Point2<Number> intersection(const Segment2<Number>& s, const Window<Number>& win
   return {value_at(y, A.y, A.x, B.y, B.x), y};
 }
 
-int test_of(Outcode E1, Outcode E2) {
-  if (E1 == 0 && E2 == 0) return 1;
-  if ((E1 & E2) != 0) return 2;
-  return E1 == 0 || E2 == 0 ? 3 : 4;
+int test_of(Outcode E_1, Outcode E_2) {
+  if (E_1 == 0 && E_2 == 0) return 1;
+  if ((E_1 & E_2) != 0) return 2;
+  return E_1 == 0 || E_2 == 0 ? 3 : 4;
 }
 
 }  // namespace
@@ -77,11 +77,11 @@ std::optional<Segment2<Number>> cohen_sutherland(const Segment2<Number>& segment
   check_window(window);
   Segment2<Number> s = segment;
   for (;;) {
-    const Outcode E1 = outcode_of(s.start, window), E2 = outcode_of(s.end, window);
-    CohenSutherlandStep<Number> step{s, E1, E2, test_of(E1, E2)};
+    const Outcode E_1 = outcode_of(s.start, window), E_2 = outcode_of(s.end, window);
+    CohenSutherlandStep<Number> step{s, E_1, E_2, test_of(E_1, E_2)};
     if (step.test >= 3) {
-      step.moved = E1 != 0 ? 1 : 2;
-      step.edge = first_edge(E1 != 0 ? E1 : E2);
+      step.moved = E_1 != 0 ? 1 : 2;
+      step.edge = first_edge(E_1 != 0 ? E_1 : E_2);
       Point2<Number>& outer = step.moved == 1 ? s.start : s.end;
       outer = intersection(s, window, step.edge);
     }

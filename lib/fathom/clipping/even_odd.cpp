@@ -41,6 +41,7 @@ typename EvenOdd<Number>::Bands EvenOdd<Number>::bands_of(const std::vector<Edge
   const std::size_t count = std::clamp<std::size_t>(edges.size() / edges_per_band, 1, most_bands);
   if (count > 1) {
     std::vector<Number> coordinates;
+    coordinates.reserve(edges.size());
     for (const Edge& edge : edges) coordinates.push_back(edge.p->*axis);
     std::sort(coordinates.begin(), coordinates.end());
     for (std::size_t i = 1; i < count; ++i)

@@ -105,11 +105,13 @@ template <class Number>
 std::vector<Corner3<Number>> clip_after_division(const std::vector<Corner4<Number>>& polygon,
                                                  Volume volume) {
   std::vector<Corner3<Number>> flat;
+  flat.reserve(polygon.size());
   for (const Corner4<Number>& corner : polygon)
     flat.push_back({divided(corner.position), corner.attributes});
   return sutherland_hodgman(flat, box_of<Number>(volume));
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Number)                                                                 \
   template Number boundary_value(int, const Point4<Number>&, Volume);                              \
   template std::vector<Corner4<Number>> clip_homogeneous(                                          \
@@ -122,5 +124,6 @@ std::vector<Corner3<Number>> clip_after_division(const std::vector<Corner4<Numbe
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(Rational)
 #undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fathom::clipping

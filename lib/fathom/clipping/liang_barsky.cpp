@@ -68,6 +68,7 @@ std::optional<Segment2<Number>> liang_barsky(const Segment2<Number>& segment,
                           t_leaving == 1 ? end : interpolate(start, end, t_leaving)};
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Number)                                                    \
   template LineParameter<Number> against_boundary(int, const Number&, const Number&); \
   template VisibleRange<Number> visible_range(std::vector<LineParameter<Number>>&);   \
@@ -76,5 +77,6 @@ std::optional<Segment2<Number>> liang_barsky(const Segment2<Number>& segment,
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(Rational)
 #undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fathom::clipping

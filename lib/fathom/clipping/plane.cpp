@@ -77,6 +77,7 @@ std::optional<PlaneLineIntersection<Number>> plane_line_intersection(const Plane
   return PlaneLineIntersection<Number>{t, interpolate(R, S, t)};
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Number)                                                    \
   template Plane<Number> plane_through(const Point3<Number>&, const Point3<Number>&); \
   template void check_plane(const Plane<Number>&);                                    \
@@ -90,5 +91,6 @@ std::optional<PlaneLineIntersection<Number>> plane_line_intersection(const Plane
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(Rational)
 #undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fathom::clipping

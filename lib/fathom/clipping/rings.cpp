@@ -111,6 +111,7 @@ Ring<Number> canonical(const Ring<Number>& ring) {
   return corners;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Number)                                                \
   template Number signed_area(const Ring<Number>&);                               \
   template Number signed_area(const Rings<Number>&);                              \
@@ -120,5 +121,6 @@ Ring<Number> canonical(const Ring<Number>& ring) {
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(Rational)
 #undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fathom::clipping

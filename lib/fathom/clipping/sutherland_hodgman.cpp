@@ -33,6 +33,7 @@ std::vector<Corner3<Number>> sutherland_hodgman(const std::vector<Corner3<Number
   return polygon;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Number)                                                              \
   template std::vector<Corner2<Number>> sutherland_hodgman(                                     \
       const std::vector<Corner2<Number>>&, const Ring<Number>&, ClipStages<Point2, Number>*);   \
@@ -42,5 +43,6 @@ std::vector<Corner3<Number>> sutherland_hodgman(const std::vector<Corner3<Number
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(Rational)
 #undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fathom::clipping

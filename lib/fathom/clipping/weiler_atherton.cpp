@@ -144,6 +144,7 @@ Number area_of(const std::vector<Polygon<Number>>& polygons) {
   return area;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Number)                                                             \
   template std::vector<Polygon<Number>> weiler_atherton(                                       \
       const Rings<Number>&, const Rings<Number>&, SetOperation, WeilerAthertonTrace<Number>*); \
@@ -151,5 +152,6 @@ Number area_of(const std::vector<Polygon<Number>>& polygons) {
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(Rational)
 #undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fathom::clipping

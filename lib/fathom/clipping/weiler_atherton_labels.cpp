@@ -90,11 +90,13 @@ std::vector<Contact<Number>> label_contacts(const ContactLists<Number>& lists) {
   return contacts;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Number)                                                     \
   template std::vector<LabelledEdge<Number>> label_edges(const ContactLists<Number>&); \
   template std::vector<Contact<Number>> label_contacts(const ContactLists<Number>&);
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(Rational)
 #undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fathom::clipping

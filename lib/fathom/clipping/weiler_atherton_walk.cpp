@@ -92,6 +92,7 @@ Rings<Number> simple_rings(const std::vector<BorderEdge<Number>>& closed_walk) {
   return rings;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Number)                            \
   template std::vector<std::vector<BorderEdge<Number>>> walk( \
       const std::vector<BorderEdge<Number>>&);                \
@@ -99,5 +100,6 @@ Rings<Number> simple_rings(const std::vector<BorderEdge<Number>>& closed_walk) {
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(Rational)
 #undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fathom::clipping

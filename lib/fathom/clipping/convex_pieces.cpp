@@ -1,0 +1,107 @@
+#include "fathom/clipping/convex_pieces.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "fathom/clipping/exact_kernel.h"
+
+namespace fathom::clipping {
+namespace {
+
+/// Corners of the ring by their numbers, counter-clockwise.
+using Piece = std::vector<std::size_t>;
+
+class Decomposition {
+ public:
+  explicit Decomposition(const Ring<Rational>& ring) : ring_(ring) {}
+
+  std::vector<Piece> run() {
+    cut_ears();
+    drop_diagonals();
+    return pieces_;
+  }
+
+ private:
+  int turn(std::size_t a, std::size_t b, std::size_t c) const {
+    return sign_of(cross(ring_[a], ring_[b], ring_[c]));
+  }
+
+  /// Corner i of what remains turns left, and no other lies in the closed triangle.
+  bool is_ear(const Piece& rest, std::size_t i) const {
+    const std::size_t n = rest.size();
+    const std::size_t a = rest[(i + n - 1) % n], b = rest[i], c = rest[(i + 1) % n];
+    if (turn(a, b, c) <= 0) return false;
+    return std::none_of(rest.begin(), rest.end(), [&](std::size_t p) {
+      return p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
+             turn(c, a, p) >= 0;
+    });
+  }
+
+  void cut_ears() {
+    Piece rest(ring_.size());
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = i;
+    while (rest.size() > 3) {
+      std::size_t i = 0;
+      while (i < rest.size() && !is_ear(rest, i)) ++i;
+      if (i == rest.size())
+        throw std::invalid_argument("a simple counter-clockwise ring has an ear");
+      const std::size_t n = rest.size();
+      const std::size_t a = rest[(i + n - 1) % n], c = rest[(i + 1) % n];
+      pieces_.push_back({a, rest[i], c});
+      diagonals_.emplace_back(a, c);
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    pieces_.push_back(rest);
+  }
+
+  /// The piece with the edge from → to, turned so that it begins with `to` and ends with `from`.
+  std::size_t piece_with(std::size_t from, std::size_t to) {
+    for (std::size_t k = 0;; ++k) {
+      Piece& piece = pieces_[k];
+      const auto place = std::find(piece.begin(), piece.end(), to);
+      if (place == piece.end()) continue;
+      const auto before = place == piece.begin() ? piece.end() - 1 : place - 1;
+      if (*before != from) continue;
+      std::rotate(piece.begin(), place, piece.end());
+      return k;
+    }
+  }
+
+  void drop_diagonals() {
+    for (const auto& [a, c] : diagonals_) {
+      const std::size_t p = piece_with(c, a), q = piece_with(a, c);
+      const Piece &P = pieces_[p], &Q = pieces_[q];  // a … c and c … a
+      const bool convex_at_a = turn(Q[Q.size() - 2], a, P[1]) >= 0;
+      const bool convex_at_c = turn(P[P.size() - 2], c, Q[1]) >= 0;
+      if (!convex_at_a || !convex_at_c) continue;
+      Piece both = P;
+      both.insert(both.end(), Q.begin() + 1, Q.end() - 1);
+      pieces_[p] = std::move(both);
+      pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(q));
+    }
+  }
+
+  const Ring<Rational>& ring_;
+  std::vector<Piece> pieces_;
+  std::vector<std::pair<std::size_t, std::size_t>> diagonals_;
+};
+
+}  // namespace
+
+template <class Number>
+Rings<Number> convex_pieces(const Ring<Number>& ring) {
+  const Ring<Rational> exact = to_exact(Rings<Number>{ring})[0];
+  Rings<Number> result;
+  for (const Piece& piece : Decomposition(exact).run()) {
+    result.emplace_back();
+    for (const std::size_t corner : piece) result.back().push_back(ring[corner]);
+  }
+  return result;
+}
+
+template Rings<double> convex_pieces(const Ring<double>&);
+template Rings<Rational> convex_pieces(const Ring<Rational>&);
+
+}  // namespace fathom::clipping
