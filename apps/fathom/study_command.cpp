@@ -21,7 +21,7 @@ using studies::Study;
 using studies::StudyFile;
 
 struct StudyArguments {
-  std::string name, out, near, far, samples;
+  std::string name, out, near, far, samples, separation;
   bool list = false;
 };
 
@@ -38,6 +38,9 @@ studies::StudyOptions options_of(const StudyArguments& arguments) {
   if (!arguments.near.empty()) options.near = parse_number("--near", arguments.near);
   if (!arguments.far.empty()) options.far = parse_number("--far", arguments.far);
   if (!arguments.samples.empty()) options.samples = parse_count("--samples", arguments.samples, 2);
+  if (!arguments.separation.empty()) {
+    options.separation = parse_number("--separation", arguments.separation);
+  }
   return options;
 }
 
@@ -107,6 +110,8 @@ void add_study(Program& program) {
   command->add_option("--near", arguments->near, "Least depth");
   command->add_option("--far", arguments->far, "Greatest depth");
   command->add_option("--samples", arguments->samples, "Number of depths");
+  command->add_option("--separation", arguments->separation,
+                      "Of two surfaces along the view, for z-fighting");
   command->add_flag("--list", arguments->list, "List the studies");
   command->callback([&program, arguments] {
     program.run = [&program, arguments] { return run_study(*arguments, program.console); };

@@ -42,7 +42,7 @@ TEST_F(StudyTest, ListNamesThem) {
 }
 
 TEST_F(StudyTest, EveryPlotOfThePageIsThere) {
-  for (const std::string name : {"depth-resolution", "indistinguishable"}) {
+  for (const std::string name : {"depth-resolution", "indistinguishable", "z-fighting"}) {
     const Outcome outcome = study({name, "--samples", "33", "--near", "1", "--out", name});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
@@ -87,6 +87,8 @@ TEST_F(StudyTest, WhatCannotBeMeantIsRefused) {
   refused({}, "--list");
   refused({"depth-resolution"}, "--out");
   refused({"resolution", "--out", "out"}, "there are depth-resolution, indistinguishable");
+  refused({"z-fighting", "--separation", "0", "--out", "out"}, "--separation");
+  refused({"z-fighting", "--near", "1", "--far", "2", "--out", "out"}, "8 times near");
   refused({"depth-resolution", "--near", "0", "--out", "out"}, "near = 0");
   refused({"depth-resolution", "--near", "2", "--far", "1", "--out", "out"}, "far = 1");
   refused({"depth-resolution", "--far", "inf", "--out", "out"}, "'inf'");

@@ -86,6 +86,7 @@ std::vector<Row> rows_of(const Experiment& e, double near, double far, const Vie
   std::vector<std::optional<Storage>> storages{std::nullopt};
   storages.insert(storages.end(), std::begin(all_storages), std::end(all_storages));
   std::vector<Row> rows;
+  rows.reserve(storages.size());
   for (const auto& storage : storages) {
     rows.push_back({e.spacing->name, e.mapping, e.premultiplied, e.sources->name, storage,
                     count_order(model, storage, window)});

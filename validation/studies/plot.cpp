@@ -76,6 +76,22 @@ std::string script_of(const BarChart& chart) {
   return script;
 }
 
+std::string script_of(const HeatMap& map) {
+  std::string script = "$cells << END\n";
+  for (std::size_t row = 0; row < map.y.size(); ++row) {
+    for (std::size_t column = 0; column < map.x.size(); ++column) {
+      script += fmt::format("{:.10g} {:.10g} {:.6g}\n", map.x[column], map.y[row],
+                            map.values[row * map.x.size() + column]);
+    }
+  }
+  script += "END\n" + axes(map.title, map.y_label);
+  script += fmt::format(
+      "unset key\nset xlabel {} noenhanced\nset cblabel {} noenhanced\nset palette gray negative\n"
+      "set cbrange [0:*]\nset autoscale fix\nplot $cells with image\n",
+      quoted(map.x_label), quoted(map.value_label));
+  return script;
+}
+
 }  // namespace
 
 std::vector<StudyFile> draw(const Plot& plot) {
@@ -84,6 +100,10 @@ std::vector<StudyFile> draw(const Plot& plot) {
 
 std::vector<StudyFile> draw(const BarChart& chart) {
   return run_gnuplot(chart.name, script_of(chart));
+}
+
+std::vector<StudyFile> draw(const HeatMap& map) {
+  return run_gnuplot(map.name, script_of(map));
 }
 
 }  // namespace fathom::studies

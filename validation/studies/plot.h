@@ -36,10 +36,19 @@ struct BarChart {
   std::vector<Bars> series;
 };
 
+/// A value for each cell of a grid, dark where it is great, with a colour bar.
+struct HeatMap {
+  std::string name;
+  std::string title, x_label, y_label, value_label;
+  std::vector<double> x, y;    ///< centres of columns and rows, evenly spaced
+  std::vector<double> values;  ///< rows × columns, row by row
+};
+
 /// NAME.gp, the script that draws it, NAME.png and NAME.svg.
 /// Fails    OutputError if gnuplot is missing or fails.
 std::vector<StudyFile> draw(const Plot& plot);
 std::vector<StudyFile> draw(const BarChart& chart);
+std::vector<StudyFile> draw(const HeatMap& map);
 
 /// Fails with OutputError where gnuplot is missing: to be called before the work.
 void require_gnuplot();

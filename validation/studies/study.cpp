@@ -3,6 +3,7 @@
 #include "fathom/numeric/errors.h"
 #include "validation/studies/depth_resolution.h"
 #include "validation/studies/indistinguishable.h"
+#include "validation/studies/z_fighting.h"
 
 namespace fathom::studies {
 
@@ -12,7 +13,9 @@ const std::vector<Study>& all_studies() {
        study_depth_resolution},
       {"indistinguishable",
        "Which of many depths become equal or swap in a pipeline, after Reed, Upchurch and Desbrun",
-       study_indistinguishable}};
+       study_indistinguishable},
+      {"z-fighting", "Where two nearly coplanar surfaces fight, by distance, separation and format",
+       study_z_fighting}};
   return studies;
 }
 

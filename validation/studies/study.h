@@ -18,6 +18,8 @@ struct StudyFile {
 /// What can be asked of a study; each has its own defaults, which show the effect.
 struct StudyOptions {
   std::optional<double> near, far;
+  /// Of two surfaces, along the view.
+  std::optional<double> separation;
   std::optional<std::uint32_t> samples;
 };
 

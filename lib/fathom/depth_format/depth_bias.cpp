@@ -42,15 +42,15 @@ Ratio depth_offset(Storage storage, const DepthBias& bias, const WindowSlopes& s
   const Ratio x = magnitude(slopes.dz_dx), y = magnitude(slopes.dz_dy);
   const Ratio m = x < y ? y : x;
   const Ratio r = resolvable_difference(storage, slopes.greatest_z);
-  const Ratio o = m * Dyadic(bias.slope_factor) + r * Dyadic(bias.constant_factor);
+  Ratio o = m * Dyadic(bias.slope_factor) + r * Dyadic(bias.constant_factor);
   if (std::isnan(bias.clamp) || std::isinf(bias.clamp) || bias.clamp == 0) return o;
-  const Ratio limit = Dyadic(bias.clamp);
+  Ratio limit = Dyadic(bias.clamp);
   const bool beyond = bias.clamp > 0 ? limit < o : o < limit;
   return beyond ? limit : o;
 }
 
 Ratio biased_depth(const Ratio& window_depth, const Ratio& offset) {
-  const Ratio sum = window_depth + offset;
+  Ratio sum = window_depth + offset;
   if (sum.sign() == Sign::negative) return Ratio();
   const Ratio one = Dyadic(1.0);
   return one < sum ? one : sum;

@@ -156,7 +156,7 @@ Ratio interpolated_window_depth(const PipelineModel& model, const Vertex& a, con
 }
 
 Ratio stored_number(const PipelineModel& model, const Ratio& window_depth) {
-  const Ratio limited = biased_depth(window_depth, Ratio());
+  Ratio limited = biased_depth(window_depth, Ratio());
   if (!model.rounding.storage) return limited;
   return value_of(model.format.storage, round_to_storage(model.format.storage, limited));
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <compare>
 #include <cstdint>
 
 #include "fathom/depth_format/depth_format.h"
@@ -13,7 +12,9 @@ namespace fathom {
 /// It does not know its storage.
 struct StoredDepth {
   std::uint64_t bits = 0;
-  friend auto operator<=>(StoredDepth, StoredDepth) = default;
+  friend constexpr bool operator==(StoredDepth, StoredDepth) = default;
+  friend constexpr bool operator<(StoredDepth a, StoredDepth b) { return a.bits < b.bits; }
+  friend constexpr bool operator>(StoredDepth a, StoredDepth b) { return a.bits > b.bits; }
 };
 
 /// The value 1, the greatest; the least is 0.
