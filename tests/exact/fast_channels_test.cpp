@@ -1,6 +1,7 @@
 // Every channel and encoding of the fast engine: the same bits as the reference engine's, and each
 // tier of the cascade reached.
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <filesystem>
 #include <numbers>
@@ -206,6 +207,39 @@ TEST(FastChannels, PlacedSpheresFromOutsideAndInsideByPlainAndSkewedCameras) {
       EXPECT_LT(sum.rounding.exact, 10U);
       EXPECT_GT(sum.rounding.interval - sum.double_word_roundings, 2 * sum.pixels_with_surface);
     }
+  }
+}
+
+/// The vector code of every target that this processor has.
+class EachTarget {
+ public:
+  static void use(std::int64_t targets) {
+    hwy::SetSupportedTargetsForTest(targets);
+    hwy::GetChosenTarget().DeInit();
+  }
+  EachTarget() = default;
+  EachTarget(const EachTarget&) = delete;
+  EachTarget& operator=(const EachTarget&) = delete;
+  ~EachTarget() { use(0); }
+};
+
+TEST(FastChannels, EveryKindOfVectorInstructions) {
+  const EachTarget restores_the_choice;
+  const Scene scene = two_spheres();
+  const Camera camera =
+      skewed(look_at({3, 1, 2}, {0.4, 0, 0.1}, {0, 1, 0}, {.width = 71, .height = 37}));
+  Camera flat = camera;
+  flat.projection = Projection::orthographic;
+  flat.fx = -17;
+  flat.fy = 19.3;
+  flat.skew = 2;
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  EXPECT_GE(targets.size(), 1U);
+  for (const std::int64_t target : targets) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    EachTarget::use(target);
+    expect_same_in_every_encoding(scene, camera, 3000);
+    expect_same_in_every_encoding(scene, flat, 3000);
   }
 }
 

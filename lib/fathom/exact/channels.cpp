@@ -1,5 +1,7 @@
 #include "fathom/exact/channels.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -103,11 +105,15 @@ DepthMap make_background(const Camera& camera, const RenderOptions& options) {
   const std::size_t pixels = static_cast<std::size_t>(camera.width) * camera.height;
   std::vector<Channel> seen;
   for (const Channel channel : options.channels) {
-    if (std::find(seen.begin(), seen.end(), channel) != seen.end()) continue;
-    seen.push_back(channel);
-    for (ImageChannel& c : channels_for(channel, pixels, options.depth_encoding.type)) {
-      map.channels.push_back(std::move(c));
-    }
+    if (std::find(seen.begin(), seen.end(), channel) == seen.end()) seen.push_back(channel);
+  }
+  // Memory is touched for the first time here, which takes as long as rendering does.
+  std::vector<std::vector<ImageChannel>> filled(seen.size());
+  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
+    filled[i] = channels_for(seen[i], pixels, options.depth_encoding.type);
+  });
+  for (std::vector<ImageChannel>& channels : filled) {
+    for (ImageChannel& c : channels) map.channels.push_back(std::move(c));
   }
   if (options.depth_encoding.type == DepthEncoding::Type::scaled_unorm16) {
     map.png_scale = options.depth_encoding.scale;
@@ -136,17 +142,6 @@ ChannelWriter::ChannelWriter(DepthMap& map, const TriangleSource& triangles, con
       handedness_(Dyadic(camera.fx).sign() * Dyadic(camera.fy).sign() *
                   determinant_of_rotation(camera).sign()),
       values_(map) {}
-
-bool ChannelWriter::takes_rounded_depths() const {
-  const bool others = values_.distance.wanted() || values_.low || values_.normal[0] ||
-                      values_.position[0] || values_.barycentric[0];
-  return !others && (!values_.depth.wanted() || values_.depth.binary32);
-}
-
-void ChannelWriter::write(std::size_t pixel, std::uint32_t triangle, float depth) {
-  if (values_.depth.binary32) values_.depth.binary32[pixel] = depth;
-  write_origin(pixel, triangle);
-}
 
 std::optional<EncodingFault> ChannelWriter::write(std::size_t pixel, const ProjectedTriangle& t,
                                                   const ImagePoint& s) {

@@ -54,13 +54,6 @@ class ChannelWriter {
   std::optional<EncodingFault> write(std::size_t pixel, const ProjectedTriangle& triangle,
                                      const ImagePoint& s);
 
-  /// True where the channels are Z as binary32, id, face and object, or fewer: then a surface whose
-  /// rounded depth is known can be written without exact numbers.
-  [[nodiscard]] bool takes_rounded_depths() const;
-  /// Writes a visible surface; `depth` is its exact depth rounded to binary32. Only if
-  /// takes_rounded_depths().
-  void write(std::size_t pixel, std::uint32_t triangle, float depth);
-
   /// For writing one channel, or a component of one: it must have been asked for.
   [[nodiscard]] const ChannelValues& values() const { return values_; }
   [[nodiscard]] double scale() const { return encoding_.scale; }

@@ -2,402 +2,41 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
-// How to read this file: CertifiedWriter::write() is the list of channels; Pixel has a function for
-// each, which goes through the tiers. Values and their bounds come from fast_surface.h and
-// fast_wide.h, roundings from certified_rounding.h.
+#include "fathom/exact/fast_channel_pixel.h"
+
+// How to read this file: CertifiedWriter::write() is the list of channels. What follows from q
+// alone is rounded for a whole row (fast_channel_rows); for the rest Pixel has a function for each
+// channel, which goes through the tiers (fast_channel_pixel). Values and their bounds come from
+// fast_surface.h and fast_wide.h, roundings from certified_rounding.h.
 namespace fathom {
 namespace {
 
 /// Triangles remembered, a power of two; neighbours in the image often are neighbours in number.
 constexpr std::size_t most_remembered = 512;
 
-/// D from the tile's q: 1/q (perspective) or −q. |1/q̂ − 1/q| = |q − q̂|/(q·q̂), and q ≥ q̂·(1 − 2⁻²⁰).
-Certified<double> depth_from_q(double q, double q_error, bool perspective) {
-  if (!perspective) return {-q, q_error};
-  if (!(q_error <= q * 0x1p-20)) return {};
-  const double depth = 1 / q;
-  return {depth, (q_error * depth + epsilon<double>)*depth * slack};
+template <class Visit>
+void for_each_bit(std::uint64_t bits, const Visit& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-/// n such that x is 0 or a multiple of 2ⁿ.
-long last_bit(double x) {
-  if (x == 0) return 1L << 40;
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  const long biased = static_cast<long>(bits >> 52 & 0x7FF);
-  const std::uint64_t significand = (bits & 0xFFFFFFFFFFFFF) | std::uint64_t{biased != 0} << 52;
-  return std::max(biased, 1L) - 1075 + std::countr_zero(significand);
-}
-
-/// Not for binary64 values.
-bool store(const EncodedValues& values, std::size_t pixel, const Certified<double>& x,
-           double scale) {
-  if (values.binary32) {
-    const auto rounded = to_binary32(x.value, x.error);
-    if (rounded) values.binary32[pixel] = *rounded;
-    return rounded.has_value();
+/// Copies settled values of a row to its pixels; returns the samples that are left.
+template <class T>
+std::uint64_t copy(const VisibleRow& row, const RoundedValues<T>& rounded, T* target,
+                   RenderStatistics& statistics) {
+  const std::uint64_t settled = row.surface & rounded.settled;
+  for (std::uint64_t rest = settled; rest != 0;) {
+    const int first = std::countr_zero(rest), count = std::countr_one(rest >> first);
+    std::copy_n(rounded.values.data() + first, count,
+                target + row.first_pixel + static_cast<std::size_t>(first));
+    if (first + count == 64) break;
+    rest &= ~std::uint64_t{0} << (first + count);
   }
-  const double scaled = x.value * scale;
-  const auto code = to_code({scaled, 0}, (x.error * scale + scaled * epsilon<double>)*slack);
-  if (code) values.codes[pixel] = *code;
-  return code.has_value();
-}
-
-/// A double-word that is exact and of one word makes a product with `scale` that is exact.
-bool store(const EncodedValues& values, std::size_t pixel, const Certified<WordPair>& x,
-           double scale) {
-  if (values.binary32) {
-    const auto rounded = to_binary32(x.value, x.error);
-    if (rounded) values.binary32[pixel] = *rounded;
-    return rounded.has_value();
-  }
-  if (values.binary64) {
-    const auto rounded = to_binary64(x.value, x.error);
-    if (rounded) values.binary64[pixel] = *rounded;
-    return rounded.has_value();
-  }
-  using Real = DoubleWord<false>;
-  const Real scaled = Real(x.value) * scale;
-  const bool is_exact = x.error == 0 && x.value.lo == 0;
-  const double error = is_exact ? 0 : (x.error * scale + scaled.hi * epsilon<Real>)*slack;
-  const auto code = to_code(scaled, error);
-  if (code) values.codes[pixel] = *code;
-  return code.has_value();
-}
-
-/// At least |n·d| at a sample: from the leading words, whose own errors are 3u of the terms.
-double divisor_size(const DepthForms<WordPair>& depth, const Sample& s, bool perspective) {
-  if (!perspective) return std::abs(depth.constant.value.hi) * slack + depth.constant.error;
-  const auto& [a, b, c, error] = depth.varying;
-  const double terms = std::abs(c.hi) + std::abs(b.hi) * s.v + std::abs(a.hi) * s.u;
-  return std::abs((c.hi + b.hi * s.v) + a.hi * s.u) + terms * 0x1p-50 + error;
+  statistics.rounding.interval += static_cast<std::uint64_t>(std::popcount(settled));
+  return row.surface & ~settled;
 }
 
 }  // namespace
-
-/// One pixel while it is written. What several channels need is computed when first asked for.
-class CertifiedWriter::Pixel {
- public:
-  Pixel(CertifiedWriter& writer, const VisibleSurface& surface, Referee& referee,
-        RenderStatistics& statistics)
-      : writer_(writer),
-        values_(writer.values_),
-        surface_(surface),
-        referee_(referee),
-        statistics_(statistics),
-        s_{surface.column + 0.5, surface.row + 0.5} {}
-
-  void write_origin() {
-    if (values_.id) values_.id[surface_.pixel] = surface_.triangle;
-    if (values_.face) values_.face[surface_.pixel] = triangle().origin.face;
-    if (values_.object) values_.object[surface_.pixel] = triangle().origin.object;
-  }
-
-  /// The normal is the same at all pixels of a triangle.
-  void write_normal() {
-    Triangle& t = triangle();
-    if (!t.has_normal) {
-      find_normal();
-      t.has_normal = true;
-    }
-    for (std::size_t i = 0; i < 3; ++i) values_.normal[i][surface_.pixel] = t.normal[i];
-  }
-
-  void write_position(std::size_t k) {
-    const ObjectRays& world = writer_.rays_.world();
-    float& target = values_.position[k][surface_.pixel];
-    if (world.usable) {
-      if (!position_) {
-        position_ = position<double>(world.rays, writer_.world_sizes_, writer_.image_.perspective,
-                                     s_, narrow_depth());
-      }
-      const Certified<double>& x = (*position_)[k];
-      if (take(to_binary32(x.value, x.error), target)) return count_narrow();
-    }
-    if (triangle().usable) {
-      if (const auto c = constant(k); c && take(to_binary32(*c, 0), target)) return count_wide();
-      const Certified<WordPair> x = wide_position()[k];
-      if (take(to_binary32(x.value, x.error), target)) return count_wide();
-      if (is_zero(x, weight_bits() + world_bits(k))) {
-        target = 0;
-        return count_wide();
-      }
-    }
-    count_exact();
-    writer_.exact_.write_position(surface_.pixel, k, projected(), sample());
-  }
-
-  void write_barycentric(std::size_t k) {
-    Triangle& t = triangle();
-    float& target = values_.barycentric[k][surface_.pixel];
-    if (t.usable) {
-      if (!t.has_weights) {
-        t.weights = weight_forms<double>(t.corners, t.object->rays, writer_.image_);
-        t.has_weights = true;
-      }
-      const Certified<double> narrow = t.weights.at(k, s_);
-      if (take(to_binary32(narrow.value, narrow.error), target)) return count_narrow();
-      const Certified<double> divisor = t.weights.divisor.at(s_);
-      if (is_zero(std::abs(narrow.value) + narrow.error, std::abs(divisor.value) + divisor.error,
-                  weight_bits())) {
-        target = 0;
-        return count_narrow();
-      }
-      if (!wide_weights_) {
-        wide_weights_ = writer_.wide_.weights(t.corners, t.object->rays, writer_.image_, s_);
-      }
-      const Certified<WordPair> x = (*wide_weights_)[k];
-      if (take(to_binary32(x.value, x.error), target)) return count_wide();
-      if (is_zero(x, weight_bits())) {
-        target = 0;
-        return count_wide();
-      }
-    }
-    count_exact();
-    writer_.exact_.write_barycentric(surface_.pixel, k, projected(), sample());
-  }
-
-  std::optional<EncodingFault> write_depth() {
-    if (store_depth(values_.depth)) return std::nullopt;
-    return writer_.exact_.write_depth(surface_.pixel, projected(), sample());
-  }
-
-  /// Perspective: depth times the length of the ray at depth 1. Orthographic: the depth.
-  std::optional<EncodingFault> write_distance() {
-    if (!writer_.image_.perspective) {
-      if (store_depth(values_.distance)) return std::nullopt;
-    } else if (store_distance()) {
-      return std::nullopt;
-    }
-    return writer_.exact_.write_distance(surface_.pixel, projected(), sample());
-  }
-
-  void write_low_part() {
-    if (triangle().usable &&
-        (store_low_part(wide_depth()) || (exact_depth() && store_low_part({*exact_depth(), 0})))) {
-      return count_wide();
-    }
-    count_exact();
-    writer_.exact_.write_low_part(surface_.pixel, projected(), sample());
-  }
-
- private:
-  template <class T>
-  static bool take(const std::optional<T>& rounded, T& target) {
-    if (rounded) target = *rounded;
-    return rounded.has_value();
-  }
-
-  void count_narrow() { ++statistics_.rounding.interval; }
-  void count_wide() {
-    ++statistics_.rounding.interval;
-    ++statistics_.double_word_roundings;
-  }
-  void count_exact() { ++statistics_.rounding.exact; }
-
-  Triangle& triangle() {
-    if (!triangle_) triangle_ = &writer_.remember(surface_.triangle);
-    return *triangle_;
-  }
-  const ProjectedTriangle& projected() { return referee_.projected(surface_.triangle); }
-  [[nodiscard]] ImagePoint sample() const { return {s_.u, s_.v}; }
-
-  /// Each component in its own tier; needs any pixel at which the triangle is visible.
-  void find_normal() {
-    Triangle& t = triangle();
-    std::array<bool, 3> known{};
-    if (t.usable) {
-      const ObjectRays& world = writer_.rays_.world();
-      const auto narrow = unit_normal<double>(t.corners, *t.object, world, writer_.image_, s_);
-      std::optional<Vector<Certified<WordPair>>> wide;
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (take(to_binary32(narrow[i].value, narrow[i].error), t.normal[i])) {
-          known[i] = true;
-          count_narrow();
-          continue;
-        }
-        if (!wide) wide = writer_.wide_.normal(t.corners, *t.object, world, writer_.image_, s_);
-        if (take(to_binary32((*wide)[i].value, (*wide)[i].error), t.normal[i])) {
-          known[i] = true;
-          count_wide();
-        }
-      }
-    }
-    if (known[0] && known[1] && known[2]) return;
-    count_exact();
-    writer_.exact_.write_normal(surface_.pixel, projected());
-    for (std::size_t i = 0; i < 3; ++i) t.normal[i] = values_.normal[i][surface_.pixel];
-  }
-
-  bool store_depth(const EncodedValues& values) {
-    const double scale = writer_.exact_.scale();
-    if (!values.binary64 && store(values, surface_.pixel, narrow_depth(), scale)) {
-      count_narrow();
-      return true;
-    }
-    if (triangle().usable &&
-        (store(values, surface_.pixel, wide_depth(), scale) ||
-         (exact_depth() &&
-          store(values, surface_.pixel, Certified<WordPair>{*exact_depth(), 0}, scale)))) {
-      count_wide();
-      return true;
-    }
-    count_exact();
-    return false;
-  }
-
-  bool store_distance() {
-    const EncodedValues& values = values_.distance;
-    const double scale = writer_.exact_.scale();
-    if (!values.binary64) {
-      const auto narrow = product(narrow_depth(), ray_length<double>(writer_.rays_, s_));
-      if (store(values, surface_.pixel, narrow, scale)) {
-        count_narrow();
-        return true;
-      }
-    }
-    if (triangle().usable) {
-      const auto wide = [&](const Certified<WordPair>& depth) {
-        return writer_.wide_.distance(depth, writer_.rays_, s_);
-      };
-      if (store(values, surface_.pixel, wide(wide_depth()), scale)) {
-        count_wide();
-        return true;
-      }
-    }
-    count_exact();
-    return false;
-  }
-
-  /// D − Z: hi − Z is exact, as Z is the binary32 number nearest to hi.
-  bool store_low_part(const Certified<WordPair>& depth) {
-    const auto Z = to_binary32(depth.value, depth.error);
-    if (!Z) return false;
-    const WordPair low = two_sum(depth.value.hi - static_cast<double>(*Z), depth.value.lo);
-    return take(to_binary32(low, depth.error), values_.low[surface_.pixel]);
-  }
-
-  const Certified<double>& narrow_depth() {
-    if (!narrow_depth_) {
-      narrow_depth_ = depth_from_q(surface_.q, surface_.q_error, writer_.image_.perspective);
-    }
-    return *narrow_depth_;
-  }
-
-  const Certified<WordPair>& wide_depth() {
-    if (!wide_depth_) {
-      Triangle& t = triangle();
-      if (!t.has_depth) {
-        t.depth = writer_.wide_.depth_forms(t.corners, t.object->rays, writer_.image_);
-        t.has_depth = true;
-      }
-      wide_depth_ = writer_.wide_.depth(t.depth, s_, writer_.image_.perspective);
-    }
-    return *wide_depth_;
-  }
-
-  const Vector<Certified<WordPair>>& wide_position() {
-    if (!wide_position_) {
-      wide_position_ = writer_.wide_.position(writer_.rays_.world().rays, writer_.world_sizes_,
-                                              writer_.image_.perspective, s_, wide_depth());
-    }
-    return *wide_position_;
-  }
-
-  /// The depth where it is known exactly: that of all three corners, or the binary32 or binary64
-  /// number nearest to it.
-  const std::optional<WordPair>& exact_depth() {
-    if (!looked_for_exact_depth_) {
-      looked_for_exact_depth_ = true;
-      exact_depth_ = constant(3);
-      const Certified<WordPair>& D = wide_depth();
-      for (const double candidate :
-           {static_cast<double>(static_cast<float>(D.value.hi)), D.value.hi}) {
-        if (exact_depth_) break;
-        const WordPair rest = two_sum(D.value.hi - candidate, D.value.lo);
-        const long bits = std::min(image_bits(2), last_bit(candidate));
-        if (is_zero({rest, D.error}, weight_bits() + bits)) exact_depth_ = {candidate, 0};
-      }
-    }
-    return exact_depth_;
-  }
-
-  /// World coordinate k, or the depth (3), where it is the same number at all corners and found to
-  /// be so.
-  const std::optional<WordPair>& constant(std::size_t k) {
-    Triangle& t = triangle();
-    if ((t.constants_known >> k & 1) == 0) {
-      t.constants_known |= static_cast<std::uint8_t>(1U << k);
-      const ExactRow& row = k < 3 ? t.object->world_rows[k] : t.object->image_rows[2];
-      const auto at_A = row.value_at(t.corners[0]);
-      const auto is_at = [&](const MeshPoint& X) {
-        const auto value = row.value_at(X);
-        return value && value->hi == at_A->hi && value->lo == at_A->lo;
-      };
-      if (at_A && is_at(t.corners[1]) && is_at(t.corners[2])) t.constant[k] = at_A;
-    }
-    return t.constant[k];
-  }
-
-  // Values that are exactly 0. At a sample every interpolated value is Σ eᵢ·xᵢ / Σ eᵢ. The
-  // coordinates of the corners are multiples of some powers of two, and so are U, V, W, the edge
-  // functions eᵢ and the numerator; Σ eᵢ = det(H)·(n·d) up to its sign (fast_surface.h). So
-  // |value|·|det H|·|n·d| is |numerator|, and if a bound of it is below the power of two of which
-  // the numerator is a multiple, the value is 0.
-
-  /// Exponents of powers of two of which the corners' coordinates are multiples.
-  const std::array<long, 3>& corner_bits() {
-    if (!corner_bits_) {
-      const auto& [A, B, C] = triangle().corners;
-      corner_bits_ = {std::min({last_bit(A.x), last_bit(B.x), last_bit(C.x)}),
-                      std::min({last_bit(A.y), last_bit(B.y), last_bit(C.y)}),
-                      std::min({last_bit(A.z), last_bit(B.z), last_bit(C.z)})};
-    }
-    return *corner_bits_;
-  }
-  long world_bits(std::size_t k) {
-    return triangle().object->world_rows[k].last_bit_at(corner_bits());
-  }
-  long image_bits(std::size_t k) {
-    return triangle().object->image_rows[k].last_bit_at(corner_bits());
-  }
-  /// Of the edge functions: det of two corners and a sample (multiples of ½).
-  long weight_bits() {
-    const long U = image_bits(0), V = image_bits(1);
-    const long W = writer_.image_.perspective ? image_bits(2) : 0;
-    return std::min({U + V, U + W - 1, V + W - 1});
-  }
-  /// Bounds of the magnitudes of the value and of n·d. 2⁻⁶⁰⁰: products that underflow on the way
-  /// are below 2⁻⁷⁷⁴.
-  bool is_zero(double value, double divisor, long numerator_bits) {
-    if (numerator_bits < -600) return false;
-    const double bound = value * divisor * triangle().object->determinant * slack;
-    return bound < std::ldexp(1.0, static_cast<int>(std::min(numerator_bits, 900L)));
-  }
-  bool is_zero(const Certified<WordPair>& value, long numerator_bits) {
-    Triangle& t = triangle();
-    wide_depth();  // sets up t.depth
-    return is_zero(std::abs(value.value.hi) + value.error,
-                   divisor_size(t.depth, s_, writer_.image_.perspective), numerator_bits);
-  }
-
-  CertifiedWriter& writer_;
-  const ChannelValues& values_;
-  const VisibleSurface& surface_;
-  Referee& referee_;
-  RenderStatistics& statistics_;
-  Sample s_;
-  Triangle* triangle_ = nullptr;
-  std::optional<Certified<double>> narrow_depth_;
-  std::optional<Certified<WordPair>> wide_depth_;
-  std::optional<Vector<Certified<double>>> position_;
-  std::optional<Vector<Certified<WordPair>>> wide_position_;
-  std::optional<std::array<Certified<WordPair>, 2>> wide_weights_;
-  bool looked_for_exact_depth_ = false;
-  std::optional<WordPair> exact_depth_;
-  std::optional<std::array<long, 3>> corner_bits_;
-};
 
 CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays)
     : exact_(exact),
@@ -406,6 +45,7 @@ CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays)
       wide_(wide_arithmetic()),
       image_{rays.perspective(), rays.greatest_u(), rays.greatest_v()},
       world_sizes_(rays.world().rays, image_),
+      each_pixel_(values_.barycentric[0] || values_.low),
       remembered_(most_remembered) {}
 
 CertifiedWriter::Triangle& CertifiedWriter::remember(std::uint32_t number) {
@@ -423,18 +63,100 @@ CertifiedWriter::Triangle& CertifiedWriter::remember(std::uint32_t number) {
   return t;
 }
 
-std::optional<EncodingFault> CertifiedWriter::write(const VisibleSurface& surface, Referee& referee,
-                                                    RenderStatistics& statistics) {
-  Pixel pixel(*this, surface, referee, statistics);
-  pixel.write_origin();
-  if (values_.normal[0]) pixel.write_normal();
-  for (std::size_t k = 0; values_.position[0] && k < 3; ++k) pixel.write_position(k);
-  for (std::size_t k = 0; values_.barycentric[0] && k < 2; ++k) pixel.write_barycentric(k);
-  if (values_.distance.wanted()) {
-    if (auto fault = pixel.write_distance()) return fault;
+/// The samples of a row that a channel is still to be written at.
+struct CertifiedWriter::Open {
+  std::uint64_t depth = 0, distance = 0;
+  std::array<std::uint64_t, 3> position{};
+
+  [[nodiscard]] std::uint64_t any() const {
+    return depth | distance | position[0] | position[1] | position[2];
   }
-  if (values_.low) pixel.write_low_part();
-  return values_.depth.wanted() ? pixel.write_depth() : std::nullopt;
+};
+
+std::uint64_t CertifiedWriter::write_encoded(const VisibleRow& row, const EncodedValues& values,
+                                             bool distance, RenderStatistics& statistics) const {
+  if (!values.wanted() || values.binary64) return values.wanted() ? row.surface : 0;
+  if (values.codes) {
+    RoundedValues<std::uint16_t> codes;
+    round_to_codes(row.lanes, rays_, distance, exact_.scale(), codes);
+    return copy(row, codes, values.codes, statistics);
+  }
+  RoundedValues<float> rounded;
+  round_depths(row.lanes, rays_, distance, rounded);
+  return copy(row, rounded, values.binary32, statistics);
+}
+
+void CertifiedWriter::write_origins(const VisibleRow& row) const {
+  if (values_.id) {
+    for_each_bit(row.surface, [&](std::size_t k) {
+      const VisibleSurface surface = row.at(k);
+      values_.id[surface.pixel] = surface.triangle;
+    });
+  }
+  if (!values_.face && !values_.object) return;
+  std::uint32_t last = no_surface;
+  TriangleOrigin origin;
+  for_each_bit(row.surface, [&](std::size_t k) {
+    const VisibleSurface surface = row.at(k);
+    if (surface.triangle != last) origin = rays_.triangles().origin(last = surface.triangle);
+    if (values_.face) values_.face[surface.pixel] = origin.face;
+    if (values_.object) values_.object[surface.pixel] = origin.object;
+  });
+}
+
+void CertifiedWriter::write_normals(const VisibleRow& row, Referee& referee,
+                                    RenderStatistics& statistics) {
+  std::uint32_t last = no_surface;
+  std::array<float, 3> normal{};
+  for_each_bit(row.surface, [&](std::size_t k) {
+    const VisibleSurface surface = row.at(k);
+    if (surface.triangle != last) {
+      normal = Pixel(*this, surface, referee, statistics).normal();
+      last = surface.triangle;
+    }
+    for (std::size_t i = 0; i < 3; ++i) values_.normal[i][surface.pixel] = normal[i];
+  });
+}
+
+CertifiedWriter::Open CertifiedWriter::write_settled(const VisibleRow& row,
+                                                     RenderStatistics& statistics) const {
+  Open open;
+  write_origins(row);
+  open.depth = write_encoded(row, values_.depth, false, statistics);
+  open.distance = write_encoded(row, values_.distance, true, statistics);
+  if (!values_.position[0]) return open;
+  open.position.fill(row.surface);
+  if (!rays_.world().usable) return open;
+  std::array<RoundedValues<float>, 3> rounded;
+  round_positions(row.lanes, rays_.world().rays, world_sizes_, image_.perspective, rounded);
+  for (std::size_t k = 0; k < 3; ++k) {
+    open.position[k] = copy(row, rounded[k], values_.position[k], statistics);
+  }
+  return open;
+}
+
+std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Referee& referee,
+                                                    RenderStatistics& statistics) {
+  const Open open = write_settled(row, statistics);
+  if (values_.normal[0]) write_normals(row, referee, statistics);
+  for (std::uint64_t bits = each_pixel_ ? row.surface : open.any(); bits != 0; bits &= bits - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+    const auto is_open = [&](std::uint64_t samples) { return (samples >> k & 1) != 0; };
+    const VisibleSurface surface = row.at(k);
+    Pixel pixel(*this, surface, referee, statistics);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (is_open(open.position[i])) pixel.write_position(i);
+    }
+    for (std::size_t i = 0; values_.barycentric[0] && i < 2; ++i) pixel.write_barycentric(i);
+    if (is_open(open.distance)) {
+      if (auto fault = pixel.write_distance()) return fault;
+    }
+    if (values_.low) pixel.write_low_part();
+    if (is_open(open.depth)) {
+      if (auto fault = pixel.write_depth()) return fault;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace fathom

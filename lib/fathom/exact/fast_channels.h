@@ -6,19 +6,32 @@
 #include <vector>
 
 #include "fathom/exact/channels.h"
+#include "fathom/exact/fast_channel_rows.h"
 #include "fathom/exact/fast_rays.h"
 #include "fathom/exact/fast_referee.h"
 #include "fathom/exact/fast_wide.h"
 
 namespace fathom {
 
-/// A visible surface at a pixel, as a tile knows it. q: see ImageVertex; |q − exact q| ≤ q_error,
-/// +∞ or NaN where nothing is known.
+/// A visible surface at a pixel.
 struct VisibleSurface {
   std::size_t pixel = 0;  // row · width + column
   std::uint32_t triangle = 0;
-  std::uint32_t column = 0, row = 0;
-  double q = 0, q_error = 0;
+  ImagePoint sample;
+};
+
+/// A row of a tile, as far as surfaces are visible in it.
+struct VisibleRow {
+  SurfaceRow lanes;
+  /// A bit for each sample that shows a surface.
+  std::uint64_t surface = 0;
+  std::size_t first_pixel = 0;  // row · width + column, of the first sample
+
+  [[nodiscard]] VisibleSurface at(std::size_t k) const {
+    return {first_pixel + k,
+            static_cast<std::uint32_t>(lanes.tags[k]),
+            {lanes.first_u + static_cast<double>(k), lanes.v}};
+  }
 };
 
 /// Writes every channel of the specification, section 6, by certified floating point: a value
@@ -35,9 +48,9 @@ class CertifiedWriter {
  public:
   CertifiedWriter(ChannelWriter& exact, const SceneRays& rays);
 
-  /// Returns what is wrong if the encoding cannot hold the depth. `statistics.rounding` counts
-  /// values.
-  std::optional<EncodingFault> write(const VisibleSurface& surface, Referee& referee,
+  /// Returns what is wrong if the encoding cannot hold a depth, of the first such pixel.
+  /// `statistics.rounding` counts values.
+  std::optional<EncodingFault> write(const VisibleRow& row, Referee& referee,
                                      RenderStatistics& statistics);
 
  private:
@@ -57,6 +70,16 @@ class CertifiedWriter {
     DepthForms<WordPair> depth;
   };
   class Pixel;
+  struct Open;
+
+  /// id, face and object.
+  void write_origins(const VisibleRow& row) const;
+  /// The normal is the same at all pixels of a triangle.
+  void write_normals(const VisibleRow& row, Referee& referee, RenderStatistics& statistics);
+  /// Writes what follows from number and q; returns what is left.
+  Open write_settled(const VisibleRow& row, RenderStatistics& statistics) const;
+  std::uint64_t write_encoded(const VisibleRow& row, const EncodedValues& values, bool distance,
+                              RenderStatistics& statistics) const;
 
   Triangle& remember(std::uint32_t number);
 
@@ -66,6 +89,8 @@ class CertifiedWriter {
   const WideArithmetic& wide_;
   ImageBounds image_;
   RaySizes world_sizes_;
+  /// Whether a channel was asked for that is not written by rows.
+  bool each_pixel_;
   std::vector<Triangle> remembered_;
 };
 

@@ -74,11 +74,10 @@ class FastOutput {
   FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays);
   std::optional<EncodingFault> write(const Tile& tile, std::uint32_t image_width,
                                      const Tile::Context& context) {
-    return tile.resolve(writer_, certified_.local(), depths_, image_width, context);
+    return tile.resolve(certified_.local(), depths_, image_width, context);
   }
 
  private:
-  ChannelWriter& writer_;
   tbb::enumerable_thread_specific<CertifiedWriter> certified_;
   /// The values of Z, if that is the only channel and binary32.
   float* depths_ = nullptr;

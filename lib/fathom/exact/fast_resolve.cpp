@@ -87,35 +87,29 @@ namespace fathom {
 
 HWY_EXPORT(RoundRow);
 
-std::optional<EncodingFault> Tile::resolve(ChannelWriter& writer, CertifiedWriter& certified,
-                                           float* depths, std::uint32_t image_width,
+std::optional<EncodingFault> Tile::resolve(CertifiedWriter& certified, float* depths,
+                                           std::uint32_t image_width,
                                            const Context& context) const {
   const std::uint32_t columns = area_.last_column - area_.first_column + 1;
-  const bool any_rounded = writer.takes_rounded_depths();
+  static_assert(size == samples_of_row);
   RenderStatistics& statistics = context.statistics;
   for (std::uint32_t row = area_.first_row; row <= area_.last_row; ++row) {
     const std::size_t first = index(0, row - area_.first_row);
-    const std::size_t first_pixel =
-        static_cast<std::size_t>(row) * image_width + area_.first_column;
+    VisibleRow visible;
+    visible.lanes = {q() + first, tags() + first, area_.first_column + 0.5, row + 0.5};
+    visible.first_pixel = static_cast<std::size_t>(row) * image_width + area_.first_column;
     RoundedRow rounded;
     HWY_DYNAMIC_DISPATCH(RoundRow)(q() + first, tags() + first, context.perspective, rounded);
-    const std::uint64_t within = ~std::uint64_t{0} >> (size - columns);
-    const std::uint64_t surface = rounded.surface & within;
-    const std::uint64_t settled = any_rounded ? surface & ~rounded.open : 0;
-    if (depths) std::copy_n(rounded.depth.data(), columns, depths + first_pixel);
-    for (std::uint64_t bits = depths ? 0 : settled; bits != 0; bits &= bits - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-      writer.write(first_pixel + k, number_at(first + k), rounded.depth[k]);
+    visible.surface = rounded.surface & ~std::uint64_t{0} >> (size - columns);
+    statistics.pixels_with_surface += static_cast<std::uint64_t>(std::popcount(visible.surface));
+    if (depths) {
+      std::copy_n(rounded.depth.data(), columns, depths + visible.first_pixel);
+      const std::uint64_t settled = visible.surface & ~rounded.open;
+      statistics.rounding.interval += static_cast<std::uint64_t>(std::popcount(settled));
+      visible.surface &= rounded.open;
     }
-    for (std::uint64_t bits = surface & ~settled; bits != 0; bits &= bits - 1) {
-      const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
-      const VisibleSurface visible{first_pixel + k,        number_at(first + k),
-                                   area_.first_column + k, row,
-                                   q_[first + k],          error_at(first + k)};
-      if (auto fault = certified.write(visible, context.referee, statistics)) return fault;
-    }
-    statistics.pixels_with_surface += static_cast<std::uint64_t>(std::popcount(surface));
-    statistics.rounding.interval += static_cast<std::uint64_t>(std::popcount(settled));
+    if (visible.surface == 0) continue;
+    if (auto fault = certified.write(visible, context.referee, statistics)) return fault;
   }
   return std::nullopt;
 }

@@ -43,9 +43,8 @@ class Tile {
 
   /// Writes the visible surfaces; the first fault in row order ends it. `depths`: where not null,
   /// the values of channel Z, the only channel, written here for the whole area.
-  std::optional<EncodingFault> resolve(ChannelWriter& writer, CertifiedWriter& certified,
-                                       float* depths, std::uint32_t image_width,
-                                       const Context& context) const;
+  std::optional<EncodingFault> resolve(CertifiedWriter& certified, float* depths,
+                                       std::uint32_t image_width, const Context& context) const;
 
   // For the vector code.
   /// Index of a sample by its column and row within the tile.
