@@ -273,9 +273,10 @@ TEST(Verify, ADepthWithoutACode) {
   EXPECT_NE(text_of(v).find("above 65535"), std::string::npos) << text_of(v);
 }
 
-/// The boxes that triangles are found by never leave out what bounding_box() has.
-TEST(TriangleBoxes, AreThoseOfTheReference) {
-  int boxes = 0;
+/// The boxes that triangles are found by never leave out what bounding_box() has, and mostly are
+/// the same.
+TEST(TriangleBoxes, ContainThoseOfTheReference) {
+  int boxes = 0, equal = 0;
   for (const Kind kind : {Kind::few_bits, Kind::neighbours, Kind::huge, Kind::tiny}) {
     CaseMaker maker(5 + static_cast<std::uint64_t>(kind), kind);
     for (int i = 0; i < 500 / effort; ++i) {
@@ -288,8 +289,15 @@ TEST(TriangleBoxes, AreThoseOfTheReference) {
         const PixelBox truth =
             bounding_box(project(world_corners(object, mesh, t), t, c.camera, counts), c.camera);
         const PixelBox box = ours.box(t);
-        ASSERT_EQ(box.is_empty(), truth.is_empty());
-        if (truth.is_empty()) continue;
+        if (truth.is_empty()) {
+          equal += box.is_empty() ? 1 : 0;
+          continue;
+        }
+        ASSERT_FALSE(box.is_empty());
+        equal += box.first_column == truth.first_column && box.last_column == truth.last_column &&
+                         box.first_row == truth.first_row && box.last_row == truth.last_row
+                     ? 1
+                     : 0;
         EXPECT_LE(box.first_column, truth.first_column);
         EXPECT_GE(box.last_column, truth.last_column);
         EXPECT_LE(box.first_row, truth.first_row);
@@ -298,6 +306,7 @@ TEST(TriangleBoxes, AreThoseOfTheReference) {
     }
   }
   EXPECT_GE(boxes, 400);
+  EXPECT_GT(equal, boxes * 3 / 4);
 }
 
 /// More pixels than are taken at once: rows are cut where enough are there.

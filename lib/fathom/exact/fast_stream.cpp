@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <map>
 
 #include "fathom/exact/fast_frame.h"
 
@@ -10,11 +11,18 @@
 // of tiles. For each band the files are read from beginning to end, some triangles at a time, which
 // are transformed, sorted into tiles and drawn like those of a scene in memory; the tiles of the
 // band keep what is visible so far. How many rows a band has is found on the way: the most whose
-// tiles fit into the memory that is allowed.
+// tiles fit into the memory that is allowed. Bands after the first leave out what the first saw to
+// lie elsewhere.
 namespace fathom {
 namespace {
 
 constexpr std::uint32_t parts_of_chunk = 8;
+
+/// Whether a triangle may be visible in the tile.
+bool is_met(std::uint32_t number, const std::vector<Bins>& bins) {
+  return std::any_of(bins.begin(), bins.end(),
+                     [&](const Bins& b) { return !b.in_tile(number).empty(); });
+}
 
 /// Rows of tiles [first_row, end_row), each tile there from the first triangle on that may be
 /// visible in it.
@@ -71,16 +79,39 @@ class Band {
   }
 
  private:
-  static bool is_met(std::uint32_t number, const std::vector<Bins>& bins) {
-    return std::any_of(bins.begin(), bins.end(),
-                       [&](const Bins& b) { return !b.in_tile(number).empty(); });
-  }
   std::unique_ptr<Tile>& at(std::uint32_t number) { return tiles_[number - first()]; }
 
   const TileGrid& grid_;
   std::uint64_t most_tiles_;
   std::uint32_t first_row_, end_row_;
   std::vector<std::unique_ptr<Tile>> tiles_;
+};
+
+/// The rows of tiles in which parts of the scene may be visible, known once they were sorted.
+class RowsOfParts {
+ public:
+  void note(std::uint32_t first_number, const std::vector<Bins>& bins, const TileGrid& grid) {
+    Rows rows{grid.rows, 0};
+    for (std::uint32_t number = 0; number < grid.count(); ++number) {
+      if (!is_met(number, bins)) continue;
+      rows.first = std::min(rows.first, number / grid.columns);
+      rows.last = number / grid.columns;
+    }
+    rows_[first_number] = rows;
+  }
+
+  /// False only if no triangle of the part can be visible in rows [begin, end).
+  [[nodiscard]] bool may_meet(std::uint32_t first_number, std::uint32_t begin,
+                              std::uint32_t end) const {
+    const auto found = rows_.find(first_number);
+    return found == rows_.end() || (found->second.first < end && found->second.last >= begin);
+  }
+
+ private:
+  struct Rows {
+    std::uint32_t first, last;
+  };
+  std::map<std::uint32_t, Rows> rows_;
 };
 
 /// Reports progress from the thread that reads: rows of tiles done, and of the band under way the
@@ -105,22 +136,28 @@ DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
   const SceneRays rays(triangles, camera);
   FastOutput output(map, writer, rays);
   FirstFault fault;
+  RowsOfParts rows;
   for (std::uint32_t first_row = 0; first_row < frame.grid.rows;) {
     Band band(frame.grid, first_row, limits.tile_bytes);
-    triangles.for_each_part(limits.triangles_at_once, [&](const TriangleSource::Part& part) {
+    const auto draw = [&](const TriangleSource::Part& part) {
       ImageObjects objects;
       objects.emplace_back(part.object, part.mesh, camera, part.first_number);
       const std::uint32_t end = objects.front().end_number();
       const std::vector<Bins> bins =
           sort_into_tiles(objects, part.first_number, end, parts_of_chunk, frame,
                           first_row == 0 ? workers : sorting_again);
+      if (first_row == 0) rows.note(part.first_number, bins, frame.grid);
       band.make_room(bins);
       band.draw(bins, objects, frame, workers);
       report(options, band, frame.grid, first_row,
              static_cast<double>(end) / static_cast<double>(triangles.count()));
+    };
+    triangles.for_each_part(limits.triangles_at_once, draw, [&](std::uint32_t first_number) {
+      return rows.may_meet(first_number, first_row, band.end_row());
     });
     band.resolve(output, frame, workers, fault);
     if (fault.get()) fail(*fault.get(), map);
+    report(options, band, frame.grid, first_row, 1);
     first_row = band.end_row();
   }
   if (options.statistics) *options.statistics = sum_of(workers, triangles.count());

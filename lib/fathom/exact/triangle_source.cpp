@@ -65,20 +65,24 @@ std::array<WorldPoint, 3> TriangleSource::world_corners(std::uint32_t number) co
 
 namespace {
 
-/// visit(chunk) for a whole file; the next chunk is read meanwhile.
-template <class Visit>
-void for_each_chunk(const TriangleStream& stream, std::uint32_t triangles, const Visit& visit) {
-  const auto read = [&](std::uint32_t first) {
-    return std::async(std::launch::async,
-                      [&stream, first, triangles] { return stream.read(first, triangles); });
+/// visit(chunk) for a whole file, or those chunks that are wanted; the next chunk is read
+/// meanwhile.
+template <class Wanted, class Visit>
+void for_each_chunk(const TriangleStream& stream, std::uint32_t triangles, const Wanted& wanted,
+                    const Visit& visit) {
+  const std::uint64_t end = stream.triangle_count();
+  /// The first chunk that is wanted of those from `first` on; not valid if there is none.
+  const auto read = [&](std::uint64_t first) -> std::future<TriangleChunk> {
+    while (first < end && !wanted(static_cast<std::uint32_t>(first))) first += triangles;
+    if (first >= end) return {};
+    return std::async(std::launch::async, [&stream, first, triangles] {
+      return stream.read(static_cast<std::uint32_t>(first), triangles);
+    });
   };
-  const std::uint32_t end = stream.triangle_count();
-  std::future<TriangleChunk> next;
-  if (end > 0) next = read(0);
+  std::future<TriangleChunk> next = read(0);
   while (next.valid()) {
     const TriangleChunk chunk = next.get();
-    const auto count = static_cast<std::uint32_t>(chunk.mesh.triangles.size());
-    if (chunk.first + count < end) next = read(chunk.first + count);
+    next = read(std::uint64_t{chunk.first} + triangles);
     visit(chunk);
   }
 }
@@ -86,16 +90,20 @@ void for_each_chunk(const TriangleStream& stream, std::uint32_t triangles, const
 }  // namespace
 
 void TriangleSource::for_each_part(std::uint32_t triangles_of_file,
-                                   const std::function<void(const Part&)>& visit) const {
+                                   const std::function<void(const Part&)>& visit,
+                                   const std::function<bool(std::uint32_t)>& wanted) const {
   for (std::uint32_t i = 0; i < objects().size(); ++i) {
     const Object& object = objects()[i];
     const auto first = static_cast<std::uint32_t>(first_numbers_[i]);
-    if (scene_) {
+    if (streamed_) {
+      for_each_chunk(
+          stream(i), triangles_of_file,
+          [&](std::uint32_t number) { return wanted(first + number); },
+          [&](const TriangleChunk& chunk) {
+            visit({object, chunk.mesh, first + chunk.first});
+          });
+    } else if (wanted(first)) {
       visit({object, scene_->meshes[object.mesh], first});
-    } else {
-      for_each_chunk(stream(i), triangles_of_file, [&](const TriangleChunk& chunk) {
-        visit({object, chunk.mesh, first + chunk.first});
-      });
     }
   }
 }

@@ -41,9 +41,11 @@ class TriangleSource {
     std::uint32_t first_number;
   };
   /// visit(part) for parts that together are the scene, in the order of their triangles, one after
-  /// the other in this thread: whole objects in memory, at most so many triangles of a file.
-  void for_each_part(std::uint32_t triangles_of_file,
-                     const std::function<void(const Part&)>& visit) const;
+  /// the other in this thread: whole objects in memory, at most so many triangles of a file. Parts
+  /// of which wanted(their first number) is false are left out, and not read.
+  void for_each_part(
+      std::uint32_t triangles_of_file, const std::function<void(const Part&)>& visit,
+      const std::function<bool(std::uint32_t)>& wanted = [](std::uint32_t) { return true; }) const;
 
  private:
   /// Object, and number of the triangle within it.

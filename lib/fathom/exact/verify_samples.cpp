@@ -53,24 +53,58 @@ void near(const Interval& range, std::uint32_t count, std::int64_t& first, std::
                           : static_cast<std::int64_t>(std::clamp(high, -1.0, size - 1));
 }
 
+/// U, V and W as exact affine functions of the mesh point, by their values at four points.
+std::array<ApproximateRow, 3> image_rows(const Object& object, const Camera& camera) {
+  const auto image = [&](const MeshPoint& p) {
+    const HomogeneousImagePoint a = to_image(camera, to_camera(camera, object.world_from_mesh(p)));
+    return ExactVector3{a.U, a.V, a.W};
+  };
+  const ExactVector3 origin = image({0, 0, 0}), x = image({1, 0, 0}), y = image({0, 1, 0}),
+                     z = image({0, 0, 1});
+  const auto row = [&](std::size_t i) {
+    return ApproximateRow({x[i] - origin[i], y[i] - origin[i], z[i] - origin[i], origin[i]});
+  };
+  return {row(0), row(1), row(2)};
+}
+
 }  // namespace
 
 TriangleBoxes::TriangleBoxes(const Object& object, const Mesh& mesh, const Camera& camera)
-    : object_(object), mesh_(mesh), camera_(camera), recent_(remembered_corners) {}
+    : object_(object),
+      mesh_(mesh),
+      camera_(camera),
+      rows_(image_rows(object, camera)),
+      recent_(remembered_corners) {}
 
 const TriangleBoxes::Corner& TriangleBoxes::corner(std::uint32_t vertex) {
   Corner& slot = recent_[vertex % remembered_corners];
   if (slot.known && slot.vertex == vertex) return slot;
-  const MeshPoint& p = mesh_.vertices[vertex];
-  const WorldPoint world =
-      object_.placed_as_is ? WorldPoint{p.x, p.y, p.z} : object_.world_from_mesh(p);
-  const HomogeneousImagePoint image = to_image(camera_, to_camera(camera_, world));
-  slot = {.vertex = vertex, .known = true, .in_front = image.W.sign() == Sign::positive};
-  if (!slot.in_front) return slot;
-  const Interval W = enclose(image.W);
-  near(quotient(enclose(image.U), W), camera_.width, slot.first_column, slot.last_column);
-  near(quotient(enclose(image.V), W), camera_.height, slot.first_row, slot.last_row);
+  slot = {.vertex = vertex, .known = true};
+  project(mesh_.vertices[vertex], slot);
   return slot;
+}
+
+void TriangleBoxes::project(const MeshPoint& p, Corner& corner) const {
+  const Interval W = rows_[2].at(p);
+  if (W.lower > 0) {
+    set_place(rows_[0].at(p), rows_[1].at(p), W, corner);
+  } else if (!(W.upper <= 0)) {
+    project_exactly(p, corner);
+  }
+}
+
+void TriangleBoxes::project_exactly(const MeshPoint& p, Corner& corner) const {
+  const HomogeneousImagePoint image =
+      to_image(camera_, to_camera(camera_, object_.world_from_mesh(p)));
+  if (image.W.sign() != Sign::positive) return;
+  set_place(enclose(image.U), enclose(image.V), enclose(image.W), corner);
+}
+
+void TriangleBoxes::set_place(const Interval& U, const Interval& V, const Interval& W,
+                              Corner& corner) const {
+  corner.in_front = true;
+  near(quotient(U, W), camera_.width, corner.first_column, corner.last_column);
+  near(quotient(V, W), camera_.height, corner.first_row, corner.last_row);
 }
 
 PixelBox TriangleBoxes::box(std::uint32_t triangle) {

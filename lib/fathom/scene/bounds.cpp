@@ -1,9 +1,10 @@
 #include "fathom/scene/bounds.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
+
+#include "fathom/scene/approximate_row.h"
 
 namespace fathom {
 namespace {
@@ -32,38 +33,6 @@ void include_as_is(WorldBounds& bounds, const Mesh& mesh, const std::vector<bool
     include(bounds, 2, {z, z});
   }
 }
-
-/// One row of an affine map in binary64, with a bound of its error.
-class ApproximateRow {
- public:
-  explicit ApproximateRow(const std::array<Dyadic, 4>& row) {
-    for (int k = 0; k < 4; ++k) {
-      const auto [lower, upper] = enclose(row[k]);
-      coefficients_[k] = lower;
-      // Outside the normal numbers a coefficient's own rounding has no relative bound.
-      usable_ = usable_ && (row[k].is_zero() || (std::isnormal(lower) && std::isnormal(upper)));
-    }
-  }
-
-  /// An interval that contains row·(x, y, z, 1). With u = 2⁻⁵³, the coefficients (truncated: an
-  /// error of 2u), the products and the two to three sums that each goes through err together by
-  /// at most (1 + 2u)(1 + u)⁴ − 1 < 2⁻⁵⁰ of the sum S of the magnitudes; S itself is computed at
-  /// most as much too small, which leaves room within 2⁻⁴⁹·S. A product that underflows adds
-  /// 2⁻¹⁰⁷⁵. Infinities and NaNs come out as the whole line.
-  [[nodiscard]] Interval at(const MeshPoint& p) const {
-    const auto& [a, b, c, d] = coefficients_;
-    const double value = a * p.x + b * p.y + c * p.z + d;
-    const double magnitude =
-        std::abs(a * p.x) + std::abs(b * p.y) + std::abs(c * p.z) + std::abs(d);
-    const double error = magnitude * 0x1p-49 + 0x1p-1070;
-    if (!usable_ || !std::isfinite(magnitude)) return {-infinity, infinity};
-    return {std::nextafter(value - error, -infinity), std::nextafter(value + error, infinity)};
-  }
-
- private:
-  std::array<double, 4> coefficients_{};
-  bool usable_ = true;
-};
 
 /// Widens one axis of the bounds by the placed vertices: exactly, but only for those that the
 /// approximation cannot tell from an extreme one.
