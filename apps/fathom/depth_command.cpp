@@ -146,12 +146,16 @@ std::string trimmed(const std::string& line) {
   return line.substr(begin, line.find_last_not_of(" \t\r") - begin + 1);
 }
 
+/// A binary64 number needs 1074 digits at most; no sane text is longer.
+constexpr std::size_t longest_value = 4096;
+
 /// One value a line from standard input, one answer a line, as they come.
 void answer_lines(const DepthFormat& format, const DepthArguments& arguments, Ask ask) {
   std::string line;
   for (std::size_t number = 1; std::getline(std::cin, line); ++number) {
     const std::string text = trimmed(line);
     try {
+      if (text.size() > longest_value) throw UsageError("VALUE: longer than any number");
       print(line_of(ask({format, arguments.clamp, text}), arguments.json));
     } catch (const Error& error) {
       if (dynamic_cast<const OutputError*>(&error) != nullptr) throw;

@@ -12,7 +12,12 @@ View view_from(const std::array<double, 3>& eye, const std::array<double, 3>& to
   return {eye, d, {d[0], d[1], d[2], -(d[0] * eye[0] + d[1] * eye[1] + d[2] * eye[2])}};
 }
 
-View random_view(std::uint64_t seed) {
+View default_view(double near) {
+  const double scale = near / 0.1;
+  return view_from({10 * scale, 20 * scale, 30 * scale}, {1, 2, 3});
+}
+
+View random_view(std::uint64_t seed, double near) {
   std::mt19937_64 random(seed);
   // The engine's output is the same everywhere; that of the library's distributions is not.
   const auto between_minus_and_one = [&] {
@@ -26,7 +31,7 @@ View random_view(std::uint64_t seed) {
   for (;;) {
     const std::array<double, 3> d = point(1);
     const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    if (square > 0.01 && square <= 1) return view_from(point(10), d);
+    if (square > 0.01 && square <= 1) return view_from(point(10 * (near / 0.1)), d);
   }
 }
 

@@ -17,8 +17,12 @@ struct View {
   ViewRow row;
 };
 View view_from(const std::array<double, 3>& eye, const std::array<double, 3>& towards);
-/// A view drawn at random: any direction, the eye up to 10 units from the origin on each axis.
-View random_view(std::uint64_t seed);
+/// The view that studies take unless they take others: turned, and moved by 375 times near, so that
+/// it is the same experiment at every scale; for near 0.1 the eye is at (10, 20, 30).
+View default_view(double near);
+/// A view drawn at random: any direction, the eye up to 100 times near from the origin on each
+/// axis.
+View random_view(std::uint64_t seed, double near);
 
 /// The vertex at a depth along the view's axis, its coordinates rounded to binary32 as in a vertex
 /// buffer. Its exact depth is that of the rounded vertex.

@@ -294,6 +294,9 @@ std::vector<StudyFile> study_depth_resolution(const StudyOptions& options,
                                               const std::function<void(double)>& tick) {
   const double near = options.near.value_or(0.1), far = options.far.value_or(1000);
   require_meaningful({Mapping::standard, Storage::unorm16, near, far});
+  if (near < 1e-300 || far > 1e300) {
+    throw UsageError("near and far of this study lie between 1e-300 and 1e300");
+  }
   const std::vector<double> depths = logarithmic_samples(near, far, options.samples.value_or(121));
   require_gnuplot();
 

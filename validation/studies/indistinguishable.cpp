@@ -132,7 +132,7 @@ Spread spread_of(Mapping mapping, bool premultiplied, double near, double far,
   };
   const Sources& vertices = all_sources()[5];
   for (int seed = 1; seed <= random_views; ++seed) {
-    const View view = random_view(static_cast<std::uint64_t>(seed));
+    const View view = random_view(static_cast<std::uint64_t>(seed), near);
     const PipelineModel model =
         model_of(mapping, near, far, view, premultiplied, vertices.rounding);
     const OrderCount counts =
@@ -311,7 +311,7 @@ std::vector<StudyFile> study_indistinguishable(const StudyOptions& options,
                                       {"logarithmic", logarithmic_samples(near, far, samples)}};
   require_gnuplot();
 
-  const View view = view_from({10, 20, 30}, {1, 2, 3});
+  const View view = default_view(near);
   const std::vector<Experiment> experiments = experiments_of(spacings);
   std::vector<std::vector<Row>> parts(experiments.size());
   std::mutex ticking;

@@ -47,7 +47,7 @@ bool is_projection(Mapping mapping) {
 
 Fight measure(const DepthFormat& format, const Scene& scene, double distance) {
   const CoplanarPair pair{distance, scene.separation, tilt};
-  const View view = view_from({10, 20, 30}, {1, 2, 3});
+  const View view = default_view(scene.near);
   const auto in_pipeline = [&](bool premultiplied) {
     if (!is_projection(format.mapping)) return std::numeric_limits<double>::quiet_NaN();
     const PipelineModel model{format, view.row, premultiplied, {}};
