@@ -107,6 +107,7 @@ std::vector<Polygon<Number>> in_canonical_order(std::vector<Polygon<Number>> pol
 template <class Number>
 std::vector<WalkStep<Number>> steps_of(const std::vector<BorderEdge<Number>>& closed_walk) {
   std::vector<WalkStep<Number>> steps;
+  steps.reserve(closed_walk.size());
   for (const BorderEdge<Number>& edge : closed_walk) steps.push_back({edge.from, edge.along});
   return steps;
 }
