@@ -2,7 +2,6 @@
 
 #include "fathom/numeric/errors.h"
 #include "validation/studies/clipping.h"
-#include "validation/studies/clipping.h"
 #include "validation/studies/depth_resolution.h"
 #include "validation/studies/indistinguishable.h"
 #include "validation/studies/z_fighting.h"
@@ -11,8 +10,6 @@ namespace fathom::studies {
 
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies{
-      {"clipping", "Sutherland-Hodgman's bridging edges on concave polygons, and their cures",
-       study_clipping},
       {"clipping", "Sutherland-Hodgman's bridging edges on concave polygons, and their cures",
        study_clipping},
       {"depth-resolution", "The step of every depth format against depth, near and far",
