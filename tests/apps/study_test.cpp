@@ -86,7 +86,7 @@ TEST_F(StudyTest, WhatCannotBeMeantIsRefused) {
   };
   refused({}, "--list");
   refused({"depth-resolution"}, "--out");
-  refused({"resolution", "--out", "out"}, "there are depth-resolution, indistinguishable");
+  refused({"resolution", "--out", "out"}, "depth-resolution, indistinguishable");
   refused({"z-fighting", "--separation", "0", "--out", "out"}, "--separation");
   refused({"z-fighting", "--near", "1", "--far", "2", "--out", "out"}, "8 times near");
   refused({"depth-resolution", "--near", "0", "--out", "out"}, "near = 0");
