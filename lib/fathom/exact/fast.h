@@ -15,4 +15,8 @@ namespace fathom {
 /// Fails    as render_reference.
 DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options);
 
+/// The kind of vector instructions that the fast engine uses on this machine, by Highway's names:
+/// "AVX2", "AVX3", … The map does not depend on it.
+const char* vector_instructions();
+
 }  // namespace fathom

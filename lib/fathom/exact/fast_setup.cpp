@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "fathom/exact/fast.h"
 #include "fathom/exact/fast_setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -44,6 +45,10 @@ void Orient(const ImageVertex* vertices, const CornerIndices& triangle, int& sig
   certain = positive || negative || (bits_of(o.zero) & 1);
 }
 
+const char* Name() {
+  return hwy::TargetName(HWY_TARGET);
+}
+
 }  // namespace
 }  // namespace fathom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -53,6 +58,11 @@ namespace fathom {
 
 HWY_EXPORT(SetUp);
 HWY_EXPORT(Orient);
+HWY_EXPORT(Name);
+
+const char* vector_instructions() {
+  return HWY_DYNAMIC_DISPATCH(Name)();
+}
 
 void certified_setups(const ImageVertex* vertices, const CornerIndices* triangles,
                       std::size_t count, const PixelBox& area, const DepthRange& range,

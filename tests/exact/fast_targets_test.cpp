@@ -1,0 +1,101 @@
+// The fast engine's map with every kind of vector instructions that this machine has, with any
+// number of threads, and with each of its short cuts left out: always the reference engine's.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <set>
+#include <string>
+
+#include "tests/exact/effort.h"
+#include "tests/exact/expect_same_map.h"
+#include "tests/exact/random_scenes.h"
+#include "tests/exact/soup.h"
+
+namespace fathom {
+namespace {
+
+using testing::expect_same;
+using testing::quick_channels;
+
+/// Restricts the engine to one kind of vector instructions for as long as it lives.
+class OnlyTarget {
+ public:
+  explicit OnlyTarget(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().DeInit();
+  }
+  ~OnlyTarget() {
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().DeInit();
+  }
+  OnlyTarget(const OnlyTarget&) = delete;
+  OnlyTarget& operator=(const OnlyTarget&) = delete;
+};
+
+/// All kinds of this machine, one bit each; the least one is the highest bit.
+std::vector<std::int64_t> targets() {
+  std::vector<std::int64_t> all;
+  for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
+    all.push_back(rest & -rest);
+  }
+  return all;
+}
+
+void expect_same_on_soups(std::uint64_t seed, int scenes, const RenderOptions& options) {
+  std::mt19937_64 random(seed);
+  for (int i = 0; i < scenes && !::testing::Test::HasFailure(); ++i) {
+    SCOPED_TRACE("soup " + std::to_string(i));
+    Camera camera = testing::camera_of(160, 140, 64);
+    if (i % 4 == 3) camera.world_to_camera[2][3] = -3.25;  // the camera among the triangles
+    if (i % 4 == 2) camera.near = 4;
+    expect_same(testing::soup(random, 60, i % 2 == 0), camera, options);
+  }
+}
+
+TEST(FastTargets, EveryKindOfVectorInstructions) {
+  std::set<std::string> names;
+  for (const std::int64_t target : targets()) {
+    const OnlyTarget only(target);
+    names.insert(vector_instructions());
+    SCOPED_TRACE(vector_instructions());
+    RenderOptions options;
+    options.channels = quick_channels;
+    options.threads = 2;
+    expect_same_on_soups(99, testing::effort > 1 ? 4 : 12, options);
+    for (const auto kind : {testing::Kind::few_bits, testing::Kind::neighbours}) {
+      testing::CaseMaker maker(31, kind);
+      for (int i = 0; i < 400 / testing::effort && !HasFailure(); ++i) {
+        const testing::Case c = maker.make();
+        expect_same(c.scene, c.camera, options);
+      }
+    }
+  }
+  // The kinds were really chosen between, where the machine has several.
+  if (targets().size() > 2) {
+    EXPECT_GT(names.size(), 1U);
+  }
+}
+
+TEST(FastTargets, OneToEightThreads) {
+  for (int threads = 1; threads <= 8; ++threads) {
+    SCOPED_TRACE(threads);
+    RenderOptions options;
+    options.channels = quick_channels;
+    options.threads = threads;
+    expect_same_on_soups(100, 4, options);
+  }
+}
+
+TEST(FastTargets, WithoutShortCuts) {
+  for (int switched_off = 0; switched_off < 4; ++switched_off) {
+    SCOPED_TRACE(switched_off);
+    RenderOptions options;
+    options.channels = quick_channels;
+    options.fast.hierarchy = !(switched_off & 1);
+    options.fast.early_rejection = !(switched_off & 2);
+    expect_same_on_soups(101, 8, options);
+  }
+}
+
+}  // namespace
+}  // namespace fathom
