@@ -49,7 +49,7 @@ const char* type_name(std::uint32_t) {
 ChannelSummary summarise(const DepthMap& map, const ImageChannel& channel) {
   ChannelSummary summary;
   const std::vector<std::uint8_t> surface = surface_mask(map, channel);
-  const bool codes = std::holds_alternative<std::vector<std::uint16_t>>(channel.values);
+  const bool codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
   if (codes && map.png_scale) summary.scale = *map.png_scale;
   std::visit(
       [&](const auto& values) {

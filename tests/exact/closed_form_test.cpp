@@ -14,7 +14,7 @@ namespace {
 using testing::camera_of;
 using testing::scene_of;
 
-const std::vector<float>& depths(const DepthMap& map) {
+const Samples<float>& depths(const DepthMap& map) {
   return *map.values<float>("Z");
 }
 

@@ -18,7 +18,7 @@ inline const std::vector<Channel> quick_channels{Channel::Z, Channel::id, Channe
 
 /// The first pixel at which the values differ in a bit; nullopt if none.
 template <class T>
-std::optional<std::size_t> first_difference(const std::vector<T>& a, const std::vector<T>& b) {
+std::optional<std::size_t> first_difference(const Samples<T>& a, const Samples<T>& b) {
   if (a.size() != b.size()) return std::min(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (std::memcmp(&a[i], &b[i], sizeof(T)) != 0) return i;

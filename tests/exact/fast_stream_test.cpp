@@ -241,7 +241,7 @@ TEST(FastStream, VerifiedFromTheFilesToo) {
   Verification v = verify(map, both.streamed, camera, options, all);
   EXPECT_EQ(v.verified, all.size());
   EXPECT_EQ(v.differing, 0U);
-  std::get<std::vector<float>>(map.channels[0].values)[75 * 201 + 100] *= 1.0000001F;
+  std::get<Samples<float>>(map.channels[0].values)[75 * 201 + 100] *= 1.0000001F;
   v = verify(map, both.streamed, camera, options, all);
   EXPECT_EQ(v.differing, 1U);
 }

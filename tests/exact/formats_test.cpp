@@ -17,10 +17,10 @@ namespace {
 std::vector<std::uint32_t> bits_of(const DepthMap& map) {
   std::vector<std::uint32_t> bits;
   for (const ImageChannel& channel : map.channels) {
-    if (const auto* floats = std::get_if<std::vector<float>>(&channel.values)) {
+    if (const auto* floats = std::get_if<Samples<float>>(&channel.values)) {
       for (const float x : *floats) bits.push_back(std::bit_cast<std::uint32_t>(x));
     } else {
-      const auto& integers = std::get<std::vector<std::uint32_t>>(channel.values);
+      const auto& integers = std::get<Samples<std::uint32_t>>(channel.values);
       bits.insert(bits.end(), integers.begin(), integers.end());
     }
   }

@@ -188,7 +188,7 @@ TEST(Verify, NamesTheFirstPixelAndBothValues) {
   const Camera camera = camera_of(8, 6, 4);
   const RenderOptions options;
   DepthMap map = render_fast(scene, camera, options);
-  auto& depth = std::get<std::vector<float>>(map.channels[0].values);
+  auto& depth = std::get<Samples<float>>(map.channels[0].values);
   depth[4 * 8 + 7] = 3;
   depth[3 * 8 + 2] = std::nextafter(2.0F, 3.0F);
   const Verification v = verify(map, scene, camera, options, all_pixels(camera));
@@ -203,13 +203,13 @@ TEST(Verify, FindsWrongVisibility) {
   RenderOptions options;
   options.channels = {Channel::id};
   const DepthMap right = render_fast(scene, camera, options);
-  const auto& ids = std::get<std::vector<std::uint32_t>>(right.channels[0].values);
+  const auto& ids = std::get<Samples<std::uint32_t>>(right.channels[0].values);
   std::set<std::uint32_t> seen(ids.begin(), ids.end());
   EXPECT_EQ(seen, (std::set<std::uint32_t>{0, 1, 2, no_surface}));
   for (const std::uint32_t other : seen) {
     DepthMap wrong = right;
-    auto& values = std::get<std::vector<std::uint32_t>>(wrong.channels[0].values);
-    values.assign(48, other);
+    auto& values = std::get<Samples<std::uint32_t>>(wrong.channels[0].values);
+    values = Samples<std::uint32_t>(48, other);
     const Verification v = verify(wrong, scene, camera, options, all_pixels(camera));
     EXPECT_EQ(v.differing, 48U - static_cast<unsigned>(std::count(ids.begin(), ids.end(), other)));
   }
@@ -267,8 +267,8 @@ TEST(Verify, ADepthWithoutACode) {
   const Verification v = verify(map, scene, camera, options, all_pixels(camera));
   ASSERT_TRUE(v.first);
   const auto background =
-      std::count(std::get<std::vector<std::uint16_t>>(map.channels[0].values).begin(),
-                 std::get<std::vector<std::uint16_t>>(map.channels[0].values).end(), 0);
+      std::count(std::get<Samples<std::uint16_t>>(map.channels[0].values).begin(),
+                 std::get<Samples<std::uint16_t>>(map.channels[0].values).end(), 0);
   EXPECT_EQ(v.differing, 48U - static_cast<unsigned>(background));
   EXPECT_NE(text_of(v).find("above 65535"), std::string::npos) << text_of(v);
 }

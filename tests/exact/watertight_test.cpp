@@ -49,7 +49,7 @@ TEST(Watertight, ABumpySheetWithASampleOnEveryVertexAndEdge) {
   RenderOptions options;
   options.statistics = &statistics;
   const DepthMap map = render(sheet, camera, options);
-  const std::vector<float>& Z = *map.values<float>("Z");
+  const Samples<float>& Z = *map.values<float>("Z");
   // The sheet spans the samples 1 … 2·side − 1; those on its right and bottom edges are another's.
   const auto inside = [](int x) { return x >= 1 && x < 2 * side - 1; };
   std::uint64_t expected = 0;

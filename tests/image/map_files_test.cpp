@@ -208,7 +208,7 @@ TEST(Png, HoldsIdentifiersThatFit) {
   const DepthMap back = decode_map(encode_png(map, map.channels[0], "a.png"), "a.png");
   ASSERT_NE(back.values<std::uint32_t>("face"), nullptr);
   EXPECT_EQ(bits_of(back.channels[0]), bits_of(map.channels[0]));
-  std::get<std::vector<std::uint32_t>>(map.channels[0].values)[3] = 65535;
+  std::get<Samples<std::uint32_t>>(map.channels[0].values)[3] = 65535;
   EXPECT_EQ(message_of<OutputError>([&] { encode_png(map, map.channels[0], "a.png"); }),
             "a.png: identifier 65535 does not fit a 16-bit PNG: expected at most 65534");
 }

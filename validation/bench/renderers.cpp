@@ -15,7 +15,7 @@ namespace fathom::bench {
 namespace {
 
 std::uint64_t covered_pixels(const DepthMap& map) {
-  const std::vector<float>* Z = map.values<float>("Z");
+  const Samples<float>* Z = map.values<float>("Z");
   if (Z == nullptr) return 0;
   const auto covered = std::count_if(Z->begin(), Z->end(), [](float z) { return !std::isinf(z); });
   return static_cast<std::uint64_t>(covered);

@@ -1,5 +1,6 @@
 #include "fathom/exact/channels.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -16,7 +17,13 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 template <class T>
 ImageChannel filled(const std::string& name, std::size_t pixels, T background) {
-  return {name, std::vector<T>(pixels, background)};
+  Samples<T> values(pixels);
+  if (background != T{0}) {  // NaN too
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels, 1 << 18), [&](const auto& part) {
+      std::fill(values.begin() + part.begin(), values.begin() + part.end(), background);
+    });
+  }
+  return {name, std::move(values)};
 }
 
 ImageChannel depth_channel(const std::string& name, std::size_t pixels, DepthEncoding::Type type) {
@@ -87,7 +94,7 @@ ImageChannel* channel(DepthMap& map, const std::string& name) {
 template <class T>
 T* values_of(DepthMap& map, const std::string& name) {
   ImageChannel* c = channel(map, name);
-  auto* values = c ? std::get_if<std::vector<T>>(&c->values) : nullptr;
+  auto* values = c ? std::get_if<Samples<T>>(&c->values) : nullptr;
   return values ? values->data() : nullptr;
 }
 
@@ -105,15 +112,11 @@ DepthMap make_background(const Camera& camera, const RenderOptions& options) {
   const std::size_t pixels = static_cast<std::size_t>(camera.width) * camera.height;
   std::vector<Channel> seen;
   for (const Channel channel : options.channels) {
-    if (std::find(seen.begin(), seen.end(), channel) == seen.end()) seen.push_back(channel);
-  }
-  // Memory is touched for the first time here, which takes as long as rendering does.
-  std::vector<std::vector<ImageChannel>> filled(seen.size());
-  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
-    filled[i] = channels_for(seen[i], pixels, options.depth_encoding.type);
-  });
-  for (std::vector<ImageChannel>& channels : filled) {
-    for (ImageChannel& c : channels) map.channels.push_back(std::move(c));
+    if (std::find(seen.begin(), seen.end(), channel) != seen.end()) continue;
+    seen.push_back(channel);
+    for (ImageChannel& c : channels_for(channel, pixels, options.depth_encoding.type)) {
+      map.channels.push_back(std::move(c));
+    }
   }
   if (options.depth_encoding.type == DepthEncoding::Type::scaled_unorm16) {
     map.png_scale = options.depth_encoding.scale;

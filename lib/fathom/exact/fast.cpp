@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 #include "fathom/exact/fast_frame.h"
 
 // How to read this file: render_in_arena() is the whole story. Vertices are transformed to the
@@ -40,11 +42,14 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   FirstFault fault;
   Progress progress(options.progress, frame.grid.count());
   tbb::parallel_for(std::uint32_t{0}, frame.grid.count(), [&](std::uint32_t number) {
-    const Tile::Context context = frame.context(workers.local());
-    Tile& tile = *tiles.local();
-    tile.start(frame.grid.area(number));
-    draw_tile(tile, number, bins, objects, context);
-    fault.add(output.write(tile, camera.width, context));
+    const auto is_empty = [&](const Bins& part) { return part.in_tile(number).empty(); };
+    if (!std::all_of(bins.begin(), bins.end(), is_empty)) {
+      const Tile::Context context = frame.context(workers.local());
+      Tile& tile = *tiles.local();
+      tile.start(frame.grid.area(number));
+      draw_tile(tile, number, bins, objects, context);
+      fault.add(output.write(tile, camera.width, context));
+    }
     progress.part_done();
   });
   if (fault.get()) fail(*fault.get(), map);

@@ -72,7 +72,7 @@ RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles) {
 FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays)
     : certified_([&] { return CertifiedWriter(writer, rays); }) {
   if (map.channels.size() != 1 || map.channels[0].name != "Z") return;
-  if (auto* values = std::get_if<std::vector<float>>(&map.channels[0].values)) {
+  if (auto* values = std::get_if<Samples<float>>(&map.channels[0].values)) {
     depths_ = values->data();
   }
 }

@@ -177,8 +177,8 @@ ChannelComparison compare_channel(const ChannelPair& pair, const CompareOptions&
 
 ChannelPair make_pair(const DepthMap& truth, const ImageChannel& a, const DepthMap& other,
                       const ImageChannel& b, const CompareOptions& options) {
-  const bool integers_a = std::holds_alternative<std::vector<std::uint32_t>>(a.values);
-  const bool integers_b = std::holds_alternative<std::vector<std::uint32_t>>(b.values);
+  const bool integers_a = std::holds_alternative<Samples<std::uint32_t>>(a.values);
+  const bool integers_b = std::holds_alternative<Samples<std::uint32_t>>(b.values);
   if (integers_a != integers_b)
     throw InputError("channel '" + a.name +
                      "' holds identifiers in one map and numbers in the other");

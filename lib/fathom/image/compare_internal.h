@@ -22,22 +22,22 @@ class Reading {
     return is_codes() && scale_ ? stored / *scale_ : stored;
   }
   [[nodiscard]] std::uint64_t bits(std::size_t k) const {
-    if (const auto* v = std::get_if<std::vector<float>>(&values_))
+    if (const auto* v = std::get_if<Samples<float>>(&values_))
       return std::bit_cast<std::uint32_t>((*v)[k]);
-    if (const auto* v = std::get_if<std::vector<double>>(&values_))
+    if (const auto* v = std::get_if<Samples<double>>(&values_))
       return std::bit_cast<std::uint64_t>((*v)[k]);
-    if (const auto* v = std::get_if<std::vector<std::uint16_t>>(&values_)) return (*v)[k];
-    return std::get<std::vector<std::uint32_t>>(values_)[k];
+    if (const auto* v = std::get_if<Samples<std::uint16_t>>(&values_)) return (*v)[k];
+    return std::get<Samples<std::uint32_t>>(values_)[k];
   }
   /// Bit patterns mean the same in two channels of equal type (codes: of equal scale, too).
   [[nodiscard]] std::pair<std::size_t, std::optional<double>> type() const {
     return {values_.index(), is_codes() ? scale_ : std::nullopt};
   }
   [[nodiscard]] bool is_binary64() const {
-    return std::holds_alternative<std::vector<double>>(values_);
+    return std::holds_alternative<Samples<double>>(values_);
   }
   [[nodiscard]] bool is_codes() const {
-    return std::holds_alternative<std::vector<std::uint16_t>>(values_);
+    return std::holds_alternative<Samples<std::uint16_t>>(values_);
   }
   [[nodiscard]] const std::optional<double>& scale() const { return scale_; }
 
@@ -56,7 +56,7 @@ struct ChannelPair {
   std::uint32_t width;
 
   [[nodiscard]] bool identifiers() const {
-    return std::holds_alternative<std::vector<std::uint32_t>>(truth.values);
+    return std::holds_alternative<Samples<std::uint32_t>>(truth.values);
   }
 };
 

@@ -57,9 +57,8 @@ StereoRig checked(const MapView& view, const std::optional<StereoRig>& rig) {
 }
 
 template <class T>
-std::vector<T> converted(const std::vector<T>& values, std::size_t width,
-                         const Converter& convert) {
-  std::vector<T> result(values.size());
+Samples<T> converted(const Samples<T>& values, std::size_t width, const Converter& convert) {
+  Samples<T> result(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::size_t column = k % width, row = k / width;
     result[k] = static_cast<T>(convert(static_cast<double>(values[k]), static_cast<double>(column),
@@ -94,9 +93,9 @@ DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity
   DepthMap result = map;
   result.channels.clear();
   result.png_scale.reset();
-  if (const auto* floats = std::get_if<std::vector<float>>(&source->values))
+  if (const auto* floats = std::get_if<Samples<float>>(&source->values))
     result.channels.push_back({channel_of(to), converted(*floats, map.width, convert)});
-  else if (const auto* doubles = std::get_if<std::vector<double>>(&source->values))
+  else if (const auto* doubles = std::get_if<Samples<double>>(&source->values))
     result.channels.push_back({channel_of(to), converted(*doubles, map.width, convert)});
   else
     throw UsageError("channel '" + name + "' holds codes: decode them first");

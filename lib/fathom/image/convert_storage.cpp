@@ -21,7 +21,7 @@ const ImageChannel& depth_channel(const DepthMap& map, const std::string& asked)
 /// Decodes 16-bit codes: code / scale in binary64, which rounds once; binary32 from the exact
 /// quotient, lest it be rounded twice.
 template <class T>
-std::vector<T> decode(const std::vector<std::uint16_t>& codes, const std::optional<double>& scale) {
+Samples<T> decode(const Samples<std::uint16_t>& codes, const std::optional<double>& scale) {
   if (!scale)
     throw InputError("the codes carry no scale (fathom:scale), so their depth is not known");
   std::vector<T> depth_of(65536);
@@ -32,30 +32,30 @@ std::vector<T> decode(const std::vector<std::uint16_t>& codes, const std::option
     else
       depth_of[code] = round_to_binary32(Ratio(Dyadic(static_cast<double>(code)), Dyadic(*scale)));
   }
-  std::vector<T> values(codes.size());
+  Samples<T> values(codes.size());
   for (std::size_t k = 0; k < codes.size(); ++k) values[k] = depth_of[codes[k]];
   return values;
 }
 
 template <class T>
-std::vector<T> as_floating_point(const DepthMap& map, const ImageChannel& channel) {
+Samples<T> as_floating_point(const DepthMap& map, const ImageChannel& channel) {
   return std::visit(
-      [&](const auto& values) -> std::vector<T> {
+      [&](const auto& values) -> Samples<T> {
         using Value = typename std::decay_t<decltype(values)>::value_type;
         if constexpr (std::is_same_v<Value, std::uint16_t>)
           return decode<T>(values, map.png_scale);
         else if constexpr (std::is_same_v<Value, std::uint32_t>)
           throw UsageError("channel '" + channel.name + "' holds integers, not depths");
         else
-          return std::vector<T>(values.begin(), values.end());
+          return Samples<T>(values.begin(), values.end());
       },
       channel.values);
 }
 
-std::vector<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, double scale) {
-  const std::vector<double> depths = as_floating_point<double>(map, channel);
+Samples<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, double scale) {
+  const Samples<double> depths = as_floating_point<double>(map, channel);
   const std::vector<std::uint8_t> surface = surface_mask(map, channel);
-  std::vector<std::uint16_t> codes(depths.size(), 0);
+  Samples<std::uint16_t> codes(depths.size());
   for (std::size_t k = 0; k < depths.size(); ++k) {
     if (!surface[k]) continue;
     std::optional<std::uint64_t> code;

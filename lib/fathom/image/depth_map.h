@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "fathom/image/samples.h"
+
 namespace fathom {
 
 /// Background of `id`, `face` and `object`.
@@ -18,8 +20,7 @@ inline constexpr std::uint32_t no_surface = 0xFFFFFFFF;
 /// codes (see DepthMap::png_scale); 32-bit integers are identifiers.
 struct ImageChannel {
   std::string name;
-  std::variant<std::vector<float>, std::vector<double>, std::vector<std::uint16_t>,
-               std::vector<std::uint32_t>>
+  std::variant<Samples<float>, Samples<double>, Samples<std::uint16_t>, Samples<std::uint32_t>>
       values;
 };
 
@@ -52,9 +53,9 @@ struct DepthMap {
   [[nodiscard]] const ImageChannel* find(const std::string& name) const;
   /// The values of a channel if it exists and has this type.
   template <class T>
-  [[nodiscard]] const std::vector<T>* values(const std::string& name) const {
+  [[nodiscard]] const Samples<T>* values(const std::string& name) const {
     const ImageChannel* channel = find(name);
-    return channel ? std::get_if<std::vector<T>>(&channel->values) : nullptr;
+    return channel ? std::get_if<Samples<T>>(&channel->values) : nullptr;
   }
 };
 

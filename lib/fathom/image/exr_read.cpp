@@ -34,11 +34,11 @@ DepthMap read_part(Imf::InputPart& part, const std::string& name) {
   };
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
     if (channel.channel().type == Imf::UINT) {
-      std::vector<std::uint32_t> values(pixels);
+      Samples<std::uint32_t> values(pixels);
       add(channel.name(), Imf::UINT, values.data());
       map.channels.push_back({channel.name(), std::move(values)});
     } else {  // FLOAT as it is, HALF widened
-      std::vector<float> values(pixels);
+      Samples<float> values(pixels);
       add(channel.name(), Imf::FLOAT, values.data());
       map.channels.push_back({channel.name(), std::move(values)});
     }

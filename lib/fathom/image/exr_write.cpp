@@ -38,9 +38,9 @@ struct Source {
 };
 
 Source source_of(const ImageChannel& channel, const std::string& name) {
-  if (const auto* floats = std::get_if<std::vector<float>>(&channel.values))
+  if (const auto* floats = std::get_if<Samples<float>>(&channel.values))
     return {Imf::FLOAT, reinterpret_cast<const char*>(floats->data())};
-  if (const auto* ids = std::get_if<std::vector<std::uint32_t>>(&channel.values))
+  if (const auto* ids = std::get_if<Samples<std::uint32_t>>(&channel.values))
     return {Imf::UINT, reinterpret_cast<const char*>(ids->data())};
   throw OutputError(name + ": EXR holds binary32 numbers and 32-bit identifiers, and channel '" +
                     channel.name + "' is stored otherwise");

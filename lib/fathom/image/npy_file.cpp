@@ -118,8 +118,8 @@ Array parse_header(std::string_view text, const std::string& name) {
 }
 
 template <class Stored, class Value, class Widen>
-std::vector<Value> values_of(const Array& array, ByteView data, std::endian order, Widen widen) {
-  std::vector<Value> values(std::size_t{array.width} * array.height);
+Samples<Value> values_of(const Array& array, ByteView data, std::endian order, Widen widen) {
+  Samples<Value> values(std::size_t{array.width} * array.height);
   for (std::size_t y = 0; y < array.height; ++y)
     for (std::size_t x = 0; x < array.width; ++x) {
       const std::size_t source = array.fortran_order ? x * array.height + y : y * array.width + x;

@@ -57,7 +57,7 @@ class Header {
 }  // namespace
 
 Bytes encode_pfm(const DepthMap& map, const ImageChannel& channel, const std::string& name) {
-  const auto* values = std::get_if<std::vector<float>>(&channel.values);
+  const auto* values = std::get_if<Samples<float>>(&channel.values);
   if (!values)
     throw OutputError(name + ": PFM holds binary32 numbers, and channel '" + channel.name +
                       "' is stored otherwise");
@@ -93,7 +93,7 @@ DepthMap decode_pfm(ByteView bytes, const std::string& name) {
                      " bytes");
   const std::endian order = scale < 0 ? std::endian::little : std::endian::big;
   for (std::size_t c = 0; c < channels; ++c) {
-    std::vector<float> values(pixels);
+    Samples<float> values(pixels);
     for (std::size_t y = 0; y < map.height; ++y)
       for (std::size_t x = 0; x < map.width; ++x) {
         const std::size_t source = (map.height - 1 - y) * map.width + x;

@@ -98,10 +98,10 @@ std::optional<std::string> take_text(DepthMap& map, const std::string& key) {
 }
 
 /// Codes, or identifiers if the file says so (png_write.cpp).
-ImageChannel channel_from(std::vector<std::uint16_t> codes, DepthMap& map) {
+ImageChannel channel_from(Samples<std::uint16_t> codes, DepthMap& map) {
   const std::string channel = take_text(map, "fathom:channel").value_or("Z");
   if (take_text(map, "fathom:type") != "identifier") return {channel, std::move(codes)};
-  std::vector<std::uint32_t> ids(codes.size());
+  Samples<std::uint32_t> ids(codes.size());
   for (std::size_t k = 0; k < codes.size(); ++k) ids[k] = codes[k] == 65535 ? no_surface : codes[k];
   return {channel, std::move(ids)};
 }
@@ -132,7 +132,7 @@ DepthMap decode_png(ByteView bytes, const std::string& name) {
   for (std::size_t y = 0; y < map.height; ++y) reading.rows[y] = &reading.pixels[y * 2 * map.width];
   if (!read_pixels(reading)) fail(reading.failure.reason);
 
-  std::vector<std::uint16_t> codes(pixels);
+  Samples<std::uint16_t> codes(pixels);
   const auto* data = reinterpret_cast<const std::byte*>(reading.pixels.data());
   for (std::size_t k = 0; k < pixels; ++k)
     codes[k] = load<std::uint16_t>(data + 2 * k, std::endian::big);

@@ -92,7 +92,7 @@ Bytes encode(Picture& picture, const std::string& name) {
   return std::move(writing.bytes);
 }
 
-std::vector<std::uint16_t> identifiers_as_codes(const std::vector<std::uint32_t>& ids,
+std::vector<std::uint16_t> identifiers_as_codes(const Samples<std::uint32_t>& ids,
                                                 const std::string& name) {
   std::vector<std::uint16_t> codes(ids.size());
   for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -112,7 +112,7 @@ std::string to_shortest(double value) {
 void add_texts(Picture& picture, const DepthMap& map, const ImageChannel& channel,
                const std::string& name) {
   picture.texts = {{"Software", "Fathom " FATHOM_VERSION}, {"fathom:channel", channel.name}};
-  if (std::holds_alternative<std::vector<std::uint32_t>>(channel.values))
+  if (std::holds_alternative<Samples<std::uint32_t>>(channel.values))
     picture.texts.emplace_back("fathom:type", "identifier");
   else if (map.png_scale)
     picture.texts.emplace_back("fathom:scale", to_shortest(*map.png_scale));
@@ -133,10 +133,10 @@ void add_texts(Picture& picture, const DepthMap& map, const ImageChannel& channe
 
 Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::string& name) {
   std::vector<std::uint16_t> codes;
-  if (const auto* ids = std::get_if<std::vector<std::uint32_t>>(&channel.values))
+  if (const auto* ids = std::get_if<Samples<std::uint32_t>>(&channel.values))
     codes = identifiers_as_codes(*ids, name);
-  else if (const auto* stored = std::get_if<std::vector<std::uint16_t>>(&channel.values))
-    codes = *stored;
+  else if (const auto* stored = std::get_if<Samples<std::uint16_t>>(&channel.values))
+    codes.assign(stored->begin(), stored->end());
   else
     throw OutputError(name + ": PNG holds 16-bit codes, and channel '" + channel.name +
                       "' is stored as floating point; give a scale");

@@ -23,7 +23,7 @@ Vector transform_point(const Affine& m, const Vector& p) {
 
 /// Three channels `GROUP.X`, `GROUP.Y`, `GROUP.Z`, if the map has them all.
 struct Triple {
-  std::array<const std::vector<float>*, 3> parts{};
+  std::array<const Samples<float>*, 3> parts{};
   Triple(const DepthMap& map, const std::string& group) {
     for (std::size_t k = 0; k < 3; ++k)
       parts[k] = map.values<float>(group + "." + std::string(1, "XYZ"[k]));
@@ -102,7 +102,7 @@ class Points {
   Affine world_from_camera_{};
   const ImageChannel* source_ = nullptr;
   bool ray_distance_ = false;
-  std::vector<double> depth_;
+  Samples<double> depth_;
   std::vector<std::uint8_t> surface_;
 };
 

@@ -36,7 +36,7 @@ std::string description_of(const DepthMap& map, const ImageChannel& channel) {
   std::string text = channel.name;
   if (const auto found = words.find(channel.name); found != words.end())
     text += " – " + found->second;
-  const bool codes = std::holds_alternative<std::vector<std::uint16_t>>(channel.values);
+  const bool codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
   if (codes && !map.png_scale) text += " (codes of unknown scale)";
   return text;
 }
@@ -138,7 +138,7 @@ void draw_numbers(Sheet& sheet, const DepthMap& map, const ImageChannel& channel
 
 void draw_identifiers(Sheet& sheet, const DepthMap& map, const ImageChannel& channel,
                       const PreviewOptions& options) {
-  const auto& ids = std::get<std::vector<std::uint32_t>>(channel.values);
+  const auto& ids = std::get<Samples<std::uint32_t>>(channel.values);
   Specials specials;
   for (std::size_t k = 0; k < ids.size(); ++k) {
     const bool none = ids[k] == no_surface;
@@ -146,7 +146,7 @@ void draw_identifiers(Sheet& sheet, const DepthMap& map, const ImageChannel& cha
     if (none) specials.count("no surface", background);
     sheet.picture.pixels[k] = none ? background : colour_of_identifier(ids[k]);
   }
-  std::vector<std::uint32_t> distinct = ids;
+  std::vector<std::uint32_t> distinct(ids.begin(), ids.end());
   std::sort(distinct.begin(), distinct.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   if (!distinct.empty() && distinct.back() == no_surface) distinct.pop_back();
@@ -165,7 +165,7 @@ void draw_identifiers(Sheet& sheet, const DepthMap& map, const ImageChannel& cha
 }
 
 void draw_normals(Sheet& sheet, const DepthMap& map, const PreviewOptions& options) {
-  std::array<const std::vector<float>*, 3> parts{};
+  std::array<const Samples<float>*, 3> parts{};
   for (std::size_t c = 0; c < 3; ++c) {
     parts[c] = map.values<float>("N." + std::string(1, "XYZ"[c]));
     if (!parts[c]) throw UsageError("the map has no normals N.X, N.Y, N.Z");
@@ -193,7 +193,7 @@ RgbImage draw_preview(const DepthMap& map, const PreviewOptions& options) {
   Sheet sheet;
   sheet.picture = RgbImage(map.width, map.height);
   if (options.channel == "N") {
-    sheet.title = description_of(map, {"N", std::vector<float>{}});
+    sheet.title = description_of(map, {"N", Samples<float>{}});
     draw_normals(sheet, map, options);
   } else {
     const ImageChannel* channel = options.channel.empty() && !map.find("Z") && !map.channels.empty()

@@ -23,8 +23,7 @@ NameTail tail_of(std::string_view name) {
 }
 
 template <class T>
-std::vector<std::uint8_t> mask_of_numbers(const std::vector<T>& values,
-                                          const BackgroundRule& rule) {
+std::vector<std::uint8_t> mask_of_numbers(const Samples<T>& values, const BackgroundRule& rule) {
   // A rule of 0 covers the values below as well: no depth is negative.
   std::vector<std::uint8_t> mask(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -37,7 +36,7 @@ std::vector<std::uint8_t> mask_of_numbers(const std::vector<T>& values,
   return mask;
 }
 
-std::vector<std::uint8_t> mask_of_identifiers(const std::vector<std::uint32_t>& ids) {
+std::vector<std::uint8_t> mask_of_identifiers(const Samples<std::uint32_t>& ids) {
   std::vector<std::uint8_t> mask(ids.size());
   std::transform(ids.begin(), ids.end(), mask.begin(),
                  [](std::uint32_t id) { return id != no_surface; });
@@ -61,7 +60,7 @@ std::vector<std::uint8_t> group_mask(const DepthMap& map, const ImageChannel& ch
   const std::string group = channel.name.substr(0, channel.name.rfind('.') + 1);
   std::vector<std::uint8_t> mask(std::size_t{map.width} * map.height);
   for (const ImageChannel& other : map.channels) {
-    const auto* values = std::get_if<std::vector<float>>(&other.values);
+    const auto* values = std::get_if<Samples<float>>(&other.values);
     if (!values || !other.name.starts_with(group) || kind_of(other) != kind_of(channel)) continue;
     for (std::size_t k = 0; k < values->size(); ++k)
       mask[k] |= nan ? !std::isnan((*values)[k]) : (*values)[k] != 0;
@@ -72,11 +71,11 @@ std::vector<std::uint8_t> group_mask(const DepthMap& map, const ImageChannel& ch
 }  // namespace
 
 ChannelKind kind_of(const ImageChannel& channel) {
-  if (std::holds_alternative<std::vector<std::uint32_t>>(channel.values)) {
+  if (std::holds_alternative<Samples<std::uint32_t>>(channel.values)) {
     return channel.name == "Zwindow" ? ChannelKind::quantity : ChannelKind::identifier;
   }
   const auto [group, last] = tail_of(channel.name);
-  if (std::holds_alternative<std::vector<std::uint16_t>>(channel.values)) return ChannelKind::depth;
+  if (std::holds_alternative<Samples<std::uint16_t>>(channel.values)) return ChannelKind::depth;
   if (group == "N" || group == "Normal") return ChannelKind::direction;
   if (group == "P" || group == "Position" || group == "bary") return ChannelKind::position;
   static constexpr std::array<std::string_view, 8> depths{
@@ -86,14 +85,14 @@ ChannelKind kind_of(const ImageChannel& channel) {
   return depth ? ChannelKind::depth : ChannelKind::quantity;
 }
 
-const std::vector<std::uint32_t>* identifiers_of(const DepthMap& map) {
+const Samples<std::uint32_t>* identifiers_of(const DepthMap& map) {
   for (const char* name : {"id", "object", "face"})
     if (const auto* ids = map.values<std::uint32_t>(name)) return ids;
   return nullptr;
 }
 
 BackgroundRule detect_background(const ImageChannel& channel) {
-  if (std::holds_alternative<std::vector<std::uint16_t>>(channel.values)) return {0.0, ""};
+  if (std::holds_alternative<Samples<std::uint16_t>>(channel.values)) return {0.0, ""};
   std::uint64_t count = 0;
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   std::uint64_t at_greatest = 0, not_positive = 0;
@@ -132,7 +131,7 @@ std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& 
   std::vector<std::uint8_t> everywhere(std::size_t{map.width} * map.height, 1);
   // `A` says itself how much of a pixel is covered: no pixel of it is background.
   if (channel.name == "A") return everywhere;
-  const std::vector<std::uint32_t>* ids = by_identifiers ? identifiers_of(map) : nullptr;
+  const Samples<std::uint32_t>* ids = by_identifiers ? identifiers_of(map) : nullptr;
   if (ids) return mask_of_identifiers(*ids);
   switch (kind_of(channel)) {
     case ChannelKind::identifier:

@@ -41,7 +41,7 @@ struct BackgroundRule {
 BackgroundRule detect_background(const ImageChannel& channel);
 
 /// The values of `id`, `object` or `face`, the first that the map has.
-const std::vector<std::uint32_t>* identifiers_of(const DepthMap& map);
+const Samples<std::uint32_t>* identifiers_of(const DepthMap& map);
 
 /// One byte a pixel: 1 where `channel` of `map` shows a surface.
 /// `A` shows something at every pixel. Where the map has an identifier channel, that one decides

@@ -1,0 +1,68 @@
+#include "fathom/image/samples.h"
+
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace fathom {
+namespace {
+
+constexpr std::size_t huge_page = std::size_t{1} << 21;
+
+#ifdef __linux__
+
+bool is_large(std::size_t bytes) {
+  return bytes >= huge_page;
+}
+
+std::size_t whole_pages(std::size_t bytes) {
+  return (bytes + huge_page - 1) / huge_page * huge_page;
+}
+
+/// A mapping that begins at a multiple of the huge page, as only such are backed by them.
+void* map_zeros(std::size_t bytes) {
+  const std::size_t length = whole_pages(bytes), room = length + huge_page;
+  void* mapped = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (mapped == MAP_FAILED) throw std::bad_alloc();
+  const auto first = reinterpret_cast<std::uintptr_t>(mapped);
+  const std::uintptr_t aligned = whole_pages(first);
+  if (aligned > first) munmap(mapped, aligned - first);
+  if (first + room > aligned + length) {
+    munmap(reinterpret_cast<void*>(aligned + length), first + room - aligned - length);
+  }
+  auto* memory = reinterpret_cast<void*>(aligned);
+  madvise(memory, length, MADV_HUGEPAGE);  // a wish: small pages do as well
+  return memory;
+}
+
+#endif
+
+}  // namespace
+
+void* allocate_zeros(std::size_t bytes) {
+  if (bytes == 0) return nullptr;
+#ifdef __linux__
+  if (bytes > SIZE_MAX / 2) throw std::bad_alloc();
+  if (is_large(bytes)) return map_zeros(bytes);
+#endif
+  void* memory = std::calloc(bytes, 1);
+  if (!memory) throw std::bad_alloc();
+  return memory;
+}
+
+void free_zeros(void* memory, std::size_t bytes) noexcept {
+  if (!memory) return;
+#ifdef __linux__
+  if (is_large(bytes)) {
+    munmap(memory, whole_pages(bytes));
+    return;
+  }
+#endif
+  std::free(memory);
+}
+
+}  // namespace fathom

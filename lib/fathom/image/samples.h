@@ -1,0 +1,80 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <iterator>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace fathom {
+
+/// Zeroed memory for a map's channel; nullptr for no bytes. Large blocks come from the system page
+/// by page when they are first written, so that the threads that fill a map share that work too,
+/// and in huge pages where it offers them.
+/// Fails    std::bad_alloc.
+void* allocate_zeros(std::size_t bytes);
+void free_zeros(void* memory, std::size_t bytes) noexcept;
+
+/// A fixed number of values, 0 until written. What it does not do: grow or shrink.
+template <class T>
+class Samples {
+  static_assert(std::is_arithmetic_v<T>);
+
+ public:
+  using value_type = T;
+  using iterator = T*;
+  using const_iterator = const T*;
+
+  Samples() = default;
+  explicit Samples(std::size_t count)
+      : data_(static_cast<T*>(allocate_zeros(count * sizeof(T)))), size_(count) {}
+  Samples(std::size_t count, T value) : Samples(count) { std::fill(begin(), end(), value); }
+  template <std::forward_iterator Iterator>
+  Samples(Iterator first, Iterator last)
+      : Samples(static_cast<std::size_t>(std::distance(first, last))) {
+    std::copy(first, last, begin());
+  }
+  Samples(std::initializer_list<T> values) : Samples(values.begin(), values.end()) {}
+  // NOLINTNEXTLINE(google-explicit-constructor): a copy, as a vector would be
+  Samples(const std::vector<T>& values) : Samples(values.begin(), values.end()) {}
+
+  Samples(const Samples& other) : Samples(other.begin(), other.end()) {}
+  Samples(Samples&& other) noexcept
+      : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+  Samples& operator=(Samples other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    return *this;
+  }
+  ~Samples() { free_zeros(data_, size_ * sizeof(T)); }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  T* data() { return data_; }
+  [[nodiscard]] const T* data() const { return data_; }
+  T* begin() { return data_; }
+  T* end() { return data_ + size_; }
+  [[nodiscard]] const T* begin() const { return data_; }
+  [[nodiscard]] const T* end() const { return data_ + size_; }
+  T& operator[](std::size_t i) { return data_[i]; }
+  const T& operator[](std::size_t i) const { return data_[i]; }
+
+  /// Fails    std::out_of_range.
+  [[nodiscard]] const T& at(std::size_t i) const {
+    if (i >= size_) throw std::out_of_range("fathom::Samples::at");
+    return data_[i];
+  }
+
+  friend bool operator==(const Samples& a, const Samples& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+
+ private:
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+}  // namespace fathom
