@@ -1,3 +1,5 @@
+#include <hwy/targets.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -12,7 +14,8 @@
 
 /// Times render(), from mesh and camera in memory to the complete map in memory, without any peer:
 ///   engine_bench [SCENE…] [--size WxH] [--threads N] [--repeat N] [--engine fast|reference]
-///                [--channels Z,id,…]
+///                [--channels Z,id,…] [--cull back|front] [--without
+///                simd,hierarchy,early-rejection]
 /// The scenes are those of scenes.h, or mesh files. The first run of each is not counted.
 namespace {
 
@@ -39,6 +42,14 @@ std::vector<Channel> channels_of(const std::string& list) {
   return channels;
 }
 
+/// Leaves out what makes the fast engine fast; its map stays the same.
+void leave_out(const std::string& list, FastSwitches& switches) {
+  if (list.find("hierarchy") != std::string::npos) switches.hierarchy = false;
+  if (list.find("early-rejection") != std::string::npos) switches.early_rejection = false;
+  // What remains is compiled for every processor.
+  if (list.find("simd") != std::string::npos) hwy::DisableTargets(~HWY_EMU128);
+}
+
 Arguments parse(int argc, char** argv) {
   Arguments arguments;
   for (int i = 1; i < argc; ++i) {
@@ -61,6 +72,10 @@ Arguments parse(int argc, char** argv) {
       arguments.options.engine = value == "reference" ? Engine::reference : Engine::fast;
     } else if (name == "--channels") {
       arguments.options.channels = channels_of(value);
+    } else if (name == "--cull") {
+      arguments.options.cull = value == "front" ? Cull::front : Cull::back;
+    } else if (name == "--without") {
+      leave_out(value, arguments.options.fast);
     } else {
       throw UsageError("there is no option " + name);
     }
