@@ -34,13 +34,8 @@ struct RenderArguments {
   CameraOptions camera;
   StorageOptions storage;
   std::string output, save_camera, statistics, verify;
-  std::string engine, channels = "Z", cull = "none";
+  std::string engine = "fast", channels = "Z", cull = "none";
   bool stream = false;
-
-  [[nodiscard]] std::string engine_name() const {
-    if (!engine.empty()) return engine;
-    return stream ? "fast" : "reference";
-  }
 };
 
 class Stopwatch {
@@ -64,7 +59,7 @@ Engine engine_named(const std::string& name) {
 
 RenderOptions render_options(const RenderArguments& arguments, MapFormat format) {
   RenderOptions options;
-  options.engine = engine_named(arguments.engine_name());
+  options.engine = engine_named(arguments.engine);
   if (arguments.stream && options.engine != Engine::fast) {
     throw UsageError("--stream is for the fast engine, not for " + arguments.engine);
   }
@@ -140,6 +135,7 @@ Json to_json(const RenderStatistics& statistics) {
           {"pixels_with_surface", statistics.pixels_with_surface},
           {"exact_setups", statistics.exact_setups},
           {"same_plane", statistics.same_plane},
+          {"grid_setups", statistics.grid_setups},
           {"decisions",
            {{"facing", to_json(statistics.facing)},
             {"edges", to_json(statistics.edges)},
@@ -281,7 +277,7 @@ int run_render(const RenderArguments& arguments, const Console& console) {
 
       if (i == 0) warn_of(statistics, console);
       Json entry{{"map", names[i]},
-                 {"engine", arguments.engine_name()},
+                 {"engine", arguments.engine},
                  {"width", map.width},
                  {"height", map.height}};
       entry.update(to_json(statistics));
@@ -328,7 +324,7 @@ void add_render(Program& program) {
   command->add_option("--channels", arguments->channels,
                       "Of Z, Zlow, distance, id, face, object, N, P, bary (default Z)");
   command->add_option("--engine", arguments->engine,
-                      "reference (default), or fast: the same map bit for bit, sooner");
+                      "fast (default), or reference: the same map bit for bit, slowly");
   add_cull_option(*command, arguments->cull);
   arguments->storage.add_to(*command);
   command->add_flag("--stream", arguments->stream,

@@ -243,7 +243,7 @@ TEST_F(Rendering, CullingByFacing) {
                                            "map.exr", "--cull", cull, "--stats", "-"}));
     EXPECT_EQ(stats["pixels_with_surface"], pixels) << cull;
     EXPECT_EQ(stats["triangles"], 2);
-    EXPECT_EQ(stats["engine"], "reference");
+    EXPECT_EQ(stats["engine"], "fast");
   }
 }
 

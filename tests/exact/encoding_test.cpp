@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "fathom/numeric/errors.h"
-#include "fathom/render.h"
 #include "tests/exact/scene_building.h"
+#include "tests/exact/tested_engine.h"
 
 namespace fathom {
 namespace {
@@ -24,7 +24,7 @@ RenderOptions scaled(double scale) {
 }
 
 std::uint16_t code(double z, double scale) {
-  const DepthMap map = render(wall(z), testing::camera_of(1, 1, 1), scaled(scale));
+  const DepthMap map = testing::render_tested(wall(z), testing::camera_of(1, 1, 1), scaled(scale));
   EXPECT_EQ(map.png_scale, scale);
   return map.values<std::uint16_t>("Z")->at(0);
 }
@@ -40,7 +40,7 @@ TEST(Encoding, CodesRoundHalfToEven) {
 TEST(Encoding, ADepthThatDoesNotFitIsAnErrorThatNamesThePixel) {
   const auto message = [](double z, double scale) -> std::string {
     try {
-      render(wall(z), testing::camera_of(3, 2, 1), scaled(scale));
+      testing::render_tested(wall(z), testing::camera_of(3, 2, 1), scaled(scale));
     } catch (const OutputError& error) {
       return error.what();
     }
@@ -63,7 +63,7 @@ TEST(Encoding, Binary64IsRoundedFromTheExactDepth) {
   RenderOptions options;
   options.depth_encoding.type = DepthEncoding::Type::binary64;
   options.channels = {Channel::Z, Channel::distance};
-  const DepthMap map = render(scene, camera, options);
+  const DepthMap map = testing::render_tested(scene, camera, options);
   // (3z) + z = 1: z = 1/4; the ray distance is √10 / 4.
   EXPECT_EQ(map.values<double>("Z")->at(0), 0.25);
   EXPECT_EQ(map.values<double>("distance")->at(0), std::sqrt(10.0) / 4);
@@ -72,13 +72,14 @@ TEST(Encoding, Binary64IsRoundedFromTheExactDepth) {
 TEST(Encoding, DepthsBeyondBinary32OverflowAndUnderflow) {
   RenderOptions options;
   options.channels = {Channel::Z, Channel::Zlow, Channel::id};
-  const DepthMap far = render(wall(1e100), testing::camera_of(1, 1, 1), options);
+  const DepthMap far = testing::render_tested(wall(1e100), testing::camera_of(1, 1, 1), options);
   EXPECT_EQ(far.values<float>("Z")->at(0), std::numeric_limits<float>::infinity());
   EXPECT_EQ(far.values<float>("Zlow")->at(0), 0.0F);
   EXPECT_EQ(far.values<std::uint32_t>("id")->at(0), 0U);
-  const DepthMap near = render(wall(1e-42), testing::camera_of(1, 1, 1), options);
+  const DepthMap near = testing::render_tested(wall(1e-42), testing::camera_of(1, 1, 1), options);
   EXPECT_EQ(near.values<float>("Z")->at(0), 1e-42F);  // a subnormal is kept
-  const DepthMap nearest = render(wall(1e-60), testing::camera_of(1, 1, 1), options);
+  const DepthMap nearest =
+      testing::render_tested(wall(1e-60), testing::camera_of(1, 1, 1), options);
   EXPECT_EQ(nearest.values<float>("Z")->at(0), 0.0F);
   EXPECT_EQ(nearest.values<std::uint32_t>("id")->at(0), 0U);
 }
@@ -86,12 +87,14 @@ TEST(Encoding, DepthsBeyondBinary32OverflowAndUnderflow) {
 TEST(Encoding, ChannelsAskedForTwiceAreWrittenOnce) {
   RenderOptions options;
   options.channels = {Channel::Z, Channel::id, Channel::Z};
-  EXPECT_EQ(render(wall(2), testing::camera_of(1, 1, 1), options).channels.size(), 2U);
+  EXPECT_EQ(testing::render_tested(wall(2), testing::camera_of(1, 1, 1), options).channels.size(),
+            2U);
 }
 
 TEST(Encoding, TheMapSaysHowItWasMade) {
-  const DepthMap map = render(wall(2), testing::camera_of(4, 3, 1));
-  EXPECT_EQ(map.texts.at("fathom.engine"), "reference");
+  const DepthMap map = testing::render_tested(wall(2), testing::camera_of(4, 3, 1));
+  const bool fast = testing::tested_engine == Engine::fast;
+  EXPECT_EQ(map.texts.at("fathom.engine"), fast ? "fast" : "reference");
   EXPECT_THAT(map.texts.at("fathom.camera"), ::testing::HasSubstr("world_to_camera"));
   EXPECT_EQ(map.object_names, std::vector<std::string>{"object"});
 }

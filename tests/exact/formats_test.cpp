@@ -4,10 +4,10 @@
 #include <bit>
 #include <filesystem>
 
-#include "fathom/render.h"
 #include "fathom/scene/camera_making.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/exact/against_oracle.h"
+#include "tests/exact/tested_engine.h"
 #include "tests/scene/mesh_variants.h"
 
 namespace fathom {
@@ -30,7 +30,7 @@ std::vector<std::uint32_t> bits_of(const DepthMap& map) {
 std::vector<std::uint32_t> rendered(const Scene& scene, const Camera& camera) {
   RenderOptions options;
   options.channels = testing::all_channels();
-  return bits_of(render(scene, camera, options));
+  return bits_of(testing::render_tested(scene, camera, options));
 }
 
 Camera small_camera(const Scene& scene) {

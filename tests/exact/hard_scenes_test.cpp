@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "fathom/render.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/exact/against_oracle.h"
+#include "tests/exact/tested_engine.h"
 
 namespace fathom {
 namespace {
@@ -31,7 +31,7 @@ TEST_P(HardScene, AgreesWithRays) {
   for (const Camera& camera : read_cameras(folder / (GetParam() + ".camera.json"))) {
     RenderOptions options;
     options.channels = testing::all_channels();
-    const DepthMap map = render(scene, camera, options);
+    const DepthMap map = testing::render_tested(scene, camera, options);
     const oracle::RayCaster rays = testing::cast_at(scene, camera);
     for (int y = 0; y < static_cast<int>(camera.height); ++y) {
       for (int x = 0; x < static_cast<int>(camera.width); ++x) {

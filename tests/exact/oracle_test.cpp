@@ -3,10 +3,10 @@
 
 #include "fathom/exact/engine_frame.h"
 #include "fathom/exact/probe.h"
-#include "fathom/render.h"
 #include "tests/exact/against_oracle.h"
 #include "tests/exact/effort.h"
 #include "tests/exact/random_scenes.h"
+#include "tests/exact/tested_engine.h"
 
 namespace fathom {
 namespace {
@@ -34,7 +34,7 @@ void check(const Case& c, Tally& tally) {
   options.threads = 1;
   RenderStatistics statistics;
   options.statistics = &statistics;
-  const DepthMap map = render(c.scene, c.camera, options);
+  const DepthMap map = testing::render_tested(c.scene, c.camera, options);
   add(tally.statistics, statistics);
   const oracle::RayCaster rays = testing::cast_at(c.scene, c.camera);
   for (int y = 0; y < 5; ++y) {

@@ -5,9 +5,9 @@
 #include <random>
 
 #include "fathom/exact/probe.h"
-#include "fathom/render.h"
 #include "tests/exact/effort.h"
 #include "tests/exact/scene_building.h"
+#include "tests/exact/tested_engine.h"
 
 namespace fathom {
 namespace {
@@ -48,7 +48,7 @@ TEST(Watertight, ABumpySheetWithASampleOnEveryVertexAndEdge) {
   RenderStatistics statistics;
   RenderOptions options;
   options.statistics = &statistics;
-  const DepthMap map = render(sheet, camera, options);
+  const DepthMap map = testing::render_tested(sheet, camera, options);
   const Samples<float>& Z = *map.values<float>("Z");
   // The sheet spans the samples 1 … 2·side − 1; those on its right and bottom edges are another's.
   const auto inside = [](int x) { return x >= 1 && x < 2 * side - 1; };
@@ -109,7 +109,7 @@ TEST(Watertight, AClosedFanCoversEachSampleOnce) {
     RenderStatistics statistics;
     RenderOptions options;
     options.statistics = &statistics;
-    render(fan, camera, options);
+    testing::render_tested(fan, camera, options);
     ASSERT_EQ(statistics.samples_covered, statistics.pixels_with_surface);
     ASSERT_GT(statistics.samples_covered, 0U);
   }

@@ -63,7 +63,7 @@ struct FastSwitches {
 };
 
 struct RenderOptions {
-  Engine engine = Engine::reference;
+  Engine engine = Engine::fast;
   std::vector<Channel> channels{Channel::Z};
   Cull cull = Cull::none;
   DepthEncoding depth_encoding;
