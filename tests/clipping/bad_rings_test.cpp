@@ -99,6 +99,12 @@ TEST(BadRings, OrderAndDirectionAreNoFault) {
   }
 }
 
+// Of identical rings one is the outline and the other its hole: together they are nothing.
+TEST(BadRings, IdenticalRingsCancel) {
+  EXPECT_EQ(signed_area(checked_rings(Rings<double>{square, square}, "subject")), 0);
+  EXPECT_EQ(signed_area(checked_rings(Rings<double>{square, square, square}, "subject")), 36);
+}
+
 // Over binary64 the answer may be about right or refused; it comes to an end either way.
 TEST(BadRings, RoundingEndsInAnAnswerOrARefusal) {
   std::mt19937_64 random(41);
