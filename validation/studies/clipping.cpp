@@ -261,7 +261,8 @@ StudyFile page_of(const std::vector<Row>& rows) {
   }
   page.table({"shape", "pieces", "convex pieces", "border", "bridging edges", "cuts", "areas"},
              table);
-  page.plot("bridges", "Random polygons, averages: what the rings are longer by than the true border");
+  page.plot("bridges",
+            "Random polygons, averages: what the rings are longer by than the true border");
   return page.file();
 }
 
