@@ -135,6 +135,7 @@ Json to_json(const RenderStatistics& statistics) {
           {"pixels_with_surface", statistics.pixels_with_surface},
           {"exact_setups", statistics.exact_setups},
           {"same_plane", statistics.same_plane},
+          {"double_words", statistics.double_words},
           {"grid_setups", statistics.grid_setups},
           {"decisions",
            {{"facing", to_json(statistics.facing)},

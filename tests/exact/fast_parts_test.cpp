@@ -64,14 +64,15 @@ TEST(Referee, TheNearerHidesWhateverItsNumber) {
 TEST(Referee, DepthsOnTheLimitsCount) {
   const Scene scene = crossing_scene();
   const Camera c = camera();
+  RenderStatistics statistics;
   Referee referee(scene, c);
   const ImagePoint middle{4.5, 4.5};
-  EXPECT_TRUE(referee.is_in_range(0, middle));       // near = 2
-  EXPECT_TRUE(referee.is_in_range(3, middle));       // far = 4
-  EXPECT_FALSE(referee.is_in_range(1, {3.5, 4.5}));  // below near
+  EXPECT_TRUE(referee.is_in_range(0, middle, statistics));       // near = 2
+  EXPECT_TRUE(referee.is_in_range(3, middle, statistics));       // far = 4
+  EXPECT_FALSE(referee.is_in_range(1, {3.5, 4.5}, statistics));  // below near
   Camera closer = c;
   closer.far = std::nextafter(4.0, 0);
-  EXPECT_FALSE(Referee(scene, closer).is_in_range(3, middle));
+  EXPECT_FALSE(Referee(scene, closer).is_in_range(3, middle, statistics));
 }
 
 /// The ends enclose 1/limit and −limit: exactly compared, and next to them.

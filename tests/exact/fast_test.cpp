@@ -40,6 +40,9 @@ TEST_P(RandomScenes, AreTheSame) {
   // Every tier was reached.
   EXPECT_GT(sum.exact_setups, 100U / testing::effort);
   EXPECT_GT(sum.edges.exact, 100U / testing::effort);
+  if (kind == Kind::neighbours) {
+    EXPECT_GT(sum.double_words, 100U / testing::effort);
+  }
   if (kind == Kind::few_bits) {
     EXPECT_GT(sum.grid_setups, 100U / testing::effort);
   }

@@ -24,6 +24,7 @@ void add(RenderStatistics& sum, const RenderStatistics& part) {
   sum.double_word_roundings += part.double_word_roundings;
   sum.exact_setups += part.exact_setups;
   sum.same_plane += part.same_plane;
+  sum.double_words += part.double_words;
   sum.grid_setups += part.grid_setups;
 }
 

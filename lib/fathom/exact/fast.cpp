@@ -27,7 +27,8 @@ ImageObjects transform(const Scene& scene, const Camera& camera) {
 DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options) {
   const FastFrame frame(camera, options);
   const TriangleSource triangles(scene);
-  FastWorkers workers([&] { return FastWorker(triangles, camera); });
+  const SceneRays rays(triangles, camera);
+  FastWorkers workers([&] { return FastWorker(triangles, camera, rays); });
   tbb::enumerable_thread_specific<std::unique_ptr<Tile>> tiles(
       [] { return std::make_unique<Tile>(); });
 
@@ -37,7 +38,6 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
 
   DepthMap map = make_background(camera, options);
   ChannelWriter writer(map, triangles, camera, options);
-  const SceneRays rays(triangles, camera);
   FastOutput output(map, writer, rays);
   FirstFault fault;
   Progress progress(options.progress, frame.grid.count());

@@ -19,7 +19,8 @@ namespace fathom {
 
 /// What a thread works with.
 struct FastWorker {
-  FastWorker(const TriangleSource& triangles, const Camera& camera) : referee(triangles, camera) {}
+  FastWorker(const TriangleSource& triangles, const Camera& camera, const SceneRays& rays)
+      : referee(triangles, camera, &rays) {}
   Referee referee;
   RenderStatistics statistics;
 };

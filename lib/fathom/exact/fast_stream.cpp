@@ -126,14 +126,14 @@ DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
                          const RenderOptions& options, const StreamLimits& limits) {
   const FastFrame frame(camera, options);
   const TriangleSource triangles(scene);
-  const auto new_worker = [&] { return FastWorker(triangles, camera); };
+  const SceneRays rays(triangles, camera);
+  const auto new_worker = [&] { return FastWorker(triangles, camera, rays); };
   FastWorkers workers(new_worker);
   // Sorts triangles for bands after the first, whose statistics would count them again.
   FastWorkers sorting_again(new_worker);
 
   DepthMap map = make_background(camera, options);
   ChannelWriter writer(map, triangles, camera, options);
-  const SceneRays rays(triangles, camera);
   FastOutput output(map, writer, rays);
   FirstFault fault;
   RowsOfParts rows;

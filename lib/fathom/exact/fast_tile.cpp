@@ -47,16 +47,13 @@ void Tile::settle(const TriangleSetup& setup, bool test_range, std::uint32_t col
   const ImagePoint s = centre_of_pixel(column, row);
   if (least_edge < -setup.edge_error) return;
   if (!(least_edge > setup.edge_error)) {
-    ++statistics.edges.exact;
-    TierCounts within;
-    if (!context.referee.covers(setup.number, s, within)) return;
+    if (!context.referee.covers(setup.number, s, statistics)) return;
   }
   if (test_range) {
     const double error = 2 * setup.q_error;
     if (context.range.certainly_misses(q - error, q + error)) return;
     if (!context.range.certainly_contains(q - error, q + error)) {
-      ++statistics.range.exact;
-      if (!context.referee.is_in_range(setup.number, s)) return;
+      if (!context.referee.is_in_range(setup.number, s, statistics)) return;
     }
   }
   ++statistics.samples_covered;

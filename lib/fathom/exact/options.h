@@ -49,6 +49,8 @@ struct RenderStatistics {
   std::uint64_t exact_setups = 0;
   /// Of visibility.exact: settled by the two triangles' lying in one plane.
   std::uint64_t same_plane = 0;
+  /// Of edges.exact, visibility.exact and range.exact: settled by double-words.
+  std::uint64_t double_words = 0;
   /// How often a triangle was set up with corners exactly on the grid on which edge functions have
   /// no error, once for each tile.
   std::uint64_t grid_setups = 0;
