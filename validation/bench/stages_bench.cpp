@@ -41,7 +41,8 @@ struct Stages {
   RenderOptions options;
   TriangleSource source{bench.scene};
   FastFrame frame{bench.camera, options};
-  FastWorkers workers{[this] { return FastWorker(source, bench.camera); }};
+  SceneRays rays{source, bench.camera};
+  FastWorkers workers{[this] { return FastWorker(source, bench.camera, rays); }};
 };
 
 void count_triangles(benchmark::State& state, const Stages& stages) {
@@ -112,8 +113,7 @@ void resolve(benchmark::State& state, const std::string& scene) {
   }
   DepthMap map = make_background(camera, stages.options);
   ChannelWriter writer(map, stages.source, camera, stages.options);
-  const SceneRays rays(stages.source, camera);
-  FastOutput output(map, writer, rays);
+  FastOutput output(map, writer, stages.rays);
   for (auto _ : state) {
     for (const auto& tile : tiles) {
       benchmark::DoNotOptimize(output.write(*tile, camera.width, context));
