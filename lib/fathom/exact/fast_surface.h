@@ -253,7 +253,8 @@ struct Ray {
 };
 template <class Real>
 Ray<Real> ray_at(const Rays& rays, bool perspective, const Sample& s) {
-  const auto& [m0, m1, m2, O] = rays.columns;
+  const auto &m0 = rays.columns[0], &m1 = rays.columns[1], &m2 = rays.columns[2],
+             &O = rays.columns[3];
   const auto varying = [&](const std::array<WordPair, 3>& constant) {
     Vector<Real> sum;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -115,8 +115,9 @@ HWY_INLINE bool draw_strip(Tile& tile, const Drawn& t, const Strip& strip,
     const V e0 = hn::MulAdd(f.a[0], x, f.c[0]), e1 = hn::MulAdd(f.a[1], x, f.c[1]);
     const V e2 = hn::MulAdd(f.a[2], x, f.c[2]), q0 = hn::MulAdd(f.q_a, x, f.q_c);
     const std::size_t start = Tile::index(static_cast<std::uint32_t>(strip.column + part), 0);
+    V y = constant(t.y + strip.first_row - 1);
     for (int row = strip.first_row; row <= strip.last_row; ++row) {
-      const V y = constant(t.y + row);
+      y = hn::Add(y, constant(1));  // whole numbers: exact
       double* const q_at = tile.q() + start + static_cast<std::size_t>(row) * Tile::size;
       std::uint64_t* const tag_at =
           tile.tags() + start + static_cast<std::size_t>(row) * Tile::size;
@@ -274,7 +275,8 @@ HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& con
 HWY_INLINE void draw_triangle(Tile& tile, const SetupBatch& batch, std::size_t lane,
                               bool test_range, const Tile::Context& context) {
   const Drawn t = drawn(batch, lane, test_range, tile.area());
-  if (t.last_column - t.first_column < block || !context.switches.hierarchy) {
+  if (std::max(t.last_column - t.first_column, t.last_row - t.first_row) < 2 * block ||
+      !context.switches.hierarchy) {
     draw_box(tile, t, context);
   } else {
     draw_blocks(tile, t, context);
