@@ -44,10 +44,9 @@ HWY_INLINE void round_lanes(const CertifiedLanes& x, std::size_t first,
   const hn::Rebind<float, D> d32;
   const V margin = hn::MulAdd(hn::Abs(x.value), constant(0x1p-51), x.error);
   const V low = hn::Sub(x.value, margin), high = hn::Add(x.value, margin);
-  const auto nearest_to_low = hn::DemoteTo(d32, low);
+  const auto nearest_to_low = to_binary32(d32, low);
   const M one_sign = hn::Or(hn::Gt(low, constant(0)), hn::Lt(high, constant(0)));
-  const M same =
-      hn::Eq(hn::PromoteTo(d, nearest_to_low), hn::PromoteTo(d, hn::DemoteTo(d32, high)));
+  const M same = hn::Eq(hn::PromoteTo(d, nearest_to_low), hn::PromoteTo(d, to_binary32(d32, high)));
   hn::StoreU(nearest_to_low, d32, rounded.values.data() + first);
   rounded.settled |= std::uint64_t{bits_of(hn::And(one_sign, same))} << first;
 }

@@ -65,13 +65,13 @@ void RoundRow(const double* q_at, const std::uint64_t* tags, bool perspective, R
     const V error = hn::BitCast(d, hn::LoadU(du, tags + i));
     const DepthInterval D_interval =
         perspective ? perspective_depth(q, error) : orthographic_depth(q, error);
-    const auto least = hn::DemoteTo(d32, D_interval.least);
+    const auto least = to_binary32(d32, D_interval.least);
     const V rounded = hn::PromoteTo(d, least);
-    const V other = hn::PromoteTo(d, hn::DemoteTo(d32, D_interval.greatest));
+    const V other = hn::PromoteTo(d, to_binary32(d32, D_interval.greatest));
     const M surface = hn::Gt(q, none);
     const M settled = hn::And(D_interval.known, hn::Eq(rounded, other));
     const V background = constant(std::numeric_limits<double>::infinity());
-    hn::StoreU(hn::DemoteTo(d32, hn::IfThenElse(surface, rounded, background)), d32,
+    hn::StoreU(to_binary32(d32, hn::IfThenElse(surface, rounded, background)), d32,
                row.depth.data() + i);
     row.surface |= std::uint64_t{bits_of(surface)} << i;
     row.open |= std::uint64_t{bits_of(hn::AndNot(settled, surface))} << i;

@@ -46,6 +46,21 @@ HWY_INLINE unsigned bits_of(M mask) {
   return bytes[0];
 }
 
+/// Rounded to binary32, what is greater than all its numbers to ±∞. Emulated vectors would give the
+/// greatest number instead.
+template <class D32>
+HWY_INLINE hn::Vec<D32> to_binary32(D32 d32, V v) {
+#if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR
+  alignas(16) double from[8];
+  alignas(16) float to[8];
+  hn::Store(v, D(), from);
+  for (std::size_t k = 0; k < hn::Lanes(D()); ++k) to[k] = static_cast<float>(from[k]);
+  return hn::Load(d32, to);
+#else
+  return hn::DemoteTo(d32, v);
+#endif
+}
+
 /// One corner of several triangles.
 struct Corner {
   V u, v, q;
