@@ -100,7 +100,7 @@ HWY_INLINE void append(const Sorted& s, std::uint32_t first_number, TriangleBoxe
   }
 }
 
-void BoxTriangles(const BoxRequest& r, TriangleBoxes& out) {
+void sort_triangles(const BoxRequest& r, TriangleBoxes& out) {
   const D d;
   const std::size_t lanes = hn::Lanes(d);
   for (std::size_t i = 0; i < r.count; i += lanes) {
@@ -125,12 +125,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fathom {
 
-HWY_EXPORT(BoxTriangles);
+HWY_EXPORT(sort_triangles);
 
 void box_triangles(const BoxRequest& request, TriangleBoxes& boxes) {
   boxes.in_one_tile = boxes.in_more_tiles = boxes.unsettled = 0;
   boxes.degenerate = boxes.culled = 0;
-  HWY_DYNAMIC_DISPATCH(BoxTriangles)(request, boxes);
+  HWY_DYNAMIC_DISPATCH(sort_triangles)(request, boxes);
 }
 
 }  // namespace fathom

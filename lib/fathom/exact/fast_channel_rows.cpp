@@ -80,8 +80,9 @@ struct AlongRow {
 };
 
 /// As position() in fast_wide.h.
-HWY_ATTR void RoundPositions(const SurfaceRow& row, const Rays& world, const RaySizes& sizes,
-                             bool perspective, std::array<RoundedValues<float>, 3>& rounded) {
+HWY_ATTR void round_lanes_of_positions(const SurfaceRow& row, const Rays& world,
+                                       const RaySizes& sizes, bool perspective,
+                                       std::array<RoundedValues<float>, 3>& rounded) {
   const std::size_t lanes = hn::Lanes(D());
   for (RoundedValues<float>& r : rounded) r.settled = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -129,16 +130,16 @@ HWY_INLINE void for_lanes(const SurfaceRow& row, const SceneRays& rays, bool dis
   }
 }
 
-HWY_ATTR void RoundDepths(const SurfaceRow& row, const SceneRays& rays, bool distance,
-                          RoundedValues<float>& rounded) {
+HWY_ATTR void round_lanes_of_depths(const SurfaceRow& row, const SceneRays& rays, bool distance,
+                                    RoundedValues<float>& rounded) {
   rounded.settled = 0;
   for_lanes(row, rays, distance, [&](const CertifiedLanes& x, std::size_t first) HWY_ATTR {
     round_lanes(x, first, rounded);
   });
 }
 
-HWY_ATTR void RoundToCodes(const SurfaceRow& row, const SceneRays& rays, bool distance,
-                           double scale, RoundedValues<std::uint16_t>& rounded) {
+HWY_ATTR void round_lanes_to_codes(const SurfaceRow& row, const SceneRays& rays, bool distance,
+                                   double scale, RoundedValues<std::uint16_t>& rounded) {
   rounded.settled = 0;
   for_lanes(row, rays, distance, [&](const CertifiedLanes& x, std::size_t first) HWY_ATTR {
     round_lanes(x, scale, first, rounded);
@@ -152,23 +153,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fathom {
 
-HWY_EXPORT(RoundPositions);
-HWY_EXPORT(RoundDepths);
-HWY_EXPORT(RoundToCodes);
+HWY_EXPORT(round_lanes_of_positions);
+HWY_EXPORT(round_lanes_of_depths);
+HWY_EXPORT(round_lanes_to_codes);
 
 void round_positions(const SurfaceRow& row, const Rays& world, const RaySizes& sizes,
                      bool perspective, std::array<RoundedValues<float>, 3>& rounded) {
-  HWY_DYNAMIC_DISPATCH(RoundPositions)(row, world, sizes, perspective, rounded);
+  HWY_DYNAMIC_DISPATCH(round_lanes_of_positions)(row, world, sizes, perspective, rounded);
 }
 
 void round_depths(const SurfaceRow& row, const SceneRays& rays, bool distance,
                   RoundedValues<float>& rounded) {
-  HWY_DYNAMIC_DISPATCH(RoundDepths)(row, rays, distance, rounded);
+  HWY_DYNAMIC_DISPATCH(round_lanes_of_depths)(row, rays, distance, rounded);
 }
 
 void round_to_codes(const SurfaceRow& row, const SceneRays& rays, bool distance, double scale,
                     RoundedValues<std::uint16_t>& rounded) {
-  HWY_DYNAMIC_DISPATCH(RoundToCodes)(row, rays, distance, scale, rounded);
+  HWY_DYNAMIC_DISPATCH(round_lanes_to_codes)(row, rays, distance, scale, rounded);
 }
 
 }  // namespace fathom

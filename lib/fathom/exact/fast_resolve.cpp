@@ -54,7 +54,7 @@ HWY_INLINE DepthInterval orthographic_depth(V q, V error) {
 }
 
 // Both ends of an interval that contains D round to the same number, and rounding is monotone.
-void RoundRow(const double* q_at, const std::uint64_t* tags, bool perspective, RoundedRow& row) {
+void round_row(const double* q_at, const std::uint64_t* tags, bool perspective, RoundedRow& row) {
   const D d;
   const DU du;
   const hn::Rebind<float, D> d32;
@@ -85,7 +85,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fathom {
 
-HWY_EXPORT(RoundRow);
+HWY_EXPORT(round_row);
 
 std::optional<EncodingFault> Tile::resolve(CertifiedWriter& certified, float* depths,
                                            std::uint32_t image_width,
@@ -99,7 +99,7 @@ std::optional<EncodingFault> Tile::resolve(CertifiedWriter& certified, float* de
     visible.lanes = {q() + first, tags() + first, area_.first_column + 0.5, row + 0.5};
     visible.first_pixel = static_cast<std::size_t>(row) * image_width + area_.first_column;
     RoundedRow rounded;
-    HWY_DYNAMIC_DISPATCH(RoundRow)(q() + first, tags() + first, context.perspective, rounded);
+    HWY_DYNAMIC_DISPATCH(round_row)(q() + first, tags() + first, context.perspective, rounded);
     visible.surface = rounded.surface & ~std::uint64_t{0} >> (size - columns);
     statistics.pixels_with_surface += static_cast<std::uint64_t>(std::popcount(visible.surface));
     if (depths) {

@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace fathom::HWY_NAMESPACE {
 namespace {
 
-void SetUp(const ImageVertex* vertices, const CornerIndices* triangles, std::size_t count,
-           const PixelBox& area, const DepthRange& range, SetupBatch& batch) {
+void set_up_batch(const ImageVertex* vertices, const CornerIndices* triangles, std::size_t count,
+                  const PixelBox& area, const DepthRange& range, SetupBatch& batch) {
   // Lanes may be fewer than the batch's: the parts are put together.
   const std::size_t lanes = hn::Lanes(D());
   CornerIndices corners[SetupBatch::most];
@@ -36,7 +36,7 @@ void SetUp(const ImageVertex* vertices, const CornerIndices* triangles, std::siz
   batch.snapped = snapped;
 }
 
-void Orient(const ImageVertex* vertices, const CornerIndices& triangle, int& sign, bool& certain) {
+void orient(const ImageVertex* vertices, const CornerIndices& triangle, int& sign, bool& certain) {
   CornerIndices corners[SetupBatch::most];
   std::fill(std::begin(corners), std::end(corners), triangle);
   const Orientation o = certified_orientation(load_corners(vertices, corners));
@@ -45,7 +45,7 @@ void Orient(const ImageVertex* vertices, const CornerIndices& triangle, int& sig
   certain = positive || negative || (bits_of(o.zero) & 1);
 }
 
-const char* Name() {
+const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
 
@@ -56,25 +56,25 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fathom {
 
-HWY_EXPORT(SetUp);
-HWY_EXPORT(Orient);
-HWY_EXPORT(Name);
+HWY_EXPORT(set_up_batch);
+HWY_EXPORT(orient);
+HWY_EXPORT(target_name);
 
 const char* vector_instructions() {
-  return HWY_DYNAMIC_DISPATCH(Name)();
+  return HWY_DYNAMIC_DISPATCH(target_name)();
 }
 
 void certified_setups(const ImageVertex* vertices, const CornerIndices* triangles,
                       std::size_t count, const PixelBox& area, const DepthRange& range,
                       SetupBatch& batch) {
-  HWY_DYNAMIC_DISPATCH(SetUp)(vertices, triangles, count, area, range, batch);
+  HWY_DYNAMIC_DISPATCH(set_up_batch)(vertices, triangles, count, area, range, batch);
 }
 
 std::optional<Sign> certified_orientation(const ImageVertex* vertices,
                                           const CornerIndices& triangle) {
   int sign = 0;
   bool certain = false;
-  HWY_DYNAMIC_DISPATCH(Orient)(vertices, triangle, sign, certain);
+  HWY_DYNAMIC_DISPATCH(orient)(vertices, triangle, sign, certain);
   if (!certain) return std::nullopt;
   return sign > 0 ? Sign::positive : sign < 0 ? Sign::negative : Sign::zero;
 }

@@ -263,8 +263,8 @@ HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& con
       const bool drew = inside ? draw_strip<false>(tile, t, strip, context)
                                : draw_strip<true>(tile, t, strip, context);
       if (!reject || !drew) continue;
-      const auto block_number =
-          static_cast<std::size_t>(row * (static_cast<int>(Tile::size) / block) + number);
+      const auto block_number = static_cast<std::size_t>(row) * (Tile::size / Tile::block) +
+                                static_cast<std::size_t>(number);
       if (inside || ++tile.draws()[block_number] >= draws_until_update) {
         update_farthest(tile, block_number);
       }
@@ -370,8 +370,8 @@ HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> 
   }
 }
 
-void DrawTriangles(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
-                   const Tile::Context& context) {
+void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
+                    const Tile::Context& context) {
   const std::size_t lanes = hn::Lanes(D());
   Triangles next{};
   SetupBatch batch;
@@ -409,11 +409,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fathom {
 
-HWY_EXPORT(DrawTriangles);
+HWY_EXPORT(draw_triangles);
 
 void Tile::draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
                 const Context& context) {
-  HWY_DYNAMIC_DISPATCH(DrawTriangles)(*this, object, numbers, context);
+  HWY_DYNAMIC_DISPATCH(draw_triangles)(*this, object, numbers, context);
 }
 
 }  // namespace fathom

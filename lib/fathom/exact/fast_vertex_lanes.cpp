@@ -50,23 +50,23 @@ HWY_INLINE Result perspective_vertex(const ImageRows& rows, V x, V y, V z) {
   using namespace vertex_bounds;
   const V ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
   const V U = apply(rows.U, x, y, z), Vv = apply(rows.V, x, y, z), W = apply(rows.W, x, y, z);
-  const V error_UV = hn::Mul(constant(affine_error), apply(rows.size_UV, ax, ay, az));
-  const V error_W = hn::Mul(constant(affine_error), apply(rows.size_W, ax, ay, az));
+  const V uv_error = hn::Mul(constant(affine_error), apply(rows.size_UV, ax, ay, az));
+  const V w_error = hn::Mul(constant(affine_error), apply(rows.size_W, ax, ay, az));
   Result r;
   r.q = hn::Div(constant(1), W);
   r.u = hn::Mul(U, r.q);
   r.v = hn::Mul(Vv, r.q);
   const V size = hn::Max(hn::Abs(r.u), hn::Abs(r.v));
   const V relative = hn::Mul(constant(3 * unit_roundoff), size);
-  r.position_error = hn::MulAdd(hn::MulAdd(hn::MulAdd(size, error_W, error_UV), r.q, relative),
+  r.position_error = hn::MulAdd(hn::MulAdd(hn::MulAdd(size, w_error, uv_error), r.q, relative),
                                 constant(slack), constant(underflow_floor));
   r.q_error =
-      hn::Mul(hn::MulAdd(error_W, r.q, constant(unit_roundoff)), hn::Mul(r.q, constant(slack)));
+      hn::Mul(hn::MulAdd(w_error, r.q, constant(unit_roundoff)), hn::Mul(r.q, constant(slack)));
   r.usable = hn::And(hn::And(hn::And(hn::Ge(W, constant(least_W)), hn::Le(W, constant(greatest_W))),
-                             hn::Le(error_W, hn::Mul(W, constant(0x1p-20)))),
+                             hn::Le(w_error, hn::Mul(W, constant(0x1p-20)))),
                      hn::And(hn::Le(size, constant(greatest_coordinate)),
                              hn::Le(r.position_error, constant(greatest_position_error))));
-  r.behind = hn::Lt(hn::MulAdd(hn::Add(error_W, constant(underflow_floor)), constant(slack), W),
+  r.behind = hn::Lt(hn::MulAdd(hn::Add(w_error, constant(underflow_floor)), constant(slack), W),
                     constant(0));
   return r;
 }
@@ -146,8 +146,8 @@ HWY_INLINE void transform_lanes(const VertexTransform& transform, const MeshPoin
   if (HWY_UNLIKELY(!hn::AllFalse(d, may_snap(r)))) snap(transform, points, image, count);
 }
 
-void TransformVertices(const VertexTransform& transform, const MeshPoint* points, std::size_t count,
-                       ImageVertex* image) {
+void transform_vertices(const VertexTransform& transform, const MeshPoint* points,
+                        std::size_t count, ImageVertex* image) {
   const std::size_t lanes = hn::Lanes(D());
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {
@@ -168,7 +168,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fathom {
 
-HWY_EXPORT(TransformVertices);
+HWY_EXPORT(transform_vertices);
 
 void VertexTransform::operator()(std::span<const MeshPoint> points, ImageVertex* image) const {
   if (!usable_) {
@@ -177,7 +177,7 @@ void VertexTransform::operator()(std::span<const MeshPoint> points, ImageVertex*
     std::fill_n(image, points.size(), ImageVertex{0, 0, 0, unknown});
     return;
   }
-  HWY_DYNAMIC_DISPATCH(TransformVertices)(*this, points.data(), points.size(), image);
+  HWY_DYNAMIC_DISPATCH(transform_vertices)(*this, points.data(), points.size(), image);
 }
 
 }  // namespace fathom

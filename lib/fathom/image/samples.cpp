@@ -1,5 +1,6 @@
 #include "fathom/image/samples.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <new>
@@ -28,13 +29,11 @@ void* map_zeros(std::size_t bytes) {
   const std::size_t length = whole_pages(bytes), room = length + huge_page;
   void* mapped = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (mapped == MAP_FAILED) throw std::bad_alloc();
-  const auto first = reinterpret_cast<std::uintptr_t>(mapped);
-  const std::uintptr_t aligned = whole_pages(first);
-  if (aligned > first) munmap(mapped, aligned - first);
-  if (first + room > aligned + length) {
-    munmap(reinterpret_cast<void*>(aligned + length), first + room - aligned - length);
-  }
-  auto* memory = reinterpret_cast<void*>(aligned);
+  const auto address = reinterpret_cast<std::uintptr_t>(mapped);
+  const std::size_t before = whole_pages(address) - address, after = huge_page - before;
+  auto* memory = static_cast<std::byte*>(mapped) + before;
+  if (before > 0) munmap(mapped, before);
+  if (after > 0) munmap(memory + length, after);
   madvise(memory, length, MADV_HUGEPAGE);  // a wish: small pages do as well
   return memory;
 }
