@@ -51,7 +51,7 @@ class Peers : public testing::TestWithParam<Projection> {
   const Scene scene = bench::as_scene({bench::sphere(800)}, "sphere");
   const WorldMesh mesh = world_mesh(scene);
   const DepthMap map = render(scene, camera, {.engine = Engine::fast});
-  const std::vector<float>& ours = *map.values<float>("Z");
+  const Samples<float>& ours = *map.values<float>("Z");
 };
 
 // Both compute positions in binary32, off by a few ulp of 160 pixels (2⁻¹⁵ pixel), and VTK snaps

@@ -34,7 +34,7 @@ void expect_closed(const Mesh& mesh) {
 /// Share of the pixels that show a surface.
 double covered_share(const BenchScene& bench) {
   const DepthMap map = render(bench.scene, bench.camera, {.engine = Engine::fast});
-  const std::vector<float>& Z = *map.values<float>("Z");
+  const Samples<float>& Z = *map.values<float>("Z");
   const auto covered = std::count_if(Z.begin(), Z.end(), [](float z) { return std::isfinite(z); });
   return static_cast<double>(covered) / static_cast<double>(Z.size());
 }
