@@ -30,7 +30,7 @@ std::string message_of(const std::function<std::string()>& work) {
 TEST(BenchFrames, TheFirstIsNotCountedAndClearingIsNotTimed) {
   int drawn = 0, cleared = 0;
   const Frames frames = time_frames(
-      4, [&] { ++drawn; }, [&] { ++cleared; });
+      4, [&] { ++drawn; }, [&] { ++cleared; }, std::chrono::milliseconds(0));
   EXPECT_EQ(drawn, 5);
   EXPECT_EQ(cleared, 5);
   EXPECT_EQ(frames.milliseconds.size(), 4U);

@@ -9,7 +9,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds time_there_is{20};
-constexpr std::chrono::milliseconds warm_up{300};
 
 }  // namespace
 
@@ -20,7 +19,7 @@ double Measurement::median_ms() const {
 }
 
 Frames time_frames(int repeat, const std::function<void()>& draw,
-                   const std::function<void()>& clear) {
+                   const std::function<void()>& clear, std::chrono::milliseconds warm_up) {
   const auto timed = [&] {
     clear();
     const Clock::time_point start = Clock::now();
@@ -29,7 +28,6 @@ Frames time_frames(int repeat, const std::function<void()>& draw,
   };
   const Clock::time_point start = Clock::now();
   Frames frames{.first_ms = timed()};
-  // Threads find their processors and allocators their sizes.
   while (Clock::now() - start < warm_up) timed();
   for (int i = 0; i < repeat && Clock::now() - start < time_there_is; ++i) {
     frames.milliseconds.push_back(timed());

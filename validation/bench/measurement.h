@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -46,10 +47,12 @@ struct Frames {
   std::vector<double> milliseconds;
 };
 
-/// Times `draw` once and then `repeat` times more, but begins no further frame after 20 seconds.
-/// `clear` is called before each and not timed.
+/// Times `draw` once, draws on until `warm_up` has passed, since threads first have to find their
+/// processors and allocators their sizes, and then times it `repeat` times more, but begins no
+/// further frame after 20 seconds. `clear` is called before each and not timed.
 Frames time_frames(
-    int repeat, const std::function<void()>& draw, const std::function<void()>& clear = [] {});
+    int repeat, const std::function<void()>& draw, const std::function<void()>& clear = [] {},
+    std::chrono::milliseconds warm_up = std::chrono::milliseconds(300));
 
 /// Writes measurements as text and reads them back, for the way from one process to another.
 std::string to_text(const std::vector<Measurement>& measurements);

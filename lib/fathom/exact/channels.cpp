@@ -1,6 +1,5 @@
 #include "fathom/exact/channels.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -19,8 +18,11 @@ template <class T>
 ImageChannel filled(const std::string& name, std::size_t pixels, T background) {
   Samples<T> values(pixels);
   if (background != T{0}) {  // NaN too
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels, 1 << 18), [&](const auto& part) {
-      std::fill(values.begin() + part.begin(), values.begin() + part.end(), background);
+    // A huge page is zeroed by whoever touches it first, while others wait for it.
+    constexpr std::size_t part = (std::size_t{1} << 21) / sizeof(T);
+    tbb::parallel_for(std::size_t{0}, (pixels + part - 1) / part, [&](std::size_t i) {
+      std::fill(values.begin() + i * part, values.begin() + std::min(pixels, (i + 1) * part),
+                background);
     });
   }
   return {name, std::move(values)};

@@ -16,7 +16,7 @@ FastFrame::FastFrame(const Camera& the_camera, const RenderOptions& the_options)
 std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
                                   std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
                                   FastWorkers& workers) {
-  constexpr std::uint64_t least = 4096;
+  constexpr std::uint64_t least = 1024;
   const std::uint64_t length = std::max(least, std::uint64_t{end - first} / parts + 1);
   std::vector<Bins> bins;
   for (std::uint64_t next = first; next < end; next += length) {
