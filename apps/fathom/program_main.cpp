@@ -112,6 +112,7 @@ int companion_main(int argc, char** argv, const char* name, AddCommand command) 
   std::vector<std::string> words{"fathom", name};
   words.insert(words.end(), argv + std::min(argc, 1), argv + argc);
   std::vector<char*> arguments;
+  arguments.reserve(words.size());
   for (std::string& word : words) arguments.push_back(word.data());
   return program_main(static_cast<int>(arguments.size()), arguments.data(), {command});
 }

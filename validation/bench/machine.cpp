@@ -27,7 +27,7 @@ std::string value_in(const char* file, const std::string& key, char separator) {
 
 std::string system_name() {
   utsname name{};
-  const std::string distribution = value_in("/etc/os-release", "PRETTY_NAME", '=');
+  std::string distribution = value_in("/etc/os-release", "PRETTY_NAME", '=');
   if (::uname(&name) != 0) return distribution;
   return distribution + ", " + name.sysname + " " + name.release + " " + name.machine;
 }

@@ -58,8 +58,11 @@ BenchScene grid_scene(const std::string& name, const Size& size) {
   const std::uint32_t columns = std::min(1000U, size.width / step);
   const std::uint32_t rows = std::min(1000U, size.height / step);
   const bool shifted = name == "grid-shifted";
-  const double left = (size.width - columns * step) / 2 + 0.5 + (shifted ? 0.1234567 : 0);
-  const double top = (size.height - rows * step) / 2 + 0.5 + (shifted ? 0.7654321 : 0);
+  // Whole pixels, so that corners lie on pixel centres.
+  const std::uint32_t margin_left = (size.width - columns * step) / 2;
+  const std::uint32_t margin_top = (size.height - rows * step) / 2;
+  const double left = margin_left + 0.5 + (shifted ? 0.1234567 : 0);
+  const double top = margin_top + 0.5 + (shifted ? 0.7654321 : 0);
   return {name, as_scene({grid(columns, rows, left, top, step)}, name), camera};
 }
 
