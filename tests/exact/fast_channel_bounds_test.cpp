@@ -132,6 +132,7 @@ void expect_operations_within_their_bounds() {
     }
   }
   EXPECT_GT(square_root_share.count(), 5000 / testing::effort);
+  if (testing::effort > 1) return;  // too few cases to come near the bounds
   EXPECT_GT(sum.greatest(), 0.3);
   EXPECT_GT(product.greatest(), 0.3);
   EXPECT_GT(scaled.greatest(), 0.5);
