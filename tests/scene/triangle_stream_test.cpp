@@ -206,12 +206,6 @@ void put(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-std::string ply_with(const std::string& vertices, const std::string& faces) {
-  return "ply\nformat binary_little_endian 1.0\nelement vertex " + vertices +
-         "\nproperty float x\nproperty float y\nproperty float z\nelement face " + faces +
-         "\nproperty list uchar int vertex_indices\nend_header\n";
-}
-
 /// A little endian PLY of random faces: shares of faces of other than three corners, and of a list
 /// property beside the corners.
 std::string random_ply(std::mt19937_64& random, std::uint32_t vertices, std::uint32_t faces,
@@ -334,6 +328,13 @@ TEST(TriangleStream, FileCutShortMeanwhile) {
   EXPECT_THAT(message_of<InputError>([&] { stream->read(0, 1000); }), HasSubstr("the file ends"));
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+std::string ply_with(const std::string& vertices, const std::string& faces) {
+  return "ply\nformat binary_little_endian 1.0\nelement vertex " + vertices +
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face " + faces +
+         "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
 /// The bytes `block` again and again behind `head`.
 fs::path write_repeated(const ScratchFolder& folder, const std::string& name,
                         const std::string& head, const std::string& block, int times) {
@@ -343,7 +344,6 @@ fs::path write_repeated(const ScratchFolder& folder, const std::string& name,
   return path;
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 /// 250 MB of STL and 272 MB of PLY within 150 MB of addresses; of the PLY, the vertices fit.
 TEST(TriangleStream, FilesLargerThanTheMemoryAllowed) {
   const ScratchFolder folder;
