@@ -20,6 +20,8 @@ function(fathom_target_options target)
     target_compile_options(${target} PRIVATE -fsanitize=${FATHOM_SANITIZERS}
                                              -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${FATHOM_SANITIZERS})
+    # Tests do less, or do without limits on memory, where this is defined.
+    target_compile_definitions(${target} PRIVATE FATHOM_SANITIZED)
   endif()
 endfunction()
 

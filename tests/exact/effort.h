@@ -4,7 +4,7 @@ namespace fathom::testing {
 
 /// Sanitizers make the code ten to fifty times slower: fewer of the random cases are run under
 /// them, of the same kinds.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(FATHOM_SANITIZED)
 inline constexpr int effort = 20;
 #else
 inline constexpr int effort = 1;

@@ -1,10 +1,10 @@
 #!/bin/sh
 # Runs every fuzzer for SECONDS, starting from its corpus; fails on any finding.
-#   tests/fuzz/run.sh SECONDS [BUILD_FOLDER]     (default build/fuzz, see the preset)
+#   tests/fuzz/run.sh SECONDS [BUILD_FOLDER]     (default build/sanitize, see the preset)
 set -eu
 seconds=${1:?usage: tests/fuzz/run.sh SECONDS [BUILD_FOLDER]}
 root=$(cd "$(dirname "$0")/../.." && pwd)
-build=${2:-$root/build/fuzz}
+build=${2:-$root/build/sanitize}
 found=0
 for source in "$root"/tests/fuzz/fuzz_*.cpp; do
   fuzzer=$(basename "$source" .cpp)

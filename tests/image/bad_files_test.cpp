@@ -103,7 +103,7 @@ class LittleMemory {
   rlimit before_{};
 };
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(FATHOM_SANITIZED)
 using MemoryLimit = int;  // sanitizers reserve terabytes of address space
 #else
 using MemoryLimit = LittleMemory;

