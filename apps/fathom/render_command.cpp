@@ -142,6 +142,7 @@ Json to_json(const RenderStatistics& statistics) {
             {"edges", to_json(statistics.edges)},
             {"visibility", to_json(statistics.visibility)},
             {"range", to_json(statistics.range)},
+            {"coverage", to_json(statistics.coverage)},
             {"rounding", to_json(statistics.rounding)}}}};
 }
 
@@ -323,7 +324,7 @@ void add_render(Program& program) {
   command->add_option("--save-camera", arguments->save_camera,
                       "Write the camera to this file (JSON; - is standard output)");
   command->add_option("--channels", arguments->channels,
-                      "Of Z, Zlow, distance, id, face, object, N, P, bary (default Z)");
+                      "Of Z, A, Zlow, distance, id, face, object, N, P, bary (default Z)");
   command->add_option("--engine", arguments->engine,
                       "fast (default), or reference: the same map bit for bit, slowly");
   add_cull_option(*command, arguments->cull);

@@ -102,9 +102,9 @@ std::vector<Channel> parse_channels(const std::string& list) {
   for (const std::string& name : split_list(list)) {
     const std::optional<Channel> channel = channel_named(name);
     if (!channel) {
-      throw UsageError("--channels: '" + name + "' " +
-                       (name == "A" ? "does not exist yet" : "is no channel") +
-                       "; there are Z, Zlow, distance, id, face, object, N, P and bary");
+      throw UsageError(
+          "--channels: '" + name +
+          "' is no channel; there are Z, A, Zlow, distance, id, face, object, N, P and bary");
     }
     if (std::find(channels.begin(), channels.end(), *channel) != channels.end()) {
       throw UsageError("--channels: '" + name + "' stands twice");

@@ -42,7 +42,6 @@ std::vector<Usage> wrong_usages() {
       {"UnknownSuffix", {"render", "square.obj", "-o", "map.tiff"}, ".exr"},
       {"EnginePipeline", render({"--engine", "pipeline"}), "there are reference and fast"},
       {"EngineUnknown", render({"--engine", "warp"}), "there are reference and fast"},
-      {"ChannelA", render({"--channels", "Z,A"}), "'A' does not exist yet; there are Z"},
       {"ChannelUnknown", render({"--channels", "depth"}), "there are Z"},
       {"ChannelTwice", render({"--channels", "Z,Z"}), "twice"},
       {"Deep", render({"--deep"}), "--deep does not exist yet"},

@@ -63,9 +63,6 @@ std::vector<oracle::Triangle> triangles_of(const Scene& scene) {
   return all;
 }
 
-float nearest_float(const Q& q) {
-  return static_cast<float>(oracle::quotient(oracle::binary32, q.get_mpq_t()));
-}
 float nearest_root(const Q& q) {
   return static_cast<float>(oracle::root(oracle::binary32, q.get_mpq_t()));
 }
@@ -115,6 +112,18 @@ void expect_background(const DepthMap& map, std::size_t pixel) {
 }
 
 }  // namespace
+
+float nearest_float(const Q& q) {
+  return static_cast<float>(oracle::quotient(oracle::binary32, q.get_mpq_t()));
+}
+
+Q rational(const Ratio& x) {
+  return rational(x.numerator) / rational(x.denominator);
+}
+
+oracle::Areas areas_at(const Scene& scene, const Camera& camera) {
+  return {ray_camera(camera), triangles_of(scene)};
+}
 
 oracle::RayCaster cast_at(const Scene& scene, const Camera& camera) {
   return {ray_camera(camera), triangles_of(scene)};

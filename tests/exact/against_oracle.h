@@ -7,12 +7,20 @@
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/camera.h"
 #include "fathom/scene/scene.h"
+#include "tests/oracle/areas.h"
 #include "tests/oracle/ray_caster.h"
 
 namespace fathom::testing {
 
 /// Rays through the pixels of `camera` at every triangle of the scene.
 oracle::RayCaster cast_at(const Scene& scene, const Camera& camera);
+
+/// The areas of the pixels of `camera` that the scene covers.
+oracle::Areas areas_at(const Scene& scene, const Camera& camera);
+float nearest_float(const oracle::Q& q);
+
+/// The same number by GMP.
+oracle::Q rational(const Ratio& x);
 
 /// All channels of section 6 except A.
 std::vector<Channel> all_channels();

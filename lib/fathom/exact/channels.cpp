@@ -44,6 +44,8 @@ std::vector<ImageChannel> channels_for(Channel channel, std::size_t n, DepthEnco
   switch (channel) {
     case Channel::Z:
       return {depth_channel("Z", n, type)};
+    case Channel::A:
+      return {filled<float>("A", n, 0)};
     case Channel::Zlow:
       return {filled<float>("Zlow", n, 0)};
     case Channel::distance:
@@ -129,6 +131,7 @@ DepthMap make_background(const Camera& camera, const RenderOptions& options) {
 ChannelValues::ChannelValues(DepthMap& map)
     : depth(encoded_values_of(map, "Z")),
       distance(encoded_values_of(map, "distance")),
+      coverage(values_of<float>(map, "A")),
       low(values_of<float>(map, "Zlow")),
       id(values_of<std::uint32_t>(map, "id")),
       face(values_of<std::uint32_t>(map, "face")),

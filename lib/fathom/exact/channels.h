@@ -37,6 +37,8 @@ struct ChannelValues {
   explicit ChannelValues(DepthMap& map);
 
   EncodedValues depth, distance;
+  /// Not the writer's to fill: A is no value of one surface.
+  float* coverage = nullptr;
   float* low = nullptr;
   std::uint32_t *id = nullptr, *face = nullptr, *object = nullptr;
   std::array<float*, 3> normal{};

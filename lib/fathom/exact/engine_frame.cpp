@@ -20,6 +20,7 @@ void add(RenderStatistics& sum, const RenderStatistics& part) {
   sum.edges += part.edges;
   sum.visibility += part.visibility;
   sum.range += part.range;
+  sum.coverage += part.coverage;
   sum.rounding += part.rounding;
   sum.double_word_roundings += part.double_word_roundings;
   sum.exact_setups += part.exact_setups;

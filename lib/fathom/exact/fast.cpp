@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "fathom/exact/fast_coverage.h"
 #include "fathom/exact/fast_frame.h"
 
 // How to read this file: render_in_arena() is the whole story. Vertices are transformed to the
@@ -53,7 +54,11 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
     progress.part_done();
   });
   if (fault.get()) fail(*fault.get(), map);
-  if (options.statistics) *options.statistics = sum_of(workers, triangles.count());
+  RenderStatistics statistics = sum_of(workers, triangles.count());
+  if (float* coverage = writer.values().coverage) {
+    write_fast_coverage({triangles, camera, options.cull}, coverage, statistics);
+  }
+  if (options.statistics) *options.statistics = statistics;
   return map;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "fathom/exact/fast_coverage.h"
 #include "fathom/exact/fast_frame.h"
 
 // How to read this file: render_in_arena() is the whole story. The image is done in bands of rows
@@ -160,7 +161,11 @@ DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
     report(options, band, frame.grid, first_row, 1);
     first_row = band.end_row();
   }
-  if (options.statistics) *options.statistics = sum_of(workers, triangles.count());
+  RenderStatistics statistics = sum_of(workers, triangles.count());
+  if (float* coverage = writer.values().coverage) {
+    write_fast_coverage({triangles, camera, options.cull}, coverage, statistics);
+  }
+  if (options.statistics) *options.statistics = statistics;
   return map;
 }
 

@@ -6,8 +6,9 @@
 namespace fathom {
 
 std::optional<Channel> channel_named(const std::string& name) {
-  static constexpr std::array<std::pair<const char*, Channel>, 9> names{
+  static constexpr std::array<std::pair<const char*, Channel>, 10> names{
       {{"Z", Channel::Z},
+       {"A", Channel::A},
        {"Zlow", Channel::Zlow},
        {"distance", Channel::distance},
        {"id", Channel::id},

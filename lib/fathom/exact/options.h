@@ -14,8 +14,8 @@ enum class Engine { reference, fast };
 enum class Cull { none, back, front };
 
 /// The channels of the specification, section 6, by the names that files have:
-/// Z Zlow distance id face object N (three) P (three) bary (two).
-enum class Channel { Z, Zlow, distance, id, face, object, N, P, bary };
+/// Z A Zlow distance id face object N (three) P (three) bary (two).
+enum class Channel { Z, A, Zlow, distance, id, face, object, N, P, bary };
 
 /// "Z" → Channel::Z, …; nullopt if there is no such channel.
 std::optional<Channel> channel_named(const std::string& name);
@@ -39,6 +39,8 @@ struct RenderStatistics {
   std::uint64_t samples_covered = 0;
   std::uint64_t pixels_with_surface = 0;
   TierCounts facing, edges, visibility, range;
+  /// Signs that channel A asked for.
+  TierCounts coverage;
 
   // The fast engine alone:
   /// Values rounded from an interval, and values written from exact numbers.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "fathom/exact/channels.h"
+#include "fathom/exact/coverage_image.h"
 #include "fathom/exact/engine_frame.h"
 #include "fathom/exact/projected_triangle.h"
 
@@ -231,6 +232,9 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
     progress.part_done();
   });
 
+  if (float* coverage = writer.values().coverage) {
+    statistics.coverage += write_coverage({scene, camera, options.cull}, coverage);
+  }
   for (std::uint32_t band = 0; band < bands; ++band) {
     if (faults[band]) fail(*faults[band], map);
     add(statistics, parts[band]);

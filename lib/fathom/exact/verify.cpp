@@ -11,6 +11,7 @@
 #include <random>
 
 #include "fathom/exact/channels.h"
+#include "fathom/exact/coverage.h"
 #include "fathom/exact/engine_frame.h"
 #include "fathom/exact/projected_triangle.h"
 #include "fathom/exact/verify_samples.h"
@@ -131,6 +132,7 @@ class ExactRow {
     std::vector<Visible> visible(chosen_.start(band.end_row) - first);
     for (const Candidate* c : band.candidates) draw(*c, band, first, visible);
     write(band, first, visible);
+    if (float* coverage = writer_.values().coverage) write_coverage(band, coverage);
   }
 
   [[nodiscard]] const DepthMap& map() const { return map_; }
@@ -179,6 +181,20 @@ class ExactRow {
           const std::lock_guard lock(mutex_);
           faults_[k] = fault->why;
         }
+      }
+    }
+  }
+
+  void write_coverage(const Band& band, float* values) const {
+    const CoverageFrame coverage{frame_.triangles, frame_.camera, frame_.options.cull};
+    for (std::uint32_t row = band.first_row; row < band.end_row; ++row) {
+      for (std::size_t k = chosen_.start(row); k < chosen_.start(row + 1); ++k) {
+        const std::uint32_t column = chosen_.column(k);
+        std::vector<std::uint32_t> near;
+        for (const Candidate* c : band.candidates) {
+          if (c->box.contains(column, row)) near.push_back(c->number);
+        }
+        values[k] = rounded_pixel_coverage(coverage, near, column, row);
       }
     }
   }

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+
+#include "fathom/numeric/certified.h"
+
+namespace fathom {
+
+/// The points (u, v) with l_u·u + l_v·v + l_w ≥ 0, exactly; its line is l = 0. The normal
+/// (l_u, l_v) is not zero.
+///
+/// Two half-planes a, b with turn(a, b) > 0 meet, as edges of a convex polygon that has its inside
+/// on the side of both, in a vertex; edges in this order go round counter-clockwise where v grows
+/// up (clockwise on an image, whose v grows down; areas do not mind).
+/// Exact    every sign below: binary64 with a proved bound first, exact numbers where it fails.
+class HalfPlane {
+ public:
+  /// A power of two is taken out of the coefficients, so that the greatest is just below 1.
+  explicit HalfPlane(ExactVector3 l);
+
+  [[nodiscard]] const ExactVector3& exact() const { return exact_; }
+  /// Within 2⁻⁵²·|l_k| + 2⁻¹⁰⁷⁴ of the coefficients; at most 1.
+  [[nodiscard]] const std::array<double, 3>& approximate() const { return approximate_; }
+
+ private:
+  ExactVector3 exact_;
+  std::array<double, 3> approximate_;
+};
+
+/// A product or sum in binary64 and a bound of its distance from the exact one.
+struct Bounded {
+  double value = 0;
+  double error = 0;
+};
+Bounded operator+(const Bounded& a, const Bounded& b);
+Bounded operator*(const Bounded& a, const Bounded& b);
+/// The bound is +∞ where b may be 0.
+Bounded operator/(const Bounded& a, const Bounded& b);
+Interval enclose(const Bounded& x);
+
+/// l_u, l_v or l_w for k = 0, 1, 2.
+Bounded approximate_coefficient(const HalfPlane& l, std::size_t k);
+
+/// a_u·b_v − a_v·b_u: positive where the line of b turns left from the line of a, 0 where they are
+/// parallel.
+Bounded approximate_turn(const HalfPlane& a, const HalfPlane& b);
+Dyadic turn(const HalfPlane& a, const HalfPlane& b);
+Sign sign_of_turn(const HalfPlane& a, const HalfPlane& b, TierCounts& counts);
+
+/// det(a, b, c): 0 where the three lines meet in one point, or two of them are parallel to the
+/// third.
+Bounded approximate_determinant(const HalfPlane& a, const HalfPlane& b, const HalfPlane& c);
+Dyadic determinant(const HalfPlane& a, const HalfPlane& b, const HalfPlane& c);
+Sign sign_of_determinant(const HalfPlane& a, const HalfPlane& b, const HalfPlane& c,
+                         TierCounts& counts);
+
+/// Whether the parallel lines of a and b have their insides on the same side.
+bool same_side(const HalfPlane& a, const HalfPlane& b);
+
+/// The line of e is walked with the inside of e on the left. The line of m, not parallel to it, is
+/// crossed at a place τ, in units of the normal's length; where turn(e, m) < 0 one enters m, else
+/// one leaves it.
+
+/// The sign of τ(m) − τ(n).
+Sign compare_crossings(const HalfPlane& e, const HalfPlane& m, const HalfPlane& n,
+                       TierCounts& counts);
+/// The sign of m at the place where e crosses `at`.
+Sign side_of_crossing(const HalfPlane& m, const HalfPlane& e, const HalfPlane& at,
+                      TierCounts& counts);
+
+}  // namespace fathom

@@ -1,0 +1,142 @@
+#include "fathom/exact/image_cell.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "fathom/numeric/rounding.h"
+
+namespace fathom {
+namespace {
+
+/// n − limit·w
+ImageForm above(const ImageForm& n, const Dyadic& limit, const ImageForm& w) {
+  ExactVector3 l;
+  for (std::size_t k = 0; k < 3; ++k) l[k] = n.coefficients()[k] - limit * w.coefficients()[k];
+  return ImageForm(l);
+}
+
+ImageForm negated(const ImageForm& form) {
+  const auto& l = form.coefficients();
+  return ImageForm({-l[0], -l[1], -l[2]});
+}
+
+bool is_constant(const ImageForm& form) {
+  return form.coefficients()[0].is_zero() && form.coefficients()[1].is_zero();
+}
+
+}  // namespace
+
+std::optional<std::vector<ImageForm>> covered_region(const ProjectedTriangle& t,
+                                                     const Camera& camera) {
+  if (t.orientation == Sign::zero) return std::nullopt;
+  std::vector<ImageForm> region(t.edges.begin(), t.edges.end());
+  // D > 0: where D is 0 all over, nothing is left.
+  const ImageForm& depth = t.depth_numerator;
+  if (!is_constant(depth)) {
+    region.push_back(depth);
+  } else if (depth.coefficients()[2].sign() != Sign::positive) {
+    return std::nullopt;
+  }
+  const auto add = [&](ImageForm form) {
+    if (is_constant(form)) return form.coefficients()[2].sign() != Sign::negative;
+    region.push_back(std::move(form));
+    return true;
+  };
+  if (camera.near > 0 && !add(above(depth, camera.near, t.weight))) return std::nullopt;
+  if (std::isfinite(camera.far) && !add(negated(above(depth, camera.far, t.weight)))) {
+    return std::nullopt;
+  }
+  return region;
+}
+
+ImageCell::ImageCell(std::uint32_t column, std::uint32_t row, std::uint32_t width,
+                     std::uint32_t height)
+    : left_(column),
+      top_(row),
+      right_(static_cast<double>(column) + width),
+      bottom_(static_cast<double>(row) + height) {
+  // u ≥ 0, v ≥ 0, u ≤ width, v ≤ height: each turns left from the one before.
+  const std::array<ExactVector3, 4> sides{{{1.0, 0.0, 0.0},
+                                           {0.0, 1.0, 0.0},
+                                           {-1.0, 0.0, static_cast<double>(width)},
+                                           {0.0, -1.0, static_cast<double>(height)}}};
+  std::vector<const HalfPlane*> edges;
+  for (const ExactVector3& side : sides) edges.push_back(&half_planes_.emplace_back(side));
+  whole_.emplace(std::move(edges));
+}
+
+std::optional<Sign> ImageCell::sign_in_cell(const ImageForm& form) const {
+  // Affine: the signs at the corners decide.
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const double u : {left_, right_}) {
+    for (const double v : {top_, bottom_}) {
+      const Interval value = form.enclose_at(u, v);
+      if (!(value.lower <= value.upper)) return std::nullopt;
+      least = std::min(least, value.lower);
+      greatest = std::max(greatest, value.upper);
+    }
+  }
+  if (least >= 0) return Sign::positive;
+  if (greatest <= 0) return Sign::negative;
+  return std::nullopt;
+}
+
+ExactVector3 ImageCell::localised(const ImageForm& form) const {
+  const auto& l = form.coefficients();
+  return {l[0], l[1], form.at(left_, top_)};
+}
+
+std::optional<ImageCell::Piece> ImageCell::clip(const std::vector<ImageForm>& region,
+                                                TierCounts& counts) {
+  std::array<const ImageForm*, 6> undecided{};
+  std::size_t count = 0;
+  for (const ImageForm& form : region) {
+    const std::optional<Sign> sign = sign_in_cell(form);
+    if (sign == Sign::negative) return std::nullopt;
+    if (!sign) undecided.at(count++) = &form;
+  }
+  Piece piece{*whole_};
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!piece.polygon.clip(half_planes_.emplace_back(localised(*undecided[k])), counts)) {
+      return std::nullopt;
+    }
+  }
+  piece.is_whole = piece.polygon.edges() == whole_->edges();
+  return piece;
+}
+
+std::optional<ConvexPolygon> ImageCell::clip(const ConvexPolygon& polygon, const ImageForm& form,
+                                             TierCounts& counts) {
+  const std::optional<Sign> sign = sign_in_cell(form);
+  if (sign == Sign::negative) return std::nullopt;
+  ConvexPolygon result = polygon;
+  if (sign) return result;
+  if (!result.clip(half_planes_.emplace_back(localised(form)), counts)) return std::nullopt;
+  return result;
+}
+
+void CellCoverage::add(const std::vector<ImageForm>& region) {
+  if (complete_) return;
+  auto piece = cell_.clip(region, counts_);
+  if (!piece) return;
+  if (piece->is_whole) {
+    complete_ = true;
+    pieces_.clear();
+  }
+  pieces_.push_back(std::move(piece->polygon));
+}
+
+Ratio CellCoverage::area() {
+  return fathom::area(boundary_of_union(pieces_, counts_));
+}
+
+float CellCoverage::rounded_area() {
+  const Boundary boundary = boundary_of_union(pieces_, counts_);
+  const Interval around = enclose_area(boundary);
+  const auto low = static_cast<float>(around.lower), high = static_cast<float>(around.upper);
+  if (low == high) return low;
+  return round_to_binary32(fathom::area(boundary));
+}
+
+}  // namespace fathom

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fathom/exact/convex_union.h"
+#include "fathom/exact/projected_triangle.h"
+
+namespace fathom {
+
+/// Where on the image the points of a triangle with D > 0 and near ≤ D ≤ far project to: where no
+/// form is negative. It is a convex polygon, perhaps unbounded; empty if there is no triangle.
+/// Exact    but for the boundary, which has no area.
+///
+/// The points of the triangle with W > 0 project to where no edge function is negative, with signs
+/// as in section 4 of the specification: s = Σ (eᵢ/Δ)·cornerᵢ has the weight 1. D = n/w with w > 0
+/// there, so D ≥ near ⇔ n − near·w ≥ 0.
+std::optional<std::vector<ImageForm>> covered_region(const ProjectedTriangle& t,
+                                                     const Camera& camera);
+
+/// A rectangle of the image with corners at whole numbers, a pixel for instance, and the convex
+/// pieces of it that triangles project to. Its coordinates begin at its own left upper corner, so
+/// that numbers are small.
+class ImageCell {
+ public:
+  ImageCell(std::uint32_t column, std::uint32_t row, std::uint32_t width = 1,
+            std::uint32_t height = 1);
+  ImageCell(const ImageCell&) = delete;
+  ImageCell& operator=(const ImageCell&) = delete;
+
+  /// The cell itself.
+  [[nodiscard]] const ConvexPolygon& whole() const { return *whole_; }
+
+  struct Piece {
+    ConvexPolygon polygon;
+    /// Whether the piece is the whole cell.
+    bool is_whole = false;
+  };
+  /// The part of the cell in which no form is negative, if it has an area.
+  std::optional<Piece> clip(const std::vector<ImageForm>& region, TierCounts& counts);
+  /// The part of a polygon in this cell in which the form is not negative, if it has an area.
+  std::optional<ConvexPolygon> clip(const ConvexPolygon& polygon, const ImageForm& form,
+                                    TierCounts& counts);
+
+  /// The sign of the form where it is certainly the same in the whole cell (0 on the rim allowed).
+  [[nodiscard]] std::optional<Sign> sign_in_cell(const ImageForm& form) const;
+
+  /// The coefficients of a form in the cell's coordinates.
+  [[nodiscard]] ExactVector3 localised(const ImageForm& form) const;
+
+ private:
+  double left_, top_, right_, bottom_;
+  /// A deque leaves its elements where they are.
+  std::deque<HalfPlane> half_planes_;
+  std::optional<ConvexPolygon> whole_;
+};
+
+/// The area of the union of what the regions cover of the cell.
+class CellCoverage {
+ public:
+  explicit CellCoverage(ImageCell& cell) : cell_(cell) {}
+  void add(const std::vector<ImageForm>& region);
+  /// The whole cell is covered: what is added changes nothing.
+  [[nodiscard]] bool is_complete() const { return complete_; }
+  [[nodiscard]] Ratio area();
+  /// Rounded once.
+  [[nodiscard]] float rounded_area();
+  [[nodiscard]] const TierCounts& decisions() const { return counts_; }
+
+ private:
+  ImageCell& cell_;
+  std::vector<ConvexPolygon> pieces_;
+  bool complete_ = false;
+  TierCounts counts_;
+};
+
+}  // namespace fathom
