@@ -12,6 +12,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "tests/depth_format/exact_map.h"
+#include "tests/exact/effort.h"
 
 namespace fathom {
 namespace {
@@ -43,11 +44,14 @@ bool is_inside(const DepthFormat& format, double depth) {
   return depth >= format.near && depth <= format.far;
 }
 
+/// Every code; under sanitizers every 20th.
+constexpr std::uint64_t step = testing::effort;
+
 /// Every boundary between codes, approached from both sides: where these are right, every depth in
 /// between is, since encode is monotone (EncodeIsMonotone).
 void check_every_boundary(const DepthFormat& format) {
   const std::uint64_t greatest = greatest_stored(format.storage).bits;
-  for (std::uint64_t bits = 0; bits < greatest; ++bits) {
+  for (std::uint64_t bits = 0; bits < greatest; bits += step) {
     const auto depth = depth_of(format, boundary_above(format.storage, {bits}));
     ASSERT_TRUE(depth);
     const double middle = round_to_binary64(*depth);
@@ -61,7 +65,7 @@ void check_every_code(const DepthFormat& format) {
   const std::uint64_t greatest = greatest_stored(format.storage).bits;
   const bool falls = is_reversed(format.mapping);
   double previous = falls ? infinity : 0;
-  for (std::uint64_t bits = 0; bits <= greatest; ++bits) {
+  for (std::uint64_t bits = 0; bits <= greatest; bits += step) {
     ASSERT_TRUE(decodes_correctly(format, bits));
     const double depth = decode_to_binary64(format, {bits});
     ASSERT_TRUE(falls ? depth <= previous : depth >= previous) << text_of(format);
@@ -118,7 +122,7 @@ std::vector<DepthFormat> wide_formats(Mapping mapping) {
 
 TEST_P(EveryMapping, RandomDepthsInEveryStorage) {
   for (const DepthFormat& format : wide_formats(GetParam())) {
-    for (const double depth : depths_of(format, 300, 7)) {
+    for (const double depth : depths_of(format, 20 + 280 / testing::effort, 7)) {
       ASSERT_TRUE(encodes_correctly(format, depth));
     }
   }
@@ -127,7 +131,7 @@ TEST_P(EveryMapping, RandomDepthsInEveryStorage) {
 TEST_P(EveryMapping, DepthsAtRandomBoundariesInEveryStorage) {
   std::mt19937_64 random(8);
   for (const DepthFormat& format : wide_formats(GetParam())) {
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 200 / testing::effort; ++i) {
       const StoredDepth stored{random() % greatest_stored(format.storage).bits};
       const auto depth = depth_of(format, boundary_above(format.storage, stored));
       const double middle = round_to_binary64(*depth);
@@ -142,7 +146,7 @@ TEST_P(EveryMapping, DepthsAtRandomBoundariesInEveryStorage) {
 
 TEST_P(EveryMapping, EncodeIsMonotone) {
   for (const DepthFormat& format : wide_formats(GetParam())) {
-    std::vector<double> depths = depths_of(format, 300, 9);
+    std::vector<double> depths = depths_of(format, 20 + 280 / testing::effort, 9);
     std::sort(depths.begin(), depths.end());
     StoredDepth previous = encode(format, Dyadic(depths[0]));
     for (const double depth : depths) {

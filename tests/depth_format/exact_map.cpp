@@ -38,22 +38,42 @@ std::uint64_t greatest(Storage storage) {
 /// log q for q ≥ 1, 300 bits; of q − 1, so that nothing is lost where q is near 1.
 class Logarithm {
  public:
-  explicit Logarithm(const Rational& q) {
-    mpfr_init2(value, 300);
+  Logarithm() { mpfr_init2(value, 300); }
+  /// Works it out again where q is not that of the last time.
+  mpfr_srcptr of(const Rational& q) {
+    if (compare(q, last_) == 0) return value;
+    last_ = q;
     mpfr_set_q(value, (q - Rational(1.0)).get(), MPFR_RNDN);
     mpfr_log1p(value, value, MPFR_RNDN);
+    return value;
   }
   Logarithm(const Logarithm&) = delete;
   Logarithm& operator=(const Logarithm&) = delete;
   ~Logarithm() { mpfr_clear(value); }
+
+ private:
+  mpfr_t value;
+  Rational last_ = 0.0;
+};
+
+/// A number of 300 bits.
+class Product {
+ public:
+  Product(mpfr_srcptr x, mpz_srcptr y) {
+    mpfr_init2(value, 300);
+    mpfr_mul_z(value, x, y, MPFR_RNDN);
+  }
+  Product(const Product&) = delete;
+  Product& operator=(const Product&) = delete;
+  ~Product() { mpfr_clear(value); }
   mpfr_t value;
 };
 
 /// The sign of log a / log b − s.
 int compare_logarithms(const Rational& a, const Rational& b, const Rational& s) {
-  Logarithm left(a), right(b);
-  mpfr_mul_z(left.value, left.value, mpq_denref(s.get()), MPFR_RNDN);
-  mpfr_mul_z(right.value, right.value, mpq_numref(s.get()), MPFR_RNDN);
+  static Logarithm log_a, log_b;  // one of two is asked for again and again
+  const Product left(log_a.of(a), mpq_denref(s.get()));
+  const Product right(log_b.of(b), mpq_numref(s.get()));
   if (mpfr_eq(left.value, right.value, 250) != 0) return 0;
   return sign(mpfr_cmp(left.value, right.value));
 }

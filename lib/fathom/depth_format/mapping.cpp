@@ -77,4 +77,27 @@ std::optional<Real> depth_of(const DepthFormat& format, const Ratio& value) {
   return std::nullopt;
 }
 
+// a − b for two depths of one format (depth_of), or a depth and a rational number.
+//
+// The difference is rational only if both are, or if they are equal (then the stored values are,
+// and it is not asked for). For logarithms let x be the least root of the base, b = r^k of a
+// primitive r, such that both powers are powers of x: x = r^(1/m). X^m − r is irreducible over the
+// rationals (r > 0 is no p-th power for a prime p), so 1, x, …, x^(m−1) are linearly independent.
+// A power x^i is a rational times x^(i mod m). If i mod m ≠ j mod m and not both are 0, the
+// difference has an irrational part; if they are equal and not 0, it is x^(i mod m) times a
+// rational that is not 0.
+Real difference(const Real& a, const Real& b) {
+  return {[a, b](long bits) {
+            const Enclosure x = a.enclose(bits), y = b.enclose(bits);
+            return Enclosure{x.low - y.high, x.high - y.low};
+          },
+          [a, b]() -> std::optional<Ratio> {
+            const std::optional<Ratio> x = a.rational();
+            if (!x) return std::nullopt;
+            const std::optional<Ratio> y = b.rational();
+            if (!y) return std::nullopt;
+            return *x - *y;
+          }};
+}
+
 }  // namespace fathom

@@ -16,4 +16,8 @@ Real stored_value(const DepthFormat& format, const Ratio& depth);
 /// Rational where it is, also for logarithms.
 std::optional<Real> depth_of(const DepthFormat& format, const Ratio& value);
 
+/// a − b for two depths of one format (depth_of), or a depth and a rational number; not for two
+/// depths that are equal and irrational.
+Real difference(const Real& a, const Real& b);
+
 }  // namespace fathom

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/exact/certified_rounding.h"
 #include "fathom/numeric/certified.h"
+#include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/rounding.h"
 
 // Over a mesh the image is affine: (U, V, D) = H·X + h, exactly. A sample (u, v) of a perspective

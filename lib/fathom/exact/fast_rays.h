@@ -6,8 +6,8 @@
 #include <mutex>
 #include <optional>
 
-#include "fathom/exact/double_word.h"
 #include "fathom/exact/triangle_source.h"
+#include "fathom/numeric/double_word.h"
 #include "fathom/scene/camera.h"
 #include "fathom/scene/scene.h"
 

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/exact/certified_rounding.h"
-#include "fathom/exact/double_word.h"
 #include "fathom/exact/fast_rays.h"
+#include "fathom/numeric/certified_rounding.h"
+#include "fathom/numeric/certified_value.h"
+#include "fathom/numeric/double_word.h"
 
 // Depth, barycentric weights and normal of a triangle at a sample, with bounds of their errors, in
 // any arithmetic whose operations have a relative error of at most ε = epsilon<Real>: binary64 and
@@ -41,16 +42,6 @@
 // and rounding a multiple of a power of two leaves it one: every intermediate result above, and
 // every error of one, is a multiple of 2⁻⁶⁷⁶. Nor does anything overflow: (2¹⁰¹)⁴·2⁴⁰ < 2⁵⁰⁰.
 namespace fathom {
-
-/// Relative slack of every bound: terms of second order, and roundings in the bound.
-inline constexpr double slack = 1 + 0x1p-15;
-
-/// |value − exact| ≤ error.
-template <class Real>
-struct Certified {
-  Real value{};
-  double error = std::numeric_limits<double>::infinity();
-};
 
 /// c + b·v + a·u; computed and exact value differ by at most `error` at every sample of the image.
 template <class Real>
@@ -105,18 +96,6 @@ Vector<Real> difference(const MeshPoint& a, const MeshPoint& b) {
 template <class Real>
 Vector<Real> entries(const std::array<WordPair, 3>& column) {
   return {entry<Real>(column[0]), entry<Real>(column[1]), entry<Real>(column[2])};
-}
-
-/// The quotient x/y. With X, Y the exact numbers,
-///   |x/y − X/Y| = |(x − X) + (X/Y)·(Y − y)| / |y| ≤ (E_x + (|x/y| + |x/y − X/Y|)·E_y) / |y|,
-/// so with E_y ≤ 2⁻²⁰|y| at most (E_x + |x/y|·E_y)/|y|·(1 + 2⁻¹⁹). The division adds ε.
-template <class Real>
-Certified<Real> quotient(const Certified<Real>& x, const Certified<Real>& y) {
-  const double size = std::abs(nearest(y.value));
-  if (!(y.error <= size * 0x1p-20)) return {};
-  const Real value = x.value / y.value;
-  const double magnitude = std::abs(nearest(value));
-  return {value, ((x.error + magnitude * y.error) / size + epsilon<Real> * magnitude) * slack};
 }
 
 /// p, r and n of a triangle.

@@ -17,14 +17,6 @@ Certified<Real> ray_length(const SceneRays& rays, const Sample& s) {
   return {length, epsilon<Real> * (6 * rays.lens_size() + 1 + std::abs(nearest(length))) * slack};
 }
 
-template <class Real>
-Certified<Real> product(const Certified<Real>& x, const Certified<Real>& y) {
-  const Real value = x.value * y.value;
-  const double x_size = std::abs(nearest(x.value)), y_size = std::abs(nearest(y.value));
-  const double error = x_size * y.error + (y_size + y.error) * x.error;
-  return {value, (error + epsilon<Real> * std::abs(nearest(value))) * slack};
-}
-
 /// The point of depth D on the ray of a sample, o + d·D. o and d err by 4ε of their sizes ō and d̄,
 /// so that the point errs by 5ε·d̄·|D̂| + d̄·E_D + 4ε·ō for its terms and by ε for the sum.
 template <class Real>

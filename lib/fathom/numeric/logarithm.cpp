@@ -160,6 +160,18 @@ Real quotient_of_logarithms(const Ratio& a, const Ratio& b) {
           [a, b] { return rational_quotient(a, b); }};
 }
 
+Real natural_logarithm(const Ratio& a) {
+  const Ratio one = Dyadic(1.0);
+  require(compare(a, one) >= 0, "log a needs a >= 1");
+  return {
+      [x = a - one](long bits) {
+        return Enclosure{at(mpfr_log1p, x, bits, MPFR_RNDD), at(mpfr_log1p, x, bits, MPFR_RNDU)};
+      },
+      [is_one = a == one]() -> std::optional<Ratio> {
+        return is_one ? std::optional(Ratio()) : std::nullopt;
+      }};
+}
+
 Real power_minus_one(const Ratio& b, const Ratio& e) {
   require(compare(b, Dyadic(1.0)) > 0 && e.sign() != Sign::negative,
           "b^e - 1 needs b > 1 and e >= 0");

@@ -13,6 +13,9 @@ namespace fathom {
 /// log a / log b, for a ≥ 1 and b > 1. Throws std::domain_error otherwise.
 Real quotient_of_logarithms(const Ratio& a, const Ratio& b);
 
+/// log a, for a ≥ 1: irrational but for a = 1 (Lindemann). Throws std::domain_error otherwise.
+Real natural_logarithm(const Ratio& a);
+
 /// b^e − 1, for b > 1 and e ≥ 0. Throws std::domain_error otherwise.
 Real power_minus_one(const Ratio& b, const Ratio& e);
 

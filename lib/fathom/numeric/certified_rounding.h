@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "fathom/exact/double_word.h"
+#include "fathom/numeric/double_word.h"
 
 /// Correct rounding of a number known up to an error: |computed − exact| ≤ error. The rounded
 /// number comes out only if every number that the bound allows rounds to it, ties excluded; so it

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+
+#include "fathom/depth_format/depth_format.h"
+#include "fathom/depth_format/stored_depth.h"
+#include "fathom/numeric/certified_value.h"
+
+/// encode() and decode() in floating point, with proved bounds: what comes out is what exact
+/// arithmetic gives, and what a bound does not settle does not come out. Binary64 first, then
+/// double-words; logarithms have the second only (numeric/certified_logarithm.h).
+namespace fathom {
+
+class CertifiedFormat {
+ public:
+  /// Needs    a meaningful format.
+  explicit CertifiedFormat(const DepthFormat& format);
+
+  /// The stored value of every depth between near and far that the bound allows; nullopt where
+  /// there is more than one, or it is not known.
+  [[nodiscard]] std::optional<StoredDepth> encode(const Certified<double>& depth) const;
+  [[nodiscard]] std::optional<StoredDepth> encode(const Certified<WordPair>& depth) const;
+
+  /// The depth that a stored value stands for; the error is +∞ where that is infinity or not known.
+  [[nodiscard]] Certified<double> decode(StoredDepth stored) const;
+  [[nodiscard]] Certified<WordPair> wide_decode(StoredDepth stored) const;
+
+  /// No depth that is stored as this value is greater; +∞ where that is not known.
+  [[nodiscard]] double farthest_stored_as(StoredDepth stored) const;
+
+  [[nodiscard]] const DepthFormat& format() const { return constants_.format; }
+
+  /// What the constructor works out, and with or without fused multiply-add: no result differs.
+  struct Constants {
+    DepthFormat format;
+    /// False where a number is of a magnitude for which no bound was derived.
+    bool usable = false;
+    /// Of f = k·N(D)/M(D): k. Of logarithms: log(1 + C·far) or log(far/near).
+    WordPair k;
+  };
+  struct Arithmetic {
+    std::optional<StoredDepth> (*encode)(const Constants&, const Certified<WordPair>& depth);
+    Certified<WordPair> (*decode)(const Constants&, const WordPair& s, const Certified<WordPair>& t,
+                                  double scale);
+  };
+  static const Arithmetic with_fma, without_fma;
+  CertifiedFormat(const DepthFormat& format, const Arithmetic& arithmetic);
+
+ private:
+  Constants constants_;
+  const Arithmetic* arithmetic_;
+};
+
+}  // namespace fathom
