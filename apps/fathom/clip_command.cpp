@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <optional>
 
 #include "clip_algorithms.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/scene/input_file.h"
-#include "known_files.h"
-#include "output_file.h"
+#include "json_lines.h"
 #include "program.h"
 
 namespace fathom::app {
@@ -51,54 +48,10 @@ Algorithm algorithm_named(const std::string& name, const std::string& kernel) {
   throw UsageError(fmt::format("--algorithm: '{}' is unknown; there are {}", name, names));
 }
 
-/// The answer to one line, and what is wrong with the case if it cannot be done.
-struct Answer {
-  Json json = Json::object();
-  std::optional<std::string> error;
-};
-
-Answer answer_to(std::string_view line, Algorithm algorithm, Form form) {
-  Answer answer;
-  Json name, body;
-  try {
-    body = algorithm(clip::parse_case(line, name), form);
-  } catch (const InputError& error) {
-    answer.error = error.what();
-    body = {{"error", *answer.error}};
-  }
-  if (!name.is_null()) answer.json["name"] = name;
-  answer.json.update(body);
-  return answer;
-}
-
-bool is_blank(std::string_view line) {
-  return line.find_first_not_of(" \t\r") == std::string_view::npos;
-}
-
 int run_clip(const ClipArguments& arguments) {
   const Algorithm algorithm = algorithm_named(arguments.algorithm, arguments.kernel);
-  const std::string name = arguments.file == "-" ? "standard input" : arguments.file;
-  note_input(arguments.file);
-  const InputFile input(arguments.file);
-  std::string_view rest = input.text();
-  std::size_t number = 0, cases = 0, failures = 0;
-  std::string first_failure;
-  while (!rest.empty()) {
-    const std::string_view line = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    ++number;
-    if (is_blank(line)) continue;
-    ++cases;
-    const Answer answer = answer_to(line, algorithm, arguments.form);
-    print(answer.json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
-    if (answer.error && failures++ == 0)
-      first_failure = fmt::format("{}: line {}: {}", name, number, *answer.error);
-  }
-  if (failures == 0) return done;
-  throw InputError(failures == 1
-                       ? first_failure
-                       : fmt::format("{} (the first of {} cases of {} that cannot be done)",
-                                     first_failure, failures, cases));
+  return answer_lines(arguments.file,
+                      [&](const Json& object) { return algorithm(object, arguments.form); });
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace fathom::app {
 namespace {
 
-constexpr std::string_view announced_commands[] = {"visible", "coplanar", "scan", "pipeline",
+constexpr std::string_view announced_commands[] = {"visible", "coplanar", "pipeline",
                                                    "validate"};
 
 /// Commands that are programs of their own, because of what they are built with.

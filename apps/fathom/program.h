@@ -44,6 +44,7 @@ void add_compare(Program& program);
 void add_convert(Program& program);
 void add_camera(Program& program);
 void add_clip(Program& program);
+void add_scan(Program& program);
 void add_depth(Program& program);
 void add_study(Program& program);
 /// `fathom camera import …`.

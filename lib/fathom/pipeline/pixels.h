@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+/// Pixels of a window: pixel (x, y) is the square [x, x+1] × [y, y+1], y grows down, its centre is
+/// (x + ½, y + ½).
+namespace fathom::pipeline {
+
+struct Pixel {
+  std::int64_t x = 0, y = 0;
+  friend bool operator==(const Pixel&, const Pixel&) = default;
+  friend auto operator<=>(const Pixel&, const Pixel&) = default;
+};
+
+/// The pixels x_begin ≤ x < x_end of row y.
+struct Span {
+  std::int64_t y = 0, x_begin = 0, x_end = 0;
+  friend bool operator==(const Span&, const Span&) = default;
+};
+
+/// The pixels that are asked for: x_begin ≤ x < x_end, y_begin ≤ y < y_end. By default all that an
+/// algorithm can reach.
+struct PixelWindow {
+  static constexpr std::int64_t far_away = std::int64_t{1} << 40;
+  std::int64_t x_begin = -far_away, y_begin = -far_away;
+  std::int64_t x_end = far_away, y_end = far_away;
+
+  [[nodiscard]] bool contains(const Pixel& p) const {
+    return x_begin <= p.x && p.x < x_end && y_begin <= p.y && p.y < y_end;
+  }
+  [[nodiscard]] bool is_empty() const { return x_begin >= x_end || y_begin >= y_end; }
+};
+
+/// The part of a span that is asked for; x_begin ≥ x_end where there is none.
+inline Span clipped(const Span& span, const PixelWindow& window) {
+  if (span.y < window.y_begin || span.y >= window.y_end) return {span.y, 0, 0};
+  return {span.y, std::max(span.x_begin, window.x_begin), std::min(span.x_end, window.x_end)};
+}
+
+/// Coordinates, in pixels, that scan conversion takes: |x| ≤ 2³¹.
+inline constexpr double greatest_coordinate = 2147483648.0;
+
+}  // namespace fathom::pipeline

@@ -1,0 +1,164 @@
+// fathom scan: JSON lines in, JSON lines out.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "run_program.h"
+
+namespace fathom::test {
+namespace {
+
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+
+struct Scanned {
+  Outcome outcome;
+  std::vector<Json> answers;
+};
+
+Scanned scan(const std::string& algorithm, const std::string& cases,
+             std::vector<std::string> options = {}) {
+  options.insert(options.begin(), {"scan", "--algorithm", algorithm});
+  Scanned result{run_fathom(options, {.input = cases}), {}};
+  std::istringstream lines(result.outcome.out);
+  for (std::string line; std::getline(lines, line);) result.answers.push_back(Json::parse(line));
+  return result;
+}
+
+Json answer(const std::string& algorithm, const std::string& object,
+            const std::vector<std::string>& options = {}) {
+  const Scanned scanned = scan(algorithm, object + "\n", options);
+  EXPECT_EQ(scanned.outcome.status, 0) << scanned.outcome.err;
+  EXPECT_EQ(scanned.answers.size(), 1u);
+  return scanned.answers.empty() ? Json() : scanned.answers[0];
+}
+
+TEST(Scan, LinesByEveryAlgorithmAndArithmetic) {
+  const Json expected = Json::parse("[[0,0],[1,0],[2,1],[3,1],[4,2],[5,2],[6,2],[7,3],[8,3]]");
+  for (const std::string algorithm : {"explicit", "dda", "bresenham", "midpoint"}) {
+    for (const std::string arithmetic : {"exact", "float64", "float32"}) {
+      const Json a =
+          answer(algorithm, R"({"name": "n", "line": [0,0,8,3]})", {"--arithmetic", arithmetic});
+      EXPECT_EQ(a["pixels"], expected) << algorithm << " " << arithmetic;
+      EXPECT_EQ(a["name"], "n");
+    }
+  }
+  EXPECT_EQ(answer("bresenham", R"({"line": [0,0,8,3]})", {"--runs"})["runs"],
+            Json::parse("[[0,0,2],[1,2,4],[2,4,7],[3,7,9]]"));
+  EXPECT_EQ(answer("bresenham", R"({"line": [8,3,0,0]})", {"--runs"})["runs"],
+            Json::parse("[[3,7,9],[2,4,7],[1,2,4],[0,0,2]]"));
+}
+
+TEST(Scan, TraceOfTheDecisionVariable) {
+  const Json trace = answer("midpoint", R"({"line": [0,0,8,3]})", {"--trace"})["trace"];
+  EXPECT_EQ(trace["axis"], "x");
+  EXPECT_EQ(trace["steps"][0], Json::parse(R"({"pixel": [0,0], "d": -2, "choice": "E"})"));
+  EXPECT_EQ(trace["steps"][1], Json::parse(R"({"pixel": [1,0], "d": 4, "choice": "NE"})"));
+  const Json slopes = answer("dda", R"({"line": [0,0,3,1]})", {"--trace", "--exact"})["trace"];
+  EXPECT_EQ(slopes["steps"][1]["minor"], "1/3");
+}
+
+TEST(Scan, VeryLongLinesInAWindow) {
+  const Json a = answer(
+      "midpoint",
+      R"({"line": [-2147483648,-2147483648,2147483648,2147483648], "width": 3, "height": 3})");
+  EXPECT_EQ(a["pixels"], Json::parse("[[0,0],[1,1],[2,2]]"));
+}
+
+TEST(Scan, TrianglesSnappedAndWithValues) {
+  const std::string object =
+      R"({"triangle": [[0,0],[4,0],[0,4]], "attributes": [[0],[8],[0]], "width": 9, "height": 9})";
+  for (const std::string algorithm : {"edge-function", "scan-line"}) {
+    const Json a = answer(algorithm, object);
+    EXPECT_EQ(a["pixels"].size(), 6u) << algorithm;  // the slanted edge is a right one
+    EXPECT_EQ(a["values"][0], Json::parse("[1.0]"));
+    const Json snapped = answer(algorithm, R"({"triangle": [[0.4,0.4],[4.4,0.4],[0.4,4.4]]})",
+                                {"--subpixel-bits", "0"});
+    EXPECT_EQ(snapped["pixels"], a["pixels"]);
+  }
+  // 1/w is linear: halfway between w = 1 and w = 3, 1/w = 2/3 and R = (0 + 8/3)/2 / (2/3) = 2.
+  const Json w = answer("edge-function",
+                        R"({"triangle": [[0,0],[1,1],[1,0]], "attributes": [[0],[8],[4]],)"
+                        R"( "w": [1,3,1.5]})",
+                        {"--exact"});
+  EXPECT_EQ(w["values"][0][0], "2");
+}
+
+TEST(Scan, PolygonsFloodAndQuestions) {
+  const std::string l = R"({"polygon": [[[0,0],[4,0],[4,2],[2,2],[2,4],[0,4]]]})";
+  EXPECT_EQ(answer("even-odd", l, {"--runs"})["runs"],
+            Json::parse("[[0,0,4],[1,0,4],[2,0,2],[3,0,2]]"));
+  EXPECT_EQ(answer("non-zero", l)["pixels"].size(), 12u);
+  EXPECT_EQ(answer("convexity", l)["convex"], false);
+  EXPECT_EQ(answer("tessellate", l)["triangles"].size(), 4u);
+  EXPECT_EQ(answer("convex-hull", R"({"points": [[0,0],[2,1],[4,0],[0,4]]})")["hull"].size(), 3u);
+  const Json inside = answer(
+      "inside", R"({"polygon": [[[0,0],[4,0],[4,2],[2,2],[2,4],[0,4]]], "points": [[1,3],[3,3]]})");
+  EXPECT_EQ(inside["inside"], Json::parse("[true, false]"));
+  EXPECT_EQ(inside["left_of_every_edge"], Json::parse("[false, false]"));
+  const std::string grid = R"({"grid": ["#..", ".#.", "..#"], "seed": [0,0], "connectivity": )";
+  EXPECT_EQ(answer("flood", grid + "4}")["pixels"], Json::parse("[[0,0]]"));
+  EXPECT_EQ(answer("flood", grid + "8}")["pixels"], Json::parse("[[0,0],[1,1],[2,2]]"));
+  const Json trace = answer("even-odd", l, {"--trace"})["trace"];
+  EXPECT_EQ(trace[0]["crossings"].size(), 2u);
+}
+
+TEST(Scan, DiamondExitTakesAnyEnds) {
+  EXPECT_EQ(answer("diamond-exit", R"({"line": [0.5,0.5,3.5,0.5]})")["pixels"],
+            Json::parse("[[0,0],[1,0],[2,0]]"));
+}
+
+TEST(Scan, CasesThatCannotBeDoneDoNotStopTheOthers) {
+  const struct {
+    const char *algorithm, *object, *said;
+  } cases[] = {
+      {"bresenham", R"({"line": [0,0,1.5,3]})", "1.5 is no whole number"},
+      {"bresenham", R"({"line": [0,0,1]})", "3 numbers where 4 are expected"},
+      {"dda", R"({"line": [0,0,4294967296,3]})", "beyond 2^31"},
+      {"dda", R"({"line": [0,NaN,1,3]})", "not finite"},
+      {"dda", R"({"line": [0,0,2147483648,3]})", "more than 16777216 pixels"},
+      {"midpoint", R"({"line": [0,0,1,1], "width": 0, "height": 5})", "expected a whole number"},
+      {"midpoint", R"({"line": [0,0,1,1], "width": 5})", "\"height\" is missing"},
+      {"midpoint", R"({"lime": [0,0,1,1]})", "is no key"},
+      {"edge-function", R"({"triangle": [[0,0],[1,1]]})", "2 corners; expected 3"},
+      {"edge-function", R"({"triangle": [[0,0],[1e9,1],[0,1e9]]})", "limit it"},
+      {"edge-function",
+       R"({"triangle": [[0,0],[9,1],[2,8]], "attributes": [[1],[2],[3]], "w": [1,0,1]})",
+       "w[1] is 0"},
+      {"even-odd", R"({"polygon": [[[0,0],[1,1]]]})", "expected at least 3"},
+      {"even-odd", R"({"polygon": []})", "expected at least one ring"},
+      {"flood", R"({"grid": ["ab","c"], "seed": [0,0]})", "has 1 characters"},
+      {"flood", R"({"grid": ["ab"], "seed": [2,0]})", "no pixel of the grid"},
+      {"flood", R"({"grid": ["ab"], "seed": [0,0], "connectivity": 6})", "expected 4 or 8"},
+      {"convex-hull", R"({"points": []})", "expected at least one"},
+  };
+  for (const auto& [algorithm, object, said] : cases) {
+    const Scanned scanned = scan(algorithm, std::string(object) + "\n");
+    EXPECT_EQ(scanned.outcome.status, 3) << object;
+    ASSERT_EQ(scanned.answers.size(), 1u) << object;
+    EXPECT_THAT(scanned.answers[0].value("error", ""), HasSubstr(said)) << object;
+    EXPECT_THAT(scanned.outcome.err, HasSubstr("standard input: line 1: "));
+  }
+  const Scanned mixed = scan("dda", "{\"line\": [0,0,1]}\n{\"line\": [0,0,1,0]}\n");
+  EXPECT_EQ(mixed.outcome.status, 3);
+  ASSERT_EQ(mixed.answers.size(), 2u);
+  EXPECT_EQ(mixed.answers[1]["pixels"].size(), 2u);
+}
+
+TEST(Scan, DegenerateTrianglesCoverNothing) {
+  EXPECT_TRUE(answer("edge-function", R"({"triangle": [[0,0],[4,4],[8,8]]})")["pixels"].empty());
+  EXPECT_TRUE(answer("scan-line", R"({"triangle": [[0,0],[4,4],[8,8]]})")["pixels"].empty());
+}
+
+TEST(Scan, WrongUsage) {
+  EXPECT_EQ(scan("nothing", "").outcome.status, 2);
+  EXPECT_EQ(scan("dda", "", {"--arithmetic", "float16"}).outcome.status, 2);
+  EXPECT_EQ(scan("edge-function", "", {"--subpixel-bits", "17"}).outcome.status, 2);
+  EXPECT_EQ(scan("dda", "", {"--subpixel-bits", "8"}).outcome.status, 2);
+}
+
+}  // namespace
+}  // namespace fathom::test

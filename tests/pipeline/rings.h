@@ -1,0 +1,11 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+namespace fathom::testing {
+
+/// A ring by its corners' coordinates.
+using Corners = std::vector<std::pair<double, double>>;
+
+}  // namespace fathom::testing
