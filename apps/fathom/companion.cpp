@@ -16,22 +16,18 @@
 namespace fathom::app {
 namespace {
 
-constexpr std::string_view announced_commands[] = {"visible", "coplanar", "pipeline",
-                                                   "validate"};
+constexpr std::string_view announced_commands[] = {"visible", "coplanar", "pipeline", "validate"};
 
 /// Commands that are programs of their own, because of what they are built with.
 constexpr std::string_view companions[] = {"bench"};
 
 constexpr std::string_view announced_render_options[] = {
-    "--deep",           "--cryptomatte", "--samples",
-    "--depth-format",   "--mapping",     "--c",
-    "--against-exact",  "--image",       "--background",
-    "--shading",        "--texture",     "--filter",
-    "--interpolation",  "--line",        "--scan",
-    "--hidden-surface", "--antialias",   "--subpixel-bits",
-    "--precision",      "--viewport",    "--depth-range",
-    "--scissor",        "--front-face",  "--blend",
-    "--polygon-offset"};
+    "--samples",       "--depth-format",   "--mapping",       "--c",
+    "--against-exact", "--image",          "--background",    "--shading",
+    "--texture",       "--filter",         "--interpolation", "--line",
+    "--scan",          "--hidden-surface", "--antialias",     "--subpixel-bits",
+    "--precision",     "--viewport",       "--depth-range",   "--scissor",
+    "--front-face",    "--blend",          "--polygon-offset"};
 
 /// Levenshtein's distance: the least number of letters to insert, remove or replace.
 std::size_t edit_distance(std::string_view a, std::string_view b) {

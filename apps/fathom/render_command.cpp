@@ -34,8 +34,8 @@ struct RenderArguments {
   CameraOptions camera;
   StorageOptions storage;
   std::string output, save_camera, statistics, verify;
-  std::string engine = "fast", channels = "Z", cull = "none";
-  bool stream = false;
+  std::string engine = "fast", channels, cull = "none";
+  bool stream = false, deep = false, cryptomatte = false;
 };
 
 class Stopwatch {
@@ -63,7 +63,7 @@ RenderOptions render_options(const RenderArguments& arguments, MapFormat format)
   if (arguments.stream && options.engine != Engine::fast) {
     throw UsageError("--stream is for the fast engine, not for " + arguments.engine);
   }
-  options.channels = parse_channels(arguments.channels);
+  options.channels = parse_channels(arguments.channels.empty() ? "Z" : arguments.channels);
   options.cull = cull_named(arguments.cull);
   options.threads = arguments.scene.thread_count();
   options.depth_encoding = arguments.storage.encoding_for(format);
@@ -73,6 +73,40 @@ RenderOptions render_options(const RenderArguments& arguments, MapFormat format)
                                  arguments.output, arguments.channels));
   }
   return options;
+}
+
+/// Refuses what --deep and --cryptomatte cannot be asked for with.
+void check_surfaces(const RenderArguments& arguments, MapFormat format) {
+  for (const auto& [name, wanted] :
+       {std::pair("--deep", arguments.deep), std::pair("--cryptomatte", arguments.cryptomatte)}) {
+    if (!wanted) continue;
+    if (format != MapFormat::exr) {
+      throw UsageError(fmt::format("{} is for .exr, not for {}", name, arguments.output));
+    }
+    if (arguments.stream) throw UsageError(fmt::format("{} is not for --stream", name));
+  }
+  if (!arguments.deep) return;
+  if (!arguments.channels.empty() || arguments.cryptomatte) {
+    throw UsageError("--deep has channels of its own: A, Z, ZBack, area and id; " +
+                     std::string(arguments.cryptomatte ? "--cryptomatte" : "--channels") +
+                     " goes into another map");
+  }
+  if (!arguments.verify.empty() || !arguments.statistics.empty()) {
+    throw UsageError("--verify and --stats are not for --deep");
+  }
+}
+
+/// Writes a deep map for each camera.
+void render_deep_maps(const Scene& scene, const std::vector<Camera>& cameras,
+                      const std::vector<OutputFile>& maps, RenderOptions options,
+                      Compression compression, const Console& console) {
+  Progress progress(console, "rendering");
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    options.progress = progress.reporter(i, cameras.size());
+    const DeepMap map = render_deep(scene, cameras[i], options);
+    maps[i].write(
+        [&](const auto& path) { write_deep_map(map, path, compression, options.threads); });
+  }
 }
 
 /// The names of the maps: of a camera path, a pattern with {index} filled in.
@@ -233,7 +267,12 @@ bool verify_map(const DepthMap& map, const std::string& name, const TriangleSour
 int run_render(const RenderArguments& arguments, const Console& console) {
   const MapFormat format = arguments.storage.format_of(arguments.output);
   RenderOptions options = render_options(arguments, format);
-  const WriteOptions write_options = arguments.storage.write_options(options.threads);
+  check_surfaces(arguments, format);
+  WriteOptions write_options = arguments.storage.write_options(options.threads);
+  if (arguments.deep && arguments.storage.compression.empty()) {
+    write_options.compression = Compression::zips;
+  }
+  if (arguments.deep) check_deep_compression(write_options.compression);
   arguments.camera.check();
   const std::uint64_t verified_pixels = pixels_to_verify(arguments.verify);
   // Without this the pool keeps to the number of processors and prints a warning of its own.
@@ -260,14 +299,17 @@ int run_render(const RenderArguments& arguments, const Console& console) {
 
   Json report = Json::array();
   bool exact = true;
-  {
+  if (arguments.deep) {
+    render_deep_maps(scene.outline(), cameras, maps, options, write_options.compression, console);
+  } else {
     Progress progress(console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       RenderStatistics statistics;
       options.statistics = &statistics;
       options.progress = progress.reporter(i, cameras.size());
       stopwatch.lap();
-      const DepthMap map = render_to(names[i], scene, cameras[i], options);
+      DepthMap map = render_to(names[i], scene, cameras[i], options);
+      if (arguments.cryptomatte) add_cryptomatte(map, scene.outline(), cameras[i], options);
       const double seconds_rendering = stopwatch.lap();
       Json verification = Json::object();
       if (verified_pixels > 0) {
@@ -314,6 +356,7 @@ void add_render(Program& program) {
       "  fathom render spot.obj -o spot.png --png-scale 1000      (16 bit, millimetres)\n"
       "  fathom render city.stl --stream --size 16384x16384 -o city.exr\n"
       "  fathom render scan.ply --engine fast --verify 1000 -o scan.exr\n"
+      "  fathom render room.json --deep -o room.deep.exr\n"
       "  fathom render spot.obj --camera path.json -o 'view-{index:04}.exr'");
   arguments->scene.add_to(*command);
   command
@@ -325,6 +368,11 @@ void add_render(Program& program) {
                       "Write the camera to this file (JSON; - is standard output)");
   command->add_option("--channels", arguments->channels,
                       "Of Z, A, Zlow, distance, id, face, object, N, P, bary (default Z)");
+  command->add_flag("--deep", arguments->deep,
+                    "Write a deep EXR: for each pixel the visible fragments, sorted, with their "
+                    "depths Z and ZBack, triangle id, exact area and alpha A");
+  command->add_flag("--cryptomatte", arguments->cryptomatte,
+                    "Add Cryptomatte channels by object with exact coverage to the EXR");
   command->add_option("--engine", arguments->engine,
                       "fast (default), or reference: the same map bit for bit, slowly");
   add_cull_option(*command, arguments->cull);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "fathom/exact/deep_pixels.h"
 #include "fathom/exact/fast.h"
 #include "fathom/exact/reference.h"
 #include "fathom/numeric/errors.h"
@@ -95,6 +96,27 @@ DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOp
   DepthMap map = render_streamed(scene, camera, options, limits);
   describe(outline_of(scene), camera, options, map);
   return map;
+}
+
+DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  if (const auto fault = find_fault(camera)) throw InputError("camera: " + *fault);
+  DeepMap map = visible_in_pixels(scene, camera, options);
+  describe(scene, camera, options, map.description);
+  map.description.texts.erase("fathom.engine");
+  return map;
+}
+
+void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
+                     const RenderOptions& options) {
+  std::vector<std::uint32_t> ids;
+  for (const Object& object : scene.objects) ids.push_back(cryptomatte_id(object.name));
+  const TriangleSource triangles(scene);
+  Mattes mattes = mattes_in_pixels(triangles, camera, options, [&](std::uint32_t number) {
+    return ids[triangles.origin(number).object];
+  });
+  mattes.layer = "CryptoObject";
+  for (const Object& object : scene.objects) mattes.names.push_back(object.name);
+  add_mattes(map, mattes);
 }
 
 }  // namespace fathom

@@ -2,6 +2,7 @@
 
 #include "fathom/exact/fast_stream.h"
 #include "fathom/exact/options.h"
+#include "fathom/image/deep_map.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/camera.h"
 #include "fathom/scene/scene.h"
@@ -21,5 +22,16 @@ DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& o
 /// Fails    also InputError if a file changes meanwhile; UsageError if another engine is asked for.
 DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options = {},
                 const StreamLimits& limits = {});
+
+/// The visible fragments of every pixel with their exact areas (specification, section 8). Of the
+/// options culling, threads and progress count.
+/// Fails    InputError if the camera is refused.
+DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
+
+/// Adds Cryptomatte channels by object, CryptoObject00.R and so on, with the exact visible area of
+/// each object in each pixel rounded once. Objects of the same name are one. The map is one of this
+/// scene and camera; of the options culling, threads and progress count.
+void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
+                     const RenderOptions& options = {});
 
 }  // namespace fathom

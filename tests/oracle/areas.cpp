@@ -35,12 +35,13 @@ struct Line {
   Q a, b, c;  // a·u + b·v + c = 0
 };
 
-/// The ordinate at which two lines cross, if that lies strictly within the pixel's rows.
-void add_crossing(const Line& l, const Line& m, int y, std::set<Q>& ordinates) {
+/// The ordinate at which two lines cross, if they do so within the pixel.
+void add_crossing(const Line& l, const Line& m, int x, int y, std::set<Q>& ordinates) {
   const Q weight = l.a * m.b - l.b * m.a;
   if (sgn(weight) == 0) return;
   const Q v = (l.c * m.a - l.a * m.c) / weight;
-  if (v > y && v < y + 1) ordinates.insert(v);
+  const Q u = (l.b * m.c - l.c * m.b) / weight;
+  if (v > y && v < y + 1 && u >= x && u <= x + 1) ordinates.insert(v);
 }
 
 std::vector<Line> edge_lines(const std::vector<Piece>& pieces) {
@@ -180,7 +181,7 @@ Q Areas::coverage(int x, int y) const {
     for (const Point& p : piece.corners) ordinates.insert(p[1]);
   }
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) add_crossing(lines[i], lines[k], y, ordinates);
+    for (std::size_t k = 0; k < i; ++k) add_crossing(lines[i], lines[k], x, y, ordinates);
   }
   Q area = 0;
   over_slabs(ordinates, [&](const Q& v, const Q& height) {
@@ -215,14 +216,14 @@ std::map<std::uint32_t, Q> Areas::visible(int x, int y) const {
   const std::vector<Line> changes(lines.begin() + static_cast<std::ptrdiff_t>(edges), lines.end());
   std::set<Q> ordinates{Q(y), Q(y + 1)};
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) add_crossing(lines[i], lines[k], y, ordinates);
+    for (std::size_t k = 0; k < i; ++k) add_crossing(lines[i], lines[k], x, y, ordinates);
   }
   // Corners on the pixel's sides are crossings with lines that are not in the list.
   for (const Piece& piece : all) {
     for (const Point& p : piece.corners) ordinates.insert(p[1]);
   }
   for (const Line& l : changes) {
-    for (int side = x; side <= x + 1; ++side) add_crossing(l, {1, 0, -side}, y, ordinates);
+    for (int side = x; side <= x + 1; ++side) add_crossing(l, {1, 0, -side}, x, y, ordinates);
   }
   std::map<std::uint32_t, Q> areas;
   over_slabs(ordinates, [&](const Q& v, const Q& height) {

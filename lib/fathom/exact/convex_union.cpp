@@ -160,8 +160,8 @@ Ratio area(const Boundary& boundary) {
   return sum(std::move(terms));
 }
 
-Interval enclose_area(const Boundary& boundary) {
-  if (boundary.empty()) return {0, 0};
+Bounded approximate_area(const Boundary& boundary) {
+  if (boundary.empty()) return {};
   Bounded twice;
   for (const BoundarySegment& s : boundary) {
     if (s.line->exact()[2].is_zero()) continue;
@@ -171,8 +171,7 @@ Interval enclose_area(const Boundary& boundary) {
     if (s.reversed) term.value = -term.value;
     twice = twice + term;
   }
-  const Interval around = enclose(twice);
-  return {std::max(0.0, around.lower / 2), around.upper / 2};
+  return twice * Bounded{0.5, 0};
 }
 
 }  // namespace fathom

@@ -35,7 +35,7 @@ Boundary boundary_of_difference(const ConvexPolygon& subject,
 /// The area that a boundary encloses, exactly; 0 where it is empty.
 Ratio area(const Boundary& boundary);
 
-/// An interval that contains the area, by binary64; its lower end is not negative.
-Interval enclose_area(const Boundary& boundary);
+/// The same in binary64; 0 without an error where it is empty.
+Bounded approximate_area(const Boundary& boundary);
 
 }  // namespace fathom

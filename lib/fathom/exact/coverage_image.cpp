@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "fathom/exact/image_cell.h"
 #include "fathom/exact/verify_samples.h"
 
 namespace fathom {
@@ -16,7 +15,7 @@ constexpr std::size_t triangles_per_chunk = 4096;
 
 /// What a triangle covers of the image, and where.
 struct BoxedRegion {
-  std::vector<ImageForm> region;
+  SurfaceRegion surface;
   PixelBox box;
 };
 
@@ -27,29 +26,24 @@ std::vector<BoxedRegion> regions_of(const CoverageFrame& frame, const TriangleBa
     const ProjectedTriangle t = project(frame.triangles.world_corners(triangle.number),
                                         triangle.number, frame.camera, counts);
     if (!is_kept(t, frame.cull)) continue;
-    if (auto region = covered_region(t, frame.camera)) {
-      regions.push_back({std::move(*region), triangle.box});
+    if (auto surface = surface_region(t, frame.camera)) {
+      regions.push_back({std::move(*surface), triangle.box});
     }
   }
   return regions;
 }
 
-void write_row(const std::vector<BoxedRegion>& regions, std::uint32_t row, std::uint32_t width,
-               float* values, TierCounts& counts) {
-  std::vector<std::vector<const BoxedRegion*>> columns(width);
+void visit_row(const std::vector<BoxedRegion>& regions, std::uint32_t row, std::uint32_t width,
+               const VisitPixel& visit) {
+  std::vector<std::vector<const SurfaceRegion*>> columns(width);
   for (const BoxedRegion& r : regions) {
     if (r.box.first_row > row || r.box.last_row < row) continue;
     for (std::uint32_t column = r.box.first_column; column <= r.box.last_column; ++column) {
-      columns[column].push_back(&r);
+      columns[column].push_back(&r.surface);
     }
   }
   for (std::uint32_t column = 0; column < width; ++column) {
-    if (columns[column].empty()) continue;
-    ImageCell pixel(column, row);
-    CellCoverage coverage(pixel);
-    for (const BoxedRegion* r : columns[column]) coverage.add(r->region);
-    values[column] = coverage.rounded_area();
-    counts += coverage.decisions();
+    if (!columns[column].empty()) visit(column, row, columns[column]);
   }
 }
 
@@ -86,20 +80,31 @@ TriangleBands::Band TriangleBands::operator[](std::uint32_t band) const {
   return {first_row, std::min(first_row + rows_per_band, height_), bands_[band]};
 }
 
-TierCounts write_coverage(const CoverageFrame& frame, float* values,
-                          const std::function<void()>& part_done) {
+void for_each_pixel(const CoverageFrame& frame, const VisitPixel& visit,
+                    const std::function<void()>& part_done) {
   const TriangleBands bands(frame);
-  const std::uint32_t width = frame.camera.width;
-  tbb::enumerable_thread_specific<TierCounts> counts;
   tbb::parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t k) {
     const TriangleBands::Band band = bands[k];
     const std::vector<BoxedRegion> regions = regions_of(frame, band);
     for (std::uint32_t row = band.first_row; row < band.end_row; ++row) {
-      write_row(regions, row, width, values + static_cast<std::size_t>(row) * width,
-                counts.local());
+      visit_row(regions, row, frame.camera.width, visit);
     }
     if (part_done) part_done();
   });
+}
+
+TierCounts write_coverage(const CoverageFrame& frame, float* values,
+                          const std::function<void()>& part_done) {
+  tbb::enumerable_thread_specific<TierCounts> counts;
+  const auto write = [&](std::uint32_t column, std::uint32_t row,
+                         std::span<const SurfaceRegion* const> triangles) {
+    ImageCell pixel(column, row);
+    CellCoverage coverage(pixel);
+    for (const SurfaceRegion* t : triangles) coverage.add(t->region);
+    values[static_cast<std::size_t>(row) * frame.camera.width + column] = coverage.rounded_area();
+    counts.local() += coverage.decisions();
+  };
+  for_each_pixel(frame, write, part_done);
   TierCounts sum;
   for (const TierCounts& part : counts) sum += part;
   return sum;

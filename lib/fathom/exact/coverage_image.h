@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "fathom/exact/coverage.h"
-#include "fathom/exact/projected_triangle.h"
+#include "fathom/exact/image_cell.h"
 
 namespace fathom {
 
@@ -33,10 +33,19 @@ class TriangleBands {
   std::vector<std::vector<BoxedTriangle>> bands_;
 };
 
-/// Channel A of the whole image: width × height values, row by row, 0 where nothing is covered.
-/// Every pixel is computed by itself from the triangles whose boxes contain it.
+/// What is asked about a pixel, with the triangles that may cover a part of it, in the order of
+/// their numbers, at least one.
+using VisitPixel = std::function<void(std::uint32_t column, std::uint32_t row,
+                                      std::span<const SurfaceRegion* const> triangles)>;
+
+/// Visits every pixel that a triangle may cover a part of, different ones at the same time.
 /// `part_done` is called, where set, after each band of the image (TriangleBands::count()), from
-/// any thread. Returns how decisions were made.
+/// any thread.
+void for_each_pixel(const CoverageFrame& frame, const VisitPixel& visit,
+                    const std::function<void()>& part_done = {});
+
+/// Channel A of the whole image: width × height values, row by row, 0 where nothing is covered.
+/// Every pixel is computed by itself. Returns how decisions were made.
 TierCounts write_coverage(const CoverageFrame& frame, float* values,
                           const std::function<void()>& part_done = {});
 

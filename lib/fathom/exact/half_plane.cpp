@@ -17,13 +17,13 @@ long top_bit(const Dyadic& x) {
   return static_cast<long>(mpz_sizeinbase(x.significand(), 2)) + x.exponent();
 }
 
-ExactVector3 normalised(ExactVector3 l) {
+/// The least e for which all components are below 2^e; 0 if they are 0.
+long greatest_exponent(const ExactVector3& l) {
   std::optional<long> top;
   for (const Dyadic& x : l) {
     if (!x.is_zero()) top = std::max(top.value_or(top_bit(x)), top_bit(x));
   }
-  for (Dyadic& x : l) x = x.scaled(-top.value_or(0));
-  return l;
+  return top.value_or(0);
 }
 
 /// Whether the lines are one: the same coefficients up to a sign. (Two lines of other coefficients
@@ -47,8 +47,11 @@ bool same_coefficients(const HalfPlane& a, const HalfPlane& b) {
 
 }  // namespace
 
-HalfPlane::HalfPlane(ExactVector3 l) : exact_(normalised(std::move(l))) {
-  for (std::size_t k = 0; k < 3; ++k) approximate_[k] = enclose(exact_[k]).lower;
+HalfPlane::HalfPlane(ExactVector3 l) : exact_(std::move(l)), exponent_(greatest_exponent(exact_)) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    exact_[k] = exact_[k].scaled(-exponent_);
+    approximate_[k] = enclose(exact_[k]).lower;
+  }
 }
 
 // Bounded numbers. With x = fl(…) the rounded result, |x − exact| ≤ u·|x| + 2⁻¹⁰⁷⁴ for each
@@ -86,6 +89,14 @@ Interval enclose(const Bounded& x) {
   if (!(x.error < infinity)) return {-infinity, infinity};
   return {std::nextafter(x.value - x.error, -infinity),
           std::nextafter(x.value + x.error, infinity)};
+}
+
+std::optional<float> settled_binary32(const Bounded& not_negative) {
+  const Interval around = enclose(not_negative);
+  const auto low = static_cast<float>(std::max(0.0, around.lower));
+  const auto high = static_cast<float>(around.upper);
+  if (low != high) return std::nullopt;
+  return low;
 }
 
 Bounded approximate_coefficient(const HalfPlane& l, std::size_t k) {

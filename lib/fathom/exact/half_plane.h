@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "fathom/numeric/certified.h"
 
@@ -19,11 +20,14 @@ class HalfPlane {
   explicit HalfPlane(ExactVector3 l);
 
   [[nodiscard]] const ExactVector3& exact() const { return exact_; }
+  /// The coefficients given were exact()·2^exponent().
+  [[nodiscard]] long exponent() const { return exponent_; }
   /// Within 2⁻⁵²·|l_k| + 2⁻¹⁰⁷⁴ of the coefficients; at most 1.
   [[nodiscard]] const std::array<double, 3>& approximate() const { return approximate_; }
 
  private:
   ExactVector3 exact_;
+  long exponent_ = 0;
   std::array<double, 3> approximate_;
 };
 
@@ -36,7 +40,11 @@ Bounded operator+(const Bounded& a, const Bounded& b);
 Bounded operator*(const Bounded& a, const Bounded& b);
 /// The bound is +∞ where b may be 0.
 Bounded operator/(const Bounded& a, const Bounded& b);
+/// Contains the exact number; [−∞, ∞] where the bound is +∞ or not known.
 Interval enclose(const Bounded& x);
+/// The exact number rounded to binary32, where the bound settles that. A number that is not
+/// negative: then neither is what is returned.
+std::optional<float> settled_binary32(const Bounded& not_negative);
 
 /// l_u, l_v or l_w for k = 0, 1, 2.
 Bounded approximate_coefficient(const HalfPlane& l, std::size_t k);

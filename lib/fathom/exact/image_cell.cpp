@@ -50,6 +50,12 @@ std::optional<std::vector<ImageForm>> covered_region(const ProjectedTriangle& t,
   return region;
 }
 
+std::optional<SurfaceRegion> surface_region(const ProjectedTriangle& t, const Camera& camera) {
+  auto region = covered_region(t, camera);
+  if (!region) return std::nullopt;
+  return SurfaceRegion{t.number, std::move(*region), t.depth_numerator, t.weight};
+}
+
 ImageCell::ImageCell(std::uint32_t column, std::uint32_t row, std::uint32_t width,
                      std::uint32_t height)
     : left_(column),
@@ -69,13 +75,12 @@ ImageCell::ImageCell(std::uint32_t column, std::uint32_t row, std::uint32_t widt
 std::optional<Sign> ImageCell::sign_in_cell(const ImageForm& form) const {
   // Affine: the signs at the corners decide.
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
-  for (const double u : {left_, right_}) {
-    for (const double v : {top_, bottom_}) {
-      const Interval value = form.enclose_at(u, v);
-      if (!(value.lower <= value.upper)) return std::nullopt;
-      least = std::min(least, value.lower);
-      greatest = std::max(greatest, value.upper);
-    }
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto [u, v] = corner(k);
+    const Interval value = form.enclose_at(u, v);
+    if (!(value.lower <= value.upper)) return std::nullopt;
+    least = std::min(least, value.lower);
+    greatest = std::max(greatest, value.upper);
   }
   if (least >= 0) return Sign::positive;
   if (greatest <= 0) return Sign::negative;
@@ -133,9 +138,7 @@ Ratio CellCoverage::area() {
 
 float CellCoverage::rounded_area() {
   const Boundary boundary = boundary_of_union(pieces_, counts_);
-  const Interval around = enclose_area(boundary);
-  const auto low = static_cast<float>(around.lower), high = static_cast<float>(around.upper);
-  if (low == high) return low;
+  if (const auto settled = settled_binary32(approximate_area(boundary))) return *settled;
   return round_to_binary32(fathom::area(boundary));
 }
 

@@ -20,6 +20,14 @@ namespace fathom {
 std::optional<std::vector<ImageForm>> covered_region(const ProjectedTriangle& t,
                                                      const Camera& camera);
 
+/// A triangle as areas on the image need it: where it is seen, and D = depth_numerator / weight.
+struct SurfaceRegion {
+  std::uint32_t number = 0;
+  std::vector<ImageForm> region;
+  ImageForm depth_numerator, weight;
+};
+std::optional<SurfaceRegion> surface_region(const ProjectedTriangle& t, const Camera& camera);
+
 /// A rectangle of the image with corners at whole numbers, a pixel for instance, and the convex
 /// pieces of it that triangles project to. Its coordinates begin at its own left upper corner, so
 /// that numbers are small.
@@ -32,6 +40,17 @@ class ImageCell {
 
   /// The cell itself.
   [[nodiscard]] const ConvexPolygon& whole() const { return *whole_; }
+  /// Whether a half-plane is that of one of the cell's own sides, the first four there are.
+  [[nodiscard]] bool is_side(const HalfPlane* edge) const {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (edge == &half_planes_[k]) return true;
+    }
+    return false;
+  }
+  /// Corner 0 to 3 on the image.
+  [[nodiscard]] ImagePoint corner(std::size_t k) const {
+    return {k % 2 == 0 ? left_ : right_, k < 2 ? top_ : bottom_};
+  }
 
   struct Piece {
     ConvexPolygon polygon;

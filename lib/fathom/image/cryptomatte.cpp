@@ -1,0 +1,90 @@
+#include "fathom/image/cryptomatte.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace fathom {
+namespace {
+
+std::string in_hexadecimal(std::uint32_t bits) {
+  std::array<char, 9> text{};
+  std::snprintf(text.data(), text.size(), "%08x", bits);
+  return text.data();
+}
+
+std::uint32_t mixed(std::uint32_t k) {
+  return std::rotl(k * 0xcc9e2d51U, 15) * 0x1b873593U;
+}
+
+std::string manifest_of(const std::vector<std::string>& names) {
+  nlohmann::ordered_json manifest = nlohmann::ordered_json::object();
+  for (const std::string& name : names) manifest[name] = in_hexadecimal(cryptomatte_id(name));
+  return manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// LAYER00 holds the ranks 0 and 1, LAYER01 the ranks 2 and 3, ….
+std::string channel_name(const std::string& layer, std::size_t level, char component) {
+  std::array<char, 16> number{};
+  std::snprintf(number.data(), number.size(), "%02zu", level);
+  return layer + number.data() + "." + component;
+}
+
+}  // namespace
+
+std::uint32_t murmur_hash(const std::string& text) {
+  const auto byte = [&](std::size_t i) {
+    return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));
+  };
+  std::uint32_t h = 0;
+  const std::size_t blocks = text.size() / 4;
+  for (std::size_t i = 0; i < 4 * blocks; i += 4) {
+    const std::uint32_t k = byte(i) | byte(i + 1) << 8 | byte(i + 2) << 16 | byte(i + 3) << 24;
+    h = std::rotl(h ^ mixed(k), 13) * 5 + 0xe6546b64U;
+  }
+  std::uint32_t tail = 0;
+  for (std::size_t i = text.size(); i > 4 * blocks; --i) tail = tail << 8 | byte(i - 1);
+  h ^= mixed(tail);
+  h ^= static_cast<std::uint32_t>(text.size());
+  h = (h ^ h >> 16) * 0x85ebca6bU;
+  h = (h ^ h >> 13) * 0xc2b2ae35U;
+  return h ^ h >> 16;
+}
+
+std::uint32_t cryptomatte_id(const std::string& name) {
+  const std::uint32_t hash = murmur_hash(name);
+  const std::uint32_t exponent = hash >> 23 & 255;
+  return exponent == 0 || exponent == 255 ? hash ^ 1U << 23 : hash;
+}
+
+void add_mattes(DepthMap& map, const Mattes& mattes) {
+  std::uint32_t ranks = 6;
+  for (const std::uint32_t count : mattes.counts) ranks = std::max(ranks, count);
+  const std::size_t levels = (ranks + 1) / 2;
+  const std::size_t first = map.channels.size();
+  for (std::size_t level = 0; level < levels; ++level) {
+    for (const char component : {'R', 'G', 'B', 'A'}) {
+      map.channels.push_back(
+          {channel_name(mattes.layer, level, component), Samples<float>(mattes.counts.size())});
+    }
+  }
+  std::size_t next = 0;
+  for (std::size_t pixel = 0; pixel < mattes.counts.size(); ++pixel) {
+    for (std::size_t rank = 0; rank < mattes.counts[pixel]; ++rank, ++next) {
+      const auto channel = [&](std::size_t component) -> float& {
+        return std::get<Samples<float>>(map.channels[first + 2 * rank + component].values)[pixel];
+      };
+      channel(0) = std::bit_cast<float>(mattes.shares[next].id);
+      channel(1) = mattes.shares[next].coverage;
+    }
+  }
+  const std::string key = "cryptomatte/" + in_hexadecimal(murmur_hash(mattes.layer)).substr(0, 7);
+  map.texts[key + "/name"] = mattes.layer;
+  map.texts[key + "/hash"] = "MurmurHash3_32";
+  map.texts[key + "/conversion"] = "uint32_to_float32";
+  map.texts[key + "/manifest"] = manifest_of(mattes.names);
+}
+
+}  // namespace fathom
