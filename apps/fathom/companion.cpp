@@ -16,10 +16,10 @@
 namespace fathom::app {
 namespace {
 
-constexpr std::string_view announced_commands[] = {"visible", "coplanar", "pipeline", "validate"};
+constexpr std::string_view announced_commands[] = {"visible", "coplanar", "pipeline"};
 
 /// Commands that are programs of their own, because of what they are built with.
-constexpr std::string_view companions[] = {"bench"};
+constexpr std::string_view companions[] = {"bench", "validate"};
 
 constexpr std::string_view announced_render_options[] = {
     "--samples",       "--depth-format",   "--mapping",       "--c",

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "fathom/numeric/errors.h"
-#include "validation/embree/camera_rays.h"
+#include "validation/camera_rays.h"
 
 namespace fathom::validation {
 namespace {

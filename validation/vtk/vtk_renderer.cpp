@@ -17,7 +17,7 @@
 
 #include <algorithm>
 
-#include "validation/vtk/egl_context.h"
+#include "validation/opengl/egl_context.h"
 #include "validation/vtk/surfaceless_window.h"
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/vtk/opengl_matrices.h"
+#include "validation/opengl_matrices.h"
 #include "validation/world_mesh.h"
 
 namespace fathom::validation {

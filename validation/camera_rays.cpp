@@ -1,4 +1,4 @@
-#include "validation/embree/camera_rays.h"
+#include "validation/camera_rays.h"
 
 namespace fathom::validation {
 namespace {

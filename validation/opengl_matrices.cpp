@@ -1,4 +1,4 @@
-#include "validation/vtk/opengl_matrices.h"
+#include "validation/opengl_matrices.h"
 
 #include <algorithm>
 #include <cmath>

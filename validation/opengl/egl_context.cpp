@@ -1,4 +1,4 @@
-#include "validation/vtk/egl_context.h"
+#include "validation/opengl/egl_context.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>

@@ -1,0 +1,220 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fathom/scene/camera_making.h"
+#include "tests/validation/float_rasterizer.h"
+#include "validation/attribution/clip_vertex.h"
+#include "validation/attribution/hypotheses.h"
+#include "validation/bench/shapes.h"
+
+/// A renderer that is what its model says has no unexplained pixel; one with a fault has, and the
+/// fault is named.
+namespace fathom::validation {
+namespace {
+
+using test::draw_in_binary32;
+using test::Fault;
+using test::trace_in_binary32;
+
+Camera sphere_camera() {
+  Camera camera = look_from({.azimuth = 35, .elevation = 25}, {0.1, -0.05, 0.2}, 3,
+                            {.width = 200, .height = 150, .vertical_fov = 45});
+  camera.near = 0.5;
+  camera.far = 20;
+  return camera;
+}
+
+/// A sphere above a sheet that is twice there.
+Scene sphere_and_sheets() {
+  Mesh sheet;
+  sheet.vertices = {{-1.4, -1.1, -1.2}, {1.2, -1.1, -1.1}, {1.3, -0.9, 1.0}, {-1.1, -1.05, 1.2}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}};
+  return bench::as_scene({bench::sphere(800), sheet}, "sphere");
+}
+
+RendererModel model_of(Storage storage, Mapping mapping = Mapping::opengl) {
+  RendererModel model{.name = "test", .mapping = mapping, .storage = storage};
+  model.depth_before_snap = true;
+  model.first_of_equals = true;
+  model.matrix = clip_from_held(sphere_camera(), model);
+  return model;
+}
+
+struct Case {
+  std::string name;
+  Storage storage;
+  Mapping mapping;
+};
+
+void PrintTo(const Case& c, std::ostream* stream) {
+  *stream << c.name;
+}
+
+class Faults : public testing::TestWithParam<Case> {
+ protected:
+  [[nodiscard]] Attribution judged(const Fault& fault) const {
+    return attribute_and_name(truth, draw_in_binary32(truth.mesh, truth.camera, model, fault),
+                              model);
+  }
+  const Scene scene = sphere_and_sheets();
+  const Truth truth = make_truth(scene, sphere_camera());
+  const RendererModel model = model_of(GetParam().storage, GetParam().mapping);
+};
+
+void expect_named(const Attribution& found, const std::string& kind) {
+  EXPECT_GT(found.count(PixelClass::unexplained) + found.count(PixelClass::convention), 0U);
+  ASSERT_EQ(found.findings.size(), 1U);
+  EXPECT_EQ(found.findings[0].kind, kind) << found.findings[0].text;
+}
+
+TEST_P(Faults, NoneLeavesNothingUnexplained) {
+  const Attribution found = judged({});
+  EXPECT_EQ(found.count(PixelClass::unexplained), 0U);
+  EXPECT_TRUE(found.findings.empty());
+  EXPECT_GT(found.count(PixelClass::equal), 9000U);  // the background alone has as many
+  EXPECT_LT(found.may_share, 0.05);
+  RecordProperty("steps", std::to_string(found.median_steps_width));
+}
+
+TEST_P(Faults, HalfAPixel) {
+  const Attribution found = judged({.shift_x = 0.5, .shift_y = 0.5});
+  expect_named(found, "shift");
+  EXPECT_THAT(found.findings[0].text, testing::HasSubstr("(0.5, 0.5)"));
+}
+
+TEST_P(Faults, A64thOfAPixel) {
+  const Attribution found = judged({.shift_x = 1.0 / 64});
+  expect_named(found, "shift");
+  EXPECT_THAT(found.findings[0].text, testing::HasSubstr("(0.01"));
+}
+
+TEST_P(Faults, MissingTriangle) {
+  const std::uint32_t visible = truth.triangles[75 * 200 + 100];
+  ASSERT_NE(visible, no_surface);
+  const Attribution found = judged({.missing_triangle = visible});
+  expect_named(found, "missing-triangle");
+  EXPECT_EQ(found.findings[0].text, "triangle " + std::to_string(visible) + " is missing");
+}
+
+TEST_P(Faults, Affine) {
+  expect_named(judged({.affine = true}), "affine");
+}
+
+TEST_P(Faults, TiesTheOtherWay) {
+  expect_named(judged({.last_of_equals = true}), "ties");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Faults,
+                         testing::Values(Case{"Unorm16", Storage::unorm16, Mapping::opengl},
+                                         Case{"Unorm24", Storage::unorm24, Mapping::opengl},
+                                         Case{"Float32", Storage::float32, Mapping::opengl},
+                                         Case{"Reversed", Storage::float32, Mapping::reversed}),
+                         [](const auto& c) { return c.param.name; });
+
+class Bias : public testing::TestWithParam<Storage> {};
+
+TEST_P(Bias, OfOneCode) {
+  const Truth truth = make_truth(sphere_and_sheets(), sphere_camera());
+  const RendererModel model = model_of(GetParam());
+  for (const int codes : {-1, 1}) {
+    const Attribution found = attribute_and_name(
+        truth, draw_in_binary32(truth.mesh, truth.camera, model, {.bias_codes = codes}), model);
+    ASSERT_EQ(found.findings.size(), 1U);
+    EXPECT_EQ(found.findings[0].kind, "bias");
+    // Roundings that do not cancel are worth a fifth of a code here; three quarters are named.
+    EXPECT_NEAR(found.bias_steps, codes, 0.25);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Bias, testing::Values(Storage::unorm16, Storage::unorm24),
+                         [](const auto& c) { return std::string(name_of(c.param)); });
+
+/// What was done to the depths afterwards.
+struct Distorted {
+  std::string name, kind;
+  double (*depth)(double depth, double ray_length);
+};
+
+void PrintTo(const Distorted& d, std::ostream* stream) {
+  *stream << d.name;
+}
+
+class WrongFormula : public testing::TestWithParam<Distorted> {};
+
+TEST_P(WrongFormula, IsNamed) {
+  const Truth truth = make_truth(sphere_and_sheets(), sphere_camera());
+  RendererModel model = model_of(Storage::unorm24);
+  OtherMap map = draw_in_binary32(truth.mesh, truth.camera, model);
+  map.windows.clear();
+  map.triangles.clear();
+  model.decoded_in_binary32 = true;
+  const Camera& camera = truth.camera;
+  for (std::size_t i = 0; i < map.depths.size(); ++i) {
+    if (std::isinf(map.depths[i])) continue;
+    const double x = (static_cast<double>(i % camera.width) + 0.5 - camera.cx) / camera.fx;
+    const double y = (static_cast<double>(i / camera.width) + 0.5 - camera.cy) / camera.fy;
+    map.depths[i] =
+        static_cast<float>(GetParam().depth(map.depths[i], std::sqrt(1 + x * x + y * y)));
+  }
+  expect_named(attribute_and_name(truth, map, model), GetParam().kind);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongFormula,
+    testing::Values(Distorted{"RayDistance", "ray-distance",
+                              [](double d, double ray) { return d * ray; }},
+                    Distorted{"WrongNearAndFar", "decoding",
+                              [](double d, double) {
+                                const double z =
+                                    (20 / 19.5) * (1 - 0.5 / d);  // decoded with near 1, far 10
+                                return 10 / (10 - 9 * z);
+                              }},
+                    Distorted{"NotDecoded", "decoding",
+                              [](double d, double) { return (20 / 19.5) * (1 - 0.5 / d); }},
+                    Distorted{"Millimetres", "scale", [](double d, double) { return 1000 * d; }}),
+    [](const auto& d) { return d.param.name; });
+
+TEST(WrongConvention, MirroredImageIsNamed) {
+  const Truth truth = make_truth(sphere_and_sheets(), sphere_camera());
+  const RendererModel model = model_of(Storage::unorm24);
+  OtherMap map = draw_in_binary32(truth.mesh, truth.camera, model);
+  for (std::uint32_t row = 0; row < map.height / 2; ++row) {
+    for (std::uint32_t x = 0; x < map.width; ++x) {
+      const std::size_t i = row * map.width + x, j = (map.height - 1 - row) * map.width + x;
+      std::swap(map.depths[i], map.depths[j]);
+      std::swap(map.windows[i], map.windows[j]);
+      std::swap(map.triangles[i], map.triangles[j]);
+    }
+  }
+  const Attribution found = attribute_and_name(truth, map, model);
+  expect_named(found, "mirrored");
+  EXPECT_THAT(found.findings[0].text, testing::HasSubstr("the vertical axis is flipped"));
+}
+
+TEST(RayModel, ExplainsMoellerTrumboreAndCatchesFaults) {
+  Camera camera = sphere_camera();
+  camera.width = 80;
+  camera.height = 60;
+  camera.fx = camera.fy = camera.fx * 0.4;
+  camera.cx = 40;
+  camera.cy = 30;
+  const Truth truth = make_truth(sphere_and_sheets(), camera);
+  RendererModel model{.name = "rays", .kind = RendererModel::Kind::ray};
+  model.watertight = false;
+  const auto judged = [&](const Fault& fault) {
+    return attribute_and_name(truth, trace_in_binary32(truth.mesh, camera, fault), model);
+  };
+  const Attribution none = judged({});
+  EXPECT_EQ(none.count(PixelClass::unexplained), 0U);
+  EXPECT_LT(none.may_share, 0.01);
+  expect_named(judged({.shift_x = 0.5, .shift_y = 0.5}), "shift");
+  expect_named(judged({.shift_x = 1.0 / 64}), "shift");
+  const std::uint32_t visible = truth.triangles[30 * 80 + 40];
+  ASSERT_NE(visible, no_surface);
+  expect_named(judged({.missing_triangle = visible}), "missing-triangle");
+}
+
+}  // namespace
+}  // namespace fathom::validation

@@ -1,0 +1,102 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/apps/run_program.h"
+#include "tests/apps/test_folder.h"
+
+/// `fathom validate --map`, which starts fathom-validate, as users run it.
+namespace fathom::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string cube = FATHOM_SOURCE_DIR "/data/meshes/cube.obj";
+
+/// A folder with an exact map of the cube, its camera, and the same camera half a pixel aside.
+class ValidateProgram : public testing::Test {
+ protected:
+  void SetUp() override {
+    render("camera.json", 20, "map.exr");
+    render("aside.json", 20.5, "aside.exr");
+  }
+
+  void render(const std::string& camera, double cx, const std::string& map) {
+    nlohmann::json json{{"width", 40}, {"height", 30}, {"fx", 50},  {"fy", 50},
+                        {"cx", cx},    {"cy", 15},     {"near", 1}, {"far", 10}};
+    json["world_to_camera"] = {{0.8, 0.0, -0.6, 0.1}, {0.2, -0.9, 0.3, 0}, {0.6, 0.3, 0.7, 4}};
+    folder.write(camera, json.dump());
+    const Outcome outcome =
+        run_fathom({"render", cube, "--camera", camera, "-o", map}, {.folder = folder.path()});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+
+  Outcome validate(const std::string& map, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"validate",    "--map",   map,          "--camera",
+                                       "camera.json", "--model", "gl-unorm24", cube};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_fathom(arguments, {.folder = folder.path()});
+  }
+
+  const TestFolder folder;
+};
+
+TEST_F(ValidateProgram, FindsAnExactMapGood) {
+  const Outcome outcome = validate("map.exr", {"--out", "report"});
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("cube, map gl-unorm24: 1200 equal;"));
+  const auto json = nlohmann::json::parse(folder.read("report/report.json"));
+  EXPECT_EQ(json["results"][0]["pixels"]["equal"], 1200);
+  EXPECT_GT(json["results"][0]["bounds"]["median_relative_width"], 0);
+}
+
+TEST_F(ValidateProgram, NamesAHalfPixelShiftAndListsItsWorstPixels) {
+  const Outcome outcome = validate("aside.exr", {"--out", "report"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("the image is shifted by (-0.5, "));
+  const auto result = nlohmann::json::parse(folder.read("report/report.json"))["results"][0];
+  EXPECT_EQ(result["findings"][0]["kind"], "shift");
+  ASSERT_FALSE(result["worst"].empty());
+  EXPECT_EQ(result["worst"][0]["corners"].size(), 3U);
+}
+
+TEST_F(ValidateProgram, HoldsARunAgainstAnEarlierOne) {
+  ASSERT_EQ(validate("map.exr", {"--out", "good"}).status, 0);
+  ASSERT_EQ(validate("aside.exr", {"--out", "bad"}).status, 1);
+  EXPECT_EQ(validate("map.exr", {"--baseline", "bad/report.json"}).status, 0);
+  const Outcome worse = validate("aside.exr", {"--baseline", "good/report.json"});
+  EXPECT_EQ(worse.status, 1);
+  EXPECT_THAT(worse.out, HasSubstr("worse than the baseline: cube, map gl-unorm24: "));
+}
+
+TEST_F(ValidateProgram, RefusesInOneLine) {
+  const auto expect_refused = [](const Outcome& outcome, int status, const std::string& message) {
+    EXPECT_EQ(outcome.status, status) << outcome.out;
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  expect_refused(validate("none.exr"), 3, "none.exr");
+  folder.write("report.json", "{}");
+  expect_refused(validate("map.exr", {"--baseline", "report.json"}), 3, "no report.json");
+  folder.write("file", "");
+  expect_refused(validate("map.exr", {"--out", "file"}), 4, "file: cannot make this folder");
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "validate");
+    return run_fathom(arguments, {.folder = folder.path()});
+  };
+  expect_refused(run({"--map", "map.exr", "--camera", "camera.json", "--model", "voxel", cube}), 2,
+                 "there is no model 'voxel'");
+  expect_refused(run({"--map", "map.exr", "--model", "cycles", cube}), 2,
+                 "--camera FILE is missing");
+  expect_refused(run({"--map", "map.exr", "--camera", "camera.json", cube}), 2,
+                 "--model is missing");
+  expect_refused(run({"--map", "map.exr", "--camera", "camera.json", "--model", "cycles"}), 2,
+                 "SCENE is missing");
+}
+
+}  // namespace
+}  // namespace fathom::test

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "validation/attribution/other_map.h"
+#include "validation/attribution/renderer_model.h"
+
+namespace fathom::validation {
+
+/// What another renderer drew, and what is known of how it did.
+struct DrawnMap {
+  OtherMap map;
+  RendererModel model;
+  /// Its version and what it runs on.
+  std::string version;
+};
+
+/// As bytes and back, for the way from one process to another.
+std::string to_bytes(const DrawnMap& drawn);
+DrawnMap drawn_from_bytes(const std::string& bytes);
+
+}  // namespace fathom::validation

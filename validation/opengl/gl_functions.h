@@ -1,0 +1,61 @@
+#pragma once
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+namespace fathom::validation {
+
+/// The functions of OpenGL 4.5 that are called here, found by EGL: no OpenGL library is linked.
+/// Fails    InputError naming a function that the driver does not have.
+struct GlFunctions {
+  GlFunctions();
+
+  // NOLINTBEGIN(readability-identifier-naming): OpenGL's own names, without gl
+  decltype(&::glGetString) GetString;
+  decltype(&::glGetIntegerv) GetIntegerv;
+  decltype(&::glGetError) GetError;
+  decltype(&::glViewport) Viewport;
+  decltype(&::glEnable) Enable;
+  decltype(&::glDisable) Disable;
+  decltype(&::glDepthFunc) DepthFunc;
+  decltype(&::glPolygonOffset) PolygonOffset;
+  decltype(&::glDrawElements) DrawElements;
+  decltype(&::glReadBuffer) ReadBuffer;
+  decltype(&::glReadPixels) ReadPixels;
+  decltype(&::glPixelStorei) PixelStorei;
+  decltype(&::glFinish) Finish;
+  PFNGLCLEARBUFFERFVPROC ClearBufferfv;
+  PFNGLCLEARBUFFERUIVPROC ClearBufferuiv;
+  PFNGLCLIPCONTROLPROC ClipControl;
+  PFNGLGENFRAMEBUFFERSPROC GenFramebuffers;
+  PFNGLBINDFRAMEBUFFERPROC BindFramebuffer;
+  PFNGLGENRENDERBUFFERSPROC GenRenderbuffers;
+  PFNGLBINDRENDERBUFFERPROC BindRenderbuffer;
+  PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC RenderbufferStorageMultisample;
+  PFNGLGETRENDERBUFFERPARAMETERIVPROC GetRenderbufferParameteriv;
+  PFNGLGETFRAMEBUFFERATTACHMENTPARAMETERIVPROC GetFramebufferAttachmentParameteriv;
+  PFNGLFRAMEBUFFERRENDERBUFFERPROC FramebufferRenderbuffer;
+  PFNGLCHECKFRAMEBUFFERSTATUSPROC CheckFramebufferStatus;
+  PFNGLBLITFRAMEBUFFERPROC BlitFramebuffer;
+  PFNGLGETMULTISAMPLEFVPROC GetMultisamplefv;
+  PFNGLGENBUFFERSPROC GenBuffers;
+  PFNGLBINDBUFFERPROC BindBuffer;
+  PFNGLBUFFERDATAPROC BufferData;
+  PFNGLGENVERTEXARRAYSPROC GenVertexArrays;
+  PFNGLBINDVERTEXARRAYPROC BindVertexArray;
+  PFNGLVERTEXATTRIBPOINTERPROC VertexAttribPointer;
+  PFNGLENABLEVERTEXATTRIBARRAYPROC EnableVertexAttribArray;
+  PFNGLCREATESHADERPROC CreateShader;
+  PFNGLSHADERSOURCEPROC ShaderSource;
+  PFNGLCOMPILESHADERPROC CompileShader;
+  PFNGLCREATEPROGRAMPROC CreateProgram;
+  PFNGLATTACHSHADERPROC AttachShader;
+  PFNGLLINKPROGRAMPROC LinkProgram;
+  PFNGLGETPROGRAMIVPROC GetProgramiv;
+  PFNGLUSEPROGRAMPROC UseProgram;
+  PFNGLUNIFORMMATRIX4FVPROC UniformMatrix4fv;
+  PFNGLGETUNIFORMLOCATIONPROC GetUniformLocation;
+  // NOLINTEND(readability-identifier-naming)
+};
+
+}  // namespace fathom::validation

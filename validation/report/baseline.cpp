@@ -1,0 +1,70 @@
+#include "validation/report/baseline.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "fathom/numeric/errors.h"
+
+namespace fathom::validation {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string key_of(const std::string& scene, const std::string& renderer,
+                   const std::string& variant) {
+  return scene + ", " + renderer + (variant.empty() ? "" : " " + variant);
+}
+
+const Json* find(const Json& results, const std::string& key) {
+  for (const Json& result : results) {
+    if (key_of(result.at("scene"), result.at("renderer"), result.at("variant")) == key)
+      return &result;
+  }
+  return nullptr;
+}
+
+void compare(const ValidationCase& now, const Json& then, const std::string& key,
+             std::vector<std::string>& lines) {
+  if (then.contains("failure")) return;
+  if (!now.is_done()) {
+    lines.push_back(fmt::format("{}: was drawn then; now: {}", key, now.failure));
+    return;
+  }
+  const Attribution& a = now.attribution;
+  for (const PixelClass c : {PixelClass::unexplained, PixelClass::missed, PixelClass::equal}) {
+    const auto before = then.at("pixels").at(name_of(c)).get<std::uint64_t>();
+    const bool worse = c == PixelClass::equal ? a.count(c) < before : a.count(c) > before;
+    if (worse) {
+      lines.push_back(
+          fmt::format("{}: {} {} pixels, {} then", key, a.count(c), name_of(c), before));
+    }
+  }
+  for (const Finding& finding : a.findings) {
+    bool known = false;
+    for (const Json& f : then.at("findings")) known = known || f.at("kind") == finding.kind;
+    if (!known) lines.push_back(fmt::format("{}: {}", key, finding.text));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> regressions(const std::vector<ValidationCase>& cases,
+                                     const std::filesystem::path& baseline) {
+  std::ifstream file(baseline);
+  if (!file) throw InputError(baseline.string() + ": cannot be opened");
+  std::vector<std::string> lines;
+  try {
+    const Json results = Json::parse(file).at("results");
+    for (const ValidationCase& now : cases) {
+      const std::string key = key_of(now.scene, now.renderer, now.variant);
+      if (const Json* then = find(results, key)) compare(now, *then, key, lines);
+    }
+  } catch (const Json::exception& error) {
+    throw InputError(baseline.string() + ": is no report.json of fathom validate: " + error.what());
+  }
+  return lines;
+}
+
+}  // namespace fathom::validation

@@ -1,0 +1,85 @@
+#include "validation/report/report_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "validation/report/worst_pixels.h"
+
+namespace fathom::validation {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t listed_pixels = 8;
+
+/// null where there is no finite number.
+Json number(double x) {
+  return std::isfinite(x) ? Json(x) : Json(nullptr);
+}
+
+Json geometry(const Truth& truth, std::uint32_t triangle) {
+  Json corners = Json::array();
+  for (const std::uint32_t corner : truth.mesh.triangles[triangle]) {
+    corners.push_back(truth.mesh.points[corner]);
+  }
+  return corners;
+}
+
+Json pixel(const ValidationCase& c, std::size_t i) {
+  const Attribution& a = c.attribution;
+  const std::uint32_t triangle = c.truth->triangles[i];
+  Json json{{"pixel", {i % c.other.width, i / c.other.width}},
+            {"class", name_of(a.classes[i])},
+            {"truth", number(c.truth->depths[i])},
+            {"other", number(c.other.depths[i])},
+            {"least", number(a.least[i])},
+            {"greatest", number(a.greatest[i])}};
+  if (triangle != no_surface) {
+    json["triangle"] = triangle;
+    json["corners"] = geometry(*c.truth, triangle);
+  }
+  return json;
+}
+
+Json result(const ValidationCase& c) {
+  Json json{
+      {"scene", c.scene}, {"renderer", c.renderer}, {"variant", c.variant}, {"version", c.version}};
+  if (!c.is_done()) {
+    json["failure"] = c.failure;
+    return json;
+  }
+  const Attribution& a = c.attribution;
+  json["triangles"] = c.truth->mesh.triangles.size();
+  json["width"] = c.other.width;
+  json["height"] = c.other.height;
+  json["model"] = c.model.name;
+  for (std::size_t k = 0; k < pixel_class_count; ++k) {
+    json["pixels"][name_of(static_cast<PixelClass>(k))] = a.counts[k];
+  }
+  json["bounds"] = {{"median_relative_width", number(a.median_relative_width)},
+                    {"median_width_in_steps", number(a.median_steps_width)},
+                    {"may_share", a.may_share}};
+  json["errors"] = {{"pixels", a.errors.pixels},
+                    {"greatest", a.errors.greatest},
+                    {"mean", a.errors.mean},
+                    {"greatest_relative", a.errors.greatest_relative},
+                    {"median_relative", a.errors.median_relative}};
+  json["bias_in_steps"] = a.bias_steps;
+  json["findings"] = Json::array();
+  for (const Finding& f : a.findings) {
+    json["findings"].push_back({{"kind", f.kind}, {"text", f.text}, {"pixels", f.pixels}});
+  }
+  json["worst"] = Json::array();
+  for (const std::size_t i : worst_pixels(c, listed_pixels)) json["worst"].push_back(pixel(c, i));
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const std::vector<ValidationCase>& cases) {
+  Json json{{"fathom", FATHOM_VERSION}, {"results", Json::array()}};
+  for (const ValidationCase& c : cases) json["results"].push_back(result(c));
+  return json.dump(2) + "\n";
+}
+
+}  // namespace fathom::validation
