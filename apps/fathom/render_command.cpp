@@ -177,6 +177,7 @@ Json to_json(const RenderStatistics& statistics) {
             {"visibility", to_json(statistics.visibility)},
             {"range", to_json(statistics.range)},
             {"coverage", to_json(statistics.coverage)},
+            {"coverage_rounding", to_json(statistics.coverage_rounding)},
             {"rounding", to_json(statistics.rounding)}}}};
 }
 

@@ -21,6 +21,7 @@ void add(RenderStatistics& sum, const RenderStatistics& part) {
   sum.visibility += part.visibility;
   sum.range += part.range;
   sum.coverage += part.coverage;
+  sum.coverage_rounding += part.coverage_rounding;
   sum.rounding += part.rounding;
   sum.double_word_roundings += part.double_word_roundings;
   sum.exact_setups += part.exact_setups;

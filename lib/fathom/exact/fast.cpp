@@ -10,8 +10,8 @@
 // How to read this file: render_in_arena() is the whole story. Vertices are transformed to the
 // image with bounds of their errors (fast_vertex), triangles are sorted into tiles (fast_boxes,
 // fast_bins), each tile draws its triangles (fast_setup, fast_tile) and writes what is visible
-// (fast_resolve). What the bounds do not settle goes to the referee (fast_referee), who computes
-// exactly.
+// (fast_resolve) and how much of its pixels is covered (fast_coverage). What the bounds do not
+// settle goes to the referee (fast_referee), who computes exactly.
 namespace fathom {
 namespace {
 
@@ -26,19 +26,26 @@ ImageObjects transform(const Scene& scene, const Camera& camera) {
 }
 
 DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options) {
-  const FastFrame frame(camera, options);
+  FastFrame frame(camera, options);
   const TriangleSource triangles(scene);
   const SceneRays rays(triangles, camera);
   FastWorkers workers([&] { return FastWorker(triangles, camera, rays); });
   tbb::enumerable_thread_specific<std::unique_ptr<Tile>> tiles(
       [] { return std::make_unique<Tile>(); });
 
+  DepthMap map = make_background(camera, options);
+  ChannelWriter writer(map, triangles, camera, options);
+  float* const coverage = writer.values().coverage;
+  frame.by_area = coverage != nullptr;
+
   const ImageObjects objects = transform(scene, camera);
   const std::vector<Bins> bins = sort_into_tiles(
       objects, 0, static_cast<std::uint32_t>(triangles.count()), parts_of_scene, frame, workers);
 
-  DepthMap map = make_background(camera, options);
-  ChannelWriter writer(map, triangles, camera, options);
+  const CoverageFrame coverage_frame{triangles, camera, options.cull};
+  tbb::enumerable_thread_specific<TileCoverage> coverages([&] {
+    return TileCoverage({coverage_frame, objects, bins});
+  });
   FastOutput output(map, writer, rays);
   FirstFault fault;
   Progress progress(options.progress, frame.grid.count());
@@ -50,15 +57,12 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
       tile.start(frame.grid.area(number));
       draw_tile(tile, number, bins, objects, context);
       fault.add(output.write(tile, camera.width, context));
+      if (coverage) coverages.local().write(tile, number, context, coverage, camera.width);
     }
     progress.part_done();
   });
   if (fault.get()) fail(*fault.get(), map);
-  RenderStatistics statistics = sum_of(workers, triangles.count());
-  if (float* coverage = writer.values().coverage) {
-    write_fast_coverage({triangles, camera, options.cull}, coverage, statistics);
-  }
-  if (options.statistics) *options.statistics = statistics;
+  if (options.statistics) *options.statistics = sum_of(workers, triangles.count());
   return map;
 }
 

@@ -90,10 +90,10 @@ void Bins::add_object(const ImageObject& object, const Context& context) {
   RenderStatistics& statistics = context.statistics;
   for (std::uint32_t next = first; next < end; next += TriangleBoxes::most) {
     const std::uint32_t count = std::min<std::uint32_t>(TriangleBoxes::most, end - next);
-    box_triangles(
-        {object.vertices.get(), &object.mesh.triangles[next - object.first_number], count, next,
-         context.cull, context.grid.width, context.grid.height, context.grid.columns},
-        *boxes);
+    box_triangles({object.vertices.get(), &object.mesh.triangles[next - object.first_number], count,
+                   next, context.cull, context.by_area, context.grid.width, context.grid.height,
+                   context.grid.columns},
+                  *boxes);
     statistics.facing.interval += count - boxes->unsettled;
     statistics.degenerate_triangles += boxes->degenerate;
     statistics.culled_triangles += boxes->culled;

@@ -45,7 +45,7 @@ struct TileGrid {
   std::uint32_t columns, rows;
 };
 
-/// Consecutive triangles, and for each tile those that can be visible in it.
+/// Consecutive triangles, and for each tile those that can be visible in it, or that meet it.
 class Bins {
  public:
   /// Triangles first ≤ number < end of the scene.
@@ -55,6 +55,8 @@ class Bins {
     const ImageObjects& objects;
     const Camera& camera;
     Cull cull;
+    /// All tiles that a triangle meets, not only those in which it can cover a sample.
+    bool by_area;
     const TileGrid& grid;
     Referee& referee;
     RenderStatistics& statistics;

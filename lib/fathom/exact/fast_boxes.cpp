@@ -56,8 +56,10 @@ HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles
 
   Sorted s;
   s.unsettled = hn::AndNot(hn::Or(with_area, zero), valid);
-  s.box = sample_boxes(t, {0, r.image_width - 1, 0, r.image_height - 1});
-  const M hidden = hn::Or(are_empty(s.box), certainly_miss(t, s.box));
+  const PixelBox image{0, r.image_width - 1, 0, r.image_height - 1};
+  s.box = r.by_area ? area_boxes(t, image) : sample_boxes(t, image);
+  const M missed = r.by_area ? are_empty(s.box) : certainly_miss(t, s.box);
+  const M hidden = hn::Or(are_empty(s.box), missed);
   const M visible = hn::AndNot(hidden, kept);
   const V column = tile_of(s.box.first_column), row = tile_of(s.box.first_row);
   const M together =

@@ -17,6 +17,8 @@ struct BoxRequest {
   std::uint32_t count;  // at most TriangleBoxes::most
   std::uint32_t first_number;
   Cull cull;
+  /// Pixels that triangles meet, not only those whose samples they can cover.
+  bool by_area;
   std::uint32_t image_width, image_height;
   std::uint32_t tile_columns;
 };

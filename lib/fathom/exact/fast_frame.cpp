@@ -25,8 +25,8 @@ std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t fir
   }
   tbb::parallel_for(std::size_t{0}, bins.size(), [&](std::size_t i) {
     FastWorker& worker = workers.local();
-    bins[i].fill(
-        {objects, frame.camera, frame.options.cull, frame.grid, worker.referee, worker.statistics});
+    bins[i].fill({objects, frame.camera, frame.options.cull, frame.by_area, frame.grid,
+                  worker.referee, worker.statistics});
   });
   return bins;
 }
@@ -71,10 +71,14 @@ RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles) {
 
 FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays)
     : certified_([&] { return CertifiedWriter(writer, rays); }) {
-  if (map.channels.size() != 1 || map.channels[0].name != "Z") return;
-  if (auto* values = std::get_if<Samples<float>>(&map.channels[0].values)) {
-    depths_ = values->data();
+  ImageChannel* depth = nullptr;
+  for (ImageChannel& channel : map.channels) {
+    if (channel.name == "A") continue;
+    if (channel.name != "Z") return;
+    depth = &channel;
   }
+  if (!depth) return;
+  if (auto* values = std::get_if<Samples<float>>(&depth->values)) depths_ = values->data();
 }
 
 }  // namespace fathom

@@ -42,6 +42,8 @@ struct FastFrame {
   TileGrid grid;
   DepthRange range;
   bool perspective;
+  /// Tiles get all triangles that meet them, for channel A.
+  bool by_area = false;
 };
 
 /// Sorts triangles [first, end) of the scene, all of these objects, into tiles: `parts` bins of
@@ -80,7 +82,7 @@ class FastOutput {
 
  private:
   tbb::enumerable_thread_specific<CertifiedWriter> certified_;
-  /// The values of Z, if that is the only channel and binary32.
+  /// The values of Z, if that is the only channel of surfaces and binary32.
   float* depths_ = nullptr;
 };
 

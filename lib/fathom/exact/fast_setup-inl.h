@@ -196,6 +196,24 @@ HWY_INLINE Boxes sample_boxes(const Corners& t, const PixelBox& area) {
           last_sample(greatest_of(t.A.v, t.B.v, t.C.v), e, area.last_row)};
 }
 
+/// The pixels of the area that the triangles meet, by the same argument. All corners usable.
+HWY_INLINE Boxes area_boxes(const Corners& t, const PixelBox& area) {
+  const auto first = [&](V low, double least) HWY_ATTR {
+    const V margin =
+        hn::MulAdd(hn::Add(hn::Abs(low), constant(1)), constant(0x1p-50), t.position_error);
+    return hn::Floor(hn::Max(hn::Sub(low, margin), constant(least)));
+  };
+  const auto last = [&](V high, double greatest) HWY_ATTR {
+    const V margin =
+        hn::MulAdd(hn::Add(hn::Abs(high), constant(1)), constant(0x1p-50), t.position_error);
+    return hn::Floor(hn::Min(hn::Add(high, margin), constant(greatest)));
+  };
+  return {first(least_of(t.A.u, t.B.u, t.C.u), area.first_column),
+          last(greatest_of(t.A.u, t.B.u, t.C.u), area.last_column),
+          first(least_of(t.A.v, t.B.v, t.C.v), area.first_row),
+          last(greatest_of(t.A.v, t.B.v, t.C.v), area.last_row)};
+}
+
 /// Triangles relative to their boxes' first samples, turned so that their doubled area T is
 /// positive by exchanging B and C where it was not.
 struct LocalTriangles {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "fathom/exact/fast_coverage.h"
+#include "fathom/exact/coverage_image.h"
 #include "fathom/exact/fast_frame.h"
 
 // How to read this file: render_in_arena() is the whole story. The image is done in bands of rows
@@ -163,7 +163,7 @@ DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
   }
   RenderStatistics statistics = sum_of(workers, triangles.count());
   if (float* coverage = writer.values().coverage) {
-    write_fast_coverage({triangles, camera, options.cull}, coverage, statistics);
+    statistics.coverage += write_coverage({triangles, camera, options.cull}, coverage);
   }
   if (options.statistics) *options.statistics = statistics;
   return map;

@@ -98,8 +98,8 @@ bool apply_exactly(const Row& m, const MeshPoint& X, double& value) {
 
 VertexTransform::VertexTransform(const Object& object, const Camera& camera)
     : perspective_(camera.projection == Projection::perspective),
-      last_u_(camera.width - 0.5),
-      last_v_(camera.height - 0.5) {
+      width_(camera.width),
+      height_(camera.height) {
   const RoundedRows rounded = rounded_rows(object, camera);
   for (const Row& row : rounded.rows) {
     usable_ = usable_ && std::all_of(row.begin(), row.end(), is_safe);
@@ -153,10 +153,10 @@ bool VertexTransform::misses_image(const std::array<MeshPoint, 3>& corners) cons
       return form + 1.5 * (p.error_UV + k * p.error_W + underflow_floor) < 0;
     };
     behind = behind && p.W + 1.5 * (p.error_W + underflow_floor) < 0;
-    left = left && is_negative(p.U - 0.5 * p.W, 0.5);
-    right = right && is_negative(last_u_ * p.W - p.U, last_u_);
-    above = above && is_negative(p.V - 0.5 * p.W, 0.5);
-    below = below && is_negative(last_v_ * p.W - p.V, last_v_);
+    left = left && is_negative(p.U, 0);
+    right = right && is_negative(width_ * p.W - p.U, width_);
+    above = above && is_negative(p.V, 0);
+    below = below && is_negative(height_ * p.W - p.V, height_);
   }
   return behind || left || right || above || below;
 }

@@ -64,7 +64,7 @@ class VertexTransform {
   void operator()(std::span<const MeshPoint> points, ImageVertex* image) const;
   ImageVertex operator()(const MeshPoint& X) const;
 
-  /// True only if no sample of the image is covered by a triangle with these corners, for the
+  /// True only if no point of the image is covered by a triangle with these corners, for the
   /// corners' sake: all of them behind the camera, or all beyond one side of the image.
   /// Meant for corners that are not usable; false means "not known".
   [[nodiscard]] bool misses_image(const std::array<MeshPoint, 3>& corners) const;
@@ -89,7 +89,7 @@ class VertexTransform {
   bool usable_ = true;
   /// Whether the rounded entries are the exact ones.
   bool exact_ = false;
-  double last_u_, last_v_;  // the last samples of a row and of a column
+  double width_, height_;  // of the image
   ImageRows rows_;
 };
 

@@ -43,6 +43,8 @@ struct RenderStatistics {
   TierCounts coverage;
 
   // The fast engine alone:
+  /// Pixels whose coverage is neither 0 nor 1 at sight: settled by a bound, and by exact numbers.
+  TierCounts coverage_rounding;
   /// Values rounded from an interval, and values written from exact numbers.
   TierCounts rounding;
   /// Of rounding.interval: those that binary64 did not settle, but double-words did.

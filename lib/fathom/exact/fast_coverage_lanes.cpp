@@ -1,0 +1,72 @@
+// Which triangles are simple for channel A, several at once.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fathom/exact/fast_coverage_lanes.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "fathom/exact/fast_coverage.h"
+#include "fathom/exact/fast_setup-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fathom::HWY_NAMESPACE {
+namespace {
+
+/// Whether no depth of the triangles counts: q of a point lies between those of the corners.
+HWY_INLINE M certainly_miss(const DepthRange& range, const Corners& t) {
+  const V error = hn::Add(t.q_error, t.q_error);
+  const V least = hn::Sub(least_of(t.A.q, t.B.q, t.C.q), error);
+  const V greatest = hn::Add(greatest_of(t.A.q, t.B.q, t.C.q), error);
+  return hn::Or(hn::Lt(greatest, constant(range.outside_least)),
+                hn::Gt(least, constant(range.outside_greatest)));
+}
+
+void classify(const ImageObject& object, std::span<const std::uint32_t> numbers,
+              const DepthRange& range, CoverageTriangle* classes) {
+  const std::size_t lanes = hn::Lanes(D());
+  for (std::size_t first = 0; first < numbers.size(); first += lanes) {
+    CornerIndices triangles[SetupBatch::most];
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const std::size_t i = std::min(first + k, numbers.size() - 1);
+      triangles[k] = object.mesh.triangles[numbers[i] - object.first_number];
+    }
+    const Corners t = load_corners(object.vertices.get(), triangles);
+    const M usable = are_usable(t);
+    const Orientation o = certified_orientation(t);
+    const M simple = hn::AndNot(may_leave(range, t), usable);
+    const unsigned positive = bits_of(hn::And(simple, o.positive));
+    const unsigned negative = bits_of(hn::And(simple, o.negative));
+    const unsigned nothing = bits_of(hn::And(usable, hn::Or(o.zero, certainly_miss(range, t))));
+    // Computed coordinates will do: this decides only about time.
+    const V width = hn::Sub(greatest_of(t.A.u, t.B.u, t.C.u), least_of(t.A.u, t.B.u, t.C.u));
+    const V height = hn::Sub(greatest_of(t.A.v, t.B.v, t.C.v), least_of(t.A.v, t.B.v, t.C.v));
+    const unsigned large = bits_of(hn::Gt(hn::Min(width, height), constant(16)));
+    const std::size_t count = std::min(lanes, numbers.size() - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      const CoverageClass kind = nothing >> k & 1    ? CoverageClass::nothing
+                                 : positive >> k & 1 ? CoverageClass::positive
+                                 : negative >> k & 1 ? CoverageClass::negative
+                                                     : CoverageClass::open;
+      const bool simple_one = kind == CoverageClass::positive || kind == CoverageClass::negative;
+      classes[first + k] = {kind, simple_one && (large >> k & 1)};
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fathom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fathom {
+
+HWY_EXPORT(classify);
+
+void classify_for_coverage(const ImageObject& object, std::span<const std::uint32_t> numbers,
+                           const DepthRange& range, CoverageTriangle* classes) {
+  HWY_DYNAMIC_DISPATCH(classify)(object, numbers, range, classes);
+}
+
+}  // namespace fathom
+#endif
