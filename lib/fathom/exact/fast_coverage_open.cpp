@@ -136,8 +136,16 @@ void TileCoverage::for_each_row(const UnbalancedEdge& edge, const Visit& visit) 
   }
 }
 
+// Triangles that follow each other in a file often have an edge in common, which then needs no
+// table: it is left out of both.
 void TileCoverage::balance_edges(const ImageObject& object, std::size_t first, std::size_t end) {
-  balance_.start(3 * (end - first));
+  balance_.start(end - first);
+  std::array<EdgeBalance::Edge, 3> waiting{};
+  std::size_t waiting_count = 0;
+  const auto flush = [&] {
+    for (std::size_t k = 0; k < waiting_count; ++k) balance_.add(waiting[k].from, waiting[k].to);
+    waiting_count = 0;
+  };
   for (std::size_t i = first; i < end; ++i) {
     auto [a, b, c] = object.mesh.triangles[numbers_[i] - object.first_number];
     if (classes_[i].kind == CoverageClass::negative) {
@@ -145,10 +153,22 @@ void TileCoverage::balance_edges(const ImageObject& object, std::size_t first, s
     } else if (classes_[i].kind != CoverageClass::positive) {
       continue;
     }
-    balance_.add(a, b);
-    balance_.add(b, c);
-    balance_.add(c, a);
+    std::array<EdgeBalance::Edge, 3> edges{{{a, b}, {b, c}, {c, a}}};
+    std::size_t count = 3;
+    for (std::size_t k = 0; k < waiting_count; ++k) {
+      for (std::size_t j = 0; j < count; ++j) {
+        if (edges[j].from != waiting[k].to || edges[j].to != waiting[k].from) continue;
+        edges[j] = edges[--count];
+        waiting[k] = waiting[--waiting_count];
+        --k;
+        break;
+      }
+    }
+    flush();
+    waiting = edges;
+    waiting_count = count;
   }
+  flush();
   left_.clear();
   balance_.for_each_left([&](const EdgeBalance::Edge& edge) { left_.push_back(edge); });
   if (left_.empty()) return;
