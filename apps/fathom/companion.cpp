@@ -16,7 +16,7 @@
 namespace fathom::app {
 namespace {
 
-constexpr std::string_view announced_commands[] = {"visible", "coplanar", "pipeline"};
+constexpr std::string_view announced_commands[] = {"pipeline"};
 
 /// Commands that are programs of their own, because of what they are built with.
 constexpr std::string_view companions[] = {"bench", "validate"};

@@ -2,7 +2,8 @@
 
 int main(int argc, char** argv) {
   using namespace fathom::app;
-  return program_main(argc, argv,
-                      {add_render, add_probe, add_info, add_preview, add_compare, add_convert,
-                       add_camera, add_clip, add_scan, add_depth, add_study});
+  return program_main(
+      argc, argv,
+      {add_render, add_probe, add_info, add_preview, add_compare, add_convert, add_camera, add_clip,
+       add_scan, add_visible, add_coplanar, add_depth, add_study});
 }

@@ -45,6 +45,8 @@ void add_convert(Program& program);
 void add_camera(Program& program);
 void add_clip(Program& program);
 void add_scan(Program& program);
+void add_visible(Program& program);
+void add_coplanar(Program& program);
 void add_depth(Program& program);
 void add_study(Program& program);
 /// `fathom camera import …`.

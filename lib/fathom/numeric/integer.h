@@ -44,4 +44,7 @@ void divide_to_nearest_even(mpz_ptr result, mpz_srcptr numerator, mpz_srcptr den
 
 std::string to_string(const Integer& value);
 
+/// An integer that is not negative as an exact number.
+Dyadic to_dyadic(mpz_srcptr value);
+
 }  // namespace fathom

@@ -23,19 +23,6 @@ class BigFloat {
   mpfr_t value_;
 };
 
-/// A non-negative integer as a dyadic number, 32 bits at a time.
-Dyadic to_dyadic(mpz_srcptr value) {
-  Dyadic sum;
-  Integer rest, low;
-  mpz_set(rest, value);
-  for (long position = 0; mpz_sgn(rest.get()) != 0; position += 32) {
-    mpz_tdiv_r_2exp(low, rest, 32);
-    sum += Dyadic(static_cast<double>(mpz_get_ui(low))).scaled(position);
-    mpz_tdiv_q_2exp(rest, rest, 32);
-  }
-  return sum;
-}
-
 /// The number that a finite, non-negative x is.
 Ratio to_ratio(mpfr_ptr x) {
   if (mpfr_zero_p(x) != 0) return Dyadic();
