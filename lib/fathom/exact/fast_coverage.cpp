@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/numeric/rounding.h"
+
 namespace fathom {
 
 void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile::Context& context,
@@ -36,8 +38,8 @@ void TileCoverage::write_closed(const Tile& tile, float* values, std::uint32_t i
   }
 }
 
-bool TileCoverage::is_open(const Box& box) const {
-  if (box.left > box.right) return false;
+bool TileCoverage::is_open(const TileBox& box) const {
+  if (box.is_empty()) return false;
   const std::uint64_t columns = columns_between(box.left, box.right);
   for (int row = box.top; row <= box.bottom; ++row) {
     if (open_[static_cast<std::size_t>(row)] & columns) return true;
@@ -96,7 +98,7 @@ TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context
   return shape;
 }
 
-void TileCoverage::meet(const Box& box, const Shape& shape) {
+void TileCoverage::meet(const TileBox& box, const Shape& shape) {
   shapes_.push_back(shape);
   for (int row = box.top; row <= box.bottom; ++row) {
     std::uint64_t& open_row = open_[static_cast<std::size_t>(row)];
@@ -129,16 +131,15 @@ void TileCoverage::meet_triangles() {
   shapes_at_.clear();
   const ImageObject* object = nullptr;
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
-    if (classes_[i].kind == CoverageClass::nothing) continue;
-    if (!object || numbers_[i] >= object->end_number()) {
-      object = &object_of(scene_.objects, numbers_[i]);
-    }
-    if (classes_[i].kind == CoverageClass::open) {
+    const auto& [kind, is_large, box] = classes_[i];
+    if (kind == CoverageClass::open) {
       meet(whole(), *next_open++);
       continue;
     }
-    const Box box = box_of(*object, numbers_[i]);
-    if (!is_open(box)) continue;
+    if (kind == CoverageClass::nothing || !is_open(box)) continue;
+    if (!object || numbers_[i] >= object->end_number()) {
+      object = &object_of(scene_.objects, numbers_[i]);
+    }
     meet(box, shape_of(*object, i));
   }
   shapes_at_.sort();
@@ -169,17 +170,38 @@ void TileCoverage::settle_open(const Tile::Context& context, float* values,
   }
 }
 
-Interval TileCoverage::area_between_edges(std::uint32_t pixel) {
+// Rounded once, so within u·|x|.
+SquarePoint TileCoverage::exact_corner(const ImageObject& object, const ImageVertex& vertex,
+                                       std::uint32_t pixel) const {
+  const TriangleSource& triangles = scene_.frame.triangles;
+  const Object& its_object = triangles.objects()[triangles.origin(object.first_number).object];
+  const MeshPoint& p =
+      object.mesh.vertices[static_cast<std::size_t>(&vertex - object.vertices.get())];
+  const Camera& camera = scene_.frame.camera;
+  const auto [U, V, W] =
+      to_image(camera, to_camera(camera, its_object.placed_as_is ? WorldPoint{p.x, p.y, p.z}
+                                                                 : its_object.world_from_mesh(p)));
+  const Dyadic column = static_cast<double>(area_.first_column + pixel % size);
+  const Dyadic row = static_cast<double>(area_.first_row + pixel / size);
+  return {round_to_binary64(Ratio(U - column * W, W)), round_to_binary64(Ratio(V - row * W, W))};
+}
+
+Interval TileCoverage::area_between_edges(std::uint32_t pixel, Corners corners) {
   const std::uint32_t x = pixel % size, y = pixel / size;
   const double left = area_.first_column + x, top = area_.first_row + y;
   winding_.clear();
   for (const std::uint32_t i : edges_at_.at(pixel)) {
-    const ImageVertex &from = *unbalanced_[i].from, &to = *unbalanced_[i].to;
-    const SquarePoint p{from.u - left, from.v - top}, q{to.u - left, to.v - top};
+    const auto& [from, to, object] = unbalanced_[i];
+    SquarePoint p{from->u - left, from->v - top}, q{to->u - left, to->v - top};
+    double error = std::max(from->position_error(), to->position_error());
+    if (corners == Corners::exact) {
+      p = exact_corner(*object, *from, pixel);
+      q = exact_corner(*object, *to, pixel);
+      error = 0;
+    }
     const double extent =
         std::max({std::abs(p.x), std::abs(p.y), std::abs(q.x), std::abs(q.y), 1.0});
-    winding_.add(p, q,
-                 std::max(from.position_error(), to.position_error()) + unit_roundoff * extent);
+    winding_.add(p, q, error + unit_roundoff * extent);
   }
   return winding_.area([&](const SquarePoint& point) {
     int number = 0;
@@ -242,13 +264,16 @@ float TileCoverage::settle(std::uint32_t pixel, const Tile::Context& context) {
     ++counts.interval;
     return 0;
   }
+  const auto settles = [&](const Interval& area) {
+    return static_cast<float>(area.lower) == static_cast<float>(area.upper);
+  };
   const bool any_open = std::any_of(shapes.begin(), shapes.end(),
                                     [&](std::uint32_t i) { return shapes_[i].is_open; });
-  const Interval area = any_open ? area_of_union(pixel) : area_between_edges(pixel);
-  const auto rounded = static_cast<float>(area.lower);
-  if (rounded == static_cast<float>(area.upper)) {
+  Interval area = any_open ? area_of_union(pixel) : area_between_edges(pixel, Corners::computed);
+  if (!settles(area) && !any_open) area = area_between_edges(pixel, Corners::exact);
+  if (settles(area)) {
     ++counts.interval;
-    return rounded;
+    return static_cast<float>(area.lower);
   }
   ++counts.exact;
   exact_numbers_.clear();

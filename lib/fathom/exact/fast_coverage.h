@@ -22,15 +22,25 @@ enum class CoverageClass : std::uint8_t {
   open       // none of these
 };
 
-struct CoverageTriangle {
-  CoverageClass kind;
-  /// Positive or negative, and so wide and high that it may cover a pixel square wholly.
-  bool is_large;
+/// The pixels of a box within a tile, last ones included; empty where right < left or
+/// bottom < top.
+struct TileBox {
+  std::int8_t left, right, top, bottom;
+  [[nodiscard]] bool is_empty() const { return right < left || bottom < top; }
 };
 
-/// Of triangles (numbers in the scene) of an object. Vector instructions.
+struct CoverageTriangle {
+  CoverageClass kind;
+  /// Positive or negative, and so large that its pixels are worth looking at one by one.
+  bool is_large;
+  /// The pixels that it can meet, unless it is open.
+  TileBox box;
+};
+
+/// Of triangles (numbers in the scene) of an object, in a tile. Vector instructions.
 void classify_for_coverage(const ImageObject& object, std::span<const std::uint32_t> numbers,
-                           const DepthRange& range, CoverageTriangle* classes);
+                           const DepthRange& range, const PixelBox& tile,
+                           CoverageTriangle* classes);
 
 /// Channel A of one tile after the other (specification, section 6), the same values as
 /// rounded_pixel_coverage().
@@ -40,7 +50,8 @@ void classify_for_coverage(const ImageObject& object, std::span<const std::uint3
 /// not at all, as its sample is, and so is one that a single triangle covers; what is left is
 /// mostly silhouettes. There, it is the area between such edges that counts (PixelWinding), or that
 /// of the union of what meets the pixel where triangles are cut by the range of depths
-/// (PixelUnion), and exact numbers where a bound does not settle the rounding.
+/// (PixelUnion). Where a bound does not settle the rounding, the ends of the edges are computed
+/// from exact numbers, and last the area is.
 class TileCoverage {
  public:
   struct Scene {
@@ -60,10 +71,6 @@ class TileCoverage {
   static std::uint64_t columns_between(int left, int right) {
     return ~std::uint64_t{0} << left & ~std::uint64_t{0} >> (63 - right);
   }
-  /// The pixels of a box within the tile, last ones included; empty where last < first.
-  struct Box {
-    int left, right, top, bottom;
-  };
   /// A triangle by affine functions over the tile, (0, 0) its top left corner, positive inside.
   struct Shape {
     std::uint32_t triangle;  // index into numbers_
@@ -96,6 +103,7 @@ class TileCoverage {
   };
   struct UnbalancedEdge {
     const ImageVertex *from, *to;
+    const ImageObject* object;
   };
 
   // fast_coverage_open.cpp: which pixels are open.
@@ -110,32 +118,33 @@ class TileCoverage {
   void for_each_row(const UnbalancedEdge& edge, const Visit& visit) const;
   void open_where_it_may_be(const Shape& shape);
   void meet_edges();
-  [[nodiscard]] Box box_of(double least_u, double greatest_u, double least_v, double greatest_v,
-                           double margin) const;
-  [[nodiscard]] Box box_of(const ImageObject& object, std::uint32_t number) const;
+  [[nodiscard]] TileBox box_of(const UnbalancedEdge& edge, double margin) const;
 
   // fast_coverage_full.cpp: which pixels one triangle covers wholly.
-  [[nodiscard]] Box whole() const {
-    return {0, static_cast<int>(area_.last_column - area_.first_column), 0,
-            static_cast<int>(area_.last_row - area_.first_row)};
+  [[nodiscard]] TileBox whole() const {
+    return {0, static_cast<std::int8_t>(area_.last_column - area_.first_column), 0,
+            static_cast<std::int8_t>(area_.last_row - area_.first_row)};
   }
   [[nodiscard]] bool misses_tile(const Shape& shape) const;
   void look_at_open(const Tile::Context& context);
   void fill_large();
-  void fill(const Shape& shape, const Box& box);
+  void fill(const Shape& shape, const TileBox& box);
 
   // fast_coverage.cpp: settling them.
   void write_closed(const Tile& tile, float* values, std::uint32_t image_width) const;
   void meet_triangles();
-  void meet(const Box& box, const Shape& shape);
+  void meet(const TileBox& box, const Shape& shape);
   /// Whether any bit of the box is set, and whether all are.
-  [[nodiscard]] bool is_open(const Box& box) const;
-  [[nodiscard]] bool is_full(const Box& box) const;
+  [[nodiscard]] bool is_open(const TileBox& box) const;
+  [[nodiscard]] bool is_full(const TileBox& box) const;
   [[nodiscard]] Shape shape_of(const ImageObject& object, std::size_t i) const;
   [[nodiscard]] Shape exact_shape(std::size_t i, const Tile::Context& context) const;
   void settle_open(const Tile::Context& context, float* values, std::uint32_t image_width);
   float settle(std::uint32_t pixel, const Tile::Context& context);
-  [[nodiscard]] Interval area_between_edges(std::uint32_t pixel);
+  enum class Corners { computed, exact };
+  [[nodiscard]] Interval area_between_edges(std::uint32_t pixel, Corners corners);
+  [[nodiscard]] SquarePoint exact_corner(const ImageObject& object, const ImageVertex& vertex,
+                                         std::uint32_t pixel) const;
   [[nodiscard]] Interval area_of_union(std::uint32_t pixel);
   void add_to_union(const Shape& shape, std::uint32_t x, std::uint32_t y);
 

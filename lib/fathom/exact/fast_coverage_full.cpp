@@ -6,8 +6,8 @@
 // Which pixels of a tile one triangle covers wholly: large triangles, row by row.
 namespace fathom {
 
-bool TileCoverage::is_full(const Box& box) const {
-  if (box.left > box.right) return true;
+bool TileCoverage::is_full(const TileBox& box) const {
+  if (box.is_empty()) return true;
   const std::uint64_t columns = columns_between(box.left, box.right);
   for (int row = box.top; row <= box.bottom; ++row) {
     if (~full_[static_cast<std::size_t>(row)] & columns) return false;
@@ -18,7 +18,7 @@ bool TileCoverage::is_full(const Box& box) const {
 // Where in a row of pixels a function is greater than its error at all four corners of a pixel is
 // found by a division, and then asked at the two ends that come out: products and sums are rounded
 // monotonically, so that it holds between two pixels where it holds.
-void TileCoverage::fill(const Shape& shape, const Box& box) {
+void TileCoverage::fill(const Shape& shape, const TileBox& box) {
   for (int row = box.top; row <= box.bottom; ++row) {
     double first = box.left, last = box.right;
     std::array<double, 5> least{};
@@ -69,13 +69,11 @@ void TileCoverage::fill_large() {
   std::size_t filled = 0;
   const ImageObject* object = nullptr;
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
-    if (!classes_[i].is_large) continue;
+    if (!classes_[i].is_large || is_full(classes_[i].box)) continue;
     if (!object || numbers_[i] >= object->end_number()) {
       object = &object_of(scene_.objects, numbers_[i]);
     }
-    const Box box = box_of(*object, numbers_[i]);
-    if (is_full(box)) continue;
-    fill(shape_of(*object, i), box);
+    fill(shape_of(*object, i), classes_[i].box);
     if (++filled % 8 == 0 && is_full(whole())) return;
   }
 }

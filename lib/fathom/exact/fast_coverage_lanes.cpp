@@ -23,7 +23,7 @@ HWY_INLINE M certainly_miss(const DepthRange& range, const Corners& t) {
 }
 
 void classify(const ImageObject& object, std::span<const std::uint32_t> numbers,
-              const DepthRange& range, CoverageTriangle* classes) {
+              const DepthRange& range, const PixelBox& tile, CoverageTriangle* classes) {
   const std::size_t lanes = hn::Lanes(D());
   for (std::size_t first = 0; first < numbers.size(); first += lanes) {
     CornerIndices triangles[SetupBatch::most];
@@ -42,6 +42,18 @@ void classify(const ImageObject& object, std::span<const std::uint32_t> numbers,
     const V width = hn::Sub(greatest_of(t.A.u, t.B.u, t.C.u), least_of(t.A.u, t.B.u, t.C.u));
     const V height = hn::Sub(greatest_of(t.A.v, t.B.v, t.C.v), least_of(t.A.v, t.B.v, t.C.v));
     const unsigned large = bits_of(hn::Gt(hn::Min(width, height), constant(16)));
+    const Boxes box = area_boxes(t, tile);
+    const M met = hn::AndNot(are_empty(box), usable);
+    alignas(64) std::int64_t left[8], right[8], top[8], bottom[8];
+    const auto store_local = [&](V x, std::uint32_t origin, std::int64_t* to) HWY_ATTR {
+      hn::Store(hn::ConvertTo(DI(), hn::IfThenElseZero(met, hn::Sub(x, constant(origin)))), DI(),
+                to);
+    };
+    store_local(box.first_column, tile.first_column, left);
+    store_local(box.last_column, tile.first_column, right);
+    store_local(box.first_row, tile.first_row, top);
+    store_local(box.last_row, tile.first_row, bottom);
+    const unsigned is_met = bits_of(met);
     const std::size_t count = std::min(lanes, numbers.size() - first);
     for (std::size_t k = 0; k < count; ++k) {
       const CoverageClass kind = nothing >> k & 1    ? CoverageClass::nothing
@@ -49,7 +61,11 @@ void classify(const ImageObject& object, std::span<const std::uint32_t> numbers,
                                  : negative >> k & 1 ? CoverageClass::negative
                                                      : CoverageClass::open;
       const bool simple_one = kind == CoverageClass::positive || kind == CoverageClass::negative;
-      classes[first + k] = {kind, simple_one && (large >> k & 1)};
+      const auto small = [](std::int64_t x) { return static_cast<std::int8_t>(x); };
+      classes[first + k] = {kind, simple_one && (large >> k & 1),
+                            is_met >> k & 1 ? TileBox{small(left[k]), small(right[k]),
+                                                      small(top[k]), small(bottom[k])}
+                                            : TileBox{1, 0, 1, 0}};
     }
   }
 }
@@ -64,8 +80,9 @@ namespace fathom {
 HWY_EXPORT(classify);
 
 void classify_for_coverage(const ImageObject& object, std::span<const std::uint32_t> numbers,
-                           const DepthRange& range, CoverageTriangle* classes) {
-  HWY_DYNAMIC_DISPATCH(classify)(object, numbers, range, classes);
+                           const DepthRange& range, const PixelBox& tile,
+                           CoverageTriangle* classes) {
+  HWY_DYNAMIC_DISPATCH(classify)(object, numbers, range, tile, classes);
 }
 
 }  // namespace fathom

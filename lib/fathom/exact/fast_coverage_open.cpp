@@ -58,33 +58,23 @@ void TileCoverage::collect_triangles(std::uint32_t tile_number) {
   }
 }
 
-TileCoverage::Box TileCoverage::box_of(double least_u, double greatest_u, double least_v,
-                                       double greatest_v, double margin) const {
-  const auto within = [](double x) { return static_cast<int>(std::clamp(x, -1.0, 1.0 * size)); };
+/// The pixels that the rectangle around the edge meets, `margin` added on all sides.
+TileBox TileCoverage::box_of(const UnbalancedEdge& edge, double margin) const {
+  const auto [least_u, greatest_u] = std::minmax({edge.from->u, edge.to->u});
+  const auto [least_v, greatest_v] = std::minmax({edge.from->v, edge.to->v});
+  const auto within = [](double x, int least, int greatest) {
+    return static_cast<std::int8_t>(std::clamp(std::floor(x), 1.0 * least, 1.0 * greatest));
+  };
   const double left = area_.first_column, top = area_.first_row;
-  const int columns = static_cast<int>(area_.last_column - area_.first_column);
-  const int rows = static_cast<int>(area_.last_row - area_.first_row);
-  return {std::max(within(std::floor(least_u - left - margin)), 0),
-          std::min(within(std::floor(greatest_u - left + margin)), columns),
-          std::max(within(std::floor(least_v - top - margin)), 0),
-          std::min(within(std::floor(greatest_v - top + margin)), rows)};
-}
-
-TileCoverage::Box TileCoverage::box_of(const ImageObject& object, std::uint32_t number) const {
-  const auto& [a, b, c] = object.mesh.triangles[number - object.first_number];
-  const ImageVertex &A = object.vertices[a], &B = object.vertices[b], &C = object.vertices[c];
-  const auto [least_u, greatest_u] = std::minmax({A.u, B.u, C.u});
-  const auto [least_v, greatest_v] = std::minmax({A.v, B.v, C.v});
-  const double margin = std::max({A.position_error(), B.position_error(), C.position_error()}) +
-                        4 * unit_roundoff *
-                            std::max({-least_u, greatest_u, -least_v, greatest_v,
-                                      1.0 * area_.last_column, 1.0 * area_.last_row});
-  return box_of(least_u, greatest_u, least_v, greatest_v, margin);
+  const TileBox all = whole();
+  return {
+      within(least_u - left - margin, 0, size), within(greatest_u - left + margin, -1, all.right),
+      within(least_v - top - margin, 0, size), within(greatest_v - top + margin, -1, all.bottom)};
 }
 
 // As meet(), by a division for each row, with a pixel more on both sides for its rounding.
 void TileCoverage::open_where_it_may_be(const Shape& shape) {
-  const Box box = whole();
+  const TileBox box = whole();
   for (int row = box.top; row <= box.bottom; ++row) {
     double first = box.left, last = box.right;
     for (std::size_t k = 0; k < shape.count; ++k) {
@@ -110,11 +100,9 @@ void TileCoverage::for_each_row(const UnbalancedEdge& edge, const Visit& visit) 
   const double e = std::max(p.position_error(), q.position_error()) + rounding_room;
   const auto [least_u, greatest_u] = std::minmax({p.u, q.u});
   const auto [least_v, greatest_v] = std::minmax({p.v, q.v});
-  constexpr double everywhere = std::numeric_limits<double>::infinity();
   const bool is_far = !(std::max({-least_u, greatest_u, -least_v, greatest_v}) < far);
-  const Box box = is_far ? box_of(-everywhere, everywhere, -everywhere, everywhere, 0)
-                         : box_of(least_u, greatest_u, least_v, greatest_v, e);
-  if (box.left > box.right) return;
+  const TileBox box = is_far ? whole() : box_of(edge, e);
+  if (box.is_empty()) return;
   const double rise = q.v - p.v, slope = (q.u - p.u) / rise;
   if (is_far || std::abs(rise) < 0x1p-20) {
     const std::uint64_t columns = columns_between(box.left, box.right);
@@ -178,7 +166,7 @@ void TileCoverage::balance_edges(const ImageObject& object, std::size_t first, s
   balance_.start(left_.size());
   for (const auto& [from, to] : left_) balance_.add(vertex_at(from), vertex_at(to));
   balance_.for_each_left([&](const EdgeBalance::Edge& edge) {
-    unbalanced_.push_back({&object.vertices[edge.from], &object.vertices[edge.to]});
+    unbalanced_.push_back({&object.vertices[edge.from], &object.vertices[edge.to], &object});
     for_each_row(unbalanced_.back(),
                  [&](std::size_t row, std::uint64_t columns) { open_[row] |= columns; });
   });
@@ -199,7 +187,7 @@ void TileCoverage::classify(const Tile::Context& context) {
   classes_.resize(numbers_.size());
   for_each_object([&](const ImageObject& object, std::size_t first, std::size_t end) {
     classify_for_coverage(object, std::span(numbers_).subspan(first, end - first), context.range,
-                          classes_.data() + first);
+                          area_, classes_.data() + first);
   });
 }
 
