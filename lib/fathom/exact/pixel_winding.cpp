@@ -39,16 +39,12 @@ void PixelWinding::find_crossings(double height) {
   }
 }
 
-std::size_t PixelWinding::widest_gap(double& middle) const {
-  std::size_t widest = 0;
-  double width = -1, left = 0;
+PixelWinding::Gap PixelWinding::widest_gap() const {
+  Gap widest{0, 0, -1};
+  double left = 0;
   for (std::size_t i = 0; i <= crossings_.size(); ++i) {
     const double right = i == crossings_.size() ? 1 : crossings_[i].x;
-    if (right - left > width) {
-      width = right - left;
-      middle = left + width / 2;
-      widest = i;
-    }
+    if (right - left > widest.width) widest = {i, left, right - left};
     left = right;
   }
   return widest;

@@ -19,7 +19,8 @@ class PixelWinding {
 
   /// An interval that contains the area, within [0, 1]. `count(point)` is the number of triangles
   /// that cover a point of the square, certainly so for all points within the position errors
-  /// around it, and negative where it is not certain: then nothing is known ({0, 1}).
+  /// around it, and negative where it is not certain. Where it is not at several points, nothing is
+  /// known of the area ({0, 1}).
   template <class Count>
   Interval area(const Count& count);
 
@@ -30,8 +31,12 @@ class PixelWinding {
   };
   /// Crossings of a horizontal line in order, between the square's sides.
   void find_crossings(double height);
-  /// The middle of the widest gap between crossings, and its place among them.
-  [[nodiscard]] std::size_t widest_gap(double& middle) const;
+  /// Between crossings: left of number `place`, or behind all.
+  struct Gap {
+    std::size_t place;
+    double left, width;
+  };
+  [[nodiscard]] Gap widest_gap() const;
   /// Of the gaps where the number is not 0, which it is `number` in gap `known`.
   [[nodiscard]] double covered_length(std::size_t known, int number) const;
   [[nodiscard]] Interval enclose(double sum) const;
@@ -48,11 +53,14 @@ Interval PixelWinding::area(const Count& count) {
   const double sum = edges_.integrate([&](double height) {
     if (!known) return 0.0;
     find_crossings(height);
-    SquarePoint point{0, height};
-    const std::size_t gap = widest_gap(point.x);
-    const int number = count(point);
-    known = number >= 0;
-    return known ? covered_length(gap, number) : 0.0;
+    const Gap gap = widest_gap();
+    // Off the middle: edges of regular meshes go through it.
+    for (const double share : {0.4142, 0.6180, 0.2679}) {
+      const int number = count(SquarePoint{gap.left + gap.width * share, height});
+      if (number >= 0) return covered_length(gap.place, number);
+    }
+    known = false;
+    return 0.0;
   });
   return known ? enclose(sum) : Interval{0, 1};
 }
