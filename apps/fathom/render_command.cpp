@@ -63,7 +63,10 @@ RenderOptions render_options(const RenderArguments& arguments, MapFormat format)
   if (arguments.stream && options.engine != Engine::fast) {
     throw UsageError("--stream is for the fast engine, not for " + arguments.engine);
   }
-  options.channels = parse_channels(arguments.channels.empty() ? "Z" : arguments.channels);
+  // Where coverage cannot be written, or triangles do not stay in memory for it, depth alone.
+  const bool with_coverage = format == MapFormat::exr && !arguments.stream;
+  const std::string usual = with_coverage ? "Z,A" : "Z";
+  options.channels = parse_channels(arguments.channels.empty() ? usual : arguments.channels);
   options.cull = cull_named(arguments.cull);
   options.threads = arguments.scene.thread_count();
   options.depth_encoding = arguments.storage.encoding_for(format);
@@ -367,8 +370,9 @@ void add_render(Program& program) {
   arguments->camera.add_to(*command);
   command->add_option("--save-camera", arguments->save_camera,
                       "Write the camera to this file (JSON; - is standard output)");
-  command->add_option("--channels", arguments->channels,
-                      "Of Z, A, Zlow, distance, id, face, object, N, P, bary (default Z)");
+  command->add_option(
+      "--channels", arguments->channels,
+      "Of Z, A, Zlow, distance, id, face, object, N, P, bary (default Z,A in EXR, otherwise Z)");
   command->add_flag("--deep", arguments->deep,
                     "Write a deep EXR: for each pixel the visible fragments, sorted, with their "
                     "depths Z and ZBack, triangle id, exact area and alpha A");

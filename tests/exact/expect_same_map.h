@@ -10,10 +10,10 @@
 
 namespace fathom::testing {
 
-inline const std::vector<Channel> every_channel{Channel::Z,  Channel::Zlow, Channel::distance,
-                                                Channel::id, Channel::face, Channel::object,
-                                                Channel::N,  Channel::P,    Channel::bary};
-inline const std::vector<Channel> quick_channels{Channel::Z, Channel::id, Channel::face,
+inline const std::vector<Channel> every_channel{
+    Channel::Z,    Channel::A,      Channel::Zlow, Channel::distance, Channel::id,
+    Channel::face, Channel::object, Channel::N,    Channel::P,        Channel::bary};
+inline const std::vector<Channel> quick_channels{Channel::Z, Channel::A, Channel::id, Channel::face,
                                                  Channel::object};
 
 /// The first pixel at which the values differ in a bit; nullopt if none.

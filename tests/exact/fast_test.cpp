@@ -50,6 +50,8 @@ TEST_P(RandomScenes, AreTheSame) {
   EXPECT_GT(sum.facing.exact, 100U / testing::effort);
   EXPECT_GT(sum.same_plane, 100U / testing::effort);
   EXPECT_GT(sum.range.exact, 10U / testing::effort);
+  EXPECT_GT(sum.coverage_rounding.interval, 1000U / testing::effort);
+  EXPECT_GT(sum.coverage_rounding.exact, 100U / testing::effort);
   if (kind == Kind::few_bits || kind == Kind::neighbours) {
     EXPECT_GT(sum.facing.interval, 100U / testing::effort);
     EXPECT_GT(sum.rounding.interval, 100U / testing::effort);

@@ -97,11 +97,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (find_fault(camera)) return 0;
   RenderOptions options;
   options.threads = 1;
-  options.channels = {Channel::Z, Channel::id};
+  options.channels = {Channel::Z, Channel::A, Channel::id};
   const int form = bytes.next();
   if (form & 1) {
-    options.channels = {Channel::Z, Channel::Zlow, Channel::distance, Channel::id,
-                        Channel::N, Channel::P,    Channel::bary};
+    options.channels = {Channel::Z,  Channel::A, Channel::Zlow, Channel::distance,
+                        Channel::id, Channel::N, Channel::P,    Channel::bary};
   }
   options.cull = form & 2 ? Cull::back : form & 4 ? Cull::front : Cull::none;
   const Scene scene = scene_from(bytes);

@@ -9,13 +9,19 @@ namespace fathom {
 
 void SquareEdges::clear() {
   edges_.clear();
+  level_.clear();
   extent_ = 1;
 }
 
 void SquareEdges::add(const SquarePoint& p, const SquarePoint& q, std::int32_t tag) {
   const SquarePoint& lower = p.y < q.y ? p : q;
   const SquarePoint& upper = p.y < q.y ? q : p;
-  if (lower.y >= 1 || upper.y <= 0 || upper.y - lower.y < 0x1p-60) return;
+  if (lower.y >= 1 || upper.y <= 0) return;
+  if (upper.y - lower.y < 0x1p-60) {
+    level_.push_back(std::max(lower.y, 0.0));
+    level_.push_back(std::min(upper.y, 1.0));
+    return;
+  }
   extent_ = std::max({extent_, std::abs(p.x), std::abs(q.x)});
   Edge edge{};
   edge.x = lower.x;
@@ -42,6 +48,7 @@ void SquareEdges::add_crossing(const Edge& a, const Edge& b) {
 void SquareEdges::cut(bool tags_apart) {
   const Edge left{0, 0, 0, 0, 1, 0, 0, 0}, right{1, 0, 0, 0, 1, 1, 1, 0};
   breaks_.assign({0, 1});
+  breaks_.insert(breaks_.end(), level_.begin(), level_.end());
   inside_.clear();
   for (const Edge& edge : edges_) {
     breaks_.push_back(edge.low);

@@ -32,7 +32,8 @@ struct SquarePoint {
 ///    value computed at mid-height by nξ more.
 /// 5. The 8u at both ends of a slab, times a length of at most 1: 16u a slab. A slab too thin for
 ///    its middle to lie inside it is left out: 2u. An edge that rises by less than 2⁻⁶⁰ is left
-///    out: it is met in a slab no higher than that. Products and sums: 4u a slab.
+///    out, but for breaks at its ends: it is met in a slab no higher than that.
+///    Products and sums: 4u a slab.
 /// Together 9nξ + 32u per slab; error_of() gives 10nξ and that.
 class SquareEdges {
  public:
@@ -70,6 +71,8 @@ class SquareEdges {
 
   std::vector<Edge> edges_;
   std::vector<const Edge*> inside_;
+  /// Heights of the ends of edges that are left out.
+  std::vector<double> level_;
   std::vector<double> breaks_;
   double extent_ = 1;
 };
