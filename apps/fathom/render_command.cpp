@@ -67,6 +67,10 @@ RenderOptions render_options(const RenderArguments& arguments, MapFormat format)
   const bool with_coverage = format == MapFormat::exr && !arguments.stream;
   const std::string usual = with_coverage ? "Z,A" : "Z";
   options.channels = parse_channels(arguments.channels.empty() ? usual : arguments.channels);
+  if (arguments.stream &&
+      std::count(options.channels.begin(), options.channels.end(), Channel::A)) {
+    throw UsageError("--stream does not keep the triangles that channel A needs: leave out A");
+  }
   options.cull = cull_named(arguments.cull);
   options.threads = arguments.scene.thread_count();
   options.depth_encoding = arguments.storage.encoding_for(format);

@@ -105,7 +105,8 @@ TEST_F(Rendering, ExrIsListedByOiiotool) {
   render("map.exr");
   const Outcome listing = run({"oiiotool", "--info", "-v", folder_ / "map.exr"});
   EXPECT_EQ(listing.status, 0);
-  EXPECT_THAT(listing.out, HasSubstr("8 x    6, 1 channel, float openexr"));
+  EXPECT_THAT(listing.out, HasSubstr("8 x    6, 2 channel, float openexr"));
+  EXPECT_THAT(listing.out, HasSubstr("channel list: A, Z"));
   EXPECT_THAT(listing.out, HasSubstr("compression: \"zip\""));
 }
 
@@ -163,7 +164,8 @@ TEST_F(Rendering, TheSavedCameraGivesTheSameMap) {
   expect_same_depth("first.exr", "second.exr");
   run_python(inside_in_python + R"(
 import OpenImageIO as oiio
-depth = np.asarray(oiio.ImageInput.open('first.exr').read_image(oiio.FLOAT)).reshape(48, 64)
+map = oiio.ImageInput.open('first.exr')
+depth = np.asarray(map.read_image(oiio.FLOAT)).reshape(48, 64, 2)[:, :, map.spec().channelindex('Z')]
 seen = np.isfinite(depth)
 # The whole square is framed: something is seen, and nothing touches the border.
 assert seen.any() and not (seen[0].any() or seen[-1].any() or seen[:, 0].any() or seen[:, -1].any())
