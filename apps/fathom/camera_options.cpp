@@ -34,7 +34,9 @@ void CameraOptions::add_to(CLI::App& command) {
   view_.add_to(command);
   command.add_option("--size", size_, "WIDTHxHEIGHT in pixels (default 1280x720)");
   command.add_option("--fov", fov_, "Vertical field of view in degrees (default 40)");
-  for (const char* framing : {"--view", "--up", "--size", "--fov"}) {
+  command.add_option("--near", near_, "Nearest depth that counts (default 0)");
+  command.add_option("--far", far_, "Farthest depth that counts (default: infinity)");
+  for (const char* framing : {"--view", "--up", "--size", "--fov", "--near", "--far"}) {
     command.get_option(framing)->excludes(camera);
   }
 }
@@ -48,6 +50,8 @@ Lens CameraOptions::lens() const {
   if (!(lens.vertical_fov > 0 && lens.vertical_fov < 180)) {
     throw UsageError("--fov: '" + fov_ + "' is not an angle between 0 and 180 degrees");
   }
+  if (!near_.empty()) lens.near = parse_number("--near", near_);
+  if (!far_.empty()) lens.far = parse_number("--far", far_);
   return lens;
 }
 

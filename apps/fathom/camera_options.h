@@ -19,7 +19,8 @@ struct ViewOptions {
   [[nodiscard]] View get() const;
 };
 
-/// `--camera FILE`, or the camera that frames the scene with `--view --up --size --fov`.
+/// `--camera FILE`, or the camera that frames the scene with
+/// `--view --up --size --fov --near --far`.
 class CameraOptions {
  public:
   void add_to(CLI::App& command);
@@ -40,6 +41,7 @@ class CameraOptions {
   ViewOptions view_;
   std::string size_ = "1280x720";
   std::string fov_ = "40";
+  std::string near_, far_;
 };
 
 }  // namespace fathom::app

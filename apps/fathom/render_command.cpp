@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "camera_options.h"
+#include "depth_buffer_options.h"
 #include "fathom/exact/verify.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
@@ -33,6 +34,7 @@ struct RenderArguments {
   SceneOptions scene;
   CameraOptions camera;
   StorageOptions storage;
+  DepthBufferArguments depth_buffer;
   std::string output, save_camera, statistics, verify;
   std::string engine = "fast", channels, cull = "none";
   bool stream = false, deep = false, cryptomatte = false;
@@ -74,6 +76,13 @@ RenderOptions render_options(const RenderArguments& arguments, MapFormat format)
   options.cull = cull_named(arguments.cull);
   options.threads = arguments.scene.thread_count();
   options.depth_encoding = arguments.storage.encoding_for(format);
+  arguments.depth_buffer.check();
+  if (arguments.deep && arguments.depth_buffer.wanted()) {
+    throw UsageError("--deep has channels of its own; --depth-format is for maps without it");
+  }
+  if (format != MapFormat::exr && arguments.depth_buffer.wanted()) {
+    throw UsageError(arguments.output + " holds one channel; --depth-format needs an .exr");
+  }
   if (format != MapFormat::exr &&
       (options.channels.size() != 1 || parts_of(options.channels.front()) != 1)) {
     throw UsageError(fmt::format("{} holds one channel, not '{}'; .exr holds them all",
@@ -138,8 +147,8 @@ std::vector<std::string> map_names(const std::string& pattern, std::size_t camer
 }
 
 /// Bytes that the channels of a map take.
-double size_of_map(const Camera& camera, const RenderOptions& options) {
-  double channels = 0;
+double size_of_map(const Camera& camera, const RenderOptions& options, double more_channels = 0) {
+  double channels = more_channels;
   for (const Channel channel : options.channels) {
     channels += static_cast<double>(parts_of(channel));
   }
@@ -154,8 +163,8 @@ double memory_of_machine() {
 }
 
 /// Refuses an image that this machine cannot hold, before it tries.
-void check_size(const Camera& camera, const RenderOptions& options) {
-  const double needed = size_of_map(camera, options), memory = memory_of_machine();
+void check_size(const Camera& camera, const RenderOptions& options, double more_channels) {
+  const double needed = size_of_map(camera, options, more_channels), memory = memory_of_machine();
   if (needed > memory) {
     throw InputError(fmt::format(
         "an image of {}x{} pixels needs {:.1f} GB for its channels; this machine has {:.1f} GB",
@@ -272,7 +281,7 @@ bool verify_map(const DepthMap& map, const std::string& name, const TriangleSour
   return false;
 }
 
-int run_render(const RenderArguments& arguments, const Console& console) {
+int run_render(RenderArguments& arguments, const Console& console) {
   const MapFormat format = arguments.storage.format_of(arguments.output);
   RenderOptions options = render_options(arguments, format);
   check_surfaces(arguments, format);
@@ -281,6 +290,7 @@ int run_render(const RenderArguments& arguments, const Console& console) {
     write_options.compression = Compression::zips;
   }
   if (arguments.deep) check_deep_compression(write_options.compression);
+  arguments.depth_buffer.prepare(options);
   arguments.camera.check();
   const std::uint64_t verified_pixels = pixels_to_verify(arguments.verify);
   // Without this the pool keeps to the number of processors and prints a warning of its own.
@@ -295,7 +305,10 @@ int run_render(const RenderArguments& arguments, const Console& console) {
   const double seconds_reading = stopwatch.lap();
   const std::vector<Camera> cameras = arguments.camera.get(scene.outline());
   const std::vector<std::string> names = map_names(arguments.output, cameras.size());
-  for (const Camera& camera : cameras) check_size(camera, options);
+  for (const Camera& camera : cameras) {
+    check_size(camera, options, arguments.depth_buffer.channels());
+    if (arguments.depth_buffer.wanted()) (void)arguments.depth_buffer.format(camera);
+  }
 
   // Every output is opened before the work, and put in its place when all of them are written.
   std::vector<OutputFile> maps(names.begin(), names.end());
@@ -319,12 +332,18 @@ int run_render(const RenderArguments& arguments, const Console& console) {
       DepthMap map = render_to(names[i], scene, cameras[i], options);
       if (arguments.cryptomatte) add_cryptomatte(map, scene.outline(), cameras[i], options);
       const double seconds_rendering = stopwatch.lap();
+      Json depth_buffer;
+      if (arguments.depth_buffer.wanted()) {
+        depth_buffer = arguments.depth_buffer.add(map, scene.triangles(), cameras[i], options);
+      }
+      const double seconds_encoding = stopwatch.lap();
       Json verification = Json::object();
       if (verified_pixels > 0) {
         exact &= verify_map(map, names[i], scene.triangles(), cameras[i], options, verified_pixels,
                             console, verification);
       }
       const double seconds_verifying = stopwatch.lap();
+      arguments.depth_buffer.drop_added(map);
       maps[i].write([&](const auto& path) { write_map(map, path, format, write_options); });
 
       if (i == 0) warn_of(statistics, console);
@@ -337,6 +356,10 @@ int run_render(const RenderArguments& arguments, const Console& console) {
       entry["seconds"] = {
           {"read", seconds_reading}, {"render", seconds_rendering}, {"write", stopwatch.lap()}};
       if (verified_pixels > 0) entry["seconds"]["verify"] = seconds_verifying;
+      if (arguments.depth_buffer.wanted()) {
+        entry["depth_format"] = depth_buffer;
+        entry["seconds"]["depth_format"] = seconds_encoding;
+      }
       report.push_back(std::move(entry));
     }
   }
@@ -365,7 +388,9 @@ void add_render(Program& program) {
       "  fathom render city.stl --stream --size 16384x16384 -o city.exr\n"
       "  fathom render scan.ply --engine fast --verify 1000 -o scan.exr\n"
       "  fathom render room.json --deep -o room.deep.exr\n"
-      "  fathom render spot.obj --camera path.json -o 'view-{index:04}.exr'");
+      "  fathom render spot.obj --camera path.json -o 'view-{index:04}.exr'\n"
+      "  fathom render spot.obj --near 0.1 --far 100 --depth-format unorm16 --against-exact -o "
+      "stored.exr");
   arguments->scene.add_to(*command);
   command
       ->add_option("-o,--output", arguments->output,
@@ -386,6 +411,7 @@ void add_render(Program& program) {
                       "fast (default), or reference: the same map bit for bit, slowly");
   add_cull_option(*command, arguments->cull);
   arguments->storage.add_to(*command);
+  arguments->depth_buffer.add_to(*command);
   command->add_flag("--stream", arguments->stream,
                     "Leave the meshes, binary STL or PLY, in their files, which may be larger than "
                     "memory; implies --engine fast");

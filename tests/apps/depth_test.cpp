@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "run_program.h"
+#include "test_folder.h"
 
 namespace fathom::test {
 namespace {
@@ -143,6 +145,52 @@ TEST(Depth, ClampTakesTheNearerEnd) {
                    "-7", "3"})
                 .out,
             "0\n0\n65535\n");
+}
+
+Outcome render(const std::vector<std::string>& arguments, const TestFolder& folder) {
+  RunOptions options;
+  options.folder = folder.path();
+  return run_fathom(
+      with({"render", FATHOM_SOURCE_DIR "/data/meshes/cube.obj", "--size", "32x24"}, arguments),
+      options);
+}
+
+TEST(Depth, AMapHoldsWhatADepthBufferWould) {
+  const TestFolder folder;
+  const std::vector<std::string> range{"--near", "0.5", "--far", "64", "-o", "a.exr"};
+  const Outcome outcome = render(with(range, {"--depth-format", "unorm16", "--mapping", "log",
+                                              "--c", "0.5", "--against-exact", "--stats", "-"}),
+                                 folder);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto stats = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(stats["depth_format"]["mapping"], "log");
+  EXPECT_EQ(stats["depth_format"]["fighting_pixels"], 0);
+
+  RunOptions options;
+  options.folder = folder.path();
+  const auto info = nlohmann::json::parse(run_fathom({"info", "a.exr", "--json"}, options).out);
+  std::vector<std::string> names;
+  for (const auto& [name, channel] : info["channels"].items()) names.push_back(name);
+  EXPECT_THAT(names,
+              ::testing::IsSupersetOf({"Z", "Zdecoded", "Zerror", "Zfight", "Zwindow", "Zwinner"}));
+  EXPECT_THAT(names, ::testing::Not(::testing::Contains("id")));  // nobody asked for it
+}
+
+TEST(Depth, AMapsDepthFormatThatMeansNothingIsRefused) {
+  const TestFolder folder;
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& said) {
+    const Outcome outcome = render(arguments, folder);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(said));
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  };
+  refused({"-o", "a.exr", "--depth-format", "unorm16"}, "near = 0 is not a positive number");
+  refused({"-o", "a.exr", "--near", "1", "--depth-format", "unorm16"}, "needs a finite far");
+  refused({"-o", "a.exr", "--near", "1", "--far", "9", "--depth-format", "unorm8"}, "unorm24");
+  refused({"-o", "a.exr", "--near", "1", "--far", "9", "--depth-format", "unorm16", "--c", "2"},
+          "log alone");
+  refused({"-o", "a.exr", "--mapping", "linear"}, "--depth-format");
+  refused({"-o", "a.pfm", "--near", "1", "--far", "9", "--depth-format", "unorm16"}, ".exr");
 }
 
 }  // namespace

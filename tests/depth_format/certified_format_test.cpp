@@ -64,9 +64,10 @@ void check_encode(const DepthFormat& format, double depth, std::mt19937_64& rand
                   Settled& settled) {
   const StoredDepth exact = encode(format, Dyadic(depth));
   ++settled.asked;
-  if (const auto stored =
-          CertifiedFormat(format).encode(Certified<double>{depth, depth * 0x1p-52})) {
-    ++settled.by_binary64;
+  for (const double error : {0.0, depth * 0x1p-52}) {
+    const auto stored = CertifiedFormat(format).encode(Certified<double>{depth, error});
+    if (!stored) continue;
+    settled.by_binary64 += error > 0 ? 1 : 0;
     ASSERT_EQ(*stored, exact) << text_of(format) << std::hexfloat << " depth " << depth;
   }
   bool all = true;
@@ -115,6 +116,19 @@ TEST(CertifiedFormat, AtBoundariesItIsRightOrSilent) {
            {std::nextafter(middle, 0.0), middle, std::nextafter(middle, infinity)}) {
         if (!(d >= format.near && d <= format.far) || std::isinf(d)) continue;
         ASSERT_NO_FATAL_FAILURE(check_encode(format, d, random, settled));
+      }
+    }
+    // Below a power of two the numbers of a float storage are twice as dense.
+    for (unsigned i = 0; i < 6 && !is_unorm(format.storage); ++i) {
+      const std::uint64_t power =
+          greatest_stored(format.storage).bits - (std::uint64_t{1} << bits_of(format.storage)) * i;
+      const auto boundary = depth_of(format, boundary_above(format.storage, {power - 1}));
+      const double middle = round_to_binary64(*boundary);
+      for (const double d : {middle * (1 - 0x1p-33), middle * (1 + 0x1p-33), middle}) {
+        if (!(d >= format.near && d <= format.far) || std::isinf(d)) continue;
+        for (int k = 0; k < 20; ++k) {
+          ASSERT_NO_FATAL_FAILURE(check_encode(format, d, random, settled));
+        }
       }
     }
     for (const double d : {format.near, std::nextafter(format.near, infinity)}) {

@@ -1,0 +1,44 @@
+#include "fathom/depth_buffer/depth_buffer.h"
+
+#include <string>
+
+#include "fathom/depth_buffer/buffer_work.h"
+#include "fathom/exact/engine_frame.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom {
+
+DepthFormat depth_format_of(const Camera& camera, Mapping mapping, Storage storage, double c) {
+  const DepthFormat format{mapping, storage, camera.near, camera.far, c};
+  try {
+    require_meaningful(format);
+  } catch (const UsageError& error) {
+    throw UsageError("a depth format takes near and far from the camera: " +
+                     std::string(error.what()));
+  }
+  return format;
+}
+
+DepthBufferStatistics sum_of(const std::vector<DepthBufferStatistics>& parts) {
+  DepthBufferStatistics sum;
+  for (const DepthBufferStatistics& part : parts) {
+    sum.by_binary64 += part.by_binary64;
+    sum.by_double_words += part.by_double_words;
+    sum.by_exact_numbers += part.by_exact_numbers;
+    sum.fighting += part.fighting;
+  }
+  return sum;
+}
+
+DepthBufferStatistics add_depth_buffer(DepthMap& map, const TriangleSource& triangles,
+                                       const Camera& camera, const DepthBufferOptions& options) {
+  require_meaningful(options.format);
+  if (!map.values<std::uint32_t>("id")) throw UsageError("a depth buffer needs the channel id");
+  BufferChannels channels(map, options.format, options.against_exact);
+  return with_threads(options.render.threads, [&] {
+    const BufferWork work{channels, triangles, camera, options};
+    return options.render.engine == Engine::fast ? fill_certified(work) : fill_exactly(work);
+  });
+}
+
+}  // namespace fathom

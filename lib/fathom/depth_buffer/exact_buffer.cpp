@@ -1,0 +1,121 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "fathom/depth_buffer/buffer_work.h"
+#include "fathom/depth_buffer/row_bands.h"
+#include "fathom/depth_format/encode.h"
+#include "fathom/depth_format/mapping.h"
+
+// How to read this file: fill_exactly() at the end is the whole story. Every number is exact and
+// rounded once.
+namespace fathom {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
+  return {column + 0.5, row + 0.5};
+}
+
+ProjectedTriangle projected(const BufferWork& work, std::uint32_t number) {
+  TierCounts counts;
+  return project(work.triangles.world_corners(number), number, work.camera, counts);
+}
+
+/// D > 0 and near ≤ D ≤ far.
+bool in_range(const Ratio& depth, const Camera& camera) {
+  if (depth.sign() != Sign::positive || depth < Ratio(Dyadic(camera.near))) return false;
+  return camera.far == std::numeric_limits<double>::infinity() ||
+         !(Ratio(Dyadic(camera.far)) < depth);
+}
+
+class ExactBand {
+ public:
+  ExactBand(const BufferWork& work, const RowBand& band)
+      : work_(work), format_(work.options.format), band_(band) {}
+
+  /// Stores what is visible.
+  void store(DepthBufferStatistics& statistics) const {
+    for_each_pixel(band_.first_row, band_.end_row, 0, work_.camera.width - 1,
+                   [&](std::size_t pixel, const ImagePoint& s) {
+                     const std::uint32_t visible = work_.channels.id[pixel];
+                     if (visible == no_surface) return;
+                     store(pixel, depth_at(projected(work_, visible), s));
+                     ++statistics.by_exact_numbers;
+                   });
+  }
+
+  /// Draws the triangles, in the order of their numbers, where they have the visible code.
+  void find_winners(DepthBufferStatistics& statistics) const {
+    for (const BoxedTriangle& boxed : band_.triangles) draw(boxed);
+    for_each_pixel(band_.first_row, band_.end_row, 0, work_.camera.width - 1,
+                   [&](std::size_t pixel, const ImagePoint&) {
+                     const bool fights = work_.channels.winner[pixel] != work_.channels.id[pixel];
+                     work_.channels.fight[pixel] = fights ? 1 : 0;
+                     statistics.fighting += fights ? 1 : 0;
+                   });
+  }
+
+ private:
+  template <class Visit>
+  void for_each_pixel(std::uint32_t first_row, std::uint32_t end_row, std::uint32_t first_column,
+                      std::uint32_t last_column, const Visit& visit) const {
+    for (std::uint32_t row = first_row; row < end_row; ++row) {
+      for (std::uint32_t column = first_column; column <= last_column; ++column) {
+        const std::size_t pixel = static_cast<std::size_t>(row) * work_.camera.width + column;
+        visit(pixel, centre_of_pixel(column, row));
+      }
+    }
+  }
+
+  void store(std::size_t pixel, const Ratio& depth) const {
+    const StoredDepth stored = encode(format_, depth);
+    work_.channels.store(pixel, stored);
+    const std::optional<Real> decoded = decode(format_, stored);
+    work_.channels.decoded[pixel] = decoded ? round_to_binary32(*decoded) : infinity;
+    if (!work_.channels.error) return;
+    work_.channels.error[pixel] =
+        decoded ? round_to_binary32(difference(*decoded, depth)) : infinity;
+  }
+
+  void draw(const BoxedTriangle& boxed) const {
+    const ProjectedTriangle t = projected(work_, boxed.number);
+    if (!is_kept(t, work_.options.render.cull)) return;
+    const PixelBox& box = boxed.box;
+    for_each_pixel(std::max(box.first_row, band_.first_row),
+                   std::min(box.last_row + 1, band_.end_row), box.first_column, box.last_column,
+                   [&](std::size_t pixel, const ImagePoint& s) {
+                     if (work_.channels.id[pixel] == no_surface) return;
+                     if (work_.channels.winner[pixel] != no_surface) return;
+                     TierCounts counts;
+                     if (!covers(t, s, counts)) return;
+                     const Ratio depth = depth_at(t, s);
+                     if (!in_range(depth, work_.camera)) return;
+                     if (encode(format_, depth) != work_.channels.stored(pixel)) return;
+                     work_.channels.winner[pixel] = boxed.number;
+                   });
+  }
+
+  const BufferWork& work_;
+  const DepthFormat& format_;
+  const RowBand& band_;
+};
+
+}  // namespace
+
+DepthBufferStatistics fill_exactly(const BufferWork& work) {
+  std::vector<RowBand> bands = row_bands(work.camera);
+  if (work.options.against_exact) add_exact_boxes(bands, work.triangles, work.camera);
+  std::vector<DepthBufferStatistics> parts(bands.size());
+  tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t i) {
+    const ExactBand band(work, bands[i]);
+    band.store(parts[i]);
+    if (work.options.against_exact) band.find_winners(parts[i]);
+  });
+  return sum_of(parts);
+}
+
+}  // namespace fathom
