@@ -14,6 +14,7 @@
 
 #include "camera_options.h"
 #include "depth_buffer_options.h"
+#include "fathom/exact/sampled_coverage.h"
 #include "fathom/exact/verify.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
@@ -35,7 +36,7 @@ struct RenderArguments {
   CameraOptions camera;
   StorageOptions storage;
   DepthBufferArguments depth_buffer;
-  std::string output, save_camera, statistics, verify;
+  std::string output, save_camera, statistics, verify, samples;
   std::string engine = "fast", channels, cull = "none";
   bool stream = false, deep = false, cryptomatte = false;
 };
@@ -77,6 +78,14 @@ RenderOptions render_options(const RenderArguments& arguments, MapFormat format)
   options.threads = arguments.scene.thread_count();
   options.depth_encoding = arguments.storage.encoding_for(format);
   arguments.depth_buffer.check();
+  if (!arguments.samples.empty()) {
+    (void)sample_pattern(arguments.samples);
+    if (arguments.deep)
+      throw UsageError("--deep has channels of its own; --samples has none there");
+    if (format != MapFormat::exr) {
+      throw UsageError(arguments.output + " holds one channel; --samples needs an .exr");
+    }
+  }
   if (arguments.deep && arguments.depth_buffer.wanted()) {
     throw UsageError("--deep has channels of its own; --depth-format is for maps without it");
   }
@@ -306,7 +315,8 @@ int run_render(RenderArguments& arguments, const Console& console) {
   const std::vector<Camera> cameras = arguments.camera.get(scene.outline());
   const std::vector<std::string> names = map_names(arguments.output, cameras.size());
   for (const Camera& camera : cameras) {
-    check_size(camera, options, arguments.depth_buffer.channels());
+    const double more = arguments.depth_buffer.channels() + (arguments.samples.empty() ? 0 : 1);
+    check_size(camera, options, more);
     if (arguments.depth_buffer.wanted()) (void)arguments.depth_buffer.format(camera);
   }
 
@@ -331,6 +341,11 @@ int run_render(RenderArguments& arguments, const Console& console) {
       stopwatch.lap();
       DepthMap map = render_to(names[i], scene, cameras[i], options);
       if (arguments.cryptomatte) add_cryptomatte(map, scene.outline(), cameras[i], options);
+      if (!arguments.samples.empty()) {
+        const SamplePattern pattern = sample_pattern(arguments.samples);
+        add_sampled_coverage(map, scene.triangles(), cameras[i], pattern, options);
+        map.texts["fathom.samples"] = pattern.name;
+      }
       const double seconds_rendering = stopwatch.lap();
       Json depth_buffer;
       if (arguments.depth_buffer.wanted()) {
@@ -412,6 +427,11 @@ void add_render(Program& program) {
   add_cull_option(*command, arguments->cull);
   arguments->storage.add_to(*command);
   arguments->depth_buffer.add_to(*command);
+  command->add_option("--samples", arguments->samples,
+                      "Add coverage by samples, channel Asampled: the share of the samples of a "
+                      "pixel at which a surface counts. 1, 2, 4, 8, 16 (the standard positions of "
+                      "Direct3D and Vulkan), rotated-grid, regular:N, jittered:N or "
+                      "jittered:N:SEED (N by N samples)");
   command->add_flag("--stream", arguments->stream,
                     "Leave the meshes, binary STL or PLY, in their files, which may be larger than "
                     "memory; implies --engine fast");

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fathom/depth_buffer/buffer_channels.h"
 #include "fathom/depth_buffer/depth_buffer.h"
+#include "fathom/exact/coverage_image.h"
 
 /// The two ways to fill the channels; both in the arena of their caller.
 namespace fathom {
@@ -13,6 +15,18 @@ struct BufferWork {
   const TriangleSource& triangles;
   const Camera& camera;
   const DepthBufferOptions& options;
+};
+
+/// Bands of rows; with their triangles where these are asked about.
+class BufferBands {
+ public:
+  explicit BufferBands(const BufferWork& work);
+  [[nodiscard]] std::uint32_t count() const;
+  [[nodiscard]] TriangleBands::Band operator[](std::uint32_t band) const;
+
+ private:
+  std::uint32_t height_;
+  std::optional<TriangleBands> bands_;
 };
 
 DepthBufferStatistics sum_of(const std::vector<DepthBufferStatistics>& parts);

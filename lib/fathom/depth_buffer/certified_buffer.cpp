@@ -7,11 +7,10 @@
 #include <optional>
 
 #include "fathom/depth_buffer/buffer_work.h"
-#include "fathom/depth_buffer/certified_surfaces.h"
-#include "fathom/depth_buffer/row_bands.h"
 #include "fathom/depth_format/certified_format.h"
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/mapping.h"
+#include "fathom/exact/certified_surfaces.h"
 #include "fathom/exact/fast_referee.h"
 #include "fathom/numeric/certified_rounding.h"
 
@@ -45,8 +44,8 @@ std::optional<float> rounded(const Certified<WordPair>& x) {
 
 class CertifiedBand {
  public:
-  CertifiedBand(const BufferWork& work, const CertifiedFormat& format, const RowBand& band,
-                Worker& worker, DepthBufferStatistics& statistics)
+  CertifiedBand(const BufferWork& work, const CertifiedFormat& format,
+                const TriangleBands::Band& band, Worker& worker, DepthBufferStatistics& statistics)
       : work_(work),
         channels_(work.channels),
         format_(format),
@@ -187,7 +186,7 @@ class CertifiedBand {
   const BufferWork& work_;
   BufferChannels& channels_;
   const CertifiedFormat& format_;
-  const RowBand& band_;
+  TriangleBands::Band band_;
   Worker& worker_;
   DepthBufferStatistics& statistics_;
   bool has_last_ = false;
@@ -203,10 +202,9 @@ DepthBufferStatistics fill_certified(const BufferWork& work) {
   const SceneRays rays(work.triangles, work.camera);
   tbb::enumerable_thread_specific<Worker> workers(
       [&] { return Worker(work.triangles, work.camera, rays); });
-  std::vector<RowBand> bands = row_bands(work.camera);
-  if (work.options.against_exact) add_certified_boxes(bands, work.triangles, work.camera);
-  std::vector<DepthBufferStatistics> parts(bands.size());
-  tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t i) {
+  const BufferBands bands(work);
+  std::vector<DepthBufferStatistics> parts(bands.count());
+  tbb::parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {
     CertifiedBand band(work, format, bands[i], workers.local(), parts[i]);
     band.store();
     if (work.options.against_exact) band.find_winners();

@@ -1,5 +1,6 @@
 #include "fathom/depth_buffer/depth_buffer.h"
 
+#include <algorithm>
 #include <string>
 
 #include "fathom/depth_buffer/buffer_work.h"
@@ -17,6 +18,21 @@ DepthFormat depth_format_of(const Camera& camera, Mapping mapping, Storage stora
                      std::string(error.what()));
   }
   return format;
+}
+
+BufferBands::BufferBands(const BufferWork& work) : height_(work.camera.height) {
+  if (!work.options.against_exact) return;
+  bands_.emplace(CoverageFrame{work.triangles, work.camera, work.options.render.cull});
+}
+
+std::uint32_t BufferBands::count() const {
+  return (height_ - 1) / TriangleBands::rows_per_band + 1;
+}
+
+TriangleBands::Band BufferBands::operator[](std::uint32_t band) const {
+  if (bands_) return (*bands_)[band];
+  const std::uint32_t first = band * TriangleBands::rows_per_band;
+  return {first, std::min(first + TriangleBands::rows_per_band, height_), {}};
 }
 
 DepthBufferStatistics sum_of(const std::vector<DepthBufferStatistics>& parts) {

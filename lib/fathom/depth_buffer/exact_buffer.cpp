@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "fathom/depth_buffer/buffer_work.h"
-#include "fathom/depth_buffer/row_bands.h"
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/mapping.h"
 
@@ -34,7 +33,7 @@ bool in_range(const Ratio& depth, const Camera& camera) {
 
 class ExactBand {
  public:
-  ExactBand(const BufferWork& work, const RowBand& band)
+  ExactBand(const BufferWork& work, const TriangleBands::Band& band)
       : work_(work), format_(work.options.format), band_(band) {}
 
   /// Stores what is visible.
@@ -83,7 +82,7 @@ class ExactBand {
 
   void draw(const BoxedTriangle& boxed) const {
     const ProjectedTriangle t = projected(work_, boxed.number);
-    if (!is_kept(t, work_.options.render.cull)) return;
+    if (t.orientation == Sign::zero || !is_kept(t, work_.options.render.cull)) return;
     const PixelBox& box = boxed.box;
     for_each_pixel(std::max(box.first_row, band_.first_row),
                    std::min(box.last_row + 1, band_.end_row), box.first_column, box.last_column,
@@ -101,16 +100,15 @@ class ExactBand {
 
   const BufferWork& work_;
   const DepthFormat& format_;
-  const RowBand& band_;
+  TriangleBands::Band band_;
 };
 
 }  // namespace
 
 DepthBufferStatistics fill_exactly(const BufferWork& work) {
-  std::vector<RowBand> bands = row_bands(work.camera);
-  if (work.options.against_exact) add_exact_boxes(bands, work.triangles, work.camera);
-  std::vector<DepthBufferStatistics> parts(bands.size());
-  tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t i) {
+  const BufferBands bands(work);
+  std::vector<DepthBufferStatistics> parts(bands.count());
+  tbb::parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {
     const ExactBand band(work, bands[i]);
     band.store(parts[i]);
     if (work.options.against_exact) band.find_winners(parts[i]);

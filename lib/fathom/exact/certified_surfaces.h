@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,8 @@ class CertifiedSurfaces {
   Certified<WordPair> wide_depth(std::uint32_t number, const ImagePoint& s);
   /// True only if the triangle certainly does not cover the sample, or certainly not with D > 0.
   bool certainly_misses(std::uint32_t number, const ImagePoint& s);
+  /// True only if the triangle certainly covers the sample where D > 0 there.
+  bool certainly_covers(std::uint32_t number, const ImagePoint& s);
 
  private:
   struct Triangle {
@@ -31,6 +34,8 @@ class CertifiedSurfaces {
     WeightForms<double> weights;
   };
   Triangle& remember(std::uint32_t number);
+  /// Of A, B, C; errors are +∞ where nothing is known.
+  std::array<Certified<double>, 3> weights(std::uint32_t number, const ImagePoint& s);
 
   const SceneRays& rays_;
   const WideArithmetic& arithmetic_;

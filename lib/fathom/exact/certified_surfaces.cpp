@@ -1,4 +1,4 @@
-#include "fathom/depth_buffer/certified_surfaces.h"
+#include "fathom/exact/certified_surfaces.h"
 
 #include <cmath>
 
@@ -7,10 +7,6 @@ namespace {
 
 /// Triangles remembered, a power of two.
 constexpr std::size_t most_remembered = 256;
-
-bool is_negative(const Certified<double>& x) {
-  return x.value + x.error < 0;
-}
 
 }  // namespace
 
@@ -50,20 +46,34 @@ Certified<WordPair> CertifiedSurfaces::wide_depth(std::uint32_t number, const Im
   return arithmetic_.depth(t.wide, {s.u, s.v}, image_.perspective);
 }
 
-// A negative weight at a covered sample means D < 0 (WideReferee::covers).
-bool CertifiedSurfaces::certainly_misses(std::uint32_t number, const ImagePoint& s) {
+std::array<Certified<double>, 3> CertifiedSurfaces::weights(std::uint32_t number,
+                                                            const ImagePoint& s) {
   Triangle& t = remember(number);
-  if (!t.usable) return false;
+  if (!t.usable) return {};
   if (!t.has_weights) {
     t.weights = weight_forms<double>(t.corners, t.object->rays, image_);
     t.has_weights = true;
   }
   const Certified<double> b = t.weights.at(0, {s.u, s.v}), c = t.weights.at(1, {s.u, s.v});
-  if (is_negative(b) || is_negative(c)) return true;
   // 1 − b − c, two roundings.
-  const double a = 1 - (b.value + c.value);
   const double error = b.error + c.error + 0x1p-50 * (1 + std::abs(b.value) + std::abs(c.value));
-  return a + error * (1 + 0x1p-40) < 0;
+  return {Certified<double>{1 - (b.value + c.value), error * (1 + 0x1p-40)}, b, c};
+}
+
+// A negative weight at a covered sample means D < 0, three positive ones where D > 0 that it is
+// covered (WideReferee::covers).
+bool CertifiedSurfaces::certainly_misses(std::uint32_t number, const ImagePoint& s) {
+  for (const Certified<double>& weight : weights(number, s)) {
+    if (weight.value + weight.error < 0) return true;
+  }
+  return false;
+}
+
+bool CertifiedSurfaces::certainly_covers(std::uint32_t number, const ImagePoint& s) {
+  for (const Certified<double>& weight : weights(number, s)) {
+    if (!(weight.value - weight.error > 0)) return false;
+  }
+  return true;
 }
 
 }  // namespace fathom
