@@ -33,15 +33,16 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   tbb::enumerable_thread_specific<std::unique_ptr<Tile>> tiles(
       [] { return std::make_unique<Tile>(); });
 
-  DepthMap map = make_background(camera, options);
-  ChannelWriter writer(map, triangles, camera, options);
-  float* const coverage = writer.values().coverage;
-  frame.by_area = coverage != nullptr;
+  frame.by_area = std::count(options.channels.begin(), options.channels.end(), Channel::A) != 0;
 
   const ImageObjects objects = transform(scene, camera);
   const std::vector<Bins> bins = sort_into_tiles(
       objects, 0, static_cast<std::uint32_t>(triangles.count()), parts_of_scene, frame, workers);
 
+  // Not before: this is the system's work on fresh memory, and by now all threads are awake.
+  DepthMap map = make_background(camera, options);
+  ChannelWriter writer(map, triangles, camera, options);
+  float* const coverage = writer.values().coverage;
   const CoverageFrame coverage_frame{triangles, camera, options.cull};
   tbb::enumerable_thread_specific<TileCoverage> coverages([&] {
     return TileCoverage({coverage_frame, objects, bins});
