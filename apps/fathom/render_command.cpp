@@ -15,10 +15,10 @@
 #include "camera_options.h"
 #include "depth_buffer_options.h"
 #include "fathom/exact/sampled_coverage.h"
-#include "fathom/exact/verify.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
 #include "fathom/scene/read_scene.h"
+#include "map_verification.h"
 #include "numbers.h"
 #include "output_file.h"
 #include "program.h"
@@ -268,28 +268,6 @@ DepthMap render_to(const std::string& name, const Input& scene, const Camera& ca
   }
 }
 
-/// Says how the map fares and notes it in the report; false where it is not exact.
-bool verify_map(const DepthMap& map, const std::string& name, const TriangleSource& triangles,
-                const Camera& camera, RenderOptions options, std::uint64_t pixels,
-                const Console& console, Json& report) {
-  Progress progress(console, "verifying");
-  options.progress = progress.reporter();
-  const PixelChoice chosen = choose_pixels(camera.width, camera.height, pixels);
-  const Verification v = verify(map, triangles, camera, options, chosen);
-  report["verified"] = v.verified;
-  report["differing"] = v.differing;
-  if (!v.first) {
-    console.note(fmt::format("{}: {} of {} pixels verified by exact arithmetic, all agree", name,
-                             v.verified, chosen.size()));
-    return true;
-  }
-  Console::error(fmt::format(
-      "{}: pixel ({}, {}): {} is {}, exact arithmetic gives {}; {} of {} verified pixels differ",
-      name, v.first->x, v.first->y, v.first->channel, v.first->found, v.first->expected,
-      v.differing, v.verified));
-  return false;
-}
-
 int run_render(RenderArguments& arguments, const Console& console) {
   const MapFormat format = arguments.storage.format_of(arguments.output);
   RenderOptions options = render_options(arguments, format);
@@ -354,8 +332,10 @@ int run_render(RenderArguments& arguments, const Console& console) {
       const double seconds_encoding = stopwatch.lap();
       Json verification = Json::object();
       if (verified_pixels > 0) {
-        exact &= verify_map(map, names[i], scene.triangles(), cameras[i], options, verified_pixels,
-                            console, verification);
+        exact &= verify_map(
+            map, names[i], {scene.triangles(), cameras[i], options, verified_pixels},
+            [&](const RenderOptions& o) { (void)scene.render(cameras[i], o); }, console,
+            verification);
       }
       const double seconds_verifying = stopwatch.lap();
       arguments.depth_buffer.drop_added(map);

@@ -35,13 +35,15 @@ TEST_F(Verifying, SaysHowManyPixelsAgree) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"1", "1"}, {"20", "20"}, {"48", "48"}, {"4000000", "48"}, {"all", "48"}};
   for (const auto& [asked, verified] : cases) {
-    const Outcome outcome = render("a.exr", {"--verify", asked, "--stats", "stats.json"});
+    const Outcome outcome =
+        render("a.exr", {"--verify", asked, "--channels", "Z", "--stats", "stats.json"});
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.err, "fathom: a.exr: " + verified +
                                " of 48 pixels verified by exact arithmetic, all agree\n");
     EXPECT_EQ(outcome.out, "");
     const Json stats = Json::parse(folder_.read("stats.json"));
     EXPECT_EQ(stats.at("verified"), std::stoi(verified));
+    EXPECT_EQ(stats.at("nearly_unsettled"), 0);
     EXPECT_EQ(stats.at("differing"), 0);
     EXPECT_GE(stats.at("seconds").at("verify"), 0.0);
   }
@@ -67,8 +69,12 @@ TEST_F(Verifying, EveryMapOfAPath) {
                  {.folder = folder_.path()});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.err, HasSubstr("fathom: 0.pfm: 9 of 48"));
-  EXPECT_THAT(outcome.err, HasSubstr("fathom: 1.pfm: 9 of 48"));
-  EXPECT_EQ(Json::parse(folder_.read("stats.json")).at(1).at("verified"), 9);
+  // The surface lies on the second near plane: 16 samples ask whether they are beyond it.
+  EXPECT_THAT(outcome.err, HasSubstr("fathom: 1.pfm: 21 of 48"));
+  EXPECT_THAT(outcome.err, HasSubstr("(16 of them at which a bound hardly settles something)"));
+  const Json second = Json::parse(folder_.read("stats.json")).at(1);
+  EXPECT_EQ(second.at("verified"), 21);
+  EXPECT_EQ(second.at("nearly_unsettled"), 16);
 }
 
 TEST_F(Verifying, QuietAndUnasked) {

@@ -1,7 +1,9 @@
 // The fast engine against the reference engine, bit for bit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
+#include <set>
 
 #include "fathom/exact/engine_frame.h"
 #include "fathom/numeric/errors.h"
@@ -81,6 +83,34 @@ TEST(Fast, TrianglesAcrossTilesOfAnyNumberOfThreads) {
   EXPECT_GT(sum.grid_setups, 500U / testing::effort);
   EXPECT_GT(sum.visibility.exact, 5U);
   EXPECT_GT(sum.rounding.interval, 100000U / testing::effort);
+}
+
+/// Wider bounds leave the map as it is and more pixels to exact numbers, those from before
+/// included.
+TEST(Fast, WiderBoundsGiveTheSameMapAndMoreDoubt) {
+  std::mt19937_64 random(4713);
+  for (int i = 0; i < 6 && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    const Scene scene = soup(random, 60, i % 2 == 0);
+    const Camera camera = testing::camera_of(160, 140, 64);
+    std::set<std::uint64_t> before;
+    for (const double widening : {1.0, 0x1p10, 0x1p24}) {
+      SCOPED_TRACE(widening);
+      std::vector<std::uint64_t> doubtful;
+      RenderOptions options;
+      options.channels = quick_channels;
+      options.fast.widening = widening;
+      options.fast.doubtful = &doubtful;
+      if (widening == 0x1p10) expect_same(scene, camera, options);
+      doubtful.clear();
+      render_fast(scene, camera, options);
+      const std::set<std::uint64_t> now(doubtful.begin(), doubtful.end());
+      EXPECT_TRUE(std::includes(now.begin(), now.end(), before.begin(), before.end()));
+      if (widening > 1) EXPECT_GT(now.size(), before.size());
+      before = now;
+    }
+    EXPECT_LT(*before.rbegin(), 160U * 140U);
+  }
 }
 
 TEST(Fast, TheCameraInsideASoup) {

@@ -180,7 +180,7 @@ TEST(Verify, FindsASingleWrongBit) {
       ++corrupted;
     }
   }
-  EXPECT_EQ(corrupted, 14 * 48);
+  EXPECT_EQ(corrupted, 15 * 48);
 }
 
 TEST(Verify, NamesTheFirstPixelAndBothValues) {

@@ -63,6 +63,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
     progress.part_done();
   });
   if (fault.get()) fail(*fault.get(), map);
+  collect_doubtful(workers, camera, options);
   if (options.statistics) *options.statistics = sum_of(workers, triangles.count());
   return map;
 }

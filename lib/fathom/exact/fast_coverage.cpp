@@ -271,6 +271,10 @@ float TileCoverage::settle(std::uint32_t pixel, const Tile::Context& context) {
                                     [&](std::uint32_t i) { return shapes_[i].is_open; });
   Interval area = any_open ? area_of_union(pixel) : area_between_edges(pixel, Corners::computed);
   if (!settles(area) && !any_open) area = area_between_edges(pixel, Corners::exact);
+  const double more = (area.upper - area.lower) / 2 * (context.switches.widening - 1);
+  if (!settles({area.lower - more, area.upper + more})) {
+    context.note_doubt(area_.first_column + pixel % size, area_.first_row + pixel / size);
+  }
   if (settles(area)) {
     ++counts.interval;
     return static_cast<float>(area.lower);

@@ -69,6 +69,16 @@ RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles) {
   return statistics;
 }
 
+void collect_doubtful(const FastWorkers& workers, const Camera& camera,
+                      const RenderOptions& options) {
+  if (!options.fast.doubtful) return;
+  for (const FastWorker& worker : workers) {
+    for (const auto& [column, row] : worker.doubtful) {
+      options.fast.doubtful->push_back(std::uint64_t{row} * camera.width + column);
+    }
+  }
+}
+
 FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays)
     : certified_([&] { return CertifiedWriter(writer, rays); }) {
   ImageChannel* depth = nullptr;

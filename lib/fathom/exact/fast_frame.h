@@ -23,18 +23,24 @@ struct FastWorker {
       : referee(triangles, camera, &rays) {}
   Referee referee;
   RenderStatistics statistics;
+  std::vector<DoubtfulPixel> doubtful;
 };
 using FastWorkers = tbb::enumerable_thread_specific<FastWorker>;
 
 /// The sum over all threads.
 RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles);
 
+/// Those of all threads, where they are asked for.
+void collect_doubtful(const FastWorkers& workers, const Camera& camera,
+                      const RenderOptions& options);
+
 /// What all threads share.
 struct FastFrame {
   FastFrame(const Camera& camera, const RenderOptions& options);
 
   [[nodiscard]] Tile::Context context(FastWorker& worker) const {
-    return {worker.referee, worker.statistics, range, perspective, options.fast};
+    return {worker.referee, worker.statistics, range,
+            perspective,    options.fast,      options.fast.doubtful ? &worker.doubtful : nullptr};
   }
 
   const Camera& camera;

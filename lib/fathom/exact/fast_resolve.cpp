@@ -101,6 +101,12 @@ std::optional<EncodingFault> Tile::resolve(CertifiedWriter& certified, float* de
     RoundedRow rounded;
     HWY_DYNAMIC_DISPATCH(round_row)(q() + first, tags() + first, context.perspective, rounded);
     visible.surface = rounded.surface & ~std::uint64_t{0} >> (size - columns);
+    if (context.doubtful) {
+      for (std::uint64_t bits = visible.surface & rounded.open; bits != 0; bits &= bits - 1) {
+        context.note_doubt(area_.first_column + static_cast<std::uint32_t>(std::countr_zero(bits)),
+                           row);
+      }
+    }
     statistics.pixels_with_surface += static_cast<std::uint64_t>(std::popcount(visible.surface));
     if (depths) {
       std::copy_n(rounded.depth.data(), columns, depths + visible.first_pixel);

@@ -161,6 +161,7 @@ DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
     report(options, band, frame.grid, first_row, 1);
     first_row = band.end_row();
   }
+  collect_doubtful(workers, camera, options);
   RenderStatistics statistics = sum_of(workers, triangles.count());
   if (float* coverage = writer.values().coverage) {
     statistics.coverage += write_coverage({triangles, camera, options.cull}, coverage);

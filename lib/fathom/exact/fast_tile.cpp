@@ -28,13 +28,17 @@ void Tile::start(const PixelBox& area) {
 void Tile::set_up_exactly(std::uint32_t number, const PixelBox& box, const Context& context,
                           SetupBatch& batch) {
   ++context.statistics.exact_setups;
-  batch.set(0, exact_setup(context.referee.projected(number), context.perspective, box), box);
+  TriangleSetup setup = exact_setup(context.referee.projected(number), context.perspective, box);
+  setup.edge_error *= context.switches.widening;
+  setup.q_error *= context.switches.widening;
+  batch.set(0, setup, box);
 }
 
 // The decisions of the vector code once more (fast_tile_lanes.cpp), each in its own tier. The
 // functions are summed in another order perhaps, within the same bounds.
 void Tile::settle(const TriangleSetup& setup, bool test_range, std::uint32_t column,
                   std::uint32_t row, const Context& context) {
+  context.note_doubt(column, row);
   const std::size_t i = index(column - area_.first_column, row - area_.first_row);
   const double x = local(column, setup.column), y = local(row, setup.row);
   double least_edge = std::numeric_limits<double>::infinity();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "fathom/exact/channels.h"
 #include "fathom/exact/fast_bins.h"
@@ -14,6 +15,11 @@
 #include "fathom/exact/fast_setup.h"
 
 namespace fathom {
+
+/// Column and row of the image.
+struct DoubtfulPixel {
+  std::uint32_t column, row;
+};
 
 /// The nearest surface so far at the samples of a small part of the image, whatever the order in
 /// which triangles are drawn.
@@ -30,6 +36,12 @@ class Tile {
     const DepthRange& range;
     bool perspective;
     const FastSwitches& switches;
+    /// Gets the pixels at which a bound does not settle a decision, where not null.
+    std::vector<DoubtfulPixel>* doubtful = nullptr;
+
+    void note_doubt(std::uint32_t column, std::uint32_t row) const {
+      if (doubtful) doubtful->push_back({column, row});
+    }
   };
 
   /// Empties the tile and moves it to an area of at most size × size pixels, its first row and

@@ -370,6 +370,14 @@ HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> 
   }
 }
 
+/// Edge functions without any error have no bound.
+HWY_NOINLINE void widen(SetupBatch& batch, double factor) {
+  for (std::size_t k = 0; k < hn::Lanes(D()); ++k) {
+    if (!(batch.snapped >> k & 1)) batch.edge_error[k] *= factor;
+    batch.q_error[k] *= factor;
+  }
+}
+
 void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
                     const Tile::Context& context) {
   const std::size_t lanes = hn::Lanes(D());
@@ -382,6 +390,7 @@ void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::
     fetch(object, numbers, first + lanes, next);
     batch.number = now.number;
     set_up_lanes(object.vertices.get(), now.corners.data(), tile.area(), context.range, batch);
+    if (HWY_UNLIKELY(context.switches.widening != 1)) widen(batch, context.switches.widening);
     const unsigned drawn_lanes = ((1U << count) - 1) & ~batch.empty;
     context.statistics.grid_setups +=
         static_cast<unsigned>(std::popcount(drawn_lanes & batch.snapped & ~batch.refused));

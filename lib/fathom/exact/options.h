@@ -60,12 +60,17 @@ struct RenderStatistics {
   std::uint64_t grid_setups = 0;
 };
 
-/// What the fast engine may leave out, for measurements: its time changes, never its map.
+/// What the fast engine may leave out or do more carefully: its time changes, never its map.
 struct FastSwitches {
   /// Blocks of samples are tested before samples.
   bool hierarchy = true;
   /// Blocks behind what is drawn already are skipped.
   bool early_rejection = true;
+  /// By how much bounds of edge functions, of q and of areas are widened; at least 1.
+  double widening = 1;
+  /// Where set, gets the pixels (row · width + column) at which such a bound did not settle a
+  /// decision about an edge, the range, visibility, the rounding of Z or of A; some of them twice.
+  std::vector<std::uint64_t>* doubtful = nullptr;
 };
 
 struct RenderOptions {
