@@ -25,7 +25,7 @@ enum class CoverageClass : std::uint8_t {
 /// The pixels of a box within a tile, last ones included; empty where right < left or
 /// bottom < top.
 struct TileBox {
-  std::int8_t left, right, top, bottom;
+  std::int16_t left, right, top, bottom;
   [[nodiscard]] bool is_empty() const { return right < left || bottom < top; }
 };
 
@@ -122,8 +122,8 @@ class TileCoverage {
 
   // fast_coverage_full.cpp: which pixels one triangle covers wholly.
   [[nodiscard]] TileBox whole() const {
-    return {0, static_cast<std::int8_t>(area_.last_column - area_.first_column), 0,
-            static_cast<std::int8_t>(area_.last_row - area_.first_row)};
+    return {0, static_cast<std::int16_t>(area_.last_column - area_.first_column), 0,
+            static_cast<std::int16_t>(area_.last_row - area_.first_row)};
   }
   [[nodiscard]] bool misses_tile(const Shape& shape) const;
   void look_at_open(const Tile::Context& context);

@@ -75,7 +75,7 @@ void classify(const ImageObject& object, std::span<const std::uint32_t> numbers,
                                  : negative >> k & 1 ? CoverageClass::negative
                                                      : CoverageClass::open;
       const bool simple_one = kind == CoverageClass::positive || kind == CoverageClass::negative;
-      const auto small = [](std::int64_t x) { return static_cast<std::int8_t>(x); };
+      const auto small = [](std::int64_t x) { return static_cast<std::int16_t>(x); };
       classes[first + k] = {kind, simple_one && (large >> k & 1),
                             is_met >> k & 1 ? TileBox{small(left[k]), small(right[k]),
                                                       small(top[k]), small(bottom[k])}

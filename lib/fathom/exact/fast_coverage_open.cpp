@@ -63,7 +63,7 @@ TileBox TileCoverage::box_of(const UnbalancedEdge& edge, double margin) const {
   const auto [least_u, greatest_u] = std::minmax({edge.from->u, edge.to->u});
   const auto [least_v, greatest_v] = std::minmax({edge.from->v, edge.to->v});
   const auto within = [](double x, int least, int greatest) {
-    return static_cast<std::int8_t>(std::clamp(std::floor(x), 1.0 * least, 1.0 * greatest));
+    return static_cast<std::int16_t>(std::clamp(std::floor(x), 1.0 * least, 1.0 * greatest));
   };
   const double left = area_.first_column, top = area_.first_row;
   const TileBox all = whole();
