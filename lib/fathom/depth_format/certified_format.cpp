@@ -142,7 +142,7 @@ double steps_of(Storage storage) {
 template <class T>
 std::optional<StoredDepth> rounded_to_storage(Storage storage, const Certified<T>& x) {
   if (!is_unorm(storage)) {
-    const std::optional<StoredDepth> stored = round_to_float(storage, WordPair(x.value), x.error);
+    const std::optional<StoredDepth> stored = round_to_float(storage, WordPair{x.value}, x.error);
     return stored && *stored > greatest_stored(storage) ? std::nullopt : stored;
   }
   const double steps = steps_of(storage);
