@@ -18,7 +18,8 @@ struct Fault {
 };
 
 /// A rasterizer in binary32 that is what a raster model with a known matrix describes, whole
-/// triangles only: for tests to make faulty. Corners to 2⁻⁸ pixel, window depth from a plane per triangle, unorm or binary32.
+/// triangles only: for tests to make faulty. Corners to 2⁻⁸ pixel, window depth from a plane per
+/// triangle, unorm or binary32.
 validation::OtherMap draw_in_binary32(const validation::WorldMesh& mesh, const Camera& camera,
                                       const validation::RendererModel& model,
                                       const Fault& fault = {});

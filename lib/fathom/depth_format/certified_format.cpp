@@ -139,15 +139,23 @@ double steps_of(Storage storage) {
   return power_of_two(bits_of(storage)) - 1;
 }
 
+WordPair words_of(double x) {
+  return {x, 0};
+}
+
+WordPair words_of(const WordPair& x) {
+  return x;
+}
+
 template <class T>
 std::optional<StoredDepth> rounded_to_storage(Storage storage, const Certified<T>& x) {
   if (!is_unorm(storage)) {
-    const std::optional<StoredDepth> stored = round_to_float(storage, WordPair{x.value}, x.error);
+    const std::optional<StoredDepth> stored = round_to_float(storage, words_of(x.value), x.error);
     return stored && *stored > greatest_stored(storage) ? std::nullopt : stored;
   }
   const double steps = steps_of(storage);
   const Certified<T> scaled = product(x, exactly<T>(steps));
-  const auto code = nearest_integer(WordPair(scaled.value), scaled.error, -1);
+  const auto code = nearest_integer(words_of(scaled.value), scaled.error, -1);
   if (!code || *code < 0 || *code > steps) return std::nullopt;
   return StoredDepth{static_cast<std::uint64_t>(*code)};
 }
