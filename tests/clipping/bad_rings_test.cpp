@@ -11,6 +11,7 @@
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/weiler_atherton.h"
 #include "fathom/numeric/errors.h"
+#include "tests/exact/effort.h"
 
 namespace fathom::clipping::test {
 namespace {
@@ -110,7 +111,7 @@ TEST(BadRings, RoundingEndsInAnAnswerOrARefusal) {
   std::mt19937_64 random(41);
   const auto below = [&](unsigned n) { return static_cast<double>(random() % n); };
   int answers = 0, refusals = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 3000 / testing::effort; ++i) {
     // Fans over nearly the same line y = x/3, every corner off it by a few ulps.
     const auto ring = [&] {
       Ring<double> corners;
@@ -131,8 +132,8 @@ TEST(BadRings, RoundingEndsInAnAnswerOrARefusal) {
     }
     EXPECT_NO_THROW(weiler_atherton(to_exact(a), to_exact(b), SetOperation::intersection));
   }
-  EXPECT_GT(answers, 500);
-  EXPECT_GT(refusals, 10);
+  EXPECT_GT(answers, 500 / testing::effort);
+  EXPECT_GT(refusals, 10 / testing::effort);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "fathom/clipping/weiler_atherton.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
+#include "tests/exact/effort.h"
 
 namespace fathom::clipping::test {
 namespace {
@@ -28,7 +29,7 @@ TEST(ConvexPieces, AnLIsTwo) {
 TEST(ConvexPieces, OfRandomRingsAreConvexAndFillThem) {
   PolygonMaker maker(51);
   std::size_t most = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < 1500 / testing::effort; ++i) {
     const Ring<Rational> ring = checked_rings(
         to_exact(maker.polygon(7, 14, [](const auto&) { return true; })), "random")[0];
     const auto pieces = convex_pieces(ring);
@@ -50,7 +51,7 @@ TEST(ConvexPieces, OfRandomRingsAreConvexAndFillThem) {
 TEST(ConvexPieces, CureSutherlandHodgman) {
   PolygonMaker maker(52);
   const Ring<Rational> window{{2, 1}, {5, 1}, {5, 5}, {2, 5}};
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 500 / testing::effort; ++i) {
     const Ring<Rational> ring = checked_rings(
         to_exact(maker.polygon(7, 14, [](const auto&) { return true; })), "random")[0];
     Rings<Rational> clipped;

@@ -6,6 +6,7 @@
 
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/numeric/errors.h"
+#include "tests/exact/effort.h"
 
 namespace fathom::clipping::test {
 namespace {
@@ -90,7 +91,7 @@ TEST(Homogeneous, IsClippingByTheFrustumInSpace) {
   std::mt19937 random(31);
   const auto number = [&] { return Rational(static_cast<int>(random() % 13) - 6, 2); };
   int visible = 0, across = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 3000 / testing::effort; ++i) {
     std::vector<Corner3<Rational>> in_space;
     std::vector<Corner4<Rational>> in_clip_space;
     bool behind = false, in_front = false;
@@ -114,15 +115,15 @@ TEST(Homogeneous, IsClippingByTheFrustumInSpace) {
     visible += clipped.empty() ? 0 : 1;
     across += !clipped.empty() && behind && in_front ? 1 : 0;
   }
-  EXPECT_GT(visible, 300);
-  EXPECT_GT(across, 100);
+  EXPECT_GT(visible, 300 / testing::effort);
+  EXPECT_GT(across, 100 / testing::effort);
 }
 
 TEST(Homogeneous, LowerHalfIsTheUpperOneOfTheNegatives) {
   std::mt19937 random(32);
   const auto number = [&] { return Rational(static_cast<int>(random() % 9) - 4); };
   int lower = 0;
-  for (int i = 0; i < 2000; ++i)
+  for (int i = 0; i < 2000 / testing::effort; ++i)
     for (const Volume volume : {Volume::opengl, Volume::zero_one}) {
       std::vector<P4> points, negatives;
       while (points.size() < 3) {
@@ -142,7 +143,7 @@ TEST(Homogeneous, LowerHalfIsTheUpperOneOfTheNegatives) {
       }
       lower += below.empty() ? 0 : 1;
     }
-  EXPECT_GT(lower, 100);
+  EXPECT_GT(lower, 100 / testing::effort);
 }
 
 TEST(Homogeneous, SegmentThroughBothHalvesHasAPartInEach) {

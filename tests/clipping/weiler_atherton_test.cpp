@@ -16,6 +16,7 @@
 #include "tests/clipping/pieces.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
+#include "tests/exact/effort.h"
 
 namespace fathom::clipping::test {
 namespace {
@@ -75,7 +76,7 @@ class WeilerAthertonRandom : public ::testing::TestWithParam<RandomPairs> {};
 TEST_P(WeilerAthertonRandom, IsAsCgal) {
   const RandomPairs& random = GetParam();
   PolygonMaker maker(random.seed);
-  for (int i = 0; i < random.pairs && !HasFatalFailure(); ++i) {
+  for (int i = 0; i < random.pairs / testing::effort && !HasFatalFailure(); ++i) {
     const auto side = [&] {
       return maker.polygon(random.size, 3 + maker.below(random.corners - 2), cross_each_other);
     };
@@ -84,7 +85,7 @@ TEST_P(WeilerAthertonRandom, IsAsCgal) {
   }
 }
 
-// 21,000 pairs, each with both operations.
+// 21,000 pairs, each with both operations; a twentieth of them under sanitizers.
 INSTANTIATE_TEST_SUITE_P(Grids, WeilerAthertonRandom,
                          ::testing::Values(RandomPairs{1, 6000, 3, 8}, RandomPairs{2, 5000, 4, 10},
                                            RandomPairs{3, 4000, 5, 8}, RandomPairs{4, 3000, 6, 12},
@@ -181,7 +182,7 @@ TEST(WeilerAtherton, ContactsAreLabelled) {
 
 TEST(WeilerAtherton, Laws) {
   PolygonMaker maker(7);
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 500 / testing::effort; ++i) {
     const auto A = to_exact(maker.polygon(5, 9, cross_each_other));
     const auto B = to_exact(maker.polygon(5, 9, cross_each_other));
     const auto is_same = [](const auto& p, const auto& q) {
@@ -212,7 +213,7 @@ TEST(WeilerAtherton, Laws) {
 // Binary64 agrees where nothing is rounded.
 TEST(WeilerAtherton, WithoutRoundingBothKernelsAgree) {
   PolygonMaker maker(8);
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 500 / testing::effort; ++i) {
     // Axis-parallel rectangles: all crossings have integer coordinates.
     const auto box = [&] {
       const double x = maker.below(6), y = maker.below(6);
