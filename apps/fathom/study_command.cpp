@@ -9,6 +9,9 @@
 #include <memory>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/scene/camera_making.h"
+#include "fathom/scene/read_scene.h"
+#include "known_files.h"
 #include "numbers.h"
 #include "output_file.h"
 #include "program.h"
@@ -21,7 +24,8 @@ using studies::Study;
 using studies::StudyFile;
 
 struct StudyArguments {
-  std::string name, out, near, far, samples, separation;
+  std::string name, out, near, far, samples, separation, camera;
+  std::vector<std::string> scene;
   bool list = false;
 };
 
@@ -31,6 +35,36 @@ std::string list_of_studies() {
     text += fmt::format("{:<18} {}\n", study.name, study.description);
   }
   return text;
+}
+
+/// The scene with its camera, or with one that frames it in 640×360 pixels.
+studies::SceneView read_view(const StudyArguments& arguments, const Console& console) {
+  Warnings warnings;
+  std::vector<std::filesystem::path> files(arguments.scene.begin(), arguments.scene.end());
+  for (const auto& file : files) note_input(file);
+  studies::SceneView view{files.front().filename().string(), read_scene(files, {}, warnings), {}};
+  for (const std::string& warning : warnings) console.warn(warning);
+  if (triangle_count(view.scene) == 0) {
+    throw InputError(files.front().string() + ": the scene has no triangle");
+  }
+  if (arguments.camera.empty()) {
+    Lens lens;
+    lens.width = 640;
+    lens.height = 360;
+    view.camera = frame_scene(view.scene, {}, lens);
+    return view;
+  }
+  note_input(arguments.camera);
+  const std::vector<Camera> cameras = read_cameras(arguments.camera);
+  if (cameras.size() != 1) {
+    throw InputError(
+        fmt::format("{}: {} cameras; a study looks through one", arguments.camera, cameras.size()));
+  }
+  if (const auto fault = find_fault(cameras[0])) {
+    throw InputError(arguments.camera + ": " + *fault);
+  }
+  view.camera = cameras[0];
+  return view;
 }
 
 studies::StudyOptions options_of(const StudyArguments& arguments) {
@@ -86,7 +120,14 @@ int run_study(const StudyArguments& arguments, const Console& console) {
   if (arguments.name.empty()) throw UsageError("NAME is missing: 'fathom study --list' lists them");
   const Study& study = studies::study_named(arguments.name);
   if (arguments.out.empty()) throw UsageError("--out DIR is missing: where the files go");
-  const studies::StudyOptions options = options_of(arguments);
+  studies::StudyOptions options = options_of(arguments);
+  if (!arguments.scene.empty() && !study.takes_scene) {
+    throw UsageError(fmt::format("the study {} takes no --scene", study.name));
+  }
+  if (arguments.scene.empty() && !arguments.camera.empty()) {
+    throw UsageError("--camera belongs to --scene");
+  }
+  if (!arguments.scene.empty()) options.scene = read_view(arguments, console);
   Percentage percentage(console.shows_progress());
   const std::vector<StudyFile> files =
       study.run(options, [&percentage](double share) { percentage(share); });
@@ -103,10 +144,17 @@ void add_study(Program& program) {
       "study", "Precision of depth buffers, measured: figures, plots and a page that explains them",
       "  fathom study --list\n"
       "  fathom study depth-resolution --near 0.1 --far 1000 --out resolution\n"
-      "  fathom study indistinguishable --out reed");
+      "  fathom study indistinguishable --out reed\n"
+      "  fathom study mitigation --scene data/meshes/spot.obj --near 0.001 --out cures");
   command->add_option("NAME", arguments->name, "The study");
   command->add_option("--out", arguments->out,
                       "Folder for CSV, PNG, SVG, summary.json, index.html");
+  command->add_option(
+      "--scene", arguments->scene,
+      "Meshes or scene files to look at, for antialiasing, mitigation, subpixel and "
+      "z-fighting; without it they have scenes of their own");
+  command->add_option("--camera", arguments->camera,
+                      "Camera file (JSON) for --scene; without it, one that frames the scene");
   command->add_option("--near", arguments->near, "Least depth");
   command->add_option("--far", arguments->far, "Greatest depth");
   command->add_option("--samples", arguments->samples, "Number of depths");

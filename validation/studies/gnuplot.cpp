@@ -88,6 +88,13 @@ void require_gnuplot() {
   if (!status || !WIFEXITED(*status) || WEXITSTATUS(*status) == 127) refuse_missing();
 }
 
+std::string png_bytes(const RgbImage& image) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "picture.png";
+  write_png(image, path);
+  return content_of(path);
+}
+
 std::vector<StudyFile> run_gnuplot(const std::string& name, const std::string& script) {
   const ScratchFolder folder;
   const std::string base = folder.path() / name;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/image/rgb_image.h"
 #include "validation/studies/study.h"
 
 namespace fathom::studies {
@@ -11,5 +12,8 @@ namespace fathom::studies {
 /// NAME.svg. The script itself, as it can be run again, is NAME.gp.
 /// Fails    OutputError if gnuplot is missing or fails, with what it said.
 std::vector<StudyFile> run_gnuplot(const std::string& name, const std::string& script);
+
+/// The picture as a PNG file's content.
+std::string png_bytes(const RgbImage& image);
 
 }  // namespace fathom::studies

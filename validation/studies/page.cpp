@@ -41,6 +41,12 @@ Page& Page::plot(const std::string& name, const std::string& caption) {
   return *this;
 }
 
+Page& Page::picture(const std::string& name, const std::string& caption) {
+  body_ += "<figure><img src=\"" + name + ".png\" alt=\"" + escaped(caption) + "\"><figcaption>" +
+           escaped(caption) + "</figcaption></figure>\n";
+  return *this;
+}
+
 Page& Page::table(const std::vector<std::string>& head,
                   const std::vector<std::vector<std::string>>& rows) {
   body_ += "<table>\n" + row_of(head, "th");

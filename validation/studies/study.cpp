@@ -1,24 +1,33 @@
 #include "validation/studies/study.h"
 
 #include "fathom/numeric/errors.h"
+#include "validation/studies/antialiasing.h"
 #include "validation/studies/clipping.h"
 #include "validation/studies/depth_resolution.h"
 #include "validation/studies/indistinguishable.h"
+#include "validation/studies/mitigation.h"
+#include "validation/studies/subpixel.h"
 #include "validation/studies/z_fighting.h"
 
 namespace fathom::studies {
 
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies{
+      {"antialiasing", "Coverage by samples against the exact area, by sample pattern", true,
+       study_antialiasing},
       {"clipping", "Sutherland-Hodgman's bridging edges on concave polygons, and their cures",
-       study_clipping},
-      {"depth-resolution", "The step of every depth format against depth, near and far",
+       false, study_clipping},
+      {"depth-resolution", "The step of every depth format against depth, near and far", false,
        study_depth_resolution},
       {"indistinguishable",
        "Which of many depths become equal or swap in a pipeline, after Reed, Upchurch and Desbrun",
-       study_indistinguishable},
-      {"z-fighting", "Where two nearly coplanar surfaces fight, by distance, separation and format",
-       study_z_fighting}};
+       false, study_indistinguishable},
+      {"mitigation", "Z-fighting before and after: near plane, polygon offset, other formats", true,
+       study_mitigation},
+      {"subpixel", "Coverage and depth against the number of subpixel bits", true, study_subpixel},
+      {"z-fighting",
+       "Where two nearly coplanar surfaces, or those of a scene, fight, by distance and format",
+       true, study_z_fighting}};
   return studies;
 }
 

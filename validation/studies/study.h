@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "fathom/scene/camera.h"
+#include "fathom/scene/scene.h"
+
 /// Studies of depth precision: each computes figures, draws them, and explains what is seen.
 namespace fathom::studies {
 
@@ -15,8 +18,17 @@ struct StudyFile {
   std::string content;
 };
 
+/// A scene and how it is seen.
+struct SceneView {
+  std::string name;
+  Scene scene;
+  Camera camera;
+};
+
 /// What can be asked of a study; each has its own defaults, which show the effect.
 struct StudyOptions {
+  /// What to look at, for studies that take a scene; without one they have their own.
+  std::optional<SceneView> scene;
   std::optional<double> near, far;
   /// Of two surfaces, along the view.
   std::optional<double> separation;
@@ -28,6 +40,7 @@ struct StudyOptions {
 struct Study {
   const char* name;
   const char* description;
+  bool takes_scene;
   std::vector<StudyFile> (*run)(const StudyOptions&, const std::function<void(double)>& tick);
 };
 

@@ -12,6 +12,7 @@
 #include "validation/studies/page.h"
 #include "validation/studies/plot.h"
 #include "validation/studies/sampling.h"
+#include "validation/studies/scene_fights.h"
 
 namespace fathom::studies {
 namespace {
@@ -22,7 +23,7 @@ constexpr double tilt = 0.57735026918962573;  // tan 30°
 constexpr int distance_count = 25;
 constexpr int heat_cells = 36;
 
-struct Scene {
+struct Pairs {
   double near, far, separation;
   int samples;
   std::vector<double> distances;
@@ -45,7 +46,7 @@ bool is_projection(Mapping mapping) {
   return mapping <= Mapping::opengl;
 }
 
-Fight measure(const DepthFormat& format, const Scene& scene, double distance) {
+Fight measure(const DepthFormat& format, const Pairs& scene, double distance) {
   const CoplanarPair pair{distance, scene.separation, tilt};
   const View view = default_view(scene.near);
   const auto in_pipeline = [&](bool premultiplied) {
@@ -62,7 +63,7 @@ Fight measure(const DepthFormat& format, const Scene& scene, double distance) {
           predicted_safe_separation(format, pair)};
 }
 
-std::vector<Fight> measure_all(const Scene& scene, const std::function<void(double)>& tick) {
+std::vector<Fight> measure_all(const Pairs& scene, const std::function<void(double)>& tick) {
   std::vector<Fight> fights;
   for (const Mapping mapping : all_mappings) {
     for (const Storage storage : all_storages) {
@@ -132,7 +133,7 @@ Plot safe_plot(const std::vector<Fight>& fights, Storage storage) {
   return plot;
 }
 
-Plot share_plot(const std::vector<Fight>& fights, const Scene& scene) {
+Plot share_plot(const std::vector<Fight>& fights, const Pairs& scene) {
   Plot plot{"share",
             fmt::format("Samples where the wrong surface wins, separation {:g}", scene.separation),
             "distance (scene units)",
@@ -162,7 +163,7 @@ Plot share_plot(const std::vector<Fight>& fights, const Scene& scene) {
 }
 
 /// The share over distance and separation, for one format.
-HeatMap heat_map(const DepthFormat& format, const Scene& scene) {
+HeatMap heat_map(const DepthFormat& format, const Pairs& scene) {
   HeatMap map{fmt::format("heat-{}-{}", name_of(format.mapping), name_of(format.storage)),
               fmt::format("Samples where the wrong surface wins, {} {}, ideal model",
                           name_of(format.mapping), name_of(format.storage)),
@@ -190,7 +191,7 @@ std::string percent(double share) {
   return std::isnan(share) ? "" : fmt::format("{:.1f} %", 100 * share);
 }
 
-StudyFile page_of(const Scene& scene, const std::vector<Fight>& fights) {
+StudyFile page_of(const Pairs& scene, const std::vector<Fight>& fights) {
   Page page(fmt::format("Z-fighting, near {:g}, far {:g}", scene.near, scene.far));
   page.paragraph(fmt::format(
       "Two parallel surfaces, tilted by 30 degrees, one {:g} behind the other along the view, fill "
@@ -244,8 +245,8 @@ StudyFile page_of(const Scene& scene, const std::vector<Fight>& fights) {
   return page.file();
 }
 
-Scene scene_of(const StudyOptions& options) {
-  Scene scene{options.near.value_or(0.1),
+Pairs pairs_of(const StudyOptions& options) {
+  Pairs scene{options.near.value_or(0.1),
               options.far.value_or(100),
               options.separation.value_or(0.0001),
               64,
@@ -269,7 +270,8 @@ Scene scene_of(const StudyOptions& options) {
 
 std::vector<StudyFile> study_z_fighting(const StudyOptions& options,
                                         const std::function<void(double)>& tick) {
-  const Scene scene = scene_of(options);
+  if (options.scene) return study_scene_fights(options, tick);
+  const Pairs scene = pairs_of(options);
   require_gnuplot();
   const std::vector<Fight> fights = measure_all(scene, tick);
 

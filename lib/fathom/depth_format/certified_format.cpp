@@ -355,4 +355,8 @@ double CertifiedFormat::farthest_stored_as(StoredDepth stored) const {
   return std::isfinite(bound) ? bound : infinity;
 }
 
+std::optional<StoredDepth> certified_rounding(Storage storage, const Certified<double>& value) {
+  return rounded_to_storage(storage, value);
+}
+
 }  // namespace fathom

@@ -51,4 +51,8 @@ class CertifiedFormat {
   const Arithmetic* arithmetic_;
 };
 
+/// round_to_storage() of every number in [0, 1] that the bound allows; nullopt where there is more
+/// than one.
+std::optional<StoredDepth> certified_rounding(Storage storage, const Certified<double>& value);
+
 }  // namespace fathom

@@ -1,0 +1,47 @@
+#include "validation/studies/antialiasing.h"
+
+#include <nlohmann/json.hpp>
+
+#include "fathom/numeric/errors.h"
+#include "validation/studies/coverage_by_samples.h"
+#include "validation/studies/page.h"
+#include "validation/studies/plot.h"
+#include "validation/studies/study_scene.h"
+
+namespace fathom::studies {
+namespace {
+
+SceneView view_of(const StudyOptions& options) {
+  if (options.separation || options.samples) {
+    throw UsageError("the study antialiasing has no --separation and no --samples");
+  }
+  SceneView view = options.scene ? *options.scene : wheel();
+  if (options.near) view.camera.near = *options.near;
+  if (options.far) view.camera.far = *options.far;
+  if (const auto fault = find_fault(view.camera)) throw UsageError(*fault);
+  return view;
+}
+
+}  // namespace
+
+std::vector<StudyFile> study_antialiasing(const StudyOptions& options,
+                                          const std::function<void(double)>& tick) {
+  const SceneView view = view_of(options);
+  require_gnuplot();
+  const DepthMap exact = exact_coverage(view);
+  const CoverageBySamples measured = measure_coverage_by_samples(view, exact, tick);
+
+  nlohmann::ordered_json summary{{"study", "antialiasing"}, {"scene", view.name}};
+  add_to_summary(measured, summary);
+  Page page("Coverage by samples: " + view.name);
+  add_to_page(measured, page);
+  page.picture("coverage", "Exact coverage of the scene");
+
+  std::vector<StudyFile> files = files_of(measured);
+  files.push_back({"summary.json", summary.dump(2) + "\n"});
+  files.push_back(page.file());
+  files.push_back(picture("coverage", exact, {.channel = "A", .colours = ColourMap::grey}));
+  return files;
+}
+
+}  // namespace fathom::studies
