@@ -109,7 +109,9 @@ EncodedValues encoded_values_of(DepthMap& map, const std::string& name) {
 
 }  // namespace
 
-DepthMap make_background(const Camera& camera, const RenderOptions& options) {
+namespace {
+
+DepthMap make_map(const Camera& camera, const RenderOptions& options, bool fill_depth) {
   DepthMap map;
   map.width = camera.width;
   map.height = camera.height;
@@ -118,6 +120,10 @@ DepthMap make_background(const Camera& camera, const RenderOptions& options) {
   for (const Channel channel : options.channels) {
     if (std::find(seen.begin(), seen.end(), channel) != seen.end()) continue;
     seen.push_back(channel);
+    if (channel == Channel::Z && !fill_depth) {
+      map.channels.push_back({"Z", Samples<float>(pixels)});
+      continue;
+    }
     for (ImageChannel& c : channels_for(channel, pixels, options.depth_encoding.type)) {
       map.channels.push_back(std::move(c));
     }
@@ -126,6 +132,16 @@ DepthMap make_background(const Camera& camera, const RenderOptions& options) {
     map.png_scale = options.depth_encoding.scale;
   }
   return map;
+}
+
+}  // namespace
+
+DepthMap make_background(const Camera& camera, const RenderOptions& options) {
+  return make_map(camera, options, true);
+}
+
+DepthMap make_background_but_depth(const Camera& camera, const RenderOptions& options) {
+  return make_map(camera, options, options.depth_encoding.type != DepthEncoding::Type::binary32);
 }
 
 ChannelValues::ChannelValues(DepthMap& map)

@@ -21,6 +21,8 @@ struct EncodingFault {
 /// The map of a scene without a visible surface: every channel asked for, once, with its
 /// background (specification, section 6), in the encoding asked for.
 DepthMap make_background(const Camera& camera, const RenderOptions& options);
+/// The same, but binary32 values of Z are left 0 for the caller to write, background too.
+DepthMap make_background_but_depth(const Camera& camera, const RenderOptions& options);
 
 /// Where the values of a channel that is encoded as DepthEncoding says are kept: one is not null,
 /// or none where the channel was not asked for.

@@ -39,8 +39,9 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   const std::vector<Bins> bins = sort_into_tiles(
       objects, 0, static_cast<std::uint32_t>(triangles.count()), parts_of_scene, frame, workers);
 
-  // Not before: this is the system's work on fresh memory, and by now all threads are awake.
-  DepthMap map = make_background(camera, options);
+  DepthMap map = FastOutput::writes_whole_tiles(options)
+                     ? make_background_but_depth(camera, options)
+                     : make_background(camera, options);
   ChannelWriter writer(map, triangles, camera, options);
   float* const coverage = writer.values().coverage;
   const CoverageFrame coverage_frame{triangles, camera, options.cull};
@@ -52,7 +53,9 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   Progress progress(options.progress, frame.grid.count());
   tbb::parallel_for(std::uint32_t{0}, frame.grid.count(), [&](std::uint32_t number) {
     const auto is_empty = [&](const Bins& part) { return part.in_tile(number).empty(); };
-    if (!std::all_of(bins.begin(), bins.end(), is_empty)) {
+    if (std::all_of(bins.begin(), bins.end(), is_empty)) {
+      output.write_background(frame.grid.area(number), camera.width);
+    } else {
       const Tile::Context context = frame.context(workers.local());
       Tile& tile = *tiles.local();
       tile.start(frame.grid.area(number));

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace fathom {
 
@@ -76,6 +77,21 @@ void collect_doubtful(const FastWorkers& workers, const Camera& camera,
     for (const auto& [column, row] : worker.doubtful) {
       options.fast.doubtful->push_back(std::uint64_t{row} * camera.width + column);
     }
+  }
+}
+
+bool FastOutput::writes_whole_tiles(const RenderOptions& options) {
+  return options.depth_encoding.type == DepthEncoding::Type::binary32 &&
+         std::all_of(options.channels.begin(), options.channels.end(),
+                     [](Channel c) { return c == Channel::Z || c == Channel::A; });
+}
+
+void FastOutput::write_background(const PixelBox& area, std::uint32_t image_width) const {
+  if (!depths_) return;
+  const std::uint32_t columns = area.last_column - area.first_column + 1;
+  for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
+    std::fill_n(depths_ + std::size_t{row} * image_width + area.first_column, columns,
+                std::numeric_limits<float>::infinity());
   }
 }
 

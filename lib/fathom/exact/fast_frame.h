@@ -81,6 +81,10 @@ class FirstFault {
 class FastOutput {
  public:
   FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays);
+  /// Whether tiles write all values of Z, so that the map need not be filled before.
+  static bool writes_whole_tiles(const RenderOptions& options);
+  /// Of a tile without any triangle.
+  void write_background(const PixelBox& area, std::uint32_t image_width) const;
   std::optional<EncodingFault> write(const Tile& tile, std::uint32_t image_width,
                                      const Tile::Context& context) {
     return tile.resolve(certified_.local(), depths_, image_width, context);
