@@ -157,6 +157,32 @@ TEST_P(EveryMapping, EncodeIsMonotone) {
   }
 }
 
+/// Without gaps: every boundary of some codes in a row, and every depth of some in a row.
+TEST_P(EveryMapping, DenseDepthsInEveryStorage) {
+  constexpr int run = 10 + 40 / testing::effort;
+  std::mt19937_64 random(10);
+  for (const DepthFormat& format : wide_formats(GetParam())) {
+    const std::uint64_t first = random() % (greatest_stored(format.storage).bits - run);
+    for (std::uint64_t bits = first; bits < first + run; ++bits) {
+      const double middle =
+          round_to_binary64(*depth_of(format, boundary_above(format.storage, {bits})));
+      for (const double d : {std::nextafter(middle, 0.0), std::nextafter(middle, infinity)}) {
+        ASSERT_TRUE(!is_inside(format, d) || encodes_correctly(format, d));
+      }
+      ASSERT_TRUE(decodes_correctly(format, bits));
+    }
+    double depth = depths_of(format, 5, random()).back();
+    StoredDepth previous = encode(format, Dyadic(depth));
+    for (int i = 0; i < run && is_inside(format, depth); ++i) {
+      ASSERT_TRUE(encodes_correctly(format, depth));
+      const StoredDepth stored = encode(format, Dyadic(depth));
+      ASSERT_FALSE(is_nearer(format, stored, previous)) << text_of(format) << " at " << depth;
+      previous = stored;
+      depth = std::nextafter(depth, infinity);
+    }
+  }
+}
+
 TEST_P(EveryMapping, TheEndsOfTheRange) {
   for (const Storage storage : all_storages) {
     const DepthFormat format{GetParam(), storage, 0.1, 1000};

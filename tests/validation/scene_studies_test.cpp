@@ -198,14 +198,41 @@ TEST(SceneStudies, ReversedFloatsAndFartherNearPlanesHelp) {
   EXPECT_EQ(summary["offsets"][0]["fights"], nears.front()["fighting_pixels"]);
 }
 
+/// Nothing lies behind anything, and nothing fights: figures without the plots that would be empty.
+TEST(SceneStudies, OneSurfaceAlone) {
+  StudyOptions options;
+  options.scene = small_panels();
+  options.scene->scene.meshes = {options.scene->scene.meshes[1]};
+  options.scene->scene.objects = {{.mesh = 0, .name = "decals"}};
+  const auto has = [](const std::vector<StudyFile>& files, const std::string& name) {
+    return std::any_of(files.begin(), files.end(),
+                       [&](const StudyFile& file) { return file.name == name; });
+  };
+  const auto fights = study_scene_fights(options, no_tick);
+  EXPECT_EQ(summary_of(fights)["layered_samples"], 0);
+  EXPECT_TRUE(has(fights, "index.html"));
+  EXPECT_FALSE(has(fights, "separation.png"));
+  const auto cures = study_mitigation(options, no_tick);
+  EXPECT_EQ(summary_of(cures)["near_planes"][0]["fighting_pixels"], 0);
+  EXPECT_TRUE(has(cures, "near.csv"));
+  EXPECT_FALSE(has(cures, "near.png"));
+}
+
 TEST(SceneStudies, ASceneCanBeGiven) {
   StudyOptions options;
   options.scene = small_panels();
   const auto summary = summary_of(study_scene_fights(options, no_tick));
   EXPECT_EQ(summary["formats"].size(), 54U);
   EXPECT_EQ(summary["near"], 0.01);
-  options.near = 5000;
+  for (const double near : {5000.0, 0.0, -1.0}) {
+    options.near = near;
+    EXPECT_THROW(study_scene_fights(options, no_tick), UsageError);
+    EXPECT_THROW(study_mitigation(options, no_tick), UsageError);
+  }
+  options.near.reset();
+  options.samples = 10;
   EXPECT_THROW(study_scene_fights(options, no_tick), UsageError);
+  EXPECT_THROW(study_mitigation(options, no_tick), UsageError);
 }
 
 }  // namespace

@@ -273,6 +273,7 @@ std::vector<StudyFile> study_clipping(const StudyOptions& options,
   if (options.near || options.far)
     throw UsageError("the study clipping has no depths: --near and --far mean nothing to it");
   const std::size_t polygons = options.samples.value_or(100);
+  if (polygons > 100000) throw UsageError("--samples is not from 2 to 100000");
   require_gnuplot();
 
   std::vector<Row> rows;

@@ -168,11 +168,18 @@ StudyFile page_of(const SceneView& view, const std::vector<Cure>& nears,
   page.heading("The near plane")
       .paragraph(
           "Twice as far a near plane halves the steps everywhere, up to the nearest visible "
-          "surface; "
-          "nothing is cut away.");
-  page.plot("near", "Pixels that fight, by near plane").table(head, rows_of(nears));
-  page.heading("Another format").plot("formats", "Pixels that fight, by format");
-  page.table(head, rows_of(others));
+          "surface; nothing is cut away.");
+  const auto chart = [&](const char* name, const char* caption, const std::vector<Cure>& cures) {
+    if (has_heights(chart_of(name, caption, cures))) {
+      page.plot(name, caption);
+    } else {
+      page.paragraph("No pixel fights, with any of them; a nearer --near shows when they would.");
+    }
+    page.table(head, rows_of(cures));
+  };
+  chart("near", "Pixels that fight, by near plane", nears);
+  page.heading("Another format");
+  chart("formats", "Pixels that fight, by format", others);
   page.heading("Polygon offset");
   if (counts.empty()) {
     page.paragraph(
@@ -181,11 +188,12 @@ StudyFile page_of(const SceneView& view, const std::vector<Cure>& nears,
   } else {
     page.paragraph(
         "The triangles of every object but the first are pulled forward by factor times the slope "
-        "of their window depth plus units times the least difference of the format. Fights go "
-        "away, and then surfaces that are hidden by something close before them begin to show: "
-        "false positives. Units are the same everywhere in window depth, which is a distance that "
-        "grows with the square of the depth: what is enough far away is too much nowhere else "
-        "only if nothing hides there.");
+        "of their window depth plus units times the least difference of the format. Fights "
+        "of these triangles go away, and surfaces that are hidden by something close before them "
+        "begin to show: false positives. Where fights remain, surfaces of the first object fight "
+        "with each other. A unit is the same window depth everywhere, and so a distance that "
+        "grows with the square of the depth: one unit may be enough, and too much far away, where "
+        "it is more than the distance to what hides the surface.");
     page.plot("offset", "Wrong samples by units, for each factor");
     std::vector<std::vector<std::string>> rows;
     for (const OffsetCount& c : counts) {
@@ -206,6 +214,9 @@ StudyFile page_of(const SceneView& view, const std::vector<Cure>& nears,
 
 std::vector<StudyFile> study_mitigation(const StudyOptions& options,
                                         const std::function<void(double)>& tick) {
+  if (options.separation || options.samples) {
+    throw UsageError("the study mitigation has no --separation and no --samples");
+  }
   SceneView view = options.scene ? *options.scene : panels_with_decals();
   view.camera = with_range(view, options);
   require_meaningful(format_of(view.camera, Mapping::standard, storage));
@@ -234,8 +245,11 @@ std::vector<StudyFile> study_mitigation(const StudyOptions& options,
   const auto append = [&](std::vector<StudyFile> more) {
     std::move(more.begin(), more.end(), std::back_inserter(files));
   };
-  append(draw(chart_of("near", "Pixels that fight, by near plane (standard unorm24)", nears)));
-  append(draw(chart_of("formats", "Pixels that fight, by format", others)));
+  for (const BarChart& chart :
+       {chart_of("near", "Pixels that fight, by near plane (standard unorm24)", nears),
+        chart_of("formats", "Pixels that fight, by format", others)}) {
+    if (has_heights(chart)) append(draw(chart));
+  }
   if (!counts.empty()) {
     append(draw(offset_plot(counts)));
     files.push_back({"offset.csv", csv_of(counts)});

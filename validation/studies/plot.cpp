@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "validation/studies/gnuplot.h"
 
 namespace fathom::studies {
@@ -29,6 +31,11 @@ std::string axes(const std::string& title, const std::string& y_label) {
       quoted(title), quoted(y_label));
 }
 
+bool is_negative(const Series& series) {
+  return std::any_of(series.points.begin(), series.points.end(),
+                     [](const auto& point) { return point.second < 0; });
+}
+
 std::string script_of(const Plot& plot) {
   std::string script;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
@@ -41,7 +48,11 @@ std::string script_of(const Plot& plot) {
   script += axes(plot.title, plot.y_label);
   script += fmt::format("set xlabel {} noenhanced\n", quoted(plot.x_label));
   if (plot.logarithmic_x) script += "set logscale x\nset format x \"10^{%L}\"\n";
-  if (plot.logarithmic_y) script += "set logscale y\nset format y \"10^{%L}\"\n";
+  if (plot.logarithmic_y)
+    script += "set logscale y\nset format y \"10^{%L}\"\n";
+  else if (std::none_of(plot.series.begin(), plot.series.end(), is_negative)) {
+    script += "set yrange [0:*]\n";
+  }
   script += "plot \\\n";
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const std::size_t marks = 1 + plot.series[i].points.size() / 12;
@@ -93,6 +104,17 @@ std::string script_of(const HeatMap& map) {
 }
 
 }  // namespace
+
+bool has_points(const Plot& plot) {
+  return !plot.series.empty() && std::none_of(plot.series.begin(), plot.series.end(),
+                                              [](const Series& s) { return s.points.empty(); });
+}
+
+bool has_heights(const BarChart& chart) {
+  return std::any_of(chart.series.begin(), chart.series.end(), [](const BarChart::Bars& bars) {
+    return std::any_of(bars.heights.begin(), bars.heights.end(), [](double h) { return h != 0; });
+  });
+}
 
 std::vector<StudyFile> draw(const Plot& plot) {
   return run_gnuplot(plot.name, script_of(plot));

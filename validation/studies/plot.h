@@ -24,6 +24,9 @@ struct Plot {
   std::vector<Series> series;
 };
 
+/// Whether there is anything to draw: no series without a point is to be drawn.
+bool has_points(const Plot& plot);
+
 /// A group of bars for each category: one bar of every series, stacked or side by side.
 struct BarChart {
   std::string name;
@@ -43,6 +46,9 @@ struct HeatMap {
   std::vector<double> x, y;    ///< centres of columns and rows, evenly spaced
   std::vector<double> values;  ///< rows × columns, row by row
 };
+
+/// Whether a bar has a height.
+bool has_heights(const BarChart& chart);
 
 /// NAME.gp, the script that draws it, NAME.png and NAME.svg.
 /// Fails    OutputError if gnuplot is missing or fails.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "fathom/numeric/errors.h"
 #include "validation/studies/page.h"
 #include "validation/studies/plot.h"
 
@@ -69,11 +70,14 @@ Plot separation_plot(const std::vector<std::pair<DepthFormat, PairsByDistance>>&
       if (pairs.greatest_lost[i] > 0) {
         measured.points.emplace_back(pairs.distances[i], pairs.greatest_lost[i]);
       }
-      predicted.points.emplace_back(pairs.distances[i], pairs.predicted[i]);
+      if (pairs.predicted[i] > 0 && std::isfinite(pairs.predicted[i])) {
+        predicted.points.emplace_back(pairs.distances[i], pairs.predicted[i]);
+      }
     }
-    if (!measured.points.empty()) plot.series.push_back(measured);
+    plot.series.push_back(measured);
     plot.series.push_back(predicted);
   }
+  std::erase_if(plot.series, [](const Series& s) { return s.points.empty(); });
   return plot;
 }
 
@@ -106,7 +110,11 @@ StudyFile page_of(const SceneView& view, const std::vector<SceneFights>& all,
       "view at which the two are stored alike, by distance. Predicted is the width of the bin at "
       "the far end of the class of distances, which no lost separation can exceed; how near the "
       "measured ones come to it depends on which separations the scene has.");
-  page.plot("separation", "Separations that are lost, by distance");
+  if (has_points(separation_plot(pairs))) {
+    page.plot("separation", "Separations that are lost, by distance");
+  } else {
+    page.paragraph("In this view no surface lies behind another.");
+  }
   page.heading("Where");
   for (const auto& [format, measured] : pairs) {
     page.picture("fights-" + name_of(format), name_of(format) + ": 1 where the wrong surface wins");
@@ -142,24 +150,22 @@ std::vector<StudyFile> pictures_of(const std::string& name, const BufferedScene&
   DepthMap map;
   map.width = buffered.map.width;
   map.height = buffered.map.height;
-  Samples<float> fights(id.size()), errors(id.size());
-  for (std::size_t i = 0; i < id.size(); ++i) {
-    const bool surface = id[i] != no_surface;
-    constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
-    fights[i] = surface ? static_cast<float>(fight[i]) : nothing;
-    errors[i] = surface ? error[i] : nothing;
-  }
-  map.channels = {{"wrong surface", std::move(fights)}, {"depth error", std::move(errors)}};
+  const std::string format = std::string(fathom::name_of(buffered.fights.format.mapping)) + " " +
+                             std::string(fathom::name_of(buffered.fights.format.storage));
+  const std::string wrong = "wrong surface, " + format, off = "depth error, " + format;
+  map.channels = {{"id", id}, {wrong, Samples<float>(fight.begin(), fight.end())}, {off, error}};
   const double end = std::max(buffered.fights.greatest_error, 1e-30);
-  return {
-      picture("fights-" + name, map,
-              {.channel = "wrong surface", .colours = ColourMap::magma, .low = 0, .high = 1}),
-      picture("error-" + name, map,
-              {.channel = "depth error", .colours = ColourMap::viridis, .low = -end, .high = end})};
+  return {picture("fights-" + name, map,
+                  {.channel = wrong, .colours = ColourMap::grey, .low = 0, .high = 1}),
+          picture("error-" + name, map,
+                  {.channel = off, .colours = ColourMap::viridis, .low = -end, .high = end})};
 }
 
 std::vector<StudyFile> study_scene_fights(const StudyOptions& options,
                                           const std::function<void(double)>& tick) {
+  if (options.separation || options.samples) {
+    throw UsageError("the study z-fighting takes no --separation and no --samples with --scene");
+  }
   SceneView view = *options.scene;
   view.camera = with_range(view, options);
   require_meaningful(format_of(view.camera, Mapping::standard, Storage::unorm16));
@@ -207,7 +213,8 @@ std::vector<StudyFile> study_scene_fights(const StudyOptions& options,
                                       {"greatest_lost", measured.greatest_lost},
                                       {"predicted", measured.predicted}});
   }
-  append(draw(separation_plot(pairs)));
+  const Plot plot = separation_plot(pairs);
+  if (has_points(plot)) append(draw(plot));
   append({csv_of(all),
           csv_of(pairs),
           {"summary.json", summary.dump(2) + "\n"},

@@ -1,5 +1,7 @@
 #include "validation/studies/study_scene.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <limits>
@@ -11,37 +13,29 @@
 namespace fathom::studies {
 namespace {
 
-/// Appends the parallelogram of corner and two sides, as two triangles.
-void add_parallelogram(Mesh& mesh, const MeshPoint& corner, const MeshPoint& a,
-                       const MeshPoint& b) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  const auto at = [&](double s, double t) {
-    return MeshPoint{corner.x + s * a.x + t * b.x, corner.y + s * a.y + t * b.y,
-                     corner.z + s * a.z + t * b.z};
-  };
-  for (const MeshPoint& p : {at(0, 0), at(1, 0), at(1, 1), at(0, 1)}) mesh.vertices.push_back(p);
-  mesh.triangles.push_back({first, first + 1, first + 2});
-  mesh.triangles.push_back({first, first + 2, first + 3});
-  mesh.face_count = mesh.triangles.size();
-}
-
 /// Of a panel in its cell: the part from s0 to s1 and t0 to t1, moved along the view.
 struct PanelPart {
   double s0, s1, t0, t1, moved;
 };
 
+/// Two triangles of the plane z = distance/(1 − tilt·s) that fills the cell around `middle` in the
+/// image, x/z = middle + s·width, y/z = middle + t·height.
 void add_part(Mesh& mesh, double distance, const std::array<double, 2>& middle,
               const PanelPart& part) {
   constexpr double half_width = 0.2, half_height = 0.15, tilt = 0.3;
   const auto at = [&](double s, double t) {
-    return MeshPoint{distance * (middle[0] + s * half_width),
-                     distance * (middle[1] + t * half_height),
-                     distance * (1 + tilt * s) + part.moved};
+    const double z = distance / (1 - tilt * s);
+    return MeshPoint{z * (middle[0] + s * half_width), z * (middle[1] + t * half_height),
+                     z + part.moved};
   };
-  const MeshPoint corner = at(part.s0, part.t0), right = at(part.s1, part.t0),
-                  down = at(part.s0, part.t1);
-  add_parallelogram(mesh, corner, {right.x - corner.x, right.y - corner.y, right.z - corner.z},
-                    {down.x - corner.x, down.y - corner.y, down.z - corner.z});
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const MeshPoint& p :
+       {at(part.s0, part.t0), at(part.s1, part.t0), at(part.s1, part.t1), at(part.s0, part.t1)}) {
+    mesh.vertices.push_back(p);
+  }
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.triangles.push_back({first, first + 2, first + 3});
+  mesh.face_count = mesh.triangles.size();
 }
 
 double power_of_ten(double x, bool up) {
@@ -109,6 +103,9 @@ DepthMap visible_map(const SceneView& view) {
 
 Camera with_range(const SceneView& view, const StudyOptions& options) {
   Camera camera = view.camera;
+  if (options.near && !(*options.near > 0)) {
+    throw UsageError(fmt::format("near = {} is not a positive number", *options.near));
+  }
   if (options.near) camera.near = *options.near;
   if (options.far) camera.far = *options.far;
   if (camera.near > 0 && std::isfinite(camera.far)) return camera;

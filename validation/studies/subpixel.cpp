@@ -97,10 +97,6 @@ Plot depth_plot(const std::vector<Row>& rows) {
   return plot;
 }
 
-bool has_points(const Plot& plot) {
-  return !plot.series.empty();
-}
-
 StudyFile page_of(const SceneView& view, const std::vector<Row>& rows, bool coverage, bool depth) {
   Page page("Subpixel bits: " + view.name);
   page.paragraph(
