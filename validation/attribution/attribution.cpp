@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "fathom/render.h"
 #include "validation/attribution/pixel_verdict.h"
@@ -211,10 +212,29 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+/// Roundings are those of a triangle's corners and plane: its pixels share them, so triangles are
+/// what is averaged.
+void set_bias(const std::vector<std::pair<double, std::uint32_t>>& sums, Attribution& result) {
+  double n = 0, sum = 0, squares = 0;
+  for (const auto& [total, pixels] : sums) {
+    if (pixels == 0) continue;
+    const double mean = total / pixels;
+    n += 1;
+    sum += mean;
+    squares += mean * mean;
+  }
+  result.bias_triangles = static_cast<std::uint64_t>(n);
+  if (n < 2) return;
+  result.bias_steps = sum / n;
+  result.bias_deviation =
+      std::sqrt(std::max(0.0, squares / n - result.bias_steps * result.bias_steps) / n);
+}
+
 void summarise(const std::vector<PixelResult>& pixels, const Truth& truth, Attribution& result) {
   std::vector<double> widths, steps, relative;
   std::uint64_t may = 0, touched = 0;
-  double bias = 0, sum = 0;
+  double sum = 0;
+  std::vector<std::pair<double, std::uint32_t>> biases(truth.mesh.triangles.size());
   result.certain_pixels.assign(truth.mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const PixelResult& p = pixels[i];
@@ -237,7 +257,8 @@ void summarise(const std::vector<PixelResult>& pixels, const Truth& truth, Attri
     }
     if (p.counts_for_bias) {
       ++result.bias_pixels;
-      bias += p.bias;
+      biases[truth.triangles[i]].first += p.bias;
+      ++biases[truth.triangles[i]].second;
     }
   }
   result.median_relative_width = median(widths);
@@ -245,7 +266,7 @@ void summarise(const std::vector<PixelResult>& pixels, const Truth& truth, Attri
   result.may_share = touched == 0 ? 0 : static_cast<double>(may) / static_cast<double>(touched);
   result.errors.mean = relative.empty() ? 0 : sum / static_cast<double>(relative.size());
   result.errors.median_relative = median(relative);
-  if (result.bias_pixels > 0) result.bias_steps = bias / static_cast<double>(result.bias_pixels);
+  set_bias(biases, result);
 }
 
 }  // namespace

@@ -64,9 +64,17 @@ struct Attribution {
   /// or not.
   double median_relative_width = 0, median_steps_width = 0, may_share = 0;
   DepthErrors errors;
-  /// Mean of stored minus exact, in steps of the storage, over `bias_pixels` (raster models).
-  double bias_steps = 0;
-  std::uint64_t bias_pixels = 0;
+  /// Mean over triangles of stored minus expected, in steps of the storage, and the standard
+  /// deviation of that mean; of pixels where nothing else is near (raster models).
+  double bias_steps = 0, bias_deviation = 0;
+  std::uint64_t bias_pixels = 0, bias_triangles = 0;
+
+  /// A constant seems to be added to all window depths: the mean is three quarters of a step or
+  /// more, and four times its deviation.
+  [[nodiscard]] bool is_biased() const {
+    const double mean = bias_steps < 0 ? -bias_steps : bias_steps;
+    return bias_triangles >= 64 && mean >= 0.75 && mean >= 4 * bias_deviation;
+  }
   /// Unexplained pixels that the absence of the visible triangle explains: its number, else
   /// no_surface. Pixels where the visible triangle is certain, one count a triangle.
   std::vector<std::uint32_t> absent;

@@ -111,11 +111,19 @@ double distance(const ClipVertex& v, unsigned border) {
   }
 }
 
+/// Near and far are cut as far out as the errors allow: the range of depths decides there, not the
+/// cut.
+double slack(const ClipVertex& v, unsigned border) {
+  return border < 2 ? v.error[2] + (border == 1 ? v.error[3] : 0) : 0;
+}
+
 /// The corner that is cut off between `a` and `b`. The renderer's own lies on its own edge up to
 /// the roundings of an interpolation; where along the edge does not matter, since what is beyond
 /// the border is not drawn.
 ClipVertex between(const ClipVertex& a, const ClipVertex& b, unsigned border) {
-  const double t = distance(a, border) / (distance(a, border) - distance(b, border));
+  const double from_a = distance(a, border) + slack(a, border);
+  const double from_b = distance(b, border) + slack(b, border);
+  const double t = from_a / (from_a - from_b);
   ClipVertex v{.borders = 1U << border | (a.borders & b.borders)};
   for (std::size_t k = 0; k < 4; ++k) {
     v.value[k] = a.value[k] + t * (b.value[k] - a.value[k]);
@@ -130,7 +138,8 @@ std::vector<ClipVertex> cut_at(const std::vector<ClipVertex>& polygon, unsigned 
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const ClipVertex& a = polygon[i];
     const ClipVertex& b = polygon[(i + 1) % polygon.size()];
-    const bool a_in = distance(a, border) >= 0, b_in = distance(b, border) >= 0;
+    const bool a_in = distance(a, border) + slack(a, border) >= 0;
+    const bool b_in = distance(b, border) + slack(b, border) >= 0;
     if (a_in) inside.push_back(a);
     if (a_in != b_in) inside.push_back(between(a, b, border));
   }
@@ -176,6 +185,19 @@ std::vector<ClipVertex> clip_vertices(const WorldMesh& mesh, const Camera& camer
     }
   }
   return vertices;
+}
+
+bool is_certainly_outside(const std::array<const ClipVertex*, 3>& triangle) {
+  for (unsigned border = 0; border < 6; ++border) {
+    bool outside = true;
+    for (const ClipVertex* v : triangle) {
+      const double across = border < 2 ? v->error[2] : v->error[border < 4 ? 0 : 1];
+      const double error = across + (border == 0 ? 0 : v->error[3]);
+      outside = outside && distance(*v, border) + error < 0;
+    }
+    if (outside) return true;
+  }
+  return false;
 }
 
 std::vector<ClipVertex> cut(const std::array<const ClipVertex*, 3>& triangle, bool at_border) {

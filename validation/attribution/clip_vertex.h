@@ -29,6 +29,9 @@ std::vector<ClipVertex> clip_vertices(const WorldMesh& mesh, const Camera& camer
 /// plane: Sutherland and Hodgman (1974) on homogeneous coordinates.
 std::vector<ClipVertex> cut(const std::array<const ClipVertex*, 3>& triangle, bool at_border);
 
+/// Whether all corners lie beyond one border of the view volume, whatever their errors are.
+bool is_certainly_outside(const std::array<const ClipVertex*, 3>& triangle);
+
 /// A corner in window coordinates: x, y in pixels from the top left, z the window depth.
 struct WindowVertex {
   double x = 0, y = 0, z = 0;

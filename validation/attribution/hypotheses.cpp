@@ -189,7 +189,7 @@ std::vector<std::function<std::optional<Hypothesis>()>> hypotheses(const Truth& 
                                                                    const Attribution& found) {
   std::vector<std::function<std::optional<Hypothesis>()>> list;
   list.emplace_back([&]() -> std::optional<Hypothesis> {
-    if (found.bias_pixels < 64 || std::abs(found.bias_steps) < 0.75) return std::nullopt;
+    if (!found.is_biased()) return std::nullopt;
     const double steps =
         std::abs(found.bias_steps) < 64 ? std::round(found.bias_steps) : found.bias_steps;
     Hypothesis h{"bias",
@@ -301,7 +301,7 @@ Attribution attribute_and_name(const Truth& truth, const OtherMap& other,
   Attribution found = attribute(truth, other, model);
   const std::uint64_t unexplained = found.count(PixelClass::unexplained);
   if (unexplained == 0) {
-    if (found.bias_pixels >= 64 && std::abs(found.bias_steps) >= 0.75) {
+    if (found.is_biased()) {
       found.findings.push_back(
           {"bias",
            fmt::format("window depths are biased by {:+.3g} steps of the storage on average",

@@ -53,6 +53,8 @@ struct Polygon {
   std::vector<WindowVertex> corners;
   DepthPlane plane;
   bool turned = false;
+  /// A corner may lie in the plane of the eye: nothing is known of where it is seen.
+  bool anywhere = false;
 };
 
 double area_of(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
@@ -135,13 +137,14 @@ bool RasterFragments::is_whole(std::uint32_t triangle) const {
 }
 
 std::optional<Polygon> RasterFragments::polygon(std::uint32_t triangle, bool at_border) const {
-  const std::vector<ClipVertex> clipped = cut(corners(triangle), at_border);
-  if (clipped.size() < 3) return std::nullopt;
+  if (is_certainly_outside(corners(triangle))) return std::nullopt;
   Polygon polygon;
-  for (const ClipVertex& v : clipped) {
-    if (!(v.value[3] - v.error[3] > 0)) return std::nullopt;
-    polygon.corners.push_back(to_window(v, camera_, model_));
+  for (const ClipVertex& v : cut(corners(triangle), at_border)) {
+    if (!(v.value[3] - 2 * v.error[3] > 0)) polygon.anywhere = true;
+    if (!polygon.anywhere) polygon.corners.push_back(to_window(v, camera_, model_));
   }
+  if (polygon.anywhere) return polygon;
+  if (polygon.corners.size() < 3) return std::nullopt;
   set_plane(polygon);
   double area = 0;
   for (std::size_t i = 1; i + 1 < polygon.corners.size(); ++i) {
@@ -231,6 +234,7 @@ std::vector<Polygon> RasterFragments::polygons(std::uint32_t triangle) const {
 PixelBox RasterFragments::box(std::uint32_t triangle) const {
   double least_x = infinity, least_y = infinity, greatest_x = -infinity, greatest_y = -infinity;
   for (const Polygon& p : polygons(triangle)) {
+    if (p.anywhere) return {0, camera_.width - 1, 0, camera_.height - 1};
     for (const WindowVertex& c : p.corners) {
       const double margin_x = c.snapped_x + model_.sample_error;
       const double margin_y = c.snapped_y + model_.sample_error;
@@ -288,6 +292,13 @@ void RasterFragments::set_value(Fragment& f, const Polygon& p, double x, double 
 
 std::optional<Fragment> RasterFragments::on(const Polygon& p, double x, double y) const {
   Fragment f{.coverage = Coverage::must, .turned = p.turned, .inside = true};
+  if (p.anywhere) {
+    f.coverage = Coverage::may;
+    f.open_edges = joins_no_other;
+    f.exact = sign_ > 0 ? 1 : 0;
+    f.value = sign_ > 0 ? Interval{0, 1} : Interval{-1, 0};
+    return f;
+  }
   bool certain_area = p.plane.is_known && p.plane.error < infinity;
   bool one_way = true, other_way = true;  // no edge is certain to exclude the sample
   const std::size_t count = p.corners.size();

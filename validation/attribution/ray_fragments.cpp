@@ -53,10 +53,21 @@ struct Ray {
   Vector origin{}, direction{}, origin_error{}, direction_error{};
 };
 
+/// The camera in a world whose origin is `shift`.
+Camera moved(Camera camera, const Vector& shift) {
+  for (auto& row : camera.world_to_camera) {
+    row[3] += row[0] * shift[0] + row[1] * shift[1] + row[2] * shift[2];
+  }
+  return camera;
+}
+
 class RayFragments final : public FragmentSource {
  public:
   RayFragments(const WorldMesh& mesh, const Camera& camera, const RendererModel& model)
-      : mesh_(mesh), camera_(camera), model_(model), rays_(camera_rays(camera)) {}
+      : mesh_(mesh),
+        camera_(moved(camera, model.shift)),
+        model_(model),
+        rays_(camera_rays(camera_)) {}
 
   [[nodiscard]] PixelBox box(std::uint32_t triangle) const override;
   void each(std::uint32_t triangle, const PixelBox& box, const TakeFragment& take) const override;
@@ -67,7 +78,8 @@ class RayFragments final : public FragmentSource {
                                            const Ray& ray) const;
   [[nodiscard]] std::array<Vector, 3> corners(std::uint32_t triangle) const {
     const CornerIndices& t = mesh_.triangles[triangle];
-    return {mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]};
+    return {mesh_.points[t[0]] - model_.shift, mesh_.points[t[1]] - model_.shift,
+            mesh_.points[t[2]] - model_.shift};
   }
 
   const WorldMesh& mesh_;
@@ -187,7 +199,9 @@ std::optional<Fragment> RayFragments::on(const std::array<Vector, 3>& corners,
   const Vector spread = displaced + std::abs(t) * ray.direction_error;
   const double plane_error =
       model_.ray_roundings * u * (permanent(e1, e2, a[0]) + std::abs(t) * permanent(e1, e2, d));
-  double half = own_roundings * (dot(abs(normal), spread) + plane_error) / rest;
+  // Weights of a sample that an open edge lets in may be negative, by the edges' bounds in all.
+  const double outside = 1 + 2 * facing_error / rest;
+  double half = own_roundings * outside * (dot(abs(normal), spread) + plane_error) / rest;
   if (!(rest > 0) || !std::isfinite(t)) {
     f.coverage = Coverage::may;
     half = infinity;

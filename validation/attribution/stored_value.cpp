@@ -20,7 +20,9 @@ double spacing(double x) {
 }  // namespace
 
 double storage_step(const RendererModel& model, double window) {
-  const double told = spacing(window);
+  // z_ndc/2 + 1/2 is no finer than binary32 tells numbers of about a half.
+  const double told =
+      model.mapping == Mapping::opengl ? std::max(spacing(window), 0x1p-24) : spacing(window);
   if (model.storage == Storage::float16) return 0x1p13 * told;
   if (!is_unorm(model.storage)) return told;
   return std::max(told, 1 / (std::ldexp(1.0, bits_of(model.storage)) - 1));

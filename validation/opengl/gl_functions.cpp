@@ -64,6 +64,7 @@ GlFunctions::GlFunctions() {
   find(UseProgram, "glUseProgram");
   find(UniformMatrix4fv, "glUniformMatrix4fv");
   find(GetUniformLocation, "glGetUniformLocation");
+  find(GetUniformfv, "glGetUniformfv");
 }
 
 }  // namespace fathom::validation

@@ -55,6 +55,7 @@ struct GlFunctions {
   PFNGLUSEPROGRAMPROC UseProgram;
   PFNGLUNIFORMMATRIX4FVPROC UniformMatrix4fv;
   PFNGLGETUNIFORMLOCATIONPROC GetUniformLocation;
+  PFNGLGETUNIFORMFVPROC GetUniformfv;
   // NOLINTEND(readability-identifier-naming)
 };
 

@@ -1,5 +1,7 @@
 #include "validation/opengl/opengl_renderer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +9,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "validation/attribution/clip_vertex.h"
+#include "validation/camera_rays.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/read_back.h"
 
@@ -126,7 +129,9 @@ void draw(const GlFunctions& gl, const WorldMesh& mesh, const Camera& camera,
   gl.ClearBufferuiv(GL_COLOR, 0, &nothing);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(depth.reversed ? GL_GREATER : GL_LESS);
-  if (depth.offset_units != 0) {
+  if (depth.offset_units == 0) {
+    gl.Disable(GL_POLYGON_OFFSET_FILL);
+  } else {
     gl.Enable(GL_POLYGON_OFFSET_FILL);
     gl.PolygonOffset(0, static_cast<GLfloat>(depth.offset_units));
   }
@@ -148,8 +153,33 @@ OtherMap read_back(const GlFunctions& gl, const Camera& camera, const RendererMo
   return map;
 }
 
-/// The middle of the mesh, so that what is held is as small as can be.
-std::array<double, 3> middle_of(const WorldMesh& mesh) {
+/// What the driver makes of glPolygonOffset: OpenGL leaves to it how much a unit is
+/// ([GL46] 14.6.5). The mesh is drawn without and with it; where most pixels agree on the
+/// difference, that is it.
+void measure_offset(const GlFunctions& gl, const WorldMesh& mesh, const Camera& camera,
+                    const OpenGlDepth& depth, RendererModel& model) {
+  const auto windows = [&](int units) {
+    OpenGlDepth with = depth;
+    with.offset_units = units;
+    draw(gl, mesh, camera, with);
+    return read_window_depths(gl, camera.width, camera.height, model.storage);
+  };
+  const std::vector<double> without = windows(0), with = windows(depth.offset_units);
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    if (with[i] < 1 && without[i] < 1) differences.push_back(with[i] - without[i]);
+  }
+  if (differences.empty()) return;
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  model.bias = *middle;
+  model.bias_error = 2 * unit_roundoff;  // added in binary32, and stored
+}
+
+/// Where positions are held from: the eye, so that nothing is lost near it, or where there is none,
+/// the middle of the mesh.
+std::array<double, 3> held_from(const WorldMesh& mesh, const Camera& camera) {
+  if (camera.projection == Projection::perspective) return camera_rays(camera).origin.at_corner;
   std::array<double, 3> middle{};
   for (std::size_t k = 0; k < 3; ++k) {
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
@@ -179,6 +209,10 @@ std::string version_of(const GlFunctions& gl) {
 
 }  // namespace
 
+bool interpolates_before_snapping(const std::string& version) {
+  return version.find("llvmpipe") != std::string::npos;
+}
+
 DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlDepth& depth) {
   const EglContext context;
   const GlFunctions gl;
@@ -187,7 +221,7 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlDe
   RendererModel& model = drawn.model;
   model.name = "OpenGL";
   model.mapping = depth.reversed ? Mapping::reversed : Mapping::opengl;
-  model.shift = middle_of(mesh);
+  model.shift = held_from(mesh, camera);
   model.matrix = clip_from_held(camera, model);
   model.first_of_equals = true;
 
@@ -196,16 +230,14 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlDe
   GLint subpixel_bits = 0;
   gl.GetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits);
   model.subpixel_bits = subpixel_bits;
-  if (depth.offset_units != 0) {
-    // [GL46] 14.6.5: units times the least resolvable difference; of binary32, that of the
-    // triangle's greatest depth, here of depths in [½, 1).
-    const double step =
-        is_unorm(model.storage) ? std::ldexp(1.0, -bits_of(model.storage)) : 0x1p-24;
-    model.bias = depth.offset_units * step;
-    model.bias_error = 0x1p-23;
-  }
+  model.depth_before_snap = interpolates_before_snapping(drawn.version);
   use_program(gl, *model.matrix);
   hand_over(gl, mesh, model);
+  if (depth.offset_units != 0) {
+    measure_offset(gl, mesh, camera, depth, model);
+    drawn.version +=
+        fmt::format(", an offset of {} units is {:.6g}", depth.offset_units, model.bias);
+  }
   draw(gl, mesh, camera, depth);
   if (depth.samples > 1) {
     drawn.version += ", " + std::to_string(framebuffer.granted_samples()) + " samples granted";

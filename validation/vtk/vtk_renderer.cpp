@@ -7,17 +7,20 @@
 #include <vtkFloatArray.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
+#include <vtkOpenGLFramebufferObject.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkTextureObject.h>
 #include <vtkVersion.h>
 
 #include <algorithm>
 
 #include "validation/opengl/egl_context.h"
+#include "validation/opengl/read_back.h"
+#include "validation/vtk/recording_mapper.h"
 #include "validation/vtk/surfaceless_window.h"
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)
@@ -60,20 +63,38 @@ void set_camera(vtkCamera& camera, const Camera& ours, const ClipRange& range) {
   camera.SetClippingRange(range.near, range.far);
 }
 
+int texture_format(Storage storage) {
+  switch (storage) {
+    case Storage::unorm16:
+      return vtkTextureObject::Fixed16;
+    case Storage::unorm24:
+      return vtkTextureObject::Fixed24;
+    case Storage::unorm32:
+      return vtkTextureObject::Fixed32;
+    default:
+      return vtkTextureObject::Float32;
+  }
+}
+
 }  // namespace
 
 struct VtkRenderer::Parts {
   EglContext context;  // outlives the window
   vtkNew<SurfacelessWindow> window;
+  vtkNew<RecordingMapper> mapper;
+  vtkSmartPointer<vtkTextureObject> depth;
+  VtkOptions options;
   int width = 0, height = 0;
 };
 
-VtkRenderer::VtkRenderer(const WorldMesh& mesh, const Camera& camera, const ClipRange& range)
+VtkRenderer::VtkRenderer(const WorldMesh& mesh, const Camera& camera, const ClipRange& range,
+                         const VtkOptions& options)
     : parts_(std::make_unique<Parts>()) {
   parts_->width = static_cast<int>(camera.width);
   parts_->height = static_cast<int>(camera.height);
 
-  vtkNew<vtkPolyDataMapper> mapper;
+  parts_->options = options;
+  RecordingMapper* const mapper = parts_->mapper;
   mapper->SetInputData(polygons_of(mesh));
   mapper->ScalarVisibilityOff();
   vtkNew<vtkActor> actor;
@@ -85,15 +106,52 @@ VtkRenderer::VtkRenderer(const WorldMesh& mesh, const Camera& camera, const Clip
 
   parts_->window->SetSize(parts_->width, parts_->height);
   parts_->window->AddRenderer(renderer);
+  parts_->window->SetMultiSamples(options.samples);
 }
 
 VtkRenderer::~VtkRenderer() {
+  if (parts_->depth) parts_->depth->ReleaseGraphicsResources(parts_->window);
   parts_->window->Finalize();
 }
 
 void VtkRenderer::draw() {
-  parts_->window->Render();
-  parts_->window->WaitForCompletion();
+  Parts& p = *parts_;
+  if (p.options.depth && !p.depth) {
+    p.window->Render();  // makes the framebuffer whose attachment is exchanged
+    p.depth = vtkSmartPointer<vtkTextureObject>::New();
+    p.depth->SetContext(p.window);
+    p.depth->AllocateDepth(static_cast<unsigned>(p.width), static_cast<unsigned>(p.height),
+                           texture_format(*p.options.depth));
+    vtkOpenGLFramebufferObject* const framebuffer = p.window->GetRenderFramebuffer();
+    framebuffer->Bind();
+    framebuffer->AddDepthAttachment(p.depth);
+    framebuffer->UnBind();
+  }
+  p.window->Render();
+  p.window->WaitForCompletion();
+}
+
+VtkDrawing VtkRenderer::drawing() {
+  Parts& p = *parts_;
+  VtkDrawing drawing;
+  const GlFunctions gl;
+  vtkOpenGLFramebufferObject* const framebuffer = p.window->GetRenderFramebuffer();
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer->GetFBOIndex());
+  drawing.storage = depth_attachment_storage(gl, GL_READ_FRAMEBUFFER);
+  gl.GetIntegerv(GL_SUBPIXEL_BITS, &drawing.subpixel_bits);
+  drawing.shift = p.mapper->shift();
+  drawing.scale = p.mapper->scale();
+  drawing.clip_from_held = p.mapper->clip_from_held();
+  if (p.options.samples > 0) {
+    gl.GetIntegerv(GL_SAMPLES, &drawing.samples);
+    const std::vector<float> resolved = window_depths();
+    drawing.windows.assign(resolved.begin(), resolved.end());
+    drawing.storage = Storage::float32;  // read as binary32
+  } else {
+    drawing.windows = read_window_depths(gl, static_cast<std::uint32_t>(p.width),
+                                         static_cast<std::uint32_t>(p.height), drawing.storage);
+  }
+  return drawing;
 }
 
 std::vector<float> VtkRenderer::window_depths() {

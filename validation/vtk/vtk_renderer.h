@@ -1,13 +1,34 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "fathom/depth_format/depth_format.h"
 #include "validation/opengl_matrices.h"
 #include "validation/world_mesh.h"
 
 namespace fathom::validation {
+
+struct VtkOptions {
+  /// The type of the depth attachment; VTK's own choice where not given.
+  std::optional<Storage> depth;
+  /// Samples a pixel that VTK is asked for; 0: no multisampling.
+  int samples = 0;
+};
+
+/// What a frame was drawn with, and its depths.
+struct VtkDrawing {
+  /// Exactly as stored, width × height, rows from the top; 1 where nothing was drawn.
+  std::vector<double> windows;
+  Storage storage = Storage::unorm24;
+  int subpixel_bits = 8, samples = 0;
+  /// Positions are held as (position − shift)·scale; the matrix takes them to clip coordinates.
+  std::array<double, 3> shift{}, scale{};
+  std::array<float, 16> clip_from_held{};
+};
 
 /// A mesh drawn by VTK into a framebuffer without a display: points in binary64, our camera as
 /// explicit model-view and projection matrices, one sample per pixel, no lighting, no culling, no
@@ -19,7 +40,8 @@ namespace fathom::validation {
 /// Fails     InputError where there is no OpenGL (see EglContext).
 class VtkRenderer {
  public:
-  VtkRenderer(const WorldMesh& mesh, const Camera& camera, const ClipRange& range);
+  VtkRenderer(const WorldMesh& mesh, const Camera& camera, const ClipRange& range,
+              const VtkOptions& options = {});
   ~VtkRenderer();
   VtkRenderer(const VtkRenderer&) = delete;
   VtkRenderer& operator=(const VtkRenderer&) = delete;
@@ -31,6 +53,9 @@ class VtkRenderer {
   /// Window depths of the last frame in [0, 1], width × height, rows from the top; 1 where nothing
   /// was drawn.
   [[nodiscard]] std::vector<float> window_depths();
+
+  /// The last frame; with samples, what OpenGL resolves them to.
+  [[nodiscard]] VtkDrawing drawing();
 
   /// "VTK 9.1.0 on llvmpipe (…)".
   [[nodiscard]] std::string description() const;

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vtkOpenGLPolyDataMapper.h>
+
+#include <array>
+
+namespace fathom::validation {
+
+/// VTK's mapper for polygons, which also remembers with what its last frame was drawn.
+class RecordingMapper : public vtkOpenGLPolyDataMapper {
+ public:
+  static RecordingMapper* New();
+  // clang-format off
+  vtkTypeMacro(RecordingMapper, vtkOpenGLPolyDataMapper)
+      // clang-format on
+
+      /// The matrix from held positions to clip coordinates, row by row, as OpenGL had it.
+      [[nodiscard]] const std::array<float, 16>& clip_from_held() const {
+    return clip_from_held_;
+  }
+  /// Positions are held as (position − shift)·scale.
+  [[nodiscard]] const std::array<double, 3>& shift() const { return shift_; }
+  [[nodiscard]] const std::array<double, 3>& scale() const { return scale_; }
+
+ protected:
+  void SetCameraShaderParameters(vtkOpenGLHelper& drawn, vtkRenderer* renderer,
+                                 vtkActor* actor) override;
+
+ private:
+  std::array<float, 16> clip_from_held_{};
+  std::array<double, 3> shift_{0, 0, 0}, scale_{1, 1, 1};
+};
+
+}  // namespace fathom::validation
