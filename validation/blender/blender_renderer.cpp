@@ -1,0 +1,176 @@
+#include "validation/blender/blender_renderer.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "fathom/image/map_files.h"
+#include "fathom/numeric/errors.h"
+#include "validation/blender/blender_camera.h"
+#include "validation/blender/blender_script.h"
+
+namespace fathom::validation {
+namespace {
+
+/// A folder for what Blender reads and writes, removed at the end.
+class Workplace {
+ public:
+  Workplace() {
+    std::string name = (std::filesystem::temp_directory_path() / "fathom-blender-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw InputError("blender: cannot make a folder for its files");
+    path_ = name;
+  }
+  ~Workplace() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+    return path_ / name;
+  }
+
+  template <class T>
+  void write(const std::string& name, const std::vector<T>& values) const {
+    std::ofstream file(path_ / name, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(values.data()),
+               static_cast<std::streamsize>(values.size() * sizeof(T)));
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// What a command prints, and its exit status as a shell gives it.
+struct Answer {
+  std::string text;
+  int status = 0;
+};
+
+Answer run(const std::string& command) {
+  std::FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) throw InputError("blender: cannot be started");
+  Answer answer;
+  std::array<char, 4096> part{};
+  for (std::size_t n = 0; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;) {
+    answer.text.append(part.data(), n);
+  }
+  const int status = ::pclose(pipe);
+  answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return answer;
+}
+
+std::string version() {
+  const Answer answer = run("blender --version");
+  if (answer.status == 127) {
+    throw InputError("blender is not installed: the package blender provides it");
+  }
+  return answer.text.substr(0, answer.text.find('\n'));
+}
+
+/// The translation that makes `shift` the origin of the world.
+Camera moved(Camera camera, const std::array<double, 3>& shift) {
+  for (auto& row : camera.world_to_camera) {
+    for (std::size_t k = 0; k < 3; ++k) row[3] += row[k] * shift[k];
+  }
+  return camera;
+}
+
+std::array<double, 3> middle_of(const WorldMesh& mesh) {
+  std::array<double, 3> middle{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+    for (const auto& p : mesh.points) {
+      least = std::min(least, p[k]);
+      greatest = std::max(greatest, p[k]);
+    }
+    // Only what binary32 would hurt is moved.
+    const double size = greatest - least, away = std::max(std::abs(least), std::abs(greatest));
+    if (least <= greatest && away > 16 * size)
+      middle[k] = static_cast<float>(least / 2 + greatest / 2);
+  }
+  return middle;
+}
+
+std::string scene_json(const Camera& camera, const BlenderCamera& b) {
+  std::string rows;
+  for (std::size_t r = 0; r < 4; ++r) {
+    const auto& m = b.world_from_camera;
+    rows += fmt::format("{}[{:.17g}, {:.17g}, {:.17g}, {:.17g}]", r == 0 ? "" : ", ", m[4 * r],
+                        m[4 * r + 1], m[4 * r + 2], m[4 * r + 3]);
+  }
+  return fmt::format(
+      R"({{"camera": {{"perspective": {}, "lens": {:.17g}, "ortho_scale": {:.17g}, "shift_x": {:.17g}, "shift_y": {:.17g},
+ "aspect_x": {:.17g}, "aspect_y": {:.17g}, "near": {:.17g}, "far": {:.17g}, "width": {}, "height": {},
+ "world_from_camera": [{}]}}}})",
+      b.perspective ? "true" : "false", b.lens, b.ortho_scale, b.shift_x, b.shift_y, b.aspect_x,
+      b.aspect_y, camera.near, camera.far, camera.width, camera.height, rows);
+}
+
+void hand_over(const Workplace& place, const WorldMesh& mesh, const std::array<double, 3>& shift,
+               const Camera& camera) {
+  std::vector<float> points;
+  for (const auto& p : mesh.points) {
+    for (std::size_t k = 0; k < 3; ++k) points.push_back(static_cast<float>(p[k] - shift[k]));
+  }
+  place.write("points.bin", points);
+  std::vector<std::int32_t> corners;
+  for (const CornerIndices& t : mesh.triangles) {
+    for (const std::uint32_t corner : t) corners.push_back(static_cast<std::int32_t>(corner));
+  }
+  place.write("triangles.bin", corners);
+  const Camera here = moved(camera, shift);
+  place.write("scene.json", scene_json(here, blender_camera(here)));
+  place.write("render.py", std::string(blender_script));
+}
+
+/// The last line that Blender wrote about an error.
+std::string complaint(const std::string& text) {
+  std::string found = "it wrote no map";
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    if (line.find("Error") != std::string::npos) found = line;
+    begin = end + 1;
+  }
+  return found;
+}
+
+}  // namespace
+
+DrawnMap draw_blender(const WorldMesh& mesh, const Camera& camera, int seconds) {
+  DrawnMap drawn{.version = version()};
+  const Workplace place;
+  RendererModel& model = drawn.model;
+  model = model_named("cycles");
+  model.name = "Cycles";
+  model.shift = middle_of(mesh);
+  hand_over(place, mesh, model.shift, camera);
+  const Answer answer = run(fmt::format(
+      "timeout -k 1 {} blender -b --factory-startup -noaudio --python-exit-code 1 --python '{}'",
+      seconds, (place / "render.py").string()));
+  if (answer.status == 124 || answer.status == 137) {
+    throw InputError(fmt::format("blender: did not end within {} seconds", seconds));
+  }
+  if (answer.status > 128) {
+    throw InputError(fmt::format("blender: ended by signal {}", answer.status - 128));
+  }
+  if (answer.status != 0 || !std::filesystem::exists(place / "depth.exr")) {
+    throw InputError("blender: failed: " + complaint(answer.text));
+  }
+  drawn.map = other_map(read_map(place / "depth.exr"), "ViewLayer.Depth.Z");
+  return drawn;
+}
+
+}  // namespace fathom::validation

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/drawn_map.h"
+#include "validation/scenes/validation_scenes.h"
+
+namespace fathom::validation {
+
+/// A renderer in one of its ways: vtk, opengl, embree or blender, and what is particular about it.
+struct Peer {
+  std::string renderer, variant;
+};
+
+/// The ways of a renderer: depth formats of vtk and opengl, robust or not of embree, … In each of
+/// them a scene is validated. Fails with UsageError where there is no such renderer.
+std::vector<Peer> peers_of(const std::string& renderer);
+inline constexpr const char* all_renderers[] = {"vtk", "opengl", "embree", "blender"};
+
+/// A map, or why there is none, in one line.
+struct Drawing {
+  std::optional<DrawnMap> drawn;
+  std::string failure;
+};
+
+/// Makes the scene and has it drawn in a process of its own, which is ended after `seconds`.
+/// Needs    a process that has started no threads.
+/// `make` fails as in this process.
+Drawing draw_in_child(const Peer& peer, const std::function<ValidationScene()>& make, int seconds);
+
+/// The same here and now. Fails with InputError, in one line, where the renderer is not there.
+DrawnMap draw(const Peer& peer, const ValidationScene& scene, int seconds);
+
+}  // namespace fathom::validation
