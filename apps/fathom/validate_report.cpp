@@ -10,6 +10,7 @@
 #include "output_file.h"
 #include "program.h"
 #include "validation/report/baseline.h"
+#include "validation/report/report_html.h"
 #include "validation/report/report_json.h"
 
 namespace fathom::app {
@@ -61,6 +62,7 @@ int report_cases(const std::vector<ValidationCase>& cases, const ReportPlaces& p
   if (!places.out.empty()) {
     make_folder(places.out);
     write_text(std::filesystem::path(places.out) / "report.json", validation::to_json(cases));
+    write_text(std::filesystem::path(places.out) / "report.html", validation::to_html(cases));
   }
   std::string text;
   for (const ValidationCase& c : cases) text += line_of(c);

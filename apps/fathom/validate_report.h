@@ -8,7 +8,7 @@
 namespace fathom::app {
 
 struct ReportPlaces {
-  /// Folder for report.json; empty: none is written.
+  /// Folder for report.json and report.html; empty: none is written.
   std::string out;
   /// An earlier report.json to compare with; empty: none.
   std::string baseline;

@@ -33,7 +33,7 @@ struct Difference {
 };
 
 /// Pixels that only one of the two covers, and the greatest difference of depth elsewhere.
-Difference difference(const std::vector<float>& ours, const std::vector<float>& theirs) {
+Difference difference(const Samples<float>& ours, const std::vector<float>& theirs) {
   Difference found;
   for (std::size_t i = 0; i < ours.size(); ++i) {
     if (std::isinf(ours[i]) != std::isinf(theirs[i])) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/report/validation_case.h"
+
+namespace fathom::validation {
+
+/// report.html: a page that needs nothing but itself. Holds report.json and, compressed, every
+/// map: depths of the truth and of the others, classes, numbers of triangles.
+std::string to_html(const std::vector<ValidationCase>& cases);
+
+}  // namespace fathom::validation
