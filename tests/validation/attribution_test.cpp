@@ -121,7 +121,8 @@ TEST_P(Bias, OfOneCode) {
   for (const int codes : {-1, 1}) {
     const Attribution found = attribute_and_name(
         truth, draw_in_binary32(truth.mesh, truth.camera, model, {.bias_codes = codes}), model);
-    ASSERT_EQ(found.findings.size(), 1U);
+    ASSERT_EQ(found.findings.size(), 1U)
+        << found.bias_steps << " ± " << found.bias_deviation << " in " << found.bias_triangles;
     EXPECT_EQ(found.findings[0].kind, "bias");
     // Roundings that do not cancel are worth a fifth of a code here; three quarters are named.
     EXPECT_NEAR(found.bias_steps, codes, 0.25);

@@ -212,29 +212,39 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+/// Of the pixels of a triangle: stored minus expected and the widths of the intervals, in steps.
+struct TriangleBias {
+  double sum = 0, widths = 0;
+  std::uint32_t pixels = 0;
+};
+
 /// Roundings are those of a triangle's corners and plane: its pixels share them, so triangles are
-/// what is averaged.
-void set_bias(const std::vector<std::pair<double, std::uint32_t>>& sums, Attribution& result) {
-  double n = 0, sum = 0, squares = 0;
-  for (const auto& [total, pixels] : sums) {
-    if (pixels == 0) continue;
-    const double mean = total / pixels;
-    n += 1;
-    sum += mean;
-    squares += mean * mean;
+/// what is averaged, each with the inverse square of how uncertain its depth is.
+void set_bias(const std::vector<TriangleBias>& triangles, Attribution& result) {
+  std::vector<std::pair<double, double>> means;  // and weights
+  double weights = 0, sum = 0;
+  for (const TriangleBias& t : triangles) {
+    if (t.pixels == 0 || !(t.widths > 0) || std::isinf(t.widths)) continue;
+    const double weight = std::pow(t.pixels / t.widths, 2);
+    means.emplace_back(t.sum / t.pixels, weight);
+    weights += weight;
+    sum += weight * means.back().first;
   }
-  result.bias_triangles = static_cast<std::uint64_t>(n);
-  if (n < 2) return;
-  result.bias_steps = sum / n;
-  result.bias_deviation =
-      std::sqrt(std::max(0.0, squares / n - result.bias_steps * result.bias_steps) / n);
+  result.bias_triangles = means.size();
+  if (means.size() < 2) return;
+  result.bias_steps = sum / weights;
+  double squares = 0;
+  for (const auto& [mean, weight] : means) {
+    squares += std::pow(weight * (mean - result.bias_steps), 2);
+  }
+  result.bias_deviation = std::sqrt(squares) / weights;
 }
 
 void summarise(const std::vector<PixelResult>& pixels, const Truth& truth, Attribution& result) {
   std::vector<double> widths, steps, relative;
   std::uint64_t may = 0, touched = 0;
   double sum = 0;
-  std::vector<std::pair<double, std::uint32_t>> biases(truth.mesh.triangles.size());
+  std::vector<TriangleBias> biases(truth.mesh.triangles.size());
   result.certain_pixels.assign(truth.mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const PixelResult& p = pixels[i];
@@ -257,8 +267,10 @@ void summarise(const std::vector<PixelResult>& pixels, const Truth& truth, Attri
     }
     if (p.counts_for_bias) {
       ++result.bias_pixels;
-      biases[truth.triangles[i]].first += p.bias;
-      ++biases[truth.triangles[i]].second;
+      TriangleBias& bias = biases[truth.triangles[i]];
+      bias.sum += p.bias;
+      bias.widths += p.steps_width;
+      ++bias.pixels;
     }
   }
   result.median_relative_width = median(widths);

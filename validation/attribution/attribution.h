@@ -64,8 +64,9 @@ struct Attribution {
   /// or not.
   double median_relative_width = 0, median_steps_width = 0, may_share = 0;
   DepthErrors errors;
-  /// Mean over triangles of stored minus expected, in steps of the storage, and the standard
-  /// deviation of that mean; of pixels where nothing else is near (raster models).
+  /// Mean over triangles of stored minus expected, in steps of the storage, weighted by the inverse
+  /// squares of the widths of their intervals, and the standard deviation of that mean; of pixels
+  /// where nothing else is near (raster models).
   double bias_steps = 0, bias_deviation = 0;
   std::uint64_t bias_pixels = 0, bias_triangles = 0;
 
