@@ -79,7 +79,7 @@ class Visible : public ::testing::TestWithParam<Kind> {};
 TEST_P(Visible, AreasAreTheOraclesAndAddUpToCoverage) {
   CaseMaker maker(4004 + static_cast<std::uint64_t>(GetParam()), GetParam());
   Tally tally;
-  for (int i = 0; i < 500 / testing::effort && !HasFatalFailure(); ++i) {
+  for (int i = 0; i < 400 / testing::effort && !HasFatalFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     const Case c = maker.make();
     const std::vector<SurfaceRegion> surfaces = surfaces_of(c.scene, c.camera);
