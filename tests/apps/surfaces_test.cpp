@@ -90,7 +90,7 @@ for y in range(spec.height):
             assert len(at_centre) == 1 and at_centre[0][0] <= Z[y, x] <= at_centre[0][1]
         several += n > 1
         inner += n == 1 and A[y, x] == 1
-assert several > 100 and inner > 500, (several, inner)
+assert several > 100 and inner > 300, (several, inner)
 )");
 }
 

@@ -97,5 +97,23 @@ TEST(VisibleAreas, AreTheOraclesSumsRoundedOnce) {
   EXPECT_GT(partly, 20 / testing::effort);
 }
 
+// Two triangles make a rectangle of width w whose diagonal leaves the image at w/3: the areas are
+// no binary fractions, their sum w lies in the middle between two binary64 numbers.
+TEST(VisibleAreas, SumsInTheMiddleAreRoundedToEven) {
+  Camera camera = testing::camera_of(2, 1, 1);
+  camera.projection = Projection::orthographic;
+  camera.cx = camera.cy = 0;
+  const double left = 0x1p-53;
+  for (const auto& [right, expected] : {std::pair(1 + 0x1p-52, 1.0),  // w = 1 + 2⁻⁵³
+                                        std::pair(1 + 0x1p-51, 1 + 0x1p-51)}) {  // 1 + 3·2⁻⁵³
+    const Scene scene = testing::scene_of(
+        {{left, 0, 1}, {right, 0, 1}, {right, 3, 1}, {left, 3, 1}}, {{0, 1, 2}, {0, 2, 3}});
+    const VisibleAreas found = visible_areas(scene, camera, {});
+    EXPECT_EQ(found.objects[0].visible, expected);
+    EXPECT_EQ(found.objects[0].unoccluded, expected);
+    EXPECT_EQ(found.objects[0].ratio, 1.0);
+  }
+}
+
 }  // namespace
 }  // namespace fathom

@@ -8,7 +8,7 @@
 namespace fathom {
 
 /// The points (u, v) with l_u·u + l_v·v + l_w ≥ 0, exactly; its line is l = 0. The normal
-/// (l_u, l_v) is not zero.
+/// (l_u, l_v) is not zero, but in forms of which nothing but determinants is asked.
 ///
 /// Two half-planes a, b with turn(a, b) > 0 meet, as edges of a convex polygon that has its inside
 /// on the side of both, in a vertex; edges in this order go round counter-clockwise where v grows
