@@ -2,13 +2,14 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <string>
 
 #include "fathom/numeric/errors.h"
 #include "validation/studies/plot.h"
@@ -18,49 +19,40 @@ extern char** environ;
 namespace fathom::studies {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// A folder for the files of one run, removed at the end.
-class ScratchFolder {
+/// A file in memory that programs started from here can open by its path. It has no name in any
+/// folder, so that nothing is left behind, however this program ends.
+class MemoryFile {
  public:
-  ScratchFolder() {
-    std::string pattern = fs::temp_directory_path() / "fathom-plot-XXXXXX";
-    if (::mkdtemp(pattern.data()) == nullptr) {
-      throw OutputError(pattern + ": cannot make a folder for plots");
-    }
-    path_ = pattern;
+  MemoryFile() : descriptor_(::memfd_create("fathom-plot", 0)) {
+    if (descriptor_ < 0) throw OutputError("plots: cannot make a file in memory");
   }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  ~MemoryFile() { ::close(descriptor_); }
+
+  [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+  [[nodiscard]] std::string content() const {
+    std::ifstream file(path(), std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
   }
-  [[nodiscard]] const fs::path& path() const { return path_; }
 
  private:
-  fs::path path_;
+  int descriptor_;
 };
 
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-/// Starts gnuplot on a script, its output into a file; its exit status, or nullopt where it cannot
-/// be started.
-std::optional<int> run(const fs::path& script, const fs::path& said) {
+/// Starts gnuplot on an argument, its output into a file; its exit status, or nullopt where it
+/// cannot be started.
+std::optional<int> run(std::string argument, const MemoryFile& said) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, said.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, said.path().c_str(), O_WRONLY | O_TRUNC,
+                                   0);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  std::string program = "gnuplot", file = script;
-  std::string option = "--version";
-  char* arguments[] = {program.data(), script.empty() ? option.data() : file.data(), nullptr};
+  std::string program = "gnuplot";
+  char* arguments[] = {program.data(), argument.data(), nullptr};
   pid_t process = 0;
   const int error = ::posix_spawnp(&process, "gnuplot", &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -82,41 +74,36 @@ std::string first_line(const std::string& text) {
 }  // namespace
 
 void require_gnuplot() {
-  const ScratchFolder folder;
-  const std::optional<int> status = run({}, folder.path() / "said");
+  const MemoryFile said;
+  const std::optional<int> status = run("--version", said);
   // A process that could not be started ends with 127 where the system starts it first.
   if (!status || !WIFEXITED(*status) || WEXITSTATUS(*status) == 127) refuse_missing();
 }
 
 std::string png_bytes(const RgbImage& image) {
-  const ScratchFolder folder;
-  const fs::path path = folder.path() / "picture.png";
-  write_png(image, path);
-  return content_of(path);
+  const MemoryFile file;
+  write_png(image, file.path());
+  return file.content();
 }
 
 std::vector<StudyFile> run_gnuplot(const std::string& name, const std::string& script) {
-  const ScratchFolder folder;
-  const std::string base = folder.path() / name;
-  const auto terminal = [](const char* kind, const char* size, const std::string& file) {
-    return std::string("set terminal ") + kind + " size " + size + "\nset output \"" + file +
-           "\"\n";
+  const auto terminal = [](const char* kind, const std::string& place) {
+    return std::string("set terminal ") + kind +
+           " font \"DejaVu Sans,11\" size 1100,650\nset output \"" + place + "\"\n";
   };
-  const auto twice = [&](const std::string& place) {
-    return terminal("pngcairo font \"DejaVu Sans,11\"", "1100,650", place + ".png") + script +
-           terminal("svg font \"DejaVu Sans,11\"", "1100,650", place + ".svg") +
-           "replot\nset output\n";
+  const auto twice = [&](const std::string& png, const std::string& svg) {
+    return terminal("pngcairo", png) + script + terminal("svg", svg) + "replot\nset output\n";
   };
-  const fs::path file = folder.path() / "script.gp", said = folder.path() / "said";
-  std::ofstream(file) << twice(base);
-  const std::optional<int> status = run(file, said);
+  const MemoryFile input, said, png, svg;
+  std::ofstream(input.path()) << twice(png.path(), svg.path());
+  const std::optional<int> status = run(input.path(), said);
   if (!status) refuse_missing();
-  std::vector<StudyFile> files{{name + ".gp", twice(name)},
-                               {name + ".png", content_of(base + ".png")},
-                               {name + ".svg", content_of(base + ".svg")}};
+  std::vector<StudyFile> files{{name + ".gp", twice(name + ".png", name + ".svg")},
+                               {name + ".png", png.content()},
+                               {name + ".svg", svg.content()}};
   if (!WIFEXITED(*status) || WEXITSTATUS(*status) != 0 || files[1].content.empty() ||
       files[2].content.empty()) {
-    throw OutputError("gnuplot cannot draw " + name + ": " + first_line(content_of(said)));
+    throw OutputError("gnuplot cannot draw " + name + ": " + first_line(said.content()));
   }
   return files;
 }

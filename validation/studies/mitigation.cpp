@@ -148,6 +148,7 @@ Json json_of(const std::vector<Cure>& cures) {
 
 std::vector<std::vector<std::string>> rows_of(const std::vector<Cure>& cures) {
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(cures.size());
   for (const Cure& c : cures) {
     rows.push_back({c.name, fmt::format("{}", c.fights.fighting),
                     fmt::format("{:.3f} %", 100 * c.fights.share()),
@@ -196,6 +197,7 @@ StudyFile page_of(const SceneView& view, const std::vector<Cure>& nears,
         "it is more than the distance to what hides the surface.");
     page.plot("offset", "Wrong samples by units, for each factor");
     std::vector<std::vector<std::string>> rows;
+    rows.reserve(counts.size());
     for (const OffsetCount& c : counts) {
       rows.push_back({fmt::format("{:g}", c.bias.slope_factor),
                       fmt::format("{:g}", c.bias.constant_factor), fmt::format("{}", c.fights),

@@ -50,7 +50,8 @@ SceneView panels_with_decals() {
   Mesh panels, decals;
   for (int i = 0; i < 12; ++i) {
     const double distance = std::pow(400.0, i / 11.0);
-    const std::array<double, 2> middle{-0.75 + 0.5 * (i % 4), -0.38 + 0.38 * (i / 4)};
+    const int column = i % 4, row = i / 4;
+    const std::array<double, 2> middle{-0.75 + 0.5 * column, -0.38 + 0.38 * row};
     add_part(panels, distance, middle, {-1, 1, -1, 1, 0});
     add_part(panels, distance, middle, {0, 0.8, -0.8, 0.8, -0.06});
     add_part(decals, distance, middle, {-0.6, 0.6, -0.6, 0.6, -0.01});

@@ -116,6 +116,7 @@ StudyFile page_of(const SceneView& view, const std::vector<Row>& rows, bool cove
       "is the slope of the surface times the distance, and falls to a half with every bit.");
   if (depth) page.plot("depth", "Relative error of the depth");
   std::vector<std::vector<std::string>> cells;
+  cells.reserve(rows.size());
   for (const Row& r : rows) {
     cells.push_back({fmt::format("{}", r.bits), fmt::format("{}", r.lost),
                      fmt::format("{}", r.gained), fmt::format("{}", r.other_triangle),
