@@ -219,7 +219,8 @@ void add_to_page(const CoverageBySamples& measured, Page& page) {
       "Root mean square error along these edges. Where the edge is nearly level (or upright), "
       "samples that share no row and no column (the standard patterns, the rotated grid) see as "
       "many steps of it as they are; a regular grid of as many sees only the root of that. At "
-      "steeper edges the regular grid is the better one.");
+      "steeper ones a pattern of few samples depends on the side to which the edge leans: the "
+      "rotated grid is the standard pattern of four in the mirror.");
   cells.clear();
   for (const EdgeSeen& e : measured.edges) {
     std::vector<std::string> row{fmt::format("{:g}", e.slope)};
