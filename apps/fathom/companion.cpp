@@ -21,13 +21,7 @@ constexpr std::string_view announced_commands[] = {"pipeline"};
 /// Commands that are programs of their own, because of what they are built with.
 constexpr std::string_view companions[] = {"bench", "validate"};
 
-constexpr std::string_view announced_render_options[] = {
-    "--samples",       "--depth-format",   "--mapping",       "--c",
-    "--against-exact", "--image",          "--background",    "--shading",
-    "--texture",       "--filter",         "--interpolation", "--line",
-    "--scan",          "--hidden-surface", "--antialias",     "--subpixel-bits",
-    "--precision",     "--viewport",       "--depth-range",   "--scissor",
-    "--front-face",    "--blend",          "--polygon-offset"};
+constexpr std::string_view announced_render_options[] = {"--samples", "--against-exact"};
 
 /// Levenshtein's distance: the least number of letters to insert, remove or replace.
 std::size_t edit_distance(std::string_view a, std::string_view b) {

@@ -12,8 +12,6 @@
 #include <optional>
 #include <utility>
 
-#include "camera_options.h"
-#include "depth_buffer_options.h"
 #include "fathom/exact/sampled_coverage.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
@@ -21,25 +19,15 @@
 #include "map_verification.h"
 #include "numbers.h"
 #include "output_file.h"
+#include "pipeline_render.h"
 #include "program.h"
 #include "progress.h"
-#include "render_options.h"
-#include "scene_options.h"
+#include "render_arguments.h"
 
 namespace fathom::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct RenderArguments {
-  SceneOptions scene;
-  CameraOptions camera;
-  StorageOptions storage;
-  DepthBufferArguments depth_buffer;
-  std::string output, save_camera, statistics, verify, samples;
-  std::string engine = "fast", channels, cull = "none";
-  bool stream = false, deep = false, cryptomatte = false;
-};
 
 class Stopwatch {
  public:
@@ -56,8 +44,8 @@ class Stopwatch {
 Engine engine_named(const std::string& name) {
   if (name == "reference") return Engine::reference;
   if (name == "fast") return Engine::fast;
-  throw UsageError(fmt::format("--engine: '{}' does not exist{}; there are reference and fast",
-                               name, name == "pipeline" ? " yet" : ""));
+  throw UsageError(
+      fmt::format("--engine: '{}' does not exist; there are fast, reference and pipeline", name));
 }
 
 RenderOptions render_options(const RenderArguments& arguments, MapFormat format) {
@@ -132,27 +120,6 @@ void render_deep_maps(const Scene& scene, const std::vector<Camera>& cameras,
     maps[i].write(
         [&](const auto& path) { write_deep_map(map, path, compression, options.threads); });
   }
-}
-
-/// The names of the maps: of a camera path, a pattern with {index} filled in.
-std::vector<std::string> map_names(const std::string& pattern, std::size_t cameras) {
-  const bool has_index = pattern.find("{index") != std::string::npos;
-  if (!has_index) {
-    if (cameras == 1) return {pattern};
-    throw UsageError(fmt::format(
-        "the camera file is a path of {} cameras: -o needs a pattern such as maps/{{index:04}}.exr",
-        cameras));
-  }
-  std::vector<std::string> names;
-  try {
-    for (std::size_t i = 0; i < cameras; ++i) {
-      names.push_back(fmt::format(fmt::runtime(pattern), fmt::arg("index", i)));
-    }
-  } catch (const fmt::format_error& error) {
-    throw UsageError(fmt::format("-o: '{}' is not a pattern like maps/{{index:04}}.exr: {}",
-                                 pattern, error.what()));
-  }
-  return names;
 }
 
 /// Bytes that the channels of a map take.
@@ -279,6 +246,7 @@ int run_render(RenderArguments& arguments, const Console& console) {
   if (arguments.deep) check_deep_compression(write_options.compression);
   arguments.depth_buffer.prepare(options);
   arguments.camera.check();
+  arguments.pipeline.expect_none();
   const std::uint64_t verified_pixels = pixels_to_verify(arguments.verify);
   // Without this the pool keeps to the number of processors and prints a warning of its own.
   std::optional<tbb::global_control> pool;
@@ -385,7 +353,10 @@ void add_render(Program& program) {
       "  fathom render room.json --deep -o room.deep.exr\n"
       "  fathom render spot.obj --camera path.json -o 'view-{index:04}.exr'\n"
       "  fathom render spot.obj --near 0.1 --far 100 --depth-format unorm16 --against-exact -o "
-      "stored.exr");
+      "stored.exr\n"
+      "  fathom render spot.obj --engine pipeline --shading phong --antialias msaa:4 --image "
+      "spot.png "
+      "-o spot.exr");
   arguments->scene.add_to(*command);
   command
       ->add_option("-o,--output", arguments->output,
@@ -403,7 +374,8 @@ void add_render(Program& program) {
   command->add_flag("--cryptomatte", arguments->cryptomatte,
                     "Add Cryptomatte channels by object with exact coverage to the EXR");
   command->add_option("--engine", arguments->engine,
-                      "fast (default), or reference: the same map bit for bit, slowly");
+                      "fast (default), reference: the same map bit for bit, slowly; or pipeline: "
+                      "what a graphics pipeline computes");
   add_cull_option(*command, arguments->cull);
   arguments->storage.add_to(*command);
   arguments->depth_buffer.add_to(*command);
@@ -421,8 +393,12 @@ void add_render(Program& program) {
       "--verify", arguments->verify,
       "Compute this many pixels, or all, again by exact arithmetic and compare every "
       "channel bit for bit; exit status 1 if one differs");
+  arguments->pipeline.add_to(*command);
   command->callback([arguments, &program] {
-    program.run = [arguments, &program] { return run_render(*arguments, program.console); };
+    program.run = [arguments, &program] {
+      return arguments->engine == "pipeline" ? run_pipeline_render(*arguments, program.console)
+                                             : run_render(*arguments, program.console);
+    };
   });
 }
 

@@ -51,14 +51,16 @@ ReadOptions SceneOptions::read_options(bool hash) const {
   return options;
 }
 
-Scene SceneOptions::read(const Console& console, bool hash) const {
+Scene SceneOptions::read(const Console& console, bool hash, bool attributes) const {
   const auto standard_inputs = std::count(files.begin(), files.end(), "-");
   if (standard_inputs > 1) throw UsageError("SCENE: '-', standard input, can be read only once");
   if (standard_inputs == 1 && mesh_format.empty()) {
     throw UsageError("SCENE: '-', standard input, needs --mesh-format");
   }
   Warnings warnings;
-  Scene scene = read_scene({files.begin(), files.end()}, read_options(hash), warnings);
+  ReadOptions options = read_options(hash);
+  options.attributes = attributes;
+  Scene scene = read_scene({files.begin(), files.end()}, options, warnings);
   console.warn(warnings);
   for (const std::string& file : files) note_input(file);
   for (const Source& source : scene.sources) note_input(source.path);

@@ -19,8 +19,9 @@ struct SceneOptions {
 
   void add_to(CLI::App& command);
   [[nodiscard]] int thread_count() const;
-  /// Reads the scene, says the warnings. `hash` computes the sources' SHA-256.
-  [[nodiscard]] Scene read(const Console& console, bool hash) const;
+  /// Reads the scene, says the warnings. `hash` computes the sources' SHA-256; `attributes` keeps
+  /// colours, normals and texture coordinates.
+  [[nodiscard]] Scene read(const Console& console, bool hash, bool attributes = false) const;
   /// Opens the scene, which stays in its files, says the warnings.
   [[nodiscard]] StreamedScene stream(const Console& console) const;
 

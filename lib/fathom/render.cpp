@@ -63,21 +63,60 @@ std::string sources_as_json(const std::vector<Source>& sources) {
   return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-void describe(const Scene& scene, const Camera& camera, const RenderOptions& options,
-              DepthMap& map) {
+void describe(const Scene& scene, const Camera& camera, const char* engine, DepthMap& map) {
   map.world_to_camera = exr_camera_from_world(camera);
   map.world_to_ndc = exr_ndc_from_world(camera);
   describe_screen_window(camera, map);
   for (const Object& object : scene.objects) map.object_names.push_back(object.name);
   map.texts["fathom.camera"] = to_json(camera);
   map.texts["fathom.sources"] = sources_as_json(scene.sources);
-  map.texts["fathom.engine"] = options.engine == Engine::fast ? "fast" : "reference";
+  map.texts["fathom.engine"] = engine;
+}
+
+void describe(const Scene& scene, const Camera& camera, const RenderOptions& options,
+              DepthMap& map) {
+  describe(scene, camera, options.engine == Engine::fast ? "fast" : "reference", map);
   if (options.cull != Cull::none) {
     map.texts["fathom.cull"] = options.cull == Cull::back ? "back" : "front";
   }
 }
 
+/// A channel of the pipeline's map. Fails with UsageError where the pipeline has none such.
+ImageChannel channel_of(const Scene& scene, const pipeline::PipelineFrame& frame, Channel channel) {
+  if (channel == Channel::Z) return {"Z", frame.depth};
+  if (channel == Channel::id) return {"id", frame.id};
+  if (channel != Channel::face && channel != Channel::object) {
+    throw UsageError("--channels: the pipeline gives Z, id, face and object");
+  }
+  Samples<std::uint32_t> values(frame.id.size(), no_surface);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (frame.id[i] == no_surface) continue;
+    const TriangleOrigin origin = origin_of(scene, frame.id[i]);
+    values[i] = channel == Channel::face ? origin.face : origin.object;
+  }
+  return {channel == Channel::face ? "face" : "object", values};
+}
+
 }  // namespace
+
+PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
+                                     const pipeline::PipelineOptions& options,
+                                     const std::vector<Channel>& channels, bool with_picture) {
+  if (const auto fault = find_fault(camera)) throw InputError("camera: " + *fault);
+  const pipeline::PipelineFrame frame =
+      pipeline::render_frame(scene, camera, options, with_picture);
+  PipelineRendering result{{}, {}, frame.statistics, frame.painter, camera};
+  result.camera.near = frame.statistics.near;
+  result.camera.far = frame.statistics.far;
+  result.map.width = camera.width;
+  result.map.height = camera.height;
+  for (const Channel channel : channels) {
+    result.map.channels.push_back(channel_of(scene, frame, channel));
+  }
+  describe(scene, result.camera, "pipeline", result.map);
+  if (with_picture) result.picture = pipeline::to_rgb(frame.picture);
+  return result;
+}
 
 DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& options) {
   if (const auto fault = find_fault(camera)) throw InputError("camera: " + *fault);

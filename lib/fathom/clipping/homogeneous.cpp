@@ -125,5 +125,9 @@ FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(Rational)
 #undef FATHOM_INSTANTIATE
 // NOLINTEND(bugprone-macro-parentheses)
+// binary32 is what a graphics pipeline clips polygons in.
+template float boundary_value(int, const Point4<float>&, Volume);
+template std::vector<Corner4<float>> clip_homogeneous(const std::vector<Corner4<float>>&, Volume,
+                                                      Half, ClipStages<Point4, float>*);
 
 }  // namespace fathom::clipping

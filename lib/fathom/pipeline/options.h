@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "fathom/depth_format/depth_bias.h"
+#include "fathom/depth_format/depth_format.h"
+
+/// The choices that a pipeline leaves open.
+namespace fathom::pipeline {
+
+/// What every operation from the vertex transform to the interpolated fragment rounds to. Colours
+/// are computed in binary64 in either.
+enum class Precision { binary32, binary64 };
+
+enum class Culling { none, back, front };
+enum class FrontFace { counter_clockwise, clockwise };
+
+enum class ScanConversion {
+  edge_function,  ///< on the subpixel grid, in integers
+  scan_line,      ///< along edges, then along spans, in floating point
+};
+enum class Interpolation { affine, perspective };
+enum class Shading { none, wireframe, flat, gouraud, phong };
+enum class TextureFilter { nearest, bilinear, trilinear, anisotropic };
+enum class HiddenSurface { z_buffer, painter };
+enum class WireLine { explicit_equation, dda, bresenham, midpoint, diamond_exit };
+
+enum class AntialiasMethod { none, ssaa, msaa, jitter, area, fxaa, taa };
+struct Antialias {
+  AntialiasMethod method = AntialiasMethod::none;
+  /// ssaa: n of n × n; msaa: 1, 2, 4, 8 or 16; jitter: samples a pixel; taa: frames.
+  int count = 1;
+};
+
+/// A rectangle of the window in whole pixels, its origin the lower left corner of the window as in
+/// OpenGL.
+struct WindowRectangle {
+  std::int64_t x = 0, y = 0;
+  std::int64_t width = 0, height = 0;
+};
+
+using Colour = std::array<double, 3>;
+
+struct PipelineOptions {
+  Precision precision = Precision::binary32;
+  /// `near` and `far` are the camera's, filled in where it has none.
+  DepthFormat depth_format{Mapping::standard, Storage::float32, 0, 0, 1};
+  std::optional<WindowRectangle> viewport;  ///< default: the window
+  std::optional<WindowRectangle> scissor;   ///< default: the window
+  std::array<double, 2> depth_range{0, 1};
+  Culling culling = Culling::none;
+  FrontFace front_face = FrontFace::counter_clockwise;
+  int subpixel_bits = 8;
+  ScanConversion scan = ScanConversion::edge_function;
+  /// Blocks of 8 × 8 pixels are tested before their samples; the picture does not change.
+  bool blocks = true;
+  /// The depth test comes before shading; the picture does not change.
+  bool early_depth = true;
+  Interpolation interpolation = Interpolation::perspective;
+  Shading shading = Shading::flat;
+  WireLine wire_line = WireLine::bresenham;
+  /// "", "checker" or a PNG file.
+  std::string texture;
+  TextureFilter filter = TextureFilter::trilinear;
+  HiddenSurface hidden_surface = HiddenSurface::z_buffer;
+  DepthBias polygon_offset;
+  /// Blends each fragment over the picture with this opacity instead of selecting the nearest.
+  std::optional<double> blend_alpha;
+  Antialias antialias;
+  Colour background{0, 0, 0};
+};
+
+/// What the pipeline did.
+struct PipelineStatistics {
+  std::uint64_t triangles = 0;
+  std::uint64_t not_finite = 0;    ///< left out: a corner is no number after the transform
+  std::uint64_t clipped_away = 0;  ///< outside of the view volume
+  std::uint64_t clipped = 0;       ///< cut at its boundary
+  std::uint64_t degenerate = 0;    ///< no area in the window
+  std::uint64_t culled = 0;
+  std::uint64_t drawn = 0;               ///< triangles that reach scan conversion
+  std::uint64_t turned_by_snapping = 0;  ///< front to back or to nothing
+  std::uint64_t fragments = 0;
+  std::uint64_t depth_passed = 0;
+  std::uint64_t shaded = 0;
+  std::uint64_t blocks_skipped = 0, blocks_full = 0;
+  double near = 0, far = 0;
+};
+
+/// Refuses options that mean nothing or do not go together.
+/// Fails    UsageError.
+void require_meaningful(const PipelineOptions& options);
+
+}  // namespace fathom::pipeline

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "fathom/scene/scene.h"
+
+/// First stage: vertices as they come from the mesh, joined to primitives.
+namespace fathom::pipeline {
+
+/// A corner of a triangle in the frame of its mesh.
+struct InputVertex {
+  MeshPoint position;
+  std::array<double, 3> normal{0, 0, 0};
+  std::array<double, 2> uv{0, 0};
+  std::array<double, 3> colour{1, 1, 1};
+};
+
+struct InputTriangle {
+  std::uint32_t number = 0;  ///< in the scene
+  std::uint32_t object = 0;
+  std::array<InputVertex, 3> corners;
+};
+
+/// Indices joined to primitives: points by ones, lines by twos, triangles by threes; what is left
+/// over at the end is dropped, as graphics interfaces do.
+template <std::size_t corners>
+std::vector<std::array<std::uint32_t, corners>> assemble(
+    const std::vector<std::uint32_t>& indices) {
+  std::vector<std::array<std::uint32_t, corners>> primitives(indices.size() / corners);
+  for (std::size_t i = 0; i < primitives.size(); ++i)
+    for (std::size_t k = 0; k < corners; ++k) primitives[i][k] = indices[i * corners + k];
+  return primitives;
+}
+
+/// The triangles of an object. Normals are the mesh's, or else at each vertex the sum of the area
+/// vectors of its triangles, of unit length.
+std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
+                                              std::uint32_t first_number);
+
+/// Whether every corner of every object has texture coordinates.
+bool has_texture_coordinates(const Scene& scene);
+
+}  // namespace fathom::pipeline

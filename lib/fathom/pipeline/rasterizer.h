@@ -1,0 +1,40 @@
+#pragma once
+
+#include "fathom/pipeline/output_merger.h"
+#include "fathom/pipeline/sample_pattern.h"
+#include "fathom/pipeline/shading.h"
+
+/// Scan conversion stage and what follows it, for triangles in the window: fragments, depth test,
+/// shading, output merger.
+namespace fathom::pipeline {
+
+enum class ShadingRate {
+  per_sample,
+  /// Once for each pixel and triangle: at the centre, or where that lies outside, at the mean of
+  /// the covered samples (multisampling).
+  per_pixel,
+};
+
+struct RasterizerSettings {
+  const PipelineOptions& options;
+  const SamplePattern& pattern;
+  ShadingRate rate = ShadingRate::per_sample;
+  /// Without a depth test, what comes later lies above (the painter's algorithm).
+  bool depth_tested = true;
+  /// The part of the window that is drawn to.
+  PixelWindow window;
+};
+
+/// Draws triangles in their order. `shader` may be null where colours are not asked for.
+template <class Real>
+void rasterize(const std::vector<WindowTriangle<Real>>& triangles,
+               const RasterizerSettings& settings, Shader<Real>* shader, FrameBuffer& target,
+               PipelineStatistics& statistics);
+
+/// Draws the edges of triangles as lines, with a depth test at each pixel.
+template <class Real>
+void rasterize_edges(const std::vector<WindowTriangle<Real>>& triangles,
+                     const RasterizerSettings& settings, FrameBuffer& target,
+                     PipelineStatistics& statistics);
+
+}  // namespace fathom::pipeline

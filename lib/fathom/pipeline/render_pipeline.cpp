@@ -1,0 +1,160 @@
+#include "fathom/pipeline/render_pipeline.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/pipeline/area_sampling.h"
+#include "fathom/pipeline/fxaa.h"
+#include "fathom/pipeline/rasterizer.h"
+
+namespace fathom::pipeline {
+namespace {
+
+/// A rectangle with its origin in the lower left corner, as pixels of the image.
+PixelWindow in_image(const WindowRectangle& r, const Camera& camera) {
+  return {r.x, camera.height - r.y - r.height, r.x + r.width, camera.height - r.y};
+}
+
+/// The pixels that can be drawn to: of the image, the viewport and the scissor box.
+PixelWindow drawable(const Camera& camera, const PipelineOptions& options) {
+  PixelWindow w{0, 0, camera.width, camera.height};
+  for (const auto& rectangle : {options.viewport, options.scissor}) {
+    if (!rectangle) continue;
+    const PixelWindow r = in_image(*rectangle, camera);
+    w = {std::max(w.x_begin, r.x_begin), std::max(w.y_begin, r.y_begin), std::min(w.x_end, r.x_end),
+         std::min(w.y_end, r.y_end)};
+  }
+  return w;
+}
+
+std::optional<Texture> texture_of(const Scene& scene, const PipelineOptions& options) {
+  if (options.texture.empty()) return std::nullopt;
+  if (!has_texture_coordinates(scene))
+    throw InputError("--texture: the scene has no texture coordinates at some corners");
+  return options.texture == "checker" ? Texture::checker() : Texture(read_rgb_png(options.texture));
+}
+
+template <class Real>
+class Frame {
+ public:
+  Frame(const Scene& scene, const Camera& camera, const PipelineOptions& options)
+      : scene_(scene), camera_(camera), options_(options), window_(drawable(camera, options)) {}
+
+  PipelineFrame run(bool with_picture) {
+    triangles_ = to_window<Real>(scene_, camera_, options_, frame_.statistics);
+    frame_.statistics.near = options_.depth_format.near;
+    frame_.statistics.far = options_.depth_format.far;
+    if (options_.hidden_surface == HiddenSurface::painter) {
+      const DepthTest test(options_);
+      triangles_ = painters_order(std::move(triangles_), test.is_nearer({1}, {0}), frame_.painter);
+    }
+    std::optional<Texture> texture = with_picture ? texture_of(scene_, options_) : std::nullopt;
+    Shader<Real> shader(camera_, options_, std::move(texture));
+    const bool same_samples = options_.antialias.method == AntialiasMethod::none ||
+                              options_.antialias.method == AntialiasMethod::fxaa;
+    FrameBuffer centres = buffer(1);
+    // The map first: without colours, unless its samples are the picture's.
+    PipelineStatistics uncounted;
+    draw(SamplePattern::centre(), with_picture && same_samples ? &shader : nullptr, centres,
+         !with_picture || same_samples ? frame_.statistics : uncounted);
+    take_map(centres);
+    if (!with_picture) return std::move(frame_);
+    frame_.picture = same_samples ? centres.resolve() : antialiased(shader);
+    if (options_.antialias.method == AntialiasMethod::fxaa) frame_.picture = fxaa(frame_.picture);
+    return std::move(frame_);
+  }
+
+ private:
+  [[nodiscard]] FrameBuffer buffer(std::size_t samples) const {
+    return {camera_.width, camera_.height, samples, options_.background};
+  }
+
+  void draw(const SamplePattern& pattern, Shader<Real>* shader, FrameBuffer& target,
+            PipelineStatistics& statistics, ShadingRate rate = ShadingRate::per_sample) {
+    const RasterizerSettings settings{options_, pattern, rate,
+                                      options_.hidden_surface == HiddenSurface::z_buffer, window_};
+    if (options_.shading == Shading::wireframe) {
+      rasterize_edges(triangles_, settings, target, statistics);
+    } else {
+      rasterize(triangles_, settings, shader, target, statistics);
+    }
+  }
+
+  void take_map(const FrameBuffer& centres) {
+    frame_.depth = Samples<float>(std::size_t{centres.width()} * centres.height());
+    frame_.id = Samples<std::uint32_t>(std::size_t{centres.width()} * centres.height());
+    for (std::uint32_t y = 0; y < centres.height(); ++y) {
+      for (std::uint32_t x = 0; x < centres.width(); ++x) {
+        const StoredSample& s = centres.at({x, y}, 0);
+        const std::size_t i = std::size_t{y} * centres.width() + x;
+        frame_.id[i] = s.id;
+        frame_.depth[i] = s.id == no_surface ? std::numeric_limits<float>::infinity()
+                                             : static_cast<float>(s.depth);
+      }
+    }
+  }
+
+  ColourImage antialiased(Shader<Real>& shader) {
+    const int n = options_.antialias.count;
+    switch (options_.antialias.method) {
+      case AntialiasMethod::ssaa:
+        return sampled(SamplePattern::grid(n), shader, ShadingRate::per_sample);
+      case AntialiasMethod::msaa:
+        return sampled(SamplePattern::standard(n), shader, ShadingRate::per_pixel);
+      case AntialiasMethod::jitter:
+        return sampled(SamplePattern::jittered(n), shader, ShadingRate::per_sample);
+      case AntialiasMethod::taa:
+        return temporal(shader, n);
+      default:
+        return area_sampled(triangles_, options_, window_, shader, camera_.width, camera_.height,
+                            frame_.statistics);
+    }
+  }
+
+  ColourImage sampled(const SamplePattern& pattern, Shader<Real>& shader, ShadingRate rate) {
+    FrameBuffer target = buffer(pattern.size());
+    draw(pattern, &shader, target, frame_.statistics, rate);
+    return target.resolve();
+  }
+
+  /// Each frame looks through another place of the pixel; the history takes it in with the weight
+  /// that makes it the mean of all frames, which a camera at rest allows.
+  ColourImage temporal(Shader<Real>& shader, int frames) {
+    ColourImage history;
+    for (int k = 0; k < frames; ++k) {
+      const ColourImage frame = sampled(SamplePattern::halton(k), shader, ShadingRate::per_sample);
+      if (k == 0) {
+        history = frame;
+        continue;
+      }
+      const double weight = 1.0 / (k + 1);
+      for (std::size_t i = 0; i < frame.pixels.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+          history.pixels[i][c] += weight * (frame.pixels[i][c] - history.pixels[i][c]);
+    }
+    return history;
+  }
+
+  const Scene& scene_;
+  const Camera& camera_;
+  PipelineOptions options_;
+  PixelWindow window_;
+  std::vector<WindowTriangle<Real>> triangles_;
+  PipelineFrame frame_;
+};
+
+}  // namespace
+
+PipelineFrame render_frame(const Scene& scene, const Camera& camera, const PipelineOptions& options,
+                           bool with_picture) {
+  require_meaningful(options);
+  PipelineOptions complete = options;
+  fill_in_range(scene, camera, complete.depth_format);
+  require_meaningful(complete.depth_format);
+  if (complete.precision == Precision::binary32)
+    return Frame<float>(scene, camera, complete).run(with_picture);
+  return Frame<double>(scene, camera, complete).run(with_picture);
+}
+
+}  // namespace fathom::pipeline

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "fathom/image/rgb_image.h"
+#include "fathom/pipeline/options.h"
+
+namespace fathom::pipeline {
+
+/// Where a fragment looks into a texture: coordinates, (0, 0) the lower left corner, repeating, and
+/// their changes to the next pixel.
+struct TextureFootprint {
+  std::array<double, 2> uv{}, duv_dx{}, duv_dy{};
+};
+
+/// A picture with its mip maps: each level halves the one before by the mean of 2 × 2 texels (odd
+/// sizes drop the last row or column), down to one texel.
+class Texture {
+ public:
+  explicit Texture(const RgbImage& image);
+  /// 8 × 8 squares, black and white.
+  static Texture checker();
+
+  /// Nearest and bilinear look at the finest level alone. Trilinear goes by the longer of the two
+  /// changes, which blurs what is seen obliquely; anisotropic goes by the shorter one and takes the
+  /// mean of up to 16 looks along the longer.
+  [[nodiscard]] Colour sample(const TextureFootprint& footprint, TextureFilter filter) const;
+
+  [[nodiscard]] std::size_t level_count() const { return levels_.size(); }
+
+ private:
+  struct Level {
+    std::int64_t width, height;
+    std::vector<Colour> texels;  ///< row by row from the top
+    [[nodiscard]] const Colour& at(std::int64_t x, std::int64_t y) const;
+  };
+  [[nodiscard]] static Colour nearest(const Level& level, const std::array<double, 2>& uv);
+  [[nodiscard]] static Colour bilinear(const Level& level, const std::array<double, 2>& uv);
+  [[nodiscard]] Colour trilinear(const std::array<double, 2>& uv, double texels) const;
+  [[nodiscard]] Colour anisotropic(const TextureFootprint& footprint) const;
+  [[nodiscard]] double texels_along(const std::array<double, 2>& duv) const;
+
+  std::vector<Level> levels_;
+};
+
+/// Reads an 8 or 16 bit PNG as colours of 8 bits.
+/// Fails    InputError: missing, no PNG, or beyond 16384 × 16384.
+RgbImage read_rgb_png(const std::filesystem::path& path);
+
+}  // namespace fathom::pipeline

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+
+#include "fathom/clipping/homogeneous.h"
+#include "fathom/pipeline/attributes.h"
+#include "fathom/pipeline/options.h"
+#include "fathom/pipeline/primitive_assembly.h"
+#include "fathom/scene/camera.h"
+
+/// Vertex stage: model, view and projection, in binary32 or binary64, each matrix rounded to it.
+///
+/// Frames   world; eye: x right, y up, z backward, as OpenGL has it; clip: (x, y, z, w) with
+///          −w ≤ x, y ≤ w inside, y up, and z as the depth format's volume says.
+namespace fathom::pipeline {
+
+template <class Real>
+using Matrix = std::array<std::array<Real, 4>, 4>;
+
+template <class Real>
+struct WorldVertex {
+  Real x, y, z;
+};
+template <class Real>
+struct EyeVertex {
+  Real x, y, z;
+};
+/// A vertex in clip coordinates with its attributes.
+template <class Real>
+using ClipVertex = clipping::Corner4<Real>;
+
+/// The matrices of an object seen by a camera. `options.depth_format` has near and far.
+template <class Real>
+struct VertexTransform {
+  VertexTransform(const Camera& camera, const Object& object, const PipelineOptions& options);
+
+  Matrix<Real> world_from_mesh, eye_from_world, clip_from_eye;
+
+  [[nodiscard]] WorldVertex<Real> to_world(const MeshPoint& p) const;
+  [[nodiscard]] EyeVertex<Real> to_eye(const WorldVertex<Real>& p) const;
+  [[nodiscard]] clipping::Point4<Real> to_clip(const EyeVertex<Real>& p) const;
+  [[nodiscard]] ClipVertex<Real> operator()(const InputVertex& vertex) const;
+};
+
+/// The volume that the mapping's projection fills: OpenGL's z from −w, the others' from 0.
+clipping::Volume volume_of(Mapping mapping);
+
+/// Whether the mapping is no projection, so that fragments compute their stored depth themselves
+/// from their depth along the view.
+bool is_per_fragment(Mapping mapping);
+
+/// The camera's near and far; where it has none, ones that hold the scene: near half the least
+/// vertex depth if every depth is positive, else 10⁻⁴ of the greatest; far twice the greatest.
+/// Fails    UsageError if the camera is orthographic and the mapping needs a perspective one.
+void fill_in_range(const Scene& scene, const Camera& camera, DepthFormat& format);
+
+}  // namespace fathom::pipeline

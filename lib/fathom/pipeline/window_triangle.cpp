@@ -1,0 +1,134 @@
+#include "fathom/pipeline/window_triangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fathom/numeric/rounding.h"
+
+namespace fathom::pipeline {
+namespace {
+
+template <class Real>
+bool is_finite(const ClipVertex<Real>& v) {
+  const auto& [x, y, z, w] = v.position;
+  return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && std::isfinite(w) &&
+         std::all_of(v.attributes.begin(), v.attributes.end(),
+                     [](Real a) { return std::isfinite(a); });
+}
+
+template <class Real>
+class GeometryStages {
+ public:
+  GeometryStages(const Camera& camera, const PipelineOptions& options,
+                 std::vector<WindowTriangle<Real>>& out, PipelineStatistics& statistics)
+      : options_(options), viewport_(viewport_of(camera, options)), out_(out), count_(statistics) {}
+
+  void run(const InputTriangle& input, const VertexTransform<Real>& transform) {
+    ++count_.triangles;
+    std::vector<ClipVertex<Real>> corners;
+    for (const InputVertex& corner : input.corners) corners.push_back(transform(corner));
+    if (!std::all_of(corners.begin(), corners.end(), is_finite<Real>)) {
+      ++count_.not_finite;
+      return;
+    }
+    const auto polygon = clip_triangle(corners, viewport_.volume);
+    if (polygon.empty()) {
+      ++count_.clipped_away;
+      return;
+    }
+    const bool whole = polygon.size() == 3 && same_place(polygon, corners);
+    if (!whole) ++count_.clipped;
+    std::vector<WindowVertex<Real>> window;
+    for (const ClipVertex<Real>& corner : polygon) window.push_back(viewport_(divide(corner)));
+    bool culled = false, degenerate = true;
+    for (std::size_t i = 2; i < window.size(); ++i)
+      emit({input.number, {window[0], window[i - 1], window[i]}}, culled, degenerate);
+    count_.culled += culled;
+    count_.degenerate += degenerate && !culled;
+  }
+
+ private:
+  static bool same_place(const std::vector<ClipVertex<Real>>& a,
+                         const std::vector<ClipVertex<Real>>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), [](const auto& p, const auto& q) {
+      return p.position.x == q.position.x && p.position.y == q.position.y &&
+             p.position.z == q.position.z && p.position.w == q.position.w;
+    });
+  }
+
+  void emit(WindowTriangle<Real> triangle, bool& culled, bool& degenerate) {
+    const Facing facing = facing_in_window(triangle.corners, options_.front_face);
+    if (facing == Facing::edge_on) return;
+    if (is_culled(facing, options_.culling)) {
+      culled = true;
+      return;
+    }
+    degenerate = false;
+    triangle.front = facing == Facing::front;
+    triangle.depth_offset = depth_offset(triangle, options_);
+    const auto on_grid = GridTriangle::of(snapped(triangle, options_.subpixel_bits));
+    const bool ccw = (options_.front_face == FrontFace::counter_clockwise) == triangle.front;
+    if (!on_grid || on_grid->counter_clockwise() != ccw) ++count_.turned_by_snapping;
+    ++count_.drawn;
+    out_.push_back(triangle);
+  }
+
+  const PipelineOptions& options_;
+  Viewport viewport_;
+  std::vector<WindowTriangle<Real>>& out_;
+  PipelineStatistics& count_;
+};
+
+}  // namespace
+
+template <class Real>
+std::vector<WindowTriangle<Real>> to_window(const Scene& scene, const Camera& camera,
+                                            const PipelineOptions& options,
+                                            PipelineStatistics& statistics) {
+  std::vector<WindowTriangle<Real>> triangles;
+  GeometryStages<Real> stages(camera, options, triangles, statistics);
+  std::uint32_t first = 0;
+  for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
+    const VertexTransform<Real> transform(camera, scene.objects[object], options);
+    for (const InputTriangle& triangle : assemble_triangles(scene, object, first))
+      stages.run(triangle, transform);
+    first += static_cast<std::uint32_t>(scene.meshes[scene.objects[object].mesh].triangles.size());
+  }
+  return triangles;
+}
+
+template <class Real>
+std::array<GridPoint, 3> snapped(const WindowTriangle<Real>& t, int bits) {
+  const auto at = [&](std::size_t k) {
+    return snap(static_cast<double>(t.corners[k].x), static_cast<double>(t.corners[k].y), bits);
+  };
+  return {at(0), at(1), at(2)};
+}
+
+template <class Real>
+Real depth_offset(const WindowTriangle<Real>& t, const PipelineOptions& options) {
+  const DepthBias& bias = options.polygon_offset;
+  if (bias.slope_factor == 0 && bias.constant_factor == 0) return 0;
+  const auto number = [](Real x) { return Ratio(Dyadic(static_cast<double>(x))); };
+  const auto& [a, b, c] = t.corners;
+  const Real ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+  const Real vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+  const Real area = ux * vy - vx * uy;
+  const WindowSlopes slopes{number((uz * vy - vz * uy) / area), number((ux * vz - vx * uz) / area),
+                            number(std::max({a.z, b.z, c.z}))};
+  return static_cast<Real>(
+      round_to_binary64(depth_offset(options.depth_format.storage, bias, slopes)));
+}
+
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+#define FATHOM_INSTANTIATE(Real)                                                 \
+  template std::vector<WindowTriangle<Real>> to_window(                          \
+      const Scene&, const Camera&, const PipelineOptions&, PipelineStatistics&); \
+  template std::array<GridPoint, 3> snapped(const WindowTriangle<Real>&, int);   \
+  template Real depth_offset(const WindowTriangle<Real>&, const PipelineOptions&);
+FATHOM_INSTANTIATE(float)
+FATHOM_INSTANTIATE(double)
+#undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
+
+}  // namespace fathom::pipeline

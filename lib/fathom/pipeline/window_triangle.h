@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "fathom/pipeline/back_face_culling.h"
+#include "fathom/pipeline/subpixel_grid.h"
+#include "fathom/pipeline/window_transform.h"
+
+namespace fathom::pipeline {
+
+/// A triangle as it reaches scan conversion.
+template <class Real>
+struct WindowTriangle {
+  std::uint32_t number = 0;  ///< of the triangle of the scene that it is, or is a part of
+  std::array<WindowVertex<Real>, 3> corners;
+  bool front = true;
+  Real depth_offset = 0;  ///< polygon offset, added to the window depth of its fragments
+};
+
+/// The stages up to the window: transform, clip, divide, cull, viewport, in that order. Parts of a
+/// clipped triangle follow one another.
+template <class Real>
+std::vector<WindowTriangle<Real>> to_window(const Scene& scene, const Camera& camera,
+                                            const PipelineOptions& options,
+                                            PipelineStatistics& statistics);
+
+/// The corners on the subpixel grid.
+template <class Real>
+std::array<GridPoint, 3> snapped(const WindowTriangle<Real>& triangle, int bits);
+
+/// The offset of the options for a triangle (depth_format/depth_bias.h).
+template <class Real>
+Real depth_offset(const WindowTriangle<Real>& triangle, const PipelineOptions& options);
+
+}  // namespace fathom::pipeline
