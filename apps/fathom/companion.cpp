@@ -16,12 +16,8 @@
 namespace fathom::app {
 namespace {
 
-constexpr std::string_view announced_commands[] = {"pipeline"};
-
 /// Commands that are programs of their own, because of what they are built with.
 constexpr std::string_view companions[] = {"bench", "validate"};
-
-constexpr std::string_view announced_render_options[] = {"--samples", "--against-exact"};
 
 /// Levenshtein's distance: the least number of letters to insert, remove or replace.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -63,9 +59,6 @@ void start_companion(const std::string& name, const std::vector<char*>& argument
 
 std::string unknown_command(const std::string& name, const std::vector<std::string>& existing) {
   const std::string list = fmt::format("{}", fmt::join(existing, ", "));
-  if (contains(announced_commands, name)) {
-    return fmt::format("'{}' does not exist yet; the commands are {}", name, list);
-  }
   if (contains(companions, name)) {
     return fmt::format(
         "'{}' is a program of its own, fathom-{}, that is not built: 'scripts/fathom {}' installs "
@@ -79,12 +72,6 @@ std::string unknown_command(const std::string& name, const std::vector<std::stri
   const bool near = nearest != existing.end() && edit_distance(name, *nearest) <= 2;
   return fmt::format("there is no command '{}'{}; the commands are {}", name,
                      near ? fmt::format(": did you mean '{}'?", *nearest) : "", list);
-}
-
-std::string announced_option(const std::string& command, const std::string& option) {
-  const std::string name = option.substr(0, option.find('='));
-  if (command != "render" || !contains(announced_render_options, name)) return {};
-  return name + " does not exist yet; 'fathom render --help' lists the options that do";
 }
 
 }  // namespace fathom::app

@@ -10,12 +10,8 @@ namespace fathom::app {
 /// Fails    UsageError where it is there but cannot be started.
 void start_companion(const std::string& name, const std::vector<char*>& arguments);
 
-/// The message for a command that does not exist: what is announced but not here yet, or the
-/// nearest name of those that exist.
+/// The message for a command that does not exist: how to build it, or the nearest name of those
+/// that exist.
 std::string unknown_command(const std::string& name, const std::vector<std::string>& existing);
-
-/// The message for an option of `command` that does not exist, or an empty text where the option is
-/// not an announced one.
-std::string announced_option(const std::string& command, const std::string& option);
 
 }  // namespace fathom::app

@@ -47,6 +47,7 @@ void add_clip(Program& program);
 void add_scan(Program& program);
 void add_visible(Program& program);
 void add_coplanar(Program& program);
+void add_pipeline(Program& program);
 void add_depth(Program& program);
 void add_study(Program& program);
 /// `fathom camera import …`.

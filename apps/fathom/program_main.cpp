@@ -45,15 +45,8 @@ std::string names_above(const CLI::App& command) {
   return parent == nullptr ? "" : names_above(*parent) + parent->get_name() + " ";
 }
 
-std::string usage_message(const CLI::App& app, const CLI::ParseError& error,
-                          const std::vector<char*>& arguments) {
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = chosen_command(app);
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    for (const char* argument : arguments) {
-      std::string message = announced_option(command.get_name(), argument);
-      if (!message.empty()) return message;
-    }
-  }
   return std::string(error.what()) + "; see '" + names_above(command) + command.get_name() +
          " --help'";
 }
@@ -74,7 +67,7 @@ int parse_and_run(Program& program, int argc, char** argv) {
     print(std::string(version.what()) + "\n");
     return done;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(usage_message(program.app, error, arguments));
+    throw UsageError(usage_message(program.app, error));
   }
   return program.run();
 }

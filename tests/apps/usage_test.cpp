@@ -34,7 +34,6 @@ std::vector<Usage> wrong_usages() {
   return {
       {"NoCommand", {}, "--help"},
       {"UnknownCommand", {"rendre", "square.obj"}, "did you mean 'render'"},
-      {"AnnouncedCommand", {"pipeline"}, "'pipeline' does not exist yet"},
       {"UnknownOption", render({"--frobnicate"}), "--frobnicate"},
       {"NoOutput", {"render", "square.obj"}, "--output"},
       {"NoScene", {"render", "-o", "map.exr"}, "SCENE"},

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+
+#include "fathom/pipeline/depth_test.h"
+
+/// One triangle followed through the pipeline: what goes into each stage and what comes out.
+namespace fathom::pipeline {
+
+struct CornerTrace {
+  std::array<double, 3> mesh, world, eye;
+  std::array<double, 4> clip;
+};
+
+/// A corner of what clipping left.
+struct WindowCornerTrace {
+  std::array<double, 4> clip;
+  std::array<double, 3> ndc, window;
+  std::array<double, 2> snapped;
+};
+
+/// One sample of the triangle, at the centre of a pixel.
+struct SampleTrace {
+  std::array<double, 3> edges;  ///< e_A, e_B, e_C in square pixels
+  bool covered = false;
+  std::array<double, 3> weights;            ///< λ
+  std::array<double, 3> attribute_weights;  ///< (λ/w)/Σ(λ/w), or λ where interpolation is affine
+  double window_z = 0, depth = 0;
+  StoredDepth stored;
+};
+
+struct TriangleTrace {
+  std::array<CornerTrace, 3> corners;
+  std::vector<WindowCornerTrace> polygon;  ///< after clipping; empty: nothing is left
+  /// The three tests; of triangles that clipping cut, of the first three corners that it left.
+  Facing in_world{}, in_ndc{}, in_window{};
+  bool culled = false;
+  std::uint64_t fragments = 0;  ///< centres that it covers, over its parts
+  std::optional<SampleTrace> sample;
+  double near = 0, far = 0;
+};
+
+/// Fails    UsageError if there is no such triangle; InputError as render_frame.
+TriangleTrace trace_triangle(const Scene& scene, const Camera& camera,
+                             const PipelineOptions& options, std::uint32_t number,
+                             const std::optional<Pixel>& pixel);
+
+}  // namespace fathom::pipeline

@@ -1,0 +1,492 @@
+// docs/sources.md: for each error of the source texts the wrong version, which fails, beside the
+// right one. Errors 23, 24 and 25 are those of clippers: tests/clipping.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fathom/clipping/homogeneous.h"
+#include "fathom/depth_format/encode.h"
+#include "fathom/pipeline/edge_function.h"
+#include "fathom/pipeline/line.h"
+#include "fathom/pipeline/polygon_fill.h"
+#include "fathom/pipeline/render_pipeline.h"
+#include "fathom/pipeline/sample_pattern.h"
+
+namespace fathom::pipeline {
+namespace {
+
+using Pixels = std::vector<Pixel>;
+
+Pixels right_line(const LineEnds& ends) {
+  Pixels pixels;
+  bresenham_line(ends, {}, [&](const Pixel& p, std::int64_t) { pixels.push_back(p); });
+  return pixels;
+}
+
+TEST(Errata, E01_SignOfTheMidpointsDifference) {
+  // Taken literally, F(M) = 2dy − dx with "F > 0: north-east" and updates by F's own differences,
+  // d −= 2dy for east and d += 2(dx − dy) for north-east, climbs the diagonal.
+  const int dx = 8, dy = 3;
+  Pixels wrong{{0, 0}};
+  for (int x = 0, y = 0, F = -(2 * dy - dx); x < dx;) {
+    const bool north_east = F > 0;
+    F += north_east ? 2 * (dx - dy) : -2 * dy;
+    wrong.push_back({++x, y += north_east});
+  }
+  EXPECT_EQ(wrong.back(), (Pixel{8, 8}));
+  EXPECT_EQ(right_line({0, 0, 8, 3}).back(), (Pixel{8, 3}));
+}
+
+TEST(Errata, E02_IntegerDivisionOfTheSlope) {
+  Pixels wrong;
+  const int m = 3 / 8;
+  for (int x = 0; x <= 8; ++x) wrong.push_back({x, m * x});
+  EXPECT_EQ(wrong.back().y, 0);  // a horizontal line
+  EXPECT_NE(wrong, right_line({0, 0, 8, 3}));
+}
+
+TEST(Errata, E03_RoundingHalfToEven) {
+  Pixels wrong;
+  for (int x = 0; x <= 4; ++x)
+    wrong.push_back({x, static_cast<std::int64_t>(std::nearbyint(x / 2.0))});
+  EXPECT_EQ(wrong, (Pixels{{0, 0}, {1, 0}, {2, 1}, {3, 2}, {4, 2}}));
+  EXPECT_EQ(right_line({0, 0, 4, 2}), (Pixels{{0, 0}, {1, 1}, {2, 1}, {3, 2}, {4, 2}}));
+}
+
+/// The sources' Bresenham: at a tie it stays, in whatever direction it goes.
+Pixels their_bresenham(int x0, int y0, int x1, int y1) {
+  int dx = std::abs(x1 - x0), dy = std::abs(y1 - y0);
+  const int sx = x0 < x1 ? 1 : -1, sy = y0 < y1 ? 1 : -1;
+  const bool steep = dy > dx;
+  if (steep) std::swap(dx, dy);
+  Pixels pixels;
+  int error = 2 * dy - dx;
+  for (int i = 0, x = x0, y = y0; i <= dx; ++i) {
+    pixels.push_back({x, y});
+    if (error > 0) {
+      (steep ? x : y) += steep ? sx : sy;
+      error -= 2 * dx;
+    }
+    (steep ? y : x) += steep ? sy : sx;
+    error += 2 * dy;
+  }
+  return pixels;
+}
+
+TEST(Errata, E04_TiesByDirection) {
+  Pixels there = their_bresenham(0, 0, 4, 2), back = their_bresenham(4, 2, 0, 0);
+  std::reverse(back.begin(), back.end());
+  EXPECT_NE(there, back);
+  Pixels right = right_line({0, 0, 4, 2}), right_back = right_line({4, 2, 0, 0});
+  std::reverse(right_back.begin(), right_back.end());
+  EXPECT_EQ(right, right_back);
+}
+
+TEST(Errata, E05_TheSourcesBresenhamDoesAllOctants) {
+  for (const auto& [x, y] :
+       {std::pair(9, 0), {9, 9}, {0, 9}, {-9, 9}, {-9, 0}, {-9, -9}, {0, -9}, {9, -9}})
+    EXPECT_EQ(their_bresenham(0, 0, x, y), right_line({0, 0, x, y}));  // no ties at 45 degrees
+}
+
+TEST(Errata, E06_AParabolasParameterCoversHalfOfTheLine) {
+  // (t² + 1, 2(t² + 1) + 4): no t gives the point (0, 4) of y = 2x + 4.
+  for (double t = -10; t <= 10; t += 0.125) EXPECT_GE(t * t + 1, 1);
+  EXPECT_EQ(2 * 0.0 + 4, 4);
+}
+
+Ring<Exact> ring_of(const std::vector<std::array<int, 2>>& corners) {
+  Ring<Exact> ring;
+  for (const auto& [x, y] : corners) ring.push_back({Exact(x), Exact(y)});
+  return ring;
+}
+
+TEST(Errata, E07_ConvexityByDotProducts) {
+  const auto square = ring_of({{0, 0}, {4, 0}, {4, 4}, {0, 4}});
+  const auto l_shape = ring_of({{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}});
+  const auto all_dots_zero = [](const Ring<Exact>& ring) {
+    for (std::size_t i = 0, n = ring.size(); i < n; ++i) {
+      const auto &a = ring[i], &b = ring[(i + 1) % n], &c = ring[(i + 2) % n];
+      if ((b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y) != 0) return false;
+    }
+    return true;
+  };
+  EXPECT_EQ(all_dots_zero(square), all_dots_zero(l_shape));  // cannot tell them apart
+  EXPECT_NE(convexity_of(square).convex, convexity_of(l_shape).convex);
+}
+
+TEST(Errata, E08_ALineInsteadOfARay) {
+  const auto square = ring_of({{0, 0}, {4, 0}, {4, 4}, {0, 4}});
+  auto mirrored = square;
+  for (auto& p : mirrored) p.x = -p.x;
+  const int right = ray_crossings<Exact>({square}, {Exact(1), Exact(1)}).count;
+  const int left = ray_crossings<Exact>({mirrored}, {Exact(-1), Exact(1)}).count;
+  EXPECT_EQ((right + left) % 2, 0);  // the line: even for an inside point
+  EXPECT_EQ(right % 2, 1);
+}
+
+/// Crossings of row 0 of a triangle with a corner on its scan line.
+std::size_t crossings_at_corner(bool corner_on_top) {
+  const Exact h = Exact(1) / Exact(2);
+  const FillPolygon<Exact> polygon{{{Exact(3), h, {}},
+                                    {Exact(1), corner_on_top ? Exact(4) : Exact(-4), {}},
+                                    {Exact(5), corner_on_top ? Exact(4) : Exact(-4), {}}}};
+  std::size_t count = 0;
+  fill_polygon<Exact>(polygon, FillRule::even_odd, {}, [&](const auto& line) {
+    if (line.y == 0) count = line.crossings.size();
+  });
+  return count;
+}
+
+TEST(Errata, E09_WhichExtremumCountsDependsOnTheDirectionOfY) {
+  EXPECT_EQ(crossings_at_corner(true), 2u);   // the top, with y down the least y
+  EXPECT_EQ(crossings_at_corner(false), 0u);  // the bottom, the source's "minimum": 2
+}
+
+double their_edge(const std::array<double, 2>& a, const std::array<double, 2>& b,
+                  const std::array<double, 2>& p) {
+  return (p[0] - a[0]) * (b[1] - a[1]) - (p[1] - a[1]) * (b[0] - a[0]);
+}
+
+TEST(Errata, E10_TheEdgeFunctionIsNotTheCrossProductStatedBesideIt) {
+  const std::array<double, 2> a{0, 0}, b{4, 0}, p{1, 1};
+  const double cross = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+  EXPECT_EQ(their_edge(a, b, p), -cross);
+  EXPECT_GT(cross, 0);                // left with y up,
+  EXPECT_LT(their_edge(a, b, p), 0);  // and theirs says right
+}
+
+TEST(Errata, E11_LeftEdgesAreNotThoseThatGoUp) {
+  // Both windings of one triangle: the left edge goes up in one, down in the other.
+  const std::array<Point<Exact>, 3> t{
+      {{Exact(0), Exact(0)}, {Exact(4), Exact(2)}, {Exact(0), Exact(4)}}};
+  const std::array<Point<Exact>, 3> reversed{t[0], t[2], t[1]};
+  // The edge on x = 0 is opposite (4, 2): B, or C in the reversed one.
+  EXPECT_TRUE(edge_functions(t)->edges[1].left_or_top);
+  EXPECT_TRUE(edge_functions(reversed)->edges[2].left_or_top);
+}
+
+TEST(Errata, E12_GreaterOrEqualIsNoTopLeftRule) {
+  const std::array<double, 2> a{50, 20}, b{200, 150}, c{30, 180};
+  int wrong = 0;
+  std::size_t right = 0;
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 256; ++x) {
+      const std::array<double, 2> p{x + 0.5, y + 0.5};
+      wrong += their_edge(b, c, p) >= 0 && their_edge(c, a, p) >= 0 && their_edge(a, b, p) >= 0;
+    }
+  EXPECT_EQ(wrong, 0);  // exercise 2's triangle winds the other way: no fragment at all
+  rasterize_triangle<Exact>(
+      {{{Exact(50), Exact(20)}, {Exact(200), Exact(150)}, {Exact(30), Exact(180)}}}, {},
+      [&](const auto&) { ++right; });
+  EXPECT_NEAR(static_cast<double>(right), 13300, 600);  // the area; less than its outline off
+  // And two triangles that share an edge both take a sample on it.
+  const std::array<double, 2> o{0, 0}, u{4, 0}, d{0, 4}, e{4, 4}, on{2, 2};
+  const auto takes = [&](const auto& p, const auto& q, const auto& r) {
+    return their_edge(q, r, on) >= 0 && their_edge(r, p, on) >= 0 && their_edge(p, q, on) >= 0;
+  };
+  EXPECT_TRUE(takes(o, d, u) && takes(u, d, e));
+}
+
+TEST(Errata, E13_ATinyAreaIsNoZero) {
+  const double s = 1e-6;
+  EXPECT_LT(std::abs(their_edge({0.5, 0.5 - s}, {0.5 + s, 0.5 + s}, {0.5 - s, 0.5 + s})), 1e-10);
+  std::size_t covered = 0;
+  rasterize_triangle<Exact>({{{Exact(0.5), Exact(0.5 - s)},
+                              {Exact(0.5 + s), Exact(0.5 + s)},
+                              {Exact(0.5 - s), Exact(0.5 + s)}}},
+                            {}, [&](const auto&) { ++covered; });
+  EXPECT_EQ(covered, 1u);
+}
+
+TEST(Errata, E14_WindowDepthIsAffineAndNotDividedAgain) {
+  // Half way in the window between w = 1 and w = 4 with near 1: z = 1 − 1/w is 0 and 3/4. The point
+  // there has 1/w = 5/8, so z = 3/8, the mean; with 1/w again it is (0 + 3/4/4)/(5/4) = 3/20.
+  const double z0 = 0, z1 = 0.75, w0 = 1, w1 = 4;
+  const double right = (z0 + z1) / 2, wrong = (z0 / w0 + z1 / w1) / (1 / w0 + 1 / w1);
+  const double inverse_w = (1 / w0 + 1 / w1) / 2;
+  EXPECT_EQ(right, 1 - inverse_w);
+  EXPECT_NE(wrong, right);
+  EXPECT_EQ(wrong, 0.15);
+}
+
+Scene scene_of(std::vector<MeshPoint> vertices, std::vector<CornerIndices> triangles) {
+  Scene scene;
+  scene.meshes.emplace_back();
+  scene.meshes[0].vertices = std::move(vertices);
+  scene.meshes[0].triangles = std::move(triangles);
+  scene.objects.push_back({});
+  return scene;
+}
+
+/// Pixels are units of the world: an orthographic look along z.
+Camera window_camera(std::uint32_t width, std::uint32_t height) {
+  Camera camera;
+  camera.width = width;
+  camera.height = height;
+  camera.projection = Projection::orthographic;
+  camera.near = 0;
+  camera.far = 1;
+  return camera;
+}
+
+TEST(Errata, E15_TheDemosCounts) {
+  const Scene demo = scene_of({{80, 30, 0.3},
+                               {30, 200, 0.3},
+                               {200, 180, 0.3},
+                               {160, 20, 0.6},
+                               {100, 220, 0.6},
+                               {290, 150, 0.6}},
+                              {{3, 4, 5}, {0, 1, 2}});
+  PipelineOptions options;
+  options.precision = Precision::binary64;
+  Camera camera = window_camera(320, 240);
+  camera.near = 0.1;
+  const PipelineFrame frame = render_frame(demo, camera, options, true);
+  const auto covered = static_cast<std::uint64_t>(
+      std::count_if(frame.id.begin(), frame.id.end(), [](auto id) { return id != no_surface; }));
+  // Far first: all fragments pass the depth test. What the demo counts as passed is the union.
+  EXPECT_EQ(frame.statistics.depth_passed, frame.statistics.fragments);
+  EXPECT_LT(covered, frame.statistics.depth_passed);
+  // 8 bit colours: truncation darkens.
+  EXPECT_EQ(static_cast<int>(0.999 * 255), 254);
+  EXPECT_EQ(to_rgb({1, 1, {{0.999, 0, 0}}}).pixels[0][0], 255);
+}
+
+TEST(Errata, E15_AFragmentAtTheFarEndIsSeen) {
+  const Scene scene = scene_of({{0, 0, 1}, {8, 0, 1}, {0, 8, 1}}, {{0, 1, 2}});
+  Camera camera = window_camera(8, 8);
+  camera.near = 0.5;
+  const PipelineFrame frame = render_frame(scene, camera, {}, false);
+  EXPECT_EQ(frame.id[0], 0u);  // stored depth 1.0:
+  EXPECT_FALSE(1.0f < 1.0f);   // against a buffer cleared to 1.0 it would fail
+}
+
+TEST(Errata, E16_OrderIndependenceEndsWithTies) {
+  const std::vector<MeshPoint> v{{0, 0, 0.5},      {8, 0, 0.5},      {0, 8, 0.5},
+                                 {0, 0, 0.500001}, {8, 0, 0.500001}, {0, 8, 0.500001}};
+  PipelineOptions options;
+  options.depth_format.storage = Storage::unorm16;
+  Camera camera = window_camera(8, 8);
+  camera.near = 0.1;
+  const auto winner = [&](CornerIndices first, CornerIndices second) {
+    const Scene scene = scene_of(v, {first, second});
+    return scene.meshes[0].triangles[render_frame(scene, camera, options, false).id[0]][0];
+  };
+  EXPECT_NE(winner({0, 1, 2}, {3, 4, 5}), winner({3, 4, 5}, {0, 1, 2}));
+  options.depth_format.storage = Storage::float64;
+  options.precision = Precision::binary64;
+  EXPECT_EQ(winner({0, 1, 2}, {3, 4, 5}), winner({3, 4, 5}, {0, 1, 2}));
+}
+
+TEST(Errata, E17_TenThousandthOfWindowDepthIsNoFight) {
+  EXPECT_GT(0.0001 * 65535, 6.5);  // steps of unorm16
+  // Along the view, at depth 50 with near 0.1: the same code.
+  const DepthFormat format{Mapping::standard, Storage::unorm16, 0.1, 100, 1};
+  EXPECT_EQ(encode(format, Ratio(Dyadic(50.0))), encode(format, Ratio(Dyadic(50.0001))));
+}
+
+TEST(Errata, E18_TheRotatedGridsMeanIsTheCentre) {
+  const double wrong_x = -0.25 + 0.25 - 0.125 + 0.375;
+  EXPECT_EQ(wrong_x / 4, 1.0 / 16);
+  for (const int n : {1, 2, 4, 8}) {
+    GridPoint sum;
+    const SamplePattern pattern = SamplePattern::standard(n);
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+      sum.x += pattern.at({0, 0}, i).x;
+      sum.y += pattern.at({0, 0}, i).y;
+    }
+    EXPECT_EQ(sum, (GridPoint{0, 0})) << n;
+  }
+}
+
+TEST(Errata, E19_TheFallbacksCountAndSpacing) {
+  const auto their_count = [](int samples) {
+    const int n = static_cast<int>(std::sqrt(samples));
+    return n * n;
+  };
+  EXPECT_EQ(their_count(2), 1);
+  EXPECT_EQ(their_count(8), 4);
+  EXPECT_EQ(SamplePattern::standard(2).size(), 2u);
+  EXPECT_EQ(SamplePattern::standard(8).size(), 8u);
+  // 1/(n+1) apart the samples of neighbouring pixels are 2/3 apart, those of a pixel 1/3.
+  const SamplePattern grid = SamplePattern::grid(2);
+  EXPECT_EQ(grid.at({0, 0}, 1).x - grid.at({0, 0}, 0).x, grid_one / 2);
+}
+
+TEST(Errata, E20_BlendingCoverageLeavesASeam) {
+  // Two triangles, each covering half of a pixel's samples, over black: white in the end is right.
+  const double first = 0.5 * 1 + 0.5 * 0, wrong = 0.5 * 1 + 0.5 * first;
+  EXPECT_EQ(wrong, 0.75);
+  const Scene square =
+      scene_of({{0, 0, 0.5}, {8, 0, 0.5}, {8, 8, 0.5}, {0, 8, 0.5}}, {{0, 1, 2}, {0, 2, 3}});
+  PipelineOptions options;
+  options.precision = Precision::binary64;
+  options.shading = Shading::none;
+  options.antialias = {AntialiasMethod::msaa, 4};
+  Camera camera = window_camera(8, 8);
+  camera.near = 0.1;
+  const PipelineFrame frame = render_frame(square, camera, options, true);
+  for (int i = 0; i < 8; ++i)
+    EXPECT_NEAR(frame.picture.at(i, i)[0], 1, 1e-7);  // floats hold colours
+}
+
+TEST(Errata, E21_JitterIsForRegularPatterns) {
+  // A grating of just under one line a pixel: samples at centres see slow false stripes, all jitter
+  // leaves of them is noise. The false stripe has a period of 20 pixels.
+  const auto grating = [](double x) { return std::fmod(x * 1.05, 1.0) < 0.5 ? 1.0 : 0.0; };
+  const auto stripe = [&](const auto& sample_x) {
+    double c = 0, s = 0;
+    for (int x = 0; x < 400; ++x) {
+      double mean = 0;
+      for (int k = 0; k < 4; ++k) mean += grating(x + sample_x(x, k)) / 4;
+      c += mean * std::cos(x * 0.05 * 2 * std::acos(-1.0));
+      s += mean * std::sin(x * 0.05 * 2 * std::acos(-1.0));
+    }
+    return std::hypot(c, s) / 400;
+  };
+  const SamplePattern jitter = SamplePattern::jittered(4);
+  const double regular = stripe([](int, int) { return 0.5; });
+  const double jittered = stripe([&](int x, int k) {
+    return 0.5 + static_cast<double>(jitter.at({x, 0}, static_cast<std::size_t>(k)).x) / grid_one;
+  });
+  EXPECT_GT(regular, 0.3);
+  EXPECT_LT(jittered, regular / 3);
+}
+
+TEST(Errata, E22_TheProjectionOfAPointBehindTheEye) {
+  const double n = 1, f = 2, z = n;
+  const double z_clip = -(f + n) / (f - n) * z - 2 * f * n / (f - n), w_clip = -z;
+  EXPECT_EQ(z_clip, -7);
+  EXPECT_EQ(w_clip, -1);
+  EXPECT_EQ(z_clip / w_clip, 7);  // 3 = (f + n)/(f − n) is only a bound
+}
+
+TEST(Errata, E23_TheSignInTheHomogeneousIntersection) {
+  // R = (3, …, 1), S = (0, …, 2) and the plane x = w: x(t) − w(t) = 2 + t(−2 − 2) is 0 at ½.
+  const double rx = 3, rw = 1, sx = 0, sw = 2;
+  const double t = (rx - rw) / ((sw - rw) - (sx - rx));
+  EXPECT_EQ(rx + t * (sx - rx), rw + t * (sw - rw));
+  const auto wrong = [&](double s) { return rx - rw + s * ((sw - rw) - (sx - rx)); };
+  EXPECT_NE(wrong(t), 0);
+}
+
+TEST(Errata, E24_ASharedOutcodeIsTestTwo) {
+  const unsigned e3 = 0b1000, e2 = 0b1000;
+  EXPECT_NE(e3 & e2, 0u);                              // test 2: outside at once
+  EXPECT_FALSE((e3 & e2) == 0 && e3 != 0 && e2 != 0);  // so not test 4
+}
+
+std::vector<double> facing_shares(bool closed) {
+  // A cube, or an open box: its front removed.
+  std::vector<MeshPoint> v;
+  for (int i = 0; i < 8; ++i) v.push_back({i & 1 ? 1. : -1., i & 2 ? 1. : -1., i & 4 ? 5. : 3.});
+  std::vector<CornerIndices> t{{4, 5, 7}, {4, 7, 6}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7},
+                               {1, 7, 5}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}};
+  if (closed) t.push_back({0, 2, 3}), t.push_back({0, 3, 1});
+  const Scene scene = scene_of(v, t);
+  Camera camera;
+  camera.width = camera.height = 64;
+  camera.fx = camera.fy = 64;
+  camera.cx = camera.cy = 32;
+  camera.near = 1;
+  camera.far = 10;
+  PipelineOptions options;
+  const auto none = render_frame(scene, camera, options, false);
+  options.culling = Culling::back;
+  const auto back = render_frame(scene, camera, options, false);
+  double different = 0;
+  for (std::size_t i = 0; i < none.id.size(); ++i)
+    different += (none.id[i] == no_surface) != (back.id[i] == no_surface);
+  return {different, static_cast<double>(back.statistics.culled)};
+}
+
+TEST(Errata, E26_CullingNeedsAClosedSurface) {
+  EXPECT_EQ(facing_shares(true)[0], 0);   // closed: nothing is missing
+  EXPECT_GT(facing_shares(false)[0], 0);  // open: a hole, however convex
+  // 10 of 12 faces of the cube are culled from straight ahead: half is an average.
+  EXPECT_EQ(facing_shares(true)[1], 10);
+}
+
+TEST(Errata, E27_NormalInNdcAndDeterminantAreTheSameNumber) {
+  const std::array<NdcVertex<double>, 3> t{
+      {{-0.5, -0.5, 0.1, 1, {}}, {0.5, -0.5, 0.7, 1, {}}, {0, 0.5, 0.2, 1, {}}}};
+  const double n_z = (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x);
+  EXPECT_GT(n_z, 0);  // "positive: remove" would remove this front face
+  EXPECT_EQ(facing_in_ndc(t, FrontFace::counter_clockwise), Facing::front);
+}
+
+TEST(Errata, E28_CullingAfterTheDivisionSeesWhatIsDrawn) {
+  // Of a triangle with a corner behind the eye, the signed area of the divided corners is that of
+  // another triangle; clipping comes first.
+  std::vector<ClipVertex<double>> t;
+  for (const auto& [x, y, w] : {std::array{-1., -1., 2.}, {1., -1., 2.}, {0., 3., -1.}})
+    t.push_back({{x, y, w > 0 ? 1. : -2., w}, std::vector<double>(attribute::count)});
+  const auto area = [](const auto& v) {
+    return (v[1].x - v[0].x) * (v[2].y - v[0].y) - (v[2].x - v[0].x) * (v[1].y - v[0].y);
+  };
+  std::vector<NdcVertex<double>> wrong, right;
+  for (const auto& corner : t) wrong.push_back(divide(corner));
+  for (const auto& corner : clip_triangle(t, clipping::Volume::zero_one))
+    right.push_back(divide(corner));
+  ASSERT_GE(right.size(), 3u);
+  EXPECT_LT(area(wrong), 0);
+  EXPECT_GT(area(right), 0);
+}
+
+TEST(Errata, E29_OneViewDirectionIsWrongInPerspective) {
+  // A face to the side, turned a little away from the axis, but towards the eye.
+  const std::array<WorldVertex<double>, 3> t{{{4, 0, 4}, {4.2, 0, 6}, {4, 1, 4}}};
+  const auto eye = facing_in_world(t, {0, 0, 0}, true, false, FrontFace::counter_clockwise);
+  const auto fixed = facing_in_world(t, {0, 0, -1}, false, false, FrontFace::counter_clockwise);
+  EXPECT_NE(eye, fixed);
+}
+
+TEST(Errata, E30_SortingByTheFarthestCornerAloneIsWrong) {
+  // A small triangle before a large slanted one that begins nearer and ends farther.
+  const Scene scene =
+      scene_of({{-4, -4, 2}, {4, -4, 2}, {0, 6, 9}, {-1, 0, 6}, {1, 0, 6}, {0, -1, 6.5}},
+               {{3, 4, 5}, {0, 1, 2}});
+  Camera camera;
+  camera.width = camera.height = 64;
+  camera.fx = camera.fy = 64;
+  camera.cx = camera.cy = 32;
+  camera.near = 1;
+  camera.far = 20;
+  PipelineOptions options;
+  options.precision = Precision::binary64;
+  const PipelineFrame buffer = render_frame(scene, camera, options, false);
+  options.hidden_surface = HiddenSurface::painter;
+  const PipelineFrame painter = render_frame(scene, camera, options, false);
+  EXPECT_EQ(buffer.id, painter.id);
+  EXPECT_GT(painter.painter.comparisons, 0u);  // zmax alone does not settle it
+}
+
+TEST(Errata, E31_TheTablesContradictThemselves) {
+  const std::string z_row = "1.0 1.0 .5 .5 .5 .5 .5 .5 .5 1.0 1.0 1.0";
+  const std::string colour_row = "W W B B B B B B B B W W";
+  const auto count = [](const std::string& row, const std::string& word) {
+    int n = 0;
+    for (std::size_t at = row.find(word); at != std::string::npos; at = row.find(word, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count(z_row, ".5"), 7);
+  EXPECT_EQ(count(colour_row, "B"), 8);
+}
+
+TEST(Errata, E32_TheDeterminantsLastFactor) {
+  const double x1 = 0, y1 = 0, x2 = 4, y2 = 1, x3 = 1, y3 = 3;
+  const double wrong = (x2 - x1) * (y3 - y1) - (x3 - x1) * (y3 - y1);
+  const double right = (x2 - x1) * (y3 - y1) - (x3 - x1) * (y2 - y1);
+  EXPECT_EQ(right, 11);  // twice the area
+  EXPECT_NE(wrong, right);
+}
+
+}  // namespace
+}  // namespace fathom::pipeline
