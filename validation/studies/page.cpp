@@ -42,8 +42,8 @@ Page& Page::plot(const std::string& name, const std::string& caption) {
 }
 
 Page& Page::picture(const std::string& name, const std::string& caption) {
-  body_ += "<figure><img src=\"" + name + ".png\" alt=\"" + escaped(caption) + "\"><figcaption>" +
-           escaped(caption) + "</figcaption></figure>\n";
+  body_ += "<figure><img style=\"image-rendering:pixelated\" src=\"" + name + ".png\" alt=\"" +
+           escaped(caption) + "\"><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
   return *this;
 }
 

@@ -15,7 +15,7 @@ class Page {
   Page& paragraph(const std::string& text);
   /// The plot NAME.png, linked to NAME.svg.
   Page& plot(const std::string& name, const std::string& caption);
-  /// The picture NAME.png.
+  /// The picture NAME.png, its pixels kept sharp.
   Page& picture(const std::string& name, const std::string& caption);
   Page& table(const std::vector<std::string>& head,
               const std::vector<std::vector<std::string>>& rows);

@@ -3,8 +3,11 @@
 #include "fathom/numeric/errors.h"
 #include "validation/studies/antialiasing.h"
 #include "validation/studies/clipping.h"
+#include "validation/studies/course.h"
 #include "validation/studies/depth_resolution.h"
+#include "validation/studies/hidden_surface.h"
 #include "validation/studies/indistinguishable.h"
+#include "validation/studies/lines.h"
 #include "validation/studies/mitigation.h"
 #include "validation/studies/subpixel.h"
 #include "validation/studies/z_fighting.h"
@@ -17,11 +20,17 @@ const std::vector<Study>& all_studies() {
        study_antialiasing},
       {"clipping", "Sutherland-Hodgman's bridging edges on concave polygons, and their cures",
        false, study_clipping},
+      {"course", "The exercises, the demo and the tables of the textbooks, as pictures and figures",
+       false, study_course},
       {"depth-resolution", "The step of every depth format against depth, near and far", false,
        study_depth_resolution},
+      {"hidden-surface", "Z-buffer and painter's algorithm against the exact visible triangle",
+       false, study_hidden_surface},
       {"indistinguishable",
        "Which of many depths become equal or swap in a pipeline, after Reed, Upchurch and Desbrun",
        false, study_indistinguishable},
+      {"lines", "How far lines in floating point drift from the exact ones, and what steps cost",
+       false, study_lines},
       {"mitigation", "Z-fighting before and after: near plane, polygon offset, other formats", true,
        study_mitigation},
       {"subpixel", "Coverage and depth against the number of subpixel bits", true, study_subpixel},
