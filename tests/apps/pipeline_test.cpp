@@ -1,0 +1,123 @@
+// fathom render --engine pipeline, and fathom pipeline trace.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_program.h"
+#include "test_folder.h"
+
+namespace fathom::test {
+namespace {
+
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+
+const std::string cube = FATHOM_SOURCE_DIR "/data/meshes/cube.obj";
+
+Outcome render(const TestFolder& folder, std::vector<std::string> more) {
+  std::vector<std::string> arguments{"render", cube, "--engine", "pipeline", "--size", "64x48"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_fathom(arguments, {.folder = folder.path()});
+}
+
+TEST(PipelineCommand, WritesMapPictureCameraAndStatistics) {
+  const TestFolder folder;
+  const Outcome outcome =
+      render(folder, {"--channels", "Z,id,face,object", "--image", "a.png", "--stats", "s.json",
+                      "--save-camera", "c.json", "-o", "a.exr"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.exr", "a.png", "c.json", "s.json"}));
+  const Json statistics = Json::parse(folder.read("s.json"));
+  EXPECT_EQ(statistics["engine"], "pipeline");
+  EXPECT_EQ(statistics["triangles"], 12);
+  EXPECT_GT(statistics["fragments"], 0);
+  // The exact map for the camera that it says it used has surfaces in the same pixels.
+  const Outcome exact =
+      run_fathom({"render", cube, "--camera", "c.json", "--channels", "Z,id", "-o", "b.exr"},
+                 {.folder = folder.path()});
+  ASSERT_EQ(exact.status, 0) << exact.err;
+  const Outcome compared =
+      run_fathom({"compare", "b.exr", "a.exr", "--json", "d.json"}, {.folder = folder.path()});
+  EXPECT_LE(compared.status, 1) << compared.err;
+}
+
+TEST(PipelineCommand, EveryChoiceDraws) {
+  const TestFolder folder;
+  const std::vector<std::vector<std::string>> choices{
+      {"--shading", "none"},
+      {"--shading", "wireframe", "--line", "diamond-exit"},
+      {"--shading", "gouraud"},
+      {"--shading", "phong"},
+      {"--interpolation", "affine"},
+      {"--scan", "scan-line"},
+      {"--hidden-surface", "painter"},
+      {"--antialias", "msaa:4"},
+      {"--antialias", "ssaa:2"},
+      {"--antialias", "jitter:4"},
+      {"--antialias", "area"},
+      {"--antialias", "fxaa"},
+      {"--antialias", "taa:4"},
+      {"--precision", "binary64"},
+      {"--subpixel-bits", "0"},
+      {"--viewport", "8,8,32,24"},
+      {"--scissor", "8,8,32,24"},
+      {"--depth-range", "0.25,0.75"},
+      {"--front-face", "cw", "--cull", "front"},
+      {"--blend", "--opacity", "0.3"},
+      {"--polygon-offset", "1,1"},
+      {"--background", "0.1,0.2,0.3"},
+      {"--depth-format", "unorm24", "--mapping", "reversed"}};
+  for (const auto& choice : choices) {
+    std::vector<std::string> arguments{"--image", "a.png", "-o", "a.exr"};
+    arguments.insert(arguments.end(), choice.begin(), choice.end());
+    EXPECT_EQ(render(folder, arguments).status, 0) << choice[0] << " " << choice.back();
+  }
+}
+
+TEST(PipelineCommand, StretchedViewportIsAWarning) {
+  const TestFolder folder;
+  EXPECT_THAT(render(folder, {"--viewport", "0,0,64,24", "-o", "a.exr"}).err,
+              HasSubstr("stretched"));
+}
+
+TEST(PipelineCommand, TexturesThatCannotBeUsed) {
+  const TestFolder folder;
+  const auto refused = [&](const std::string& texture) {
+    const Outcome outcome =
+        render(folder, {"--texture", texture, "--image", "a.png", "-o", "a.exr"});
+    EXPECT_EQ(outcome.status, 3);
+    return outcome.err;
+  };
+  folder.write("broken.png", "this is no picture");
+  EXPECT_THAT(refused("missing.png"), HasSubstr("missing.png: does not exist"));
+  EXPECT_THAT(refused("broken.png"), HasSubstr("broken.png: no PNG file"));
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"broken.png"});
+}
+
+TEST(PipelineCommand, TraceInTextAndJson) {
+  const std::vector<std::string> arguments{"pipeline", "trace", cube,      "--triangle", "3",
+                                           "--size",   "64x48", "--pixel", "32,24"};
+  const Outcome text = run_fathom(arguments);
+  ASSERT_EQ(text.status, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("by the determinant in the window"));
+  auto with_json = arguments;
+  with_json.emplace_back("--json");
+  const Outcome outcome = run_fathom(with_json);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json trace = Json::parse(outcome.out);
+  EXPECT_EQ(trace["vertex_transform"].size(), 3u);
+  EXPECT_EQ(trace["clipping"].size(), 3u);
+  EXPECT_EQ(trace["facing"]["world"], trace["facing"]["window"]);
+  EXPECT_EQ(trace["facing"]["ndc"], trace["facing"]["window"]);
+  // The stages join: NDC is clip over w.
+  const Json& corner = trace["clipping"][0];
+  EXPECT_EQ(corner["ndc"][0].get<float>(),
+            corner["clip"][0].get<float>() / corner["clip"][3].get<float>());
+  EXPECT_EQ(run_fathom({"pipeline", "trace", cube, "--triangle", "12"}).status, 2);
+  EXPECT_EQ(run_fathom({"pipeline"}).status, 2);
+}
+
+}  // namespace
+}  // namespace fathom::test

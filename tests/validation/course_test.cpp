@@ -1,0 +1,61 @@
+// The figures of the study `course` against what can be known about them.
+
+#include <gtest/gtest.h>
+
+#include "validation/studies/course_pictures.h"
+
+namespace fathom::studies {
+namespace {
+
+TEST(Course, TablesAreThoseOfTheSource) {
+  const Tables t = z_buffer_tables();
+  const std::vector<std::string> depths{"1 1 1 1 1 0.5 1 1 1 1 1 1",
+                                        "1 1 1 1 1 0.5 1 1 1 1 1 0.95",
+                                        "1 1 1 1 0.5 0.5 0.5 1 0.65 0.75 0.85 0.95",
+                                        "1 1 1 1 0.5 0.5 0.45 0.5 0.65 0.75 0.85 0.95",
+                                        "1 1 1 0.5 0.25 0.35 0.45 0.5 0.65 0.75 0.85 0.95",
+                                        "1 1 1 0.5 0.5 0.5 0.45 0.5 0.5 0.75 0.85 0.95",
+                                        "1 1 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.75 0.85 0.95",
+                                        "1 1 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.85 0.95",
+                                        "1 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.95"};
+  EXPECT_EQ(t.depth_after, depths);
+  EXPECT_EQ(t.colour_after[3], "W W W W B B G B G G G G");
+  EXPECT_EQ(t.colour_before[8], "W B B B B B B B B B B W");
+}
+
+TEST(Course, DemoCountsAddUp) {
+  const Demo d = demo();
+  EXPECT_EQ(d.near_fragments + d.far_fragments, d.union_of_both + d.overlap);
+  EXPECT_EQ(d.passed_far_first, d.near_fragments + d.far_fragments);
+  EXPECT_EQ(d.passed_near_first, d.union_of_both);
+  // Areas 13950 and 16900; a count differs from its area by less than the outline is long.
+  EXPECT_NEAR(static_cast<double>(d.near_fragments), 13950, 540);
+  EXPECT_NEAR(static_cast<double>(d.far_fragments), 16900, 700);
+}
+
+TEST(Course, MoreSamplesFindMoreOfTheCutPixels) {
+  const PartialPixels p = partial_pixels();
+  EXPECT_EQ(p.counted[0], 0u);
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_GT(p.counted[i], p.counted[i - 1]);
+    EXPECT_LT(p.mean_error[i], p.mean_error[i - 1]);
+  }
+  EXPECT_LE(p.counted[3], p.exact);
+}
+
+TEST(Course, AffineTextureCoordinatesAreWrongAndPerspectiveOnesAreNot) {
+  const Checkerboard affine = checkerboard(pipeline::Interpolation::affine);
+  const Checkerboard perspective = checkerboard(pipeline::Interpolation::perspective);
+  EXPECT_GT(affine.greatest_error, 0.1);
+  // Colours are kept in binary32, the exact weights too; corners are snapped to 2^-16 of a pixel,
+  // which far away is a depth of some 10^-3.
+  EXPECT_LT(perspective.greatest_error, 2e-3);
+}
+
+TEST(Course, SixteenBitsFightAndFartherSurfacesFightMore) {
+  EXPECT_LT(fight(0.5, Storage::float32).wrong_share, 0.01);
+  EXPECT_GT(fight(10, Storage::unorm16).wrong_share, 0.2);
+}
+
+}  // namespace
+}  // namespace fathom::studies
