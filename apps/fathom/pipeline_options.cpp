@@ -68,9 +68,13 @@ Antialias parse_antialias(const std::string& text) {
   if (counts != (colon != std::string::npos))
     throw UsageError(fmt::format("--antialias: '{}' {}", text,
                                  counts ? "needs a number, as in msaa:4" : "takes no number"));
-  if (counts)
+  if (text == "msaa:rotated-grid") {
+    antialias.count = 4;
+    antialias.rotated_grid = true;
+  } else if (counts) {
     antialias.count = static_cast<int>(
         std::min<std::uint32_t>(1000, parse_count("--antialias", text.substr(colon + 1))));
+  }
   return antialias;
 }
 
@@ -98,7 +102,8 @@ void PipelineArguments::add_to(CLI::App& command) {
   add(command, "--scan", scan_, "edge-function (default) or scan-line");
   add(command, "--hidden-surface", hidden_surface_, "z-buffer (default) or painter");
   add(command, "--antialias", antialias_,
-      "none (default), ssaa:N (N times N), msaa:N, jitter:N, area, fxaa or taa:N");
+      "none (default), ssaa:N (N times N), msaa:N, msaa:rotated-grid, jitter:N, area, fxaa or "
+      "taa:N");
   add(command, "--subpixel-bits", subpixel_bits_,
       "Corners are snapped to 2^N positions a pixel, 0 to 16 (default 8)");
   add(command, "--precision", precision_, "binary32 (default) or binary64");

@@ -349,6 +349,7 @@ TEST(Options, WhatDoesNotExistIsRefused) {
   refused([](auto& o) { o.antialias = {AntialiasMethod::msaa, 3}; });
   refused([](auto& o) { o.antialias = {AntialiasMethod::ssaa, 0}; });
   refused([](auto& o) { o.antialias = {AntialiasMethod::jitter, 257}; });
+  refused([](auto& o) { o.antialias = {AntialiasMethod::jitter, 8}; });
   refused([](auto& o) { o.viewport = WindowRectangle{0, 0, 0, 5}; });
   refused([](auto& o) { o.scissor = WindowRectangle{0, 0, 5, -1}; });
   refused([](auto& o) { o.subpixel_bits = 17; });

@@ -14,10 +14,10 @@
 #include "fathom/clipping/homogeneous.h"
 #include "fathom/depth_format/encode.h"
 #include "fathom/pipeline/edge_function.h"
+#include "fathom/pipeline/grid_samples.h"
 #include "fathom/pipeline/line.h"
 #include "fathom/pipeline/polygon_fill.h"
 #include "fathom/pipeline/render_pipeline.h"
-#include "fathom/pipeline/sample_pattern.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -297,7 +297,7 @@ TEST(Errata, E18_TheRotatedGridsMeanIsTheCentre) {
   EXPECT_EQ(wrong_x / 4, 1.0 / 16);
   for (const int n : {1, 2, 4, 8}) {
     GridPoint sum;
-    const SamplePattern pattern = SamplePattern::standard(n);
+    const GridSamples pattern = GridSamples::of(sample_pattern(std::to_string(n)));
     for (std::size_t i = 0; i < pattern.size(); ++i) {
       sum.x += pattern.at({0, 0}, i).x;
       sum.y += pattern.at({0, 0}, i).y;
@@ -313,10 +313,10 @@ TEST(Errata, E19_TheFallbacksCountAndSpacing) {
   };
   EXPECT_EQ(their_count(2), 1);
   EXPECT_EQ(their_count(8), 4);
-  EXPECT_EQ(SamplePattern::standard(2).size(), 2u);
-  EXPECT_EQ(SamplePattern::standard(8).size(), 8u);
+  EXPECT_EQ(sample_pattern("2").count(), 2u);
+  EXPECT_EQ(sample_pattern("8").count(), 8u);
   // 1/(n+1) apart the samples of neighbouring pixels are 2/3 apart, those of a pixel 1/3.
-  const SamplePattern grid = SamplePattern::grid(2);
+  const GridSamples grid = GridSamples::regular(2);
   EXPECT_EQ(grid.at({0, 0}, 1).x - grid.at({0, 0}, 0).x, grid_one / 2);
 }
 
@@ -351,7 +351,7 @@ TEST(Errata, E21_JitterIsForRegularPatterns) {
     }
     return std::hypot(c, s) / 400;
   };
-  const SamplePattern jitter = SamplePattern::jittered(4);
+  const GridSamples jitter = GridSamples::of(sample_pattern("jittered:2"));
   const double regular = stripe([](int, int) { return 0.5; });
   const double jittered = stripe([&](int x, int k) {
     return 0.5 + static_cast<double>(jitter.at({x, 0}, static_cast<std::size_t>(k)).x) / grid_one;

@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "fathom/pipeline/edge_function.h"
+#include "fathom/pipeline/grid_samples.h"
 #include "fathom/pipeline/line.h"
 #include "fathom/pipeline/polygon_fill.h"
-#include "fathom/pipeline/sample_pattern.h"
 #include "fathom/render.h"
 #include "validation/studies/pipeline_scenes.h"
 
@@ -200,7 +200,7 @@ PartialPixels partial_pixels() {
       const bool cut = area > 1e-12 && area < 1 - 1e-12;
       result.exact += cut;
       for (std::size_t i = 0; i < 4; ++i) {
-        const auto pattern = pipeline::SamplePattern::standard(1 << i);
+        const auto pattern = pipeline::GridSamples::of(sample_pattern(std::to_string(1 << i)));
         std::size_t covered = 0;
         for (std::size_t k = 0; k < pattern.size(); ++k) {
           const pipeline::GridPoint offset = pattern.at({x, y}, k);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fathom/exact/options.h"
-#include "fathom/exact/sample_pattern.h"
+#include "fathom/image/sample_pattern.h"
 #include "fathom/exact/triangle_source.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/camera.h"

@@ -23,6 +23,10 @@ void require_count(const Antialias& antialias) {
                      " does not exist; there are 1, 2, 4, 8 and 16");
   if (antialias.method == AntialiasMethod::ssaa && (n < 1 || n > 16))
     throw UsageError("--antialias: ssaa:N takes 1 to 16, for N times N samples");
+  if (antialias.method == AntialiasMethod::jitter && n != 1 && n != 4 && n != 16 && n != 64 &&
+      n != 256)
+    throw UsageError("--antialias: jitter:" + std::to_string(n) +
+                     " does not exist; there are 1, 4, 16, 64 and 256: squares of cells");
   if (n < 1 || n > 256) throw UsageError("--antialias: expected 1 to 256 samples");
 }
 

@@ -31,8 +31,10 @@ enum class WireLine { explicit_equation, dda, bresenham, midpoint, diamond_exit 
 enum class AntialiasMethod { none, ssaa, msaa, jitter, area, fxaa, taa };
 struct Antialias {
   AntialiasMethod method = AntialiasMethod::none;
-  /// ssaa: n of n × n; msaa: 1, 2, 4, 8 or 16; jitter: samples a pixel; taa: frames.
+  /// ssaa: n of n × n; msaa: 1, 2, 4, 8 or 16; jitter: 1, 4, 16, 64 or 256; taa: frames.
   int count = 1;
+  /// msaa: not the standard positions but the 2 × 2 grid turned by arctan ½.
+  bool rotated_grid = false;
 };
 
 /// A rectangle of the window in whole pixels, its origin the lower left corner of the window as in

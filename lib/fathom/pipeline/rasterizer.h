@@ -1,7 +1,7 @@
 #pragma once
 
+#include "fathom/pipeline/grid_samples.h"
 #include "fathom/pipeline/output_merger.h"
-#include "fathom/pipeline/sample_pattern.h"
 #include "fathom/pipeline/shading.h"
 
 /// Scan conversion stage and what follows it, for triangles in the window: fragments, depth test,
@@ -17,7 +17,7 @@ enum class ShadingRate {
 
 struct RasterizerSettings {
   const PipelineOptions& options;
-  const SamplePattern& pattern;
+  const GridSamples& pattern;
   ShadingRate rate = ShadingRate::per_sample;
   /// Without a depth test, what comes later lies above (the painter's algorithm).
   bool depth_tested = true;

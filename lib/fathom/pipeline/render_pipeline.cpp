@@ -1,6 +1,7 @@
 #include "fathom/pipeline/render_pipeline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "fathom/numeric/errors.h"
@@ -56,7 +57,7 @@ class Frame {
     FrameBuffer centres = buffer(1);
     // The map first: without colours, unless its samples are the picture's.
     PipelineStatistics uncounted;
-    draw(SamplePattern::centre(), with_picture && same_samples ? &shader : nullptr, centres,
+    draw(GridSamples::centre(), with_picture && same_samples ? &shader : nullptr, centres,
          !with_picture || same_samples ? frame_.statistics : uncounted);
     take_map(centres);
     if (!with_picture) return std::move(frame_);
@@ -70,7 +71,7 @@ class Frame {
     return {camera_.width, camera_.height, samples, options_.background};
   }
 
-  void draw(const SamplePattern& pattern, Shader<Real>* shader, FrameBuffer& target,
+  void draw(const GridSamples& pattern, Shader<Real>* shader, FrameBuffer& target,
             PipelineStatistics& statistics, ShadingRate rate = ShadingRate::per_sample) {
     const RasterizerSettings settings{options_, pattern, rate,
                                       options_.hidden_surface == HiddenSurface::z_buffer, window_};
@@ -99,11 +100,11 @@ class Frame {
     const int n = options_.antialias.count;
     switch (options_.antialias.method) {
       case AntialiasMethod::ssaa:
-        return sampled(SamplePattern::grid(n), shader, ShadingRate::per_sample);
+        return sampled(GridSamples::regular(n), shader, ShadingRate::per_sample);
       case AntialiasMethod::msaa:
-        return sampled(SamplePattern::standard(n), shader, ShadingRate::per_pixel);
+        return sampled(multisamples(), shader, ShadingRate::per_pixel);
       case AntialiasMethod::jitter:
-        return sampled(SamplePattern::jittered(n), shader, ShadingRate::per_sample);
+        return sampled(jittered_samples(), shader, ShadingRate::per_sample);
       case AntialiasMethod::taa:
         return temporal(shader, n);
       default:
@@ -112,7 +113,18 @@ class Frame {
     }
   }
 
-  ColourImage sampled(const SamplePattern& pattern, Shader<Real>& shader, ShadingRate rate) {
+  [[nodiscard]] GridSamples multisamples() const {
+    const Antialias& a = options_.antialias;
+    return GridSamples::of(
+        sample_pattern(a.rotated_grid ? "rotated-grid" : std::to_string(a.count)));
+  }
+
+  [[nodiscard]] GridSamples jittered_samples() const {
+    const auto side = std::lround(std::sqrt(options_.antialias.count));
+    return GridSamples::of(sample_pattern("jittered:" + std::to_string(side)));
+  }
+
+  ColourImage sampled(const GridSamples& pattern, Shader<Real>& shader, ShadingRate rate) {
     FrameBuffer target = buffer(pattern.size());
     draw(pattern, &shader, target, frame_.statistics, rate);
     return target.resolve();
@@ -123,7 +135,7 @@ class Frame {
   ColourImage temporal(Shader<Real>& shader, int frames) {
     ColourImage history;
     for (int k = 0; k < frames; ++k) {
-      const ColourImage frame = sampled(SamplePattern::halton(k), shader, ShadingRate::per_sample);
+      const ColourImage frame = sampled(GridSamples::halton(k), shader, ShadingRate::per_sample);
       if (k == 0) {
         history = frame;
         continue;

@@ -1,4 +1,4 @@
-#include "fathom/exact/sample_pattern.h"
+#include "fathom/image/sample_pattern.h"
 
 #include <charconv>
 #include <optional>
