@@ -55,7 +55,7 @@ Scene oblique_quadrangle() {
 
 /// The half plane of exercise 6 as a large triangle; 64 × 64 pixels are looked at.
 constexpr std::array<std::array<double, 2>, 3> half_plane{
-    {{-100.3, -90.7}, {140.2, 150.1}, {-200, 180}}};
+    {{-100.3, -10.7}, {140.2, 61.4}, {-200, 180}}};
 
 }  // namespace
 

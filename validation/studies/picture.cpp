@@ -1,8 +1,6 @@
 #include "validation/studies/picture.h"
 
-#include <png.h>
-
-#include "fathom/numeric/errors.h"
+#include "validation/studies/gnuplot.h"
 
 namespace fathom::studies {
 namespace {
@@ -17,22 +15,7 @@ RgbImage enlarged(const RgbImage& image, std::uint32_t scale) {
 }  // namespace
 
 StudyFile picture_file(const std::string& name, const RgbImage& image, std::uint32_t scale) {
-  const RgbImage large = enlarged(image, scale);
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = large.width;
-  png.height = large.height;
-  png.format = PNG_FORMAT_RGB;
-  png_alloc_size_t size = 0;
-  std::string bytes;
-  const void* pixels = large.pixels.data();
-  bool written = png_image_write_to_memory(&png, nullptr, &size, 0, pixels, 0, nullptr) != 0;
-  bytes.resize(size);
-  written =
-      written && png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, nullptr) != 0;
-  if (!written) throw OutputError(name + ".png: " + png.message);
-  bytes.resize(size);
-  return {name + ".png", bytes};
+  return {name + ".png", png_bytes(enlarged(image, scale))};
 }
 
 }  // namespace fathom::studies

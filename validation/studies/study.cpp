@@ -16,7 +16,7 @@ namespace fathom::studies {
 
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies{
-      {"antialiasing", "Coverage by samples against the exact area, by sample pattern", true,
+      {"antialiasing", "Sample patterns, and every kind of antialiasing, against exact areas", true,
        study_antialiasing},
       {"clipping", "Sutherland-Hodgman's bridging edges on concave polygons, and their cures",
        false, study_clipping},

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "fathom/exact/options.h"
-#include "fathom/image/sample_pattern.h"
 #include "fathom/exact/triangle_source.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/image/sample_pattern.h"
 #include "fathom/scene/camera.h"
 
 namespace fathom {
