@@ -80,5 +80,24 @@ TEST(CoplanarPair, ThePipelineWithoutRoundingIsTheIdealModel) {
   }
 }
 
+/// Facing the camera a surface has one depth: all samples are right, or all are wrong. Tilted, the
+/// far side decides what is safe: it lies at d/(1 − τ/2), where bins of standard are wider by the
+/// square of that, and the pair's separation is 1/(1 − τ/2) times that in the middle; so what is
+/// safe grows like 1/(1 − τ/2), by 3.34 from 5 to 55 degrees. The samples, which are always the
+/// same, reach at least half of what is needed at worst, so the quotient is off by 2 at most.
+TEST(FightsByAngle, FacingIsAllOrNothingAndTiltNeedsMore) {
+  const std::vector<FightByAngle> fights = fights_by_angle({0.1, 100, 1e-4, 64, {1.26, 10}});
+  ASSERT_EQ(fights.size(), 4U * 2 * 12);
+  for (std::size_t i = 0; i < fights.size(); i += 12) {
+    EXPECT_EQ(fights[i].degrees, 0);
+    EXPECT_TRUE(fights[i].ideal == 0 || fights[i].ideal == 1);
+    EXPECT_EQ(fights[i + 1].degrees, 5);
+    EXPECT_EQ(fights[i + 11].degrees, 55);
+    if (fights[i].format.mapping != Mapping::standard) continue;
+    EXPECT_GT(fights[i + 11].safe / fights[i + 1].safe, 1.67);
+    EXPECT_LT(fights[i + 11].safe / fights[i + 1].safe, 6.69);
+  }
+}
+
 }  // namespace
 }  // namespace fathom::studies

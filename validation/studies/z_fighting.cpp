@@ -9,6 +9,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "validation/studies/coplanar_pair.h"
+#include "validation/studies/fights_by_angle.h"
 #include "validation/studies/page.h"
 #include "validation/studies/plot.h"
 #include "validation/studies/sampling.h"
@@ -191,7 +192,8 @@ std::string percent(double share) {
   return std::isnan(share) ? "" : fmt::format("{:.1f} %", 100 * share);
 }
 
-StudyFile page_of(const Pairs& scene, const std::vector<Fight>& fights) {
+StudyFile page_of(const Pairs& scene, const std::vector<Fight>& fights,
+                  const std::vector<FightByAngle>& by_angle) {
   Page page(fmt::format("Z-fighting, near {:g}, far {:g}", scene.near, scene.far));
   page.paragraph(fmt::format(
       "Two parallel surfaces, tilted by 30 degrees, one {:g} behind the other along the view, fill "
@@ -232,6 +234,7 @@ StudyFile page_of(const Pairs& scene, const std::vector<Fight>& fights) {
   for (const char* storage : {"unorm16", "unorm24", "float32"}) {
     page.plot(std::string("safe-") + storage, fmt::format("Least safe separation, {}", storage));
   }
+  add_to_page(by_angle, page);
   page.heading("Distance and separation");
   for (const char* format :
        {"standard-unorm16", "standard-unorm24", "log-unorm24", "reversed-float32"}) {
@@ -239,7 +242,8 @@ StudyFile page_of(const Pairs& scene, const std::vector<Fight>& fights) {
   }
   page.heading("Files");
   page.paragraph(
-      "fights.csv: every format at every distance. summary.json: the same. *.gp: the scripts of "
+      "fights.csv: every format at every distance. angles.csv: by tilt. summary.json: the same. "
+      "*.gp: the scripts of "
       "the "
       "plots, for gnuplot.");
   return page.file();
@@ -275,16 +279,24 @@ std::vector<StudyFile> study_z_fighting(const StudyOptions& options,
   require_gnuplot();
   const std::vector<Fight> fights = measure_all(scene, tick);
 
-  const Json summary{{"study", "z-fighting"},    {"near", scene.near},
-                     {"far", scene.far},         {"separation", scene.separation},
-                     {"tilt_degrees", 30},       {"samples", scene.samples},
-                     {"fights", json_of(fights)}};
+  const AngleSweep sweep{scene.near,
+                         scene.far,
+                         scene.separation,
+                         scene.samples,
+                         {scene.distances[8], scene.distances[20]}};
+  const std::vector<FightByAngle> by_angle = fights_by_angle(sweep);
+
+  const Json summary{{"study", "z-fighting"},     {"near", scene.near},
+                     {"far", scene.far},          {"separation", scene.separation},
+                     {"tilt_degrees", 30},        {"samples", scene.samples},
+                     {"fights", json_of(fights)}, {"by_angle", json_of(by_angle)}};
   std::vector<StudyFile> files{csv_of(fights, scene.separation),
                                {"summary.json", summary.dump(2) + "\n"}};
   const auto append = [&](std::vector<StudyFile> more) {
     std::move(more.begin(), more.end(), std::back_inserter(files));
   };
   append(draw(share_plot(fights, scene)));
+  append(files_of(by_angle, sweep));
   for (const Storage storage : {Storage::unorm16, Storage::unorm24, Storage::float32}) {
     append(draw(safe_plot(fights, storage)));
   }
@@ -295,7 +307,7 @@ std::vector<StudyFile> study_z_fighting(const StudyOptions& options,
   heat(Mapping::standard, Storage::unorm24);
   heat(Mapping::log, Storage::unorm24);
   heat(Mapping::reversed, Storage::float32);
-  files.push_back(page_of(scene, fights));
+  files.push_back(page_of(scene, fights, by_angle));
   tick(1);
   return files;
 }
