@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "validation/studies/fights_by_angle.h"
+
 namespace fathom::studies {
 namespace {
 
@@ -102,7 +104,8 @@ TEST(FightsByAngle, FacingIsAllOrNothingAndTiltNeedsMore) {
 /// 45 degrees are the tilt 1. The tangent is rounded, by less than 2^-52, which moves depths up to
 /// 20 by less than 10^-14, and what each needs by a few times that.
 TEST(FightsByAngle, AnglesAreTilts) {
-  for (const FightByAngle& f : fights_by_angle({0.1, 100, 1e-4, 64, {1.26, 10}})) {
+  const std::vector<FightByAngle> fights = fights_by_angle({0.1, 100, 1e-4, 64, {1.26, 10}});
+  for (const FightByAngle& f : fights) {
     if (f.degrees != 45) continue;
     const CoplanarPair pair{f.distance, 1e-4, 1};
     EXPECT_EQ(f.ideal, fighting_share(f.format, pair, 64));
