@@ -86,7 +86,7 @@ TEST_F(StudyTest, WhatCannotBeMeantIsRefused) {
   };
   refused({}, "--list");
   refused({"depth-resolution"}, "--out");
-  refused({"resolution", "--out", "out"}, "depth-resolution, indistinguishable");
+  refused({"resolution", "--out", "out"}, "indistinguishable");
   refused({"z-fighting", "--separation", "0", "--out", "out"}, "--separation");
   refused({"z-fighting", "--near", "1", "--far", "2", "--out", "out"}, "8 times near");
   refused({"depth-resolution", "--near", "0", "--out", "out"}, "near = 0");
@@ -95,6 +95,11 @@ TEST_F(StudyTest, WhatCannotBeMeantIsRefused) {
   refused({"depth-resolution", "--samples", "1", "--out", "out"}, "--samples");
   refused({"depth-resolution", "--samples", "4000000000", "--out", "out"}, "--samples");
   refused({"indistinguishable", "--near", "1e-30", "--out", "out"}, "1e-15");
+  refused({"mitigation", "--near", "-1", "--out", "out"}, "near = -1");
+  refused({"mitigation", "--samples", "5", "--out", "out"}, "no --separation and no --samples");
+  refused({"clipping", "--samples", "4000000000", "--out", "out"}, "--samples");
+  refused({"depth-resolution", "--scene", "a.obj", "--out", "out"}, "takes no --scene");
+  refused({"z-fighting", "--camera", "a.json", "--out", "out"}, "belongs to --scene");
 }
 
 TEST_F(StudyTest, WithoutGnuplotItSaysSoBeforeTheWork) {
