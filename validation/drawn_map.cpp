@@ -80,7 +80,7 @@ void each_part(Pass& pass, Drawn& drawn) {
   pass(map.triangles);
   auto& [name, kind, shift, scale, sample, sample_error, subpixel_bits, mapping, storage,
          premultiplied, matrix, depth_before_snap, border, decoded, bias, bias_error, roundings,
-         from_point, watertight, first, affine] = model;
+         tilt, from_point, watertight, first, affine] = model;
   pass(name);
   pass(kind);
   pass(shift);
@@ -98,6 +98,7 @@ void each_part(Pass& pass, Drawn& drawn) {
   pass(bias);
   pass(bias_error);
   pass(roundings);
+  pass(tilt);
   pass(from_point);
   pass(watertight);
   pass(first);

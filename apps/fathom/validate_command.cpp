@@ -190,13 +190,15 @@ void judge_all(std::vector<ValidationCase>& cases, const std::vector<SceneToMake
 int validate_against(const ValidateArguments& arguments, const Console& console) {
   const std::vector<SceneToMake> scenes = scenes_of(arguments, console);
   const std::vector<Peer> peers = peers_of(arguments);
+  const ReportPlaces places{arguments.out, arguments.baseline};
+  prepare(places);
   std::vector<ValidationCase> cases;
   {
     Progress progress(console, "drawing");
     cases = draw_all(scenes, peers, time_limit(arguments), progress.reporter());
   }
   judge_all(cases, scenes);
-  return report_cases(cases, {arguments.out, arguments.baseline});
+  return report_cases(cases, places);
 }
 
 /// What the renderer drew, as a map of ours.
@@ -235,8 +237,10 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
   if (arguments.model.empty()) {
     throw UsageError("--model is missing: there are " + validation::model_names());
   }
+  const ReportPlaces places{arguments.out, arguments.baseline};
+  prepare(places);
   const std::vector<ValidationCase> cases{validate_map(arguments, console)};
-  return report_cases(cases, {arguments.out, arguments.baseline});
+  return report_cases(cases, places);
 }
 
 void add_validate(Program& program) {

@@ -1,8 +1,11 @@
 #include "validate_report.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 #include "fathom/numeric/errors.h"
@@ -53,14 +56,24 @@ void make_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
+void prepare(const ReportPlaces& places) {
+  if (!places.baseline.empty()) {
+    note_input(places.baseline);
+    validation::regressions({}, places.baseline);
+  }
+  if (places.out.empty()) return;
+  make_folder(places.out);
+  if (::access(places.out.c_str(), W_OK) != 0) {
+    throw OutputError(fmt::format("{}: cannot write here: {}", places.out, std::strerror(errno)));
+  }
+}
+
 int report_cases(const std::vector<ValidationCase>& cases, const ReportPlaces& places) {
   std::vector<std::string> worse;
   if (!places.baseline.empty()) {
-    note_input(places.baseline);
     worse = validation::regressions(cases, places.baseline);
   }
   if (!places.out.empty()) {
-    make_folder(places.out);
     write_text(std::filesystem::path(places.out) / "report.json", validation::to_json(cases));
     write_text(std::filesystem::path(places.out) / "report.html", validation::to_html(cases));
   }

@@ -14,6 +14,10 @@ struct ReportPlaces {
   std::string baseline;
 };
 
+/// To be called before the work: it need not be done where the report cannot be written or the
+/// baseline not be read. Fails with OutputError, InputError.
+void prepare(const ReportPlaces& places);
+
 /// Prints a line for each case and what was found, writes the report, and returns the exit status:
 /// answer_is_no where something is unexplained, wrong or worse than in the baseline, unusable_input
 /// where a renderer did not draw.

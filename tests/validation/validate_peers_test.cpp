@@ -27,10 +27,13 @@ nlohmann::json results_of(const std::string& renderers, const std::string& scene
 
 TEST(ValidatePeers, EveryPixelIsExplained) {
   const auto results = results_of("opengl,vtk,embree", "sphere,calibrated,orthographic");
-  EXPECT_EQ(results.size(), 3U * (7 + 5 + 2));
+  EXPECT_EQ(results.size(), 3U * (7 + 6 + 2));
   for (const auto& result : results) {
     EXPECT_EQ(result["pixels"]["unexplained"], 0) << result.dump();
-    EXPECT_LT(result["bounds"]["may_share"], 0.1) << result.dump();
+    // Of VTK's samples it is not known which one is kept: any place in the pixel may be it.
+    if (result["variant"] != "own 8 samples") {
+      EXPECT_LT(result["bounds"]["may_share"], 0.1) << result.dump();
+    }
   }
 }
 
@@ -68,6 +71,57 @@ TEST(ValidatePeers, ARendererThatTakesTooLongIsEnded) {
   const Outcome outcome = run({"/bin/sh", "-c", command}, {.folder = folder.path()});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_THAT(outcome.out, HasSubstr("did not end within 1 seconds"));
+}
+
+// Blender, which here sleeps, and the folder of its files go with the program.
+TEST(ValidatePeers, AnInterruptedRunLeavesNothingBehind) {
+  const TestFolder folder;
+  folder.write("blender",
+               "#!/bin/sh\n[ \"$1\" = --version ] && exit\necho $$ >pid.part\n"
+               "mv pid.part pid\nexec sleep 600\n");
+  const std::string script =
+      "chmod +x blender; mkdir tmp; export PATH=$PWD:$PATH TMPDIR=$PWD/tmp\n" + program_path() +
+      " validate --against blender --scene sphere --size 32x24 &\n"
+      "until [ -e pid ]; do sleep 0.05; done\n"
+      "ls tmp; kill -TERM $!; wait $!; echo status $?\n"
+      "until [ -z \"$(ls tmp)\" ] && ! kill -0 $(cat pid) 2>/dev/null; do sleep 0.05; done\n"
+      "echo nothing left";
+  const Outcome outcome =
+      run({"timeout", "30", "/bin/sh", "-c", script}, {.folder = folder.path()});
+  EXPECT_THAT(outcome.out, HasSubstr("fathom-validate-"));
+  EXPECT_THAT(outcome.out, HasSubstr("status 130"));
+  EXPECT_THAT(outcome.out, HasSubstr("nothing left"));
+}
+
+TEST(ValidatePeers, CamerasThatBlenderCannotExpressAreRefused) {
+  const TestFolder folder;
+  const Outcome outcome = run_fathom(
+      {"validate", "--against", "blender,embree", "--scene", "calibrated", "--size", "32x24"},
+      {.folder = folder.path()});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.out, HasSubstr("calibrated, blender cycles: "));
+  EXPECT_THAT(outcome.out, HasSubstr("calibrated, embree robust: "));
+}
+
+TEST(ValidatePeers, WithoutOpenGlTheOthersRun) {
+  const std::string command = "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json " + program_path() +
+                              " validate --against vtk,opengl,embree --scene sphere --size 32x24";
+  const Outcome outcome = run({"/bin/sh", "-c", command});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("the packages libegl1 and libgl1-mesa-dri provide it"));
+  EXPECT_THAT(outcome.out, HasSubstr("sphere, embree robust: "));
+}
+
+TEST(ValidatePeers, WhatCannotBeWrittenIsSaidBeforeAnythingIsDrawn) {
+  const TestFolder folder;
+  folder.write("file", "");
+  const Outcome outcome =
+      run_fathom({"validate", "--against", "embree", "--scene", "sphere", "--out", "file"},
+                 {.folder = folder.path()});
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, HasSubstr("file: cannot make this folder"));
 }
 
 TEST(ValidatePeers, WhatTheOtherDrewIsAMapOfOurs) {

@@ -61,13 +61,23 @@ Camera moved(Camera camera, const Vector& shift) {
   return camera;
 }
 
+/// −Rᵀt; used where R is a rotation.
+Vector eye_of(const Camera& camera) {
+  Vector eye{};
+  for (const auto& row : camera.world_to_camera) {
+    for (std::size_t k = 0; k < 3; ++k) eye[k] -= row[k] * row[3];
+  }
+  return eye;
+}
+
 class RayFragments final : public FragmentSource {
  public:
   RayFragments(const WorldMesh& mesh, const Camera& camera, const RendererModel& model)
       : mesh_(mesh),
         camera_(moved(camera, model.shift)),
         model_(model),
-        rays_(camera_rays(camera_)) {}
+        rays_(camera_rays(camera_)),
+        eye_(eye_of(camera_)) {}
 
   [[nodiscard]] PixelBox box(std::uint32_t triangle) const override;
   void each(std::uint32_t triangle, const PixelBox& box, const TakeFragment& take) const override;
@@ -85,7 +95,14 @@ class RayFragments final : public FragmentSource {
   const WorldMesh& mesh_;
   Camera camera_;
   RendererModel model_;
+  /// What the rotation's error makes of a vector: a component is a row, off by at most
+  /// rotation_error in each of its entries, times a vector of this length.
+  [[nodiscard]] double tilt(const Vector& v) const {
+    return model_.rotation_error * std::sqrt(3 * dot(v, v));
+  }
+
   CameraRays rays_;
+  Vector eye_;
 };
 
 /// Each part of a ray is a sum of three terms, two of them products with a rounded factor and a
@@ -102,6 +119,10 @@ Ray RayFragments::ray(double x, double y) const {
   };
   part(rays_.origin, ray.origin, ray.origin_error);
   part(rays_.direction, ray.direction, ray.direction_error);
+  for (std::size_t k = 0; k < 3; ++k) {
+    ray.origin_error[k] += tilt(ray.origin - eye_);
+    ray.direction_error[k] += tilt(ray.direction);
+  }
   return ray;
 }
 
@@ -127,7 +148,7 @@ PixelBox RayFragments::box(std::uint32_t triangle) const {
     before = true;
     const double x = (c.fx * q[0] + c.skew * q[1]) / w + cx, y = c.fy * q[1] / w + cy;
     // displaced corners: 64u of the coordinates that the position is the sum of
-    const double margin = 64 * u * size / w *
+    const double margin = (64 * u + 8 * model_.rotation_error) * size / w *
                               (std::abs(c.fx) + std::abs(c.fy) + std::abs(c.skew) +
                                std::abs(x - cx) + std::abs(y - cy)) +
                           model_.sample_error + 1;
@@ -213,7 +234,7 @@ std::optional<Fragment> RayFragments::on(const std::array<Vector, 3>& corners,
     for (std::size_t k = 0; k < 3; ++k) {
       terms += std::abs(m[k]) * (std::abs(ray.origin[k]) + 2 * std::abs(t * d[k]));
     }
-    half += 8 * u * terms;
+    half += 8 * u * terms + tilt(ray.origin + t * d - eye_);
   }
   if (std::isnan(half)) half = infinity;
   f.exact = std::isfinite(t) ? t : 0;

@@ -23,6 +23,14 @@ RendererModel ray(const std::string& name, double sample_error) {
   return model;
 }
 
+/// Blender keeps a camera's rotation as three angles: each is up to 6u off (atan2 of rounded
+/// numbers, up to π), and their sines and products are six roundings more.
+RendererModel cycles() {
+  RendererModel model = ray("cycles", 1e-3);
+  model.rotation_error = 24 * 0x1p-24;
+  return model;
+}
+
 std::vector<RendererModel> models() {
   return {raster("gl-unorm16", Mapping::opengl, Storage::unorm16),
           raster("gl-unorm24", Mapping::opengl, Storage::unorm24),
@@ -30,7 +38,7 @@ std::vector<RendererModel> models() {
           raster("gl-float32", Mapping::opengl, Storage::float32),
           raster("gl-float32-reversed", Mapping::reversed, Storage::float32),
           ray("float32-ray", 0x1p-20),
-          ray("cycles", 1e-3)};
+          cycles()};
 }
 
 }  // namespace

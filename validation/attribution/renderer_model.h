@@ -66,6 +66,8 @@ struct RendererModel {
   // ray
   /// Roundings that an edge test or a distance may have gone through.
   double ray_roundings = 16;
+  /// How far each entry of the camera's rotation may be off, where the renderer makes it anew.
+  double rotation_error = 0;
   /// The depth of a hit is computed from its position in the world.
   bool depth_from_point = false;
 

@@ -1,6 +1,7 @@
 #include "validation/bench/in_child.h"
 
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -67,6 +68,12 @@ std::string outcome(const std::function<std::string()>& work) {
   }
 }
 
+/// An interrupted program takes its child with it.
+void end_with(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);  // it ended before that
+}
+
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
   throw ChildFailure(name + ": " + what);
 }
@@ -77,9 +84,10 @@ std::string run_in_child(const std::function<std::string()>& work, int seconds,
                          const std::string& name) {
   std::array<int, 2> ends{};
   if (::pipe(ends.data()) != 0) fail(name, std::strerror(errno));
-  const pid_t child = ::fork();
+  const pid_t parent = ::getpid(), child = ::fork();
   if (child < 0) fail(name, std::strerror(errno));
   if (child == 0) {
+    end_with(parent);
     if (seconds > 0) ::setpgid(0, 0);  // so that what it starts is ended with it
     ::close(ends[0]);
     write_all(ends[1], outcome(work));

@@ -1,7 +1,6 @@
 #include "validation/blender/blender_renderer.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp
 #include <sys/wait.h>
 
 #include <array>
@@ -14,43 +13,10 @@
 #include "fathom/numeric/errors.h"
 #include "validation/blender/blender_camera.h"
 #include "validation/blender/blender_script.h"
+#include "validation/blender/workplace.h"
 
 namespace fathom::validation {
 namespace {
-
-/// A folder for what Blender reads and writes, removed at the end.
-class Workplace {
- public:
-  Workplace() {
-    std::string name = (std::filesystem::temp_directory_path() / "fathom-blender-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw InputError("blender: cannot make a folder for its files");
-    path_ = name;
-  }
-  ~Workplace() {
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
-  }
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
-
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-    return path_ / name;
-  }
-
-  template <class T>
-  void write(const std::string& name, const std::vector<T>& values) const {
-    std::ofstream file(path_ / name, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(values.data()),
-               static_cast<std::streamsize>(values.size() * sizeof(T)));
-  }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name) << text;
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// What a command prints, and its exit status as a shell gives it.
 struct Answer {
@@ -149,20 +115,20 @@ std::string complaint(const std::string& text) {
 
 }  // namespace
 
-DrawnMap draw_blender(const WorldMesh& mesh, const Camera& camera, int seconds) {
+DrawnMap draw_blender(const WorldMesh& mesh, const Camera& camera) {
   DrawnMap drawn{.version = version()};
   const Workplace place;
   RendererModel& model = drawn.model;
   model = model_named("cycles");
   model.name = "Cycles";
+  model.sample_error = 1e-5;  // ½/1024 of the filter's width, and as much for its table's roundings
   model.shift = middle_of(mesh);
   hand_over(place, mesh, model.shift, camera);
+  // Whoever ends this process ends Blender with it.
   const Answer answer = run(fmt::format(
-      "timeout -k 1 {} blender -b --factory-startup -noaudio --python-exit-code 1 --python '{}'",
-      seconds, (place / "render.py").string()));
-  if (answer.status == 124 || answer.status == 137) {
-    throw InputError(fmt::format("blender: did not end within {} seconds", seconds));
-  }
+      "exec setpriv --pdeathsig KILL blender -b --factory-startup -noaudio --python-exit-code 1 "
+      "--python '{}'",
+      (place / "render.py").string()));
   if (answer.status > 128) {
     throw InputError(fmt::format("blender: ended by signal {}", answer.status - 128));
   }

@@ -7,8 +7,8 @@ namespace fathom::validation {
 
 /// The mesh rendered by Blender's Cycles on the processor: one sample a pixel, the Depth pass of a
 /// multilayer EXR. A mesh far from the origin is moved there: Blender holds positions in binary32.
-/// Fails    InputError where there is no Blender, where it fails or takes longer than `seconds`, or
-///          where it cannot express the camera.
-DrawnMap draw_blender(const WorldMesh& mesh, const Camera& camera, int seconds);
+/// Fails    InputError where there is no Blender, where it fails, or where it cannot express the
+///          camera.
+DrawnMap draw_blender(const WorldMesh& mesh, const Camera& camera);
 
 }  // namespace fathom::validation

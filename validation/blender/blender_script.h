@@ -3,7 +3,7 @@
 namespace fathom::validation {
 
 /// What Blender runs: reads scene.json, points.bin (binary32) and triangles.bin beside it, renders
-/// with Cycles on the processor, and writes depth.exr. One sample, box filter of the least width.
+/// with Cycles on the processor, and writes depth.exr. One sample, a filter of the least width.
 inline constexpr const char* blender_script = R"(import array, json, os, sys
 import bpy
 from mathutils import Matrix
@@ -58,7 +58,8 @@ scene.cycles.device = "CPU"
 scene.cycles.samples = 1
 scene.cycles.use_adaptive_sampling = False
 scene.cycles.use_denoising = False
-scene.cycles.pixel_filter_type = "BOX"
+# A box filter is one pixel wide whatever filter_width says.
+scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"
 scene.cycles.filter_width = 0.01
 scene.cycles.max_bounces = 0
 layer = scene.view_layers[0]

@@ -12,7 +12,7 @@ namespace fathom::validation {
 std::vector<Peer> peers_of(const std::string& renderer) {
   std::vector<std::string> variants;
   if (renderer == "vtk") {
-    variants = {"own", "unorm16", "unorm24", "unorm32", "float32"};
+    variants = {"own", "unorm16", "unorm24", "unorm32", "float32", "own 8 samples"};
   } else if (renderer == "opengl") {
     variants = {"unorm16",          "unorm24",           "unorm32",          "float32",
                 "float32 reversed", "unorm24 offset 16", "unorm24 4 samples"};
@@ -28,10 +28,8 @@ std::vector<Peer> peers_of(const std::string& renderer) {
   return peers;
 }
 
-DrawnMap draw(const Peer& peer, const ValidationScene& scene, int seconds) {
-  if (peer.renderer == "blender") {
-    return draw_blender(world_mesh(scene.scene), scene.camera, seconds);
-  }
+DrawnMap draw(const Peer& peer, const ValidationScene& scene) {
+  if (peer.renderer == "blender") return draw_blender(world_mesh(scene.scene), scene.camera);
   return draw_built_in(peer, scene);
 }
 
@@ -42,7 +40,7 @@ Drawing draw_in_child(const Peer& peer, const std::function<ValidationScene()>& 
         [&] {
           const ValidationScene scene = make();
           try {
-            return "d" + to_bytes(draw(peer, scene, seconds));
+            return "d" + to_bytes(draw(peer, scene));
           } catch (const InputError& error) {
             return "f" + std::string(error.what());
           }

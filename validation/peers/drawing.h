@@ -18,7 +18,6 @@ struct Peer {
 /// The ways of a renderer: depth formats of vtk and opengl, robust or not of embree, … In each of
 /// them a scene is validated. Fails with UsageError where there is no such renderer.
 std::vector<Peer> peers_of(const std::string& renderer);
-inline constexpr const char* all_renderers[] = {"vtk", "opengl", "embree", "blender"};
 
 /// A map, or why there is none, in one line.
 struct Drawing {
@@ -32,6 +31,6 @@ struct Drawing {
 Drawing draw_in_child(const Peer& peer, const std::function<ValidationScene()>& make, int seconds);
 
 /// The same here and now. Fails with InputError, in one line, where the renderer is not there.
-DrawnMap draw(const Peer& peer, const ValidationScene& scene, int seconds);
+DrawnMap draw(const Peer& peer, const ValidationScene& scene);
 
 }  // namespace fathom::validation
