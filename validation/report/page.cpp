@@ -11,14 +11,14 @@ const char* const page_head = R"page(<!DOCTYPE html>
 * { box-sizing: border-box; }
 body { font: 15px/1.45 system-ui, sans-serif; color: var(--ink); margin: 0 auto; max-width: 84rem; padding: 1rem; }
 h1 { font-size: 1.5rem; margin: 0 0 .3rem; } h2 { font-size: 1.15rem; margin: 1.6rem 0 .5rem; }
-p { margin: .3rem 0; max-width: 60rem; } .dim { color: var(--dim); }
+p { margin: .3rem 0; max-width: 60rem; } .dim { color: var(--dim); } .small { font-size: .78rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .88rem; }
 th, td { border: 1px solid var(--line); padding: .2rem .5rem; text-align: right; }
 th { background: var(--soft); font-weight: 600; } th:first-child, td:first-child { text-align: left; }
 td.text, th.text { text-align: left; }
-#matrix td { padding: 0; } #matrix th.turned { vertical-align: bottom; white-space: nowrap; }
-#matrix button { all: unset; display: block; width: 100%; padding: .25rem .5rem; cursor: pointer; text-align: right; }
+#matrix td { padding: 0; } #matrix th.turned { vertical-align: bottom; text-align: right; }
+#matrix button { all: unset; box-sizing: border-box; display: block; width: 100%; padding: .25rem .5rem; cursor: pointer; text-align: right; }
 #matrix button:focus-visible, #matrix button[aria-pressed=true] { outline: 3px solid #1c2430; outline-offset: -3px; }
 .good { background: #d9f0e1; } .fault { background: #f6c7c1; } .none { background: #e6e6e6; color: var(--dim); }
 .maps { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(18rem, 100%), 1fr)); gap: .8rem; }
@@ -155,10 +155,12 @@ async function show(k) {
   classNames.forEach((name, c) => { if (!r.pixels[name]) return; const s = element("span"); s.style.marginRight = ".8em"; s.style.display = "inline-block"; const b = element("span", undefined, { class: "key" }); b.style.background = "rgb(" + classColours[c] + ")"; s.append(b, name); key.append(s); });
   const scale = () => bar((t) => viridis(1 - t), short(low), short(high) + (log ? " (logarithmic)" : ""));
   const w = scene.width, h = scene.height;
+  const differenceKey = bar((t) => diverging(2 * t - 1), short(-most, 2), short(most, 2));
+  differenceKey.append(element("div", "black: surface missing, violet: surface added", { class: "dim small" }));
   byId("maps-shown").append(
     figure("Truth: depth", drawn(w, h, (i) => depthColour(scene.depths[i])), scale()),
     figure(label(r) + ": depth, same scale", drawn(w, h, (i) => depthColour(map.depths[i])), scale()),
-    figure("Difference, relative; black: surface missing, violet: surface added", drawn(w, h, differenceColour), bar((t) => diverging(2 * t - 1), short(-most, 2), short(most, 2))),
+    figure("Relative difference", drawn(w, h, differenceColour), differenceKey),
     figure("Class", drawn(w, h, (i) => classColours[map.classes[i]]), key));
   const read = (x, y) => {
     const i = y * w + x, t = scene.depths[i], o = map.depths[i], id = scene.triangles[i];

@@ -30,7 +30,7 @@ DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const std::string
   model.depth_before_snap = interpolates_before_snapping(drawn.version);
   if (options.samples > 0) {
     drawn.version += ", " + std::to_string(drawing.samples) + " samples granted";
-    model.sample_error = 0.5;  // one of them, anywhere in the pixel
+    model.sample = drawing.sample;
   }
   drawn.map = {.width = camera.width, .height = camera.height, .windows = drawing.windows};
   const WindowDepth window =

@@ -143,7 +143,11 @@ VtkDrawing VtkRenderer::drawing() {
   drawing.scale = p.mapper->scale();
   drawing.clip_from_held = p.mapper->clip_from_held();
   if (p.options.samples > 0) {
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer->GetFBOIndex());
     gl.GetIntegerv(GL_SAMPLES, &drawing.samples);
+    std::array<GLfloat, 2> position{0.5F, 0.5F};  // rows from the bottom
+    if (drawing.samples > 1) gl.GetMultisamplefv(GL_SAMPLE_POSITION, 0, position.data());
+    drawing.sample = {position[0], 1.0 - position[1]};
     const std::vector<float> resolved = window_depths();
     drawing.windows.assign(resolved.begin(), resolved.end());
     drawing.storage = Storage::float32;  // read as binary32

@@ -25,6 +25,8 @@ struct VtkDrawing {
   std::vector<double> windows;
   Storage storage = Storage::unorm24;
   int subpixel_bits = 8, samples = 0;
+  /// Where in the pixel the sample lies, from its top left corner; of several, the first one.
+  std::array<double, 2> sample{0.5, 0.5};
   /// Positions are held as (position − shift)·scale; the matrix takes them to clip coordinates.
   std::array<double, 3> shift{}, scale{};
   std::array<float, 16> clip_from_held{};
