@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/numeric/errors.h"
-#include "validation/studies/antialiasing.h"
+#include "validation/studies/coverage_by_samples.h"
 #include "validation/studies/mitigation.h"
 #include "validation/studies/scene_fights.h"
 #include "validation/studies/snapped_raster.h"
@@ -142,6 +142,8 @@ TEST(SceneStudies, SubpixelErrorsFallWithTheBits) {
     const auto& row = summary["bits"][bits];
     return row["lost"].get<int>() + row["gained"].get<int>();
   };
+  EXPECT_EQ(differing(0), 1002);
+  EXPECT_EQ(differing(4), 36);
   EXPECT_GT(differing(0), 10 * differing(6));
   EXPECT_LE(differing(16), 1);
   const auto error = [&](int bits) {
@@ -154,7 +156,11 @@ TEST(SceneStudies, SubpixelErrorsFallWithTheBits) {
 }
 
 TEST(SceneStudies, CoverageBySamplesConvergesToTheArea) {
-  const auto summary = summary_of(study_antialiasing({}, no_tick));
+  SceneView view = wheel();  // at a quarter of its size
+  view.camera.width = view.camera.height = 80;
+  view.camera.fx = view.camera.fy = view.camera.cx = view.camera.cy = 40;
+  nlohmann::ordered_json summary;
+  add_to_summary(measure_coverage_by_samples(view, exact_coverage(view), no_tick), summary);
   const auto rms = [&](const std::string& pattern) {
     for (const auto& row : summary["patterns"]) {
       if (row["pattern"] == pattern) return row["rms_error"].get<double>();
@@ -196,6 +202,34 @@ TEST(SceneStudies, ReversedFloatsAndFartherNearPlanesHelp) {
     }
   }
   EXPECT_EQ(summary["offsets"][0]["fights"], nears.front()["fighting_pixels"]);
+}
+
+/// What docs/studies.md says of the study's own scene.
+TEST(SceneStudies, FiguresOfTheMitigation) {
+  const auto summary = summary_of(study_mitigation({}, no_tick));
+  std::vector<int> fights;
+  for (const auto& cure : summary["near_planes"]) fights.push_back(cure["fighting_pixels"]);
+  EXPECT_EQ(fights, (std::vector<int>{13644, 11088, 6894, 3924, 1890, 486, 0, 0}));
+  for (const auto& cure : summary["formats"]) {
+    const std::string name = cure["cure"];
+    const bool as_before =
+        name == "standard unorm24" || name == "standard float32" || name == "reversed unorm24";
+    EXPECT_EQ(cure["surface_pixels"], 129601);
+    EXPECT_EQ(cure["fighting_pixels"], as_before ? 13644 : 0) << name;
+  }
+  for (const auto& offset : summary["offsets"]) {
+    const bool none = offset["factor"] == 0 && offset["units"] == 0;
+    EXPECT_EQ(offset["fights"], none ? 13644 : 3546);
+    const auto shows = [&](double factor, int units, int pixels) {
+      if (offset["factor"] == factor && offset["units"] == units) {
+        EXPECT_EQ(offset["hidden_surfaces_that_show"], pixels);
+      }
+    };
+    shows(0, 0, 0);
+    shows(0, -1, 8532);
+    shows(0, -64, 19440);
+    shows(-0.5, 0, 22382);
+  }
 }
 
 /// Nothing lies behind anything, and nothing fights: figures without the plots that would be empty.
