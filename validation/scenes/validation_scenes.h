@@ -7,19 +7,21 @@
 #include "fathom/scene/camera.h"
 #include "fathom/scene/scene.h"
 
-/// What other renderers are validated on.
-///
-///   sphere         5 thousand triangles
-///   spot, teapot   real meshes
-///   dense          200 thousand triangles, most smaller than a pixel
-///   slivers        a fan of 400 triangles a few hundredths of a pixel wide at its hub, before a
-///   wall coplanar       sheets in one plane that overlap, five of them twice sheets         pairs
-///   of sheets 10⁻⁴ of their distance apart, at distances 1 to 300 grid           orthographic,
-///   every corner on a pixel centre room           a closed room seen from inside; floor and
-///   ceiling reach behind the camera utm            terrain whose coordinates have 6 and 7 digits
-///   before the point range          far is 10⁷ times near orthographic   the teapot calibrated a
-///   camera with skew, off-centre principal point, pixels that are not square soup           5
-///   thousand overlapping triangles, about 20 over each pixel
+/// What other renderers are validated on:
+/// - sphere: 5 thousand triangles
+/// - spot, teapot: real meshes
+/// - dense: 200 thousand triangles, most of them smaller than a pixel
+/// - slivers: a fan of 200 triangles a few hundredths of a pixel wide at its hub, before a wall
+/// - coplanar: sheets in one plane that overlap, some of them twice
+/// - sheets: pairs of sheets 10⁻⁴ of their distance apart, at distances 1 to 300
+/// - grid: orthographic, every corner on a pixel centre
+/// - vertices: every ray exactly through a corner
+/// - room: a closed room seen from inside; floor and ceiling reach behind the camera
+/// - utm: terrain whose coordinates have 6 and 7 digits before the point
+/// - range: far is 10⁷ times near
+/// - orthographic: the teapot
+/// - calibrated: a camera with skew, off-centre principal point, pixels that are not square
+/// - soup: 5 thousand overlapping triangles, about 20 over each pixel
 namespace fathom::validation {
 
 struct ValidationScene {
