@@ -24,6 +24,7 @@ std::vector<Peer> peers_of(const std::string& renderer) {
     throw UsageError("--against: '" + renderer + "' is none of vtk, opengl, embree and blender");
   }
   std::vector<Peer> peers;
+  peers.reserve(variants.size());
   for (const std::string& variant : variants) peers.push_back({renderer, variant});
   return peers;
 }
