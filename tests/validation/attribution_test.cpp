@@ -217,5 +217,26 @@ TEST(RayModel, ExplainsMoellerTrumboreAndCatchesFaults) {
   expect_named(judged({.missing_triangle = visible}), "missing-triangle");
 }
 
+// Depth 4, but 160 units across: a millionth of a radian moves depths by far more than roundings.
+TEST(RayModel, TheRotationOfBlendersCameraIsKnownUpToItsRoundings) {
+  Camera camera{.width = 40, .height = 30, .projection = Projection::orthographic};
+  camera.fx = camera.fy = 0.125;
+  camera.cx = 20;
+  camera.cy = 15;
+  Mesh sheet;
+  sheet.vertices = {{-190, -150, 4}, {190, -150, 4}, {190, 150, 4}, {-190, 150, 4}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Truth truth = make_truth(bench::as_scene({sheet}, "sheet"), camera);
+  Camera turned = camera;
+  turned.world_to_camera[2][0] = 1e-6;
+  turned.world_to_camera[0][2] = -1e-6;
+  const OtherMap map = trace_in_binary32(truth.mesh, turned);
+  RendererModel model = model_named("cycles");
+  model.sample_error = 1e-5;
+  EXPECT_EQ(attribute(truth, map, model).count(PixelClass::unexplained), 0U);
+  model.rotation_error = 0;
+  EXPECT_GT(attribute(truth, map, model).count(PixelClass::unexplained), 900U);
+}
+
 }  // namespace
 }  // namespace fathom::validation
