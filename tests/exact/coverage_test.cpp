@@ -188,6 +188,66 @@ TEST(CoverageLaws, TheSumOverAVisibleMeshIsItsProjectedArea) {
   EXPECT_EQ(2 * sum, projected_twice_area({at(0, 0), at(n, 0), at(n, n), at(0, n)}, camera));
 }
 
+/// A closed convex mesh covers each point of its image twice, so that its area is half the sum of
+/// its triangles'; the numbers that A rounds add up to it exactly.
+TEST(CoverageLaws, TheSumOverAClosedMeshIsItsProjectedArea) {
+  const double golden = 1.618034;
+  std::vector<MeshPoint> vertices;
+  for (const double a : {-1.0, 1.0}) {
+    for (const double b : {-golden, golden}) {
+      vertices.push_back({0, a, 6 + b});
+      vertices.push_back({a, b, 6});
+      vertices.push_back({b, 0, 6 + a});
+    }
+  }
+  // The faces of the icosahedron: corners at the least distance, 2, from each other.
+  const auto are_near = [&](std::uint32_t i, std::uint32_t k) {
+    const MeshPoint &p = vertices[i], &q = vertices[k];
+    return std::hypot(p.x - q.x, p.y - q.y, p.z - q.z) < 2.1;
+  };
+  std::vector<CornerIndices> triangles;
+  const Camera camera = camera_of(24, 20, 25);
+  Q four_times_area = 0;
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    for (std::uint32_t k = 0; k < i; ++k) {
+      for (std::uint32_t m = 0; m < k; ++m) {
+        if (!are_near(i, k) || !are_near(k, m) || !are_near(m, i)) continue;
+        triangles.push_back({i, k, m});
+        four_times_area += projected_twice_area({vertices[i], vertices[k], vertices[m]}, camera);
+      }
+    }
+  }
+  ASSERT_EQ(triangles.size(), 20U);
+  const Scene scene = scene_of(vertices, triangles);
+  const Samples<float> A = coverage_of(scene, camera);
+  const CoverageFrame frame{scene, camera};
+  Q sum = 0;
+  int full = 0;
+  for (std::uint32_t y = 0; y < camera.height; ++y) {
+    for (std::uint32_t x = 0; x < camera.width; ++x) {
+      const Q area = testing::rational(pixel_coverage(frame, all_triangles(scene), x, y));
+      ASSERT_EQ(A[y * camera.width + x], testing::nearest_float(area));
+      sum += area;
+      full += area == 1;
+    }
+  }
+  EXPECT_GT(full, 100);
+  EXPECT_EQ(4 * sum, four_times_area);
+}
+
+/// An octahedron seen along its axis: a diamond whose pixels' areas are binary fractions of few
+/// bits, so that A itself adds up exactly.
+TEST(CoverageLaws, TheSumOfABinaryFractionsIsTheAreaItself) {
+  Camera camera = camera_of(12, 10, 1);
+  camera.projection = Projection::orthographic;
+  camera.cx = 5.25, camera.cy = 4.5;
+  const Scene scene = scene_of(
+      {{4, 0, 5}, {0, 4, 5}, {-4, 0, 5}, {0, -4, 5}, {0.375, 0.125, 2}, {-0.5, 0.25, 8}},
+      {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}});
+  const Samples<float> A = coverage_of(scene, camera);
+  EXPECT_EQ(std::accumulate(A.begin(), A.end(), 0.0), 32.0);
+}
+
 TEST(CoverageLaws, CullingLeavesTrianglesOut) {
   CaseMaker maker(99, Kind::few_bits);
   int differing = 0;

@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "fathom/exact/cell_division.h"
 #include "fathom/exact/coverage.h"
 #include "tests/exact/against_oracle.h"
 #include "tests/exact/effort.h"
@@ -122,6 +127,77 @@ TEST(VisibleFragments, ACycleAndAPenetration) {
     check_pixel(surfaces, areas, pixel % 4, pixel / 4, true, tally);
   }
   EXPECT_GT(tally.crossing, 0);
+}
+
+/// Triangles of all sizes in one pixel, pieces of a mesh, one that is there five times.
+Scene crowd(std::mt19937_64& random, int count) {
+  std::vector<MeshPoint> vertices;
+  std::vector<CornerIndices> triangles;
+  const auto number = [&] { return static_cast<double>(random() % 4096) / 4096; };
+  for (int i = 0; i < count; ++i) {
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    const double size = std::ldexp(1, -static_cast<int>(random() % 5));
+    const double x = number() - 0.5, y = number() - 0.5, z = 1 + number();
+    for (int k = 0; k < 4; ++k) {
+      vertices.push_back(
+          {x + size * (number() - 0.5), y + size * (number() - 0.5), z + size * (number() - 0.5)});
+    }
+    triangles.push_back({first, first + 1, first + 2});
+    triangles.push_back({first + 1, first + 3, first + 2});
+  }
+  for (int i = 0; i < 4; ++i) triangles.push_back(triangles[7]);
+  return scene_of(std::move(vertices), std::move(triangles));
+}
+
+// Divided into simple parts or asked at once: the same areas, exactly, and the same depths.
+TEST(VisibleFragments, DivisionChangesNothing) {
+  std::mt19937_64 random(1969);
+  const Scene scene = crowd(random, 13);
+  Camera camera = camera_of(1, 1, 1);
+  const std::vector<SurfaceRegion> surfaces = surfaces_of(scene, camera);
+  ImageCell pixel(0, 0);
+  CellVisibility visibility(pixel);
+  for (const SurfaceRegion& surface : surfaces) visibility.add(surface);
+  ASSERT_GT(visibility.size(), 24U);
+  for (const DivisionLimits limits : {DivisionLimits{.few = 8}, DivisionLimits{}}) {
+    std::map<const SurfaceRegion*, Boundary> divided;
+    int parts = 0;
+    Q uncovered = 0;
+    divide(
+        visibility,
+        [&](CellVisibility& part) {
+          ++parts;
+          uncovered += testing::rational(area(part.uncovered()));
+          for (std::size_t piece = 0; piece < part.size(); ++piece) {
+            const Boundary more = part.visible(piece);
+            Boundary& all = divided[&part.surface(piece)];
+            all.insert(all.end(), more.begin(), more.end());
+          }
+        },
+        limits);
+    EXPECT_GT(parts, 1);
+    EXPECT_EQ(uncovered, testing::rational(area(visibility.uncovered())));
+    std::vector<ConvexPolygon> polygons;
+    for (std::size_t piece = 0; piece < visibility.size(); ++piece) {
+      SCOPED_TRACE(piece);
+      polygons.push_back(visibility.polygon(piece));
+      const SurfaceRegion& surface = visibility.surface(piece);
+      const Boundary whole = visibility.visible(piece);
+      const Boundary& found = divided[&surface];
+      ASSERT_EQ(testing::rational(area(found)), testing::rational(area(whole)));
+      ASSERT_EQ(found.empty(), whole.empty());
+      if (whole.empty()) continue;
+      const CellDepths depths(pixel, surface);
+      EXPECT_EQ(depths.extent(found).nearest, depths.extent(whole).nearest);
+      EXPECT_EQ(depths.extent(found).farthest, depths.extent(whole).farthest);
+    }
+    TierCounts counts;
+    Q covered = 0;
+    for_each_simple_part(pixel, polygons, counts, [&](std::span<const ConvexPolygon> part) {
+      covered += testing::rational(area(boundary_of_union(part, counts)));
+    });
+    EXPECT_EQ(covered, 1 - uncovered);
+  }
 }
 
 /// The depth of the plane at the corners of what is visible, on paper.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "fathom/exact/cell_division.h"
 #include "fathom/exact/coverage_image.h"
 #include "fathom/exact/engine_frame.h"
 #include "fathom/exact/visible_fragments.h"
@@ -24,18 +25,37 @@ struct PixelSurfaces {
   Boundary uncovered;
 };
 
+void append(Boundary& boundary, Boundary more) {
+  if (boundary.empty()) {
+    boundary = std::move(more);
+  } else {
+    boundary.insert(boundary.end(), more.begin(), more.end());
+  }
+}
+
+/// The boundary of what is visible of a triangle, to which more may be added.
+Boundary& boundary_in(std::vector<Fragment>& fragments, const SurfaceRegion& surface) {
+  for (auto f = fragments.rbegin(); f != fragments.rend(); ++f) {
+    if (f->surface == &surface) return f->boundary;
+  }
+  fragments.push_back({&surface, {}, {}});
+  return fragments.back().boundary;
+}
+
 PixelSurfaces look_into(ImageCell& pixel, std::span<const SurfaceRegion* const> triangles) {
   CellVisibility visibility(pixel);
   for (const SurfaceRegion* t : triangles) visibility.add(*t);
   visibility.drop_hidden();
   PixelSurfaces result;
-  for (std::size_t piece = 0; piece < visibility.size(); ++piece) {
-    Boundary boundary = visibility.visible(piece);
-    if (boundary.empty()) continue;
-    const Bounded area = approximate_area(boundary);
-    result.fragments.push_back({&visibility.surface(piece), std::move(boundary), area});
-  }
-  if (!result.fragments.empty()) result.uncovered = visibility.uncovered();
+  divide(std::move(visibility), [&](CellVisibility& part) {
+    for (std::size_t piece = 0; piece < part.size(); ++piece) {
+      Boundary boundary = part.visible(piece);
+      if (boundary.empty()) continue;
+      append(boundary_in(result.fragments, part.surface(piece)), std::move(boundary));
+    }
+    append(result.uncovered, part.uncovered());
+  });
+  for (Fragment& f : result.fragments) f.approximate_area = approximate_area(f.boundary);
   return result;
 }
 

@@ -269,6 +269,11 @@ float TileCoverage::settle(std::uint32_t pixel, const Tile::Context& context) {
   };
   const bool any_open = std::any_of(shapes.begin(), shapes.end(),
                                     [&](std::uint32_t i) { return shapes_[i].is_open; });
+  // Slabs between all ends and crossings take the cube of the number of edges.
+  constexpr std::size_t most = 400;
+  if ((any_open ? shapes.size() : edges_at_.at(pixel).size()) > most) {
+    return settle_exactly(pixel, context);
+  }
   Interval area = any_open ? area_of_union(pixel) : area_between_edges(pixel, Corners::computed);
   if (!settles(area) && !any_open) area = area_between_edges(pixel, Corners::exact);
   const double more = (area.upper - area.lower) / 2 * (context.switches.widening - 1);
@@ -279,9 +284,15 @@ float TileCoverage::settle(std::uint32_t pixel, const Tile::Context& context) {
     ++counts.interval;
     return static_cast<float>(area.lower);
   }
-  ++counts.exact;
+  return settle_exactly(pixel, context);
+}
+
+float TileCoverage::settle_exactly(std::uint32_t pixel, const Tile::Context& context) {
+  ++context.statistics.coverage_rounding.exact;
   exact_numbers_.clear();
-  for (const std::uint32_t i : shapes) exact_numbers_.push_back(numbers_[shapes_[i].triangle]);
+  for (const std::uint32_t i : shapes_at_.at(pixel)) {
+    exact_numbers_.push_back(numbers_[shapes_[i].triangle]);
+  }
   return rounded_pixel_coverage(scene_.frame, exact_numbers_, area_.first_column + pixel % size,
                                 area_.first_row + pixel / size);
 }

@@ -141,6 +141,8 @@ class TileCoverage {
   [[nodiscard]] Shape exact_shape(std::size_t i, const Tile::Context& context) const;
   void settle_open(const Tile::Context& context, float* values, std::uint32_t image_width);
   float settle(std::uint32_t pixel, const Tile::Context& context);
+  /// The same by exact numbers alone.
+  float settle_exactly(std::uint32_t pixel, const Tile::Context& context);
   enum class Corners { computed, exact };
   [[nodiscard]] Interval area_between_edges(std::uint32_t pixel, Corners corners);
   [[nodiscard]] SquarePoint exact_corner(const ImageObject& object, const ImageVertex& vertex,

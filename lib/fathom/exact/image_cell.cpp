@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/exact/cell_division.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom {
@@ -57,11 +58,7 @@ std::optional<SurfaceRegion> surface_region(const ProjectedTriangle& t, const Ca
 }
 
 ImageCell::ImageCell(std::uint32_t column, std::uint32_t row, std::uint32_t width,
-                     std::uint32_t height)
-    : left_(column),
-      top_(row),
-      right_(static_cast<double>(column) + width),
-      bottom_(static_cast<double>(row) + height) {
+                     std::uint32_t height) {
   // u ≥ 0, v ≥ 0, u ≤ width, v ≤ height: each turns left from the one before.
   const std::array<ExactVector3, 4> sides{{{1.0, 0.0, 0.0},
                                            {0.0, 1.0, 0.0},
@@ -69,10 +66,11 @@ ImageCell::ImageCell(std::uint32_t column, std::uint32_t row, std::uint32_t widt
                                            {0.0, -1.0, static_cast<double>(height)}}};
   std::vector<const HalfPlane*> edges;
   for (const ExactVector3& side : sides) edges.push_back(&half_planes_.emplace_back(side));
-  whole_.emplace(std::move(edges));
+  const double left = column, top = row;
+  all_.emplace(CellPart{ConvexPolygon(std::move(edges)), left, top, left + width, top + height});
 }
 
-std::optional<Sign> ImageCell::sign_in_cell(const ImageForm& form) const {
+std::optional<Sign> CellPart::sign_of(const ImageForm& form) const {
   // Affine: the signs at the corners decide.
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -87,9 +85,31 @@ std::optional<Sign> ImageCell::sign_in_cell(const ImageForm& form) const {
   return std::nullopt;
 }
 
+std::array<ImageCell::Half, 2> ImageCell::halves(const CellPart& part) {
+  const bool across = part.right - part.left >= part.bottom - part.top;
+  const double from = across ? part.left : part.top, to = across ? part.right : part.bottom;
+  const double middle = from + (to - from) / 2;
+  // In the cell's coordinates.
+  const double cut = middle - (across ? all_->left : all_->top);
+  const auto half = [&](double sign) {
+    const HalfPlane& side = half_planes_.emplace_back(
+        across ? ExactVector3{-sign, 0.0, sign * cut} : ExactVector3{0.0, -sign, sign * cut});
+    CellPart result = part;
+    TierCounts counts;
+    (void)result.outline.clip(side, counts);
+    if (across) {
+      (sign > 0 ? result.right : result.left) = middle;
+    } else {
+      (sign > 0 ? result.bottom : result.top) = middle;
+    }
+    return Half{std::move(result), &side};
+  };
+  return {half(1), half(-1)};
+}
+
 ExactVector3 ImageCell::localised(const ImageForm& form) const {
   const auto& l = form.coefficients();
-  return {l[0], l[1], form.at(left_, top_)};
+  return {l[0], l[1], form.at(all_->left, all_->top)};
 }
 
 std::optional<ImageCell::Piece> ImageCell::clip(const std::vector<ImageForm>& region,
@@ -101,19 +121,19 @@ std::optional<ImageCell::Piece> ImageCell::clip(const std::vector<ImageForm>& re
     if (sign == Sign::negative) return std::nullopt;
     if (!sign) undecided.at(count++) = &form;
   }
-  Piece piece{*whole_};
+  Piece piece{whole()};
   for (std::size_t k = 0; k < count; ++k) {
     if (!piece.polygon.clip(half_planes_.emplace_back(localised(*undecided[k])), counts)) {
       return std::nullopt;
     }
   }
-  piece.is_whole = piece.polygon.edges() == whole_->edges();
+  piece.is_whole = piece.polygon.edges() == whole().edges();
   return piece;
 }
 
 std::optional<ConvexPolygon> ImageCell::clip(const ConvexPolygon& polygon, const ImageForm& form,
-                                             TierCounts& counts) {
-  const std::optional<Sign> sign = sign_in_cell(form);
+                                             const CellPart& part, TierCounts& counts) {
+  const std::optional<Sign> sign = part.sign_of(form);
   if (sign == Sign::negative) return std::nullopt;
   ConvexPolygon result = polygon;
   if (sign) return result;
@@ -132,14 +152,23 @@ void CellCoverage::add(const std::vector<ImageForm>& region) {
   pieces_.push_back(std::move(piece->polygon));
 }
 
+Boundary CellCoverage::boundary() {
+  Boundary boundary;
+  for_each_simple_part(cell_, pieces_, counts_, [&](std::span<const ConvexPolygon> pieces) {
+    const Boundary more = boundary_of_union(pieces, counts_);
+    boundary.insert(boundary.end(), more.begin(), more.end());
+  });
+  return boundary;
+}
+
 Ratio CellCoverage::area() {
-  return fathom::area(boundary_of_union(pieces_, counts_));
+  return fathom::area(boundary());
 }
 
 float CellCoverage::rounded_area() {
-  const Boundary boundary = boundary_of_union(pieces_, counts_);
-  if (const auto settled = settled_binary32(approximate_area(boundary))) return *settled;
-  return round_to_binary32(fathom::area(boundary));
+  const Boundary found = boundary();
+  if (const auto settled = settled_binary32(approximate_area(found))) return *settled;
+  return round_to_binary32(fathom::area(found));
 }
 
 }  // namespace fathom

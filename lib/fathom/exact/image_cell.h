@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <deque>
 #include <optional>
 #include <span>
@@ -28,6 +30,29 @@ struct SurfaceRegion {
 };
 std::optional<SurfaceRegion> surface_region(const ProjectedTriangle& t, const Camera& camera);
 
+/// A rectangle of the image in the coordinates of a cell: the cell or a part of it.
+struct CellPart {
+  ConvexPolygon outline;
+  /// On the image.
+  double left, top, right, bottom;
+
+  /// Corner 0 to 3 on the image.
+  [[nodiscard]] ImagePoint corner(std::size_t k) const {
+    return {k % 2 == 0 ? left : right, k < 2 ? top : bottom};
+  }
+  /// Whether a half-plane is that of one of its sides.
+  [[nodiscard]] bool is_side(const HalfPlane* edge) const {
+    return std::find(outline.edges().begin(), outline.edges().end(), edge) != outline.edges().end();
+  }
+  /// Whether a polygon in it is all of it.
+  [[nodiscard]] bool is_all(const ConvexPolygon& polygon) const {
+    return std::all_of(polygon.edges().begin(), polygon.edges().end(),
+                       [&](const HalfPlane* edge) { return is_side(edge); });
+  }
+  /// The sign of the form where it is certainly the same in the whole part (0 on the rim allowed).
+  [[nodiscard]] std::optional<Sign> sign_of(const ImageForm& form) const;
+};
+
 /// A rectangle of the image with corners at whole numbers, a pixel for instance, and the convex
 /// pieces of it that triangles project to. Its coordinates begin at its own left upper corner, so
 /// that numbers are small.
@@ -39,18 +64,17 @@ class ImageCell {
   ImageCell& operator=(const ImageCell&) = delete;
 
   /// The cell itself.
-  [[nodiscard]] const ConvexPolygon& whole() const { return *whole_; }
-  /// Whether a half-plane is that of one of the cell's own sides, the first four there are.
-  [[nodiscard]] bool is_side(const HalfPlane* edge) const {
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (edge == &half_planes_[k]) return true;
-    }
-    return false;
-  }
-  /// Corner 0 to 3 on the image.
-  [[nodiscard]] ImagePoint corner(std::size_t k) const {
-    return {k % 2 == 0 ? left_ : right_, k < 2 ? top_ : bottom_};
-  }
+  [[nodiscard]] const CellPart& all() const { return *all_; }
+  [[nodiscard]] const ConvexPolygon& whole() const { return all_->outline; }
+  /// Whether a half-plane is that of one of the cell's own sides.
+  [[nodiscard]] bool is_side(const HalfPlane* edge) const { return all_->is_side(edge); }
+  /// The halves of a part, cut across its longer side, and the half-plane of each at the cut. A
+  /// part cut out of the cell by few cuts, so that the middle is a binary64 number.
+  struct Half {
+    CellPart part;
+    const HalfPlane* side;
+  };
+  std::array<Half, 2> halves(const CellPart& part);
 
   struct Piece {
     ConvexPolygon polygon;
@@ -59,21 +83,26 @@ class ImageCell {
   };
   /// The part of the cell in which no form is negative, if it has an area.
   std::optional<Piece> clip(const std::vector<ImageForm>& region, TierCounts& counts);
-  /// The part of a polygon in this cell in which the form is not negative, if it has an area.
+  /// What of a polygon in a part of this cell, the whole unless given, has a form that is not
+  /// negative, if that has an area.
   std::optional<ConvexPolygon> clip(const ConvexPolygon& polygon, const ImageForm& form,
-                                    TierCounts& counts);
+                                    TierCounts& counts) {
+    return clip(polygon, form, all(), counts);
+  }
+  std::optional<ConvexPolygon> clip(const ConvexPolygon& polygon, const ImageForm& form,
+                                    const CellPart& part, TierCounts& counts);
 
-  /// The sign of the form where it is certainly the same in the whole cell (0 on the rim allowed).
-  [[nodiscard]] std::optional<Sign> sign_in_cell(const ImageForm& form) const;
+  [[nodiscard]] std::optional<Sign> sign_in_cell(const ImageForm& form) const {
+    return all_->sign_of(form);
+  }
 
   /// The coefficients of a form in the cell's coordinates.
   [[nodiscard]] ExactVector3 localised(const ImageForm& form) const;
 
  private:
-  double left_, top_, right_, bottom_;
   /// A deque leaves its elements where they are.
   std::deque<HalfPlane> half_planes_;
-  std::optional<ConvexPolygon> whole_;
+  std::optional<CellPart> all_;
 };
 
 /// The area of the union of what the regions cover of the cell.
@@ -89,6 +118,8 @@ class CellCoverage {
   [[nodiscard]] const TierCounts& decisions() const { return counts_; }
 
  private:
+  [[nodiscard]] Boundary boundary();
+
   ImageCell& cell_;
   std::vector<ConvexPolygon> pieces_;
   bool complete_ = false;

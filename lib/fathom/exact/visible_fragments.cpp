@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/exact/cell_division.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom {
@@ -24,6 +25,30 @@ ExactVector3 product(const ImageForm& a, const ImageForm& b) {
   return {factor * l[0], factor * l[1], factor * l[2]};
 }
 
+bool may_be_opposite(const Interval& a, const Interval& b) {
+  return a.lower <= -b.lower && -b.upper <= a.upper;
+}
+
+bool are_opposite(const ImageForm& a, const ImageForm& b) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!may_be_opposite(a.enclosures()[k], b.enclosures()[k])) return false;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(a.coefficients()[k] == -b.coefficients()[k])) return false;
+  }
+  return true;
+}
+
+/// Whether both lie on the two sides of an edge, as neighbours in a mesh do. False does not tell.
+bool lie_beside_an_edge(const SurfaceRegion& s, const SurfaceRegion& t) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (are_opposite(s.region[i], t.region[k])) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 // n_s/w_s < n_t/w_t ⇔ n_t·w_s − n_s·w_t > 0, as both weights are positive where s and t cover.
@@ -35,63 +60,94 @@ ImageForm in_front(const SurfaceRegion& s, const SurfaceRegion& t) {
   return ImageForm({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
 }
 
-bool CellVisibility::add(const SurfaceRegion& surface) {
-  auto piece = cell_.clip(surface.region, counts_);
-  if (!piece) return false;
-  PieceOfSurface p{&surface, std::move(piece->polygon), piece->is_whole, {}};
+CellVisibility::CornerDepths CellVisibility::depths_of(const SurfaceRegion& surface) const {
+  CornerDepths depths;
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto [u, v] = cell_.corner(k);
+    const auto [u, v] = part_.corner(k);
     const Interval weight = surface.weight.enclose_at(u, v);
-    p.depths[k] = weight.lower > 0 ? quotient(surface.depth_numerator.enclose_at(u, v), weight)
-                                   : Interval{-infinity, infinity};
+    depths[k] = weight.lower > 0 ? quotient(surface.depth_numerator.enclose_at(u, v), weight)
+                                 : Interval{-infinity, infinity};
   }
-  pieces_.push_back(std::move(p));
+  return depths;
+}
+
+bool CellVisibility::add(const SurfaceRegion& surface) {
+  auto piece = cell_->clip(surface.region, counts_);
+  if (!piece) return false;
+  pieces_.push_back({&surface, std::move(piece->polygon), piece->is_whole, depths_of(surface)});
   return true;
 }
 
+bool CellVisibility::add_if_it_hides(const SurfaceRegion& surface, std::size_t piece) {
+  if (quick_order(depths_of(surface), pieces_[piece].depths) == Order::behind) return false;
+  if (lie_beside_an_edge(surface, *pieces_[piece].surface)) return false;
+  if (!add(surface)) return false;
+  if (hidden_part(pieces_[piece].polygon, piece, size() - 1)) return true;
+  pieces_.pop_back();
+  return false;
+}
+
 // The form of in_front() is affine: the signs at the corners of the cell tell those within.
-CellVisibility::Order CellVisibility::quick_order(const PieceOfSurface& s,
-                                                  const PieceOfSurface& t) {
+CellVisibility::Order CellVisibility::quick_order(const CornerDepths& s, const CornerDepths& t) {
   bool in_front = true, behind = true;
   for (std::size_t k = 0; k < 4; ++k) {
-    in_front &= s.depths[k].upper < t.depths[k].lower;
-    behind &= t.depths[k].upper < s.depths[k].lower;
+    in_front &= s[k].upper < t[k].lower;
+    behind &= t[k].upper < s[k].lower;
   }
   return in_front ? Order::in_front : behind ? Order::behind : Order::unknown;
 }
 
 bool CellVisibility::is_in_front(const PieceOfSurface& s, const PieceOfSurface& t) const {
-  const Order order = quick_order(s, t);
+  const Order order = quick_order(s.depths, t.depths);
   if (order != Order::unknown) return order == Order::in_front;
   const ImageForm form = fathom::in_front(*s.surface, *t.surface);
   if (is_zero(form)) return s.surface->number < t.surface->number;
-  return cell_.sign_in_cell(form) == Sign::positive;
+  return part_.sign_of(form) == Sign::positive;
 }
 
 void CellVisibility::drop_hidden() {
   for (std::size_t w = 0; w < pieces_.size(); ++w) {
     if (!pieces_[w].is_whole) continue;
-    std::vector<PieceOfSurface> kept;
-    std::size_t place = 0;
+    std::size_t kept = 0, place = 0;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      if (i != w && is_in_front(pieces_[w], pieces_[i])) continue;
-      if (i == w) place = kept.size();
-      kept.push_back(pieces_[i]);
+      // Those before i have moved up, the whole one among them perhaps.
+      const PieceOfSurface& whole = pieces_[i <= w ? w : place];
+      if (i != w && is_in_front(whole, pieces_[i])) continue;
+      if (i == w) place = kept;
+      if (i != kept) pieces_[kept] = std::move(pieces_[i]);
+      ++kept;
     }
-    pieces_ = std::move(kept);
+    pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(kept), pieces_.end());
     w = place;
   }
+}
+
+std::array<CellVisibility, 2> CellVisibility::halves() const {
+  const std::array<ImageCell::Half, 2> parts = cell_->halves(part_);
+  const auto half = [&](const ImageCell::Half& its) {
+    CellVisibility result(*cell_, its.part);
+    for (const PieceOfSurface& piece : pieces_) {
+      auto polygon = in_half(piece.polygon, its, result.counts_);
+      if (!polygon) continue;
+      const bool is_whole = its.part.is_all(*polygon);
+      result.pieces_.push_back(
+          {piece.surface, std::move(*polygon), is_whole, result.depths_of(*piece.surface)});
+    }
+    result.drop_hidden();
+    return result;
+  };
+  return {half(parts[0]), half(parts[1])};
 }
 
 std::optional<ConvexPolygon> CellVisibility::hidden_part(const ConvexPolygon& polygon,
                                                          std::size_t t, std::size_t s) {
   const PieceOfSurface &behind = pieces_[t], &before = pieces_[s];
   if (!polygon.bounds().may_meet(before.polygon.bounds())) return std::nullopt;
-  const Order order = quick_order(before, behind);
+  const Order order = quick_order(before.depths, behind.depths);
   if (order == Order::behind) return std::nullopt;
   ConvexPolygon part = polygon;
   for (const HalfPlane* edge : before.polygon.edges()) {
-    if (cell_.is_side(edge)) continue;
+    if (part_.is_side(edge)) continue;
     if (!part.clip(*edge, counts_)) return std::nullopt;
   }
   if (order == Order::in_front) return part;
@@ -100,7 +156,7 @@ std::optional<ConvexPolygon> CellVisibility::hidden_part(const ConvexPolygon& po
     if (before.surface->number < behind.surface->number) return part;
     return std::nullopt;
   }
-  return cell_.clip(part, form, counts_);
+  return cell_->clip(part, form, part_, counts_);
 }
 
 Boundary CellVisibility::visible(std::size_t piece,
@@ -123,7 +179,7 @@ Boundary CellVisibility::uncovered() {
     if (piece.is_whole) return {};
     covered.push_back(piece.polygon);
   }
-  return boundary_of_difference(cell_.whole(), covered, counts_);
+  return boundary_of_difference(part_.outline, covered, counts_);
 }
 
 // At the point a × b, of weight turn(a, b), the form n has the value det(n, a, b) / turn(a, b).

@@ -26,10 +26,10 @@ namespace fathom {
 /// and zero where they are equally deep.
 ImageForm in_front(const SurfaceRegion& s, const SurfaceRegion& t);
 
-/// The pieces of a cell that triangles cover, and what of each is visible.
+/// The pieces of a cell, or of a part of it, that triangles cover, and what of each is visible.
 class CellVisibility {
  public:
-  explicit CellVisibility(ImageCell& cell) : cell_(cell) {}
+  explicit CellVisibility(ImageCell& cell) : cell_(&cell), part_(cell.all()) {}
 
   /// Adds a triangle, in any order. Returns whether it covers a part of the cell; if so, the piece
   /// has the next number.
@@ -42,8 +42,15 @@ class CellVisibility {
     return pieces_[piece].polygon;
   }
 
+  /// The same, unless it certainly hides nothing of a piece that is there.
+  bool add_if_it_hides(const SurfaceRegion& surface, std::size_t piece);
+  /// Adds the last piece of another one about the same cell.
+  void add_last_of(const CellVisibility& other) { pieces_.push_back(other.pieces_.back()); }
+
   /// Leaves out pieces that one that is the whole cell hides; numbers change.
   void drop_hidden();
+  /// The pieces in each half of the cell, those that one that is the whole half hides left out.
+  [[nodiscard]] std::array<CellVisibility, 2> halves() const;
 
   /// The boundary of the visible part of a piece; empty where it is hidden. Only triangles that
   /// `counts` accepts, where given, hide it.
@@ -56,22 +63,27 @@ class CellVisibility {
   std::optional<ConvexPolygon> hidden_part(const ConvexPolygon& polygon, std::size_t t,
                                            std::size_t s);
 
-  [[nodiscard]] ImageCell& cell() { return cell_; }
   [[nodiscard]] TierCounts& decisions() { return counts_; }
 
  private:
+  CellVisibility(ImageCell& cell, CellPart part) : cell_(&cell), part_(std::move(part)) {}
+
+  /// Of a triangle's plane at the cell's corners; [−∞, ∞] where that is not known.
+  using CornerDepths = std::array<Interval, 4>;
   struct PieceOfSurface {
     const SurfaceRegion* surface;
     ConvexPolygon polygon;
     bool is_whole;
-    /// Of the triangle's plane at the cell's corners; [−∞, ∞] where that is not known.
-    std::array<Interval, 4> depths;
+    CornerDepths depths;
   };
   enum class Order { in_front, behind, unknown };
-  [[nodiscard]] static Order quick_order(const PieceOfSurface& s, const PieceOfSurface& t);
+  [[nodiscard]] static Order quick_order(const CornerDepths& s, const CornerDepths& t);
+  [[nodiscard]] CornerDepths depths_of(const SurfaceRegion& surface) const;
   [[nodiscard]] bool is_in_front(const PieceOfSurface& s, const PieceOfSurface& t) const;
 
-  ImageCell& cell_;
+  ImageCell* cell_;
+  /// What of the cell this is about.
+  CellPart part_;
   std::vector<PieceOfSurface> pieces_;
   TierCounts counts_;
 };

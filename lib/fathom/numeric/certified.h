@@ -47,6 +47,8 @@ class ImageForm {
   explicit ImageForm(ExactVector3 coefficients);
 
   [[nodiscard]] const ExactVector3& coefficients() const { return coefficients_; }
+  /// Intervals that contain them.
+  [[nodiscard]] const std::array<Interval, 3>& enclosures() const { return enclosures_; }
   /// The exact value at the sample (u, v); u and v finite.
   [[nodiscard]] Dyadic at(double u, double v) const;
   /// An interval that contains the value at (u, v).
