@@ -92,7 +92,7 @@ void PipelineArguments::add(CLI::App& command, const char* name, std::string& va
 void PipelineArguments::add_to(CLI::App& command) {
   add(command, "--image", image, "Write the colour picture to this PNG");
   add(command, "--background", background_, "R,G,B from 0 to 1 (default 0,0,0)");
-  add(command, "--shading", shading_, "none, wireframe, flat (default), gouraud or phong");
+  add(command, "--shading", shading_, "none, points, wireframe, flat (default), gouraud or phong");
   add(command, "--texture", texture_, "checker, or a PNG file");
   add(command, "--filter", filter_,
       "Of the texture: nearest, bilinear, trilinear (default) or anisotropic");
@@ -174,6 +174,7 @@ PipelineOptions PipelineArguments::get(const std::string& cull) const {
       {{"affine", Interpolation::affine}, {"perspective", Interpolation::perspective}});
   o.shading = named<Shading>("--shading", shading_,
                              {{"none", Shading::none},
+                              {"points", Shading::points},
                               {"wireframe", Shading::wireframe},
                               {"flat", Shading::flat},
                               {"gouraud", Shading::gouraud},

@@ -33,7 +33,13 @@ Json to_json(const pipeline::PipelineStatistics& s) {
           {"blocks_skipped", s.blocks_skipped},
           {"blocks_full", s.blocks_full},
           {"near", s.near},
-          {"far", s.far}};
+          {"far", s.far},
+          {"facings",
+           {{"compared", s.facings.compared},
+            {"front_in_world", s.facings.front_in_world},
+            {"front_in_ndc", s.facings.front_in_ndc},
+            {"front_in_window", s.facings.front_in_window},
+            {"disagreeing", s.facings.disagreeing}}}};
 }
 
 Json to_json(const pipeline::PainterStatistics& s) {

@@ -48,6 +48,8 @@ TEST(PipelineCommand, EveryChoiceDraws) {
   const std::vector<std::vector<std::string>> choices{
       {"--shading", "none"},
       {"--shading", "wireframe", "--line", "diamond-exit"},
+      {"--shading", "points"},
+      {"--antialias", "msaa:rotated-grid"},
       {"--shading", "gouraud"},
       {"--shading", "phong"},
       {"--interpolation", "affine"},

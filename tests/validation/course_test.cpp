@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "validation/studies/course_meshes.h"
 #include "validation/studies/course_pictures.h"
 
 namespace fathom::studies {
@@ -55,6 +56,31 @@ TEST(Course, AffineTextureCoordinatesAreWrongAndPerspectiveOnesAreNot) {
 TEST(Course, SixteenBitsFightAndFartherSurfacesFightMore) {
   EXPECT_LT(fight(0.5, Storage::float32).wrong_share, 0.01);
   EXPECT_GT(fight(10, Storage::unorm16).wrong_share, 0.2);
+}
+
+TEST(Course, BallsShowWhatGeometrySays) {
+  for (const FacingCount& f : count_facings()) {
+    EXPECT_EQ(f.triangles, 2u * 180 * 89);
+    // Triangles are of equal area but for the curvature of one of them; the outline passes through
+    // some 200 of them.
+    const auto n = static_cast<double>(f.triangles);
+    EXPECT_NEAR(static_cast<double>(f.front_in_window) / n, f.seen_share, 0.01) << f.distance;
+    EXPECT_LE(f.disagreeing, 100u);
+    if (f.precision == pipeline::Precision::binary64) {
+      EXPECT_EQ(f.disagreeing, 0u);
+    }
+  }
+}
+
+TEST(Course, SharedEdgesAreCoveredOnceAndFlipsExplainTheRest) {
+  std::uint64_t turned = 0;
+  for (int bits = 0; bits <= 16; bits += 4) {
+    const SharedEdges e = count_shared_edges(bits);
+    EXPECT_EQ(e.signed_not_one, 0u) << bits;
+    EXPECT_EQ(e.unexplained, 0u) << bits;
+    turned += e.turned_over;
+  }
+  EXPECT_GT(turned, 0u);
 }
 
 }  // namespace

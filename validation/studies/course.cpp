@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <tuple>
 
 #include "fathom/numeric/errors.h"
+#include "validation/studies/course_meshes.h"
 #include "validation/studies/course_pictures.h"
 #include "validation/studies/page.h"
 #include "validation/studies/picture.h"
@@ -132,16 +135,27 @@ void demo_of_section_6(Course& c) {
   c.page.table({"", "count"}, rows);
 }
 
+/// Rows of words, the words of a column below each other.
+std::string aligned(const std::vector<std::string>& rows) {
+  std::string text;
+  for (const std::string& row : rows) {
+    std::istringstream words(row);
+    for (std::string word; words >> word;) text += fmt::format(word >= "A" ? "{} " : "{:<5}", word);
+    text += "\n";
+  }
+  return text;
+}
+
 void tables(Course& c) {
   c.page.heading("The z-buffer, in numbers");
   c.page.paragraph(
       "A black triangle at depth 0.5, then a grey one that recedes from 0.25 to 0.95 to the right. "
-      "Each cell is the depth buffer and the colour before and after the grey triangle.");
+      "Depth buffer and colours (white, black, grey) before and after the grey triangle.");
   const Tables t = z_buffer_tables();
-  std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < t.depth_before.size(); ++i)
-    rows.push_back({t.depth_before[i], t.colour_before[i], t.depth_after[i], t.colour_after[i]});
-  c.page.table({"depth before", "colour before", "depth after", "colour after"}, rows);
+  c.page.preformatted(aligned(t.depth_before), "depths before")
+      .preformatted(aligned(t.colour_before), "colours before")
+      .preformatted(aligned(t.depth_after), "depths after")
+      .preformatted(aligned(t.colour_after), "colours after");
 }
 
 void curves_and_time(Course& c) {
@@ -153,6 +167,77 @@ void curves_and_time(Course& c) {
          "twelve spokes turn by 27 degrees a frame to the right: they seem to turn 3 to the left");
   c.show("wheel-supersampled", turning_wheel(true), 1,
          "the mean of 16 instants a frame: the motion blurs, and nothing turns backwards");
+}
+
+void back_faces(Course& c) {
+  c.page.heading("Back faces");
+  c.page.paragraph(
+      "A closed ball of 32040 triangles. Three tests say which side of a triangle is seen: N·V in "
+      "the world, the normal's z after the division, the determinant in the window. Culling is "
+      "said to remove half of the faces: that is right from far away only. A ball of radius 1 "
+      "shows (1 − 1/d)/2 of itself to an eye at distance d. Where the tests disagree, a triangle "
+      "is seen so nearly edge on that rounding decides.");
+  std::vector<std::vector<std::string>> rows;
+  for (const FacingCount& f : count_facings()) {
+    const bool narrow = f.precision == pipeline::Precision::binary32;
+    const double culled =
+        1 - static_cast<double>(f.front_in_window) / static_cast<double>(f.triangles);
+    rows.push_back({narrow ? "binary32" : "binary64", fmt::format("{}", f.distance),
+                    fmt::format("{:.2f} %", 100 * culled),
+                    fmt::format("{:.2f} %", 100 * (1 - f.seen_share)),
+                    fmt::format("{}", f.front_in_world), fmt::format("{}", f.front_in_ndc),
+                    fmt::format("{}", f.front_in_window), fmt::format("{}", f.disagreeing)});
+    c.summary["facings"].push_back({{"precision", narrow ? "binary32" : "binary64"},
+                                    {"distance", f.distance},
+                                    {"triangles", f.triangles},
+                                    {"front_in_world", f.front_in_world},
+                                    {"front_in_ndc", f.front_in_ndc},
+                                    {"front_in_window", f.front_in_window},
+                                    {"disagreeing", f.disagreeing}});
+  }
+  c.page.table({"arithmetic", "distance", "culled", "unseen surface", "front: world", "front: NDC",
+                "front: window", "the tests disagree"},
+               rows);
+  for (const auto& [name, front_face, culling, caption] :
+       {std::tuple("box-ccw-back", pipeline::FrontFace::counter_clockwise, pipeline::Culling::back,
+                   "front is counter-clockwise, back culled: outer walls"),
+        std::tuple("box-ccw-front", pipeline::FrontFace::counter_clockwise,
+                   pipeline::Culling::front, "front culled: the inner walls appear"),
+        std::tuple("box-cw-back", pipeline::FrontFace::clockwise, pipeline::Culling::back,
+                   "front is clockwise, back culled: the inner walls again"),
+        std::tuple("box-none", pipeline::FrontFace::counter_clockwise, pipeline::Culling::none,
+                   "nothing culled")})
+    c.show(name, open_box(front_face, culling), 1, caption);
+}
+
+void shared_edges(Course& c) {
+  c.page.heading("Shared edges");
+  c.page.paragraph(
+      "A mesh of narrow triangles, 12 by 12 pixels, its corners snapped to 2^N positions a pixel, "
+      "sampled 16 by 16 times in every pixel. Counted by orientation, every sample is covered "
+      "exactly once: there are no cracks. Snapping can turn a thin triangle over; there, and only "
+      "there, three triangles meet at a sample, one of them negative (red).");
+  std::vector<std::vector<std::string>> rows;
+  for (const int bits : {0, 1, 2, 3, 4, 6, 8, 16}) {
+    const SharedEdges e = count_shared_edges(bits);
+    rows.push_back({fmt::format("{}", e.bits), fmt::format("{}", e.turned_over),
+                    fmt::format("{}", e.without_area), fmt::format("{}", e.signed_not_one),
+                    fmt::format("{}", e.unsigned_not_one), fmt::format("{}", e.unexplained)});
+    c.summary["shared_edges"].push_back({{"subpixel_bits", e.bits},
+                                         {"triangles", e.triangles},
+                                         {"turned_over", e.turned_over},
+                                         {"without_area", e.without_area},
+                                         {"samples", e.samples},
+                                         {"signed_not_one", e.signed_not_one},
+                                         {"unsigned_not_one", e.unsigned_not_one},
+                                         {"unexplained", e.unexplained}});
+    if (bits == 0 || bits == 2 || bits == 8)
+      c.show(fmt::format("shared-edges-{}", bits), e.picture, 2,
+             fmt::format("{} subpixel bits", bits));
+  }
+  c.page.table({"bits", "turned over", "without area", "samples not covered once, signed",
+                "not once, unsigned", "of these unexplained"},
+               rows);
 }
 
 }  // namespace
@@ -174,6 +259,9 @@ std::vector<StudyFile> study_course(const StudyOptions& options,
   tick(0.6);
   exercise_5_and_6(course);
   tick(0.8);
+  back_faces(course);
+  shared_edges(course);
+  tick(0.9);
   demo_of_section_6(course);
   tables(course);
   curves_and_time(course);

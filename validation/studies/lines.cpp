@@ -1,6 +1,7 @@
 #include "validation/studies/lines.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <random>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/pipeline/diamond_exit.h"
 #include "fathom/pipeline/line.h"
 #include "validation/studies/page.h"
 #include "validation/studies/plot.h"
@@ -103,6 +105,33 @@ std::vector<Cost> costs() {
            cost_of<std::int64_t>(pipeline::midpoint_line)}};
 }
 
+/// (0,0)-(8,3) by every algorithm: the row of the pixel in each column, and what it decided by.
+std::vector<std::vector<std::string>> known_line() {
+  const LineEnds ends{0, 0, 8, 3};
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const char* algorithm, const char* variable, const auto& draw) {
+    std::vector<std::int64_t> minor;
+    std::vector<std::string> states;
+    draw([&](const Pixel& p, const auto& state) {
+      minor.push_back(p.y);
+      states.push_back(fmt::format("{:.4g}", static_cast<double>(state)));
+    });
+    rows.push_back({algorithm, fmt::format("{}", fmt::join(minor, " ")),
+                    fmt::format("{}: {}", variable, fmt::join(states, " "))});
+  };
+  add("explicit equation", "y",
+      [&](const auto& visit) { pipeline::explicit_line<double>(ends, {}, visit); });
+  add("DDA", "y", [&](const auto& visit) { pipeline::dda_line<double>(ends, {}, visit); });
+  add("Bresenham", "error", [&](const auto& visit) { pipeline::bresenham_line(ends, {}, visit); });
+  add("midpoint", "d", [&](const auto& visit) { pipeline::midpoint_line(ends, {}, visit); });
+  std::vector<std::int64_t> minor;
+  pipeline::diamond_exit_line<double>({0.5, 0.5, 8.5, 3.5}, {},
+                                      [&](const Pixel& p) { minor.push_back(p.y); });
+  rows.push_back({"diamond exit, centre to centre", fmt::format("{}", fmt::join(minor, " ")),
+                  "the pixel of the end, whose diamond is not left, is not drawn"});
+  return rows;
+}
+
 StudyFile csv_of(const std::vector<Drift>& drifts) {
   std::string text = "algorithm,length,pixels,wrong,wrong_at_ties,greatest_drift\n";
   for (const Drift& d : drifts)
@@ -127,6 +156,8 @@ StudyFile page_of(const std::vector<Drift>& drifts, const std::vector<Cost>& cos
                     fmt::format("{:.3g}", d.greatest)});
   page.table({"algorithm", "length", "pixels", "wrong", "of these at ties", "greatest drift"},
              rows);
+  page.heading("(0,0) to (8,3), by every algorithm");
+  page.table({"algorithm", "row in each column", "decided by"}, known_line());
   page.heading("What a step costs");
   rows.clear();
   for (const Cost& c : costs)

@@ -44,10 +44,11 @@ void require_meaningful(const PipelineOptions& o) {
       o.antialias.method == AntialiasMethod::none || o.antialias.method == AntialiasMethod::fxaa;
   if (o.scan == ScanConversion::scan_line && !one_sample)
     throw UsageError("--scan scan-line samples centres only; it takes --antialias none or fxaa");
-  if (o.shading == Shading::wireframe && !one_sample)
-    throw UsageError("--shading wireframe takes --antialias none or fxaa");
-  if (o.hidden_surface == HiddenSurface::painter && o.shading == Shading::wireframe)
-    throw UsageError("--hidden-surface painter draws areas; wireframe has none");
+  const bool has_areas = o.shading != Shading::points && o.shading != Shading::wireframe;
+  if (!has_areas && !one_sample)
+    throw UsageError("--shading points and wireframe take --antialias none or fxaa");
+  if (o.hidden_surface == HiddenSurface::painter && !has_areas)
+    throw UsageError("--hidden-surface painter draws areas; points and wireframe have none");
   if (o.blend_alpha && !(*o.blend_alpha >= 0 && *o.blend_alpha <= 1))
     throw UsageError("--blend: an opacity is between 0 and 1");
 }

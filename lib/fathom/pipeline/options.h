@@ -23,7 +23,8 @@ enum class ScanConversion {
   scan_line,      ///< along edges, then along spans, in floating point
 };
 enum class Interpolation { affine, perspective };
-enum class Shading { none, wireframe, flat, gouraud, phong };
+/// `points` draws corners and `wireframe` edges, as primitives of their own.
+enum class Shading { none, points, wireframe, flat, gouraud, phong };
 enum class TextureFilter { nearest, bilinear, trilinear, anisotropic };
 enum class HiddenSurface { z_buffer, painter };
 enum class WireLine { explicit_equation, dda, bresenham, midpoint, diamond_exit };
@@ -75,6 +76,13 @@ struct PipelineOptions {
   Colour background{0, 0, 0};
 };
 
+/// The three tests of back_face_culling.h on the triangles that clipping left whole.
+struct FacingStatistics {
+  std::uint64_t compared = 0;
+  std::uint64_t front_in_world = 0, front_in_ndc = 0, front_in_window = 0;
+  std::uint64_t disagreeing = 0;  ///< triangles about which the tests are not of one mind
+};
+
 /// What the pipeline did.
 struct PipelineStatistics {
   std::uint64_t triangles = 0;
@@ -90,6 +98,7 @@ struct PipelineStatistics {
   std::uint64_t shaded = 0;
   std::uint64_t blocks_skipped = 0, blocks_full = 0;
   double near = 0, far = 0;
+  FacingStatistics facings;
 };
 
 /// Refuses options that mean nothing or do not go together.

@@ -22,9 +22,10 @@ RgbImage to_rgb(const ColourImage& image) {
 }
 
 FrameBuffer::FrameBuffer(std::uint32_t width, std::uint32_t height, std::size_t samples,
-                         const Colour& background)
+                         const Colour& background, std::uint32_t first_row)
     : width_(width),
       height_(height),
+      first_row_(first_row),
       samples_(samples),
       buffer_(std::size_t{width} * height * samples,
               StoredSample{no_surface, narrowed(background), {}, 0}) {}

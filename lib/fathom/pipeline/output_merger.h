@@ -31,11 +31,11 @@ struct StoredSample {
   double depth = 0;  ///< along the view, of what `id` names
 };
 
-/// Colour and depth buffer, `samples` for each pixel.
+/// Colour and depth buffer, `samples` for each pixel, of the rows of an image from `first_row` on.
 class FrameBuffer {
  public:
   FrameBuffer(std::uint32_t width, std::uint32_t height, std::size_t samples,
-              const Colour& background);
+              const Colour& background, std::uint32_t first_row = 0);
 
   [[nodiscard]] std::uint32_t width() const { return width_; }
   [[nodiscard]] std::uint32_t height() const { return height_; }
@@ -59,10 +59,11 @@ class FrameBuffer {
 
  private:
   [[nodiscard]] std::size_t index(const Pixel& p) const {
-    return (static_cast<std::size_t>(p.y) * width_ + static_cast<std::size_t>(p.x)) * samples_;
+    return (static_cast<std::size_t>(p.y - first_row_) * width_ + static_cast<std::size_t>(p.x)) *
+           samples_;
   }
 
-  std::uint32_t width_, height_;
+  std::uint32_t width_, height_, first_row_;
   std::size_t samples_;
   std::vector<StoredSample> buffer_;
 };

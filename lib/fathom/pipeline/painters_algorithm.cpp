@@ -20,9 +20,15 @@ struct Polygon {
   std::vector<WindowVertex<Real>> corners;
   std::vector<Point3d> points;  ///< x, y, farness of `corners`
   Point3d low{}, high{};        ///< its box
-  bool moved = false;
+  bool moved = false;           ///< since the last one was painted
   /// What the splits that made it have decided: on which side of a plane it lies.
   std::vector<std::pair<std::size_t, Sign>> known_sides;
+  /// Edges, 3·plane + i, seen end on, that have cut it already: rounded cuts lie beside their line,
+  /// and would be cut again.
+  std::vector<std::size_t> known_edges;
+  std::size_t serial = 0;
+  /// Serial numbers of polygons that it is painted before, whatever the tests say.
+  std::vector<std::size_t> forced_before;
 };
 
 /// Between a and b in the window: x, y, z and 1/w are linear there, attributes over w.
@@ -48,6 +54,7 @@ class Painter {
       Polygon<Real> p;
       p.corners.assign(t.corners.begin(), t.corners.end());
       p.plane = planes_.size();
+      p.serial = ++serials_;
       p.source = std::move(t);
       measure(p);
       planes_.push_back(p.points);
@@ -97,6 +104,9 @@ class Painter {
   [[nodiscard]] std::size_t test(const Polygon<Real>& P, const Polygon<Real>& Q) const {
     for (std::size_t k = 0; k < 2; ++k)
       if (P.high[k] <= Q.low[k] || Q.high[k] <= P.low[k]) return k;
+    if (std::find(P.forced_before.begin(), P.forced_before.end(), Q.serial) !=
+        P.forced_before.end())
+      return 4;
     if (lies(P, Sign::positive, Q.plane)) return 2;
     if (lies(Q, Sign::negative, P.plane)) return 3;
     return projections_overlap(P.points, Q.points) ? 5 : 4;
@@ -139,13 +149,13 @@ class Painter {
       painted_.push_back(t);
     }
     todo_.pop_front();
+    for (Polygon<Real>& q : todo_) q.moved = false;
   }
 
-  /// The plane of the other, or where that cuts nothing, an edge of the other seen end on.
+  /// By the plane of the other, or where that cuts nothing, by an edge of the other seen end on. A
+  /// cycle in which neither cuts is none but for rounding: if P covers Q within one outline, what
+  /// must lie between them in the order goes through one of their planes.
   void split(Place P, Place Q) {
-    if (++count_.splits > most_splits)
-      throw InputError(
-          "the painter's algorithm needs more than a million pieces; use the z-buffer");
     const auto plane_of = [&](const Polygon<Real>& q) {
       const std::vector<Point3d>& corners = planes_[q.plane];
       const Sign away = turn_in_window(corners[0], corners[1], corners[2]);
@@ -159,16 +169,24 @@ class Painter {
     };
     if (!is_known(*P, Q->plane) && cut(P, plane_of(*Q), Q->plane)) return;
     if (!is_known(*Q, P->plane) && cut(Q, plane_of(*P), P->plane)) return;
-    for (std::size_t i = 0; i < Q->points.size(); ++i) {
-      const Point3d a = Q->points[i], b = Q->points[(i + 1) % Q->points.size()];
-      const auto side = [a, b](const Point3d& p) {
+    if (cut_by_edges(P, Q->plane) || cut_by_edges(Q, P->plane)) return;
+    // Nothing cuts: they overlap by rounding only. In the order of the list.
+    P->forced_before.push_back(Q->serial);
+  }
+
+  bool cut_by_edges(Place place, std::size_t plane) {
+    const std::vector<Point3d>& corners = planes_[plane];
+    for (std::size_t i = 0; i < 3; ++i) {
+      auto& known = place->known_edges;
+      if (std::find(known.begin(), known.end(), 3 * plane + i) != known.end()) continue;
+      known.push_back(3 * plane + i);
+      const Point3d &a = corners[i], &b = corners[(i + 1) % 3];
+      const auto side = [&](const Point3d& p) {
         return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
       };
-      if (cut(P, side, no_plane)) return;
+      if (cut(place, side, no_plane)) return true;
     }
-    // Nothing cuts: they overlap by rounding only. In the order of the list.
-    Q->moved = true;
-    P->known_sides.emplace_back(Q->plane, Sign::positive);
+    return false;
   }
 
   static double value(const std::vector<Point3d>& q, const Point3d& p) {
@@ -201,6 +219,9 @@ class Painter {
     if (behind.corners.size() < 3 || before.corners.size() < 3) return false;
     measure(behind), measure(before);
     if (!has_area(behind) || !has_area(before)) return false;
+    if (++count_.splits > most_splits)
+      throw InputError(
+          "the painter's algorithm needs more than a million pieces; use the z-buffer");
     if (plane != no_plane) {
       behind.known_sides.emplace_back(plane, Sign::positive);
       before.known_sides.emplace_back(plane, Sign::negative);
@@ -208,6 +229,7 @@ class Painter {
     todo_.erase(place);
     for (Polygon<Real>* part : {&behind, &before}) {
       part->moved = false;
+      part->serial = ++serials_;
       todo_.insert(std::find_if(todo_.begin(), todo_.end(),
                                 [&](const auto& q) { return !q.moved && is_farther(*part, q); }),
                    std::move(*part));
@@ -227,6 +249,7 @@ class Painter {
   PainterStatistics& count_;
   std::vector<std::vector<Point3d>> planes_;
   std::list<Polygon<Real>> todo_;
+  std::size_t serials_ = 0;
   std::vector<WindowTriangle<Real>> painted_;
 };
 

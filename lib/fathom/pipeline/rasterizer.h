@@ -31,10 +31,15 @@ void rasterize(const std::vector<WindowTriangle<Real>>& triangles,
                const RasterizerSettings& settings, Shader<Real>* shader, FrameBuffer& target,
                PipelineStatistics& statistics);
 
-/// Draws the edges of triangles as lines, with a depth test at each pixel.
+/// Draws lines, with a depth test at each pixel.
 template <class Real>
-void rasterize_edges(const std::vector<WindowTriangle<Real>>& triangles,
-                     const RasterizerSettings& settings, FrameBuffer& target,
-                     PipelineStatistics& statistics);
+void rasterize_lines(const std::vector<WindowLine<Real>>& lines, const RasterizerSettings& settings,
+                     FrameBuffer& target, PipelineStatistics& statistics);
+
+/// Draws the pixel that each point lies in, with a depth test.
+template <class Real>
+void rasterize_points(const std::vector<WindowPoint<Real>>& points,
+                      const RasterizerSettings& settings, FrameBuffer& target,
+                      PipelineStatistics& statistics);
 
 }  // namespace fathom::pipeline

@@ -31,9 +31,11 @@ PixelWindow drawable(const Camera& camera, const PipelineOptions& options) {
 
 std::optional<Texture> texture_of(const Scene& scene, const PipelineOptions& options) {
   if (options.texture.empty()) return std::nullopt;
+  Texture texture =
+      options.texture == "checker" ? Texture::checker() : Texture(read_rgb_png(options.texture));
   if (!has_texture_coordinates(scene))
     throw InputError("--texture: the scene has no texture coordinates at some corners");
-  return options.texture == "checker" ? Texture::checker() : Texture(read_rgb_png(options.texture));
+  return texture;
 }
 
 template <class Real>
@@ -43,12 +45,13 @@ class Frame {
       : scene_(scene), camera_(camera), options_(options), window_(drawable(camera, options)) {}
 
   PipelineFrame run(bool with_picture) {
-    triangles_ = to_window<Real>(scene_, camera_, options_, frame_.statistics);
+    primitives_ = to_window<Real>(scene_, camera_, options_, frame_.statistics);
+    std::vector<WindowTriangle<Real>>& triangles = primitives_.triangles;
     frame_.statistics.near = options_.depth_format.near;
     frame_.statistics.far = options_.depth_format.far;
     if (options_.hidden_surface == HiddenSurface::painter) {
       const DepthTest test(options_);
-      triangles_ = painters_order(std::move(triangles_), test.is_nearer({1}, {0}), frame_.painter);
+      triangles = painters_order(std::move(triangles), test.is_nearer({1}, {0}), frame_.painter);
     }
     std::optional<Texture> texture = with_picture ? texture_of(scene_, options_) : std::nullopt;
     Shader<Real> shader(camera_, options_, std::move(texture));
@@ -58,7 +61,7 @@ class Frame {
     // The map first: without colours, unless its samples are the picture's.
     PipelineStatistics uncounted;
     draw(GridSamples::centre(), with_picture && same_samples ? &shader : nullptr, centres,
-         !with_picture || same_samples ? frame_.statistics : uncounted);
+         !with_picture || same_samples ? frame_.statistics : uncounted, window_);
     take_map(centres);
     if (!with_picture) return std::move(frame_);
     frame_.picture = same_samples ? centres.resolve() : antialiased(shader);
@@ -72,13 +75,16 @@ class Frame {
   }
 
   void draw(const GridSamples& pattern, Shader<Real>* shader, FrameBuffer& target,
-            PipelineStatistics& statistics, ShadingRate rate = ShadingRate::per_sample) {
+            PipelineStatistics& statistics, const PixelWindow& window,
+            ShadingRate rate = ShadingRate::per_sample) {
     const RasterizerSettings settings{options_, pattern, rate,
-                                      options_.hidden_surface == HiddenSurface::z_buffer, window_};
+                                      options_.hidden_surface == HiddenSurface::z_buffer, window};
     if (options_.shading == Shading::wireframe) {
-      rasterize_edges(triangles_, settings, target, statistics);
+      rasterize_lines(primitives_.lines, settings, target, statistics);
+    } else if (options_.shading == Shading::points) {
+      rasterize_points(primitives_.points, settings, target, statistics);
     } else {
-      rasterize(triangles_, settings, shader, target, statistics);
+      rasterize(primitives_.triangles, settings, shader, target, statistics);
     }
   }
 
@@ -108,8 +114,8 @@ class Frame {
       case AntialiasMethod::taa:
         return temporal(shader, n);
       default:
-        return area_sampled(triangles_, options_, window_, shader, camera_.width, camera_.height,
-                            frame_.statistics);
+        return area_sampled(primitives_.triangles, options_, window_, shader, camera_.width,
+                            camera_.height, frame_.statistics);
     }
   }
 
@@ -124,10 +130,23 @@ class Frame {
     return GridSamples::of(sample_pattern("jittered:" + std::to_string(side)));
   }
 
+  /// In strips, so that many samples a pixel need no more memory than few.
   ColourImage sampled(const GridSamples& pattern, Shader<Real>& shader, ShadingRate rate) {
-    FrameBuffer target = buffer(pattern.size());
-    draw(pattern, &shader, target, frame_.statistics, rate);
-    return target.resolve();
+    constexpr std::size_t most_samples = std::size_t{1} << 22;
+    const auto rows = static_cast<std::uint32_t>(std::clamp<std::size_t>(
+        most_samples / (pattern.size() * camera_.width), 1, camera_.height));
+    ColourImage image{camera_.width, camera_.height, {}};
+    for (std::uint32_t y = 0; y < camera_.height; y += rows) {
+      const std::uint32_t height = std::min(rows, camera_.height - y);
+      FrameBuffer strip{camera_.width, height, pattern.size(), options_.background, y};
+      PixelWindow window = window_;
+      window.y_begin = std::max<std::int64_t>(window.y_begin, y);
+      window.y_end = std::min<std::int64_t>(window.y_end, std::int64_t{y} + height);
+      if (!window.is_empty()) draw(pattern, &shader, strip, frame_.statistics, window, rate);
+      const ColourImage part = strip.resolve();
+      image.pixels.insert(image.pixels.end(), part.pixels.begin(), part.pixels.end());
+    }
+    return image;
   }
 
   /// Each frame looks through another place of the pixel; the history takes it in with the weight
@@ -152,7 +171,7 @@ class Frame {
   const Camera& camera_;
   PipelineOptions options_;
   PixelWindow window_;
-  std::vector<WindowTriangle<Real>> triangles_;
+  WindowPrimitives<Real> primitives_;
   PipelineFrame frame_;
 };
 

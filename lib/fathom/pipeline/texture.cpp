@@ -18,7 +18,7 @@ std::int64_t wrapped(std::int64_t i, std::int64_t size) {
   return (i % size + size) % size;
 }
 
-constexpr std::uint32_t greatest_size = 16384;
+constexpr std::uint32_t greatest_size = 8192;
 
 }  // namespace
 
@@ -28,12 +28,14 @@ const Colour& Texture::Level::at(std::int64_t x, std::int64_t y) const {
 
 Texture::Texture(const RgbImage& image) {
   levels_.push_back({image.width, image.height, {}});
+  levels_[0].texels.reserve(image.pixels.size());
   for (const Rgb& c : image.pixels)
     levels_[0].texels.push_back({c[0] / 255., c[1] / 255., c[2] / 255.});
   while (levels_.back().width > 1 || levels_.back().height > 1) {
     const Level& fine = levels_.back();
     Level coarse{
         std::max<std::int64_t>(1, fine.width / 2), std::max<std::int64_t>(1, fine.height / 2), {}};
+    coarse.texels.reserve(static_cast<std::size_t>(coarse.width * coarse.height));
     for (std::int64_t y = 0; y < coarse.height; ++y) {
       for (std::int64_t x = 0; x < coarse.width; ++x) {
         const std::int64_t x1 = std::min(2 * x + 1, fine.width - 1);
@@ -129,7 +131,7 @@ RgbImage read_rgb_png(const std::filesystem::path& path) {
     fail(std::string("no PNG file: ") + png.message);
   if (png.width > greatest_size || png.height > greatest_size)
     fail(std::to_string(png.width) + "x" + std::to_string(png.height) +
-         " texels; the greatest texture is 16384x16384");
+         " texels; the greatest texture is 8192x8192");
   png.format = PNG_FORMAT_RGB;
   RgbImage image(png.width, png.height);
   const png_color black{0, 0, 0};

@@ -46,7 +46,7 @@ class Texture {
 };
 
 /// Reads an 8 or 16 bit PNG as colours of 8 bits.
-/// Fails    InputError: missing, no PNG, or beyond 16384 × 16384.
+/// Fails    InputError: missing, no PNG, or beyond 8192 × 8192.
 RgbImage read_rgb_png(const std::filesystem::path& path);
 
 }  // namespace fathom::pipeline

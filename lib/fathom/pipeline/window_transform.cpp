@@ -3,16 +3,54 @@
 #include <algorithm>
 
 namespace fathom::pipeline {
+namespace {
+
+template <class Real>
+ClipVertex<Real> between(const ClipVertex<Real>& a, const ClipVertex<Real>& b, Real t) {
+  if (t == 0) return a;
+  if (t == 1) return b;
+  const auto mix = [&](Real p, Real q) { return p + t * (q - p); };
+  ClipVertex<Real> v{{mix(a.position.x, b.position.x), mix(a.position.y, b.position.y),
+                      mix(a.position.z, b.position.z), mix(a.position.w, b.position.w)},
+                     a.attributes};
+  for (std::size_t i = 0; i < v.attributes.size(); ++i)
+    v.attributes[i] = mix(a.attributes[i], b.attributes[i]);
+  return v;
+}
+
+}  // namespace
+
+template <class Real>
+bool is_inside(const ClipVertex<Real>& corner, clipping::Volume volume) {
+  for (int k = 0; k < clipping::boundary_count; ++k)
+    if (!(clipping::boundary_value(k, corner.position, volume) >= 0)) return false;
+  return corner.position.w > 0;
+}
+
+template <class Real>
+std::optional<std::array<ClipVertex<Real>, 2>> clip_line(const ClipVertex<Real>& a,
+                                                         const ClipVertex<Real>& b,
+                                                         clipping::Volume volume) {
+  Real entering = 0, leaving = 1;
+  for (int k = 0; k < clipping::boundary_count; ++k) {
+    const Real va = clipping::boundary_value(k, a.position, volume);
+    const Real vb = clipping::boundary_value(k, b.position, volume);
+    if (va < 0 && vb < 0) return std::nullopt;
+    if (va < 0) entering = std::max(entering, va / (va - vb));
+    if (vb < 0) leaving = std::min(leaving, va / (va - vb));
+  }
+  if (entering > leaving) return std::nullopt;
+  const std::array<ClipVertex<Real>, 2> part{between(a, b, entering), between(a, b, leaving)};
+  if (!(part[0].position.w > 0 && part[1].position.w > 0)) return std::nullopt;
+  return part;
+}
 
 template <class Real>
 std::vector<ClipVertex<Real>> clip_triangle(const std::vector<ClipVertex<Real>>& triangle,
                                             clipping::Volume volume) {
-  const bool inside = std::all_of(triangle.begin(), triangle.end(), [&](const auto& corner) {
-    for (int k = 0; k < clipping::boundary_count; ++k)
-      if (!(clipping::boundary_value(k, corner.position, volume) >= 0)) return false;
-    return corner.position.w > 0;
-  });
-  if (inside) return triangle;
+  if (std::all_of(triangle.begin(), triangle.end(),
+                  [&](const auto& corner) { return is_inside(corner, volume); }))
+    return triangle;
   const auto is_nowhere = [](const ClipVertex<Real>& c) {
     return c.position.x == 0 && c.position.y == 0 && c.position.z == 0 && c.position.w == 0;
   };
@@ -61,6 +99,9 @@ bool is_stretched(const Camera& camera, const PipelineOptions& options) {
 #define FATHOM_INSTANTIATE(Real)                                                             \
   template std::vector<ClipVertex<Real>> clip_triangle(const std::vector<ClipVertex<Real>>&, \
                                                        clipping::Volume);                    \
+  template std::optional<std::array<ClipVertex<Real>, 2>> clip_line(                         \
+      const ClipVertex<Real>&, const ClipVertex<Real>&, clipping::Volume);                   \
+  template bool is_inside(const ClipVertex<Real>&, clipping::Volume);                        \
   template NdcVertex<Real> divide(const ClipVertex<Real>&);                                  \
   template WindowVertex<Real> Viewport::operator()(const NdcVertex<Real>&) const;
 FATHOM_INSTANTIATE(float)

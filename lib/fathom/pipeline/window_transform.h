@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -29,6 +30,16 @@ struct WindowVertex {
 template <class Real>
 std::vector<ClipVertex<Real>> clip_triangle(const std::vector<ClipVertex<Real>>& triangle,
                                             clipping::Volume volume);
+
+/// The part of a line in the view volume, as its two ends with w > 0: Liang and Barsky's parameters
+/// over the six boundaries.
+template <class Real>
+std::optional<std::array<ClipVertex<Real>, 2>> clip_line(const ClipVertex<Real>& a,
+                                                         const ClipVertex<Real>& b,
+                                                         clipping::Volume volume);
+
+template <class Real>
+bool is_inside(const ClipVertex<Real>& corner, clipping::Volume volume);
 
 /// Division stage: x, y, z over w. w ≠ 0.
 template <class Real>

@@ -19,12 +19,34 @@ struct WindowTriangle {
   Real depth_offset = 0;  ///< polygon offset, added to the window depth of its fragments
 };
 
+/// An edge of a triangle, or a part of one.
+template <class Real>
+struct WindowLine {
+  std::uint32_t number = 0;
+  std::array<WindowVertex<Real>, 2> ends;
+};
+
+/// A corner of a triangle.
+template <class Real>
+struct WindowPoint {
+  std::uint32_t number = 0;
+  WindowVertex<Real> place;
+};
+
+/// What reaches scan conversion. Lines and points are there where the options draw them, of the
+/// triangles that are not culled; they are clipped as lines and points.
+template <class Real>
+struct WindowPrimitives {
+  std::vector<WindowTriangle<Real>> triangles;
+  std::vector<WindowLine<Real>> lines;
+  std::vector<WindowPoint<Real>> points;
+};
+
 /// The stages up to the window: transform, clip, divide, cull, viewport, in that order. Parts of a
 /// clipped triangle follow one another.
 template <class Real>
-std::vector<WindowTriangle<Real>> to_window(const Scene& scene, const Camera& camera,
-                                            const PipelineOptions& options,
-                                            PipelineStatistics& statistics);
+WindowPrimitives<Real> to_window(const Scene& scene, const Camera& camera,
+                                 const PipelineOptions& options, PipelineStatistics& statistics);
 
 /// The corners on the subpixel grid.
 template <class Real>

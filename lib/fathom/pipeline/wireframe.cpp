@@ -9,10 +9,10 @@ namespace fathom::pipeline {
 namespace {
 
 template <class Real>
-class EdgeDrawer {
+class OutlineDrawer {
  public:
-  EdgeDrawer(const RasterizerSettings& settings, FrameBuffer& target,
-             PipelineStatistics& statistics)
+  OutlineDrawer(const RasterizerSettings& settings, FrameBuffer& target,
+                PipelineStatistics& statistics)
       : s_(settings), test_(settings.options), target_(target), count_(statistics) {}
 
   void draw(std::uint32_t number, const WindowVertex<Real>& a, const WindowVertex<Real>& b) {
@@ -34,6 +34,13 @@ class EdgeDrawer {
     }
   }
 
+  void draw(std::uint32_t number, const WindowVertex<Real>& place) {
+    a_ = b_ = &place, number_ = number;
+    const Pixel p{column(place.x), column(place.y)};
+    const PixelWindow& w = s_.window;
+    if (p.x >= w.x_begin && p.x < w.x_end && p.y >= w.y_begin && p.y < w.y_end) put(p);
+  }
+
  private:
   static std::int64_t column(Real x) { return floor_of(x); }
 
@@ -49,20 +56,17 @@ class EdgeDrawer {
     Fragment fragment;
     fragment.window_z = std::clamp(static_cast<double>(a_->z + t * (b_->z - a_->z)), 0.0, 1.0);
     const Real inverse_w = a_->inverse_w + t * (b_->inverse_w - a_->inverse_w);
-    const auto over_w = [&](const WindowVertex<Real>& v) {
-      return v.attributes[attribute::depth] * v.inverse_w;
+    const auto at = [&](std::size_t i) {
+      const Real a = a_->attributes[i] * a_->inverse_w, b = b_->attributes[i] * b_->inverse_w;
+      return static_cast<double>((a + t * (b - a)) / inverse_w);
     };
-    fragment.depth =
-        static_cast<double>((over_w(*a_) + t * (over_w(*b_) - over_w(*a_))) / inverse_w);
+    fragment.depth = at(attribute::depth);
     const StoredDepth stored = test_.stored(fragment);
     const StoredSample& there = target_.at(p, 0);
     if (there.id != no_surface && !test_.is_nearer(stored, there.stored)) return;
     ++count_.depth_passed;
-    const auto& a = a_->attributes;
-    target_.replace(
-        p, 0, number_, stored, fragment.depth,
-        {static_cast<double>(a[attribute::colour]), static_cast<double>(a[attribute::colour + 1]),
-         static_cast<double>(a[attribute::colour + 2])});
+    target_.replace(p, 0, number_, stored, fragment.depth,
+                    {at(attribute::colour), at(attribute::colour + 1), at(attribute::colour + 2)});
   }
 
   const RasterizerSettings& s_;
@@ -76,18 +80,26 @@ class EdgeDrawer {
 }  // namespace
 
 template <class Real>
-void rasterize_edges(const std::vector<WindowTriangle<Real>>& triangles,
-                     const RasterizerSettings& settings, FrameBuffer& target,
-                     PipelineStatistics& statistics) {
-  EdgeDrawer<Real> drawer(settings, target, statistics);
-  for (const WindowTriangle<Real>& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k) drawer.draw(t.number, t.corners[k], t.corners[(k + 1) % 3]);
+void rasterize_lines(const std::vector<WindowLine<Real>>& lines, const RasterizerSettings& settings,
+                     FrameBuffer& target, PipelineStatistics& statistics) {
+  OutlineDrawer<Real> drawer(settings, target, statistics);
+  for (const WindowLine<Real>& line : lines) drawer.draw(line.number, line.ends[0], line.ends[1]);
+}
+
+template <class Real>
+void rasterize_points(const std::vector<WindowPoint<Real>>& points,
+                      const RasterizerSettings& settings, FrameBuffer& target,
+                      PipelineStatistics& statistics) {
+  OutlineDrawer<Real> drawer(settings, target, statistics);
+  for (const WindowPoint<Real>& point : points) drawer.draw(point.number, point.place);
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
-#define FATHOM_INSTANTIATE(Real)                                          \
-  template void rasterize_edges(const std::vector<WindowTriangle<Real>>&, \
-                                const RasterizerSettings&, FrameBuffer&, PipelineStatistics&);
+#define FATHOM_INSTANTIATE(Real)                                                                   \
+  template void rasterize_lines(const std::vector<WindowLine<Real>>&, const RasterizerSettings&,   \
+                                FrameBuffer&, PipelineStatistics&);                                \
+  template void rasterize_points(const std::vector<WindowPoint<Real>>&, const RasterizerSettings&, \
+                                 FrameBuffer&, PipelineStatistics&);
 FATHOM_INSTANTIATE(float)
 FATHOM_INSTANTIATE(double)
 #undef FATHOM_INSTANTIATE
