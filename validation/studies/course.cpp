@@ -140,7 +140,8 @@ std::string aligned(const std::vector<std::string>& rows) {
   std::string text;
   for (const std::string& row : rows) {
     std::istringstream words(row);
-    for (std::string word; words >> word;) text += fmt::format(word >= "A" ? "{} " : "{:<5}", word);
+    for (std::string word; words >> word;)
+      text += word >= "A" ? word + " " : fmt::format("{:<5}", word);
     text += "\n";
   }
   return text;
@@ -175,8 +176,8 @@ void back_faces(Course& c) {
       "A closed ball of 32040 triangles. Three tests say which side of a triangle is seen: N·V in "
       "the world, the normal's z after the division, the determinant in the window. Culling is "
       "said to remove half of the faces: that is right from far away only. A ball of radius 1 "
-      "shows (1 − 1/d)/2 of itself to an eye at distance d. Where the tests disagree, a triangle "
-      "is seen so nearly edge on that rounding decides.");
+      "shows (1 − 1/d)/2 of itself to an eye at distance d. The tests can disagree only about a "
+      "triangle seen so nearly edge on that rounding decides.");
   std::vector<std::vector<std::string>> rows;
   for (const FacingCount& f : count_facings()) {
     const bool narrow = f.precision == pipeline::Precision::binary32;
@@ -200,11 +201,11 @@ void back_faces(Course& c) {
                rows);
   for (const auto& [name, front_face, culling, caption] :
        {std::tuple("box-ccw-back", pipeline::FrontFace::counter_clockwise, pipeline::Culling::back,
-                   "front is counter-clockwise, back culled: outer walls"),
+                   "back culled: outer walls"),
         std::tuple("box-ccw-front", pipeline::FrontFace::counter_clockwise,
                    pipeline::Culling::front, "front culled: the inner walls appear"),
         std::tuple("box-cw-back", pipeline::FrontFace::clockwise, pipeline::Culling::back,
-                   "front is clockwise, back culled: the inner walls again"),
+                   "front is clockwise, back culled: inner"),
         std::tuple("box-none", pipeline::FrontFace::counter_clockwise, pipeline::Culling::none,
                    "nothing culled")})
     c.show(name, open_box(front_face, culling), 1, caption);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/pipeline/subpixel_grid.h"
@@ -81,17 +82,18 @@ RgbImage open_box(pipeline::FrontFace front_face, pipeline::Culling culling) {
     const double x1 = std::cos(a) * x + std::sin(a) * z, z1 = std::cos(a) * z - std::sin(a) * x;
     v.push_back({x1, std::cos(b) * y - std::sin(b) * z1, std::sin(b) * y + std::cos(b) * z1 + 5});
   }
-  // y grows down: the lid, y = −0.7, is left out. Counter-clockwise from outside.
-  const Scene scene = scene_of(v, {{2, 3, 7},
-                                   {2, 7, 6},
-                                   {0, 1, 3},
-                                   {0, 3, 2},
-                                   {4, 6, 7},
-                                   {4, 7, 5},
-                                   {0, 2, 6},
-                                   {0, 6, 4},
-                                   {1, 5, 7},
-                                   {1, 7, 3}});
+  // y grows down: the lid, y = −0.7, is left out. Clockwise from outside, then turned.
+  Scene scene = scene_of(v, {{2, 3, 7},
+                             {2, 7, 6},
+                             {0, 1, 3},
+                             {0, 3, 2},
+                             {4, 6, 7},
+                             {4, 7, 5},
+                             {0, 2, 6},
+                             {0, 6, 4},
+                             {1, 5, 7},
+                             {1, 7, 3}});
+  for (CornerIndices& t : scene.meshes[0].triangles) std::swap(t[1], t[2]);
   PipelineOptions options;
   options.front_face = front_face;
   options.culling = culling;
@@ -105,8 +107,8 @@ SharedEdges count_shared_edges(int bits) {
   constexpr int cells = 16, pixels = 12, looks = 16;  // looks² samples a pixel
   constexpr double cell = 0.75;                       // of a pixel
   std::mt19937_64 random(2026);
-  // Below half a cell, so that no triangle is turned over before it is snapped.
-  std::uniform_real_distribution<double> move(-0.49 * cell, 0.49 * cell);
+  // (q − p) × (r − p) ≥ (1 − 2s)² − (2s)² = 1 − 4s cells > 0: none is turned over unsnapped.
+  std::uniform_real_distribution<double> move(-0.2499 * cell, 0.2499 * cell);
   std::vector<GridPoint> corners;
   for (int y = 0; y <= cells; ++y) {
     for (int x = 0; x <= cells; ++x) {
