@@ -174,19 +174,6 @@ TEST(SceneStudies, CoverageBySamplesConvergesToTheArea) {
   EXPECT_GT(rms("regular:2"), rms("regular:4"));
   EXPECT_GT(rms("regular:4"), rms("regular:8"));
   EXPECT_GT(rms("regular:8"), rms("regular:16"));
-  const auto mean = [&](const std::string& name) {
-    for (const auto& row : summary["methods"]) {
-      if (row["method"] == name) return row["mean"].get<double>();
-    }
-    return 0.0;
-  };
-  EXPECT_EQ(mean("area"), 0);
-  EXPECT_GT(mean("none"), 1.5 * mean("msaa 4"));
-  EXPECT_GT(mean("msaa 4"), mean("msaa 8"));
-  EXPECT_GT(mean("msaa 8"), mean("msaa 16"));
-  EXPECT_GT(mean("ssaa 2x2"), mean("ssaa 4x4"));
-  EXPECT_GT(mean("none"), mean("fxaa"));
-  EXPECT_GT(summary["texture_changed_by_fxaa"], 0.05);
   for (const auto& edge : summary["edges"]) {
     EXPECT_GE(edge["exact"].get<int>(), 64);  // at least one pixel a column
     EXPECT_EQ(edge["seen"][0], 0);            // one sample sees no part
