@@ -145,7 +145,7 @@ TEST(CertifiedFormat, AtBoundariesItIsRightOrSilent) {
 template <class T>
 void expect_encloses(const Certified<T>& computed, const Real& x, double worst,
                      const std::string& what) {
-  const WordPair value(computed.value);
+  const WordPair value = words_of(computed.value);
   const Ratio sum = Ratio(Dyadic(value.hi)) + Ratio(Dyadic(value.lo));
   const Enclosure around = x.enclose(300);
   const Ratio error = Dyadic(computed.error);

@@ -139,14 +139,6 @@ double steps_of(Storage storage) {
   return power_of_two(bits_of(storage)) - 1;
 }
 
-WordPair words_of(double x) {
-  return {x, 0};
-}
-
-WordPair words_of(const WordPair& x) {
-  return x;
-}
-
 template <class T>
 std::optional<StoredDepth> rounded_to_storage(Storage storage, const Certified<T>& x) {
   if (!is_unorm(storage)) {

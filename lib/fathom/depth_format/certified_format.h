@@ -11,6 +11,14 @@
 /// double-words; logarithms have the second only (numeric/certified_logarithm.h).
 namespace fathom {
 
+/// A value of either width as a pair of words.
+inline WordPair words_of(double x) {
+  return {x, 0};
+}
+inline WordPair words_of(const WordPair& x) {
+  return x;
+}
+
 class CertifiedFormat {
  public:
   /// Needs    a meaningful format.
