@@ -85,6 +85,11 @@ RenderOptions render_options(const RenderArguments& arguments, MapFormat format)
     throw UsageError(fmt::format("{} holds one channel, not '{}'; .exr holds them all",
                                  arguments.output, arguments.channels));
   }
+  const Channel first = options.channels.front();
+  if (format == MapFormat::png && (first == Channel::A || first == Channel::Zlow)) {
+    throw UsageError(fmt::format("{}: a PNG holds depths or numbers, not {}; there is .exr",
+                                 arguments.output, arguments.channels));
+  }
   return options;
 }
 

@@ -51,6 +51,11 @@ std::vector<Usage> wrong_usages() {
        "the pipeline gives Z, id, face and object"},
       {"PipelineImage", render({"--engine", "pipeline", "--image", "a.jpg"}), ".png"},
       {"EngineUnknown", render({"--engine", "warp"}), "there are fast, reference and pipeline"},
+      {"AreaForPng",
+       {"render", "square.obj", "-o", "map.png", "--channels", "A"},
+       "a PNG holds depths or numbers, not A"},
+      {"VerifyNothing", render({"--verify", ""}), "--verify: the value is empty"},
+      {"ChannelsNone", render({"--channels", ""}), "--channels: the value is empty"},
       {"ChannelUnknown", render({"--channels", "depth"}), "there are Z"},
       {"ChannelTwice", render({"--channels", "Z,Z"}), "twice"},
       {"DeepForPfm", {"render", "square.obj", "-o", "map.pfm", "--deep"}, "--deep is for .exr"},
@@ -167,8 +172,12 @@ TEST(Help, OfEveryCommandShowsAnExample) {
 
 TEST(Help, OfTheProgramNamesEveryCommand) {
   const std::string help = run_fathom({"--help"}).out;
-  for (const char* name : {"render", "probe", "info", "preview", "compare", "convert", "camera"}) {
+  for (const char* name : {"render", "probe", "info", "preview", "compare", "convert", "camera",
+                           "clip", "scan", "pipeline", "visible", "coplanar", "depth", "study"}) {
     EXPECT_THAT(help, HasSubstr(std::string("\n  ") + name));
+  }
+  for (const char* companion : {"bench", "validate"}) {
+    EXPECT_THAT(help, HasSubstr(std::string("'scripts/fathom ") + companion + "'"));
   }
 }
 
