@@ -8,6 +8,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/window_transform.h"
 #include "fathom/render.h"
+#include "known_files.h"
 #include "numbers.h"
 #include "output_file.h"
 #include "program.h"
@@ -95,6 +96,7 @@ int run_pipeline_render(const RenderArguments& arguments, const Console& console
                                  arguments.output, arguments.channels));
   const pipeline::PipelineOptions options = arguments.pipeline.get(arguments.cull);
   arguments.camera.check();
+  if (options.texture != "checker") note_input(options.texture);
   const bool with_picture = !arguments.pipeline.image.empty();
   if (with_picture) expect_png("--image", arguments.pipeline.image);
 

@@ -98,6 +98,18 @@ TEST(PipelineCommand, TexturesThatCannotBeUsed) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"broken.png"});
 }
 
+TEST(PipelineCommand, TextureIsNotOverwritten) {
+  const TestFolder folder;
+  const std::vector<std::string> picture{"--image", "own.png", "-o", "a.exr"};
+  ASSERT_EQ(render(folder, picture).status, 0);
+  const std::string before = folder.read("own.png");
+  const Outcome outcome =
+      render(folder, {"--texture", "own.png", "--image", "own.png", "-o", "b.exr"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("own.png: is an input of this command"));
+  EXPECT_EQ(folder.read("own.png"), before);
+}
+
 TEST(PipelineCommand, TraceInTextAndJson) {
   const std::vector<std::string> arguments{"pipeline", "trace", cube,      "--triangle", "3",
                                            "--size",   "64x48", "--pixel", "32,24"};
