@@ -127,7 +127,9 @@ TEST(DepthBuffer, BothEnginesHoldWhatTheSpecificationSays) {
     fighting += exact.statistics.fighting;
   }
   // Among the few cases that are run under sanitizers there need not be one.
-  if (testing::effort == 1) EXPECT_GT(fighting, 50U);
+  if (testing::effort == 1) {
+    EXPECT_GT(fighting, 50U);
+  }
 }
 
 /// Numbers for which no bound was derived.
