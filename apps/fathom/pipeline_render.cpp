@@ -74,12 +74,11 @@ void expect_possible(const RenderArguments& a, MapFormat format) {
 void warn_of(const pipeline::PipelineStatistics& s, const Console& console) {
   if (s.triangles == 0) console.warn("the scene has no triangle: the map is background");
   if (s.not_finite > 0)
-    console.warn(
-        fmt::format("{} of {} triangles have a corner that is no number after the transform",
-                    s.not_finite, s.triangles));
+    console.warn(fmt::format("{} of {} triangles: a corner is no number after the transform",
+                             s.not_finite, s.triangles));
   if (s.turned_by_snapping > 0)
-    console.warn(fmt::format("{} triangles turned over or lost their area by snapping",
-                             s.turned_by_snapping));
+    console.warn(fmt::format("{} of {} triangles: turned over or without area by snapping",
+                             s.turned_by_snapping, s.triangles));
 }
 
 }  // namespace

@@ -36,9 +36,11 @@ pipeline::LineEnds pixel_ends_of(const Json& object) {
 template <class State, class Draw, class Describe>
 Json draw(const Json& object, const Form& form, const Draw& draw_line, const Describe& describe) {
   const pipeline::LineEnds ends = pixel_ends_of(object);
+  const PixelWindow window = window_of(object);
+  if (window.is_unlimited()) PixelList::check_count(pipeline::LineAxes(ends).d_major + 1);
   PixelList pixels(form.runs);
   Json steps = Json::array();
-  draw_line(ends, window_of(object), [&](const Pixel& pixel, const State& state) {
+  draw_line(ends, window, [&](const Pixel& pixel, const State& state) {
     pixels.add(pixel);
     if (form.numbers.trace) {
       Json step{{"pixel", {pixel.x, pixel.y}}};

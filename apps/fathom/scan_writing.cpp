@@ -9,11 +9,12 @@ constexpr std::int64_t most_pixels = std::int64_t{1} << 24;
 
 }  // namespace
 
-void PixelList::count(std::int64_t pixels) {
-  total_ += pixels;
-  if (total_ > most_pixels)
+void PixelList::check_count(std::int64_t pixels) {
+  if (pixels > most_pixels)
     throw InputError("more than 16777216 pixels; \"width\" and \"height\" limit them");
 }
+
+void PixelList::count(std::int64_t pixels) { check_count(total_ += pixels); }
 
 void PixelList::add(const pipeline::Pixel& p) {
   count(1);

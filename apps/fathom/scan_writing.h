@@ -9,6 +9,8 @@ class PixelList {
  public:
   explicit PixelList(bool runs) : runs_(runs) {}
 
+  /// Refuses a list that will have too many pixels before any is made.
+  static void check_count(std::int64_t pixels);
   void add(const pipeline::Pixel& pixel);
   void add(const pipeline::Span& span);
   void add_values(Json values) { values_.push_back(std::move(values)); }

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "fathom/numeric/errors.h"
@@ -32,7 +34,7 @@ Scene pair(MeshPoint a, MeshPoint b, MeshPoint c, MeshPoint d, MeshPoint e, Mesh
 std::vector<Case> cases() {
   return {
       {"z-disjoint", "depths do not overlap: the farther first",
-       pair({-1, -1, 4}, {1, -1, 4}, {0, 1, 4}, {-0.8, -0.9, 6}, {1.2, -0.9, 6}, {0.2, 1, 6})},
+       pair({-1, -1, 4}, {1, -1, 4}, {0, 1, 4}, {-1.8, -0.9, 6}, {2.2, -0.9, 6}, {0.2, 2, 6})},
       {"nearer-zmin", "depths overlap; the one with the nearer corner is in front",
        pair({-1, -1, 4}, {1, -1, 5}, {0, 1, 5}, {-1, -0.6, 4.5}, {1, -0.6, 6}, {0, 1.2, 6})},
       {"farther-zmin", "depths overlap; the one with the farthest corner is in front",
@@ -78,7 +80,10 @@ PipelineOptions precise() {
 }
 
 Result compare(const Case& c, std::vector<StudyFile>& files) {
-  const Camera camera = front_camera(160, 160, 1, 20);
+  Camera camera = front_camera(160, 160, 1, 20);
+  // No edge runs through a sample, where snapping would decide.
+  camera.cx += 0.1234567;
+  camera.cy += 0.7654321;
   Result result{c.name};
   const auto exact = exact_ids(c.scene, camera);
   for (const std::uint32_t id : exact) result.seen += id != no_surface;
@@ -102,25 +107,28 @@ struct Cost {
   std::uint64_t comparisons, splits;
 };
 
-double milliseconds(const std::chrono::steady_clock::time_point& start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
+/// The least time of a few frames, and the last of them.
+std::pair<double, PipelineFrame> timed_frame(const Scene& scene, const Camera& camera,
+                                             const PipelineOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  std::pair<double, PipelineFrame> result{std::numeric_limits<double>::infinity(), {}};
+  for (int frame = 0; frame < 5; ++frame) {
+    const Clock::time_point start = Clock::now();
+    result.second = render_frame(scene, camera, options, false);
+    const std::chrono::duration<double, std::milli> time = Clock::now() - start;
+    result.first = std::min(result.first, time.count());
+  }
+  return result;
 }
 
 Cost cost_of(std::uint32_t count) {
   const Camera camera = front_camera(320, 240, 1, 20);
   const Scene scene = random_triangles(count, 9);
   PipelineOptions options = precise();
-  auto start = std::chrono::steady_clock::now();
-  (void)render_frame(scene, camera, options, false);
-  Cost cost{count, milliseconds(start), 0, 0, 0};
+  const double buffer_ms = timed_frame(scene, camera, options).first;
   options.hidden_surface = HiddenSurface::painter;
-  start = std::chrono::steady_clock::now();
-  const PipelineFrame frame = render_frame(scene, camera, options, false);
-  cost.painter_ms = milliseconds(start);
-  cost.comparisons = frame.painter.comparisons;
-  cost.splits = frame.painter.splits;
-  return cost;
+  const auto [painter_ms, frame] = timed_frame(scene, camera, options);
+  return {count, buffer_ms, painter_ms, frame.painter.comparisons, frame.painter.splits};
 }
 
 StudyFile page_of(const std::vector<Case>& scenes, const std::vector<Result>& results,
@@ -128,8 +136,9 @@ StudyFile page_of(const std::vector<Case>& scenes, const std::vector<Result>& re
   Page page("Hidden surfaces");
   page.paragraph(
       "The z-buffer keeps the nearest depth at every pixel; the painter's algorithm paints what is "
-      "far first. Both are held against the exact visible triangle, pixel by pixel (16 subpixel "
-      "bits, so that snapping hides nothing). Tests are those of Newell, Newell and Sancha: boxes "
+      "far first. Both are held against the exact visible triangle, pixel by pixel, where "
+      "snapping has no say (16 subpixel bits, no edge through a sample). Tests are those of "
+      "Newell, Newell and Sancha: boxes "
       "disjoint in x or y, P behind the plane of Q, Q before the plane of P, projections "
       "disjoint.");
   std::vector<std::vector<std::string>> rows;
@@ -144,7 +153,9 @@ StudyFile page_of(const std::vector<Case>& scenes, const std::vector<Result>& re
               "splits"},
              rows);
   page.heading("What it costs");
-  page.plot("cost", "Time against the number of triangles, 320 by 240 pixels, this machine");
+  page.plot("cost",
+            "Time against the number of triangles, 320 by 240 pixels, this machine, the least of "
+            "five frames");
   rows.clear();
   for (const Cost& c : costs)
     rows.push_back({fmt::format("{}", c.triangles), fmt::format("{:.2f}", c.buffer_ms),

@@ -65,7 +65,7 @@ Scene cyclic_overlap() {
     const double angle = k * 2 * std::numbers::pi / 3, c = std::cos(angle), s = std::sin(angle);
     const auto first = static_cast<std::uint32_t>(v.size());
     for (const auto& [x, y, z] :
-         {std::array{-1.2, -0.6, 4.5}, std::array{1.2, -0.45, 3.5}, std::array{1.2, -0.15, 3.5}})
+         {std::array{-1.6, -0.6, 4.7}, std::array{1.0, -0.75, 3.5}, std::array{1.0, 0.05, 3.5}})
       v.push_back({c * x - s * y, s * x + c * y, z});
     t.push_back({first, first + 1, first + 2});
   }

@@ -65,6 +65,7 @@ ImageCell::ImageCell(std::uint32_t column, std::uint32_t row, std::uint32_t widt
                                            {-1.0, 0.0, static_cast<double>(width)},
                                            {0.0, -1.0, static_cast<double>(height)}}};
   std::vector<const HalfPlane*> edges;
+  edges.reserve(sides.size());
   for (const ExactVector3& side : sides) edges.push_back(&half_planes_.emplace_back(side));
   const double left = column, top = row;
   all_.emplace(CellPart{ConvexPolygon(std::move(edges)), left, top, left + width, top + height});

@@ -30,7 +30,9 @@ struct PixelWindow {
   [[nodiscard]] bool contains(const Pixel& p) const {
     return x_begin <= p.x && p.x < x_end && y_begin <= p.y && p.y < y_end;
   }
+  [[nodiscard]] bool is_unlimited() const { return *this == PixelWindow{}; }
   [[nodiscard]] bool is_empty() const { return x_begin >= x_end || y_begin >= y_end; }
+  friend bool operator==(const PixelWindow&, const PixelWindow&) = default;
 };
 
 /// The part of a span that is asked for; x_begin ≥ x_end where there is none.

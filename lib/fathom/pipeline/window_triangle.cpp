@@ -46,6 +46,7 @@ class GeometryStages {
     const bool whole = polygon.size() == 3 && same_place(polygon, corners);
     if (!whole) ++count_.clipped;
     std::vector<WindowVertex<Real>> window;
+    window.reserve(polygon.size());
     for (const ClipVertex<Real>& corner : polygon) window.push_back(viewport_(divide(corner)));
     if (whole) compare_facings(corners, window);
     bool culled = false, degenerate = true;
