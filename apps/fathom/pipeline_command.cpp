@@ -134,7 +134,7 @@ void add_pipeline(Program& program) {
                       "X,Y: also what becomes of the sample at this pixel's centre");
   command->add_flag("--json", arguments->json, "Answer in JSON");
   add_cull_option(*command, arguments->cull);
-  arguments->pipeline.add_to(*command);
+  arguments->pipeline.add_stages_to(*command);
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return run_trace(*arguments, program.console); };
   });

@@ -86,11 +86,16 @@ std::string value_of(const CLI::Option* option) {
 
 void PipelineArguments::add(CLI::App& command, const char* name, std::string& value,
                             const char* description) {
-  options_.push_back(command.add_option(name, value, description)->group("With --engine pipeline"));
+  options_.push_back(command.add_option(name, value, description)->group(group_));
 }
 
 void PipelineArguments::add_to(CLI::App& command) {
+  group_ = "With --engine pipeline";
   add(command, "--image", image, "Write the colour picture to this PNG");
+  add_stages_to(command);
+}
+
+void PipelineArguments::add_stages_to(CLI::App& command) {
   add(command, "--background", background_, "R,G,B from 0 to 1 (default 0,0,0)");
   add(command, "--shading", shading_, "none, points, wireframe, flat (default), gouraud or phong");
   add(command, "--texture", texture_, "checker, or a PNG file");
@@ -115,7 +120,7 @@ void PipelineArguments::add_to(CLI::App& command) {
   add(command, "--polygon-offset", polygon_offset_, "FACTOR,UNITS (default 0,0)");
   add(command, "--opacity", opacity_, "Of --blend: 0 to 1 (default 0.5)");
   const auto flag = [&](const char* name, bool& value, const char* description) {
-    options_.push_back(command.add_flag(name, value, description)->group("With --engine pipeline"));
+    options_.push_back(command.add_flag(name, value, description)->group(group_));
   };
   flag("--blend", blend_, "Blend every fragment over the picture, in the order of the triangles");
   flag("--no-blocks", no_blocks_, "Test every sample; the picture does not change");

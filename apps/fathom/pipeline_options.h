@@ -8,11 +8,14 @@
 
 namespace fathom::app {
 
-/// The options of `--engine pipeline`.
+/// The options of `--engine pipeline` and of looking into it.
 class PipelineArguments {
  public:
-  /// Adds `--depth-format --mapping --c` too where the command does not have them yet.
+  /// For a command that draws: `--image` and the options of the stages.
   void add_to(CLI::App& command);
+
+  /// Adds `--depth-format --mapping --c` too where the command does not have them yet.
+  void add_stages_to(CLI::App& command);
 
   /// The picture; empty where it is not asked for.
   std::string image;
@@ -27,6 +30,7 @@ class PipelineArguments {
   [[nodiscard]] DepthFormat depth_format() const;
   void add(CLI::App& command, const char* name, std::string& value, const char* description);
 
+  std::string group_ = "Pipeline";
   std::string background_ = "0,0,0", shading_ = "flat", texture_, filter_ = "trilinear",
               interpolation_ = "perspective", line_ = "bresenham", scan_ = "edge-function",
               hidden_surface_ = "z-buffer", antialias_ = "none", subpixel_bits_ = "8",

@@ -101,10 +101,10 @@ int run_pipeline_render(const RenderArguments& arguments, const Console& console
 
   const Scene scene = arguments.scene.read(console, true, with_picture);
   const std::vector<Camera> cameras = arguments.camera.get(scene);
-  const auto names = map_names(arguments.output, cameras.size());
+  const auto names = map_names("-o", arguments.output, cameras.size());
   std::vector<OutputFile> maps(names.begin(), names.end()), pictures, notes;
   if (with_picture)
-    for (const auto& name : map_names(arguments.pipeline.image, cameras.size()))
+    for (const auto& name : map_names("--image", arguments.pipeline.image, cameras.size()))
       pictures.emplace_back(name);
   const auto write_note = [&](const std::string& name, const std::string& text) {
     if (name.empty() || name == "-") return;

@@ -6,13 +6,14 @@
 
 namespace fathom::app {
 
-std::vector<std::string> map_names(const std::string& pattern, std::size_t cameras) {
+std::vector<std::string> map_names(const char* option, const std::string& pattern,
+                                   std::size_t cameras) {
   const bool has_index = pattern.find("{index") != std::string::npos;
   if (!has_index) {
     if (cameras == 1) return {pattern};
     throw UsageError(fmt::format(
-        "the camera file is a path of {} cameras: -o needs a pattern such as maps/{{index:04}}.exr",
-        cameras));
+        "the camera file is a path of {} cameras: {} needs a pattern such as maps/{{index:04}}",
+        cameras, option));
   }
   std::vector<std::string> names;
   try {
@@ -20,7 +21,7 @@ std::vector<std::string> map_names(const std::string& pattern, std::size_t camer
       names.push_back(fmt::format(fmt::runtime(pattern), fmt::arg("index", i)));
     }
   } catch (const fmt::format_error& error) {
-    throw UsageError(fmt::format("-o: '{}' is not a pattern like maps/{{index:04}}.exr: {}",
+    throw UsageError(fmt::format("{}: '{}' is not a pattern like maps/{{index:04}}: {}", option,
                                  pattern, error.what()));
   }
   return names;

@@ -23,7 +23,8 @@ struct RenderArguments {
   bool stream = false, deep = false, cryptomatte = false;
 };
 
-/// The names of the maps: of a camera path, a pattern with {index} filled in.
-std::vector<std::string> map_names(const std::string& pattern, std::size_t cameras);
+/// The names of the maps: of a camera path, the option's pattern with {index} filled in.
+std::vector<std::string> map_names(const char* option, const std::string& pattern,
+                                   std::size_t cameras);
 
 }  // namespace fathom::app

@@ -264,7 +264,7 @@ int run_render(RenderArguments& arguments, const Console& console) {
   const Input scene(arguments, console);
   const double seconds_reading = stopwatch.lap();
   const std::vector<Camera> cameras = arguments.camera.get(scene.outline());
-  const std::vector<std::string> names = map_names(arguments.output, cameras.size());
+  const std::vector<std::string> names = map_names("-o", arguments.output, cameras.size());
   for (const Camera& camera : cameras) {
     const double more = arguments.depth_buffer.channels() + (arguments.samples.empty() ? 0 : 1);
     check_size(camera, options, more);

@@ -14,7 +14,9 @@ void PixelList::check_count(std::int64_t pixels) {
     throw InputError("more than 16777216 pixels; \"width\" and \"height\" limit them");
 }
 
-void PixelList::count(std::int64_t pixels) { check_count(total_ += pixels); }
+void PixelList::count(std::int64_t pixels) {
+  check_count(total_ += pixels);
+}
 
 void PixelList::add(const pipeline::Pixel& p) {
   count(1);
