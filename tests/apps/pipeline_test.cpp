@@ -110,6 +110,22 @@ TEST(PipelineCommand, TextureIsNotOverwritten) {
   EXPECT_EQ(folder.read("own.png"), before);
 }
 
+TEST(PipelineCommand, APathOfCamerasNeedsAPatternForEachFile) {
+  const TestFolder folder;
+  ASSERT_EQ(run_fathom({"camera", "orbit", cube, "--views", "2", "-o", "path.json"},
+                       {.folder = folder.path()})
+                .status,
+            0);
+  const auto drawn = [&](const std::string& picture, const std::string& map) {
+    return run_fathom({"render", cube, "--engine", "pipeline", "--camera", "path.json", "--image",
+                       picture, "-o", map},
+                      {.folder = folder.path()});
+  };
+  EXPECT_THAT(drawn("{index}.png", "a.exr").err, HasSubstr("-o needs a pattern"));
+  EXPECT_THAT(drawn("a.png", "{index}.exr").err, HasSubstr("--image needs a pattern"));
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"path.json"});
+}
+
 TEST(PipelineCommand, TraceInTextAndJson) {
   const std::vector<std::string> arguments{"pipeline", "trace", cube,      "--triangle", "3",
                                            "--size",   "64x48", "--pixel", "32,24"};

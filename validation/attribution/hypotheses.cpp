@@ -110,8 +110,9 @@ Hypothesis mirrored(const OtherMap& other, const RendererModel& model, bool x, b
 
 /// Length of the viewing ray per unit of depth.
 double ray_length(const Camera& camera, std::size_t pixel) {
-  const double u = static_cast<double>(pixel % camera.width) + 0.5;
-  const double v = static_cast<double>(pixel / camera.width) + 0.5;
+  const std::size_t column = pixel % camera.width, row = pixel / camera.width;
+  const double u = static_cast<double>(column) + 0.5;
+  const double v = static_cast<double>(row) + 0.5;
   const double y = (v - camera.cy - (0.5 - camera.pixel_centre)) / camera.fy;
   const double x = (u - camera.cx - (0.5 - camera.pixel_centre) - camera.skew * y) / camera.fx;
   return std::sqrt(1 + x * x + y * y);

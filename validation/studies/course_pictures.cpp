@@ -20,7 +20,6 @@ using pipeline::Exact;
 using pipeline::PipelineFrame;
 using pipeline::PipelineOptions;
 using pipeline::Pixel;
-using pipeline::PixelWindow;
 
 PipelineOptions precise() {
   PipelineOptions options;

@@ -179,6 +179,7 @@ std::vector<StudyFile> study_hidden_surface(const StudyOptions& options,
   std::vector<StudyFile> files;
   std::vector<Result> results;
   const std::vector<Case> scenes = cases();
+  results.reserve(scenes.size());
   for (const Case& c : scenes) results.push_back(compare(c, files));
   tick(0.5);
   std::vector<Cost> costs;

@@ -150,6 +150,7 @@ StudyFile page_of(const std::vector<Drift>& drifts, const std::vector<Cost>& cos
   page.plot("drift", "The farthest that the unrounded coordinate gets from the exact line");
   page.plot("wrong", "Pixels that are not the nearest");
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(drifts.size());
   for (const Drift& d : drifts)
     rows.push_back({d.algorithm, fmt::format("{}", d.length), fmt::format("{}", d.pixels),
                     fmt::format("{}", d.wrong), fmt::format("{}", d.wrong_at_ties),

@@ -54,7 +54,13 @@ std::optional<std::vector<ImageForm>> covered_region(const ProjectedTriangle& t,
 std::optional<SurfaceRegion> surface_region(const ProjectedTriangle& t, const Camera& camera) {
   auto region = covered_region(t, camera);
   if (!region) return std::nullopt;
-  return SurfaceRegion{t.number, std::move(*region), t.depth_numerator, t.weight};
+  SurfaceRegion surface{t.number, std::move(*region), t.depth_numerator, t.weight, {}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    auto [U, V, W] = to_image(camera, t.camera[i]);
+    const std::array<Interval, 3> enclosure{enclose(U), enclose(V), enclose(W)};
+    surface.corners[i] = {{std::move(U), std::move(V), std::move(W)}, enclosure};
+  }
+  return surface;
 }
 
 ImageCell::ImageCell(std::uint32_t column, std::uint32_t row, std::uint32_t width,

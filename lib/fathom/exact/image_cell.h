@@ -22,11 +22,19 @@ namespace fathom {
 std::optional<std::vector<ImageForm>> covered_region(const ProjectedTriangle& t,
                                                      const Camera& camera);
 
+/// The homogeneous image point of a corner, exactly, and an enclosure of it.
+struct SurfaceCorner {
+  ExactVector3 point;
+  std::array<Interval, 3> enclosure;
+};
+
 /// A triangle as areas on the image need it: where it is seen, and D = depth_numerator / weight.
 struct SurfaceRegion {
   std::uint32_t number = 0;
+  /// That of covered_region(); first the edge functions, each positive at the corner of its number.
   std::vector<ImageForm> region;
   ImageForm depth_numerator, weight;
+  std::array<SurfaceCorner, 3> corners;
 };
 std::optional<SurfaceRegion> surface_region(const ProjectedTriangle& t, const Camera& camera);
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fathom/exact/cell_division.h"
+#include "fathom/exact/disjoint_surfaces.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom {
@@ -23,30 +24,6 @@ ExactVector3 product(const ImageForm& a, const ImageForm& b) {
   const Dyadic& factor = a_is_constant ? a.coefficients()[2] : b.coefficients()[2];
   const auto& l = a_is_constant ? b.coefficients() : a.coefficients();
   return {factor * l[0], factor * l[1], factor * l[2]};
-}
-
-bool may_be_opposite(const Interval& a, const Interval& b) {
-  return a.lower <= -b.lower && -b.upper <= a.upper;
-}
-
-bool are_opposite(const ImageForm& a, const ImageForm& b) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (!may_be_opposite(a.enclosures()[k], b.enclosures()[k])) return false;
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (!(a.coefficients()[k] == -b.coefficients()[k])) return false;
-  }
-  return true;
-}
-
-/// Whether both lie on the two sides of an edge, as neighbours in a mesh do. False does not tell.
-bool lie_beside_an_edge(const SurfaceRegion& s, const SurfaceRegion& t) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (are_opposite(s.region[i], t.region[k])) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace
@@ -80,7 +57,7 @@ bool CellVisibility::add(const SurfaceRegion& surface) {
 
 bool CellVisibility::add_if_it_hides(const SurfaceRegion& surface, std::size_t piece) {
   if (quick_order(depths_of(surface), pieces_[piece].depths) == Order::behind) return false;
-  if (lie_beside_an_edge(surface, *pieces_[piece].surface)) return false;
+  if (are_disjoint(surface, *pieces_[piece].surface)) return false;
   if (!add(surface)) return false;
   if (hidden_part(pieces_[piece].polygon, piece, size() - 1)) return true;
   pieces_.pop_back();

@@ -113,6 +113,20 @@ Interval ImageForm::enclose_at(double u, double v) const {
   return {value.inf(), value.sup()};
 }
 
+Interval ImageForm::enclose_at(const std::array<Interval, 3>& box) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const bool is_near = std::all_of(box.begin(), box.end(), [](const Interval& x) {
+    return is_below(x, greatest_sample_coordinate);
+  });
+  if (!filterable_ || !is_near) return {-infinity, infinity};
+  const Rounding upwards;
+  FilterNumber value = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    value += filter_number(enclosures_[k]) * filter_number(box[k]);
+  }
+  return {value.inf(), value.sup()};
+}
+
 Sign ImageForm::sign_at(double u, double v, TierCounts& counts) const {
   std::optional<Sign> sign;
   if (may_filter(filterable_, u, v)) {

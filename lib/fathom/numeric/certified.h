@@ -53,6 +53,8 @@ class ImageForm {
   [[nodiscard]] Dyadic at(double u, double v) const;
   /// An interval that contains the value at (u, v).
   [[nodiscard]] Interval enclose_at(double u, double v) const;
+  /// An interval that contains l_u·U + l_v·V + l_w·W for every point (U, V, W) of a box.
+  [[nodiscard]] Interval enclose_at(const std::array<Interval, 3>& box) const;
   /// The sign of the value at (u, v).
   [[nodiscard]] Sign sign_at(double u, double v, TierCounts& counts) const;
 
