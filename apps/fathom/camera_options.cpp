@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
 #include "known_files.h"
@@ -53,6 +55,15 @@ Lens CameraOptions::lens() const {
   if (!near_.empty()) lens.near = parse_number("--near", near_);
   if (!far_.empty()) lens.far = parse_number("--far", far_);
   return lens;
+}
+
+Camera CameraOptions::get_one(const Scene& scene, const char* command) const {
+  std::vector<Camera> cameras = get(scene);
+  if (cameras.size() != 1) {
+    throw UsageError(fmt::format("--camera: a path of {} cameras; {} looks through one",
+                                 cameras.size(), command));
+  }
+  return std::move(cameras.front());
 }
 
 std::vector<Camera> CameraOptions::get(const Scene& scene) const {

@@ -28,6 +28,8 @@ class CameraOptions {
   [[nodiscard]] bool from_file() const { return !file_.empty(); }
   /// Fails with InputError where the scene has no triangle to frame.
   [[nodiscard]] std::vector<Camera> get(const Scene& scene) const;
+  /// For a command that takes no path of cameras. Fails with UsageError where there is one.
+  [[nodiscard]] Camera get_one(const Scene& scene, const char* command) const;
   /// The options' own faults, before any work.
   void check() const {
     (void)lens();

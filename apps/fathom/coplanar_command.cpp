@@ -77,16 +77,12 @@ int run_coplanar(const CoplanarArguments& arguments, const Console& console) {
   options.threads = arguments.scene.thread_count();
   arguments.camera.check();
   const Scene scene = arguments.scene.read(console, false);
-  const std::vector<Camera> cameras = arguments.camera.get(scene);
-  if (cameras.size() != 1) {
-    throw UsageError(
-        fmt::format("--camera: a path of {} cameras; coplanar looks through one", cameras.size()));
-  }
+  const Camera camera = arguments.camera.get_one(scene, "coplanar");
   std::vector<CoplanarPair> pairs;
   {
     Progress progress(console, "comparing");
     options.progress = progress.reporter();
-    pairs = coplanar_pairs(scene, cameras[0], within, options);
+    pairs = coplanar_pairs(scene, camera, within, options);
   }
   print(arguments.json ? as_json(scene, pairs, within) : as_text(scene, pairs, within));
   return done;

@@ -103,14 +103,11 @@ int run_trace(const TraceArguments& arguments, const Console& console) {
   }
   arguments.camera.check();
   const Scene scene = arguments.scene.read(console, false, true);
-  const std::vector<Camera> cameras = arguments.camera.get(scene);
-  if (cameras.size() != 1)
-    throw UsageError(
-        fmt::format("--camera: a path of {} cameras; trace looks through one", cameras.size()));
-  if (pixel && (pixel->x >= cameras[0].width || pixel->y >= cameras[0].height))
+  const Camera camera = arguments.camera.get_one(scene, "trace");
+  if (pixel && (pixel->x >= camera.width || pixel->y >= camera.height))
     throw UsageError(fmt::format("--pixel: {},{} is outside the image of {}x{} pixels", pixel->x,
-                                 pixel->y, cameras[0].width, cameras[0].height));
-  const TriangleTrace trace = pipeline::trace_triangle(scene, cameras[0], options, number, pixel);
+                                 pixel->y, camera.width, camera.height));
+  const TriangleTrace trace = pipeline::trace_triangle(scene, camera, options, number, pixel);
   print(arguments.json ? as_json(trace).dump(2) + "\n" : as_text(trace));
   return done;
 }

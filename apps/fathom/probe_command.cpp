@@ -168,12 +168,7 @@ int run_probe(const ProbeArguments& arguments, const Console& console) {
   const Cull cull = cull_named(arguments.cull);
   arguments.camera.check();
   const Scene scene = arguments.scene.read(console, false);
-  const std::vector<Camera> cameras = arguments.camera.get(scene);
-  if (cameras.size() != 1) {
-    throw UsageError(
-        fmt::format("--camera: a path of {} cameras; probe looks through one", cameras.size()));
-  }
-  const Camera& camera = cameras[0];
+  const Camera camera = arguments.camera.get_one(scene, "probe");
   if (x >= camera.width || y >= camera.height) {
     throw UsageError(fmt::format("--pixel: {},{} is outside the image of {}x{} pixels", x, y,
                                  camera.width, camera.height));

@@ -118,18 +118,14 @@ int run_visible(const VisibleArguments& arguments, const Console& console) {
   options.threads = arguments.scene.thread_count();
   arguments.camera.check();
   const Scene scene = arguments.scene.read(console, false);
-  const std::vector<Camera> cameras = arguments.camera.get(scene);
-  if (cameras.size() != 1) {
-    throw UsageError(
-        fmt::format("--camera: a path of {} cameras; visible looks through one", cameras.size()));
-  }
+  const Camera camera = arguments.camera.get_one(scene, "visible");
   VisibleAreas areas;
   {
     Progress progress(console, "measuring");
     options.progress = progress.reporter();
-    areas = visible_areas(scene, cameras[0], options);
+    areas = visible_areas(scene, camera, options);
   }
-  const Answer answer{scene, cameras[0], areas};
+  const Answer answer{scene, camera, areas};
   write_text(arguments.output, arguments.json  ? as_json(answer)
                                : arguments.csv ? as_csv(answer)
                                                : as_text(answer));

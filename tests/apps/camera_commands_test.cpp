@@ -186,5 +186,18 @@ TEST_F(CameraCommands, ImportRefusesDistortion) {
   EXPECT_EQ(outcome.out, "");
 }
 
+TEST_F(CameraCommands, WhatLooksThroughOneCameraRefusesAPath) {
+  const std::string cube = FATHOM_SOURCE_DIR "/data/meshes/cube.obj";
+  fathom({"camera", "orbit", cube, "--views", "3", "-o", "path.json"});
+  const std::vector<std::vector<std::string>> commands{
+      {"probe", "--pixel", "1,1"}, {"coplanar"}, {"visible"}, {"pipeline", "trace"}};
+  for (std::vector<std::string> command : commands) {
+    command.insert(command.end(), {cube, "--camera", "path.json"});
+    const Outcome outcome = run_fathom(command, {.folder = folder_.path()});
+    EXPECT_EQ(outcome.status, 2) << command[0];
+    EXPECT_THAT(outcome.err, HasSubstr("a path of 3 cameras")) << command[0];
+  }
+}
+
 }  // namespace
 }  // namespace fathom::test
