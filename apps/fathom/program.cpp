@@ -14,7 +14,7 @@ void add_common(CLI::App& command, Console& console, const std::string& examples
   command.footer("Examples:\n" + examples);
 }
 
-/// What options take, as the help shows it.
+/// What options take, as the help shows it: "COMMAND OPTION" comes before "OPTION".
 const std::map<std::string, std::string> value_names{{"--background", "R,G,B"},
                                                      {"--baseline", "B"},
                                                      {"--c", "C"},
@@ -57,7 +57,9 @@ const std::map<std::string, std::string> value_names{{"--background", "R,G,B"},
                                                      {"--view", "AZ,EL"},
                                                      {"--viewport", "X,Y,W,H"},
                                                      {"--views", "N"},
-                                                     {"--within", "D"}};
+                                                     {"--within", "D"},
+                                                     {"-o", "MAP"},
+                                                     {"validate --baseline", "REPORT"}};
 
 /// An empty value is mostly a variable of a script that is not set: it would pass for the default.
 std::string complaint_of_nothing(const std::string& value) {
@@ -68,7 +70,8 @@ void name_values_of(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     if (option->get_expected_max() == 0) continue;
     option->check(complaint_of_nothing);
-    const auto name = value_names.find(option->get_name());
+    auto name = value_names.find(command.get_name() + " " + option->get_name());
+    if (name == value_names.end()) name = value_names.find(option->get_name());
     option->type_name(name != value_names.end()            ? name->second
                       : option->get_lnames().empty()       ? ""
                       : option->get_name() == "--channels" ? "LIST"
