@@ -4,8 +4,11 @@
 #include <EGL/eglext.h>
 
 #include <array>
+#include <cstdlib>
+#include <string_view>
 
 #include "fathom/numeric/errors.h"
+#include "validation/opengl/virtual_display.h"
 
 namespace fathom::validation {
 namespace {
@@ -15,19 +18,16 @@ namespace {
                    " failed; the packages libegl1 and libgl1-mesa-dri provide it");
 }
 
-void* surfaceless_display() {
+void* platform_display(EGLenum platform) {
   const auto get_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
       eglGetProcAddress("eglGetPlatformDisplayEXT"));
   if (get_display == nullptr) fail("finding eglGetPlatformDisplayEXT");
-  void* const display = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  void* const display = get_display(platform, EGL_DEFAULT_DISPLAY, nullptr);
   if (display == EGL_NO_DISPLAY) fail("eglGetPlatformDisplayEXT");
-  if (eglInitialize(display, nullptr, nullptr) == EGL_FALSE) fail("eglInitialize");
   return display;
 }
 
-/// A compatible context where there is one, as VTK's own windows make it.
-void* make_context(void* display) {
-  if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) fail("eglBindAPI");
+EGLConfig chosen_config(void* display) {
   const std::array<EGLint, 5> wanted{EGL_SURFACE_TYPE,
                                      EGL_PBUFFER_BIT,  // not the default, a window
                                      EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
@@ -36,22 +36,78 @@ void* make_context(void* display) {
   if (eglChooseConfig(display, wanted.data(), &config, 1, &count) == EGL_FALSE || count < 1) {
     fail("eglChooseConfig");
   }
-  void* const context = eglCreateContext(display, config, EGL_NO_CONTEXT, nullptr);
-  if (context == EGL_NO_CONTEXT) fail("eglCreateContext");
-  return context;
+  return config;
+}
+
+bool is_xvfb_demanded() {
+  const char* const value = std::getenv("FATHOM_OPENGL_DISPLAY");
+  return value != nullptr && std::string_view(value) == "xvfb";
+}
+
+/// Whether some driver draws on X displays at all.
+bool has_x_platform() {
+  const char* const extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  return extensions != nullptr &&
+         std::string_view(extensions).find("platform_x11") != std::string_view::npos;
 }
 
 }  // namespace
 
-EglContext::EglContext() : display_(surfaceless_display()) {
-  context_ = make_context(display_);
-  make_current();
+EglContext::EglContext() {
+  std::string failure;
+  try {
+    if (is_xvfb_demanded()) fail("an Xvfb, which FATHOM_OPENGL_DISPLAY demands,");
+    open(EGL_PLATFORM_SURFACELESS_MESA);
+    return;
+  } catch (const InputError& error) {
+    failure = error.what();
+  }
+  if (!has_x_platform()) throw InputError(failure);
+  try {
+    virtual_display_ = std::make_unique<VirtualDisplay>();
+    open(EGL_PLATFORM_X11_EXT);
+  } catch (const InputError&) {
+    throw InputError(failure);  // what a display would have made unnecessary
+  }
 }
 
 EglContext::~EglContext() {
-  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  eglDestroyContext(display_, context_);
-  eglTerminate(display_);
+  close();
+}
+
+/// Opens display and context and makes them current, or leaves nothing open.
+void EglContext::open(unsigned platform) {
+  display_ = platform_display(platform);
+  try {
+    if (eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) fail("eglInitialize");
+    if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) fail("eglBindAPI");
+    EGLConfig const config = chosen_config(display_);
+    // A compatible context where there is one, as VTK's own windows make it.
+    context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, nullptr);
+    if (context_ == EGL_NO_CONTEXT) fail("eglCreateContext");
+    if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE) return;
+    // Not without a surface: one that is never drawn on.
+    const std::array<EGLint, 5> size{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
+    surface_ = eglCreatePbufferSurface(display_, config, size.data());
+    make_current();
+  } catch (const InputError&) {
+    close();
+    throw;
+  }
+}
+
+void EglContext::close() {
+  if (context_ != nullptr) {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (surface_ != nullptr) eglDestroySurface(display_, surface_);
+    eglDestroyContext(display_, context_);
+  }
+  if (display_ != nullptr) eglTerminate(display_);
+  display_ = context_ = surface_ = nullptr;
+}
+
+std::string EglContext::way() const {
+  return virtual_display_ ? ", on Xvfb" : "";
 }
 
 std::string EglContext::description() const {
@@ -62,7 +118,7 @@ std::string EglContext::description() const {
     const unsigned char* value = get_string != nullptr ? get_string(name) : nullptr;
     return value != nullptr ? reinterpret_cast<const char*>(value) : "unknown";
   };
-  return text(0x1F01) + ", " + text(0x1F02);
+  return text(0x1F01) + ", " + text(0x1F02) + way();
 }
 
 bool EglContext::is_current() const {
@@ -70,9 +126,7 @@ bool EglContext::is_current() const {
 }
 
 void EglContext::make_current() const {
-  if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
-    fail("eglMakeCurrent");
-  }
+  if (eglMakeCurrent(display_, surface_, surface_, context_) == EGL_FALSE) fail("eglMakeCurrent");
 }
 
 }  // namespace fathom::validation

@@ -1,13 +1,19 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 namespace fathom::validation {
 
-/// An OpenGL context without a window, a display or a surface (EGL_MESA_platform_surfaceless): what
-/// is drawn goes to framebuffer objects. Current on the thread that made it until it is destroyed.
+class VirtualDisplay;
+
+/// An OpenGL context without a window or a screen: what is drawn goes to framebuffer objects.
+/// Without any display (EGL_MESA_platform_surfaceless) where the driver can, else on an Xvfb of its
+/// own. Current on the thread that made it until it is destroyed.
 ///
 /// Environment  Mesa's software renderer reads LP_NUM_THREADS when the context is made.
+///              FATHOM_OPENGL_DISPLAY=xvfb: on an Xvfb in any case.
+/// Needs        a process that has started no threads, for Xvfb.
 /// Fails        InputError: one line that says which step failed and what to install.
 class EglContext {
  public:
@@ -16,14 +22,22 @@ class EglContext {
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
 
-  /// GL_RENDERER and GL_VERSION, "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 …" for instance.
+  /// GL_RENDERER and GL_VERSION, "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 …" for instance, and
+  /// way().
   [[nodiscard]] std::string description() const;
+  /// ", on Xvfb" or nothing.
+  [[nodiscard]] std::string way() const;
   [[nodiscard]] bool is_current() const;
   void make_current() const;
 
  private:
+  void open(unsigned platform);
+  void close();
+
+  std::unique_ptr<VirtualDisplay> virtual_display_;  // outlives the rest
   void* display_ = nullptr;
   void* context_ = nullptr;
+  void* surface_ = nullptr;
 };
 
 }  // namespace fathom::validation

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+
+namespace fathom::validation {
+
+/// An X display of one's own with nothing to look at: Xvfb, started here. While this lives, DISPLAY
+/// names it. It ends with this object, and with the thread that made this, however that ends.
+///
+/// Needs  a process that has started no threads.
+class VirtualDisplay {
+ public:
+  /// Fails    InputError where Xvfb is not installed or does not start.
+  VirtualDisplay();
+  ~VirtualDisplay();
+  VirtualDisplay(const VirtualDisplay&) = delete;
+  VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+
+ private:
+  pid_t server_ = -1;
+  std::string before_;  ///< what DISPLAY was
+};
+
+}  // namespace fathom::validation
