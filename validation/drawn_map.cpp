@@ -78,7 +78,7 @@ void each_part(Pass& pass, Drawn& drawn) {
   pass(map.depths);
   pass(map.windows);
   pass(map.triangles);
-  auto& [name, kind, shift, scale, sample, sample_error, subpixel_bits, mapping, storage,
+  auto& [name, kind, shift, scale, sample, sample_error, subpixel_bits, mapping, storage, written,
          premultiplied, matrix, depth_before_snap, border, decoded, bias, bias_error, roundings,
          tilt, from_point, watertight, first, affine] = model;
   pass(name);
@@ -90,6 +90,7 @@ void each_part(Pass& pass, Drawn& drawn) {
   pass(subpixel_bits);
   pass(mapping);
   pass(storage);
+  pass(written);
   pass(premultiplied);
   pass(matrix);
   pass(depth_before_snap);

@@ -31,22 +31,28 @@ Matrix4 eye_from_world(const Camera& camera) {
           -z[0], -z[1], -z[2], -z[3], 0,     0,     0,     1};
 }
 
-Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range) {
+Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range, ClipDepth depth) {
   const double w = camera.width, h = camera.height;
   const double cx = camera.cx + (0.5 - camera.pixel_centre);
   const double cy = camera.cy + (0.5 - camera.pixel_centre);
   const double length = range.far - range.near, sum = range.far + range.near;
+  const bool reversed = depth == ClipDepth::one_to_zero;
+  // The row of z: of the eye's z, and constant.
+  const double z_orthographic = (reversed ? 1 : -2) / length;
+  const double one_orthographic = (reversed ? range.far : -sum) / length;
+  const double z_perspective = (reversed ? range.near : -sum) / length;
+  const double one_perspective = (reversed ? 1 : -2) * range.far * range.near / length;
   const double xx = 2 * camera.fx / w, xy = -2 * camera.skew / w, yy = 2 * camera.fy / h;
   // clang-format off
   if (camera.projection == Projection::orthographic) {
-    return {xx, xy, 0,           2 * cx / w - 1,
-            0,  yy, 0,           1 - 2 * cy / h,
-            0,  0,  -2 / length, -sum / length,
-            0,  0,  0,           1};
+    return {xx, xy, 0,              2 * cx / w - 1,
+            0,  yy, 0,              1 - 2 * cy / h,
+            0,  0,  z_orthographic, one_orthographic,
+            0,  0,  0,              1};
   }
   return {xx, xy, 1 - 2 * cx / w, 0,
           0,  yy, 2 * cy / h - 1, 0,
-          0,  0,  -sum / length,  -2 * range.far * range.near / length,
+          0,  0,  z_perspective,  one_perspective,
           0,  0,  -1,             0};
   // clang-format on
 }

@@ -24,8 +24,13 @@ ClipRange clip_range(const WorldMesh& mesh, const Camera& camera);
 /// Exact: signs only are changed.
 Matrix4 eye_from_world(const Camera& camera);
 
+/// Where near and far go: z = −w and z = w, as OpenGL has it, or z = w and z = 0, which needs
+/// glClipControl.
+enum class ClipDepth { minus_one_to_one, one_to_zero };
+
 /// Rounded to binary64, entry by entry: the image point (u, v) goes to x = 2u/width − 1,
 /// y = 1 − 2v/height.
-Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range);
+Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range,
+                      ClipDepth depth = ClipDepth::minus_one_to_one);
 
 }  // namespace fathom::validation

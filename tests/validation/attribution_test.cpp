@@ -34,8 +34,10 @@ Scene sphere_and_sheets() {
   return bench::as_scene({bench::sphere(800), sheet}, "sphere");
 }
 
-RendererModel model_of(Storage storage, Mapping mapping = Mapping::opengl) {
+RendererModel model_of(Storage storage, Mapping mapping = Mapping::opengl,
+                       std::optional<Mapping> written = {}) {
   RendererModel model{.name = "test", .mapping = mapping, .storage = storage};
+  if (written) model.written = written_depth(Projection::perspective, *written, 0.5, 20);
   model.depth_before_snap = true;
   model.first_of_equals = true;
   model.matrix = clip_from_held(sphere_camera(), model);
@@ -46,6 +48,8 @@ struct Case {
   std::string name;
   Storage storage;
   Mapping mapping;
+  /// By a fragment shader, in place of the interpolated depth.
+  std::optional<Mapping> written{};
 };
 
 void PrintTo(const Case& c, std::ostream* stream) {
@@ -60,7 +64,7 @@ class Faults : public testing::TestWithParam<Case> {
   }
   const Scene scene = sphere_and_sheets();
   const Truth truth = make_truth(scene, sphere_camera());
-  const RendererModel model = model_of(GetParam().storage, GetParam().mapping);
+  const RendererModel model = model_of(GetParam().storage, GetParam().mapping, GetParam().written);
 };
 
 void expect_named(const Attribution& found, const std::string& kind) {
@@ -106,31 +110,57 @@ TEST_P(Faults, TiesTheOtherWay) {
   expect_named(judged({.last_of_equals = true}), "ties");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Faults,
-                         testing::Values(Case{"Unorm16", Storage::unorm16, Mapping::opengl},
-                                         Case{"Unorm24", Storage::unorm24, Mapping::opengl},
-                                         Case{"Float32", Storage::float32, Mapping::opengl},
-                                         Case{"Reversed", Storage::float32, Mapping::reversed}),
-                         [](const auto& c) { return c.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    All, Faults,
+    testing::Values(Case{"Unorm16", Storage::unorm16, Mapping::opengl},
+                    Case{"Unorm24", Storage::unorm24, Mapping::opengl},
+                    Case{"Float32", Storage::float32, Mapping::opengl},
+                    Case{"Reversed", Storage::float32, Mapping::reversed},
+                    Case{"ReversedByShader", Storage::float32, Mapping::opengl, Mapping::reversed},
+                    Case{"Logarithmic24", Storage::unorm24, Mapping::opengl, Mapping::log_ulrich},
+                    Case{"Logarithmic32", Storage::float32, Mapping::opengl, Mapping::log_ulrich}),
+    [](const auto& c) { return c.param.name; });
 
-class Bias : public testing::TestWithParam<Storage> {};
+/// One code of the storage; but of 24 bits made by a logarithm as many as the error that the
+/// shading language allows to log2 may be worth: 6u·|log2 t|/log2(far/near), up to 6 codes.
+struct BiasCase {
+  Storage storage;
+  std::optional<Mapping> written;
+  int codes = 1;
+};
+
+void PrintTo(const BiasCase& c, std::ostream* stream) {
+  *stream << name_of(c.storage) << (c.written ? " logarithmic" : "");
+}
+
+class Bias : public testing::TestWithParam<BiasCase> {};
 
 TEST_P(Bias, OfOneCode) {
   const Truth truth = make_truth(sphere_and_sheets(), sphere_camera());
-  const RendererModel model = model_of(GetParam());
-  for (const int codes : {-1, 1}) {
+  const RendererModel model = model_of(GetParam().storage, Mapping::opengl, GetParam().written);
+  for (const int codes : {-GetParam().codes, GetParam().codes}) {
     const Attribution found = attribute_and_name(
         truth, draw_in_binary32(truth.mesh, truth.camera, model, {.bias_codes = codes}), model);
     ASSERT_EQ(found.findings.size(), 1U)
         << found.bias_steps << " ± " << found.bias_deviation << " in " << found.bias_triangles;
     EXPECT_EQ(found.findings[0].kind, "bias");
+    EXPECT_EQ(std::signbit(found.bias_steps), codes < 0);
     // Roundings that do not cancel are worth a fifth of a code here; three quarters are named.
-    EXPECT_NEAR(found.bias_steps, codes, 0.25);
+    if (GetParam().codes == 1) {
+      EXPECT_NEAR(found.bias_steps, codes, 0.25);
+    }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Bias, testing::Values(Storage::unorm16, Storage::unorm24),
-                         [](const auto& c) { return std::string(name_of(c.param)); });
+INSTANTIATE_TEST_SUITE_P(All, Bias,
+                         testing::Values(BiasCase{Storage::unorm16, {}},
+                                         BiasCase{Storage::unorm24, {}},
+                                         BiasCase{Storage::unorm16, Mapping::log_ulrich},
+                                         BiasCase{Storage::unorm24, Mapping::log_ulrich, 6}),
+                         [](const auto& c) {
+                           return std::string(name_of(c.param.storage)) +
+                                  (c.param.written ? "Logarithmic" : "");
+                         });
 
 /// What was done to the depths afterwards.
 struct Distorted {
@@ -174,6 +204,12 @@ INSTANTIATE_TEST_SUITE_P(
                               }},
                     Distorted{"NotDecoded", "decoding",
                               [](double d, double) { return (20 / 19.5) * (1 - 0.5 / d); }},
+                    Distorted{"LogarithmNotDecoded", "decoding",
+                              [](double d, double) { return std::log(d / 0.5) / std::log(40); }},
+                    Distorted{"WrongNearAndFarOfALogarithm", "decoding",
+                              [](double d, double) {  // decoded with near 1, far 10
+                                return std::pow(10, std::log(d / 0.5) / std::log(40));
+                              }},
                     Distorted{"Millimetres", "scale", [](double d, double) { return 1000 * d; }}),
     [](const auto& d) { return d.param.name; });
 

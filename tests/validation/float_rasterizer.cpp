@@ -15,7 +15,7 @@ using validation::WindowDepth;
 using validation::WorldMesh;
 
 struct Corner {
-  float x, y, z;
+  float x, y, z, q;  // q: 1/w, of which a fragment shader makes its own depth (perspective)
   std::int64_t snapped_x, snapped_y;  // in 2⁻⁸ pixel
 };
 
@@ -33,7 +33,13 @@ Corner corner_of(const std::array<double, 3>& p, const Camera& camera, const Ren
   const float y = half_height - half_height * (clip[1] * inverse);
   const float ndc = clip[2] * inverse;
   const float z = model.mapping == Mapping::opengl ? 0.5F * ndc + 0.5F : ndc;
-  return {x, y, z, std::llround(x * 256.0F), std::llround(y * 256.0F)};
+  return {x, y, z, inverse, std::llround(x * 256.0F), std::llround(y * 256.0F)};
+}
+
+/// What the fragment shader makes of q.
+float written(float q, const validation::WrittenDepth& shader) {
+  const float t = shader.term + shader.factor * q;
+  return shader.mapping == Mapping::log_ulrich ? shader.scale * std::log2(t) : t;
 }
 
 double in_storage(float z, const RendererModel& model, int bias_codes) {
@@ -68,6 +74,8 @@ bool covers(const std::array<Corner, 3>& t, std::int64_t x, std::int64_t y) {
 OtherMap draw_in_binary32(const WorldMesh& mesh, const Camera& camera, const RendererModel& model,
                           const Fault& fault) {
   const WindowDepth window =
+      validation::window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far);
+  const WindowDepth cut =
       validation::window_depth(camera.projection, model.mapping, camera.near, camera.far);
   const std::size_t count = std::size_t{camera.width} * camera.height;
   const double cleared = window.reversed() ? 0 : 1;
@@ -82,9 +90,10 @@ OtherMap draw_in_binary32(const WorldMesh& mesh, const Camera& camera, const Ren
     for (std::size_t i = 0; i < 3; ++i) {
       t[i] = corner_of(mesh.points[mesh.triangles[n][i]], camera, model);
     }
-    std::array<float, 3> values{t[0].z, t[1].z, t[2].z};
-    if (fault.affine) {
-      for (float& v : values) v = static_cast<float>(window.to_depth(v));
+    const bool of_q = model.written && model.written->of_w;
+    std::array<float, 3> values{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      values[i] = fault.affine ? static_cast<float>(cut.to_depth(t[i].z)) : of_q ? t[i].q : t[i].z;
     }
     const float bx = t[1].x - t[0].x, by = t[1].y - t[0].y, bz = values[1] - values[0];
     const float cx = t[2].x - t[0].x, cy = t[2].y - t[0].y, cz = values[2] - values[0];
@@ -103,7 +112,11 @@ OtherMap draw_in_binary32(const WorldMesh& mesh, const Camera& camera, const Ren
         const double x = column + 0.5 + fault.shift_x, y = row + 0.5 + fault.shift_y;
         if (!covers(t, std::llround(x * 256), std::llround(y * 256))) continue;
         float z = z0 + gx * static_cast<float>(x) + gy * static_cast<float>(y);
-        if (fault.affine) z = static_cast<float>(window.of_depth(z));
+        if (fault.affine) {
+          z = static_cast<float>(window.of_depth(z));
+        } else if (model.written) {
+          z = written(z, *model.written);
+        }
         const double stored = in_storage(z, model, fault.bias_codes);
         const std::size_t i = std::size_t{row} * camera.width + column;
         const bool nearer = window.reversed() ? stored > map.windows[i] : stored < map.windows[i];

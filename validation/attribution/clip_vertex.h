@@ -32,11 +32,12 @@ std::vector<ClipVertex> cut(const std::array<const ClipVertex*, 3>& triangle, bo
 /// Whether all corners lie beyond one border of the view volume, whatever their errors are.
 bool is_certainly_outside(const std::array<const ClipVertex*, 3>& triangle);
 
-/// A corner in window coordinates: x, y in pixels from the top left, z the window depth.
+/// A corner in window coordinates: x, y in pixels from the top left, z the window depth; q is what
+/// a fragment shader makes its own depth of, and `depth` what z means.
 struct WindowVertex {
-  double x = 0, y = 0, z = 0;
+  double x = 0, y = 0, z = 0, q = 0, depth = 0;
   /// Of the renderer's own before and after it is snapped, in either direction.
-  double error_x = 0, error_y = 0, error_z = 0, snapped_x = 0, snapped_y = 0;
+  double error_x = 0, error_y = 0, error_z = 0, error_q = 0, snapped_x = 0, snapped_y = 0;
   unsigned borders = 0;
 };
 

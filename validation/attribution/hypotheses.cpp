@@ -118,22 +118,39 @@ double ray_length(const Camera& camera, std::size_t pixel) {
   return std::sqrt(1 + x * x + y * y);
 }
 
+/// A number, as it is or made anew.
+enum class As { itself, inverse, logarithm };
+
+double as(As kind, double x) {
+  return kind == As::itself ? x : kind == As::inverse ? 1 / x : std::log(x);
+}
+double from(As kind, double x) {
+  return kind == As::logarithm ? std::exp(x) : as(kind, x);
+}
+
 /// A relation between what is stored and the depth: y(stored) = alpha·x(depth) + beta.
 struct Relation {
   const char *kind, *text;
-  bool inverse_stored, inverse_depth;
+  As stored, depth;
 };
 constexpr Relation relations[] = {
-    {"scale", "depths are scaled and offset: stored = {:.6g}·depth + {:.6g}", false, false},
+    {"scale", "depths are scaled and offset: stored = {:.6g}·depth + {:.6g}", As::itself,
+     As::itself},
     {"decoding",
-     "depths were decoded with the wrong near and far: 1/stored = {:.6g}/depth + {:.6g}", true,
-     true},
+     "depths were decoded with the wrong near and far: 1/stored = {:.6g}/depth + {:.6g}",
+     As::inverse, As::inverse},
     {"decoding",
-     "window depths (or disparities) that were not decoded: stored = {:.6g}/depth + {:.6g}", false,
-     true},
+     "window depths (or disparities) that were not decoded: stored = {:.6g}/depth + {:.6g}",
+     As::itself, As::inverse},
     {"decoding",
      "window depths decoded by the wrong projection's formula: 1/stored = {:.6g}·depth + {:.6g}",
-     true, false},
+     As::inverse, As::itself},
+    {"decoding",
+     "logarithmic depths were decoded with the wrong near and far: ln(stored) = {:.6g}·ln(depth) + "
+     "{:.6g}",
+     As::logarithm, As::logarithm},
+    {"decoding", "logarithmic depths that were not decoded: stored = {:.6g}·ln(depth) + {:.6g}",
+     As::itself, As::logarithm},
 };
 
 /// A finding whose values are only estimated: pixels agree where they do to a thousandth of the
@@ -147,8 +164,8 @@ std::optional<Finding> related(const Truth& truth, const OtherMap& other,
   for (std::size_t i = 0; i < truth.depths.size(); ++i) {
     if (!both_see(truth, other, i) || other.depths[i] == 0) continue;
     const double depth = truth.depths[i], stored = other.depths[i];
-    pairs.push_back({relation.inverse_depth ? 1 / depth : depth,
-                     relation.inverse_stored ? 1 / stored : stored, depth});
+    if (relation.stored == As::logarithm && !(stored > 0)) continue;
+    pairs.push_back({as(relation.depth, depth), as(relation.stored, stored), depth});
   }
   double limit = infinity, alpha = 1, beta = 0;
   for (int round = 0; round < 4; ++round) {
@@ -175,8 +192,7 @@ std::optional<Finding> related(const Truth& truth, const OtherMap& other,
   }
   std::uint64_t agreeing = 0;
   for (const Pair& p : pairs) {
-    const double x = (p.y - beta) / alpha;
-    const double depth = relation.inverse_depth ? 1 / x : x;
+    const double depth = from(relation.depth, (p.y - beta) / alpha);
     if (std::abs(depth - p.depth) <= 1e-4 * p.depth) ++agreeing;
   }
   if (static_cast<double>(agreeing) < 0.95 * static_cast<double>(pairs.size())) return std::nullopt;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "validation/attribution/clip_vertex.h"
+#include "validation/attribution/depth_plane.h"
 #include "validation/attribution/fragment_source.h"
 
 // docs/validation.md, "A rasterizer", derives what stands here, in the same order.
@@ -29,66 +29,16 @@ EdgeAt edge_at(const WindowVertex& a, const WindowVertex& b, double x, double y,
                            dby * std::abs(ax) + dax * dby + day * dbx)};
 }
 
-/// The window depth over a polygon, z = z_0 + g·(s − corner), and what bounds its errors.
-struct DepthPlane {
-  WindowVertex corner;
-  double g_x = 0, g_y = 0;
-  /// Of a value that is interpolated at a sample inside: corners displaced, plane evaluated.
-  double error = infinity;
-  double least = -infinity, greatest = infinity;  ///< over the corners
-  /// The plane could not be told: its corners may lie on a line.
-  bool is_known = false;
-  /// The plane of depths instead, for a renderer that interpolates those linearly.
-  double depth = 0, depth_x = 0, depth_y = 0;
-
-  [[nodiscard]] double at(double x, double y) const {
-    return corner.z + g_x * (x - corner.x) + g_y * (y - corner.y);
-  }
-  [[nodiscard]] double depth_at(double x, double y) const {
-    return depth + depth_x * (x - corner.x) + depth_y * (y - corner.y);
-  }
-};
-
 struct Polygon {
   std::vector<WindowVertex> corners;
-  DepthPlane plane;
+  /// Of the window depth; of what a fragment shader makes its own of, where it writes one.
+  DepthPlane plane, q;
+  /// The plane of depths instead, for a renderer that interpolates those linearly.
+  DepthPlane linear;
   bool turned = false;
   /// A corner may lie in the plane of the eye: nothing is known of where it is seen.
   bool anywhere = false;
 };
-
-double area_of(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
-  return (b.y - a.y) * (c.x - a.x) - (b.x - a.x) * (c.y - a.y);
-}
-
-/// Twice the area by which displaced corners can change that of a triangle.
-double area_error(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
-  const double dx = std::max({a.snapped_x, b.snapped_x, c.snapped_x});
-  const double dy = std::max({a.snapped_y, b.snapped_y, c.snapped_y});
-  const double width = std::max({a.x, b.x, c.x}) - std::min({a.x, b.x, c.x});
-  const double height = std::max({a.y, b.y, c.y}) - std::min({a.y, b.y, c.y});
-  return own_roundings * (4 * dx * height + 4 * dy * width + 8 * dx * dy);
-}
-
-/// A triangle of three corners of a polygon, as a renderer may split it.
-struct Part {
-  const WindowVertex *a, *b, *c;
-  [[nodiscard]] double area() const { return std::abs(area_of(*a, *b, *c)); }
-  [[nodiscard]] bool on_one_border() const { return (a->borders & b->borders & c->borders) != 0; }
-};
-
-std::vector<Part> parts_of(const std::vector<WindowVertex>& corners) {
-  std::vector<Part> parts;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    for (std::size_t j = i + 1; j < corners.size(); ++j) {
-      for (std::size_t k = j + 1; k < corners.size(); ++k) {
-        const Part part{&corners[i], &corners[j], &corners[k]};
-        if (!part.on_one_border()) parts.push_back(part);
-      }
-    }
-  }
-  return parts;
-}
 
 class RasterFragments final : public FragmentSource {
  public:
@@ -97,8 +47,9 @@ class RasterFragments final : public FragmentSource {
         camera_(camera),
         model_(model),
         window_(window_depth(camera.projection, model.mapping, camera.near, camera.far)),
+        stored_(window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far)),
         vertices_(clip_vertices(mesh, camera, model)),
-        sign_(window_.reversed() ? -1 : 1) {}
+        sign_(stored_.reversed() ? -1 : 1) {}
 
   [[nodiscard]] PixelBox box(std::uint32_t triangle) const override;
   void each(std::uint32_t triangle, const PixelBox& box, const TakeFragment& take) const override;
@@ -111,16 +62,19 @@ class RasterFragments final : public FragmentSource {
   [[nodiscard]] bool is_whole(std::uint32_t triangle) const;
   [[nodiscard]] std::optional<Polygon> polygon(std::uint32_t triangle, bool at_border) const;
   [[nodiscard]] std::vector<Polygon> polygons(std::uint32_t triangle) const;
-  void set_plane(Polygon& polygon) const;
-  [[nodiscard]] double plane_error(const DepthPlane& plane, const Part& part) const;
+  void set_planes(Polygon& polygon) const;
   [[nodiscard]] std::optional<Fragment> on(const Polygon& polygon, double x, double y) const;
+  [[nodiscard]] double error_of(const DepthPlane& plane) const;
+  [[nodiscard]] double expected(const Polygon& polygon, double x, double y) const;
+  [[nodiscard]] Interval around(double z, const Polygon& polygon, double x, double y) const;
+  [[nodiscard]] Coverage in_range(const Polygon& polygon, double x, double y) const;
   void set_value(Fragment& fragment, const Polygon& polygon, double x, double y) const;
   [[nodiscard]] double storage_error(double z) const;
 
   const WorldMesh& mesh_;
   Camera camera_;
   RendererModel model_;
-  WindowDepth window_;
+  WindowDepth window_, stored_;  ///< of what is interpolated, of what is stored
   std::vector<ClipVertex> vertices_;
   double sign_;
 };
@@ -145,7 +99,7 @@ std::optional<Polygon> RasterFragments::polygon(std::uint32_t triangle, bool at_
   }
   if (polygon.anywhere) return polygon;
   if (polygon.corners.size() < 3) return std::nullopt;
-  set_plane(polygon);
+  set_planes(polygon);
   double area = 0;
   for (std::size_t i = 1; i + 1 < polygon.corners.size(); ++i) {
     area += area_of(polygon.corners[0], polygon.corners[i], polygon.corners[i + 1]);
@@ -154,69 +108,15 @@ std::optional<Polygon> RasterFragments::polygon(std::uint32_t triangle, bool at_
   return polygon;
 }
 
-/// The plane through the largest part; the bound is the worst over all parts.
-void RasterFragments::set_plane(Polygon& polygon) const {
-  const std::vector<Part> parts = parts_of(polygon.corners);
-  DepthPlane& plane = polygon.plane;
-  plane.least = infinity;
-  plane.greatest = -infinity;
-  for (const WindowVertex& c : polygon.corners) {
-    plane.least = std::min(plane.least, c.z - c.error_z);
-    plane.greatest = std::max(plane.greatest, c.z + c.error_z);
-  }
-  const auto largest = std::max_element(
-      parts.begin(), parts.end(), [](const Part& p, const Part& q) { return p.area() < q.area(); });
-  if (largest == parts.end() || largest->area() == 0) return;
-  const auto& [a, b, c] = *largest;
-  const double area = area_of(*a, *b, *c);
-  const double bx = b->x - a->x, by = b->y - a->y, bz = b->z - a->z;
-  const double cx = c->x - a->x, cy = c->y - a->y, cz = c->z - a->z;
-  plane.corner = *a;
-  plane.g_x = (by * cz - cy * bz) / area;
-  plane.g_y = (cx * bz - bx * cz) / area;
-  plane.is_known = true;
-  plane.error = 0;
-  if (model_.affine) {
-    plane.depth = window_.to_depth(a->z);
-    const double bd = window_.to_depth(b->z) - plane.depth;
-    const double cd = window_.to_depth(c->z) - plane.depth;
-    plane.depth_x = (by * cd - cy * bd) / area;
-    plane.depth_y = (cx * bd - bx * cd) / area;
-  }
-  for (const Part& part : parts) plane.error = std::max(plane.error, plane_error(plane, part));
-}
-
-double RasterFragments::plane_error(const DepthPlane& plane, const Part& part) const {
-  const auto& [a, b, c] = part;
-  const double area = part.area(), uncertain = area_error(*a, *b, *c);
-  if (!(area > 2 * uncertain)) return infinity;
-  const double width = std::max({a->x, b->x, c->x}) - std::min({a->x, b->x, c->x});
-  const double height = std::max({a->y, b->y, c->y}) - std::min({a->y, b->y, c->y});
-  const double g_x = std::abs(plane.g_x), g_y = std::abs(plane.g_y);
-
-  // Corners displaced: Σ λ'ᵢ(z'ᵢ − zᵢ − g·αᵢ), λ' of a sample inside the snapped triangle.
-  double displaced = 0, depths = 0, offset_x = 0, offset_y = 0;
-  for (const WindowVertex* v : {a, b, c}) {
-    const double dx = model_.depth_before_snap ? v->error_x : v->snapped_x;
-    const double dy = model_.depth_before_snap ? v->error_y : v->snapped_y;
-    displaced = std::max(displaced, v->error_z + g_x * dx + g_y * dy);
-    depths = std::max(depths, std::abs(v->z));
-    offset_x = std::max(offset_x, std::abs(v->x));
-    offset_y = std::max(offset_y, std::abs(v->y));
-  }
-  const double outside = 2 * uncertain / (area - uncertain);  // how far λ' may be negative, in all
-  const double spread = 1 + 2 * outside;
-
-  // The plane evaluated in binary32: a gradient, quotients of products over an area; the value at
-  // the image's corner; the value at the sample.
-  const double z_range = std::abs(b->z - a->z) + std::abs(c->z - a->z) + 4 * displaced;
-  const double shape = width * height / (area - uncertain);
-  const double slope_x = g_x + 2 * displaced * height / (area - uncertain);
-  const double slope_y = g_y + 2 * displaced * width / (area - uncertain);
-  const double gradient =
-      8 * u * z_range * shape + (slope_x * width + slope_y * height) * (8 * shape + 4) * u;
-  const double evaluated = 8 * u * (depths + slope_x * offset_x + slope_y * offset_y);
-  return own_roundings * (spread * displaced + spread * gradient + evaluated);
+void RasterFragments::set_planes(Polygon& polygon) const {
+  const auto plane = [&](CornerValue value, CornerValue error) {
+    return depth_plane(polygon.corners, value, error, model_.depth_before_snap);
+  };
+  polygon.plane = plane(&WindowVertex::z, &WindowVertex::error_z);
+  if (model_.written) polygon.q = plane(&WindowVertex::q, &WindowVertex::error_q);
+  if (!model_.affine) return;
+  for (WindowVertex& c : polygon.corners) c.depth = window_.to_depth(c.z);
+  polygon.linear = plane(&WindowVertex::depth, &WindowVertex::error_z);
 }
 
 /// As a renderer may have cut it: one or two polygons, whatever its roundings are.
@@ -266,28 +166,61 @@ double RasterFragments::storage_error(double z) const {
   return error;  // what is interpolated is binary32 already
 }
 
+/// Of an interpolated value: the bound of its plane, and where the sample lies.
+double RasterFragments::error_of(const DepthPlane& plane) const {
+  return plane.error + model_.sample_error * (std::abs(plane.g_x) + std::abs(plane.g_y));
+}
+
+/// What is stored where nothing is rounded.
+double RasterFragments::expected(const Polygon& p, double x, double y) const {
+  if (model_.affine && p.plane.is_known) return stored_.of_depth(p.linear.at(x, y));
+  const DepthPlane& plane = model_.written ? p.q : p.plane;
+  const double value = plane.is_known ? plane.at(x, y) : plane.least;
+  return model_.written ? model_.written->value(value) + model_.bias : value;
+}
+
+/// All values about the expected one that may come before they are rounded to the storage.
+Interval RasterFragments::around(double z, const Polygon& p, double x, double y) const {
+  const double error = error_of(model_.written ? p.q : p.plane);
+  if (!std::isfinite(z) || !(error < infinity)) return {-infinity, infinity};
+  if (!model_.written) return {z - error, z + error};
+  const double q = p.q.at(x, y), middle = model_.written->value(q);
+  const Interval values = model_.written->values(q, error);
+  return {z - (middle - values.lower) - model_.bias_error,
+          z + (values.upper - middle) + model_.bias_error};
+}
+
+/// Whether the range of window depths cuts here, as they are interpolated.
+Coverage RasterFragments::in_range(const Polygon& p, double x, double y) const {
+  const double z = p.plane.at(x, y), error = error_of(p.plane);
+  if (!p.plane.is_known || !(error < infinity)) return Coverage::may;
+  if (z + error < 0 || z - error > 1) return Coverage::must_not;
+  return z - error < 0 || z + error > 1 ? Coverage::may : Coverage::must;
+}
+
 void RasterFragments::set_value(Fragment& f, const Polygon& p, double x, double y) const {
-  const DepthPlane& plane = p.plane;
-  double z = plane.is_known ? plane.at(x, y) : plane.least;
-  if (model_.affine && plane.is_known) z = window_.of_depth(plane.depth_at(x, y));
-  double error = plane.error + model_.sample_error * (std::abs(plane.g_x) + std::abs(plane.g_y));
-  if (!std::isfinite(z)) error = infinity;
-  error += storage_error(z);
-  double lower = z - error, upper = z + error;
-  if (!(error < infinity)) {
-    lower = 0;
-    upper = 1;
+  const double z = expected(p, x, y);
+  Interval stored = around(z, p, x, y);
+  if (stored.lower == -infinity || stored.upper == infinity) {
+    stored = {0, 1};
+  } else {
+    const double error = storage_error(z);
+    stored = {stored.lower - error, stored.upper + error};
   }
-  f.exact = sign_ * z;
-  f.value = sign_ > 0 ? Interval{lower, upper} : Interval{-upper, -lower};
-  if (upper < 0 || lower > 1) {  // nearer than near, beyond far
-    f.coverage = Coverage::must_not;
-    return;
-  }
-  if (lower < 0 || upper > 1) {
+  if (model_.written && in_range(p, x, y) == Coverage::must_not) f.coverage = Coverage::must_not;
+  // Nearer than near, beyond far: cut away; what is written there is kept or becomes 0 or 1.
+  if (!model_.written && (stored.upper < 0 || stored.lower > 1)) f.coverage = Coverage::must_not;
+  if (f.coverage == Coverage::must_not) return;
+  const bool may_be_cut = model_.written && in_range(p, x, y) == Coverage::may;
+  if (may_be_cut || stored.lower < 0 || stored.upper > 1) {
     f.coverage = Coverage::may;
     f.open_edges = joins_no_other;
   }
+  if (model_.written) {
+    stored = {std::min(stored.lower, 1.0), std::max(stored.upper, 0.0)};
+  }
+  f.exact = sign_ * z;
+  f.value = sign_ > 0 ? stored : Interval{-stored.upper, -stored.lower};
 }
 
 std::optional<Fragment> RasterFragments::on(const Polygon& p, double x, double y) const {

@@ -1,5 +1,6 @@
 #include "validation/attribution/renderer_model.h"
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -44,10 +45,12 @@ std::vector<RendererModel> models() {
 }  // namespace
 
 double WindowDepth::of_depth(double depth) const {
+  if (log_range != 0) return std::log(depth / near) / log_range;
   return perspective ? a + b / depth : a * depth + b;
 }
 
 double WindowDepth::to_depth(double window) const {
+  if (log_range != 0) return near * std::exp(window * log_range);
   if (!perspective) return (window - b) / a;
   const double beyond = window - a;  // of the sign of b in front of the camera
   if (beyond == 0 || (beyond > 0) != (b > 0)) return std::numeric_limits<double>::infinity();
@@ -57,6 +60,11 @@ double WindowDepth::to_depth(double window) const {
 WindowDepth window_depth(Projection projection, Mapping mapping, double near, double far) {
   WindowDepth window{.perspective = projection == Projection::perspective,
                      .minus_one_to_one = mapping == Mapping::opengl};
+  if (mapping == Mapping::log_ulrich) {
+    window.near = near;
+    window.log_range = std::log(far / near);
+    return window;
+  }
   const bool reversed = is_reversed(mapping);
   if (takes_infinite_far(mapping)) {
     window.a = reversed ? 0 : 1;

@@ -6,28 +6,30 @@
 
 #include "fathom/depth_format/depth_format.h"
 #include "fathom/scene/camera.h"
+#include "validation/attribution/written_depth.h"
 
 /// What is assumed of a renderer that is held against the truth. docs/validation.md derives the
 /// bounds that follow from it.
 namespace fathom::validation {
 
-/// 2⁻²⁴, the greatest relative error of an operation in binary32.
-inline constexpr double unit_roundoff = 0x1p-24;
-
-/// How a depth D becomes a window depth z: perspective z = a + b/D, orthographic z = a·D + b.
+/// How a depth D becomes a window depth z: perspective z = a + b/D, orthographic z = a·D + b,
+/// logarithmic z = ln(D/near)/ln(far/near).
 struct WindowDepth {
   bool perspective = true;
   /// Whether the renderer passes through z_ndc = 2z − 1 (OpenGL's default).
   bool minus_one_to_one = true;
   double a = 0, b = 0;
+  /// Of a logarithmic one; ln(far/near) is 0 of the others.
+  double near = 0, log_range = 0;
 
   [[nodiscard]] double of_depth(double depth) const;
   /// Infinite where no finite depth has this window depth or one beyond it.
   [[nodiscard]] double to_depth(double window) const;
   /// Whether nearer surfaces have greater window depths.
-  [[nodiscard]] bool reversed() const { return perspective ? b > 0 : a < 0; }
+  [[nodiscard]] bool reversed() const { return log_range == 0 && (perspective ? b > 0 : a < 0); }
 };
 
+/// `mapping` is standard, opengl, log_ulrich or one of the reversed and infinite ones.
 WindowDepth window_depth(Projection projection, Mapping mapping, double near, double far);
 
 struct RendererModel {
@@ -49,6 +51,9 @@ struct RendererModel {
   int subpixel_bits = 8;
   Mapping mapping = Mapping::opengl;
   Storage storage = Storage::unorm24;
+  /// What a fragment shader writes in place of the interpolated window depth; `mapping` is then
+  /// that of the interpolated one, between whose near and far triangles are cut.
+  std::optional<WrittenDepth> written;
   /// Whether model-view and projection are multiplied to one matrix before corners meet them.
   bool premultiplied = true;
   /// The matrix that takes held positions to clip coordinates, row by row, where it is known; its
@@ -62,6 +67,9 @@ struct RendererModel {
   bool decoded_in_binary32 = false;
   /// Added to every window depth (polygon offset), and how uncertain that is.
   double bias = 0, bias_error = 0;
+
+  /// The mapping of what is stored.
+  [[nodiscard]] Mapping stored_mapping() const { return written ? written->mapping : mapping; }
 
   // ray
   /// Roundings that an edge test or a distance may have gone through.

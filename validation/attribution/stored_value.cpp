@@ -20,9 +20,13 @@ double spacing(double x) {
 }  // namespace
 
 double storage_step(const RendererModel& model, double window) {
-  // z_ndc/2 + 1/2 is no finer than binary32 tells numbers of about a half.
-  const double told =
-      model.mapping == Mapping::opengl ? std::max(spacing(window), 0x1p-24) : spacing(window);
+  double told = spacing(window);
+  if (model.written && is_logarithmic(model.written->mapping)) {
+    const double scale = model.written->scale;  // no finer than log2 is
+    told = std::max(told, std::abs(scale) * log2_error(window / scale));
+  } else if (!model.written && model.mapping == Mapping::opengl) {
+    told = std::max(told, 0x1p-24);  // nor z_ndc/2 + 1/2 than numbers of about a half
+  }
   if (model.storage == Storage::float16) return 0x1p13 * told;
   if (!is_unorm(model.storage)) return told;
   return std::max(told, 1 / (std::ldexp(1.0, bits_of(model.storage)) - 1));
@@ -31,7 +35,7 @@ double storage_step(const RendererModel& model, double window) {
 StoredValues::StoredValues(const Camera& camera, const OtherMap& other, const RendererModel& model)
     : other_(other), model_(model) {
   if (!is_raster()) return;
-  window_ = window_depth(camera.projection, model.mapping, camera.near, camera.far);
+  window_ = window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far);
   sign_ = window_.reversed() ? -1 : 1;
 }
 

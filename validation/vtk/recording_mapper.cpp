@@ -34,4 +34,21 @@ void RecordingMapper::SetCameraShaderParameters(vtkOpenGLHelper& drawn, vtkRende
   }
 }
 
+/// VTK has cleared to far = 1 and will test for the less: for this one actor both are turned, and
+/// put back as VTK believes them to be.
+void RecordingMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) {
+  if (!greater_is_nearer_) {
+    Superclass::RenderPieceDraw(renderer, actor);
+    return;
+  }
+  const GlFunctions gl;
+  const GLfloat far = 0;
+  gl.ClearBufferfv(GL_DEPTH, 0, &far);
+  gl.DepthFunc(GL_GEQUAL);
+  if (zero_to_one_) gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  Superclass::RenderPieceDraw(renderer, actor);
+  if (zero_to_one_) gl.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  gl.DepthFunc(GL_LEQUAL);
+}
+
 }  // namespace fathom::validation

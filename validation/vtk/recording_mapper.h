@@ -6,7 +6,8 @@
 
 namespace fathom::validation {
 
-/// VTK's mapper for polygons, which also remembers with what its last frame was drawn.
+/// VTK's mapper for polygons, which also remembers with what its last frame was drawn, and can draw
+/// with reversed depths.
 class RecordingMapper : public vtkOpenGLPolyDataMapper {
  public:
   static RecordingMapper* New();
@@ -18,6 +19,12 @@ class RecordingMapper : public vtkOpenGLPolyDataMapper {
       [[nodiscard]] const std::array<float, 16>& clip_from_held() const {
     return clip_from_held_;
   }
+  /// From now on the greater window depth is the nearer; where `zero_to_one`, the near and far
+  /// planes lie at z = w and z = 0 in clip coordinates.
+  void reverse(bool zero_to_one) {
+    greater_is_nearer_ = true;
+    zero_to_one_ = zero_to_one;
+  }
   /// Positions are held as (position − shift)·scale.
   [[nodiscard]] const std::array<double, 3>& shift() const { return shift_; }
   [[nodiscard]] const std::array<double, 3>& scale() const { return scale_; }
@@ -25,8 +32,10 @@ class RecordingMapper : public vtkOpenGLPolyDataMapper {
  protected:
   void SetCameraShaderParameters(vtkOpenGLHelper& drawn, vtkRenderer* renderer,
                                  vtkActor* actor) override;
+  void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
 
  private:
+  bool greater_is_nearer_ = false, zero_to_one_ = false;
   std::array<float, 16> clip_from_held_{};
   std::array<double, 3> shift_{0, 0, 0}, scale_{1, 1, 1};
 };

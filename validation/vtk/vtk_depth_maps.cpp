@@ -1,19 +1,42 @@
 #include "validation/vtk/vtk_depth_maps.h"
 
+#include <cstdlib>
 #include <limits>
 
+#include "fathom/numeric/errors.h"
 #include "validation/opengl/opengl_renderer.h"
 #include "validation/vtk/vtk_renderer.h"
 
 namespace fathom::validation {
 
-DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const std::string& variant) {
+namespace {
+
+VtkOptions options_of(const std::string& variant, const Camera& camera) {
   VtkOptions options;
-  if (variant == "own 8 samples") {
-    options.samples = 8;
-  } else if (variant != "own") {
-    options.depth = storage_named(variant);
+  const std::string first = variant.substr(0, variant.find(' ')),
+                    way = variant.substr(first.size());
+  if (first != "own") options.depth = storage_named(first);
+  const auto write = [&](Mapping mapping) {
+    options.written = written_depth(camera.projection, mapping, camera.near, camera.far);
+  };
+  if (way == " reversed") {
+    options.reversed = true;
+  } else if (way == " reversed by shader") {
+    write(Mapping::reversed);
+  } else if (way == " logarithmic") {
+    write(Mapping::log_ulrich);
+  } else if (way.find(" samples") != std::string::npos) {
+    options.samples = std::atoi(way.c_str());
+  } else if (!way.empty()) {
+    throw UsageError("VTK is not asked for '" + variant + "'");
   }
+  return options;
+}
+
+}  // namespace
+
+DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const std::string& variant) {
+  const VtkOptions options = options_of(variant, camera);
   VtkRenderer renderer(mesh, camera, {camera.near, camera.far}, options);
   renderer.draw();
   const VtkDrawing drawing = renderer.drawing();
@@ -21,7 +44,8 @@ DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const std::string
   DrawnMap drawn{.version = renderer.description()};
   RendererModel& model = drawn.model;
   model.name = "VTK";
-  model.mapping = Mapping::opengl;
+  model.mapping = options.reversed ? Mapping::reversed : Mapping::opengl;
+  model.written = options.written;
   model.storage = drawing.storage;
   model.matrix = drawing.clip_from_held;
   model.shift = drawing.shift;
@@ -34,10 +58,11 @@ DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const std::string
   }
   drawn.map = {.width = camera.width, .height = camera.height, .windows = drawing.windows};
   const WindowDepth window =
-      window_depth(camera.projection, model.mapping, camera.near, camera.far);
+      window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far);
+  const double cleared = window.reversed() ? 0 : 1;
   for (const double z : drawn.map.windows) {
-    drawn.map.depths.push_back(z == 1 ? std::numeric_limits<double>::infinity()
-                                      : window.to_depth(z));
+    drawn.map.depths.push_back(z == cleared ? std::numeric_limits<double>::infinity()
+                                            : window.to_depth(z));
   }
   return drawn;
 }

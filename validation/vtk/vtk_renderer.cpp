@@ -12,8 +12,10 @@
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
 #include <vtkSmartPointer.h>
 #include <vtkTextureObject.h>
+#include <vtkUniforms.h>
 #include <vtkVersion.h>
 
 #include <algorithm>
@@ -50,13 +52,13 @@ vtkSmartPointer<vtkPolyData> polygons_of(const WorldMesh& mesh) {
 
 /// VTK's own view transform is the identity; ours stands in its model transform, so that R need not
 /// be a rotation.
-void set_camera(vtkCamera& camera, const Camera& ours, const ClipRange& range) {
+void set_camera(vtkCamera& camera, const Camera& ours, const ClipRange& range, ClipDepth depth) {
   camera.SetPosition(0, 0, 0);
   camera.SetFocalPoint(0, 0, -1);
   camera.SetViewUp(0, 1, 0);
   camera.SetModelTransformMatrix(eye_from_world(ours).data());
   vtkNew<vtkMatrix4x4> projection;
-  projection->DeepCopy(clip_from_eye(ours, range).data());
+  projection->DeepCopy(clip_from_eye(ours, range, depth).data());
   camera.SetExplicitProjectionTransformMatrix(projection);
   camera.UseExplicitProjectionTransformMatrixOn();
   camera.SetParallelProjection(ours.projection == Projection::orthographic ? 1 : 0);
@@ -74,6 +76,21 @@ int texture_format(Storage storage) {
     default:
       return vtkTextureObject::Float32;
   }
+}
+
+/// VTK's own ways to a depth of one's own: a piece of its fragment shader exchanged, and uniforms.
+void write_depth(vtkShaderProperty& shader, const WrittenDepth& written) {
+  const bool logarithmic = is_logarithmic(written.mapping);
+  shader.AddFragmentShaderReplacement(
+      "//VTK::Depth::Impl", true,
+      std::string("float depth_argument = depth_term + depth_factor * ") +
+          (written.of_w ? "gl_FragCoord.w" : "gl_FragCoord.z") + ";\n  gl_FragDepth = " +
+          (logarithmic ? "depth_scale * log2(depth_argument)" : "depth_argument") + ";\n",
+      false);
+  vtkUniforms* const uniforms = shader.GetFragmentCustomUniforms();
+  uniforms->SetUniformf("depth_term", written.term);
+  uniforms->SetUniformf("depth_factor", written.factor);
+  if (logarithmic) uniforms->SetUniformf("depth_scale", written.scale);
 }
 
 }  // namespace
@@ -102,7 +119,12 @@ VtkRenderer::VtkRenderer(const WorldMesh& mesh, const Camera& camera, const Clip
   actor->GetProperty()->LightingOff();
   vtkNew<vtkRenderer> renderer;
   renderer->AddActor(actor);
-  set_camera(*renderer->GetActiveCamera(), camera, range);
+  set_camera(*renderer->GetActiveCamera(), camera, range,
+             options.reversed ? ClipDepth::one_to_zero : ClipDepth::minus_one_to_one);
+  if (options.written) write_depth(*actor->GetShaderProperty(), *options.written);
+  if (options.reversed || (options.written && is_reversed(options.written->mapping))) {
+    mapper->reverse(options.reversed);
+  }
 
   parts_->window->SetSize(parts_->width, parts_->height);
   parts_->window->AddRenderer(renderer);

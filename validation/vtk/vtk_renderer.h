@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fathom/depth_format/depth_format.h"
+#include "validation/attribution/written_depth.h"
 #include "validation/opengl_matrices.h"
 #include "validation/world_mesh.h"
 
@@ -17,11 +18,17 @@ struct VtkOptions {
   std::optional<Storage> depth;
   /// Samples a pixel that VTK is asked for; 0: no multisampling.
   int samples = 0;
+  /// Near and far at 1 and 0, the greater depth wins: glClipControl, which VTK knows nothing of.
+  bool reversed = false;
+  /// VTK's fragment shader writes this depth in place of the interpolated one; a reversed one also
+  /// is tested so that the greater wins.
+  std::optional<WrittenDepth> written;
 };
 
 /// What a frame was drawn with, and its depths.
 struct VtkDrawing {
-  /// Exactly as stored, width × height, rows from the top; 1 where nothing was drawn.
+  /// Exactly as stored, width × height, rows from the top; 1 (reversed: 0) where nothing was
+  /// drawn.
   std::vector<double> windows;
   Storage storage = Storage::unorm24;
   int subpixel_bits = 8, samples = 0;

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "fathom/depth_format/depth_format.h"
+#include "fathom/numeric/interval.h"
+#include "fathom/scene/camera.h"
+
+namespace fathom::validation {
+
+/// 2⁻²⁴, the greatest relative error of an operation in binary32.
+inline constexpr double unit_roundoff = 0x1p-24;
+
+/// A window depth z that a fragment shader computes in binary32 from q, which is 1/w as it is
+/// interpolated (perspective), or the interpolated window depth (orthographic):
+///   t = term + factor·q;  reversed: z = t;  log_ulrich: z = scale·log2(t).
+struct WrittenDepth {
+  Mapping mapping = Mapping::reversed;
+  bool of_w = true;  ///< q is 1/w
+  float term = 0, factor = 0, scale = 1;
+
+  /// Without the roundings of the shader.
+  [[nodiscard]] double value(double q) const;
+  /// All values that the shader may compute where its q is at most `q_error` from `q`, with
+  /// log2 as exact as the shading language demands ([GLSL46] 4.7.1).
+  [[nodiscard]] Interval values(double q, double q_error) const;
+};
+
+/// The constants for a mapping, `reversed` or `log_ulrich`, of window depths that are OpenGL's.
+/// Fails    InputError for a logarithm of a near plane that is not in front of the eye.
+WrittenDepth written_depth(Projection projection, Mapping mapping, double near, double far);
+
+/// The greatest error of log2 in binary32 at a value `log2_x`: 3 ulp, but 2⁻²¹ for x from ½ to 2
+/// ([GLSL46] 4.7.1).
+double log2_error(double log2_x);
+
+}  // namespace fathom::validation
