@@ -141,7 +141,7 @@ std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Con
 std::vector<Peer> peers_of(const ValidateArguments& arguments) {
   std::vector<Peer> peers;
   for (const std::string& renderer : split_list(arguments.against)) {
-    for (const Peer& peer : validation::peers_of(renderer)) {
+    for (const Peer& peer : validation::peers_of(renderer, time_limit(arguments))) {
       const std::vector<std::string> wanted = split_list(arguments.variants);
       const bool chosen = arguments.variants.empty() ||
                           std::find(wanted.begin(), wanted.end(), peer.variant) != wanted.end();
@@ -209,7 +209,7 @@ int render_peer(const ValidateArguments& arguments, const Console& console) {
     throw UsageError("-o: '" + arguments.output + "' does not end in .exr, .pfm or .npy");
   if (arguments.scenes.empty()) throw UsageError("SCENE is missing: what is rendered");
   const SceneToMake scene = scenes_of(arguments, console).front();
-  std::vector<Peer> peers = validation::peers_of(arguments.render);
+  std::vector<Peer> peers = validation::peers_of(arguments.render, time_limit(arguments));
   if (!arguments.variants.empty()) peers.front().variant = arguments.variants;
   OutputFile output(arguments.output);
   validation::Drawing drawing =

@@ -46,6 +46,7 @@ GlFunctions::GlFunctions() {
   find(FramebufferRenderbuffer, "glFramebufferRenderbuffer");
   find(CheckFramebufferStatus, "glCheckFramebufferStatus");
   find(BlitFramebuffer, "glBlitFramebuffer");
+  find(GetInternalformativ, "glGetInternalformativ");
   find(GetMultisamplefv, "glGetMultisamplefv");
   find(GenBuffers, "glGenBuffers");
   find(BindBuffer, "glBindBuffer");

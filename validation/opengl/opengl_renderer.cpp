@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "fathom/numeric/errors.h"
@@ -217,7 +218,7 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlDe
   const EglContext context;
   const GlFunctions gl;
   DrawnMap drawn;
-  drawn.version = version_of(gl);
+  drawn.version = version_of(gl) + context.way();
   RendererModel& model = drawn.model;
   model.name = "OpenGL";
   model.mapping = depth.reversed ? Mapping::reversed : Mapping::opengl;
@@ -258,11 +259,20 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlDe
 std::vector<int> offered_samples() {
   const EglContext context;
   const GlFunctions gl;
-  GLint most = 1;
-  gl.GetIntegerv(GL_MAX_INTEGER_SAMPLES, &most);
-  std::vector<int> counts{1};
-  for (int n = 2; n <= most; n *= 2) counts.push_back(n);
-  return counts;
+  const auto offered = [&](GLenum format) {
+    GLint count = 0;
+    gl.GetInternalformativ(GL_RENDERBUFFER, format, GL_NUM_SAMPLE_COUNTS, 1, &count);
+    std::vector<GLint> counts(static_cast<std::size_t>(count));
+    gl.GetInternalformativ(GL_RENDERBUFFER, format, GL_SAMPLES, count, counts.data());
+    std::sort(counts.begin(), counts.end());
+    return counts;
+  };
+  const std::vector<GLint> depths = offered(GL_DEPTH_COMPONENT24), numbers = offered(GL_R32UI);
+  std::vector<int> both;
+  std::set_intersection(depths.begin(), depths.end(), numbers.begin(), numbers.end(),
+                        std::back_inserter(both));
+  both.erase(both.begin(), std::upper_bound(both.begin(), both.end(), 1));
+  return both;
 }
 
 }  // namespace fathom::validation

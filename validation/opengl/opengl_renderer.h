@@ -31,7 +31,9 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlDe
 /// assumed.
 bool interpolates_before_snapping(const std::string& version);
 
-/// The numbers of samples a pixel that the driver offers, 1 among them, in increasing order.
+/// The numbers of samples a pixel, more than one, that the driver offers for 24 bits of depth and
+/// numbers of triangles beside them, in increasing order.
+/// Fails    InputError where there is no OpenGL 4.5.
 std::vector<int> offered_samples();
 
 }  // namespace fathom::validation

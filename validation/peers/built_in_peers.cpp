@@ -56,4 +56,8 @@ DrawnMap draw_built_in(const Peer& peer, const ValidationScene& scene) {
   throw UsageError("there is no renderer '" + peer.renderer + "'");
 }
 
+std::vector<int> built_in_samples() {
+  return offered_samples();
+}
+
 }  // namespace fathom::validation

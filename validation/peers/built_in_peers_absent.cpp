@@ -10,4 +10,8 @@ DrawnMap draw_built_in(const Peer& peer, const ValidationScene&) {
       "peers) and builds with it (-DFATHOM_PEERS=ON)");
 }
 
+std::vector<int> built_in_samples() {
+  return {};
+}
+
 }  // namespace fathom::validation

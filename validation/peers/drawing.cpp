@@ -1,6 +1,7 @@
 #include "validation/peers/drawing.h"
 
-#include <exception>
+#include <algorithm>
+#include <sstream>
 
 #include "fathom/numeric/errors.h"
 #include "validation/bench/in_child.h"
@@ -9,13 +10,55 @@
 
 namespace fathom::validation {
 
-std::vector<Peer> peers_of(const std::string& renderer) {
+namespace {
+
+/// None where there is no OpenGL: the variants without samples say so.
+std::vector<int> offered_samples(int seconds) {
+  std::vector<int> counts;
+  try {
+    std::istringstream answer(bench::run_in_child(
+        [] {
+          std::string text;
+          for (const int count : built_in_samples()) text += std::to_string(count) + " ";
+          return text;
+        },
+        seconds, "opengl"));
+    for (int count = 0; answer >> count;) counts.push_back(count);
+  } catch (const InputError&) {
+    counts.clear();
+  }
+  return counts;
+}
+
+void add_samples(std::vector<std::string>& variants, const std::string& storage,
+                 const std::vector<int>& counts) {
+  for (const int count : counts) {
+    variants.push_back(storage + " " + std::to_string(count) + " samples");
+  }
+}
+
+}  // namespace
+
+std::vector<Peer> peers_of(const std::string& renderer, int seconds) {
   std::vector<std::string> variants;
   if (renderer == "vtk") {
-    variants = {"own", "unorm16", "unorm24", "unorm32", "float32", "own 8 samples"};
+    variants = {"own",
+                "unorm16",
+                "unorm24",
+                "unorm32",
+                "float32",
+                "float32 reversed",
+                "float32 reversed by shader",
+                "unorm24 logarithmic",
+                "float32 logarithmic"};
+    std::vector<int> counts = offered_samples(seconds);
+    const int usual = 8;  // VTK's default, whatever is granted of it
+    if (std::find(counts.begin(), counts.end(), usual) == counts.end()) counts.push_back(usual);
+    add_samples(variants, "own", counts);
   } else if (renderer == "opengl") {
-    variants = {"unorm16",          "unorm24",           "unorm32",          "float32",
-                "float32 reversed", "unorm24 offset 16", "unorm24 4 samples"};
+    variants = {"unorm16", "unorm24",          "unorm32",
+                "float32", "float32 reversed", "unorm24 offset 16"};
+    add_samples(variants, "unorm24", offered_samples(seconds));
   } else if (renderer == "embree") {
     variants = {"default", "robust"};
   } else if (renderer == "blender") {

@@ -16,8 +16,10 @@ struct Peer {
 };
 
 /// The ways of a renderer: depth formats of vtk and opengl, robust or not of embree, … In each of
-/// them a scene is validated. Fails with UsageError where there is no such renderer.
-std::vector<Peer> peers_of(const std::string& renderer);
+/// them a scene is validated. Numbers of samples are those that OpenGL's driver offers, which is
+/// asked in a process of its own that is ended after `seconds`. Fails with UsageError where there
+/// is no such renderer. Needs    a process that has started no threads.
+std::vector<Peer> peers_of(const std::string& renderer, int seconds);
 
 /// A map, or why there is none, in one line.
 struct Drawing {
