@@ -38,8 +38,8 @@ vtkSmartPointer<vtkPolyData> polygons_of(const WorldMesh& mesh) {
     points->SetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
   }
   vtkNew<vtkCellArray> cells;
-  cells->AllocateExact(static_cast<vtkIdType>(mesh.triangles.size()),
-                       static_cast<vtkIdType>(3 * mesh.triangles.size()));
+  const auto count = static_cast<vtkIdType>(mesh.triangles.size());
+  cells->AllocateExact(count, 3 * count);
   for (const auto& [a, b, c] : mesh.triangles) {
     const vtkIdType corners[3] = {a, b, c};
     cells->InsertNextCell(3, corners);
