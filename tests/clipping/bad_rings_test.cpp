@@ -11,7 +11,7 @@
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/weiler_atherton.h"
 #include "fathom/numeric/errors.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 
 namespace fathom::clipping::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/numeric/errors.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 
 namespace fathom::clipping::test {
 namespace {

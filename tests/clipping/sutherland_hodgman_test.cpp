@@ -8,7 +8,7 @@
 #include "fathom/numeric/errors.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 
 namespace fathom::clipping::test {
 namespace {

@@ -16,7 +16,7 @@
 #include "tests/clipping/pieces.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 
 namespace fathom::clipping::test {
 namespace {

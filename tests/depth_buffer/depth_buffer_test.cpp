@@ -11,7 +11,7 @@
 #include "fathom/exact/probe.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 #include "tests/exact/expect_same_map.h"
 #include "tests/exact/random_scenes.h"
 #include "tests/exact/soup.h"

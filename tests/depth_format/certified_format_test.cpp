@@ -11,7 +11,7 @@
 #include "fathom/depth_format/encode.h"
 #include "fathom/numeric/certified_logarithm.h"
 #include "fathom/numeric/logarithm.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 
 namespace fathom {
 namespace {

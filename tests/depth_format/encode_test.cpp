@@ -12,7 +12,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "tests/depth_format/exact_map.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 
 namespace fathom {
 namespace {

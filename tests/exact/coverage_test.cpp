@@ -10,8 +10,8 @@
 
 #include "fathom/exact/projected_triangle.h"
 #include "fathom/numeric/rounding.h"
+#include "tests/effort.h"
 #include "tests/exact/against_oracle.h"
-#include "tests/exact/effort.h"
 #include "tests/exact/random_scenes.h"
 #include "tests/exact/tested_engine.h"
 

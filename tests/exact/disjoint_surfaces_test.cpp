@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "fathom/exact/triangle_source.h"
+#include "tests/effort.h"
 #include "tests/exact/against_oracle.h"
-#include "tests/exact/effort.h"
 #include "tests/exact/random_scenes.h"
 
 namespace fathom {

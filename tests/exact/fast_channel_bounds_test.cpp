@@ -9,7 +9,7 @@
 #include "fathom/exact/fast_wide.h"
 #include "fathom/exact/projected_triangle.h"
 #include "fathom/numeric/rounding.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 #include "tests/exact/scene_building.h"
 
 namespace fathom {

@@ -11,7 +11,7 @@
 #include "fathom/render.h"
 #include "fathom/scene/camera_making.h"
 #include "fathom/scene/read_scene.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 #include "tests/exact/expect_same_map.h"
 #include "tests/exact/random_scenes.h"
 #include "tests/scene/scratch_folder.h"

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 #include "tests/exact/expect_same_map.h"
 #include "tests/exact/random_scenes.h"
 #include "tests/exact/soup.h"
@@ -42,18 +42,47 @@ std::vector<std::int64_t> targets() {
   return all;
 }
 
-void expect_same_on_soups(std::uint64_t seed, int scenes, const RenderOptions& options) {
-  std::mt19937_64 random(seed);
-  for (int i = 0; i < scenes && !::testing::Test::HasFailure(); ++i) {
-    SCOPED_TRACE("soup " + std::to_string(i));
-    Camera camera = testing::camera_of(160, 140, 64);
-    if (i % 4 == 3) camera.world_to_camera[2][3] = -3.25;  // the camera among the triangles
-    if (i % 4 == 2) camera.near = 4;
-    expect_same(testing::soup(random, 60, i % 2 == 0), camera, options);
+/// Scenes of several tiles with the reference engine's maps of them.
+class Soups {
+ public:
+  Soups(std::uint64_t seed, int count, std::vector<Channel> channels)
+      : channels_(std::move(channels)) {
+    std::mt19937_64 random(seed);
+    RenderOptions options;
+    options.channels = channels_;
+    for (int i = 0; i < count; ++i) {
+      Camera camera = testing::camera_of(160, 140, 64);
+      if (i % 4 == 3) camera.world_to_camera[2][3] = -3.25;  // the camera among the triangles
+      if (i % 4 == 2) camera.near = 4;
+      Scene scene = testing::soup(random, 60, i % 2 == 0);
+      DepthMap truth = render_reference(scene, camera, options);
+      cases_.push_back({std::move(scene), camera, std::move(truth)});
+    }
   }
-}
+
+  /// Renders them by the fast engine, with the same channels.
+  void expect_same(RenderOptions options) const {
+    options.channels = channels_;
+    for (std::size_t i = 0; i < cases_.size() && !::testing::Test::HasFailure(); ++i) {
+      SCOPED_TRACE("soup " + std::to_string(i));
+      testing::expect_same_map(render_fast(cases_[i].scene, cases_[i].camera, options),
+                               cases_[i].truth);
+    }
+  }
+
+ private:
+  struct Case {
+    Scene scene;
+    Camera camera;
+    DepthMap truth;
+  };
+  std::vector<Channel> channels_;
+  std::vector<Case> cases_;
+};
 
 TEST(FastTargets, EveryKindOfVectorInstructions) {
+  const Soups soups(99, testing::effort > 1 ? 4 : 12, quick_channels);
+  const Soups rows(98, 4, {Channel::Z});  // Z alone is written by whole rows
   std::set<std::string> names;
   for (const std::int64_t target : targets()) {
     const OnlyTarget only(target);
@@ -62,10 +91,8 @@ TEST(FastTargets, EveryKindOfVectorInstructions) {
     RenderOptions options;
     options.channels = quick_channels;
     options.threads = 2;
-    expect_same_on_soups(99, testing::effort > 1 ? 4 : 12, options);
-    RenderOptions depth_alone = options;
-    depth_alone.channels = {Channel::Z};  // written by whole rows
-    expect_same_on_soups(98, 4, depth_alone);
+    soups.expect_same(options);
+    rows.expect_same(options);
     for (const auto kind : {testing::Kind::few_bits, testing::Kind::neighbours}) {
       testing::CaseMaker maker(31, kind);
       for (int i = 0; i < 400 / testing::effort && !HasFailure(); ++i) {
@@ -81,23 +108,23 @@ TEST(FastTargets, EveryKindOfVectorInstructions) {
 }
 
 TEST(FastTargets, OneToEightThreads) {
+  const Soups soups(100, 4, quick_channels);
   for (int threads = 1; threads <= 8; ++threads) {
     SCOPED_TRACE(threads);
     RenderOptions options;
-    options.channels = quick_channels;
     options.threads = threads;
-    expect_same_on_soups(100, 4, options);
+    soups.expect_same(options);
   }
 }
 
 TEST(FastTargets, WithoutShortCuts) {
+  const Soups soups(101, 8, quick_channels);
   for (int switched_off = 0; switched_off < 4; ++switched_off) {
     SCOPED_TRACE(switched_off);
     RenderOptions options;
-    options.channels = quick_channels;
     options.fast.hierarchy = !(switched_off & 1);
     options.fast.early_rejection = !(switched_off & 2);
-    expect_same_on_soups(101, 8, options);
+    soups.expect_same(options);
   }
 }
 

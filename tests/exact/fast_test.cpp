@@ -8,7 +8,7 @@
 #include "fathom/exact/engine_frame.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/camera_making.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 #include "tests/exact/expect_same_map.h"
 #include "tests/exact/random_scenes.h"
 #include "tests/exact/soup.h"

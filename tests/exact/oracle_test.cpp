@@ -3,8 +3,8 @@
 
 #include "fathom/exact/engine_frame.h"
 #include "fathom/exact/probe.h"
+#include "tests/effort.h"
 #include "tests/exact/against_oracle.h"
-#include "tests/exact/effort.h"
 #include "tests/exact/random_scenes.h"
 #include "tests/exact/tested_engine.h"
 

@@ -9,7 +9,7 @@
 #include "fathom/exact/fast_vertex.h"
 #include "fathom/exact/pixel_union.h"
 #include "fathom/exact/pixel_winding.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 #include "tests/oracle/areas.h"
 
 namespace fathom {

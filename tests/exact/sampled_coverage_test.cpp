@@ -10,7 +10,7 @@
 #include "fathom/exact/projected_triangle.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 #include "tests/exact/random_scenes.h"
 
 namespace fathom {

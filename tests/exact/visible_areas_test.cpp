@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/effort.h"
 #include "tests/exact/against_oracle.h"
-#include "tests/exact/effort.h"
 #include "tests/exact/random_scenes.h"
 #include "tests/oracle/mpfr_rounding.h"
 

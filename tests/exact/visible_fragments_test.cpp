@@ -9,8 +9,8 @@
 
 #include "fathom/exact/cell_division.h"
 #include "fathom/exact/coverage.h"
+#include "tests/effort.h"
 #include "tests/exact/against_oracle.h"
-#include "tests/exact/effort.h"
 #include "tests/exact/random_scenes.h"
 
 namespace fathom {

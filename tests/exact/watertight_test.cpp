@@ -5,7 +5,7 @@
 #include <random>
 
 #include "fathom/exact/probe.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 #include "tests/exact/scene_building.h"
 #include "tests/exact/tested_engine.h"
 

@@ -11,7 +11,7 @@
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/pipeline/texture.h"
 #include "fathom/render.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 
 namespace fathom::pipeline {
 namespace {

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "fathom/pipeline/diamond_exit.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 
 namespace fathom::pipeline {
 namespace {

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "fathom/pipeline/flood_fill.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 #include "tests/pipeline/rings.h"
 
 namespace fathom::pipeline {

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "fathom/pipeline/tessellate.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 #include "tests/pipeline/rings.h"
 
 namespace fathom::pipeline {

@@ -10,7 +10,7 @@
 #include "fathom/pipeline/edge_function.h"
 #include "fathom/pipeline/polygon_fill.h"
 #include "fathom/pipeline/subpixel_grid.h"
-#include "tests/exact/effort.h"
+#include "tests/effort.h"
 
 namespace fathom::pipeline {
 namespace {
