@@ -94,7 +94,8 @@ TEST(VisibleAreas, AreTheOraclesSumsRoundedOnce) {
       }
     }
   }
-  EXPECT_GT(partly, 20 / testing::effort);
+  if (testing::effort > 1) return;
+  EXPECT_GT(partly, 20);
 }
 
 // Two triangles make a rectangle of width w whose diagonal leaves the image at w/3: the areas are
