@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
 #include "known_files.h"
@@ -63,7 +61,7 @@ Camera CameraOptions::get_one(const Scene& scene, const char* command) const {
     throw UsageError(fmt::format("--camera: a path of {} cameras; {} looks through one",
                                  cameras.size(), command));
   }
-  return std::move(cameras.front());
+  return cameras.front();
 }
 
 std::vector<Camera> CameraOptions::get(const Scene& scene) const {

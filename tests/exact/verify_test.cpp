@@ -136,7 +136,8 @@ TEST(Verify, SceneOfSeveralObjectsAndPlacements) {
   Warnings warnings;
   const Scene scene =
       read_scene({data / "scenes" / "pair.json", data / "meshes" / "cube.obj"}, {}, warnings);
-  const Camera camera = frame_scene(scene, {}, {.width = 96, .height = 64});
+  constexpr std::uint32_t divisor = testing::effort > 1 ? 3 : 1;
+  const Camera camera = frame_scene(scene, {}, {.width = 96 / divisor, .height = 64 / divisor});
   RenderOptions options;
   options.channels = every_channel;
   expect_verified(render_fast(scene, camera, options), scene, camera, options);
