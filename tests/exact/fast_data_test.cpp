@@ -49,7 +49,9 @@ TEST(FastData, MeshesAndScenesFromSeveralCameras) {
       SCOPED_TRACE(entry.path().filename().string());
       const Scene scene = scene_from(entry.path());
       ++files;
-      for (const Camera& camera : cameras_for(scene)) {
+      std::vector<Camera> cameras = cameras_for(scene);
+      if (testing::effort > 1) cameras = {cameras[static_cast<std::size_t>(files) % 4]};
+      for (const Camera& camera : cameras) {
         RenderOptions options;
         options.channels = quick_channels;
         options.cull = files % 3 == 2 ? Cull::back : Cull::none;
@@ -58,7 +60,8 @@ TEST(FastData, MeshesAndScenesFromSeveralCameras) {
     }
   }
   EXPECT_GE(files, 6);
-  EXPECT_GT(pixels, 50000U / (divisor * divisor));
+  if (testing::effort > 1) return;
+  EXPECT_GT(pixels, 50000U);
 }
 
 /// Small scenes made to be hard, each with its cameras beside it.

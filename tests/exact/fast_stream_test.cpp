@@ -89,8 +89,8 @@ void expect_same_render(const Both& both, const Camera& camera, const RenderOpti
                   render_fast(both.scene, camera, options));
 }
 
-std::vector<Camera> cameras_for(const Scene& scene) {
-  constexpr std::uint32_t divisor = effort > 1 ? 3 : 1;
+/// Under sanitizers images are smaller, unless told otherwise.
+std::vector<Camera> cameras_for(const Scene& scene, std::uint32_t divisor = effort > 1 ? 3 : 1) {
   Lens lens{.width = 201 / divisor, .height = 150 / divisor};
   const Camera framed = frame_scene(scene, {.azimuth = 20, .elevation = 10}, lens);
   Camera within = frame_scene(scene, {.azimuth = 75, .elevation = 5}, lens);
@@ -185,7 +185,7 @@ TEST(FastStream, StatisticsCountTrianglesOnce) {
   Warnings warnings;
   const Scene scene = read_scene({data / "meshes" / "spot.obj"}, {}, warnings);
   const Both both({folder.write("spot.ply", ply_of(scene.meshes.at(0)))});
-  const Camera camera = cameras_for(both.scene).at(1);
+  const Camera camera = cameras_for(both.scene, 1).at(1);
   RenderOptions options;
   options.cull = Cull::back;
   RenderStatistics ours, truth;

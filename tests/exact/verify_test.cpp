@@ -136,7 +136,7 @@ TEST(Verify, SceneOfSeveralObjectsAndPlacements) {
   Warnings warnings;
   const Scene scene =
       read_scene({data / "scenes" / "pair.json", data / "meshes" / "cube.obj"}, {}, warnings);
-  constexpr std::uint32_t divisor = testing::effort > 1 ? 3 : 1;
+  constexpr std::uint32_t divisor = testing::effort > 1 ? 6 : 1;
   const Camera camera = frame_scene(scene, {}, {.width = 96 / divisor, .height = 64 / divisor});
   RenderOptions options;
   options.channels = every_channel;
