@@ -25,17 +25,42 @@ function(fathom_target_options target)
   endif()
 endfunction()
 
-# A room of the library: fathom_<room>, exported as fathom::<room>.
+# A room of the library, lib/fathom/ROOM: fathom_ROOM, exported as fathom::ROOM.
+#   fathom_room(ROOM HEADERS a.h… SOURCES b.cpp… [USES room…] [PUBLIC|PRIVATE library…])
+# HEADERS are what users may include; they are installed. USES names the rooms, defined before, that
+# may be included and are linked: the build fails where a file of the room includes another.
 function(fathom_room room)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
-  add_library(fathom_${room} STATIC ${ROOM_SOURCES} ${ROOM_HEADERS})
-  add_library(fathom::${room} ALIAS fathom_${room})
-  set_target_properties(fathom_${room} PROPERTIES EXPORT_NAME ${room})
-  target_compile_features(fathom_${room} PUBLIC cxx_std_20)
-  target_include_directories(fathom_${room} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib>"
+  cmake_parse_arguments(ROOM "" "" "SOURCES;HEADERS;USES;PUBLIC;PRIVATE" ${ARGN})
+  string(REPLACE "/" "_" name "${room}")
+  set(used ${ROOM_USES})
+  list(TRANSFORM used REPLACE "/" "_")
+  list(TRANSFORM used PREPEND fathom_)
+  foreach(target ${used})
+    if(NOT TARGET ${target})
+      message(FATAL_ERROR "the room ${room} uses ${target}, which is not defined before it")
+    endif()
+  endforeach()
+  add_library(fathom_${name} STATIC ${ROOM_SOURCES} ${ROOM_HEADERS})
+  add_library(fathom::${name} ALIAS fathom_${name})
+  set_target_properties(fathom_${name} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
+  target_compile_features(fathom_${name} PUBLIC cxx_std_20)
+  target_include_directories(fathom_${name} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib>"
                                                    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
-  target_link_libraries(fathom_${room} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE})
-  fathom_target_options(fathom_${room})
-  install(TARGETS fathom_${room} EXPORT FathomTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-  install(FILES ${ROOM_HEADERS} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/fathom/${room}")
+  target_link_libraries(fathom_${name} PUBLIC ${used} ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE})
+  fathom_target_options(fathom_${name})
+  install(TARGETS fathom_${name} EXPORT FathomTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  foreach(header ${ROOM_HEADERS})
+    get_filename_component(folder "${header}" DIRECTORY)
+    install(FILES "${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/fathom/${room}/${folder}")
+  endforeach()
+
+  file(GLOB_RECURSE files CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.h" "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  add_custom_command(OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/room.checked"
+    COMMAND ${CMAKE_COMMAND} "-DROOM=${room}" "-DUSES=${ROOM_USES}" "-DFOLDER=${CMAKE_CURRENT_SOURCE_DIR}"
+            -P "${PROJECT_SOURCE_DIR}/cmake/CheckRoom.cmake"
+    COMMAND ${CMAKE_COMMAND} -E touch "${CMAKE_CURRENT_BINARY_DIR}/room.checked"
+    DEPENDS ${files} "${PROJECT_SOURCE_DIR}/cmake/CheckRoom.cmake"
+    COMMENT "Checking what ${room} includes" VERBATIM)
+  add_custom_target(fathom_${name}_includes DEPENDS "${CMAKE_CURRENT_BINARY_DIR}/room.checked")
+  add_dependencies(fathom_${name} fathom_${name}_includes)
 endfunction()

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "fathom/scene/camera.h"
+#include "fathom/camera/camera.h"
 #include "validation/world_mesh.h"
 
 /// Our camera in the words of OpenGL: eye space is x right, y up, z backward; clip space is that of

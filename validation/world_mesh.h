@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "fathom/scene/mesh.h"
+#include "fathom/mesh/mesh.h"
 #include "fathom/scene/scene.h"
 
 /// What renderers that are not ours are given.

@@ -3,8 +3,10 @@
 #include <memory>
 
 #include "camera_options.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/camera/camera_making.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/scene/camera_making.h"
+#include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "lens_options.h"
 #include "numbers.h"

@@ -5,8 +5,9 @@
 #include <functional>
 #include <memory>
 
+#include "fathom/camera/camera_files.h"
+#include "fathom/camera/camera_import.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/scene/camera_import.h"
 #include "fathom/scene/read_scene.h"
 #include "numbers.h"
 #include "output_file.h"

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "known_files.h"
 #include "numbers.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "fathom/scene/camera.h"
-#include "fathom/scene/camera_making.h"
+#include "fathom/camera/camera.h"
+#include "fathom/camera/camera_making.h"
 #include "fathom/scene/scene.h"
 
 namespace fathom::app {

@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "fathom/text/warnings.h"
+
 namespace fathom::app {
 namespace {
 

@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "fathom/scene/mesh.h"
+#include "fathom/mesh/mesh.h"
+#include "fathom/text/warnings.h"
 
 namespace fathom::app {
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "fathom/camera/camera_files.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/point_cloud.h"

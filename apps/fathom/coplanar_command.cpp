@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "camera_options.h"
-#include "fathom/exact/coplanar.h"
+#include "fathom/area/coplanar.h"
 #include "fathom/numeric/errors.h"
 #include "numbers.h"
 #include "output_file.h"

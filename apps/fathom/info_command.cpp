@@ -7,10 +7,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "fathom/camera/camera_files.h"
 #include "fathom/image/map_files.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/scene/bounds.h"
+#include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "info_map.h"
 #include "map_view.h"

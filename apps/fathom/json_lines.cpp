@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "fathom/numeric/errors.h"
-#include "fathom/scene/input_file.h"
+#include "fathom/text/input_file.h"
 #include "known_files.h"
 #include "output_file.h"
 #include "program.h"

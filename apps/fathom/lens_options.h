@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "fathom/scene/camera_making.h"
+#include "fathom/camera/camera_making.h"
 
 namespace fathom::app {
 

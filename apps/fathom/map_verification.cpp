@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fathom/exact/verify.h"
+#include "fathom/reference/verify.h"
 #include "progress.h"
 
 namespace fathom::app {

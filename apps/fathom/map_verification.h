@@ -6,10 +6,10 @@
 #include <string>
 
 #include "console.h"
-#include "fathom/exact/options.h"
-#include "fathom/exact/triangle_source.h"
+#include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/scene/camera.h"
+#include "fathom/scene/triangle_source.h"
+#include "fathom/triangle/options.h"
 
 namespace fathom::app {
 

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
 

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "fathom/camera/camera.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/scene/camera.h"
 
 namespace fathom::app {
 

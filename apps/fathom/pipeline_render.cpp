@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/window_transform.h"
 #include "fathom/render.h"

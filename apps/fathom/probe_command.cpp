@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "camera_options.h"
-#include "fathom/exact/probe.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/reference/probe.h"
 #include "numbers.h"
 #include "output_file.h"
 #include "program.h"

@@ -12,7 +12,8 @@
 #include <optional>
 #include <utility>
 
-#include "fathom/exact/sampled_coverage.h"
+#include "fathom/area/sampled_coverage.h"
+#include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
 #include "fathom/scene/read_scene.h"

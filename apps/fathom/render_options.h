@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "fathom/exact/options.h"
 #include "fathom/image/map_files.h"
+#include "fathom/triangle/options.h"
 
 namespace fathom::app {
 

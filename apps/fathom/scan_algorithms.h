@@ -4,8 +4,8 @@
 
 #include "clip_reading.h"
 #include "clip_writing.h"
-#include "fathom/pipeline/arithmetic.h"
-#include "fathom/pipeline/pixels.h"
+#include "fathom/pipeline/scan/arithmetic.h"
+#include "fathom/pipeline/scan/pixels.h"
 
 /// What `fathom scan` does with one case: a case in, the answer without its name out.
 /// Number is the arithmetic: pipeline::Exact, double or float.

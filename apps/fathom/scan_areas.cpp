@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "fathom/pipeline/polygon_fill.h"
+#include "fathom/pipeline/scan/polygon_fill.h"
 #include "scan_reading.h"
 #include "scan_writing.h"
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "fathom/pipeline/diamond_exit.h"
-#include "fathom/pipeline/line.h"
+#include "fathom/pipeline/scan/diamond_exit.h"
+#include "fathom/pipeline/scan/line.h"
 #include "scan_reading.h"
 #include "scan_writing.h"
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "fathom/pipeline/flood_fill.h"
-#include "fathom/pipeline/polygon_tests.h"
-#include "fathom/pipeline/tessellate.h"
+#include "fathom/pipeline/scan/flood_fill.h"
+#include "fathom/pipeline/scan/polygon_tests.h"
+#include "fathom/pipeline/scan/tessellate.h"
 #include "scan_reading.h"
 #include "scan_writing.h"
 

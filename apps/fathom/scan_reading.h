@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fathom/clipping/points.h"
-#include "fathom/pipeline/polygon_fill.h"
+#include "fathom/pipeline/scan/polygon_fill.h"
 #include "scan_algorithms.h"
 
 /// Reading the cases of `fathom scan`.

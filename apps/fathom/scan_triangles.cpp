@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "fathom/pipeline/edge_function.h"
+#include "fathom/pipeline/scan/edge_function.h"
 #include "scan_reading.h"
 #include "scan_writing.h"
 

@@ -11,9 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "fathom/camera/camera_files.h"
+#include "fathom/camera/camera_making.h"
 #include "fathom/image/map_files.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/scene/camera_making.h"
+#include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "known_files.h"
 #include "numbers.h"

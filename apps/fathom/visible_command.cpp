@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "camera_options.h"
-#include "fathom/exact/visible_areas.h"
+#include "fathom/area/visible_areas.h"
 #include "fathom/numeric/errors.h"
 #include "output_file.h"
 #include "program.h"

@@ -3,10 +3,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "fathom/exact/deep_pixels.h"
-#include "fathom/exact/fast.h"
-#include "fathom/exact/reference.h"
+#include "fathom/area/deep_pixels.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/fast/render_fast.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/reference/reference.h"
 #include "fathom/scene/read_scene.h"
 
 namespace fathom {

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "fathom/exact/fast_stream.h"
-#include "fathom/exact/options.h"
+#include "fathom/camera/camera.h"
+#include "fathom/fast/stream.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/pipeline/render_pipeline.h"
-#include "fathom/scene/camera.h"
 #include "fathom/scene/scene.h"
 #include "fathom/scene/streamed_scene.h"
+#include "fathom/triangle/options.h"
 
 /// The front door.
 namespace fathom {

@@ -8,8 +8,8 @@
 
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/mapping.h"
-#include "fathom/exact/probe.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/reference/probe.h"
 #include "fathom/render.h"
 #include "tests/effort.h"
 #include "tests/exact/expect_same_map.h"

@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "fathom/exact/options.h"
+#include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/scene/camera.h"
 #include "fathom/scene/scene.h"
+#include "fathom/triangle/options.h"
 #include "tests/oracle/areas.h"
 #include "tests/oracle/ray_caster.h"
 

@@ -1,6 +1,6 @@
 // Pairs of surfaces that coincide or nearly do, known on paper and against differences of depth on
 // a fine grid.
-#include "fathom/exact/coplanar.h"
+#include "fathom/area/coplanar.h"
 
 #include <gtest/gtest.h>
 

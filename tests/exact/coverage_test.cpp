@@ -1,5 +1,5 @@
 // Channel A against areas computed in slabs by rational numbers, and against areas known on paper.
-#include "fathom/exact/coverage.h"
+#include "fathom/area/coverage.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numeric>
 #include <random>
 
-#include "fathom/exact/projected_triangle.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "tests/effort.h"
 #include "tests/exact/against_oracle.h"
 #include "tests/exact/random_scenes.h"

@@ -1,10 +1,10 @@
 // Whether two triangles have no area in common on the image, by their edges, against the areas of
 // both and of their union in rational numbers.
-#include "fathom/exact/disjoint_surfaces.h"
+#include "fathom/area/disjoint_surfaces.h"
 
 #include <gtest/gtest.h>
 
-#include "fathom/exact/triangle_source.h"
+#include "fathom/scene/triangle_source.h"
 #include "tests/effort.h"
 #include "tests/exact/against_oracle.h"
 #include "tests/exact/random_scenes.h"

@@ -5,8 +5,8 @@
 #include <bit>
 #include <cstring>
 
-#include "fathom/exact/fast.h"
-#include "fathom/exact/reference.h"
+#include "fathom/fast/render_fast.h"
+#include "fathom/reference/reference.h"
 
 namespace fathom::testing {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "fathom/exact/fast_setup.h"
-#include "fathom/exact/fast_vertex.h"
+#include "fathom/fast/setup.h"
+#include "fathom/fast/vertex.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/exact/scene_building.h"
 

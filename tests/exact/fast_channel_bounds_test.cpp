@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "fathom/exact/fast_wide.h"
-#include "fathom/exact/projected_triangle.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/triangle/double_word_surface.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "tests/effort.h"
 #include "tests/exact/scene_building.h"
 

@@ -1,13 +1,12 @@
 // Rows of rounded values: where a value is settled, every number that the bound of q allows rounds
 // to it; and hardly ever is one left open without need.
-#include "fathom/exact/fast_channel_rows.h"
-
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 #include <random>
 
+#include "fathom/fast/channel_rows.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/exact/scene_building.h"
 

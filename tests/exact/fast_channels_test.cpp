@@ -6,10 +6,11 @@
 #include <filesystem>
 #include <numbers>
 
-#include "fathom/exact/engine_frame.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/camera/camera_making.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/scene/camera_making.h"
 #include "fathom/scene/read_scene.h"
+#include "fathom/triangle/threads.h"
 #include "tests/effort.h"
 #include "tests/exact/expect_same_map.h"
 #include "tests/exact/random_scenes.h"

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 
-#include "fathom/scene/camera_making.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/camera/camera_making.h"
+#include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/effort.h"
 #include "tests/exact/expect_same_map.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/exact/fast_range.h"
-#include "fathom/exact/fast_referee.h"
+#include "fathom/fast/depth_range.h"
+#include "fathom/triangle/referee.h"
 #include "tests/exact/scene_building.h"
 
 namespace fathom {

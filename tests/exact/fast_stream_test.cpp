@@ -1,16 +1,17 @@
 // Scenes that stay in their files: the map of the same files read into memory, bit for bit.
-#include "fathom/exact/fast_stream.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
 
-#include "fathom/exact/verify.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/camera/camera_making.h"
+#include "fathom/fast/stream.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/reference/verify.h"
 #include "fathom/render.h"
-#include "fathom/scene/camera_making.h"
+#include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/effort.h"
 #include "tests/exact/expect_same_map.h"

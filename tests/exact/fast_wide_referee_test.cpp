@@ -1,14 +1,13 @@
 // The tier of double-words between binary64 and exact numbers: what it settles is right, and it
 // settles what differs by less than binary64 can tell.
-#include "fathom/exact/fast_wide_referee.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "fathom/exact/projected_triangle.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/triangle/double_word_referee.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "tests/exact/random_scenes.h"
 
 namespace fathom {

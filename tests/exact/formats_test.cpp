@@ -4,7 +4,8 @@
 #include <bit>
 #include <filesystem>
 
-#include "fathom/scene/camera_making.h"
+#include "fathom/camera/camera_making.h"
+#include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/exact/against_oracle.h"
 #include "tests/exact/tested_engine.h"

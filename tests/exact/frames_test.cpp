@@ -1,11 +1,11 @@
 // Mixing up frames does not compile.
-#include "fathom/scene/frames.h"
+#include "fathom/geometry/frames.h"
 
 #include <gtest/gtest.h>
 
 #include <type_traits>
 
-#include "fathom/scene/camera.h"
+#include "fathom/camera/camera.h"
 
 namespace fathom {
 namespace {

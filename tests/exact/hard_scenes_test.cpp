@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "fathom/camera/camera_files.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/exact/against_oracle.h"
 #include "tests/exact/tested_engine.h"

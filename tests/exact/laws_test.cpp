@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "fathom/exact/probe.h"
+#include "fathom/reference/probe.h"
 #include "tests/exact/scene_building.h"
 #include "tests/exact/tested_engine.h"
 

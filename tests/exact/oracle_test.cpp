@@ -1,8 +1,8 @@
 // The reference engine against rays cast in rational numbers, every channel, over random scenes.
 #include <gtest/gtest.h>
 
-#include "fathom/exact/engine_frame.h"
-#include "fathom/exact/probe.h"
+#include "fathom/reference/probe.h"
+#include "fathom/triangle/threads.h"
 #include "tests/effort.h"
 #include "tests/exact/against_oracle.h"
 #include "tests/exact/random_scenes.h"

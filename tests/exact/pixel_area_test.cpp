@@ -5,10 +5,10 @@
 #include <random>
 #include <set>
 
-#include "fathom/exact/edge_balance.h"
-#include "fathom/exact/fast_vertex.h"
-#include "fathom/exact/pixel_union.h"
-#include "fathom/exact/pixel_winding.h"
+#include "fathom/fast/coverage/edge_balance.h"
+#include "fathom/fast/coverage/pixel_union.h"
+#include "fathom/fast/coverage/pixel_winding.h"
+#include "fathom/fast/vertex.h"
 #include "tests/effort.h"
 #include "tests/oracle/areas.h"
 

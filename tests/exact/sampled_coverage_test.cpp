@@ -1,4 +1,4 @@
-#include "fathom/exact/sampled_coverage.h"
+#include "fathom/area/sampled_coverage.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <set>
 #include <string>
 
-#include "fathom/exact/channels.h"
-#include "fathom/exact/projected_triangle.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
+#include "fathom/triangle/channels.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "tests/effort.h"
 #include "tests/exact/random_scenes.h"
 

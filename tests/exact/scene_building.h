@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "fathom/scene/camera.h"
+#include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
 namespace fathom::testing {

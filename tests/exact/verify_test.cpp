@@ -1,5 +1,5 @@
 // verify() against maps that are right and maps in which one bit is not.
-#include "fathom/exact/verify.h"
+#include "fathom/reference/verify.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,10 @@
 #include <limits>
 #include <set>
 
-#include "fathom/exact/verify_samples.h"
-#include "fathom/scene/camera_making.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/camera/camera_making.h"
+#include "fathom/reference/verify_samples.h"
+#include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/effort.h"
 #include "tests/exact/expect_same_map.h"

@@ -1,6 +1,6 @@
 // Visible and unoccluded areas of triangles and objects against the sum over pixels of the
 // oracle's.
-#include "fathom/exact/visible_areas.h"
+#include "fathom/area/visible_areas.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Visible areas inside pixels against areas computed cell by cell in rational numbers.
-#include "fathom/exact/visible_fragments.h"
+#include "fathom/area/visible_fragments.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "fathom/exact/cell_division.h"
-#include "fathom/exact/coverage.h"
+#include "fathom/area/cell_division.h"
+#include "fathom/area/coverage.h"
 #include "tests/effort.h"
 #include "tests/exact/against_oracle.h"
 #include "tests/exact/random_scenes.h"

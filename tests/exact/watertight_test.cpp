@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "fathom/exact/probe.h"
+#include "fathom/reference/probe.h"
 #include "tests/effort.h"
 #include "tests/exact/scene_building.h"
 #include "tests/exact/tested_engine.h"

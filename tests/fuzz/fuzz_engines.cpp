@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "fathom/exact/fast.h"
-#include "fathom/exact/reference.h"
+#include "fathom/fast/render_fast.h"
+#include "fathom/reference/reference.h"
 #include "tests/exact/scene_building.h"
 
 namespace fathom {

@@ -4,9 +4,11 @@
 #include <span>
 #include <string>
 
+#include "fathom/mesh_files/read_gltf.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/bounds.h"
-#include "fathom/scene/read_gltf.h"
+#include "fathom/scene/framing.h"
+#include "fathom/text/warnings.h"
 
 /// Any bytes as a glTF asset: an InputError of one line, or a scene that keeps its promises.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -17,7 +19,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.attributes = size % 2 == 0;
   options.hash = false;
   try {
-    append_gltf(scene, std::as_bytes(std::span(data, size)), "input", options, warnings);
+    GltfAsset asset = read_gltf(std::as_bytes(std::span(data, size)), "input", options, warnings);
+    scene = {std::move(asset.meshes), std::move(asset.objects), std::move(asset.buffers)};
   } catch (const InputError& e) {
     if (std::string(e.what()).find('\n') != std::string::npos) std::abort();
     return 0;

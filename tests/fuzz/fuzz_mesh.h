@@ -7,9 +7,10 @@
 #include <span>
 #include <string_view>
 
+#include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh_files/read_mesh.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/scene/mesh_faces.h"
-#include "fathom/scene/read_mesh.h"
+#include "fathom/text/warnings.h"
 
 namespace fathom::fuzz {
 

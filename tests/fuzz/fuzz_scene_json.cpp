@@ -3,8 +3,8 @@
 #include <span>
 #include <string_view>
 
+#include "fathom/mesh_files/recognise_format.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/scene/recognise_format.h"
 #include "fathom/scene/scene_json.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fathom/image/binary16.h"
 #include "fathom/image/map_codecs.h"
+#include "fathom/numeric/binary16.h"
 #include "fathom/numeric/errors.h"
 #include "tests/image/map_samples.h"
 

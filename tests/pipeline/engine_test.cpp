@@ -5,12 +5,12 @@
 #include <cmath>
 #include <random>
 
-#include "fathom/exact/projected_triangle.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/pipeline/texture.h"
 #include "fathom/render.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "tests/effort.h"
 
 namespace fathom::pipeline {

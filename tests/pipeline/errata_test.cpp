@@ -13,11 +13,11 @@
 
 #include "fathom/clipping/homogeneous.h"
 #include "fathom/depth_format/encode.h"
-#include "fathom/pipeline/edge_function.h"
 #include "fathom/pipeline/grid_samples.h"
-#include "fathom/pipeline/line.h"
-#include "fathom/pipeline/polygon_fill.h"
 #include "fathom/pipeline/render_pipeline.h"
+#include "fathom/pipeline/scan/edge_function.h"
+#include "fathom/pipeline/scan/line.h"
+#include "fathom/pipeline/scan/polygon_fill.h"
 
 namespace fathom::pipeline {
 namespace {

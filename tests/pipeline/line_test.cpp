@@ -1,6 +1,6 @@
 // Lines against the pixel nearest to the exact line, found by search.
 
-#include "fathom/pipeline/line.h"
+#include "fathom/pipeline/scan/line.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "fathom/pipeline/diamond_exit.h"
+#include "fathom/pipeline/scan/diamond_exit.h"
 #include "tests/effort.h"
 
 namespace fathom::pipeline {

@@ -1,6 +1,6 @@
 // Scan-line fill against the parity of a ray at every pixel centre.
 
-#include "fathom/pipeline/polygon_fill.h"
+#include "fathom/pipeline/scan/polygon_fill.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "fathom/pipeline/flood_fill.h"
+#include "fathom/pipeline/scan/flood_fill.h"
 #include "tests/effort.h"
 #include "tests/pipeline/rings.h"
 

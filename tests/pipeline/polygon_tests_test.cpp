@@ -1,6 +1,6 @@
 // Inside and outside, convexity, hull and tessellation.
 
-#include "fathom/pipeline/polygon_tests.h"
+#include "fathom/pipeline/scan/polygon_tests.h"
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/convex_hull_2.h>
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <random>
 
-#include "fathom/pipeline/tessellate.h"
+#include "fathom/pipeline/scan/tessellate.h"
 #include "tests/effort.h"
 #include "tests/pipeline/rings.h"
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <random>
 
-#include "fathom/pipeline/edge_function.h"
-#include "fathom/pipeline/polygon_fill.h"
+#include "fathom/pipeline/scan/edge_function.h"
+#include "fathom/pipeline/scan/polygon_fill.h"
 #include "fathom/pipeline/subpixel_grid.h"
 #include "tests/effort.h"
 

@@ -1,4 +1,4 @@
-#include "fathom/scene/camera_import.h"
+#include "fathom/camera/camera_import.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,10 @@
 #include <random>
 #include <sstream>
 
+#include "fathom/camera/camera_files.h"
+#include "fathom/camera/camera_import_internal.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
-#include "fathom/scene/camera_import_internal.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/scene/scratch_folder.h"
 

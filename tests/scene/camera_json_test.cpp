@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 
+#include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/scene/scratch_folder.h"

@@ -1,4 +1,4 @@
-#include "fathom/scene/camera_making.h"
+#include "fathom/camera/camera_making.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/scene/framing.h"
 #include "tests/scene/scratch_folder.h"
 
 namespace fathom {

@@ -1,4 +1,4 @@
-#include "fathom/scene/camera.h"
+#include "fathom/camera/camera.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

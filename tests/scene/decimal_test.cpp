@@ -1,4 +1,4 @@
-#include "fathom/scene/decimal.h"
+#include "fathom/text/decimal.h"
 
 #include <gtest/gtest.h>
 #include <mpfr.h>

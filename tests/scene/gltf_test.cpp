@@ -6,9 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "fathom/mesh_files/read_gltf.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
-#include "fathom/scene/read_gltf.h"
+#include "fathom/text/warnings.h"
 #include "tests/effort.h"
 #include "tests/scene/scratch_folder.h"
 
@@ -30,8 +31,9 @@ Read read_bytes(std::string_view bytes, const std::filesystem::path& path = "tes
   Read result;
   ReadOptions options;
   options.attributes = attributes;
-  append_gltf(result.scene, std::as_bytes(std::span(bytes.data(), bytes.size())), path, options,
-              result.warnings);
+  GltfAsset asset = read_gltf(std::as_bytes(std::span(bytes.data(), bytes.size())), path, options,
+                              result.warnings);
+  result.scene = {std::move(asset.meshes), std::move(asset.objects), std::move(asset.buffers)};
   return result;
 }
 

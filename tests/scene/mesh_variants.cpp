@@ -6,9 +6,9 @@
 #include <cstring>
 #include <functional>
 
+#include "fathom/mesh_files/read_mesh.h"
+#include "fathom/mesh_files/recognise_format.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/scene/read_mesh.h"
-#include "fathom/scene/recognise_format.h"
 
 namespace fathom::test {
 namespace {

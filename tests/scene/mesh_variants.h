@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "fathom/scene/mesh.h"
+#include "fathom/mesh/mesh.h"
+#include "fathom/text/warnings.h"
 
 namespace fathom::test {
 

@@ -1,4 +1,4 @@
-#include "fathom/scene/read_mesh.h"
+#include "fathom/mesh_files/read_mesh.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

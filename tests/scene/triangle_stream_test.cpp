@@ -1,5 +1,5 @@
 // Streams against the ordinary reader: the same triangles, faces, warnings and failures.
-#include "fathom/scene/triangle_stream.h"
+#include "fathom/mesh_files/triangle_stream.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,6 +16,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/bounds.h"
+#include "fathom/scene/framing.h"
 #include "tests/scene/mesh_variants.h"
 #include "tests/scene/scratch_folder.h"
 

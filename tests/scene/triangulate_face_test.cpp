@@ -1,4 +1,4 @@
-#include "fathom/scene/triangulate_face.h"
+#include "fathom/mesh/triangulate_face.h"
 
 #include <gmock/gmock.h>
 #include <gmpxx.h>

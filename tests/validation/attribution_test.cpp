@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "fathom/scene/camera_making.h"
+#include "fathom/camera/camera_making.h"
 #include "tests/validation/float_rasterizer.h"
 #include "validation/attribution/clip_vertex.h"
 #include "validation/attribution/hypotheses.h"

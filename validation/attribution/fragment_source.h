@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "fathom/exact/projected_triangle.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "validation/attribution/fragment.h"
 #include "validation/attribution/renderer_model.h"
 #include "validation/world_mesh.h"

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "fathom/camera/camera.h"
 #include "fathom/depth_format/depth_format.h"
-#include "fathom/scene/camera.h"
 #include "validation/attribution/written_depth.h"
 
 /// What is assumed of a renderer that is held against the truth. docs/validation.md derives the

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "fathom/camera/camera.h"
 #include "fathom/depth_format/depth_format.h"
 #include "fathom/numeric/interval.h"
-#include "fathom/scene/camera.h"
 
 namespace fathom::validation {
 

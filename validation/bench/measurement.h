@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/exact/options.h"
+#include "fathom/triangle/options.h"
 
 namespace fathom::bench {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/scene/camera.h"
+#include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
 /// What is timed: a scene and the camera that looks at it.

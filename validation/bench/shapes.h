@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "fathom/scene/camera.h"
+#include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
 /// The meshes that engines and peers are timed on. All are made from fixed seeds; coordinates are

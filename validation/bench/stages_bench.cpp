@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/exact/fast_frame.h"
+#include "fathom/fast/frame.h"
 #include "fathom/render.h"
 #include "validation/bench/scenes.h"
 

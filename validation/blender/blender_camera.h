@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "fathom/scene/camera.h"
+#include "fathom/camera/camera.h"
 
 namespace fathom::validation {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/scene/camera.h"
+#include "fathom/camera/camera.h"
 #include "validation/world_mesh.h"
 
 namespace fathom::validation {

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/camera/camera_making.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/scene/camera_making.h"
+#include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "validation/bench/scenes.h"
 #include "validation/bench/shapes.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/scene/camera.h"
+#include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
 /// What other renderers are validated on:

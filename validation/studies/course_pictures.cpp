@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "fathom/pipeline/edge_function.h"
 #include "fathom/pipeline/grid_samples.h"
-#include "fathom/pipeline/line.h"
-#include "fathom/pipeline/polygon_fill.h"
+#include "fathom/pipeline/scan/edge_function.h"
+#include "fathom/pipeline/scan/line.h"
+#include "fathom/pipeline/scan/polygon_fill.h"
 #include "fathom/render.h"
 #include "validation/studies/pipeline_scenes.h"
 

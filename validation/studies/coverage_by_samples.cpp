@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "fathom/exact/sampled_coverage.h"
+#include "fathom/area/sampled_coverage.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
 #include "validation/studies/plot.h"

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <map>
 
+#include "fathom/area/coverage_image.h"
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/mapping.h"
 #include "fathom/depth_format/resolution.h"
-#include "fathom/exact/coverage_image.h"
-#include "fathom/exact/fast_referee.h"
+#include "fathom/triangle/referee.h"
 
 namespace fathom::studies {
 namespace {

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "fathom/numeric/errors.h"
-#include "fathom/pipeline/diamond_exit.h"
-#include "fathom/pipeline/line.h"
+#include "fathom/pipeline/scan/diamond_exit.h"
+#include "fathom/pipeline/scan/line.h"
 #include "validation/studies/page.h"
 #include "validation/studies/plot.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fathom/scene/camera.h"
+#include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
 /// Scenes and cameras for studies of the pipeline.

@@ -6,10 +6,10 @@
 #include <limits>
 #include <optional>
 
-#include "fathom/exact/projected_triangle.h"
-#include "fathom/exact/triangle_source.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/scene/triangle_source.h"
+#include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::studies {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/scene/camera.h"
+#include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
 /// Studies of depth precision: each computes figures, draws them, and explains what is seen.

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "fathom/image/binary16.h"
+#include "fathom/numeric/binary16.h"
 
 namespace fathom {
 namespace {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
+#include "fathom/area/coverage_image.h"
 #include "fathom/depth_buffer/buffer_channels.h"
 #include "fathom/depth_buffer/depth_buffer.h"
-#include "fathom/exact/coverage_image.h"
 
 /// The two ways to fill the channels; both in the arena of their caller.
 namespace fathom {

@@ -10,9 +10,9 @@
 #include "fathom/depth_format/certified_format.h"
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/mapping.h"
-#include "fathom/exact/certified_surfaces.h"
-#include "fathom/exact/fast_referee.h"
 #include "fathom/numeric/certified_rounding.h"
+#include "fathom/triangle/certified_surfaces.h"
+#include "fathom/triangle/referee.h"
 
 // How to read this file: fill_certified() at the end is the whole story; exact_buffer.cpp says the
 // same without bounds. Each value is asked of binary64, then of double-words, then of exact

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "fathom/depth_buffer/buffer_work.h"
-#include "fathom/exact/engine_frame.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/triangle/threads.h"
 
 namespace fathom {
 

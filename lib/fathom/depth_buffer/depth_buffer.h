@@ -2,11 +2,11 @@
 
 #include <cstdint>
 
+#include "fathom/camera/camera.h"
 #include "fathom/depth_format/depth_format.h"
-#include "fathom/exact/options.h"
-#include "fathom/exact/triangle_source.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/scene/camera.h"
+#include "fathom/scene/triangle_source.h"
+#include "fathom/triangle/options.h"
 
 /// What a depth buffer would hold of a rendered map (specification, section 9, the ideal model).
 namespace fathom {

@@ -11,8 +11,8 @@
 #include "fathom/image/deep_map.h"
 #include "fathom/image/exr_attributes.h"
 #include "fathom/image/exr_streams.h"
-#include "fathom/image/file_bytes.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/file_bytes.h"
 
 namespace fathom {
 namespace {

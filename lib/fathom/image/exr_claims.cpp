@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "fathom/image/byte_order.h"
 #include "fathom/image/map_codecs.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/byte_order.h"
 
 /// What an OpenEXR header claims, checked against the size of the file before OpenEXR, which
 /// allocates by those claims, sees it. Layout: "OpenEXR File Layout" of the format's documentation.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fathom/image/file_bytes.h"
+#include "fathom/text/file_bytes.h"
 
 namespace fathom {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "fathom/image/depth_map.h"
-#include "fathom/image/file_bytes.h"
 #include "fathom/image/map_files.h"
+#include "fathom/text/file_bytes.h"
 
 /// The formats as pure functions between maps and bytes, for map_files.cpp, tests and fuzzers.
 /// `name` is the file's name for messages. Decoders throw InputError, encoders OutputError.

@@ -2,10 +2,10 @@
 #include <optional>
 #include <string_view>
 
-#include "fathom/image/binary16.h"
-#include "fathom/image/byte_order.h"
 #include "fathom/image/map_codecs.h"
+#include "fathom/numeric/binary16.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/byte_order.h"
 
 /// NPY (NumPy enhancement proposal 1): "\x93NUMPY", version, length of the header, a Python
 /// dictionary of descr, fortran_order and shape, then the values.

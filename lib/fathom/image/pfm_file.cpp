@@ -2,9 +2,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "fathom/image/byte_order.h"
 #include "fathom/image/map_codecs.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/byte_order.h"
 
 /// PFM (Debevec; Netpbm): "Pf" or "PF", width, height, scale, one white space after each, then
 /// binary32 rows from the bottom up. A negative scale says little endian. The scale's magnitude is

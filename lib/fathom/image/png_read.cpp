@@ -4,10 +4,10 @@
 #include <csetjmp>
 #include <cstring>
 
-#include "fathom/image/byte_order.h"
 #include "fathom/image/map_codecs.h"
 #include "fathom/image/png_stream.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/byte_order.h"
 
 namespace fathom {
 

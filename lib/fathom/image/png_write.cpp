@@ -4,11 +4,11 @@
 #include <cstring>
 #include <utility>
 
-#include "fathom/image/byte_order.h"
 #include "fathom/image/map_codecs.h"
 #include "fathom/image/png_stream.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/byte_order.h"
 
 namespace fathom {
 namespace {

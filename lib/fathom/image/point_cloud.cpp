@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 
-#include "fathom/image/byte_order.h"
-#include "fathom/image/file_bytes.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/byte_order.h"
+#include "fathom/text/file_bytes.h"
 
 namespace fathom {
 namespace {

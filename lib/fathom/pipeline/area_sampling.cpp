@@ -4,7 +4,7 @@
 
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/sutherland_hodgman.h"
-#include "fathom/pipeline/arithmetic.h"
+#include "fathom/pipeline/scan/arithmetic.h"
 
 namespace fathom::pipeline {
 namespace {

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "fathom/pipeline/arithmetic.h"
+#include "fathom/pipeline/scan/arithmetic.h"
 
 namespace fathom::pipeline {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fathom/pipeline/polygon_fill.h"
+#include "fathom/pipeline/scan/polygon_fill.h"
 
 namespace fathom::pipeline {
 namespace {

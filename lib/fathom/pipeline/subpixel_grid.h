@@ -4,8 +4,8 @@
 #include <functional>
 #include <optional>
 
-#include "fathom/pipeline/arithmetic.h"
-#include "fathom/pipeline/pixels.h"
+#include "fathom/pipeline/scan/arithmetic.h"
+#include "fathom/pipeline/scan/pixels.h"
 
 /// Triangles on a fixed-point grid, as graphics processors have them: corners are snapped to 2⁰ …
 /// 2¹⁶ positions a pixel, and everything after that is decided in integers, without an error.

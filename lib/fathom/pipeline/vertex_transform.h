@@ -2,11 +2,11 @@
 
 #include <array>
 
+#include "fathom/camera/camera.h"
 #include "fathom/clipping/homogeneous.h"
 #include "fathom/pipeline/attributes.h"
 #include "fathom/pipeline/options.h"
 #include "fathom/pipeline/primitive_assembly.h"
-#include "fathom/scene/camera.h"
 
 /// Vertex stage: model, view and projection, in binary32 or binary64, each matrix rounded to it.
 ///

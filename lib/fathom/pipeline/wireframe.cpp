@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/pipeline/diamond_exit.h"
-#include "fathom/pipeline/line.h"
 #include "fathom/pipeline/rasterizer.h"
+#include "fathom/pipeline/scan/diamond_exit.h"
+#include "fathom/pipeline/scan/line.h"
 
 namespace fathom::pipeline {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "fathom/scene/approximate_row.h"
+#include "fathom/geometry/approximate_row.h"
 
 namespace fathom {
 namespace {

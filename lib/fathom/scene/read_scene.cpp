@@ -1,17 +1,19 @@
 #include "fathom/scene/read_scene.h"
 
+#include <algorithm>
 #include <future>
+#include <iterator>
 #include <map>
 #include <utility>
 
+#include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh_files/read_gltf.h"
+#include "fathom/mesh_files/read_mesh.h"
+#include "fathom/mesh_files/recognise_format.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/scene/input_file.h"
-#include "fathom/scene/mesh_faces.h"
-#include "fathom/scene/read_gltf.h"
-#include "fathom/scene/read_mesh.h"
-#include "fathom/scene/recognise_format.h"
 #include "fathom/scene/scene_json.h"
-#include "fathom/scene/sha256.h"
+#include "fathom/text/input_file.h"
+#include "fathom/text/sha256.h"
 
 namespace fathom {
 namespace {
@@ -107,7 +109,7 @@ class SceneReader {
     const std::size_t source = scene_.sources.size(), first = scene_.objects.size();
     scene_.sources.push_back({file, ""});
     if (kind == FileKind::gltf) {
-      append_gltf(scene_, input.bytes(), path, options_, warnings_);
+      append(read_gltf(input.bytes(), path, options_, warnings_));
     } else {
       if (input.bytes().empty()) throw InputError(file + ": is empty, expected a mesh");
       Mesh mesh = read_mesh(kind, input, file, options_, warnings_);
@@ -121,6 +123,15 @@ class SceneReader {
     for (std::size_t i = first; i < scene_.objects.size(); ++i) scene_.objects[i].source = source;
     if (hash.valid()) scene_.sources[source].sha256 = hash.get();
     expect_countable(triangle_count(scene_), "triangles in all", file);
+  }
+
+  void append(GltfAsset asset) {
+    for (Object& object : asset.objects) {
+      object.mesh += scene_.meshes.size();
+      scene_.objects.push_back(std::move(object));
+    }
+    std::move(asset.meshes.begin(), asset.meshes.end(), std::back_inserter(scene_.meshes));
+    std::move(asset.buffers.begin(), asset.buffers.end(), std::back_inserter(scene_.sources));
   }
 
   void add_placed(const PlacedFile& placed, ObjectsOfFile& known) {

@@ -1,6 +1,6 @@
 #include "fathom/scene/scene_json.h"
 
-#include "fathom/scene/json_value.h"
+#include "fathom/text/json_value.h"
 
 namespace fathom {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "fathom/scene/mesh_faces.h"
+#include "fathom/mesh/mesh_faces.h"
 
 namespace fathom {
 

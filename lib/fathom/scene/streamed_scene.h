@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "fathom/mesh_files/triangle_stream.h"
 #include "fathom/scene/scene.h"
-#include "fathom/scene/triangle_stream.h"
 
 namespace fathom {
 

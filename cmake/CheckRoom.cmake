@@ -1,0 +1,16 @@
+# Fails where a file of a room includes a room that is not among those that it may use.
+#   cmake -DROOM=fast "-DUSES=numeric;triangle" -DFOLDER=lib/fathom/fast -P CheckRoom.cmake
+cmake_minimum_required(VERSION 3.22)
+file(GLOB_RECURSE files "${FOLDER}/*.h" "${FOLDER}/*.cpp")
+foreach(file ${files})
+  file(STRINGS "${file}" lines REGEX "^#include [<\"]fathom/")
+  foreach(line ${lines})
+    if(NOT line MATCHES "fathom/(.+)/[^/]+[>\"]")
+      continue()
+    endif()
+    set(included "${CMAKE_MATCH_1}")
+    if(NOT included IN_LIST USES AND NOT "${included}/" MATCHES "^${ROOM}/")
+      message(FATAL_ERROR "${file}: the room ${ROOM} may not use ${included}, only itself and: ${USES}")
+    endif()
+  endforeach()
+endforeach()

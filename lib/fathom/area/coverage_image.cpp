@@ -1,0 +1,113 @@
+#include "fathom/area/coverage_image.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "fathom/triangle/triangle_boxes.h"
+
+namespace fathom {
+namespace {
+
+constexpr std::uint32_t triangles_of_file = 1U << 19;
+constexpr std::size_t triangles_per_chunk = 4096;
+
+/// What a triangle covers of the image, and where.
+struct BoxedRegion {
+  SurfaceRegion surface;
+  PixelBox box;
+};
+
+std::vector<BoxedRegion> regions_of(const CoverageFrame& frame, const TriangleBands::Band& band) {
+  std::vector<BoxedRegion> regions;
+  TierCounts counts;
+  for (const BoxedTriangle& triangle : band.triangles) {
+    const ProjectedTriangle t = project(frame.triangles.world_corners(triangle.number),
+                                        triangle.number, frame.camera, counts);
+    if (!is_kept(t, frame.cull)) continue;
+    if (auto surface = surface_region(t, frame.camera)) {
+      regions.push_back({std::move(*surface), triangle.box});
+    }
+  }
+  return regions;
+}
+
+void visit_row(const std::vector<BoxedRegion>& regions, std::uint32_t row, std::uint32_t width,
+               const VisitPixel& visit) {
+  std::vector<std::vector<const SurfaceRegion*>> columns(width);
+  for (const BoxedRegion& r : regions) {
+    if (r.box.first_row > row || r.box.last_row < row) continue;
+    for (std::uint32_t column = r.box.first_column; column <= r.box.last_column; ++column) {
+      columns[column].push_back(&r.surface);
+    }
+  }
+  for (std::uint32_t column = 0; column < width; ++column) {
+    if (!columns[column].empty()) visit(column, row, columns[column]);
+  }
+}
+
+}  // namespace
+
+TriangleBands::TriangleBands(const CoverageFrame& frame)
+    : height_(frame.camera.height), bands_((height_ - 1) / rows_per_band + 1) {
+  frame.triangles.for_each_part(triangles_of_file, [&](const TriangleSource::Part& part) {
+    const std::size_t count = part.mesh.triangles.size();
+    std::vector<std::vector<BoxedTriangle>> found((count + triangles_per_chunk - 1) /
+                                                  triangles_per_chunk);
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
+      TriangleBoxes boxes(part.object, part.mesh, frame.camera);
+      const std::size_t end = std::min(count, (k + 1) * triangles_per_chunk);
+      for (std::size_t i = k * triangles_per_chunk; i < end; ++i) {
+        const auto triangle = static_cast<std::uint32_t>(i);
+        const PixelBox box = boxes.box(triangle);
+        if (!box.is_empty()) found[k].push_back({part.first_number + triangle, box});
+      }
+    });
+    for (const auto& triangles : found) {
+      for (const BoxedTriangle& triangle : triangles) {
+        const std::uint32_t last = triangle.box.last_row / rows_per_band;
+        for (std::uint32_t k = triangle.box.first_row / rows_per_band; k <= last; ++k) {
+          bands_[k].push_back(triangle);
+        }
+      }
+    }
+  });
+}
+
+TriangleBands::Band TriangleBands::operator[](std::uint32_t band) const {
+  const std::uint32_t first_row = band * rows_per_band;
+  return {first_row, std::min(first_row + rows_per_band, height_), bands_[band]};
+}
+
+void for_each_pixel(const CoverageFrame& frame, const VisitPixel& visit,
+                    const std::function<void()>& part_done) {
+  const TriangleBands bands(frame);
+  tbb::parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t k) {
+    const TriangleBands::Band band = bands[k];
+    const std::vector<BoxedRegion> regions = regions_of(frame, band);
+    for (std::uint32_t row = band.first_row; row < band.end_row; ++row) {
+      visit_row(regions, row, frame.camera.width, visit);
+    }
+    if (part_done) part_done();
+  });
+}
+
+TierCounts write_coverage(const CoverageFrame& frame, float* values,
+                          const std::function<void()>& part_done) {
+  tbb::enumerable_thread_specific<TierCounts> counts;
+  const auto write = [&](std::uint32_t column, std::uint32_t row,
+                         std::span<const SurfaceRegion* const> triangles) {
+    ImageCell pixel(column, row);
+    CellCoverage coverage(pixel);
+    for (const SurfaceRegion* t : triangles) coverage.add(t->region);
+    values[static_cast<std::size_t>(row) * frame.camera.width + column] = coverage.rounded_area();
+    counts.local() += coverage.decisions();
+  };
+  for_each_pixel(frame, write, part_done);
+  TierCounts sum;
+  for (const TierCounts& part : counts) sum += part;
+  return sum;
+}
+
+}  // namespace fathom

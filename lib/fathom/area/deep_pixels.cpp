@@ -1,0 +1,188 @@
+#include "fathom/area/deep_pixels.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "fathom/area/cell_division.h"
+#include "fathom/area/coverage_image.h"
+#include "fathom/area/visible_fragments.h"
+#include "fathom/numeric/rounding.h"
+#include "fathom/triangle/threads.h"
+
+namespace fathom {
+namespace {
+
+/// What of a triangle is visible in a pixel.
+struct Fragment {
+  const SurfaceRegion* surface;
+  Boundary boundary;
+  Bounded approximate_area;
+};
+
+/// The visible surfaces of one pixel, and what they leave of it.
+struct PixelSurfaces {
+  std::vector<Fragment> fragments;
+  Boundary uncovered;
+};
+
+void append(Boundary& boundary, Boundary more) {
+  if (boundary.empty()) {
+    boundary = std::move(more);
+  } else {
+    boundary.insert(boundary.end(), more.begin(), more.end());
+  }
+}
+
+/// The boundary of what is visible of a triangle, to which more may be added.
+Boundary& boundary_in(std::vector<Fragment>& fragments, const SurfaceRegion& surface) {
+  for (auto f = fragments.rbegin(); f != fragments.rend(); ++f) {
+    if (f->surface == &surface) return f->boundary;
+  }
+  fragments.push_back({&surface, {}, {}});
+  return fragments.back().boundary;
+}
+
+PixelSurfaces look_into(ImageCell& pixel, std::span<const SurfaceRegion* const> triangles) {
+  CellVisibility visibility(pixel);
+  for (const SurfaceRegion* t : triangles) visibility.add(*t);
+  visibility.drop_hidden();
+  PixelSurfaces result;
+  divide(std::move(visibility), [&](CellVisibility& part) {
+    for (std::size_t piece = 0; piece < part.size(); ++piece) {
+      Boundary boundary = part.visible(piece);
+      if (boundary.empty()) continue;
+      append(boundary_in(result.fragments, part.surface(piece)), std::move(boundary));
+    }
+    append(result.uncovered, part.uncovered());
+  });
+  for (Fragment& f : result.fragments) f.approximate_area = approximate_area(f.boundary);
+  return result;
+}
+
+float rounded(const Bounded& approximate, const std::function<Ratio()>& exact) {
+  if (const auto settled = settled_binary32(approximate)) return *settled;
+  return round_to_binary32(exact());
+}
+
+Ratio sum_of_areas(std::span<const Fragment> fragments) {
+  Ratio sum;
+  for (const Fragment& f : fragments) sum = sum + area(f.boundary);
+  return sum;
+}
+
+/// a / (1 − Σ of those before) = a / (a + rest), where the rest is what those behind it and nothing
+/// cover: a sum of positive numbers, in which nothing cancels.
+float alpha(std::span<const Fragment> from_here, const Boundary& uncovered) {
+  const Fragment& f = from_here.front();
+  const auto behind = from_here.subspan(1);
+  if (behind.empty() && uncovered.empty()) return 1;
+  Bounded rest = approximate_area(uncovered);
+  for (const Fragment& b : behind) rest = rest + b.approximate_area;
+  const Bounded one{1, 0};
+  return rounded(one / (one + rest / f.approximate_area), [&] {
+    const Ratio a = area(f.boundary);
+    const Ratio sum = sum_of_areas(from_here) + area(uncovered);
+    return Ratio(a.numerator * sum.denominator, a.denominator * sum.numerator);
+  });
+}
+
+std::vector<DeepSample> deep_samples(ImageCell& pixel, PixelSurfaces surfaces) {
+  std::vector<std::pair<DeepSample, std::size_t>> order;
+  for (std::size_t i = 0; i < surfaces.fragments.size(); ++i) {
+    const Fragment& f = surfaces.fragments[i];
+    const auto [nearest, farthest] = CellDepths(pixel, *f.surface).extent(f.boundary);
+    order.push_back({{nearest, farthest, f.surface->number, 0, 0}, i});
+  }
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+    const auto key = [](const DeepSample& s) { return std::tuple(s.Z, s.ZBack, s.id); };
+    return key(a.first) < key(b.first);
+  });
+  std::vector<Fragment> sorted;
+  sorted.reserve(order.size());
+  for (const auto& entry : order) sorted.push_back(std::move(surfaces.fragments[entry.second]));
+  std::vector<DeepSample> samples;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    DeepSample sample = order[i].first;
+    sample.area = rounded(sorted[i].approximate_area, [&] { return area(sorted[i].boundary); });
+    sample.A = alpha(std::span(sorted).subspan(i), surfaces.uncovered);
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+std::vector<MatteShare> shares(const PixelSurfaces& surfaces,
+                               const std::function<std::uint32_t(std::uint32_t)>& matte_of) {
+  std::vector<std::pair<std::uint32_t, std::vector<Fragment>>> mattes;
+  for (const Fragment& f : surfaces.fragments) {
+    const std::uint32_t id = matte_of(f.surface->number);
+    auto found = std::find_if(mattes.begin(), mattes.end(),
+                              [&](const auto& matte) { return matte.first == id; });
+    if (found == mattes.end()) found = mattes.insert(found, {id, {}});
+    found->second.push_back(f);
+  }
+  std::vector<MatteShare> result;
+  for (const auto& [id, fragments] : mattes) {
+    Bounded sum;
+    for (const Fragment& f : fragments) sum = sum + f.approximate_area;
+    // One matte that leaves nothing of the pixel covers it.
+    const bool all = mattes.size() == 1 && surfaces.uncovered.empty();
+    const float coverage =
+        all ? 1 : rounded(sum, [&fragments = fragments] { return sum_of_areas(fragments); });
+    result.push_back({id, coverage});
+  }
+  std::sort(result.begin(), result.end(), [](const MatteShare& a, const MatteShare& b) {
+    return a.coverage != b.coverage ? a.coverage > b.coverage : a.id < b.id;
+  });
+  return result;
+}
+
+/// `compute` for every pixel that triangles may cover; the items of all pixels one after the other,
+/// and how many each has.
+template <class Item, class Compute>
+void gather(const CoverageFrame& frame, const RenderOptions& options, const Compute& compute,
+            std::vector<std::uint32_t>& counts, std::vector<Item>& items) {
+  const std::size_t width = frame.camera.width;
+  counts.assign(width * frame.camera.height, 0);
+  // A row is one thread's, from left to right.
+  std::vector<std::vector<Item>> rows(frame.camera.height);
+  const auto visit = [&](std::uint32_t column, std::uint32_t row,
+                         std::span<const SurfaceRegion* const> triangles) {
+    ImageCell pixel(column, row);
+    const std::vector<Item> found = compute(pixel, triangles);
+    counts[row * width + column] = static_cast<std::uint32_t>(found.size());
+    rows[row].insert(rows[row].end(), found.begin(), found.end());
+  };
+  Progress parts(options.progress, (frame.camera.height - 1) / TriangleBands::rows_per_band + 1);
+  with_threads(options.threads, [&] { for_each_pixel(frame, visit, [&] { parts.part_done(); }); });
+  for (std::vector<Item>& row : rows) {
+    items.insert(items.end(), row.begin(), row.end());
+    row = {};
+  }
+}
+
+}  // namespace
+
+DeepMap visible_in_pixels(const TriangleSource& triangles, const Camera& camera,
+                          const RenderOptions& options) {
+  DeepMap map;
+  map.description.width = camera.width;
+  map.description.height = camera.height;
+  const auto compute = [](ImageCell& pixel, std::span<const SurfaceRegion* const> surfaces) {
+    return deep_samples(pixel, look_into(pixel, surfaces));
+  };
+  gather({triangles, camera, options.cull}, options, compute, map.counts, map.samples);
+  return map;
+}
+
+Mattes mattes_in_pixels(const TriangleSource& triangles, const Camera& camera,
+                        const RenderOptions& options,
+                        const std::function<std::uint32_t(std::uint32_t)>& matte_of) {
+  Mattes mattes;
+  const auto compute = [&](ImageCell& pixel, std::span<const SurfaceRegion* const> surfaces) {
+    return shares(look_into(pixel, surfaces), matte_of);
+  };
+  gather({triangles, camera, options.cull}, options, compute, mattes.counts, mattes.shares);
+  return mattes;
+}
+
+}  // namespace fathom

@@ -1,0 +1,138 @@
+#include "fathom/area/sampled_coverage.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bitset>
+#include <limits>
+
+#include "fathom/area/coverage_image.h"
+#include "fathom/triangle/certified_surfaces.h"
+#include "fathom/triangle/referee.h"
+#include "fathom/triangle/threads.h"
+
+// How to read this file: add_sampled_coverage() at the end is the whole story. Bands of rows are
+// filled one by one: each triangle is tried at the samples of its box that no other has covered.
+namespace fathom {
+namespace {
+
+constexpr std::size_t most_samples = 256;
+using Covered = std::bitset<most_samples>;
+
+bool in_range(const Ratio& depth, const Camera& camera) {
+  if (depth.sign() != Sign::positive || depth < Ratio(Dyadic(camera.near))) return false;
+  return camera.far == std::numeric_limits<double>::infinity() ||
+         !(Ratio(Dyadic(camera.far)) < depth);
+}
+
+/// Whether triangles count at samples, by exact numbers alone.
+class ExactSamples {
+ public:
+  ExactSamples(const TriangleSource& triangles, const Camera& camera, Cull cull)
+      : triangles_(triangles), camera_(camera), cull_(cull) {}
+
+  /// False where the triangle counts nowhere.
+  bool take(std::uint32_t number) {
+    TierCounts counts;
+    triangle_ = project(triangles_.world_corners(number), number, camera_, counts);
+    return triangle_.orientation != Sign::zero && is_kept(triangle_, cull_);
+  }
+  bool counts_at(const ImagePoint& s) {
+    TierCounts counts;
+    return covers(triangle_, s, counts) && in_range(depth_at(triangle_, s), camera_);
+  }
+
+ private:
+  TriangleSource triangles_;
+  const Camera& camera_;
+  Cull cull_;
+  ProjectedTriangle triangle_;
+};
+
+/// The same, by bounds where they settle it.
+class CertifiedSamples {
+ public:
+  CertifiedSamples(const TriangleSource& triangles, const Camera& camera, Cull cull,
+                   const SceneRays& rays)
+      : camera_(camera), cull_(cull), surfaces_(rays), referee_(triangles, camera, &rays) {}
+
+  bool take(std::uint32_t number) {
+    number_ = number;
+    return cull_ == Cull::none || (referee_.projected(number).orientation != Sign::zero &&
+                                   is_kept(referee_.projected(number), cull_));
+  }
+  bool counts_at(const ImagePoint& s) {
+    if (surfaces_.certainly_misses(number_, s)) return false;
+    RenderStatistics uncounted;
+    if (surfaces_.certainly_covers(number_, s)) {
+      const Certified<double> D = surfaces_.depth(number_, s);
+      const double margin = 1 + 0x1p-50;
+      if (D.value - D.error > camera_.near * margin && (D.value + D.error) * margin < camera_.far) {
+        return true;
+      }
+    } else if (!referee_.covers(number_, s, uncounted)) {
+      return false;
+    }
+    return referee_.is_in_range(number_, s, uncounted);
+  }
+
+ private:
+  const Camera& camera_;
+  Cull cull_;
+  CertifiedSurfaces surfaces_;
+  Referee referee_;
+  std::uint32_t number_ = 0;
+};
+
+template <class SampleTest>
+void fill(const TriangleBands::Band& band, const Camera& camera, const SamplePattern& pattern,
+          SampleTest& test, float* shares) {
+  std::vector<Covered> covered(static_cast<std::size_t>(band.end_row - band.first_row) *
+                               camera.width);
+  const std::size_t count = pattern.count();
+  for (const BoxedTriangle& boxed : band.triangles) {
+    if (!test.take(boxed.number)) continue;
+    const PixelBox& box = boxed.box;
+    const std::uint32_t end_row = std::min(box.last_row + 1, band.end_row);
+    for (std::uint32_t row = std::max(box.first_row, band.first_row); row < end_row; ++row) {
+      for (std::uint32_t column = box.first_column; column <= box.last_column; ++column) {
+        Covered& here =
+            covered[static_cast<std::size_t>(row - band.first_row) * camera.width + column];
+        for (std::size_t k = 0; k < count; ++k) {
+          if (here[k]) continue;
+          const SampleOffset offset = pattern.at(k, column, row);
+          here[k] = test.counts_at({column + 0.5 + offset[0], row + 0.5 + offset[1]});
+        }
+      }
+    }
+  }
+  float* first = shares + static_cast<std::size_t>(band.first_row) * camera.width;
+  for (std::size_t i = 0; i < covered.size(); ++i) {
+    first[i] = static_cast<float>(covered[i].count()) / static_cast<float>(count);
+  }
+}
+
+}  // namespace
+
+void add_sampled_coverage(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
+                          const SamplePattern& pattern, const RenderOptions& options) {
+  Samples<float> shares(static_cast<std::size_t>(map.width) * map.height);
+  with_threads(options.threads, [&] {
+    const TriangleBands bands({triangles, camera, options.cull});
+    const SceneRays rays(triangles, camera);
+    tbb::enumerable_thread_specific<CertifiedSamples> certified(
+        [&] { return CertifiedSamples(triangles, camera, options.cull, rays); });
+    tbb::parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {
+      if (options.engine == Engine::fast) {
+        fill(bands[i], camera, pattern, certified.local(), shares.data());
+      } else {
+        ExactSamples exact(triangles, camera, options.cull);
+        fill(bands[i], camera, pattern, exact, shares.data());
+      }
+    });
+  });
+  map.channels.push_back({"Asampled", std::move(shares)});
+}
+
+}  // namespace fathom

@@ -1,0 +1,58 @@
+#include "fathom/area/scene_surfaces.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace fathom {
+namespace {
+
+bool meet(const PixelBox& a, const PixelBox& b) {
+  return a.first_column <= b.last_column && b.first_column <= a.last_column &&
+         a.first_row <= b.last_row && b.first_row <= a.last_row;
+}
+
+}  // namespace
+
+SceneSurfaces::SceneSurfaces(const CoverageFrame& frame)
+    : columns_((frame.camera.width - 1) / side_of_tile + 1),
+      boxes_(frame.triangles.count()),
+      surfaces_(frame.triangles.count()),
+      tiles_(std::size_t{columns_} * ((frame.camera.height - 1) / side_of_tile + 1)) {
+  tbb::parallel_for(std::uint32_t{0}, count(), [&](std::uint32_t number) {
+    TierCounts counts;
+    const ProjectedTriangle t =
+        project(frame.triangles.world_corners(number), number, frame.camera, counts);
+    if (t.orientation == Sign::zero || !is_kept(t, frame.cull)) return;
+    boxes_[number] = bounding_box(t, frame.camera);
+    if (!boxes_[number].is_empty()) surfaces_[number] = surface_region(t, frame.camera);
+  });
+  for (std::uint32_t number = 0; number < count(); ++number) {
+    if (!surfaces_[number]) continue;
+    const PixelBox& box = boxes_[number];
+    for (std::uint32_t y = box.first_row / side_of_tile; y <= box.last_row / side_of_tile; ++y) {
+      for (std::uint32_t x = box.first_column / side_of_tile; x <= box.last_column / side_of_tile;
+           ++x) {
+        tiles_[std::size_t{y} * columns_ + x].push_back(number);
+      }
+    }
+  }
+}
+
+std::vector<std::uint32_t> SceneSurfaces::near(std::uint32_t number) const {
+  const PixelBox& box = boxes_[number];
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t y = box.first_row / side_of_tile; y <= box.last_row / side_of_tile; ++y) {
+    for (std::uint32_t x = box.first_column / side_of_tile; x <= box.last_column / side_of_tile;
+         ++x) {
+      for (const std::uint32_t other : tiles_[std::size_t{y} * columns_ + x]) {
+        if (other != number && meet(box, boxes_[other])) found.push_back(other);
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+}  // namespace fathom

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fathom/area/coverage_image.h"
+
+namespace fathom {
+
+/// All triangles of a scene as areas on the image need them, with an index by place.
+class SceneSurfaces {
+ public:
+  explicit SceneSurfaces(const CoverageFrame& frame);
+
+  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(boxes_.size()); }
+  /// Null if the triangle covers nothing: seen edge on, culled, or outside the image.
+  [[nodiscard]] const SurfaceRegion* surface(std::uint32_t number) const {
+    return surfaces_[number] ? &*surfaces_[number] : nullptr;
+  }
+  [[nodiscard]] const PixelBox& box(std::uint32_t number) const { return boxes_[number]; }
+  /// Numbers of the triangles whose boxes meet this one, `number` left out, in order.
+  [[nodiscard]] std::vector<std::uint32_t> near(std::uint32_t number) const;
+
+ private:
+  static constexpr std::uint32_t side_of_tile = 16;
+
+  std::uint32_t columns_;
+  std::vector<PixelBox> boxes_;
+  std::vector<std::optional<SurfaceRegion>> surfaces_;
+  std::vector<std::vector<std::uint32_t>> tiles_;
+};
+
+/// The cell of the image that is a box.
+inline ImageCell cell_of(const PixelBox& box) {
+  return {box.first_column, box.first_row, box.last_column - box.first_column + 1,
+          box.last_row - box.first_row + 1};
+}
+
+}  // namespace fathom

@@ -1,0 +1,194 @@
+#include "fathom/area/visible_areas.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+
+#include "fathom/area/cell_division.h"
+#include "fathom/area/scene_surfaces.h"
+#include "fathom/area/visible_fragments.h"
+#include "fathom/numeric/enclosed_sum.h"
+#include "fathom/numeric/rounding.h"
+#include "fathom/triangle/threads.h"
+
+namespace fathom {
+namespace {
+
+/// Exact areas of a triangle.
+struct ExactAreas {
+  Ratio unoccluded;
+  /// The areas of the parts that are visible, and of those visible if its object were alone.
+  std::vector<Ratio> visible, in_object;
+};
+
+EnclosedSum enclosed_sum(const std::vector<Ratio>& terms) {
+  EnclosedSum sum;
+  for (const Ratio& term : terms) sum.add(term);
+  return sum;
+}
+
+/// Adds pairs, then pairs of those: operands stay about equally long.
+Ratio exact_sum(std::vector<Ratio> terms) {
+  while (terms.size() > 1) {
+    const std::size_t half = (terms.size() + 1) / 2;
+    for (std::size_t i = 0; i + half < terms.size(); ++i) terms[i] = terms[i] + terms[i + half];
+    terms.resize(half);
+  }
+  return terms.empty() ? Ratio() : std::move(terms.front());
+}
+
+/// a / b
+Ratio quotient(const Ratio& a, const Ratio& b) {
+  return {a.numerator * b.denominator, a.denominator * b.numerator};
+}
+
+VisibleArea rounded(const Ratio& visible, const Ratio& unoccluded) {
+  VisibleArea area{round_to_binary64(visible), round_to_binary64(unoccluded), std::nullopt};
+  if (unoccluded.sign() != Sign::zero) {
+    area.ratio = round_to_binary64(quotient(visible, unoccluded));
+  }
+  return area;
+}
+
+class SceneAreas {
+ public:
+  SceneAreas(const CoverageFrame& frame) : triangles_(frame.triangles), surfaces_(frame) {}
+
+  [[nodiscard]] std::uint32_t count() const { return surfaces_.count(); }
+  [[nodiscard]] std::uint32_t object_of(std::uint32_t number) const {
+    return triangles_.origin(number).object;
+  }
+
+  /// Everything happens within the box of the triangle.
+  [[nodiscard]] ExactAreas of(std::uint32_t number) const {
+    const SurfaceRegion* surface = surfaces_.surface(number);
+    if (!surface) return {};
+    ImageCell cell = cell_of(surfaces_.box(number));
+    CellVisibility all(cell);
+    if (!all.add(*surface)) return {};
+    CellVisibility in_object = all;
+    const std::uint32_t object = object_of(number);
+    for (const std::uint32_t other : surfaces_.near(number)) {
+      if (!all.add_if_it_hides(*surfaces_.surface(other), 0)) continue;
+      if (object_of(other) == object) in_object.add_last_of(all);
+    }
+    ExactAreas areas;
+    const ConvexPolygon polygons[] = {all.polygon(0)};
+    TierCounts counts;
+    areas.unoccluded = area(boundary_of_union(polygons, counts));
+    const bool others_hide = in_object.size() < all.size();
+    areas.visible = visible_parts(std::move(all), areas.unoccluded);
+    areas.in_object =
+        others_hide ? visible_parts(std::move(in_object), areas.unoccluded) : areas.visible;
+    return areas;
+  }
+
+ private:
+  /// What the others leave of the first piece.
+  static std::vector<Ratio> visible_parts(CellVisibility pieces, const Ratio& unoccluded) {
+    if (pieces.size() == 1) return {unoccluded};
+    const SurfaceRegion& surface = pieces.surface(0);
+    std::vector<Ratio> parts;
+    divide(std::move(pieces), [&](CellVisibility& part) {
+      for (std::size_t piece = 0; piece < part.size(); ++piece) {
+        if (&part.surface(piece) != &surface) continue;
+        const Boundary boundary = part.visible(piece);
+        if (!boundary.empty()) parts.push_back(area(boundary));
+      }
+    });
+    return parts;
+  }
+
+  TriangleSource triangles_;
+  SceneSurfaces surfaces_;
+};
+
+struct ObjectSums {
+  EnclosedSum visible, in_object;
+};
+
+/// Where enclosures settle how the areas and their ratio round.
+std::optional<VisibleArea> settled(const Enclosure& visible, const Enclosure& alone) {
+  if (alone.low.sign() == Sign::zero) return std::nullopt;
+  const VisibleArea low = rounded(visible.low, alone.low), high = rounded(visible.high, alone.high);
+  const double least = round_to_binary64(quotient(visible.low, alone.high));
+  const double greatest = round_to_binary64(quotient(visible.high, alone.low));
+  const bool settled =
+      low.visible == high.visible && low.unoccluded == high.unoccluded && least == greatest;
+  if (!settled) return std::nullopt;
+  return VisibleArea{low.visible, low.unoccluded, least};
+}
+
+VisibleArea rounded(const ExactAreas& areas) {
+  constexpr std::size_t few = 4;
+  if (areas.visible.size() > few) {
+    const Enclosure alone{areas.unoccluded, areas.unoccluded};
+    if (const auto area = settled(enclosed_sum(areas.visible).get(), alone)) return *area;
+  }
+  return rounded(exact_sum(areas.visible), areas.unoccluded);
+}
+
+/// The exact areas of an object, where their enclosures do not settle how they round.
+VisibleArea rounded_exactly(const SceneAreas& areas, std::uint32_t object) {
+  std::vector<Ratio> visible, in_object;
+  for (std::uint32_t number = 0; number < areas.count(); ++number) {
+    if (areas.object_of(number) != object) continue;
+    const ExactAreas exact = areas.of(number);
+    visible.insert(visible.end(), exact.visible.begin(), exact.visible.end());
+    in_object.insert(in_object.end(), exact.in_object.begin(), exact.in_object.end());
+  }
+  return rounded(exact_sum(std::move(visible)), exact_sum(std::move(in_object)));
+}
+
+VisibleArea rounded(const SceneAreas& areas, const ObjectSums& sums, std::uint32_t object) {
+  const Enclosure visible = sums.visible.get(), alone = sums.in_object.get();
+  if (alone.high.sign() == Sign::zero) return {};
+  if (const auto area = settled(visible, alone)) return *area;
+  return rounded_exactly(areas, object);
+}
+
+VisibleAreas areas_in_arena(const CoverageFrame& frame, const RenderOptions& options) {
+  const SceneAreas areas(frame);
+  const std::size_t objects = frame.triangles.objects().size();
+  VisibleAreas result;
+  result.triangles.resize(areas.count());
+  tbb::enumerable_thread_specific<std::vector<ObjectSums>> parts(
+      [&] { return std::vector<ObjectSums>(objects); });
+  constexpr std::uint32_t chunk = 64;
+  const std::uint32_t chunks = areas.count() / chunk + 1;
+  Progress progress(options.progress, chunks);
+  tbb::parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
+    const std::uint32_t end = std::min(areas.count(), (k + 1) * chunk);
+    for (std::uint32_t number = k * chunk; number < end; ++number) {
+      const ExactAreas exact = areas.of(number);
+      result.triangles[number] = rounded(exact);
+      ObjectSums& sums = parts.local()[areas.object_of(number)];
+      sums.visible.add(enclosed_sum(exact.visible));
+      sums.in_object.add(enclosed_sum(exact.in_object));
+    }
+    progress.part_done();
+  });
+  std::vector<ObjectSums> sums(objects);
+  for (const auto& part : parts) {
+    for (std::size_t object = 0; object < objects; ++object) {
+      sums[object].visible.add(part[object].visible);
+      sums[object].in_object.add(part[object].in_object);
+    }
+  }
+  for (std::uint32_t object = 0; object < objects; ++object) {
+    result.objects.push_back(rounded(areas, sums[object], object));
+  }
+  return result;
+}
+
+}  // namespace
+
+VisibleAreas visible_areas(const TriangleSource& triangles, const Camera& camera,
+                           const RenderOptions& options) {
+  return with_threads(options.threads, [&] {
+    return areas_in_arena({triangles, camera, options.cull}, options);
+  });
+}
+
+}  // namespace fathom

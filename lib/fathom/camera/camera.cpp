@@ -1,0 +1,68 @@
+#include "fathom/camera/camera.h"
+
+#include <cmath>
+#include <utility>
+
+#include "fathom/numeric/certified.h"
+
+namespace fathom {
+namespace {
+
+/// A principal point as it counts in the image of the specification, where the centre of the top
+/// left pixel is at ½: c + (½ − pixel_centre).
+Dyadic centred(double c, double pixel_centre) {
+  return Dyadic(c) + (Dyadic(0.5) - pixel_centre);
+}
+
+std::optional<std::string> find_number_that_is_not_finite(const Camera& camera) {
+  const std::pair<const char*, double> numbers[] = {
+      {"fx", camera.fx},    {"fy", camera.fy},     {"cx", camera.cx},
+      {"cy", camera.cy},    {"skew", camera.skew}, {"pixel_centre", camera.pixel_centre},
+      {"near", camera.near}};
+  for (const auto& [name, value] : numbers)
+    if (!std::isfinite(value)) return std::string(name) + " is not a finite number";
+  for (const auto& row : camera.world_to_camera)
+    for (const double entry : row)
+      if (!std::isfinite(entry)) return "world_to_camera has an entry that is not a finite number";
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> find_fault(const Camera& camera) {
+  if (camera.width == 0) return "width is 0, expected at least 1";
+  if (camera.height == 0) return "height is 0, expected at least 1";
+  if (auto fault = find_number_that_is_not_finite(camera)) return fault;
+  if (camera.fx == 0) return "fx is 0, expected any other number";
+  if (camera.fy == 0) return "fy is 0, expected any other number";
+  if (camera.near < 0) return "near is negative, expected 0 or more";
+  // Written so that a far that is NaN is refused too.
+  if (!(camera.far > camera.near)) return "far is not greater than near";
+  if (determinant_of_rotation(camera).is_zero())
+    return "world_to_camera is singular: the determinant of its first three columns is exactly 0";
+  return std::nullopt;
+}
+
+Dyadic determinant_of_rotation(const Camera& camera) {
+  const auto row = [&](int i) {
+    const auto& r = camera.world_to_camera[i];
+    return ExactVector3{r[0], r[1], r[2]};
+  };
+  return determinant(row(0), row(1), row(2));
+}
+
+CameraPoint to_camera(const Camera& camera, const WorldPoint& X) {
+  const auto row = [&](int i) {
+    const auto& [r0, r1, r2, t] = camera.world_to_camera[i];
+    return r0 * X.x + r1 * X.y + r2 * X.z + t;
+  };
+  return {row(0), row(1), row(2)};
+}
+
+HomogeneousImagePoint to_image(const Camera& camera, const CameraPoint& p) {
+  const Dyadic W = camera.projection == Projection::perspective ? p.z : Dyadic(1.0);
+  return {camera.fx * p.x + camera.skew * p.y + centred(camera.cx, camera.pixel_centre) * W,
+          camera.fy * p.y + centred(camera.cy, camera.pixel_centre) * W, W};
+}
+
+}  // namespace fathom

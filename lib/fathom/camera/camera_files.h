@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fathom/camera/camera.h"
+
+namespace fathom {
+
+/// Reads a camera file: one camera, or a list of them (a camera path).
+/// Fails    InputError, naming the key; unknown keys are errors.
+std::vector<Camera> read_cameras(const std::filesystem::path& file);
+
+/// The camera files' JSON with every number to 17 significant digits, so that reading it gives the
+/// same camera bit for bit. Ends without a newline.
+std::string to_json(const Camera& camera);
+/// A list of cameras; a single one is written as an object.
+std::string to_json(const std::vector<Camera>& cameras);
+
+}  // namespace fathom

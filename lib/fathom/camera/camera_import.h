@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fathom/camera/camera.h"
+#include "fathom/text/warnings.h"
+
+/// Cameras of other programs, converted to ours; docs/conventions.md has the formulas. Only
+/// cameras that ours can express exactly in form are taken: a lens distortion is refused, unless
+/// all its parameters are exactly 0. Entries that follow from a formula (quaternions, inverses,
+/// projection matrices) are computed as exact rationals and rounded to binary64 once.
+///
+/// All fail with InputError, one line that names the file and the line or key; what comes out has
+/// passed find_fault.
+namespace fathom {
+
+struct ImportedCamera {
+  /// The image's name in the other program: COLMAP's NAME, NeRF's file_path, BOP's image id.
+  std::string name;
+  Camera camera;
+};
+
+/// A COLMAP model: the folder with cameras and images, .bin (preferred where both exist) or .txt.
+/// Sorted by image name. Takes SIMPLE_PINHOLE and PINHOLE, and SIMPLE_RADIAL, RADIAL, OPENCV,
+/// FULL_OPENCV and FOV where every distortion parameter is 0; fisheye models are refused.
+std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder);
+
+/// NeRF's transforms.json (also Nerfstudio's and instant-ngp's), in the order of its frames.
+/// Camera to world, OpenGL axes, corner at 0. Intrinsics for all or per frame: fl_x, fl_y, cx, cy,
+/// w, h, or camera_angle_x with an image size.
+/// `width` and `height` serve where the file has no w and h (the original NeRF data); 0: none.
+/// Warns of keys that other programs use to change the geometry on loading (scale, offset, …).
+std::vector<ImportedCamera> import_nerf(const std::filesystem::path& file, std::uint32_t width,
+                                        std::uint32_t height, Warnings& warnings);
+
+/// BOP's scene_camera.json, in the order of image ids. The image size stands elsewhere in a BOP
+/// data set, so it is given. Without cam_R_w2c and cam_t_w2c the world is the camera frame, in
+/// which scene_gt.json has its poses. Lengths are as in the file (millimetres).
+std::vector<ImportedCamera> import_bop(const std::filesystem::path& file, std::uint32_t width,
+                                       std::uint32_t height);
+
+/// OpenGL matrices: a JSON object, or a list of them, with
+///   "projection"            4×4, a list of rows, or a flat list of 16 in OpenGL's column order
+///   "modelview" or "view"   the same; the identity where it is missing
+///   "viewport"              [width, height] or [x, y, width, height]; the image is the viewport
+///   "clip_depth"            "minus-one-one" (OpenGL, the default), "zero-one", or "none": near and
+///                           far are not taken over
+///   "name"                  optional
+/// Takes perspective and orthographic projections without rotation, also with skew, off-centre,
+/// with an infinite far plane, and reversed in depth.
+std::vector<ImportedCamera> import_opengl(const std::filesystem::path& file);
+
+}  // namespace fathom

@@ -1,0 +1,149 @@
+#include "fathom/camera/camera_making.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "fathom/camera/camera_making_internal.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom {
+namespace camera_making {
+namespace {
+
+/// A path is held in memory and written as one file.
+constexpr std::uint32_t longest_path = 1'000'000;
+
+void expect(bool holds, const std::string& message) {
+  if (!holds) throw UsageError(message);
+}
+
+struct SineCosine {
+  double sine, cosine;
+};
+
+/// Exact at multiples of 90 degrees.
+SineCosine sine_and_cosine(double degrees) {
+  int quarter = 0;
+  const double rest = std::remquo(degrees, 90.0, &quarter) * (std::numbers::pi / 180);
+  const double s = std::sin(rest), c = std::cos(rest);
+  switch (quarter & 3) {
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
+  }
+}
+
+}  // namespace
+
+void expect_finite(const Vector3& v, const std::string& name) {
+  for (const double x : v) expect(std::isfinite(x), name + " is not finite");
+}
+
+Camera with_lens(const Lens& lens) {
+  Camera camera;
+  camera.width = lens.width;
+  camera.height = lens.height;
+  camera.projection = lens.projection;
+  camera.cx = lens.width / 2.0;
+  camera.cy = lens.height / 2.0;
+  camera.near = lens.near;
+  camera.far = lens.far;
+  if (lens.projection == Projection::orthographic) {
+    expect(lens.vertical_extent.has_value(), "an orthographic camera needs a vertical extent");
+    expect(*lens.vertical_extent > 0, "the vertical extent must be greater than 0");
+    camera.fx = lens.height / *lens.vertical_extent;
+  } else if (lens.focal) {
+    expect(*lens.focal > 0, "the focal length must be greater than 0");
+    camera.fx = *lens.focal;
+  } else {
+    expect(lens.vertical_fov > 0 && lens.vertical_fov < 180,
+           "the field of view must be between 0 and 180 degrees");
+    camera.fx = lens.height / 2.0 / std::tan(lens.vertical_fov * (std::numbers::pi / 360));
+  }
+  camera.fy = camera.fx;
+  return camera;
+}
+
+Camera checked(Camera camera) {
+  if (const auto fault = find_fault(camera)) throw UsageError("no such camera: " + *fault);
+  return camera;
+}
+
+Matrix3 rotation_of(const View& view) {
+  expect(std::isfinite(view.azimuth), "the azimuth is not finite");
+  expect(view.elevation >= -90 && view.elevation <= 90,
+         "the elevation must be between -90 and 90 degrees");
+  const auto [sa, ca] = sine_and_cosine(view.azimuth);
+  const auto [se, ce] = sine_and_cosine(view.elevation);
+  // With y up the eye is at (ce·sa, se, ce·ca) from what it looks at.
+  const Matrix3 y_up{{{ca, 0, -sa}, {se * sa, -ce, se * ca}, {-ce * sa, -se, -ce * ca}}};
+  if (view.up == UpAxis::y) return y_up;
+  // z up: (x, y, z) of the frame above is (x, −z, y) here, so x' = x, y' = −z, z' = y.
+  Matrix3 z_up;
+  for (int i = 0; i < 3; ++i) z_up[i] = {y_up[i][0], -y_up[i][2], y_up[i][1]};
+  return z_up;
+}
+
+void expect_count(std::uint32_t count) {
+  expect(count >= 1 && count <= longest_path,
+         "a camera path has from 1 to " + std::to_string(longest_path) + " cameras");
+}
+
+View turned(View view, std::uint32_t step, std::uint32_t count) {
+  view.azimuth += 360.0 * step / count;
+  return view;
+}
+
+}  // namespace camera_making
+
+using namespace camera_making;
+
+namespace {
+
+ExactVector3 exactly(const Vector3& v) {
+  return {v[0], v[1], v[2]};
+}
+
+}  // namespace
+
+Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up, const Lens& lens) {
+  expect_finite(eye, "the eye");
+  expect_finite(target, "the target");
+  expect_finite(up, "the up direction");
+  ExactVector3 forward;
+  for (int k = 0; k < 3; ++k) forward[k] = Dyadic(target[k]) - Dyadic(eye[k]);
+  expect(!dot(forward, forward).is_zero(), "eye and target are the same point");
+  const ExactVector3 right = cross(forward, exactly(up));
+  expect(!dot(right, right).is_zero(), "the up direction is zero or along the line of sight");
+  const ExactVector3 down = cross(forward, right);
+  const Matrix3 R{unit_vector(right), unit_vector(down), unit_vector(forward)};
+  Camera camera = with_lens(lens);
+  camera.world_to_camera = pose_that_takes(R, exactly(eye), {});
+  return checked(camera);
+}
+
+Camera look_from(const View& view, const Vector3& centre, double distance, const Lens& lens) {
+  expect_finite(centre, "the centre");
+  expect(distance > 0 && std::isfinite(distance), "the distance must be greater than 0");
+  Camera camera = with_lens(lens);
+  camera.world_to_camera =
+      pose_that_takes(rotation_of(view), exactly(centre), {0.0, 0.0, distance});
+  return checked(camera);
+}
+
+std::vector<Camera> orbit(const View& first, std::uint32_t count, const Vector3& centre,
+                          double distance, const Lens& lens) {
+  expect_count(count);
+  std::vector<Camera> path;
+  for (std::uint32_t i = 0; i < count; ++i)
+    path.push_back(look_from(turned(first, i, count), centre, distance, lens));
+  return path;
+}
+
+}  // namespace fathom

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "fathom/camera/camera.h"
+
+/// Cameras made from a description. What comes out is rounded to binary64 and from then on *is*
+/// the camera: the rotation is orthonormal only up to that rounding.
+namespace fathom {
+
+/// Image size and angle of view. Square pixels, the principal point in the middle of the image,
+/// pixel_centre ½, no skew.
+struct Lens {
+  std::uint32_t width = 1280;
+  std::uint32_t height = 720;
+  Projection projection = Projection::perspective;
+  /// Perspective: the angle in degrees, in (0, 180), that the image's height spans.
+  double vertical_fov = 40;
+  /// Perspective: fx = fy in pixels; takes the place of vertical_fov.
+  std::optional<double> focal;
+  /// Orthographic: scene units that the image's height spans; look_at and orbit need it.
+  std::optional<double> vertical_extent;
+  double near = 0;
+  double far = std::numeric_limits<double>::infinity();
+};
+
+using Vector3 = std::array<double, 3>;
+
+/// The camera at `eye` that looks at `target` with `up` upwards in the image.
+///
+/// Exact    R is the exact orthonormal frame with every entry rounded once, t = −R·eye computed
+///          exactly from the rounded R and rounded once.
+/// Fails    UsageError if eye and target coincide, if `up` is zero or along the line of sight (both
+///          tested exactly), if a number is not finite, or if the lens cannot be.
+Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up, const Lens& lens = {});
+
+/// The axis of the world that points up.
+enum class UpAxis { y, z };
+
+/// Where an eye is as seen from what it looks at, in degrees.
+///
+/// elevation  angle above the horizontal plane, −90 (from below) to 90 (from above).
+/// azimuth    angle around the up axis, counter-clockwise as seen from above. At 0 the image's
+///            right is +x: the eye is on the +z side (y up) or on the −y side (z up); at 90 it is
+///            on the +x side.
+struct View {
+  double azimuth = 35;
+  double elevation = 25;
+  UpAxis up = UpAxis::y;
+};
+
+/// The camera at `distance` from `centre` in the direction of `view`, looking at `centre`. Also
+/// from straight above and below, where the azimuth says how the image is turned.
+///
+/// Exact    sines and cosines are the C library's (exact at multiples of 90°); t = (0, 0, distance)
+///          − R·centre is computed exactly from the rounded R and rounded once.
+/// Fails    UsageError if distance ≤ 0, elevation is outside [−90, 90], a number is not finite, or
+///          the lens cannot be.
+Camera look_from(const View& view, const Vector3& centre, double distance, const Lens& lens = {});
+
+/// A camera path of `count` views around `centre`, the first at `first`, the others at azimuths
+/// 360°/count apart.
+/// Fails    UsageError as look_from, and if count is 0.
+std::vector<Camera> orbit(const View& first, std::uint32_t count, const Vector3& centre,
+                          double distance, const Lens& lens = {});
+
+}  // namespace fathom

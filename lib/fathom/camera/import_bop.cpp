@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <charconv>
+
+#include "fathom/camera/camera_import_internal.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/input_file.h"
+#include "fathom/text/json_value.h"
+
+namespace fathom {
+namespace {
+
+std::uint64_t image_id(const std::string& key, const JsonValue& value) {
+  std::uint64_t id = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), id);
+  if (error != std::errc{} || end != key.data() + key.size())
+    value.fail("expected the keys to be image ids, which are integers");
+  return id;
+}
+
+void read_intrinsics(const JsonValue& cam_K, Camera& camera) {
+  const auto K = cam_K.numbers(9);
+  if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1)
+    cam_K.fail("expected fx s cx, 0 fy cy, 0 0 1");
+  camera.fx = K[0];
+  camera.skew = K[1];
+  camera.cx = K[2];
+  camera.fy = K[4];
+  camera.cy = K[5];
+  camera.pixel_centre = 0;
+}
+
+void read_pose(const JsonValue& entry, Camera& camera) {
+  const auto rotation = entry.find("cam_R_w2c"), translation = entry.find("cam_t_w2c");
+  if (rotation.has_value() != translation.has_value())
+    entry.fail("expected both cam_R_w2c and cam_t_w2c, or neither");
+  if (!rotation) return;
+  const auto R = rotation->numbers(9), t = translation->numbers(3);
+  for (std::size_t i = 0; i < 3; ++i)
+    camera.world_to_camera[i] = {R[3 * i], R[3 * i + 1], R[3 * i + 2], t[i]};
+}
+
+}  // namespace
+
+std::vector<ImportedCamera> parse_bop(std::string_view text, const std::string& name,
+                                      std::uint32_t width, std::uint32_t height) {
+  const JsonDocument document(text, name);
+  const JsonValue root = document.root();
+  std::vector<std::pair<std::uint64_t, ImportedCamera>> cameras;
+  for (const auto& [key, entry] : root.members()) {
+    Camera camera;
+    camera.width = width;
+    camera.height = height;
+    read_intrinsics(entry.at("cam_K"), camera);
+    read_pose(entry, camera);
+    if (const auto fault = find_fault(camera)) entry.fail(*fault);
+    cameras.push_back({image_id(key, entry), {key, camera}});
+  }
+  if (cameras.empty()) root.fail("there is no image");
+  std::stable_sort(cameras.begin(), cameras.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<ImportedCamera> result;
+  result.reserve(cameras.size());
+  for (auto& [id, camera] : cameras) result.push_back(std::move(camera));
+  return result;
+}
+
+std::vector<ImportedCamera> import_bop(const std::filesystem::path& file, std::uint32_t width,
+                                       std::uint32_t height) {
+  return parse_bop(InputFile(file).text(), file.string(), width, height);
+}
+
+}  // namespace fathom

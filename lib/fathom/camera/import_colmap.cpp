@@ -1,0 +1,344 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+
+#include "fathom/camera/camera_import_internal.h"
+#include "fathom/camera/pose.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/numeric/rounding.h"
+#include "fathom/text/decimal.h"
+
+namespace fathom {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "COLMAP's files are little endian");
+
+/// A camera model of COLMAP: `focals` focal lengths, the principal point, then distortion.
+struct Model {
+  const char* name;
+  std::size_t parameters;
+  std::size_t focals;
+  /// Whether it is a pinhole camera where all its distortion parameters are 0.
+  bool pinhole;
+};
+
+/// In the order of COLMAP's model ids.
+constexpr std::array<Model, 11> models{{{"SIMPLE_PINHOLE", 3, 1, true},
+                                        {"PINHOLE", 4, 2, true},
+                                        {"SIMPLE_RADIAL", 4, 1, true},
+                                        {"RADIAL", 5, 1, true},
+                                        {"OPENCV", 8, 2, true},
+                                        {"OPENCV_FISHEYE", 8, 2, false},
+                                        {"FULL_OPENCV", 12, 2, true},
+                                        {"FOV", 5, 2, true},
+                                        {"SIMPLE_RADIAL_FISHEYE", 4, 1, false},
+                                        {"RADIAL_FISHEYE", 5, 1, false},
+                                        {"THIN_PRISM_FISHEYE", 12, 2, false}}};
+
+using Cameras = std::map<std::uint32_t, Camera>;
+
+/// What a file says of one camera.
+struct CameraRecord {
+  std::uint32_t id = 0;
+  std::uint64_t width = 0, height = 0;
+  std::vector<double> parameters;
+};
+
+/// What a file says of one image.
+struct ImageRecord {
+  std::array<double, 4> quaternion{};  // w, x, y, z
+  std::array<double, 3> translation{};
+  std::uint32_t camera = 0;
+  std::string name;
+};
+
+/// The camera of a record, still at the origin. Throws InputError beginning with `where`.
+Camera make_camera(const CameraRecord& record, const Model& model, const std::string& where) {
+  const auto fail = [&](const std::string& what) {
+    throw InputError(where + ": camera " + std::to_string(record.id) + ": " + what);
+  };
+  if (!model.pinhole)
+    fail(std::string("the model ") + model.name +
+         " is no pinhole camera; undistort the images first (colmap image_undistorter)");
+  const auto distortion = record.parameters.begin() + static_cast<long>(model.focals) + 2;
+  if (std::any_of(distortion, record.parameters.end(), [](double k) { return k != 0; }))
+    fail(std::string("the model ") + model.name +
+         " has lens distortion; undistort the images first (colmap image_undistorter)");
+  constexpr std::uint64_t largest = std::numeric_limits<std::uint32_t>::max();
+  if (record.width > largest || record.height > largest) fail("the image is too large");
+  Camera camera;
+  camera.width = static_cast<std::uint32_t>(record.width);
+  camera.height = static_cast<std::uint32_t>(record.height);
+  camera.fx = record.parameters[0];
+  camera.fy = record.parameters[model.focals - 1];
+  camera.cx = record.parameters[model.focals];
+  camera.cy = record.parameters[model.focals + 1];
+  if (const auto fault = find_fault(camera)) fail(*fault);
+  return camera;
+}
+
+/// The rotation of a Hamilton quaternion of any length but 0, each entry rounded once.
+Matrix3 rotation_of(const std::array<double, 4>& quaternion) {
+  const Dyadic w = quaternion[0], x = quaternion[1], y = quaternion[2], z = quaternion[3];
+  const Dyadic n = w * w + x * x + y * y + z * z;
+  const auto rounded = [&](const Dyadic& a) { return round_to_binary64(Ratio(a, n)); };
+  const auto twice = [](const Dyadic& a) { return a + a; };
+  return {{{rounded(w * w + x * x - y * y - z * z), rounded(twice(x * y - w * z)),
+            rounded(twice(x * z + w * y))},
+           {rounded(twice(x * y + w * z)), rounded(w * w - x * x + y * y - z * z),
+            rounded(twice(y * z - w * x))},
+           {rounded(twice(x * z - w * y)), rounded(twice(y * z + w * x)),
+            rounded(w * w - x * x - y * y + z * z)}}};
+}
+
+ImportedCamera place(const ImageRecord& image, const Cameras& cameras, const std::string& where) {
+  const auto camera = cameras.find(image.camera);
+  if (camera == cameras.end())
+    throw InputError(where + ": the image refers to camera " + std::to_string(image.camera) +
+                     ", which the model does not have");
+  const auto finite = [](double x) { return std::isfinite(x); };
+  if (!std::all_of(image.quaternion.begin(), image.quaternion.end(), finite) ||
+      !std::all_of(image.translation.begin(), image.translation.end(), finite))
+    throw InputError(where + ": the pose has a number that is not finite");
+  if (image.quaternion == std::array<double, 4>{})
+    throw InputError(where + ": the quaternion is zero");
+  const Matrix3 R = rotation_of(image.quaternion);
+  ImportedCamera result{image.name, camera->second};
+  for (int i = 0; i < 3; ++i)
+    result.camera.world_to_camera[i] = {R[i][0], R[i][1], R[i][2], image.translation[i]};
+  if (const auto fault = find_fault(result.camera)) throw InputError(where + ": " + *fault);
+  return result;
+}
+
+void sort_by_name(std::vector<ImportedCamera>& images) {
+  std::stable_sort(images.begin(), images.end(),
+                   [](const auto& a, const auto& b) { return a.name < b.name; });
+}
+
+void add_camera(Cameras& cameras, const CameraRecord& record, const Model& model,
+                const std::string& where) {
+  if (!cameras.emplace(record.id, make_camera(record, model, where)).second)
+    throw InputError(where + ": camera " + std::to_string(record.id) + " stands twice");
+}
+
+// Binary files
+
+/// Reads numbers from a binary file; every failure names the byte.
+class BinaryReader {
+ public:
+  explicit BinaryReader(NamedStream file) : file_(std::move(file)) {
+    file_.stream.seekg(0, std::ios::end);
+    size_ = static_cast<std::uint64_t>(std::max<std::streamoff>(0, file_.stream.tellg()));
+    file_.stream.seekg(0);
+  }
+
+  template <class T>
+  T read() {
+    expect_left(sizeof(T));
+    std::array<char, sizeof(T)> bytes;
+    file_.stream.read(bytes.data(), sizeof(T));
+    at_ += sizeof(T);
+    return std::bit_cast<T>(bytes);
+  }
+
+  std::string read_text() {
+    std::string text;
+    for (char c = read<char>(); c != '\0'; c = read<char>()) text.push_back(c);
+    return text;
+  }
+
+  /// Skips `count` records of `size` bytes.
+  void skip(std::uint64_t count, std::uint64_t size) {
+    if (count > (size_ - at_) / size) expect_left(size_ - at_ + 1);
+    at_ += count * size;
+    file_.stream.seekg(static_cast<std::streamoff>(at_));
+  }
+
+  void expect_end() const {
+    if (at_ != size_) throw InputError(where() + ": data follow that were not announced");
+  }
+
+  [[nodiscard]] std::string where() const { return file_.name + ": byte " + std::to_string(at_); }
+
+ private:
+  void expect_left(std::uint64_t bytes) const {
+    if (bytes > size_ - at_) throw InputError(where() + ": the file ends too early");
+  }
+
+  NamedStream file_;
+  std::uint64_t size_ = 0;
+  std::uint64_t at_ = 0;
+};
+
+Cameras read_binary_cameras(BinaryReader file) {
+  Cameras cameras;
+  const auto count = file.read<std::uint64_t>();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    CameraRecord record;
+    const std::string where = file.where();
+    record.id = file.read<std::uint32_t>();
+    const auto model = file.read<std::uint32_t>();
+    if (model >= models.size())
+      throw InputError(where + ": unknown camera model " + std::to_string(model));
+    record.width = file.read<std::uint64_t>();
+    record.height = file.read<std::uint64_t>();
+    for (std::size_t k = 0; k < models[model].parameters; ++k)
+      record.parameters.push_back(file.read<double>());
+    add_camera(cameras, record, models[model], where);
+  }
+  file.expect_end();
+  return cameras;
+}
+
+std::vector<ImportedCamera> read_binary_images(BinaryReader file, const Cameras& cameras) {
+  std::vector<ImportedCamera> images;
+  const auto count = file.read<std::uint64_t>();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    ImageRecord image;
+    const std::string where = file.where();
+    file.read<std::uint32_t>();  // the image's id
+    for (double& q : image.quaternion) q = file.read<double>();
+    for (double& t : image.translation) t = file.read<double>();
+    image.camera = file.read<std::uint32_t>();
+    image.name = file.read_text();
+    file.skip(file.read<std::uint64_t>(), 24);  // points: x, y, id
+    images.push_back(place(image, cameras, where));
+  }
+  file.expect_end();
+  return images;
+}
+
+// Text files
+
+/// A line of a text file and where it stands.
+struct Line {
+  std::istringstream words;
+  std::string where;
+};
+
+/// The next line that is neither empty nor a comment.
+bool next_line(NamedStream& file, std::size_t& number, Line& line) {
+  for (std::string text; std::getline(file.stream, text);) {
+    ++number;
+    if (!text.empty() && text.back() == '\r') text.pop_back();
+    const auto first = text.find_first_not_of(" \t");
+    if (first == std::string::npos || text[first] == '#') continue;
+    line = {std::istringstream(text), file.name + ": line " + std::to_string(number)};
+    return true;
+  }
+  return false;
+}
+
+std::string read_word(Line& line, const char* what) {
+  std::string word;
+  if (!(line.words >> word)) throw InputError(line.where + ": " + what + " is missing");
+  return word;
+}
+
+[[noreturn]] void refuse(const Line& line, const char* what, const std::string& word) {
+  throw InputError(line.where + ": expected " + what + ", found '" + word + "'");
+}
+
+template <class Integer>
+Integer read_integer(Line& line, const char* what) {
+  const std::string word = read_word(line, what);
+  Integer value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size()) refuse(line, what, word);
+  return value;
+}
+
+double read_number(Line& line, const char* what) {
+  const std::string word = read_word(line, what);
+  const auto result = parse_decimal<double>(word.data(), word.data() + word.size());
+  if (result.fault != DecimalFault::none || result.end != word.data() + word.size())
+    refuse(line, what, word);
+  return result.value;
+}
+
+Cameras read_text_cameras(NamedStream file) {
+  Cameras cameras;
+  Line line;
+  for (std::size_t number = 0; next_line(file, number, line);) {
+    CameraRecord record;
+    record.id = read_integer<std::uint32_t>(line, "a camera id");
+    std::string name;
+    line.words >> name;
+    const auto* model =
+        std::find_if(models.begin(), models.end(), [&](const Model& m) { return name == m.name; });
+    if (model == models.end())
+      throw InputError(line.where + ": unknown camera model '" + name + "'");
+    record.width = read_integer<std::uint64_t>(line, "a width");
+    record.height = read_integer<std::uint64_t>(line, "a height");
+    for (std::size_t k = 0; k < model->parameters; ++k)
+      record.parameters.push_back(read_number(line, "a camera parameter"));
+    if (std::string rest; line.words >> rest)
+      throw InputError(line.where + ": the model " + model->name + " has " +
+                       std::to_string(model->parameters) + " parameters, found more");
+    add_camera(cameras, record, *model, line.where);
+  }
+  return cameras;
+}
+
+std::vector<ImportedCamera> read_text_images(NamedStream file, const Cameras& cameras) {
+  std::vector<ImportedCamera> images;
+  Line line;
+  for (std::size_t number = 0; next_line(file, number, line);) {
+    ImageRecord image;
+    read_integer<std::uint32_t>(line, "an image id");
+    for (double& q : image.quaternion) q = read_number(line, "a quaternion's number");
+    for (double& t : image.translation) t = read_number(line, "a translation's number");
+    image.camera = read_integer<std::uint32_t>(line, "a camera id");
+    std::getline(line.words >> std::ws, image.name);
+    if (image.name.empty()) throw InputError(line.where + ": the image's name is missing");
+    images.push_back(place(image, cameras, line.where));
+    // The line of the points; it may be empty, and at the end of the file missing.
+    file.stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    ++number;
+  }
+  return images;
+}
+
+std::vector<ImportedCamera> finished(std::vector<ImportedCamera> images, const std::string& name) {
+  if (images.empty()) throw InputError(name + ": the model has no image");
+  sort_by_name(images);
+  return images;
+}
+
+}  // namespace
+
+std::vector<ImportedCamera> parse_colmap_binary(NamedStream cameras, NamedStream images) {
+  const std::string name = images.name;
+  return finished(read_binary_images(BinaryReader(std::move(images)),
+                                     read_binary_cameras(BinaryReader(std::move(cameras)))),
+                  name);
+}
+
+std::vector<ImportedCamera> parse_colmap_text(NamedStream cameras, NamedStream images) {
+  const std::string name = images.name;
+  return finished(read_text_images(std::move(images), read_text_cameras(std::move(cameras))), name);
+}
+
+std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder) {
+  using Parse = std::vector<ImportedCamera> (*)(NamedStream, NamedStream);
+  const std::pair<const char*, Parse> forms[] = {{".bin", parse_colmap_binary},
+                                                 {".txt", parse_colmap_text}};
+  for (const auto& [suffix, parse] : forms) {
+    const auto cameras_file = folder / (std::string("cameras") + suffix);
+    const auto images_file = folder / (std::string("images") + suffix);
+    std::ifstream cameras(cameras_file, std::ios::binary), images(images_file, std::ios::binary);
+    if (cameras.is_open() && images.is_open())
+      return parse({cameras, cameras_file.string()}, {images, images_file.string()});
+  }
+  throw InputError(folder.string() +
+                   ": expected a COLMAP model, a folder with cameras.bin and images.bin or "
+                   "cameras.txt and images.txt");
+}
+
+}  // namespace fathom

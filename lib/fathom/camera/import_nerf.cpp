@@ -1,0 +1,133 @@
+#include <cmath>
+#include <limits>
+
+#include "fathom/camera/camera_import_internal.h"
+#include "fathom/camera/pose.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/numeric/rounding.h"
+#include "fathom/text/input_file.h"
+#include "fathom/text/json_value.h"
+
+namespace fathom {
+namespace {
+
+/// The keys of one frame, with those of the whole file behind them.
+struct Frame {
+  JsonValue own;
+  JsonValue file;
+
+  [[nodiscard]] std::optional<JsonValue> find(const char* key) const {
+    if (auto value = own.find(key)) return value;
+    return file.find(key);
+  }
+  [[nodiscard]] std::optional<double> number(const char* key) const {
+    const auto value = find(key);
+    return value ? std::optional(value->number()) : std::nullopt;
+  }
+};
+
+void refuse_distortion(const Frame& frame) {
+  if (const auto model = frame.find("camera_model"))
+    if (const std::string& name = model->string();
+        name != "OPENCV" && name != "PINHOLE" && name != "SIMPLE_PINHOLE")
+      model->fail("the camera model " + name +
+                  " is no pinhole camera; expected OPENCV, PINHOLE or SIMPLE_PINHOLE");
+  for (const char* key : {"k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"})
+    if (const auto k = frame.find(key); k && k->number() != 0)
+      k->fail("lens distortion cannot be expressed; undistort the images first");
+  if (const auto fisheye = frame.find("is_fisheye"); fisheye && fisheye->boolean())
+    fisheye->fail("a fisheye lens cannot be expressed; undistort the images first");
+}
+
+std::uint32_t image_size(const Frame& frame, const char* key, std::uint32_t given) {
+  constexpr auto largest = std::numeric_limits<std::uint32_t>::max();
+  if (const auto size = frame.find(key))
+    return static_cast<std::uint32_t>(size->integer(1, largest));
+  if (given == 0)
+    frame.own.fail(std::string("the key \"") + key +
+                   "\" is missing here and for the whole file, and no image size was given");
+  return given;
+}
+
+/// ½·size / tan(angle/2), in extended precision, then rounded.
+double focal_of(std::uint32_t size, double angle) {
+  return static_cast<double>(0.5L * size / std::tan(0.5L * static_cast<long double>(angle)));
+}
+
+void read_intrinsics(const Frame& frame, Camera& camera) {
+  const auto angle_x = frame.number("camera_angle_x"), angle_y = frame.number("camera_angle_y");
+  const auto fl_x = frame.number("fl_x"), fl_y = frame.number("fl_y");
+  if (!fl_x && !angle_x)
+    frame.own.fail("the focal length is missing: expected fl_x or camera_angle_x");
+  camera.fx = fl_x ? *fl_x : focal_of(camera.width, *angle_x);
+  camera.fy = fl_y ? *fl_y : angle_y && !fl_x ? focal_of(camera.height, *angle_y) : camera.fx;
+  camera.cx = frame.number("cx").value_or(camera.width / 2.0);
+  camera.cy = frame.number("cy").value_or(camera.height / 2.0);
+}
+
+/// The inverse of the camera-to-world matrix [A | b] with OpenGL's axes, in ours: with
+/// A⁻¹ = adj A / det A, world to camera is diag(1, −1, −1)·[A⁻¹ | −A⁻¹·b], each entry an exact
+/// rational rounded once.
+Matrix34 invert(const JsonValue& matrix) {
+  const auto rows = matrix.elements();
+  if (rows.size() != 3 && rows.size() != 4)
+    matrix.fail("expected a 4×4 matrix, found " + std::to_string(rows.size()) + " rows");
+  std::array<ExactVector3, 4> columns;
+  for (int i = 0; i < 3; ++i) {
+    const auto row = rows[static_cast<std::size_t>(i)].numbers(4);
+    for (std::size_t k = 0; k < 4; ++k) columns[k][i] = row[k];
+  }
+  if (rows.size() == 4 && rows[3].numbers(4) != std::vector<double>{0, 0, 0, 1})
+    rows[3].fail("expected the last row to be 0 0 0 1");
+  const auto& [a0, a1, a2, b] = columns;
+  const Dyadic det = determinant(a0, a1, a2);
+  if (det.is_zero()) matrix.fail("the matrix is singular");
+  const std::array<ExactVector3, 3> adjugate{cross(a1, a2), cross(a2, a0), cross(a0, a1)};
+  Matrix34 inverse;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Dyadic sign = i == 0 ? 1.0 : -1.0;
+    const auto rounded = [&](const Dyadic& x) { return round_to_binary64(Ratio(sign * x, det)); };
+    inverse[i] = {rounded(adjugate[i][0]), rounded(adjugate[i][1]), rounded(adjugate[i][2]),
+                  rounded(-dot(adjugate[i], b))};
+  }
+  return inverse;
+}
+
+void warn_of_geometry(const JsonValue& root, const std::string& file, Warnings& warnings) {
+  for (const char* key : {"scale", "offset", "applied_transform", "applied_scale"})
+    if (root.find(key))
+      warnings.push_back(file + ": the key \"" + key +
+                         "\" is not applied: cameras are taken over as transform_matrix has them");
+}
+
+}  // namespace
+
+std::vector<ImportedCamera> parse_nerf(std::string_view text, const std::string& name,
+                                       std::uint32_t width, std::uint32_t height,
+                                       Warnings& warnings) {
+  const JsonDocument document(text, name);
+  const JsonValue root = document.root();
+  warn_of_geometry(root, name, warnings);
+  std::vector<ImportedCamera> cameras;
+  for (const JsonValue& own : root.at("frames").elements()) {
+    const Frame frame{own, root};
+    refuse_distortion(frame);
+    Camera camera;
+    camera.width = image_size(frame, "w", width);
+    camera.height = image_size(frame, "h", height);
+    read_intrinsics(frame, camera);
+    camera.world_to_camera = invert(own.at("transform_matrix"));
+    if (const auto fault = find_fault(camera)) own.fail(*fault);
+    const auto file_path = own.find("file_path");
+    cameras.push_back({file_path ? file_path->string() : std::to_string(cameras.size()), camera});
+  }
+  if (cameras.empty()) root.at("frames").fail("there is no frame");
+  return cameras;
+}
+
+std::vector<ImportedCamera> import_nerf(const std::filesystem::path& file, std::uint32_t width,
+                                        std::uint32_t height, Warnings& warnings) {
+  return parse_nerf(InputFile(file).text(), file.string(), width, height, warnings);
+}
+
+}  // namespace fathom

@@ -1,0 +1,135 @@
+#include "fathom/fast/bins.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "fathom/fast/boxes.h"
+#include "fathom/fast/tile.h"
+
+namespace fathom {
+
+ImageObject::ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
+                         std::uint32_t first_triangle)
+    : mesh(its_mesh),
+      first_number(first_triangle),
+      transform(object, camera),
+      vertices(std::make_unique_for_overwrite<ImageVertex[]>(mesh.vertices.size())) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertices.size(), 4096),
+                    [&](const auto& range) {
+                      transform(std::span(mesh.vertices).subspan(range.begin(), range.size()),
+                                vertices.get() + range.begin());
+                    });
+}
+
+const ImageObject& object_of(const ImageObjects& objects, std::uint32_t number) {
+  const auto next = std::upper_bound(
+      objects.begin(), objects.end(), number,
+      [](std::uint32_t n, const ImageObject& object) { return n < object.first_number; });
+  return *std::prev(next);
+}
+
+TileGrid::TileGrid(std::uint32_t image_width, std::uint32_t image_height)
+    : width(image_width),
+      height(image_height),
+      columns((image_width - 1) / Tile::size + 1),
+      rows((image_height - 1) / Tile::size + 1) {}
+
+PixelBox TileGrid::area(std::uint32_t tile) const {
+  const std::uint32_t column = tile % columns * Tile::size, row = tile / columns * Tile::size;
+  return {column, std::min(column + Tile::size, width) - 1, row,
+          std::min(row + Tile::size, height) - 1};
+}
+
+void Bins::fill(const Context& context) {
+  entries_.reserve(end_ - first_);
+  starts_.assign(context.grid.count() + std::size_t{1}, 0);
+  for (const ImageObject& object : context.objects) {
+    if (object.end_number() > first_ && object.first_number < end_) add_object(object, context);
+  }
+  sort(context.grid.count());
+}
+
+namespace {
+
+/// Where a triangle of which nothing was certain can be visible; empty where it is not.
+PixelBox visible_box_exactly(const ImageObject& object, std::uint32_t number,
+                             const Bins::Context& context) {
+  const Mesh& mesh = object.mesh;
+  const auto& [a, b, c] = mesh.triangles[number - object.first_number];
+  const auto& vertices = object.vertices;
+  if (vertices[a].is_behind() && vertices[b].is_behind() && vertices[c].is_behind()) return {};
+  const bool usable = vertices[a].is_usable() && vertices[b].is_usable() && vertices[c].is_usable();
+  if (!usable &&
+      object.transform.misses_image({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]})) {
+    return {};
+  }
+  RenderStatistics& statistics = context.statistics;
+  ++statistics.facing.exact;
+  const bool distinct = a != b && b != c && c != a;
+  const ProjectedTriangle* t = distinct ? &context.referee.projected(number) : nullptr;
+  if (!t || t->orientation == Sign::zero) {
+    ++statistics.degenerate_triangles;
+    return {};
+  }
+  if (!is_kept(*t, context.cull)) {
+    ++statistics.culled_triangles;
+    return {};
+  }
+  return bounding_box(*t, context.camera);
+}
+
+}  // namespace
+
+void Bins::add_object(const ImageObject& object, const Context& context) {
+  const std::uint32_t first = std::max(first_, object.first_number);
+  const std::uint32_t end = std::min(end_, object.end_number());
+  const auto boxes = std::make_unique_for_overwrite<BoxBatch>();
+  RenderStatistics& statistics = context.statistics;
+  for (std::uint32_t next = first; next < end; next += BoxBatch::most) {
+    const std::uint32_t count = std::min<std::uint32_t>(BoxBatch::most, end - next);
+    box_triangles({object.vertices.get(), &object.mesh.triangles[next - object.first_number], count,
+                   next, context.cull, context.by_area, context.grid.width, context.grid.height,
+                   context.grid.columns},
+                  *boxes);
+    statistics.facing.interval += count - boxes->unsettled;
+    statistics.degenerate_triangles += boxes->degenerate;
+    statistics.culled_triangles += boxes->culled;
+    for (std::size_t i = 0; i < boxes->in_one_tile; ++i) ++starts_[(boxes->entries[i] >> 32) + 1];
+    entries_.insert(entries_.end(), boxes->entries.begin(),
+                    boxes->entries.begin() + static_cast<std::ptrdiff_t>(boxes->in_one_tile));
+    for (std::size_t i = 0; i < boxes->in_more_tiles; ++i) {
+      add(boxes->number[i], boxes->box[i], context.grid);
+    }
+    for (std::size_t i = 0; i < boxes->unsettled; ++i) {
+      const std::uint32_t number = boxes->unsettled_number[i];
+      const PixelBox box = visible_box_exactly(object, number, context);
+      if (!box.is_empty()) add(number, box, context.grid);
+    }
+  }
+}
+
+void Bins::add(std::uint32_t number, const PixelBox& box, const TileGrid& grid) {
+  for (std::uint32_t row = box.first_row / Tile::size; row <= box.last_row / Tile::size; ++row) {
+    for (std::uint32_t column = box.first_column / Tile::size;
+         column <= box.last_column / Tile::size; ++column) {
+      const std::uint64_t tile = row * grid.columns + column;
+      entries_.push_back(tile << 32 | number);
+      ++starts_[tile + 1];
+    }
+  }
+}
+
+void Bins::sort(std::uint32_t tiles) {
+  for (std::size_t tile = 0; tile < tiles; ++tile) starts_[tile + 1] += starts_[tile];
+  sorted_.resize(entries_.size());
+  std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
+  for (const std::uint64_t entry : entries_) {
+    sorted_[next[entry >> 32]++] = static_cast<std::uint32_t>(entry);
+  }
+  entries_ = {};
+}
+
+}  // namespace fathom

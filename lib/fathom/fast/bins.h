@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fathom/fast/depth_range.h"
+#include "fathom/fast/vertex.h"
+#include "fathom/triangle/referee.h"
+
+namespace fathom {
+
+/// One object with its vertices in the image.
+struct ImageObject {
+  /// Of an object or a part of it, whose triangles in the scene begin with `first_triangle`.
+  ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
+              std::uint32_t first_triangle);
+
+  const Mesh& mesh;
+  /// Number of its first triangle in the scene.
+  std::uint32_t first_number;
+  VertexTransform transform;
+  /// One for each vertex of the mesh.
+  std::unique_ptr<ImageVertex[]> vertices;
+
+  [[nodiscard]] std::uint32_t end_number() const {
+    return first_number + static_cast<std::uint32_t>(mesh.triangles.size());
+  }
+};
+/// In the order of the scene, so that the numbers of their triangles follow each other.
+using ImageObjects = std::deque<ImageObject>;
+
+/// The object that a triangle belongs to.
+const ImageObject& object_of(const ImageObjects& objects, std::uint32_t number);
+
+/// The image cut into tiles, numbered row by row.
+struct TileGrid {
+  TileGrid(std::uint32_t image_width, std::uint32_t image_height);
+  [[nodiscard]] std::uint32_t count() const { return columns * rows; }
+  [[nodiscard]] PixelBox area(std::uint32_t tile) const;
+
+  std::uint32_t width, height;  // of the image
+  std::uint32_t columns, rows;
+};
+
+/// Consecutive triangles, and for each tile those that can be visible in it, or that meet it.
+class Bins {
+ public:
+  /// Triangles first ≤ number < end of the scene.
+  Bins(std::uint32_t first, std::uint32_t end) : first_(first), end_(end) {}
+
+  struct Context {
+    const ImageObjects& objects;
+    const Camera& camera;
+    Cull cull;
+    /// All tiles that a triangle meets, not only those in which it can cover a sample.
+    bool by_area;
+    const TileGrid& grid;
+    Referee& referee;
+    RenderStatistics& statistics;
+  };
+  void fill(const Context& context);
+
+  /// Numbers of triangles, those of an object beside each other.
+  [[nodiscard]] std::span<const std::uint32_t> in_tile(std::uint32_t tile) const {
+    return std::span(sorted_).subspan(starts_[tile], starts_[tile + 1] - starts_[tile]);
+  }
+
+ private:
+  void add_object(const ImageObject& object, const Context& context);
+  void add(std::uint32_t number, const PixelBox& box, const TileGrid& grid);
+  void sort(std::uint32_t tiles);
+
+  std::uint32_t first_, end_;
+  /// Tile (upper half) and triangle.
+  std::vector<std::uint64_t> entries_;
+  std::vector<std::uint32_t> sorted_;
+  std::vector<std::size_t> starts_;
+};
+
+}  // namespace fathom

@@ -1,0 +1,139 @@
+// Which pixels triangles can cover, several triangles at once.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fathom/fast/boxes.cpp"
+#include "fathom/fast/boxes.h"
+
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "fathom/fast/setup-inl.h"
+#include "fathom/fast/tile.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fathom::HWY_NAMESPACE {
+namespace {
+
+/// Whether the triangles certainly cover no sample of their boxes: an edge function is certainly
+/// negative at the corner where it is greatest, and so everywhere in the box.
+HWY_INLINE M certainly_miss(const Corners& t, const Boxes& box) {
+  const LocalTriangles l = localise(t, box);
+  Edges e = certified_edges(l);
+  use_top_left_rule(are_snapped(t), e);
+  const V right = hn::Sub(box.last_column, box.first_column);
+  const V bottom = hn::Sub(box.last_row, box.first_row);
+  V least = constant(0);
+  for (int i = 0; i < 3; ++i) {
+    const V x = hn::IfThenElseZero(hn::Gt(e.a[i], constant(0)), right);
+    const V y = hn::IfThenElseZero(hn::Gt(e.b[i], constant(0)), bottom);
+    least = hn::Min(least, hn::MulAdd(e.b[i], y, hn::MulAdd(e.a[i], x, e.c[i])));
+  }
+  return hn::Lt(least, hn::Neg(e.error));
+}
+
+HWY_INLINE V tile_of(V pixel) {
+  return hn::Floor(hn::Mul(pixel, constant(1.0 / Tile::size)));
+}
+
+struct Sorted {
+  M one_tile, more_tiles, unsettled;
+  V tile;
+  Boxes box;
+};
+
+HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles, M valid,
+                             BoxBatch& out) {
+  const D d;
+  const Corners t = load_corners(r.vertices, triangles);
+  const Orientation o = certified_orientation(t);
+  const M usable = hn::And(valid, are_usable(t));
+  const M positive = hn::And(usable, o.positive), negative = hn::And(usable, o.negative);
+  const M zero = hn::And(usable, o.zero);
+  const M with_area = hn::Or(positive, negative);
+  const M kept = r.cull == Cull::none ? with_area : r.cull == Cull::back ? negative : positive;
+
+  Sorted s;
+  s.unsettled = hn::AndNot(hn::Or(with_area, zero), valid);
+  const PixelBox image{0, r.image_width - 1, 0, r.image_height - 1};
+  s.box = r.by_area ? area_boxes(t, image) : sample_boxes(t, image);
+  const M missed = r.by_area ? are_empty(s.box) : certainly_miss(t, s.box);
+  const M hidden = hn::Or(are_empty(s.box), missed);
+  const M visible = hn::AndNot(hidden, kept);
+  const V column = tile_of(s.box.first_column), row = tile_of(s.box.first_row);
+  const M together =
+      hn::And(hn::Eq(column, tile_of(s.box.last_column)), hn::Eq(row, tile_of(s.box.last_row)));
+  s.one_tile = hn::And(visible, together);
+  s.more_tiles = hn::AndNot(together, visible);
+  s.tile = hn::MulAdd(row, constant(r.tile_columns), column);
+  out.degenerate += hn::CountTrue(d, zero);
+  out.culled += hn::CountTrue(d, hn::AndNot(kept, with_area));
+  return s;
+}
+
+HWY_INLINE void append(const Sorted& s, std::uint32_t first_number, BoxBatch& out) {
+  const D d;
+  const DU du;
+  const auto number = hn::Add(hn::Iota(du, 0), hn::Set(du, first_number));
+  const auto tile = hn::BitCast(du, hn::ConvertTo(DI(), s.tile));
+  const auto entry = hn::Or(hn::ShiftLeft<32>(tile), number);
+  out.in_one_tile += hn::CompressStore(entry, hn::RebindMask(du, s.one_tile), du,
+                                       out.entries.data() + out.in_one_tile);
+  if (HWY_UNLIKELY(!hn::AllFalse(d, s.more_tiles))) {
+    alignas(64) double left[8], right[8], top[8], bottom[8];
+    hn::Store(s.box.first_column, d, left);
+    hn::Store(s.box.last_column, d, right);
+    hn::Store(s.box.first_row, d, top);
+    hn::Store(s.box.last_row, d, bottom);
+    for (unsigned bits = bits_of(s.more_tiles); bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
+      out.number[out.in_more_tiles] = first_number + k;
+      out.box[out.in_more_tiles++] = {
+          static_cast<std::uint32_t>(left[k]), static_cast<std::uint32_t>(right[k]),
+          static_cast<std::uint32_t>(top[k]), static_cast<std::uint32_t>(bottom[k])};
+    }
+  }
+  if (HWY_UNLIKELY(!hn::AllFalse(d, s.unsettled))) {
+    for (unsigned bits = bits_of(s.unsettled); bits != 0; bits &= bits - 1) {
+      out.unsettled_number[out.unsettled++] =
+          first_number + static_cast<std::uint32_t>(std::countr_zero(bits));
+    }
+  }
+}
+
+void sort_triangles(const BoxRequest& r, BoxBatch& out) {
+  const D d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t i = 0; i < r.count; i += lanes) {
+    const std::size_t count = std::min(lanes, r.count - i);
+    const CornerIndices* triangles = r.triangles + i;
+    CornerIndices last[8];
+    if (count < lanes) {
+      std::fill(std::begin(last), std::end(last), r.triangles[i]);
+      std::copy_n(r.triangles + i, count, last);
+      triangles = last;
+    }
+    const M valid = hn::FirstN(d, count);
+    append(sort_lanes(r, triangles, valid, out), r.first_number + static_cast<std::uint32_t>(i),
+           out);
+  }
+}
+
+}  // namespace
+}  // namespace fathom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fathom {
+
+HWY_EXPORT(sort_triangles);
+
+void box_triangles(const BoxRequest& request, BoxBatch& boxes) {
+  boxes.in_one_tile = boxes.in_more_tiles = boxes.unsettled = 0;
+  boxes.degenerate = boxes.culled = 0;
+  HWY_DYNAMIC_DISPATCH(sort_triangles)(request, boxes);
+}
+
+}  // namespace fathom
+#endif

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "fathom/triangle/options.h"
+#include "fathom/triangle/projected_triangle.h"
+
+namespace fathom {
+
+struct ImageVertex;
+
+/// Consecutive triangles of one object; corners index `vertices`.
+struct BoxRequest {
+  const ImageVertex* vertices;
+  const CornerIndices* triangles;
+  std::uint32_t count;  // at most BoxBatch::most
+  std::uint32_t first_number;
+  Cull cull;
+  /// Pixels that triangles meet, not only those whose samples they can cover.
+  bool by_area;
+  std::uint32_t image_width, image_height;
+  std::uint32_t tile_columns;
+};
+
+/// What is certain of them: which can be visible, and where.
+struct BoxBatch {
+  static constexpr std::size_t most = 1024;
+
+  /// Visible within one tile: its number in the upper, the triangle's in the lower half.
+  std::size_t in_one_tile = 0;
+  std::array<std::uint64_t, most + 8> entries;
+  /// Visible in several tiles.
+  std::size_t in_more_tiles = 0;
+  std::array<std::uint32_t, most> number;
+  std::array<PixelBox, most> box;
+  /// A corner is not usable, or the orientation not certain.
+  std::size_t unsettled = 0;
+  std::array<std::uint32_t, most> unsettled_number;
+
+  std::uint64_t degenerate = 0, culled = 0;
+};
+
+void box_triangles(const BoxRequest& request, BoxBatch& boxes);
+
+}  // namespace fathom

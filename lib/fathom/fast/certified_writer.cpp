@@ -1,0 +1,162 @@
+#include "fathom/fast/certified_writer.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "fathom/fast/certified_writer_pixel.h"
+
+// How to read this file: CertifiedWriter::write() is the list of channels. What follows from q
+// alone is rounded for a whole row (fast_channel_rows); for the rest Pixel has a function for each
+// channel, which goes through the tiers (fast_channel_pixel). Values and their bounds come from
+// fast_surface.h and fast_wide.h, roundings from certified_rounding.h.
+namespace fathom {
+namespace {
+
+/// Triangles remembered, a power of two; neighbours in the image often are neighbours in number.
+constexpr std::size_t most_remembered = 512;
+
+template <class Visit>
+void for_each_bit(std::uint64_t bits, const Visit& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
+/// Copies settled values of a row to its pixels; returns the samples that are left.
+template <class T>
+std::uint64_t copy(const VisibleRow& row, const RoundedValues<T>& rounded, T* target,
+                   RenderStatistics& statistics) {
+  const std::uint64_t settled = row.surface & rounded.settled;
+  for (std::uint64_t rest = settled; rest != 0;) {
+    const int first = std::countr_zero(rest), count = std::countr_one(rest >> first);
+    std::copy_n(rounded.values.data() + first, count,
+                target + row.first_pixel + static_cast<std::size_t>(first));
+    if (first + count == 64) break;
+    rest &= ~std::uint64_t{0} << (first + count);
+  }
+  statistics.rounding.interval += static_cast<std::uint64_t>(std::popcount(settled));
+  return row.surface & ~settled;
+}
+
+}  // namespace
+
+CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays)
+    : exact_(exact),
+      values_(exact.values()),
+      rays_(rays),
+      wide_(wide_arithmetic()),
+      image_{rays.perspective(), rays.greatest_u(), rays.greatest_v()},
+      world_sizes_(rays.world().rays, image_),
+      each_pixel_(values_.barycentric[0] || values_.low),
+      remembered_(most_remembered) {}
+
+CertifiedWriter::Triangle& CertifiedWriter::remember(std::uint32_t number) {
+  Triangle& t = remembered_[number % most_remembered];
+  if (t.number == number) return t;
+  t.number = number;
+  t.has_weights = t.has_depth = t.has_normal = false;
+  t.constants_known = 0;
+  t.constant.fill(std::nullopt);
+  const TriangleSource::Triangle triangle = rays_.triangles().triangle(number);
+  t.origin = triangle.origin;
+  t.object = &rays_.object(t.origin.object);
+  t.corners = triangle.corners;
+  t.usable = t.object->usable && rays_.world().usable && is_safe(t.corners);
+  return t;
+}
+
+/// The samples of a row that a channel is still to be written at.
+struct CertifiedWriter::Open {
+  std::uint64_t depth = 0, distance = 0;
+  std::array<std::uint64_t, 3> position{};
+
+  [[nodiscard]] std::uint64_t any() const {
+    return depth | distance | position[0] | position[1] | position[2];
+  }
+};
+
+std::uint64_t CertifiedWriter::write_encoded(const VisibleRow& row, const EncodedValues& values,
+                                             bool distance, RenderStatistics& statistics) const {
+  if (!values.wanted() || values.binary64) return values.wanted() ? row.surface : 0;
+  if (values.codes) {
+    RoundedValues<std::uint16_t> codes;
+    round_to_codes(row.lanes, rays_, distance, exact_.scale(), codes);
+    return copy(row, codes, values.codes, statistics);
+  }
+  RoundedValues<float> rounded;
+  round_depths(row.lanes, rays_, distance, rounded);
+  return copy(row, rounded, values.binary32, statistics);
+}
+
+void CertifiedWriter::write_origins(const VisibleRow& row) const {
+  if (values_.id) {
+    for_each_bit(row.surface, [&](std::size_t k) {
+      const VisibleSurface surface = row.at(k);
+      values_.id[surface.pixel] = surface.triangle;
+    });
+  }
+  if (!values_.face && !values_.object) return;
+  std::uint32_t last = no_surface;
+  TriangleOrigin origin;
+  for_each_bit(row.surface, [&](std::size_t k) {
+    const VisibleSurface surface = row.at(k);
+    if (surface.triangle != last) origin = rays_.triangles().origin(last = surface.triangle);
+    if (values_.face) values_.face[surface.pixel] = origin.face;
+    if (values_.object) values_.object[surface.pixel] = origin.object;
+  });
+}
+
+void CertifiedWriter::write_normals(const VisibleRow& row, Referee& referee,
+                                    RenderStatistics& statistics) {
+  std::uint32_t last = no_surface;
+  std::array<float, 3> normal{};
+  for_each_bit(row.surface, [&](std::size_t k) {
+    const VisibleSurface surface = row.at(k);
+    if (surface.triangle != last) {
+      normal = Pixel(*this, surface, referee, statistics).normal();
+      last = surface.triangle;
+    }
+    for (std::size_t i = 0; i < 3; ++i) values_.normal[i][surface.pixel] = normal[i];
+  });
+}
+
+CertifiedWriter::Open CertifiedWriter::write_settled(const VisibleRow& row,
+                                                     RenderStatistics& statistics) const {
+  Open open;
+  write_origins(row);
+  open.depth = write_encoded(row, values_.depth, false, statistics);
+  open.distance = write_encoded(row, values_.distance, true, statistics);
+  if (!values_.position[0]) return open;
+  open.position.fill(row.surface);
+  if (!rays_.world().usable) return open;
+  std::array<RoundedValues<float>, 3> rounded;
+  round_positions(row.lanes, rays_.world().rays, world_sizes_, image_.perspective, rounded);
+  for (std::size_t k = 0; k < 3; ++k) {
+    open.position[k] = copy(row, rounded[k], values_.position[k], statistics);
+  }
+  return open;
+}
+
+std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Referee& referee,
+                                                    RenderStatistics& statistics) {
+  const Open open = write_settled(row, statistics);
+  if (values_.normal[0]) write_normals(row, referee, statistics);
+  for (std::uint64_t bits = each_pixel_ ? row.surface : open.any(); bits != 0; bits &= bits - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+    const auto is_open = [&](std::uint64_t samples) { return (samples >> k & 1) != 0; };
+    const VisibleSurface surface = row.at(k);
+    Pixel pixel(*this, surface, referee, statistics);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (is_open(open.position[i])) pixel.write_position(i);
+    }
+    for (std::size_t i = 0; values_.barycentric[0] && i < 2; ++i) pixel.write_barycentric(i);
+    if (is_open(open.distance)) {
+      if (auto fault = pixel.write_distance()) return fault;
+    }
+    if (values_.low) pixel.write_low_part();
+    if (is_open(open.depth)) {
+      if (auto fault = pixel.write_depth()) return fault;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace fathom

@@ -1,0 +1,176 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fathom/fast/channel_rows.cpp"
+#include "fathom/fast/channel_rows.h"
+
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include <limits>
+
+#include "fathom/fast/setup-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fathom::HWY_NAMESPACE {
+namespace {
+
+constexpr double ulp = epsilon<double>;
+
+struct CertifiedLanes {
+  V value, error;
+};
+
+HWY_INLINE V load_u(const SurfaceRow& row, std::size_t first) {
+  return hn::Add(hn::Iota(D(), static_cast<double>(first)), constant(row.first_u));
+}
+
+/// D from q: 1/q, as |1/q̂ − 1/q| = |q − q̂|/(q·q̂) and q ≥ q̂·(1 − 2⁻²⁰), and the division rounds; or
+/// −q. A bound that is NaN says that nothing is known.
+HWY_INLINE CertifiedLanes load_depth(const SurfaceRow& row, std::size_t first, bool perspective) {
+  const D d;
+  const V q = hn::LoadU(d, row.q + first);
+  const V q_error = hn::BitCast(d, hn::LoadU(DU(), row.tags + first));
+  if (!perspective) return {hn::Neg(q), q_error};
+  const V depth = hn::Div(constant(1), q);
+  const V relative = hn::MulAdd(q_error, depth, constant(ulp));
+  const V error = hn::Mul(hn::Mul(relative, depth), constant(slack));
+  const M known = hn::Le(q_error, hn::Mul(q, constant(0x1p-20)));
+  return {depth, hn::IfThenElse(known, error, constant(std::numeric_limits<double>::infinity()))};
+}
+
+/// As to_binary32() of a binary64 number.
+HWY_INLINE void round_lanes(const CertifiedLanes& x, std::size_t first,
+                            RoundedValues<float>& rounded) {
+  const D d;
+  const hn::Rebind<float, D> d32;
+  const V margin = hn::MulAdd(hn::Abs(x.value), constant(0x1p-51), x.error);
+  const V low = hn::Sub(x.value, margin), high = hn::Add(x.value, margin);
+  const auto nearest_to_low = to_binary32(d32, low);
+  const M one_sign = hn::Or(hn::Gt(low, constant(0)), hn::Lt(high, constant(0)));
+  const M same = hn::Eq(hn::PromoteTo(d, nearest_to_low), hn::PromoteTo(d, to_binary32(d32, high)));
+  hn::StoreU(nearest_to_low, d32, rounded.values.data() + first);
+  rounded.settled |= std::uint64_t{bits_of(hn::And(one_sign, same))} << first;
+}
+
+/// As to_code() of a binary64 number with an error, which it may be off by when scaled.
+HWY_INLINE void round_lanes(const CertifiedLanes& x, double scale, std::size_t first,
+                            RoundedValues<std::uint16_t>& rounded) {
+  const D d;
+  const V scaled = hn::Mul(x.value, constant(scale));
+  const V error = hn::Mul(hn::MulAdd(x.error, constant(scale), hn::Mul(scaled, constant(ulp))),
+                          constant(slack));
+  const V code = hn::Round(scaled);
+  const V rest = hn::Abs(hn::Sub(scaled, code));
+  const M near = hn::Lt(hn::MulAdd(rest, constant(1 + 0x1p-50), error), constant(0.5));
+  const M in_range = hn::And(hn::Ge(code, constant(1)), hn::Le(code, constant(65535)));
+  const M settled = hn::And(near, in_range);
+  HWY_ALIGN double codes[8];
+  hn::StoreU(hn::IfThenElseZero(settled, code), d, codes);
+  for (std::size_t k = 0; k < hn::Lanes(d); ++k) {
+    rounded.values[first + k] = static_cast<std::uint16_t>(codes[k]);
+  }
+  rounded.settled |= std::uint64_t{bits_of(settled)} << first;
+}
+
+/// A coordinate of origin or direction along a row: a + b·u.
+struct AlongRow {
+  double a, b;
+  AlongRow(double entry, double along_v, double along_u, double v)
+      : a(entry + along_v * v), b(along_u) {}
+  [[nodiscard]] HWY_INLINE V at(V u) const { return hn::MulAdd(constant(b), u, constant(a)); }
+};
+
+/// As position() in fast_wide.h.
+HWY_ATTR void round_lanes_of_positions(const SurfaceRow& row, const Rays& world,
+                                       const RaySizes& sizes, bool perspective,
+                                       std::array<RoundedValues<float>, 3>& rounded) {
+  const std::size_t lanes = hn::Lanes(D());
+  for (RoundedValues<float>& r : rounded) r.settled = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& [m0, m1, m2, O] = world.columns;
+    const AlongRow varying((perspective ? m2 : O)[i].hi, m1[i].hi, m0[i].hi, row.v);
+    const V constant_part = constant((perspective ? O : m2)[i].hi);
+    const V origin_size = constant(sizes.origin[i]), d_size = constant(sizes.direction[i]);
+    for (std::size_t first = 0; first < samples_of_row; first += lanes) {
+      const CertifiedLanes depth = load_depth(row, first, perspective);
+      const V along = varying.at(load_u(row, first));
+      const V origin = perspective ? constant_part : along;
+      const V d = perspective ? along : constant_part;
+      const V size = hn::MulAdd(d_size, hn::Abs(depth.value), origin_size);
+      const V error = hn::MulAdd(size, constant(6 * ulp), hn::Mul(d_size, depth.error));
+      round_lanes({hn::MulAdd(d, depth.value, origin), hn::Mul(error, constant(slack))}, first,
+                  rounded[i]);
+    }
+  }
+}
+
+/// As ray_length() and product() in fast_wide.h.
+HWY_INLINE CertifiedLanes times_ray_length(const CertifiedLanes& depth, V u, const SurfaceRow& row,
+                                           const SceneRays& rays) {
+  const auto& [kx, ky] = rays.lens();
+  const V x = AlongRow(kx[2].hi, kx[1].hi, kx[0].hi, row.v).at(u);
+  const V y = AlongRow(ky[2].hi, ky[1].hi, ky[0].hi, row.v).at(u);
+  const V length = hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, constant(1))));
+  const V length_error =
+      hn::Mul(hn::Add(length, constant(6 * rays.lens_size() + 1)), constant(ulp * slack));
+  const V value = hn::Mul(depth.value, length);
+  const V size = hn::Abs(depth.value);
+  const V error = hn::MulAdd(size, length_error,
+                             hn::MulAdd(hn::Add(length, length_error), depth.error,
+                                        hn::Mul(hn::Abs(value), constant(ulp))));
+  return {value, hn::Mul(error, constant(slack))};
+}
+
+template <class Round>
+HWY_INLINE void for_lanes(const SurfaceRow& row, const SceneRays& rays, bool distance,
+                          const Round& round) {
+  const bool times_length = distance && rays.perspective();
+  for (std::size_t first = 0; first < samples_of_row; first += hn::Lanes(D())) {
+    const CertifiedLanes depth = load_depth(row, first, rays.perspective());
+    round(times_length ? times_ray_length(depth, load_u(row, first), row, rays) : depth, first);
+  }
+}
+
+HWY_ATTR void round_lanes_of_depths(const SurfaceRow& row, const SceneRays& rays, bool distance,
+                                    RoundedValues<float>& rounded) {
+  rounded.settled = 0;
+  for_lanes(row, rays, distance, [&](const CertifiedLanes& x, std::size_t first) HWY_ATTR {
+    round_lanes(x, first, rounded);
+  });
+}
+
+HWY_ATTR void round_lanes_to_codes(const SurfaceRow& row, const SceneRays& rays, bool distance,
+                                   double scale, RoundedValues<std::uint16_t>& rounded) {
+  rounded.settled = 0;
+  for_lanes(row, rays, distance, [&](const CertifiedLanes& x, std::size_t first) HWY_ATTR {
+    round_lanes(x, scale, first, rounded);
+  });
+}
+
+}  // namespace
+}  // namespace fathom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fathom {
+
+HWY_EXPORT(round_lanes_of_positions);
+HWY_EXPORT(round_lanes_of_depths);
+HWY_EXPORT(round_lanes_to_codes);
+
+void round_positions(const SurfaceRow& row, const Rays& world, const RaySizes& sizes,
+                     bool perspective, std::array<RoundedValues<float>, 3>& rounded) {
+  HWY_DYNAMIC_DISPATCH(round_lanes_of_positions)(row, world, sizes, perspective, rounded);
+}
+
+void round_depths(const SurfaceRow& row, const SceneRays& rays, bool distance,
+                  RoundedValues<float>& rounded) {
+  HWY_DYNAMIC_DISPATCH(round_lanes_of_depths)(row, rays, distance, rounded);
+}
+
+void round_to_codes(const SurfaceRow& row, const SceneRays& rays, bool distance, double scale,
+                    RoundedValues<std::uint16_t>& rounded) {
+  HWY_DYNAMIC_DISPATCH(round_lanes_to_codes)(row, rays, distance, scale, rounded);
+}
+
+}  // namespace fathom
+#endif

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "fathom/triangle/double_word_surface.h"
+
+namespace fathom {
+
+/// Samples of a row of a tile.
+inline constexpr std::size_t samples_of_row = 64;
+
+/// What is visible along a row: for each sample q and its tag, whose bits as a binary64 number are
+/// a bound of the error of q and whose lower half is the triangle's number (see surface_tag). Of
+/// samples without a surface anything.
+struct SurfaceRow {
+  const double* q = nullptr;
+  const std::uint64_t* tags = nullptr;
+  /// u of the first sample, v of all.
+  double first_u = 0, v = 0;
+};
+
+/// Rounded values, and a bit for each sample whose value is settled: it is the exact one rounded
+/// once. Of the others, and of samples without a surface, anything.
+template <class T>
+struct RoundedValues {
+  alignas(64) std::array<T, samples_of_row> values;
+  std::uint64_t settled = 0;
+};
+
+// The binary64 tier of what follows from q alone, several samples at once, by the instructions that
+// the processor has: fast_surface.h and certified_rounding.h say the same for one sample, and why.
+
+/// World x, y, z of the visible points. The world's rays usable.
+void round_positions(const SurfaceRow& row, const Rays& world, const RaySizes& sizes,
+                     bool perspective, std::array<RoundedValues<float>, 3>& rounded);
+/// Depth, or ray distance where `distance`; as binary32, or scaled as codes.
+void round_depths(const SurfaceRow& row, const SceneRays& rays, bool distance,
+                  RoundedValues<float>& rounded);
+void round_to_codes(const SurfaceRow& row, const SceneRays& rays, bool distance, double scale,
+                    RoundedValues<std::uint16_t>& rounded);
+
+}  // namespace fathom

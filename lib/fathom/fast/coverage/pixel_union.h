@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fathom/fast/coverage/square_edges.h"
+#include "fathom/numeric/interval.h"
+
+namespace fathom {
+
+/// The area of the union of convex polygons within the unit square, by binary64 with a bound
+/// (square_edges.h). No predicate has to be right: contacts of any kind, common edges and slivers
+/// need no care.
+class PixelUnion {
+ public:
+  void clear();
+  /// Corners in the order of the boundary, either way round, finite; they may lie outside the
+  /// square. `area_error`: by how much area the polygon and the one meant differ within the square
+  /// at most.
+  void add(std::span<const SquarePoint> corners, double area_error);
+  /// An interval that contains the area of the union of the polygons that are meant, within [0, 1].
+  Interval area();
+
+ private:
+  [[nodiscard]] double length_at(double height);
+
+  struct Span {
+    double left, right;
+  };
+  SquareEdges edges_;
+  std::vector<Span> of_polygon_, spans_;
+  std::int32_t polygons_ = 0;
+  double error_ = 0;
+};
+
+/// f = c + a·x + b·y ≥ 0.
+struct UncertainHalfPlane {
+  double a, b, c;
+  /// Of f at any point of the unit square, with the roundings of its evaluation.
+  double error;
+};
+
+/// What lies of the unit square on the inner sides of lines (Sutherland, Hodgman 1974).
+class ClippedSquare {
+ public:
+  ClippedSquare() : corners_{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, count_(4) {}
+  void clip(const UncertainHalfPlane& half_plane);
+  [[nodiscard]] std::span<const SquarePoint> corners() const {
+    return std::span(corners_).first(count_);
+  }
+  /// By how much area this differs at most from the square clipped by the exact lines.
+  [[nodiscard]] double area_error() const { return area_error_; }
+
+ private:
+  static constexpr std::size_t most = 16;
+  std::array<SquarePoint, most> corners_;
+  std::size_t count_;
+  double area_error_ = 0;
+};
+
+}  // namespace fathom

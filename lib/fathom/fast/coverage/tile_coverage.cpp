@@ -1,0 +1,300 @@
+#include "fathom/fast/coverage/tile_coverage.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "fathom/numeric/rounding.h"
+
+namespace fathom {
+
+void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile::Context& context,
+                         float* values, std::uint32_t image_width) {
+  area_ = tile.area();
+  collect_triangles(tile_number);
+  classify(context);
+  look_at_open(context);
+  fill_large();
+  write_closed(tile, values, image_width);
+  if (is_full(whole())) return;
+  find_open_pixels();
+  if (std::all_of(open_.begin(), open_.end(), [](std::uint64_t row) { return row == 0; })) return;
+  meet_triangles();
+  meet_edges();
+  settle_open(context, values, image_width);
+}
+
+// The number of triangles that cover a point is the same all over the inside of such a pixel, and
+// at its sample it is 0 exactly where no surface is seen.
+void TileCoverage::write_closed(const Tile& tile, float* values, std::uint32_t image_width) const {
+  const std::uint32_t columns = area_.last_column - area_.first_column + 1;
+  for (std::uint32_t row = area_.first_row; row <= area_.last_row; ++row) {
+    const double* q = tile.q() + Tile::index(0, row - area_.first_row);
+    float* const out = values + std::size_t{row} * image_width + area_.first_column;
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      out[column] = q[column] > -std::numeric_limits<double>::infinity() ? 1.0F : 0.0F;
+    }
+  }
+}
+
+bool TileCoverage::is_open(const TileBox& box) const {
+  if (box.is_empty()) return false;
+  const std::uint64_t columns = columns_between(box.left, box.right);
+  for (int row = box.top; row <= box.bottom; ++row) {
+    if (open_[static_cast<std::size_t>(row)] & columns) return true;
+  }
+  return false;
+}
+
+// The bound of certified_edges() in fast_setup-inl.h, for coordinates relative to the tile; 10uL²
+// more for adding half a pixel's change (meet()), of a magnitude of at most 2L.
+TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_t i) const {
+  const auto& corners = object.mesh.triangles[numbers_[i] - object.first_number];
+  std::array<SquarePoint, 3> p{};
+  double L = size, e = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const ImageVertex& vertex = object.vertices[corners[k]];
+    p[k] = {vertex.u - area_.first_column, vertex.v - area_.first_row};
+    L = std::max({L, std::abs(p[k].x), std::abs(p[k].y)});
+    e = std::max(e, vertex.position_error());
+  }
+  const double error = (8.25 * (e + unit_roundoff * L) + 34 * unit_roundoff * L) * L;
+  const double doubled_area =
+      (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
+  if (doubled_area < 0) std::swap(p[1], p[2]);
+  Shape shape{.triangle = static_cast<std::uint32_t>(i), .is_open = false, .sides = {}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto &P = p[(k + 1) % 3], &Q = p[(k + 2) % 3];
+    shape.add(P.y - Q.y, Q.x - P.x, P.x * Q.y - P.y * Q.x, error);
+  }
+  return shape;
+}
+
+// The functions of exact_setup() are relative to the sample of the tile's first pixel, half a pixel
+// from its corner: c moves by (a + b)/2. Their bounds hold for any point up to 8 pixels beyond the
+// tile. The two roundings more, of c and of what meet() and add_to_union() add, are below u·S each,
+// which half of a bound more covers. Ends of the range are known up to the next number.
+TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context& context) const {
+  const TriangleSetup s =
+      exact_setup(context.referee.projected(numbers_[i]), context.perspective, area_);
+  Shape shape{.triangle = static_cast<std::uint32_t>(i), .is_open = true, .sides = {}};
+  const auto add = [&](double a, double b, double c, double error) {
+    shape.add(a, b, c - (a + b) / 2, 1.5 * error);
+  };
+  for (std::size_t k = 0; k < 3; ++k) add(s.edge_a[k], s.edge_b[k], s.edge_c[k], s.edge_error);
+  const DepthRange& range = context.range;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (range.inside_greatest < infinity) {
+    const double doubt = std::abs(range.outside_greatest - range.inside_greatest);
+    add(-s.q_a, -s.q_b, range.inside_greatest - s.q_c,
+        2 * s.q_error + 2 * doubt + 2 * unit_roundoff * std::abs(range.inside_greatest));
+  }
+  if (range.inside_least > -infinity) {
+    const double doubt = std::abs(range.inside_least - range.outside_least);
+    add(s.q_a, s.q_b, s.q_c - range.inside_least,
+        2 * s.q_error + 2 * doubt + 2 * unit_roundoff * std::abs(range.inside_least));
+  }
+  return shape;
+}
+
+void TileCoverage::meet(const TileBox& box, const Shape& shape) {
+  shapes_.push_back(shape);
+  for (int row = box.top; row <= box.bottom; ++row) {
+    std::uint64_t& open_row = open_[static_cast<std::size_t>(row)];
+    std::uint64_t bits = open_row & columns_between(box.left, box.right);
+    for (; bits != 0; bits &= bits - 1) {
+      const int column = std::countr_zero(bits);
+      bool inside = true, outside = false;
+      for (std::size_t k = 0; k < shape.count; ++k) {
+        const auto& [a, b, c, error] = shape.sides[k];
+        const double at_centre = c + a * (column + 0.5) + b * (row + 0.5);
+        const double half = (std::abs(a) + std::abs(b)) / 2;
+        inside = inside && at_centre - half > error;
+        outside = outside || at_centre + half < -error;
+      }
+      if (inside) {
+        open_row &= ~(std::uint64_t{1} << column);
+        met_[static_cast<std::size_t>(row)] |= std::uint64_t{1} << column;
+      } else if (!outside) {
+        shapes_at_.add(static_cast<std::uint32_t>(row) * size + static_cast<std::uint32_t>(column),
+                       shapes_.size() - 1);
+      }
+    }
+  }
+}
+
+void TileCoverage::meet_triangles() {
+  auto next_open = open_shapes_.begin();
+  met_.fill(0);
+  shapes_.clear();
+  shapes_at_.clear();
+  const ImageObject* object = nullptr;
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    const auto& [kind, is_large, box] = classes_[i];
+    if (kind == CoverageClass::open) {
+      meet(whole(), *next_open++);
+      continue;
+    }
+    if (kind == CoverageClass::nothing || !is_open(box)) continue;
+    if (!object || numbers_[i] >= object->end_number()) {
+      object = &object_of(scene_.objects, numbers_[i]);
+    }
+    meet(box, shape_of(*object, i));
+  }
+  shapes_at_.sort();
+}
+
+void TileCoverage::Meetings::sort() {
+  starts_.fill(0);
+  for (const Meeting& meeting : unsorted_) ++starts_[meeting.pixel + 1];
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  sorted_.resize(unsorted_.size());
+  auto next = starts_;
+  for (const Meeting& meeting : unsorted_) sorted_[next[meeting.pixel]++] = meeting.index;
+}
+
+void TileCoverage::settle_open(const Tile::Context& context, float* values,
+                               std::uint32_t image_width) {
+  for (std::size_t row = 0; row < size; ++row) {
+    float* const out = values + (area_.first_row + row) * image_width + area_.first_column;
+    context.statistics.coverage_rounding.interval +=
+        static_cast<std::uint64_t>(std::popcount(met_[row]));
+    for (std::uint64_t bits = met_[row]; bits != 0; bits &= bits - 1) {
+      out[std::countr_zero(bits)] = 1;
+    }
+    for (std::uint64_t bits = open_[row]; bits != 0; bits &= bits - 1) {
+      const auto column = static_cast<std::uint32_t>(std::countr_zero(bits));
+      out[column] = settle(static_cast<std::uint32_t>(row) * size + column, context);
+    }
+  }
+}
+
+// Rounded once, so within u·|x|.
+SquarePoint TileCoverage::exact_corner(const ImageObject& object, const ImageVertex& vertex,
+                                       std::uint32_t pixel) const {
+  const TriangleSource& triangles = scene_.frame.triangles;
+  const Object& its_object = triangles.objects()[triangles.origin(object.first_number).object];
+  const MeshPoint& p =
+      object.mesh.vertices[static_cast<std::size_t>(&vertex - object.vertices.get())];
+  const Camera& camera = scene_.frame.camera;
+  const auto [U, V, W] =
+      to_image(camera, to_camera(camera, its_object.placed_as_is ? WorldPoint{p.x, p.y, p.z}
+                                                                 : its_object.world_from_mesh(p)));
+  const std::uint32_t x = area_.first_column + pixel % size, y = area_.first_row + pixel / size;
+  const Dyadic column = static_cast<double>(x), row = static_cast<double>(y);
+  return {round_to_binary64(Ratio(U - column * W, W)), round_to_binary64(Ratio(V - row * W, W))};
+}
+
+Interval TileCoverage::area_between_edges(std::uint32_t pixel, Corners corners) {
+  const std::uint32_t x = pixel % size, y = pixel / size;
+  const double left = area_.first_column + x, top = area_.first_row + y;
+  winding_.clear();
+  for (const std::uint32_t i : edges_at_.at(pixel)) {
+    const auto& [from, to, object] = unbalanced_[i];
+    SquarePoint p{from->u - left, from->v - top}, q{to->u - left, to->v - top};
+    double error = std::max(from->position_error(), to->position_error());
+    if (corners == Corners::exact) {
+      p = exact_corner(*object, *from, pixel);
+      q = exact_corner(*object, *to, pixel);
+      error = 0;
+    }
+    const double extent =
+        std::max({std::abs(p.x), std::abs(p.y), std::abs(q.x), std::abs(q.y), 1.0});
+    winding_.add(p, q, error + unit_roundoff * extent);
+  }
+  return winding_.area([&](const SquarePoint& point) {
+    int number = 0;
+    for (const std::uint32_t i : shapes_at_.at(pixel)) {
+      bool inside = true, outside = false;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto& [a, b, c, error] = shapes_[i].sides[k];
+        const double f = c + a * (x + point.x) + b * (y + point.y);
+        inside = inside && f > error;
+        outside = outside || f < -error;
+      }
+      if (!inside && !outside) return -1;
+      if (inside) ++number;
+    }
+    return number;
+  });
+}
+
+Interval TileCoverage::area_of_union(std::uint32_t pixel) {
+  union_.clear();
+  for (const std::uint32_t i : shapes_at_.at(pixel)) {
+    add_to_union(shapes_[i], pixel % size, pixel / size);
+  }
+  return union_.area();
+}
+
+// Two polygons whose corresponding corners are at most ε apart in both coordinates differ only
+// within √2·ε of the edges: the boundary sweeps over every other point on the way from the one to
+// the other. In the square such a strip has an area of at most 2√2·ε·(√2 + 2√2·ε) ≤ 4.1ε, three
+// of them 12.3ε.
+void TileCoverage::add_to_union(const Shape& shape, std::uint32_t x, std::uint32_t y) {
+  if (shape.is_open) {
+    ClippedSquare square;
+    for (std::size_t k = 0; k < shape.count; ++k) {
+      auto side = shape.sides[k];
+      side.c += side.a * x + side.b * y;
+      square.clip(side);
+    }
+    union_.add(square.corners(), square.area_error());
+    return;
+  }
+  const std::uint32_t number = numbers_[shape.triangle];
+  const ImageObject& object = object_of(scene_.objects, number);
+  const auto& corners = object.mesh.triangles[number - object.first_number];
+  std::array<SquarePoint, 3> p{};
+  double extent = 1, e = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const ImageVertex& vertex = object.vertices[corners[k]];
+    p[k] = {vertex.u - (area_.first_column + x), vertex.v - (area_.first_row + y)};
+    extent = std::max({extent, std::abs(p[k].x), std::abs(p[k].y)});
+    e = std::max(e, vertex.position_error());
+  }
+  union_.add(p, 16 * (e + unit_roundoff * extent));
+}
+
+float TileCoverage::settle(std::uint32_t pixel, const Tile::Context& context) {
+  TierCounts& counts = context.statistics.coverage_rounding;
+  const auto shapes = shapes_at_.at(pixel);
+  if (shapes.empty()) {
+    ++counts.interval;
+    return 0;
+  }
+  const auto settles = [&](const Interval& area) {
+    return static_cast<float>(area.lower) == static_cast<float>(area.upper);
+  };
+  const bool any_open = std::any_of(shapes.begin(), shapes.end(),
+                                    [&](std::uint32_t i) { return shapes_[i].is_open; });
+  // Slabs between all ends and crossings take the cube of the number of edges.
+  constexpr std::size_t most = 400;
+  if ((any_open ? shapes.size() : edges_at_.at(pixel).size()) > most) {
+    return settle_exactly(pixel, context);
+  }
+  Interval area = any_open ? area_of_union(pixel) : area_between_edges(pixel, Corners::computed);
+  if (!settles(area) && !any_open) area = area_between_edges(pixel, Corners::exact);
+  const double more = (area.upper - area.lower) / 2 * (context.switches.widening - 1);
+  if (!settles({area.lower - more, area.upper + more})) {
+    context.note_doubt(area_.first_column + pixel % size, area_.first_row + pixel / size);
+  }
+  if (settles(area)) {
+    ++counts.interval;
+    return static_cast<float>(area.lower);
+  }
+  return settle_exactly(pixel, context);
+}
+
+float TileCoverage::settle_exactly(std::uint32_t pixel, const Tile::Context& context) {
+  ++context.statistics.coverage_rounding.exact;
+  exact_numbers_.clear();
+  for (const std::uint32_t i : shapes_at_.at(pixel)) {
+    exact_numbers_.push_back(numbers_[shapes_[i].triangle]);
+  }
+  return rounded_pixel_coverage(scene_.frame, exact_numbers_, area_.first_column + pixel % size,
+                                area_.first_row + pixel / size);
+}
+
+}  // namespace fathom

@@ -1,0 +1,175 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fathom/area/coverage.h"
+#include "fathom/fast/bins.h"
+#include "fathom/fast/coverage/edge_balance.h"
+#include "fathom/fast/coverage/pixel_union.h"
+#include "fathom/fast/coverage/pixel_winding.h"
+#include "fathom/fast/tile.h"
+
+namespace fathom {
+
+/// What is certain of a triangle whose area counts for channel A.
+enum class CoverageClass : std::uint8_t {
+  nothing,   // no point of it has a depth in the range that counts
+  positive,  // certainly Δ > 0; all of it in front of the camera and in the range
+  negative,  // the same with Δ < 0
+  open       // none of these
+};
+
+/// The pixels of a box within a tile, last ones included; empty where right < left or
+/// bottom < top.
+struct TileBox {
+  std::int16_t left, right, top, bottom;
+  [[nodiscard]] bool is_empty() const { return right < left || bottom < top; }
+};
+
+struct CoverageTriangle {
+  CoverageClass kind;
+  /// Positive or negative, and so large that its pixels are worth looking at one by one.
+  bool is_large;
+  /// The pixels that it can meet, unless it is open.
+  TileBox box;
+};
+
+/// Of triangles (numbers in the scene) of an object, in a tile. Vector instructions.
+void classify_for_coverage(const ImageObject& object, std::span<const std::uint32_t> numbers,
+                           const DepthRange& range, const PixelBox& tile,
+                           CoverageTriangle* classes);
+
+/// Channel A of one tile after the other (specification, section 6), the same values as
+/// rounded_pixel_coverage().
+///
+/// How many triangles cover a point of the image changes only across edges at which triangles do
+/// not lie beside each other (EdgeBalance). A pixel that no such edge meets is covered wholly or
+/// not at all, as its sample is, and so is one that a single triangle covers; what is left is
+/// mostly silhouettes. There, it is the area between such edges that counts (PixelWinding), or that
+/// of the union of what meets the pixel where triangles are cut by the range of depths
+/// (PixelUnion). Where a bound does not settle the rounding, the ends of the edges are computed
+/// from exact numbers, and last the area is.
+class TileCoverage {
+ public:
+  struct Scene {
+    const CoverageFrame& frame;
+    const ImageObjects& objects;
+    const std::vector<Bins>& bins;
+  };
+  explicit TileCoverage(const Scene& scene) : scene_(scene) {}
+
+  /// `tile` is drawn; its triangles are those of the bins, which must be sorted by area, not by
+  /// samples. Writes the values of its pixels into an image of this width.
+  void write(const Tile& tile, std::uint32_t tile_number, const Tile::Context& context,
+             float* values, std::uint32_t image_width);
+
+ private:
+  static constexpr std::uint32_t size = Tile::size;
+  static std::uint64_t columns_between(int left, int right) {
+    return ~std::uint64_t{0} << left & ~std::uint64_t{0} >> (63 - right);
+  }
+  /// A triangle by affine functions over the tile, (0, 0) its top left corner, positive inside.
+  struct Shape {
+    std::uint32_t triangle;  // index into numbers_
+    bool is_open;
+    std::array<UncertainHalfPlane, 5> sides;
+    std::uint32_t count = 0;
+    void add(double a, double b, double c, double error) { sides[count++] = {a, b, c, error}; }
+  };
+  /// Something that meets a pixel, a shape or an edge; pixels are numbered by rows of the tile.
+  struct Meeting {
+    std::uint32_t pixel, index;
+  };
+  /// Meetings in the order of their pixels.
+  class Meetings {
+   public:
+    void clear() { unsorted_.clear(); }
+    void add(std::uint32_t pixel, std::size_t index) {
+      unsorted_.push_back({pixel, static_cast<std::uint32_t>(index)});
+    }
+    void sort();
+    /// Of a pixel, in the order in which they were added.
+    [[nodiscard]] std::span<const std::uint32_t> at(std::uint32_t pixel) const {
+      return std::span(sorted_).subspan(starts_[pixel], starts_[pixel + 1] - starts_[pixel]);
+    }
+
+   private:
+    std::vector<Meeting> unsorted_;
+    std::vector<std::uint32_t> sorted_;
+    std::array<std::uint32_t, std::size_t{size} * size + 1> starts_;
+  };
+  struct UnbalancedEdge {
+    const ImageVertex *from, *to;
+    const ImageObject* object;
+  };
+
+  // fast_coverage_open.cpp: which pixels are open.
+  void collect_triangles(std::uint32_t tile_number);
+  /// visit(object, first, end): indices into numbers_.
+  template <class Visit>
+  void for_each_object(const Visit& visit) const;
+  void classify(const Tile::Context& context);
+  void find_open_pixels();
+  void balance_edges(const ImageObject& object, std::size_t first, std::size_t end);
+  template <class Visit>
+  void for_each_row(const UnbalancedEdge& edge, const Visit& visit) const;
+  void open_where_it_may_be(const Shape& shape);
+  void meet_edges();
+  [[nodiscard]] TileBox box_of(const UnbalancedEdge& edge, double margin) const;
+
+  // fast_coverage_full.cpp: which pixels one triangle covers wholly.
+  [[nodiscard]] TileBox whole() const {
+    return {0, static_cast<std::int16_t>(area_.last_column - area_.first_column), 0,
+            static_cast<std::int16_t>(area_.last_row - area_.first_row)};
+  }
+  [[nodiscard]] bool misses_tile(const Shape& shape) const;
+  void look_at_open(const Tile::Context& context);
+  void fill_large();
+  void fill(const Shape& shape, const TileBox& box);
+
+  // fast_coverage.cpp: settling them.
+  void write_closed(const Tile& tile, float* values, std::uint32_t image_width) const;
+  void meet_triangles();
+  void meet(const TileBox& box, const Shape& shape);
+  /// Whether any bit of the box is set, and whether all are.
+  [[nodiscard]] bool is_open(const TileBox& box) const;
+  [[nodiscard]] bool is_full(const TileBox& box) const;
+  [[nodiscard]] Shape shape_of(const ImageObject& object, std::size_t i) const;
+  [[nodiscard]] Shape exact_shape(std::size_t i, const Tile::Context& context) const;
+  void settle_open(const Tile::Context& context, float* values, std::uint32_t image_width);
+  float settle(std::uint32_t pixel, const Tile::Context& context);
+  /// The same by exact numbers alone.
+  float settle_exactly(std::uint32_t pixel, const Tile::Context& context);
+  enum class Corners { computed, exact };
+  [[nodiscard]] Interval area_between_edges(std::uint32_t pixel, Corners corners);
+  [[nodiscard]] SquarePoint exact_corner(const ImageObject& object, const ImageVertex& vertex,
+                                         std::uint32_t pixel) const;
+  [[nodiscard]] Interval area_of_union(std::uint32_t pixel);
+  void add_to_union(const Shape& shape, std::uint32_t x, std::uint32_t y);
+
+  Scene scene_;
+  PixelBox area_;
+  /// The triangles of the tile, those of an object beside each other, and their classes.
+  std::vector<std::uint32_t> numbers_;
+  std::vector<CoverageTriangle> classes_;
+  /// A bit for each pixel, a word for each row: covered wholly by one triangle; open; open at
+  /// first, then found to be covered by one triangle.
+  std::array<std::uint64_t, size> full_{}, open_{}, met_{};
+  EdgeBalance balance_;
+  std::vector<EdgeBalance::Edge> left_;
+  std::vector<std::uint32_t> vertex_at_;
+  std::vector<UnbalancedEdge> unbalanced_;
+  std::vector<Shape> shapes_;
+  /// Of open triangles that may meet the tile, in the order of numbers_.
+  std::vector<Shape> open_shapes_;
+  /// Of open pixels.
+  Meetings shapes_at_, edges_at_;
+  std::vector<std::uint32_t> exact_numbers_;
+  PixelUnion union_;
+  PixelWinding winding_;
+};
+
+}  // namespace fathom

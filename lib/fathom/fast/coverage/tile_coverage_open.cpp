@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "fathom/fast/coverage/tile_coverage.h"
+
+// Which pixels of a tile may be covered in part: those that an unbalanced edge meets, and those of
+// triangles of which nothing simple is certain.
+namespace fathom {
+namespace {
+
+/// Room for roundings in coordinates of a magnitude of at most `far`.
+constexpr double rounding_room = 0x1p-20;
+constexpr double far = 0x1p28;
+
+/// A number the same for −0 and 0.
+std::uint64_t hash_of(const MeshPoint& point) {
+  std::uint64_t hash = 0;
+  for (const double x : {point.x, point.y, point.z}) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15;
+    hash ^= hash >> 29;
+  }
+  return hash;
+}
+
+bool same_place(const MeshPoint& a, const MeshPoint& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/// The first of the vertices asked for that lies at the same place.
+class VertexAtPlace {
+ public:
+  VertexAtPlace(const Mesh& mesh, std::size_t most, std::vector<std::uint32_t>& slots)
+      : mesh_(mesh), slots_(slots) {
+    slots_.assign(std::bit_ceil(most + most / 2 + 1), none);
+  }
+  std::uint32_t operator()(std::uint32_t vertex) {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = hash_of(mesh_.vertices[vertex]) & mask;; i = (i + 1) & mask) {
+      if (slots_[i] == none) slots_[i] = vertex;
+      if (same_place(mesh_.vertices[slots_[i]], mesh_.vertices[vertex])) return slots_[i];
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  const Mesh& mesh_;
+  std::vector<std::uint32_t>& slots_;
+};
+
+}  // namespace
+
+void TileCoverage::collect_triangles(std::uint32_t tile_number) {
+  numbers_.clear();
+  for (const Bins& bins : scene_.bins) {
+    const auto numbers = bins.in_tile(tile_number);
+    numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
+  }
+}
+
+/// The pixels that the rectangle around the edge meets, `margin` added on all sides.
+TileBox TileCoverage::box_of(const UnbalancedEdge& edge, double margin) const {
+  const auto [least_u, greatest_u] = std::minmax({edge.from->u, edge.to->u});
+  const auto [least_v, greatest_v] = std::minmax({edge.from->v, edge.to->v});
+  const auto within = [](double x, int least, int greatest) {
+    return static_cast<std::int16_t>(std::clamp(std::floor(x), 1.0 * least, 1.0 * greatest));
+  };
+  const double left = area_.first_column, top = area_.first_row;
+  const TileBox all = whole();
+  return {
+      within(least_u - left - margin, 0, size), within(greatest_u - left + margin, -1, all.right),
+      within(least_v - top - margin, 0, size), within(greatest_v - top + margin, -1, all.bottom)};
+}
+
+// As meet(), by a division for each row, with a pixel more on both sides for its rounding.
+void TileCoverage::open_where_it_may_be(const Shape& shape) {
+  const TileBox box = whole();
+  for (int row = box.top; row <= box.bottom; ++row) {
+    double first = box.left, last = box.right;
+    for (std::size_t k = 0; k < shape.count; ++k) {
+      const auto& [a, b, c, error] = shape.sides[k];
+      const double greatest = c + b * (row + 0.5) + (std::abs(a) + std::abs(b)) / 2 + error;
+      const double root = -greatest / a - 0.5;
+      if (a > 0) first = std::max(first, std::floor(root) - 1);
+      if (a < 0) last = std::min(last, std::ceil(root) + 1);
+    }
+    if (!(first <= last)) continue;
+    open_[static_cast<std::size_t>(row)] |=
+        columns_between(static_cast<int>(first), static_cast<int>(last));
+  }
+}
+
+// Every point of the exact edge lies within e, the corners' error, of its counterpart on the
+// computed one in both coordinates. In the heights of a row of pixels, e more on both sides, the
+// computed edge lies between its two ends' x; these err by at most 5.1u·|Δu| for the product (see
+// square_edges.h) and 4u of a coordinate for sums: less than rounding_room up to `far`.
+template <class Visit>
+void TileCoverage::for_each_row(const UnbalancedEdge& edge, const Visit& visit) const {
+  const ImageVertex &p = *edge.from, &q = *edge.to;
+  const double e = std::max(p.position_error(), q.position_error()) + rounding_room;
+  const auto [least_u, greatest_u] = std::minmax({p.u, q.u});
+  const auto [least_v, greatest_v] = std::minmax({p.v, q.v});
+  const bool is_far = !(std::max({-least_u, greatest_u, -least_v, greatest_v}) < far);
+  const TileBox box = is_far ? whole() : box_of(edge, e);
+  if (box.is_empty()) return;
+  const double rise = q.v - p.v, slope = (q.u - p.u) / rise;
+  if (is_far || std::abs(rise) < 0x1p-20) {
+    const std::uint64_t columns = columns_between(box.left, box.right);
+    for (int row = box.top; row <= box.bottom; ++row) visit(static_cast<std::size_t>(row), columns);
+    return;
+  }
+  const double last = box.right, origin = area_.first_column;
+  for (int row = box.top; row <= box.bottom; ++row) {
+    const double above = row + static_cast<double>(area_.first_row) - e;
+    const auto at = [&, low = least_v, high = greatest_v](double height) {
+      return p.u + (std::min(std::max(height, low), high) - p.v) * slope;
+    };
+    const double x = at(above), y = at(above + 1 + 2 * e);
+    const double left = std::min(x, y) - e - origin, right = std::max(x, y) + e - origin;
+    if (left >= last + 1 || right < 0) continue;
+    // Whole parts of numbers that are not negative.
+    visit(static_cast<std::size_t>(row), columns_between(static_cast<int>(std::max(left, 0.0)),
+                                                         static_cast<int>(std::min(right, last))));
+  }
+}
+
+// Triangles that follow each other in a file often have an edge in common, which then needs no
+// table: it is left out of both.
+void TileCoverage::balance_edges(const ImageObject& object, std::size_t first, std::size_t end) {
+  balance_.start(end - first);
+  std::array<EdgeBalance::Edge, 3> waiting{};
+  std::size_t waiting_count = 0;
+  const auto flush = [&] {
+    for (std::size_t k = 0; k < waiting_count; ++k) balance_.add(waiting[k].from, waiting[k].to);
+    waiting_count = 0;
+  };
+  for (std::size_t i = first; i < end; ++i) {
+    auto [a, b, c] = object.mesh.triangles[numbers_[i] - object.first_number];
+    if (classes_[i].kind == CoverageClass::negative) {
+      std::swap(b, c);
+    } else if (classes_[i].kind != CoverageClass::positive) {
+      continue;
+    }
+    std::array<EdgeBalance::Edge, 3> edges{{{a, b}, {b, c}, {c, a}}};
+    std::size_t count = 3;
+    for (std::size_t k = 0; k < waiting_count; ++k) {
+      for (std::size_t j = 0; j < count; ++j) {
+        if (edges[j].from != waiting[k].to || edges[j].to != waiting[k].from) continue;
+        edges[j] = edges[--count];
+        waiting[k] = waiting[--waiting_count];
+        --k;
+        break;
+      }
+    }
+    flush();
+    waiting = edges;
+    waiting_count = count;
+  }
+  flush();
+  left_.clear();
+  balance_.for_each_left([&](const EdgeBalance::Edge& edge) { left_.push_back(edge); });
+  if (left_.empty()) return;
+
+  // Vertices that stand in the file more than once, at the same place.
+  VertexAtPlace vertex_at(object.mesh, 2 * left_.size(), vertex_at_);
+  balance_.start(left_.size());
+  for (const auto& [from, to] : left_) balance_.add(vertex_at(from), vertex_at(to));
+  balance_.for_each_left([&](const EdgeBalance::Edge& edge) {
+    unbalanced_.push_back({&object.vertices[edge.from], &object.vertices[edge.to], &object});
+    for_each_row(unbalanced_.back(),
+                 [&](std::size_t row, std::uint64_t columns) { open_[row] |= columns; });
+  });
+}
+
+template <class Visit>
+void TileCoverage::for_each_object(const Visit& visit) const {
+  for (std::size_t first = 0; first < numbers_.size();) {
+    const ImageObject& object = object_of(scene_.objects, numbers_[first]);
+    std::size_t end = first;
+    while (end < numbers_.size() && numbers_[end] < object.end_number()) ++end;
+    visit(object, first, end);
+    first = end;
+  }
+}
+
+void TileCoverage::classify(const Tile::Context& context) {
+  classes_.resize(numbers_.size());
+  for_each_object([&](const ImageObject& object, std::size_t first, std::size_t end) {
+    classify_for_coverage(object, std::span(numbers_).subspan(first, end - first), context.range,
+                          area_, classes_.data() + first);
+  });
+}
+
+void TileCoverage::find_open_pixels() {
+  open_.fill(0);
+  unbalanced_.clear();
+  for (const Shape& shape : open_shapes_) open_where_it_may_be(shape);
+  for_each_object([&](const ImageObject& object, std::size_t first, std::size_t end) {
+    balance_edges(object, first, end);
+  });
+  for (std::size_t row = 0; row < size; ++row) open_[row] &= ~full_[row];
+}
+
+void TileCoverage::meet_edges() {
+  edges_at_.clear();
+  for (std::size_t i = 0; i < unbalanced_.size(); ++i) {
+    for_each_row(unbalanced_[i], [&](std::size_t row, std::uint64_t columns) {
+      for (std::uint64_t bits = columns & open_[row]; bits != 0; bits &= bits - 1) {
+        edges_at_.add(static_cast<std::uint32_t>(row) * size +
+                          static_cast<std::uint32_t>(std::countr_zero(bits)),
+                      i);
+      }
+    });
+  }
+  edges_at_.sort();
+}
+
+}  // namespace fathom

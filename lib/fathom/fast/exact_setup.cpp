@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fathom/fast/setup.h"
+#include "fathom/numeric/rounding.h"
+
+// Setups from exact forms: every coefficient is exact and rounded once.
+namespace fathom {
+namespace {
+
+/// e with |x| < 2^e.
+long magnitude(const Dyadic& x) {
+  if (x.is_zero()) return std::numeric_limits<long>::min() / 2;
+  return static_cast<long>(mpz_sizeinbase(x.significand(), 2)) + x.exponent();
+}
+
+double rounded(const Dyadic& x) {
+  return round_to_binary64(Ratio(x));
+}
+
+}  // namespace
+
+// Edges are scaled by a power of two so that |c|, |a|·X, |b|·Y < 1, where X, Y ≤ 2^extent bound the
+// local samples. Then the rounded coefficients err by 3u together, the two products by 2u, the two
+// sums by 2.01u and 3.01u: 10.1u; underflow is below 2⁻¹⁰⁰⁰. 12u is written.
+//
+// q = w/n under a perspective camera, −n/w under an orthographic one, where D = n/w; the
+// denominator is |Δ|, constant over the image. With S = |c| + |a|X + |b|Y the error is at most u·S
+// for the coefficients, u·S for the products and 2.01u·S for the sums; 5u·S and a floor against
+// underflow are written.
+TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const PixelBox& box) {
+  TriangleSetup setup;
+  setup.number = t.number;
+  setup.column = box.first_column;
+  setup.row = box.first_row;
+  const double origin_u = box.first_column + 0.5, origin_v = box.first_row + 0.5;
+  // Samples up to 8 beyond the box count too.
+  const double extent =
+      std::max(box.last_column - box.first_column, box.last_row - box.first_row) + 8.0;
+  const long extent_bits = std::ilogb(extent) + 1;
+
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ExactVector3& l = t.edges[i].coefficients();
+    const Dyadic c = t.edges[i].at(origin_u, origin_v);
+    const long scale =
+        std::max({magnitude(l[0]) + extent_bits, magnitude(l[1]) + extent_bits, magnitude(c)});
+    setup.edge_a[i] = rounded(l[0].scaled(-scale));
+    setup.edge_b[i] = rounded(l[1].scaled(-scale));
+    setup.edge_c[i] = rounded(c.scaled(-scale));
+  }
+  setup.edge_error = 12 * unit_roundoff;
+
+  const ImageForm& numerator = perspective ? t.weight : t.depth_numerator;
+  const ImageForm& denominator = perspective ? t.depth_numerator : t.weight;
+  const Dyadic& divisor = denominator.coefficients()[2];
+  const auto coefficient = [&](const Dyadic& x) {
+    const double q = round_to_binary64(Ratio(x, divisor));
+    return perspective ? q : -q;
+  };
+  setup.q_a = coefficient(numerator.coefficients()[0]);
+  setup.q_b = coefficient(numerator.coefficients()[1]);
+  setup.q_c = coefficient(numerator.at(origin_u, origin_v));
+  const double S = std::abs(setup.q_c) + (std::abs(setup.q_a) + std::abs(setup.q_b)) * extent;
+  if (S < 0x1p100) {
+    setup.q_error = (5 * unit_roundoff * S + 0x1p-100) * (1 + 0x1p-19);
+  } else {
+    setup.q_a = setup.q_b = setup.q_c = 0;
+    setup.q_error = std::numeric_limits<double>::infinity();
+  }
+  return setup;
+}
+
+}  // namespace fathom

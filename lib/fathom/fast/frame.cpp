@@ -1,0 +1,110 @@
+#include "fathom/fast/frame.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace fathom {
+
+FastFrame::FastFrame(const Camera& the_camera, const RenderOptions& the_options)
+    : camera(the_camera),
+      options(the_options),
+      grid(camera.width, camera.height),
+      range(depth_range(camera)),
+      perspective(camera.projection == Projection::perspective) {}
+
+std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
+                                  std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
+                                  FastWorkers& workers) {
+  constexpr std::uint64_t least = 1024;
+  const std::uint64_t length = std::max(least, std::uint64_t{end - first} / parts + 1);
+  std::vector<Bins> bins;
+  for (std::uint64_t next = first; next < end; next += length) {
+    bins.emplace_back(static_cast<std::uint32_t>(next),
+                      static_cast<std::uint32_t>(std::min<std::uint64_t>(next + length, end)));
+  }
+  tbb::parallel_for(std::size_t{0}, bins.size(), [&](std::size_t i) {
+    FastWorker& worker = workers.local();
+    bins[i].fill({objects, frame.camera, frame.options.cull, frame.by_area, frame.grid,
+                  worker.referee, worker.statistics});
+  });
+  return bins;
+}
+
+namespace {
+
+/// Draws triangles that may be of several objects, those of an object beside each other.
+void draw(std::span<const std::uint32_t> numbers, const ImageObjects& objects, Tile& tile,
+          const Tile::Context& context) {
+  while (!numbers.empty()) {
+    const ImageObject& object = object_of(objects, numbers.front());
+    const auto next = std::find_if(numbers.begin(), numbers.end(), [&](std::uint32_t number) {
+      return number < object.first_number || number >= object.end_number();
+    });
+    const auto count = static_cast<std::size_t>(next - numbers.begin());
+    tile.draw(object, numbers.first(count), context);
+    numbers = numbers.subspan(count);
+  }
+}
+
+/// Samples settled by the bounds are those that were not settled exactly.
+void count_intervals(RenderStatistics& statistics) {
+  statistics.edges.interval = statistics.samples_tested - statistics.edges.exact;
+  statistics.visibility.interval = statistics.samples_tested - statistics.visibility.exact;
+  statistics.range.interval = statistics.samples_tested - statistics.range.exact;
+}
+
+}  // namespace
+
+void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bins,
+               const ImageObjects& objects, const Tile::Context& context) {
+  for (const Bins& bins : all_bins) draw(bins.in_tile(number), objects, tile, context);
+}
+
+RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles) {
+  RenderStatistics statistics;
+  statistics.triangles = triangles;
+  for (const FastWorker& worker : workers) add(statistics, worker.statistics);
+  count_intervals(statistics);
+  return statistics;
+}
+
+void collect_doubtful(const FastWorkers& workers, const Camera& camera,
+                      const RenderOptions& options) {
+  if (!options.fast.doubtful) return;
+  for (const FastWorker& worker : workers) {
+    for (const auto& [column, row] : worker.doubtful) {
+      options.fast.doubtful->push_back(std::uint64_t{row} * camera.width + column);
+    }
+  }
+}
+
+bool FastOutput::writes_whole_tiles(const RenderOptions& options) {
+  return options.depth_encoding.type == DepthEncoding::Type::binary32 &&
+         std::all_of(options.channels.begin(), options.channels.end(),
+                     [](Channel c) { return c == Channel::Z || c == Channel::A; });
+}
+
+void FastOutput::write_background(const PixelBox& area, std::uint32_t image_width) const {
+  if (!depths_) return;
+  const std::uint32_t columns = area.last_column - area.first_column + 1;
+  for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
+    std::fill_n(depths_ + std::size_t{row} * image_width + area.first_column, columns,
+                std::numeric_limits<float>::infinity());
+  }
+}
+
+FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays)
+    : certified_([&] { return CertifiedWriter(writer, rays); }) {
+  ImageChannel* depth = nullptr;
+  for (ImageChannel& channel : map.channels) {
+    if (channel.name == "A") continue;
+    if (channel.name != "Z") return;
+    depth = &channel;
+  }
+  if (!depth) return;
+  if (auto* values = std::get_if<Samples<float>>(&depth->values)) depths_ = values->data();
+}
+
+}  // namespace fathom

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fathom/fast/bins.h"
+#include "fathom/fast/certified_writer.h"
+#include "fathom/fast/tile.h"
+#include "fathom/triangle/threads.h"
+
+/// What the fast engine works with, whether its scene lies in memory or in files.
+namespace fathom {
+
+/// What a thread works with.
+struct FastWorker {
+  FastWorker(const TriangleSource& triangles, const Camera& camera, const SceneRays& rays)
+      : referee(triangles, camera, &rays) {}
+  Referee referee;
+  RenderStatistics statistics;
+  std::vector<DoubtfulPixel> doubtful;
+};
+using FastWorkers = tbb::enumerable_thread_specific<FastWorker>;
+
+/// The sum over all threads.
+RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles);
+
+/// Those of all threads, where they are asked for.
+void collect_doubtful(const FastWorkers& workers, const Camera& camera,
+                      const RenderOptions& options);
+
+/// What all threads share.
+struct FastFrame {
+  FastFrame(const Camera& camera, const RenderOptions& options);
+
+  [[nodiscard]] Tile::Context context(FastWorker& worker) const {
+    return {worker.referee, worker.statistics, range,
+            perspective,    options.fast,      options.fast.doubtful ? &worker.doubtful : nullptr};
+  }
+
+  const Camera& camera;
+  const RenderOptions& options;
+  TileGrid grid;
+  DepthRange range;
+  bool perspective;
+  /// Tiles get all triangles that meet them, for channel A.
+  bool by_area = false;
+};
+
+/// Sorts triangles [first, end) of the scene, all of these objects, into tiles: `parts` bins of
+/// equal length or fewer, so that each thread has several and their tables of tiles stay small.
+std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
+                                  std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
+                                  FastWorkers& workers);
+
+/// Draws the triangles of a tile.
+void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bins,
+               const ImageObjects& objects, const Tile::Context& context);
+
+/// The fault of the first pixel in row order, over all tiles.
+class FirstFault {
+ public:
+  void add(std::optional<EncodingFault> fault) {
+    if (!fault) return;
+    const std::lock_guard lock(mutex_);
+    if (!first_ || fault->pixel < first_->pixel) first_ = std::move(fault);
+  }
+  [[nodiscard]] const std::optional<EncodingFault>& get() const { return first_; }
+
+ private:
+  std::optional<EncodingFault> first_;
+  std::mutex mutex_;
+};
+
+/// Where the tiles write; any thread may.
+class FastOutput {
+ public:
+  FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays);
+  /// Whether tiles write all values of Z, so that the map need not be filled before.
+  static bool writes_whole_tiles(const RenderOptions& options);
+  /// Of a tile without any triangle.
+  void write_background(const PixelBox& area, std::uint32_t image_width) const;
+  std::optional<EncodingFault> write(const Tile& tile, std::uint32_t image_width,
+                                     const Tile::Context& context) {
+    return tile.resolve(certified_.local(), depths_, image_width, context);
+  }
+
+ private:
+  tbb::enumerable_thread_specific<CertifiedWriter> certified_;
+  /// The values of Z, if that is the only channel of surfaces and binary32.
+  float* depths_ = nullptr;
+};
+
+}  // namespace fathom

@@ -1,0 +1,80 @@
+#include "fathom/fast/render_fast.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "fathom/fast/coverage/tile_coverage.h"
+#include "fathom/fast/frame.h"
+
+// How to read this file: render_in_arena() is the whole story. Vertices are transformed to the
+// image with bounds of their errors (fast_vertex), triangles are sorted into tiles (fast_boxes,
+// fast_bins), each tile draws its triangles (fast_setup, fast_tile) and writes what is visible
+// (fast_resolve) and how much of its pixels is covered (fast_coverage). What the bounds do not
+// settle goes to the referee (fast_referee), who computes exactly.
+namespace fathom {
+namespace {
+
+constexpr std::uint32_t parts_of_scene = 64;
+
+ImageObjects transform(const Scene& scene, const Camera& camera) {
+  ImageObjects objects;
+  TriangleSource(scene).for_each_part(0, [&](const TriangleSource::Part& part) {
+    objects.emplace_back(part.object, part.mesh, camera, part.first_number);
+  });
+  return objects;
+}
+
+DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  FastFrame frame(camera, options);
+  const TriangleSource triangles(scene);
+  const SceneRays rays(triangles, camera);
+  FastWorkers workers([&] { return FastWorker(triangles, camera, rays); });
+  tbb::enumerable_thread_specific<std::unique_ptr<Tile>> tiles(
+      [] { return std::make_unique<Tile>(); });
+
+  frame.by_area = std::count(options.channels.begin(), options.channels.end(), Channel::A) != 0;
+
+  const ImageObjects objects = transform(scene, camera);
+  const std::vector<Bins> bins = sort_into_tiles(
+      objects, 0, static_cast<std::uint32_t>(triangles.count()), parts_of_scene, frame, workers);
+
+  DepthMap map = FastOutput::writes_whole_tiles(options)
+                     ? make_background_but_depth(camera, options)
+                     : make_background(camera, options);
+  ChannelWriter writer(map, triangles, camera, options);
+  float* const coverage = writer.values().coverage;
+  const CoverageFrame coverage_frame{triangles, camera, options.cull};
+  tbb::enumerable_thread_specific<TileCoverage> coverages([&] {
+    return TileCoverage({coverage_frame, objects, bins});
+  });
+  FastOutput output(map, writer, rays);
+  FirstFault fault;
+  Progress progress(options.progress, frame.grid.count());
+  tbb::parallel_for(std::uint32_t{0}, frame.grid.count(), [&](std::uint32_t number) {
+    const auto is_empty = [&](const Bins& part) { return part.in_tile(number).empty(); };
+    if (std::all_of(bins.begin(), bins.end(), is_empty)) {
+      output.write_background(frame.grid.area(number), camera.width);
+    } else {
+      const Tile::Context context = frame.context(workers.local());
+      Tile& tile = *tiles.local();
+      tile.start(frame.grid.area(number));
+      draw_tile(tile, number, bins, objects, context);
+      fault.add(output.write(tile, camera.width, context));
+      if (coverage) coverages.local().write(tile, number, context, coverage, camera.width);
+    }
+    progress.part_done();
+  });
+  if (fault.get()) fail(*fault.get(), map);
+  collect_doubtful(workers, camera, options);
+  if (options.statistics) *options.statistics = sum_of(workers, triangles.count());
+  return map;
+}
+
+}  // namespace
+
+DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  return with_threads(options.threads, [&] { return render_in_arena(scene, camera, options); });
+}
+
+}  // namespace fathom

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "fathom/camera/camera.h"
+#include "fathom/image/depth_map.h"
+#include "fathom/scene/scene.h"
+#include "fathom/triangle/options.h"
+
+namespace fathom {
+
+/// The fast engine: floating point with proved bounds, exact arithmetic where a bound does not
+/// settle a decision (specification, section 7). Its map equals that of render_reference bit for
+/// bit, on every input; docs/error-analysis.md gathers the bounds.
+///
+/// Needs    a camera without fault (find_fault) and a valid scene.
+/// Fails    as render_reference.
+DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options);
+
+/// The kind of vector instructions that the fast engine uses on this machine, by Highway's names:
+/// "AVX2", "AVX3", … The map does not depend on it.
+const char* vector_instructions();
+
+}  // namespace fathom

@@ -1,0 +1,382 @@
+// Triangles, several at once, with bounds of their errors: included once for every kind of vector
+// instructions, by the files of which foreach_target.h makes one version for each.
+//
+// The bounds of this file, with u = 2⁻⁵³ (docs/error-analysis.md, "Triangles"). All magnitudes are
+// between 2⁻¹⁰⁰ and 2¹⁰⁰ or differences of such, so nothing overflows; errors of underflow are
+// below 2⁻¹⁰⁰⁰ and vanish in the terms u·L² and the floors of the vertices' bounds.
+#if defined(FATHOM_FAST_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef FATHOM_FAST_SETUP_INL_H
+#undef FATHOM_FAST_SETUP_INL_H
+#else
+#define FATHOM_FAST_SETUP_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "fathom/fast/setup.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fathom::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::CappedTag<double, 8>;
+using DU = hn::Rebind<std::uint64_t, D>;
+using DI = hn::Rebind<std::int64_t, D>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+HWY_INLINE V constant(double x) {
+  return hn::Set(D(), x);
+}
+HWY_INLINE V greatest_of(V a, V b, V c) {
+  return hn::Max(a, hn::Max(b, c));
+}
+HWY_INLINE V least_of(V a, V b, V c) {
+  return hn::Min(a, hn::Min(b, c));
+}
+HWY_INLINE V greatest_magnitude(V a, V b, V c) {
+  return greatest_of(hn::Abs(a), hn::Abs(b), hn::Abs(c));
+}
+
+/// One lane a bit.
+HWY_INLINE unsigned bits_of(M mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(D(), mask, bytes);
+  return bytes[0];
+}
+
+/// Rounded to binary32, what is greater than all its numbers to ±∞. Emulated vectors would give the
+/// greatest number instead.
+template <class D32>
+HWY_INLINE hn::Vec<D32> to_binary32(D32 d32, V v) {
+#if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR
+  alignas(16) double from[8];
+  alignas(16) float to[8];
+  hn::Store(v, D(), from);
+  for (std::size_t k = 0; k < hn::Lanes(D()); ++k) to[k] = static_cast<float>(from[k]);
+  return hn::Load(d32, to);
+#else
+  return hn::DemoteTo(d32, v);
+#endif
+}
+
+/// One corner of several triangles.
+struct Corner {
+  V u, v, q;
+  V position_error, q_error;
+};
+struct Corners {
+  Corner A, B, C;
+  /// The greatest of the three corners' errors.
+  V position_error, q_error;
+};
+
+HWY_INLINE Corner corner_from(V u, V v, V q, V errors) {
+  const D d;
+  const auto bits = hn::BitCast(DU(), errors);
+  return {u, v, q, hn::BitCast(d, hn::And(bits, hn::Set(DU(), 0xFFFFFFFF00000000))),
+          hn::BitCast(d, hn::ShiftLeft<32>(bits))};
+}
+
+/// Corner `which` of as many triangles as there are lanes. A vertex is four numbers in a row, so
+/// whole vertices are loaded and transposed.
+template <std::size_t which>
+HWY_INLINE Corner load_corner(const ImageVertex* vertices, const CornerIndices* triangles) {
+  const D d;
+  const auto vertex = [&](std::size_t lane)
+                          HWY_ATTR { return &vertices[triangles[lane][which]].u; };
+#if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
+  HWY_ALIGN std::int64_t offsets[SetupBatch::most];
+  for (std::size_t k = 0; k < hn::Lanes(d); ++k) {
+    offsets[k] = vertex(k) - &vertices->u;
+  }
+  const auto offset = hn::Load(DI(), offsets);
+  const double* base = &vertices->u;
+  return corner_from(hn::GatherIndex(d, base, offset), hn::GatherIndex(d, base + 1, offset),
+                     hn::GatherIndex(d, base + 2, offset), hn::GatherIndex(d, base + 3, offset));
+#else
+  if constexpr (hn::MaxLanes(D()) == 2) {
+    const V uv0 = hn::Load(d, vertex(0)), uv1 = hn::Load(d, vertex(1));
+    const V qe0 = hn::Load(d, vertex(0) + 2), qe1 = hn::Load(d, vertex(1) + 2);
+    return corner_from(hn::InterleaveLower(d, uv0, uv1), hn::InterleaveUpper(d, uv0, uv1),
+                       hn::InterleaveLower(d, qe0, qe1), hn::InterleaveUpper(d, qe0, qe1));
+  } else {
+    // Blocks of 128 bits: (u v)(q e) of one vertex, of a second in the upper half if that is wide.
+    const hn::CappedTag<double, 4> d4;
+    const auto load = [&](std::size_t lane) HWY_ATTR {
+      if constexpr (hn::MaxLanes(D()) == 8) {
+        return hn::Combine(d, hn::Load(d4, vertex(lane + 4)), hn::Load(d4, vertex(lane)));
+      } else {
+        return hn::Load(d4, vertex(lane));
+      }
+    };
+    const V v0 = load(0), v1 = load(1), v2 = load(2), v3 = load(3);
+    const V uq01 = hn::InterleaveLower(d, v0, v1), ve01 = hn::InterleaveUpper(d, v0, v1);
+    const V uq23 = hn::InterleaveLower(d, v2, v3), ve23 = hn::InterleaveUpper(d, v2, v3);
+    return corner_from(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(uq23), uq01),
+                       hn::OddEvenBlocks(hn::SwapAdjacentBlocks(ve23), ve01),
+                       hn::OddEvenBlocks(uq23, hn::SwapAdjacentBlocks(uq01)),
+                       hn::OddEvenBlocks(ve23, hn::SwapAdjacentBlocks(ve01)));
+  }
+#endif
+}
+
+/// As many triangles as there are lanes.
+HWY_INLINE Corners load_corners(const ImageVertex* vertices, const CornerIndices* triangles) {
+  Corners t{load_corner<0>(vertices, triangles),
+            load_corner<1>(vertices, triangles),
+            load_corner<2>(vertices, triangles),
+            {},
+            {}};
+  t.position_error = greatest_of(t.A.position_error, t.B.position_error, t.C.position_error);
+  t.q_error = greatest_of(t.A.q_error, t.B.q_error, t.C.q_error);
+  return t;
+}
+
+/// All corners usable: the greatest error is a number less than 1 (see ImageVertex::is_usable).
+HWY_INLINE M are_usable(const Corners& t) {
+  return hn::Lt(t.position_error, constant(1));
+}
+/// All corners exactly on the grid of snap_step.
+HWY_INLINE M are_snapped(const Corners& t) {
+  return hn::Eq(t.position_error, constant(0));
+}
+
+/// The sign of the triangles' doubled area in the image, which is sign(Δ), where it is certain.
+struct Orientation {
+  M positive, negative, zero;
+};
+
+// Differences of coordinates, M the greatest of them in magnitude: each differs from the exact one
+// by at most d = 2e + uM. A difference of two products of such differences then errs by at most
+// 4dM + 2d² for its factors and 2uM² + 2uM²(1 + u) ≤ 4.01uM² for its roundings.
+// On the grid of snap_step differences and products are exact (2·16 + 16 bits), and so is the sign.
+HWY_INLINE Orientation certified_orientation(const Corners& t) {
+  const V bu = hn::Sub(t.B.u, t.A.u), bv = hn::Sub(t.B.v, t.A.v);
+  const V cu = hn::Sub(t.C.u, t.A.u), cv = hn::Sub(t.C.v, t.A.v);
+  const V size = hn::Max(hn::Max(hn::Abs(bu), hn::Abs(bv)), hn::Max(hn::Abs(cu), hn::Abs(cv)));
+  const V d =
+      hn::MulAdd(constant(unit_roundoff), size, hn::Add(t.position_error, t.position_error));
+  const V bound = hn::MulAdd(hn::MulAdd(constant(4), size, hn::Add(d, d)), d,
+                             hn::Mul(constant(5 * unit_roundoff), hn::Mul(size, size)));
+  const M snapped = are_snapped(t);
+  const V limit = hn::IfThenZeroElse(snapped, bound);
+  const V doubled_area = hn::Sub(hn::Mul(bu, cv), hn::Mul(bv, cu));
+  return {hn::Gt(doubled_area, limit), hn::Lt(doubled_area, hn::Neg(limit)),
+          hn::And(snapped, hn::Eq(doubled_area, constant(0)))};
+}
+
+/// Whole numbers; empty where a first is greater than a last.
+struct Boxes {
+  V first_column, last_column, first_row, last_row;
+};
+HWY_INLINE M are_empty(const Boxes& box) {
+  return hn::Or(hn::Gt(box.first_column, box.last_column), hn::Gt(box.first_row, box.last_row));
+}
+
+// A covered sample lies in the triangle of the exact corners, so between the least and the greatest
+// computed coordinate, moved outwards by the corners' error and by the roundings of the subtraction
+// below and of the ½: 2u·(|coordinate| + 1) each, less than 2⁻⁵¹·(|coordinate| + 1) together.
+HWY_INLINE V first_sample(V low, V error, double least) {
+  const V margin = hn::MulAdd(hn::Add(hn::Abs(low), constant(1)), constant(0x1p-50), error);
+  return hn::Ceil(hn::Max(hn::Sub(hn::Sub(low, margin), constant(0.5)), constant(least)));
+}
+HWY_INLINE V last_sample(V high, V error, double greatest) {
+  const V margin = hn::MulAdd(hn::Add(hn::Abs(high), constant(1)), constant(0x1p-50), error);
+  return hn::Floor(hn::Min(hn::Sub(hn::Add(high, margin), constant(0.5)), constant(greatest)));
+}
+
+/// The pixels of the area whose samples the triangles can cover. All corners usable.
+HWY_INLINE Boxes sample_boxes(const Corners& t, const PixelBox& area) {
+  const V e = t.position_error;
+  return {first_sample(least_of(t.A.u, t.B.u, t.C.u), e, area.first_column),
+          last_sample(greatest_of(t.A.u, t.B.u, t.C.u), e, area.last_column),
+          first_sample(least_of(t.A.v, t.B.v, t.C.v), e, area.first_row),
+          last_sample(greatest_of(t.A.v, t.B.v, t.C.v), e, area.last_row)};
+}
+
+/// The pixels of the area that the triangles meet, by the same argument. All corners usable.
+HWY_INLINE Boxes area_boxes(const Corners& t, const PixelBox& area) {
+  const auto first = [&](V low, double least) HWY_ATTR {
+    const V margin =
+        hn::MulAdd(hn::Add(hn::Abs(low), constant(1)), constant(0x1p-50), t.position_error);
+    return hn::Floor(hn::Max(hn::Sub(low, margin), constant(least)));
+  };
+  const auto last = [&](V high, double greatest) HWY_ATTR {
+    const V margin =
+        hn::MulAdd(hn::Add(hn::Abs(high), constant(1)), constant(0x1p-50), t.position_error);
+    return hn::Floor(hn::Min(hn::Add(high, margin), constant(greatest)));
+  };
+  return {first(least_of(t.A.u, t.B.u, t.C.u), area.first_column),
+          last(greatest_of(t.A.u, t.B.u, t.C.u), area.last_column),
+          first(least_of(t.A.v, t.B.v, t.C.v), area.first_row),
+          last(greatest_of(t.A.v, t.B.v, t.C.v), area.last_row)};
+}
+
+/// Triangles relative to their boxes' first samples, turned so that their doubled area T is
+/// positive by exchanging B and C where it was not.
+struct LocalTriangles {
+  V Au, Av, Bu, Bv, Cu, Cv;
+  V qA, qB, qC;
+  V T;
+  V L, delta;  // see certified_edges
+};
+
+HWY_INLINE LocalTriangles localise(const Corners& t, const Boxes& box) {
+  const V origin_u = hn::Add(box.first_column, constant(0.5));
+  const V origin_v = hn::Add(box.first_row, constant(0.5));
+  LocalTriangles l;
+  l.Au = hn::Sub(t.A.u, origin_u);
+  l.Av = hn::Sub(t.A.v, origin_v);
+  const V Bu = hn::Sub(t.B.u, origin_u), Bv = hn::Sub(t.B.v, origin_v);
+  const V Cu = hn::Sub(t.C.u, origin_u), Cv = hn::Sub(t.C.v, origin_v);
+  const V T = hn::Sub(hn::Mul(hn::Sub(Bu, l.Au), hn::Sub(Cv, l.Av)),
+                      hn::Mul(hn::Sub(Bv, l.Av), hn::Sub(Cu, l.Au)));
+  const M turn = hn::Lt(T, constant(0));
+  l.Bu = hn::IfThenElse(turn, Cu, Bu);
+  l.Bv = hn::IfThenElse(turn, Cv, Bv);
+  l.Cu = hn::IfThenElse(turn, Bu, Cu);
+  l.Cv = hn::IfThenElse(turn, Bv, Cv);
+  l.qA = t.A.q;
+  l.qB = hn::IfThenElse(turn, t.C.q, t.B.q);
+  l.qC = hn::IfThenElse(turn, t.B.q, t.C.q);
+  l.T = hn::Abs(T);
+  const V extent = hn::Add(
+      hn::Max(hn::Sub(box.last_column, box.first_column), hn::Sub(box.last_row, box.first_row)),
+      constant(8));
+  l.L = hn::Max(
+      extent, hn::Max(greatest_magnitude(l.Au, l.Bu, l.Cu), greatest_magnitude(l.Av, l.Bv, l.Cv)));
+  l.delta = hn::MulAdd(constant(unit_roundoff), l.L, t.position_error);
+  return l;
+}
+
+struct Edges {
+  V a[3], b[3], c[3];
+  V error;
+};
+
+// Local coordinates: the origin is the sample of the box's first pixel, so that samples are exact
+// integers. Corners p̂ are the computed ones minus the origin; L ≥ 8 bounds them and the samples.
+// Each differs from the exact corner by at most δ = e + uL.
+//
+// E = (P − s) × (Q − s) = c + a·x + b·y with a = P_v − Q_v, b = Q_u − P_u, c = P_u·Q_v − P_v·Q_u.
+// Factors are at most 2L, so moving P and Q by δ changes E by at most η = 8δL + 2δ² ≤ 8.01δL
+// (δ ≤ 2⁻¹¹L). Roundings: a, b 2uL each, times L: 4uL²; c 4.01uL²; products 2·2uL²; sums
+// 4.01uL² + 6.01uL²: together 22.1uL². Bound: 8.25δL + 24uL².
+HWY_INLINE Edges certified_edges(const LocalTriangles& t) {
+  Edges e;
+  e.a[0] = hn::Sub(t.Bv, t.Cv);
+  e.a[1] = hn::Sub(t.Cv, t.Av);
+  e.a[2] = hn::Sub(t.Av, t.Bv);
+  e.b[0] = hn::Sub(t.Cu, t.Bu);
+  e.b[1] = hn::Sub(t.Au, t.Cu);
+  e.b[2] = hn::Sub(t.Bu, t.Au);
+  e.c[0] = hn::Sub(hn::Mul(t.Bu, t.Cv), hn::Mul(t.Bv, t.Cu));
+  e.c[1] = hn::Sub(hn::Mul(t.Cu, t.Av), hn::Mul(t.Cv, t.Au));
+  e.c[2] = hn::Sub(hn::Mul(t.Au, t.Bv), hn::Mul(t.Av, t.Bu));
+  e.error =
+      hn::Mul(hn::MulAdd(constant(8.25), t.delta, hn::Mul(constant(24 * unit_roundoff), t.L)), t.L);
+  return e;
+}
+
+// Corners on the grid of step g = 2⁻⁸ with L ≤ 2¹⁶: every term of an edge function is a multiple of
+// g² = 2⁻¹⁶ (samples are, by the ½ of the origin, whole numbers away), every sum below 2³⁶, so
+// nothing is rounded. A left edge (a > 0) or top edge (a = 0, b > 0) has its samples: half of g²
+// more makes 0 positive and leaves other signs; elsewhere half of g² less makes 0 negative. With 17
+// bits after the point and 36 before it the moved functions are exact too.
+HWY_INLINE void use_top_left_rule(M exact, Edges& e) {
+  constexpr double half_step = snap_step * snap_step / 2;
+  for (int i = 0; i < 3; ++i) {
+    const M top = hn::And(hn::Eq(e.a[i], constant(0)), hn::Gt(e.b[i], constant(0)));
+    const M has_samples = hn::Or(hn::Gt(e.a[i], constant(0)), top);
+    const V move = hn::IfThenElse(has_samples, constant(half_step), constant(-half_step));
+    e.c[i] = hn::IfThenElse(exact, hn::Add(e.c[i], move), e.c[i]);
+  }
+  e.error = hn::IfThenElse(exact, constant(half_step / 2), e.error);
+}
+
+struct Depths {
+  V a, b, c;
+  V error;
+};
+
+// q(s) = q_A + β(q_B − q_A) + γ(q_C − q_A) with β = E_B/T, γ = E_C/T, T the doubled area. F is the
+// same function for the corners p̂, q̂ (certified_edges), in real arithmetic, T' its area. At a
+// covered sample 0 ≤ β, γ, β + γ ≤ 1, so
+//   |q − F| ≤ e_q + (|β − β'| + |γ − γ'|)·dq,  dq = max(|q̂_B − q̂_A|, |q̂_C − q̂_A|),
+//   |β − β'| = |(E_B − E_B')/T' + β(T' − T)/T'| ≤ 4η/T' (T is the sum of three edge functions),
+// together e_q + 8η·dq/T' ≤ e_q + 64.1δL·dq/T'.
+// Rounding of F, in units of uL²·dq/T': the numerators of the gradient a_B·dB + a_C·dC err by 16.1
+// each over |s − A| ≤ 2L: 64.2; 1/T̂ and the product, 2.01u·|gradient|·2L: 32.2; T̂ itself by
+// 32.1uL², which scales F − q̂_A ≤ 1.55dq: 50.3; c: 20.3 and 2u|q_A|; the evaluation: 36.6 and
+// 2u|q_A|. Together 203.6, and 4.1u|q_A|.
+// The condition T̂ ≥ 16·(8.25δL + 24uL²) gives T' ≥ 0.91·T̂, so that 1.1/T̂ ≥ 1/T', and
+// η/T' ≤ 0.069, so that |β'| + |γ'| ≤ 1.55 as used above. 1.1·64.1 ≤ 72, 1.1·203.6 ≤ 230.
+HWY_INLINE Depths certified_depths(const Corners& t, const LocalTriangles& l, const Edges& e) {
+  const V inverse = hn::Div(constant(1), l.T);
+  const V dB = hn::Sub(l.qB, l.qA), dC = hn::Sub(l.qC, l.qA);
+  Depths q;
+  q.a = hn::Mul(hn::MulAdd(e.a[1], dB, hn::Mul(e.a[2], dC)), inverse);
+  q.b = hn::Mul(hn::MulAdd(e.b[1], dB, hn::Mul(e.b[2], dC)), inverse);
+  q.c = hn::NegMulAdd(q.b, l.Av, hn::NegMulAdd(q.a, l.Au, l.qA));
+  const V dq = hn::Max(hn::Abs(dB), hn::Abs(dC));
+  const V corners = hn::MulAdd(constant(4.1 * unit_roundoff), hn::Abs(l.qA), t.q_error);
+  const V slope =
+      hn::Mul(hn::MulAdd(constant(72), l.delta, hn::Mul(constant(230 * unit_roundoff), l.L)), l.L);
+  // 2⁻¹⁹: the room promised, and the roundings of this bound.
+  q.error = hn::Mul(hn::MulAdd(hn::Mul(slope, dq), inverse, corners), constant(1 + 0x1p-19));
+  return q;
+}
+
+/// Whether depths at samples of the triangles may leave the range that counts: q of a covered
+/// sample lies between those of the corners.
+HWY_INLINE M may_leave(const DepthRange& range, const Corners& t) {
+  const V error = hn::Add(t.q_error, t.q_error);
+  const V least = hn::Sub(least_of(t.A.q, t.B.q, t.C.q), error);
+  const V greatest = hn::Add(greatest_of(t.A.q, t.B.q, t.C.q), error);
+  return hn::Not(hn::And(hn::Ge(least, constant(range.inside_least)),
+                         hn::Le(greatest, constant(range.inside_greatest))));
+}
+
+HWY_INLINE void store(V v, SetupBatch::Numbers& numbers) {
+  hn::Store(v, D(), numbers.data());
+}
+
+/// As many triangles as there are lanes; see certified_setups in fast_setup.h.
+HWY_INLINE void set_up_lanes(const ImageVertex* vertices, const CornerIndices* triangles,
+                             const PixelBox& area, const DepthRange& range, SetupBatch& batch) {
+  const Corners t = load_corners(vertices, triangles);
+  const M usable = are_usable(t);
+  const Boxes box = sample_boxes(t, area);
+  const LocalTriangles l = localise(t, box);
+  Edges e = certified_edges(l);
+  const M safe = hn::And(usable, hn::Ge(l.T, hn::Mul(constant(16), e.error)));
+  const M snapped = hn::And(are_snapped(t), hn::Le(l.L, constant(0x1p16)));
+  use_top_left_rule(snapped, e);
+  const Depths q = certified_depths(t, l, e);
+  for (std::size_t i = 0; i < 3; ++i) {
+    store(e.a[i], batch.edge_a[i]);
+    store(e.b[i], batch.edge_b[i]);
+    store(e.c[i], batch.edge_c[i]);
+  }
+  store(e.error, batch.edge_error);
+  store(q.a, batch.q_a);
+  store(q.b, batch.q_b);
+  store(q.c, batch.q_c);
+  store(q.error, batch.q_error);
+  store(box.first_column, batch.first_column);
+  store(box.last_column, batch.last_column);
+  store(box.first_row, batch.first_row);
+  store(box.last_row, batch.last_row);
+  batch.empty = bits_of(hn::And(usable, are_empty(box)));
+  batch.refused = bits_of(hn::Not(safe));
+  batch.snapped = bits_of(snapped);
+  batch.test_range = bits_of(hn::Or(hn::Not(usable), may_leave(range, t)));
+}
+
+}  // namespace
+}  // namespace fathom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,181 @@
+#include "fathom/fast/stream.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <map>
+
+#include "fathom/area/coverage_image.h"
+#include "fathom/fast/frame.h"
+
+// How to read this file: render_in_arena() is the whole story. The image is done in bands of rows
+// of tiles. For each band the files are read from beginning to end, some triangles at a time, which
+// are transformed, sorted into tiles and drawn like those of a scene in memory; the tiles of the
+// band keep what is visible so far. How many rows a band has is found on the way: the most whose
+// tiles fit into the memory that is allowed. Bands after the first leave out what the first saw to
+// lie elsewhere.
+namespace fathom {
+namespace {
+
+constexpr std::uint32_t parts_of_chunk = 8;
+
+/// Whether a triangle may be visible in the tile.
+bool is_met(std::uint32_t number, const std::vector<Bins>& bins) {
+  return std::any_of(bins.begin(), bins.end(),
+                     [&](const Bins& b) { return !b.in_tile(number).empty(); });
+}
+
+/// Rows of tiles [first_row, end_row), each tile there from the first triangle on that may be
+/// visible in it.
+class Band {
+ public:
+  Band(const TileGrid& grid, std::uint32_t first_row, std::uint64_t most_bytes)
+      : grid_(grid),
+        most_tiles_(most_bytes / sizeof(Tile)),
+        first_row_(first_row),
+        end_row_(grid.rows),
+        tiles_(std::size_t{grid.columns} * (end_row_ - first_row)) {}
+
+  [[nodiscard]] std::uint32_t end_row() const { return end_row_; }
+  /// Numbers of the tiles.
+  [[nodiscard]] std::uint32_t first() const { return first_row_ * grid_.columns; }
+  [[nodiscard]] std::uint32_t end() const { return end_row_ * grid_.columns; }
+
+  /// Gives up the last rows, at least one staying, until the tiles that are there and those that
+  /// these triangles need are not too many.
+  void make_room(const std::vector<Bins>& bins) {
+    std::uint64_t needed = 0;
+    for (std::uint32_t row = first_row_; row < end_row_; ++row) {
+      for (std::uint32_t column = 0; column < grid_.columns; ++column) {
+        const std::uint32_t number = row * grid_.columns + column;
+        if (at(number) || is_met(number, bins)) ++needed;
+      }
+      if (needed <= most_tiles_ || row == first_row_) continue;
+      end_row_ = row;
+      tiles_.resize(end() - first());
+    }
+  }
+
+  void draw(const std::vector<Bins>& bins, const ImageObjects& objects, const FastFrame& frame,
+            FastWorkers& workers) {
+    tbb::parallel_for(first(), end(), [&](std::uint32_t number) {
+      if (!is_met(number, bins)) return;
+      auto& tile = at(number);
+      if (!tile) {
+        tile = std::make_unique_for_overwrite<Tile>();
+        tile->start(grid_.area(number));
+      }
+      draw_tile(*tile, number, bins, objects, frame.context(workers.local()));
+    });
+  }
+
+  void resolve(FastOutput& output, const FastFrame& frame, FastWorkers& workers,
+               FirstFault& fault) {
+    tbb::parallel_for(first(), end(), [&](std::uint32_t number) {
+      auto& tile = at(number);
+      if (!tile) return;
+      fault.add(output.write(*tile, grid_.width, frame.context(workers.local())));
+      tile.reset();
+    });
+  }
+
+ private:
+  std::unique_ptr<Tile>& at(std::uint32_t number) { return tiles_[number - first()]; }
+
+  const TileGrid& grid_;
+  std::uint64_t most_tiles_;
+  std::uint32_t first_row_, end_row_;
+  std::vector<std::unique_ptr<Tile>> tiles_;
+};
+
+/// The rows of tiles in which parts of the scene may be visible, known once they were sorted.
+class RowsOfParts {
+ public:
+  void note(std::uint32_t first_number, const std::vector<Bins>& bins, const TileGrid& grid) {
+    Rows rows{grid.rows, 0};
+    for (std::uint32_t number = 0; number < grid.count(); ++number) {
+      if (!is_met(number, bins)) continue;
+      rows.first = std::min(rows.first, number / grid.columns);
+      rows.last = number / grid.columns;
+    }
+    rows_[first_number] = rows;
+  }
+
+  /// False only if no triangle of the part can be visible in rows [begin, end).
+  [[nodiscard]] bool may_meet(std::uint32_t first_number, std::uint32_t begin,
+                              std::uint32_t end) const {
+    const auto found = rows_.find(first_number);
+    return found == rows_.end() || (found->second.first < end && found->second.last >= begin);
+  }
+
+ private:
+  struct Rows {
+    std::uint32_t first, last;
+  };
+  std::map<std::uint32_t, Rows> rows_;
+};
+
+/// Reports progress from the thread that reads: rows of tiles done, and of the band under way the
+/// share of triangles.
+void report(const RenderOptions& options, const Band& band, const TileGrid& grid,
+            std::uint32_t first_row, double share_of_triangles) {
+  if (!options.progress) return;
+  options.progress((first_row + share_of_triangles * (band.end_row() - first_row)) / grid.rows);
+}
+
+DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
+                         const RenderOptions& options, const StreamLimits& limits) {
+  const FastFrame frame(camera, options);
+  const TriangleSource triangles(scene);
+  const SceneRays rays(triangles, camera);
+  const auto new_worker = [&] { return FastWorker(triangles, camera, rays); };
+  FastWorkers workers(new_worker);
+  // Sorts triangles for bands after the first, whose statistics would count them again.
+  FastWorkers sorting_again(new_worker);
+
+  DepthMap map = make_background(camera, options);
+  ChannelWriter writer(map, triangles, camera, options);
+  FastOutput output(map, writer, rays);
+  FirstFault fault;
+  RowsOfParts rows;
+  for (std::uint32_t first_row = 0; first_row < frame.grid.rows;) {
+    Band band(frame.grid, first_row, limits.tile_bytes);
+    const auto draw = [&](const TriangleSource::Part& part) {
+      ImageObjects objects;
+      objects.emplace_back(part.object, part.mesh, camera, part.first_number);
+      const std::uint32_t end = objects.front().end_number();
+      const std::vector<Bins> bins =
+          sort_into_tiles(objects, part.first_number, end, parts_of_chunk, frame,
+                          first_row == 0 ? workers : sorting_again);
+      if (first_row == 0) rows.note(part.first_number, bins, frame.grid);
+      band.make_room(bins);
+      band.draw(bins, objects, frame, workers);
+      report(options, band, frame.grid, first_row,
+             static_cast<double>(end) / static_cast<double>(triangles.count()));
+    };
+    triangles.for_each_part(limits.triangles_at_once, draw, [&](std::uint32_t first_number) {
+      return rows.may_meet(first_number, first_row, band.end_row());
+    });
+    band.resolve(output, frame, workers, fault);
+    if (fault.get()) fail(*fault.get(), map);
+    report(options, band, frame.grid, first_row, 1);
+    first_row = band.end_row();
+  }
+  collect_doubtful(workers, camera, options);
+  RenderStatistics statistics = sum_of(workers, triangles.count());
+  if (float* coverage = writer.values().coverage) {
+    statistics.coverage += write_coverage({triangles, camera, options.cull}, coverage);
+  }
+  if (options.statistics) *options.statistics = statistics;
+  return map;
+}
+
+}  // namespace
+
+DepthMap render_streamed(const StreamedScene& scene, const Camera& camera,
+                         const RenderOptions& options, const StreamLimits& limits) {
+  return with_threads(options.threads,
+                      [&] { return render_in_arena(scene, camera, options, limits); });
+}
+
+}  // namespace fathom

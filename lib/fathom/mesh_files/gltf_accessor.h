@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "fathom/mesh_files/gltf_buffers.h"
+#include "fathom/text/json_value.h"
+
+/// The numbers of a glTF asset. For this room's .cpp files only.
+/// Source: Khronos Group, glTF 2.0 specification, sections 3.6.2 (accessors) and 3.6.2.3 (sparse).
+namespace fathom {
+
+/// The numeric types of accessors, with glTF's codes.
+enum class GltfComponent {
+  int8 = 5120,
+  uint8 = 5121,
+  int16 = 5122,
+  uint16 = 5123,
+  uint32 = 5125,
+  float32 = 5126
+};
+
+/// An accessor's elements: every one of them lies inside its buffer, which is checked when the
+/// accessor is opened, before anything is allocated.
+class GltfAccessor {
+ public:
+  /// Fails with InputError if it is malformed or reaches out of its buffer. An accessor without a
+  /// bufferView is all zeros; it may have `most_zeros` elements at most.
+  GltfAccessor(const JsonValue& root, GltfBuffers& buffers, const JsonValue& reference,
+               std::uint64_t most_zeros);
+
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  [[nodiscard]] GltfComponent component() const { return component_; }
+  [[nodiscard]] bool normalized() const { return normalized_; }
+  /// Numbers per element: matrices, which nothing that is read here has, are refused.
+  [[nodiscard]] unsigned width() const { return width_; }
+  [[nodiscard]] const JsonValue& description() const { return description_; }
+
+  /// Number `k` of element `i` as it is stored; exact.
+  [[nodiscard]] double stored(std::uint64_t i, unsigned k) const;
+  /// The same with normalized integers divided by the largest; rounded once.
+  [[nodiscard]] double value(std::uint64_t i, unsigned k) const;
+  [[nodiscard]] std::uint32_t index(std::uint64_t i) const {
+    return static_cast<std::uint32_t>(stored(i, 0));
+  }
+
+ private:
+  /// Elements in a buffer, `stride` bytes apart.
+  struct Layout {
+    Bytes bytes;
+    std::uint64_t stride = 0;
+  };
+  Layout lay_out(const JsonValue& root, GltfBuffers& buffers, const JsonValue& holder,
+                 std::uint64_t count, std::uint64_t element_size, bool strided) const;
+  void read_sparse(const JsonValue& root, GltfBuffers& buffers, const JsonValue& sparse);
+  [[nodiscard]] const std::byte* find(std::uint64_t i) const;
+
+  JsonValue description_;
+  std::uint64_t count_ = 0;
+  GltfComponent component_ = GltfComponent::float32;
+  unsigned width_ = 1;
+  bool normalized_ = false;
+  std::optional<Layout> elements_;
+  /// Elements that are given apart, in increasing order.
+  std::vector<std::uint32_t> replaced_;
+  Layout replacements_;
+};
+
+}  // namespace fathom

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fathom/text/input_file.h"
+#include "fathom/text/json_value.h"
+
+/// Where the bytes of a glTF asset come from. For this room's .cpp files only.
+/// Source: Khronos Group, glTF 2.0 specification, sections 3.6.1 (buffers) and 4 (GLB).
+namespace fathom {
+
+using Bytes = std::span<const std::byte>;
+
+/// The two parts of an asset's file: a .gltf is all JSON, a .glb has chunks.
+struct GltfContainer {
+  std::string_view json;
+  /// The BIN chunk.
+  std::optional<Bytes> binary;
+};
+
+/// Splits a file. Fails with InputError "FILE: byte N: …".
+GltfContainer split_gltf(Bytes file, const std::string& name);
+
+/// The decoded text of a "data:…;base64,…" URI, or nullopt if it is none or is damaged.
+std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
+
+/// The buffers of an asset, loaded when they are asked for.
+class GltfBuffers {
+ public:
+  /// `container` must outlive this; relative URIs start from the folder of `path`.
+  GltfBuffers(const GltfContainer& container, const JsonValue& root, std::filesystem::path path);
+
+  /// Buffer `index`, exactly as long as the asset says; memory is taken only for bytes that are
+  /// there. `reference` is blamed if there is no such buffer.
+  Bytes at(std::uint64_t index, const JsonValue& reference);
+
+  struct ExternalFile {
+    std::filesystem::path path;
+    Bytes contents;
+  };
+  /// External files that have been loaded, in the order of loading.
+  [[nodiscard]] const std::vector<ExternalFile>& external_files() const { return external_files_; }
+
+ private:
+  Bytes load(const JsonValue& buffer, bool may_be_binary_chunk);
+
+  std::optional<Bytes> binary_;
+  std::vector<JsonValue> descriptions_;
+  std::filesystem::path path_;
+  std::map<std::uint64_t, Bytes> loaded_;
+  std::vector<std::vector<std::byte>> storage_;
+  std::vector<std::unique_ptr<InputFile>> files_;
+  std::vector<ExternalFile> external_files_;
+};
+
+}  // namespace fathom

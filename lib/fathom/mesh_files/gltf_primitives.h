@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fathom/mesh/mesh.h"
+#include "fathom/mesh_files/gltf_accessor.h"
+#include "fathom/text/warnings.h"
+
+/// Triangles of glTF meshes. For this room's .cpp files only.
+/// Source: Khronos Group, glTF 2.0 specification, section 3.7.2 (geometry).
+namespace fathom {
+
+class GltfPrimitives {
+ public:
+  /// `root` and `buffers` must outlive this.
+  GltfPrimitives(const JsonValue& root, GltfBuffers& buffers, bool attributes,
+                 std::uint64_t file_size)
+      : root_(root), buffers_(buffers), attributes_(attributes), file_size_(file_size) {}
+
+  /// All primitives of a glTF mesh in order. Primitives that name the same attributes share their
+  /// vertices.
+  Mesh read(const JsonValue& mesh);
+
+  /// Warns of what has been skipped.
+  void report(const std::string& file, Warnings& warnings) const;
+
+ private:
+  struct Vertices {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+    bool has_texture = false, has_normals = false;
+  };
+  void read_primitive(const JsonValue& primitive, Mesh& mesh);
+  const Vertices& vertices_of(const JsonValue& attributes, Mesh& mesh);
+  void read_positions(const GltfAccessor& positions, Mesh& mesh) const;
+  void read_attributes(const JsonValue& attributes, Vertices& vertices, Mesh& mesh);
+  std::vector<std::uint32_t> read_indices(const JsonValue& primitive, const Vertices& vertices);
+  GltfAccessor open(const JsonValue& reference) { return {root_, buffers_, reference, file_size_}; }
+
+  JsonValue root_;
+  GltfBuffers& buffers_;
+  bool attributes_;
+  std::uint64_t file_size_;
+
+  // Of the mesh that is being read: vertices by the accessors of their attributes.
+  std::map<std::array<std::uint64_t, 4>, Vertices> vertices_;
+  // Per run of triangles, where it ends and which attributes it has.
+  struct Run {
+    std::size_t end = 0;
+    bool has_texture = false, has_normals = false;
+  };
+  std::vector<Run> runs_;
+
+  std::uint64_t not_triangles_ = 0, without_positions_ = 0, leftover_corners_ = 0;
+};
+
+}  // namespace fathom

@@ -1,0 +1,169 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh_files/ply_rows.h"
+#include "fathom/text/warnings.h"
+
+namespace fathom {
+
+/// What the properties of a vertex are for us.
+enum PlySlot : int {
+  slot_x = 0,
+  slot_normal = 3,
+  slot_texture = 6,
+  slot_colour = 8,
+  slot_count = 12
+};
+
+/// The values of a vertex that were asked for, each in the slot of its kind.
+using PlyVertex = std::array<double, slot_count>;
+
+/// Walks over the rows of all elements in the order of the file, checks everything, and gives
+/// vertices and faces to a sink:
+///   begin_vertices(element, has, rows)      has(slot): whether the element has that value
+///   vertex(values)
+///   begin_faces(element, indices, most, rows)   at most so many of three corners fit into the file
+///   face(ring, rows)                        behind its row
+template <class Rows, class Sink>
+class PlyBody {
+ public:
+  PlyBody(Rows rows, const PlyHeader& header, const std::string& file, bool attributes, Sink& sink)
+      : header_(header),
+        file_(file),
+        attributes_(attributes),
+        sink_(sink),
+        reader_(std::move(rows), vertices_of(header, file)) {}
+
+  void read(Warnings& warnings) {
+    for (const PlyElement& element : header_.elements) {
+      if (element.properties.empty()) continue;
+      expect_room(element);
+      if (element.name == "vertex") {
+        read_vertices(element);
+      } else if (element.name == "face") {
+        read_faces(element);
+      } else {
+        skip_rows(element);
+      }
+    }
+    if (rows().has_more())
+      warnings.push_back(file_ + ": " + rows().place() + ": what follows the last row is ignored");
+  }
+
+ private:
+  static constexpr int skipped = -1;
+
+  Rows& rows() { return reader_.rows(); }
+
+  static std::uint64_t vertices_of(const PlyHeader& header, const std::string& file) {
+    const PlyElement* vertices = header.find("vertex");
+    if (!vertices) throw InputError(file + ": has no element vertex, expected one");
+    if (vertices->properties.empty() && vertices->count > 0) fail_lacks_coordinates(file);
+    if (header.find("tristrips"))
+      throw InputError(file +
+                       ": triangle strips (element tristrips) are not supported, expected "
+                       "element face");
+    return vertices->count;
+  }
+
+  [[noreturn]] static void fail_lacks_coordinates(const std::string& file) {
+    throw InputError(file + ": element vertex lacks x, y or z, expected all three");
+  }
+
+  /// The rows that the header claims must be able to stand in what is left of the file.
+  void expect_room(const PlyElement& element) {
+    expect_countable(element.count, ("rows of element " + element.name).c_str(), file_);
+    const std::uint64_t size = Rows::least_row_size(element);
+    if (element.count > rows().rest() / size)
+      throw InputError(file_ + ": " + std::to_string(element.count) + " rows of element " +
+                       element.name + " are claimed, expected a file long enough for them");
+  }
+
+  std::vector<int> plan_vertex(const PlyElement& element) const {
+    std::vector<int> plan(element.properties.size(), skipped);
+    const auto assign = [&](int slot, std::initializer_list<std::string_view> names) {
+      const auto at = element.find(names);
+      if (!at || element.properties[*at].count_type) return false;
+      plan[*at] = slot;
+      return true;
+    };
+    if (!assign(slot_x, {"x"}) || !assign(slot_x + 1, {"y"}) || !assign(slot_x + 2, {"z"}))
+      fail_lacks_coordinates(file_);
+    if (!attributes_) return plan;
+    assign(slot_normal, {"nx"}), assign(slot_normal + 1, {"ny"}), assign(slot_normal + 2, {"nz"});
+    assign(slot_texture, {"s", "u", "texture_u"}),
+        assign(slot_texture + 1, {"t", "v", "texture_v"});
+    assign(slot_colour, {"red"}), assign(slot_colour + 1, {"green"});
+    assign(slot_colour + 2, {"blue"}), assign(slot_colour + 3, {"alpha"});
+    return plan;
+  }
+
+  void read_vertices(const PlyElement& element) {
+    const std::vector<int> plan = plan_vertex(element);
+    sink_.begin_vertices(
+        element, [&](int slot) { return std::find(plan.begin(), plan.end(), slot) != plan.end(); },
+        rows());
+    PlyVertex row{};
+    row[slot_colour + 3] = 1;
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      rows().begin_row(element, i);
+      for (std::size_t k = 0; k < plan.size(); ++k) read_value(element.properties[k], plan[k], row);
+      rows().end_row();
+      sink_.vertex(row);
+    }
+  }
+
+  void read_value(const PlyProperty& property, int slot, PlyVertex& row) {
+    if (slot == skipped) return reader_.skip(property);
+    if (slot < slot_normal) {
+      static constexpr const char* names[] = {"coordinate x", "coordinate y", "coordinate z"};
+      row[slot] = rows().finite(property.type, names[slot]);
+      return;
+    }
+    row[slot] = rows().attribute(property.type);
+    if (slot >= slot_colour) row[slot] = colour_component(row[slot], property.type);
+  }
+
+  /// In [0, 1]: integers are shares of the greatest of their type.
+  static double colour_component(double value, PlyType type) {
+    if (type == PlyType::uint8) value /= 255;
+    if (type == PlyType::uint16) value /= 65535;
+    return value > 0 ? std::min(value, 1.0) : 0;
+  }
+
+  void read_faces(const PlyElement& element) {
+    const auto indices = element.find({"vertex_indices", "vertex_index"});
+    if (!indices || !element.properties[*indices].count_type)
+      throw InputError(file_ + ": element face lacks the list vertex_indices, expected it");
+    const std::uint64_t least = Rows::least_triangle_size(element, element.properties[*indices]);
+    sink_.begin_faces(element, *indices, std::min(element.count, rows().rest() / least), rows());
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      rows().begin_row(element, i);
+      reader_.read_face(element, *indices, ring_);
+      rows().end_row();
+      sink_.face(ring_, rows());
+    }
+  }
+
+  void skip_rows(const PlyElement& element) {
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      rows().begin_row(element, i);
+      for (const PlyProperty& property : element.properties) reader_.skip(property);
+      rows().end_row();
+    }
+  }
+
+  const PlyHeader& header_;
+  const std::string& file_;
+  bool attributes_;
+  Sink& sink_;
+  PlyRowReader<Rows> reader_;
+  std::vector<std::uint32_t> ring_;
+};
+
+}  // namespace fathom

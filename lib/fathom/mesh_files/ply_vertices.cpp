@@ -1,0 +1,94 @@
+#include "fathom/mesh_files/ply_vertices.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "fathom/numeric/errors.h"
+
+namespace fathom {
+namespace {
+
+template <class T>
+double value_at(const char* at, bool big_endian) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), at, sizeof(T));
+  if (big_endian) std::reverse(bytes.begin(), bytes.end());
+  return static_cast<double>(std::bit_cast<T>(bytes));
+}
+
+double value_at(const char* at, PlyType type, bool big_endian) {
+  switch (type) {
+    case PlyType::int8:
+      return value_at<std::int8_t>(at, big_endian);
+    case PlyType::uint8:
+      return value_at<std::uint8_t>(at, big_endian);
+    case PlyType::int16:
+      return value_at<std::int16_t>(at, big_endian);
+    case PlyType::uint16:
+      return value_at<std::uint16_t>(at, big_endian);
+    case PlyType::int32:
+      return value_at<std::int32_t>(at, big_endian);
+    case PlyType::uint32:
+      return value_at<std::uint32_t>(at, big_endian);
+    case PlyType::float32:
+      return value_at<float>(at, big_endian);
+    case PlyType::float64:
+      break;
+  }
+  return value_at<double>(at, big_endian);
+}
+
+}  // namespace
+
+PlyVertexLayout layout_of_vertices(const PlyElement& element, std::uint64_t offset,
+                                   bool big_endian) {
+  PlyVertexLayout layout{.offset = offset, .count = element.count, .big_endian = big_endian};
+  static constexpr const char* names[] = {"x", "y", "z"};
+  for (const PlyProperty& property : element.properties) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (property.name != names[i]) continue;
+      layout.places[i] = layout.row_size;
+      layout.types[i] = property.type;
+    }
+    layout.row_size += size_of(property.type);
+  }
+  return layout;
+}
+
+PlyVertices::PlyVertices(const RandomAccessFile& file, const PlyVertexLayout& layout)
+    : layout_(layout) {
+  if (layout.count == 0) return;
+  const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  const std::uint64_t start = layout.offset / page * page;
+  mapped_ = static_cast<std::size_t>(layout.offset - start + layout.count * layout.row_size);
+  void* mapping = ::mmap(nullptr, mapped_, PROT_READ, MAP_PRIVATE, file.descriptor(),
+                         static_cast<off_t>(start));
+  if (mapping == MAP_FAILED) {
+    throw InputError(file.name() + ": its vertices, " +
+                     std::to_string(layout.count * layout.row_size) +
+                     " bytes, cannot be mapped: " + std::generic_category().message(errno));
+  }
+  mapping_ = mapping;
+  rows_ = static_cast<const char*>(mapping) + (layout.offset - start);
+}
+
+PlyVertices::~PlyVertices() {
+  if (mapping_) ::munmap(mapping_, mapped_);
+}
+
+MeshPoint PlyVertices::operator[](std::uint32_t vertex) const {
+  if (!rows_) return list_[vertex];
+  const char* row = rows_ + layout_.row_size * vertex;
+  const auto coordinate = [&](std::size_t i) {
+    return value_at(row + layout_.places[i], layout_.types[i], layout_.big_endian);
+  };
+  return {coordinate(0), coordinate(1), coordinate(2)};
+}
+
+}  // namespace fathom

@@ -1,0 +1,347 @@
+#include <algorithm>
+#include <cstdint>
+#include <map>
+
+#include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh_files/read_mesh.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/text_chunks.h"
+#include "fathom/text/text_cursor.h"
+
+/// Read in two passes over pieces of the file, each in parallel: count what each piece holds, so
+/// that the place of everything is known; then read every piece into its place.
+namespace fathom {
+namespace {
+
+constexpr TextCursor::Syntax obj_syntax{.comments = true, .continuation = true};
+constexpr std::size_t chunk_size = std::size_t{1} << 20;
+
+enum class Statement { vertex, texture, normal, face, ignored, not_a_face, unknown };
+
+Statement statement_named(std::string_view keyword) {
+  if (keyword == "v") return Statement::vertex;
+  if (keyword == "f") return Statement::face;
+  if (keyword == "vt") return Statement::texture;
+  if (keyword == "vn") return Statement::normal;
+  for (const std::string_view known :
+       {"o", "g", "s", "usemtl", "mtllib", "usemap", "maplib", "mg", "lod", "bevel", "c_interp",
+        "d_interp", "shadow_obj", "trace_obj"})
+    if (keyword == known) return Statement::ignored;
+  if (keyword == "l" || keyword == "p") return Statement::not_a_face;
+  return Statement::unknown;
+}
+
+/// How many of each a piece of the file holds; sums of them are places.
+struct ObjCounts {
+  std::uint64_t lines = 0;
+  std::uint64_t vertices = 0, textures = 0, normals = 0;
+  std::uint64_t faces = 0, triangles = 0;
+  std::uint64_t skipped_faces = 0, not_faces = 0;
+  bool polygons = false;  // a face that has not three corners
+  bool colours = false, face_textures = false, face_normals = false;
+  std::map<std::string, std::uint64_t> unknown;
+
+  void add(const ObjCounts& other) {
+    lines += other.lines;
+    vertices += other.vertices;
+    textures += other.textures;
+    normals += other.normals;
+    faces += other.faces;
+    triangles += other.triangles;
+    skipped_faces += other.skipped_faces;
+    not_faces += other.not_faces;
+    polygons |= other.polygons;
+    colours |= other.colours;
+    face_textures |= other.face_textures;
+    face_normals |= other.face_normals;
+    for (const auto& [keyword, count] : other.unknown) unknown[keyword] += count;
+  }
+};
+
+/// A keyword as it may stand in a one-line warning.
+std::string shown(std::string_view keyword) {
+  std::string text(keyword.substr(0, 20));
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  return text;
+}
+
+void count_face(TextCursor& cursor, ObjCounts& counts) {
+  std::uint64_t corners = 0;
+  for (std::string_view word = cursor.word(); !word.empty(); word = cursor.word(), ++corners) {
+    const std::size_t slash = word.find('/');
+    if (slash == word.npos) continue;
+    const std::size_t second = word.find('/', slash + 1);
+    counts.face_normals |= second != word.npos;
+    counts.face_textures |= second != slash + 1 && slash + 1 != word.size();
+  }
+  ++counts.faces;
+  counts.polygons |= corners != 3;
+  if (corners < 3) ++counts.skipped_faces;
+  if (corners > 2) counts.triangles += corners - 2;
+}
+
+ObjCounts count_statements(std::string_view text, const std::string& file, char line_end) {
+  ObjCounts counts;
+  // More different unknown keywords than this are lumped together.
+  constexpr std::size_t most_keywords = 8;
+  TextCursor cursor(text, file, obj_syntax, line_end, 0);
+  for (; cursor.next_line_with_words(); cursor.skip_line()) {
+    const std::string_view keyword = cursor.word();
+    switch (statement_named(keyword)) {
+      case Statement::vertex: {
+        ++counts.vertices;
+        if (counts.colours) break;
+        int words = 0;
+        while (words < 6 && !cursor.word().empty()) ++words;
+        counts.colours = words == 6;
+        break;
+      }
+      case Statement::texture:
+        ++counts.textures;
+        break;
+      case Statement::normal:
+        ++counts.normals;
+        break;
+      case Statement::face:
+        count_face(cursor, counts);
+        break;
+      case Statement::ignored:
+        break;
+      case Statement::not_a_face:
+        ++counts.not_faces;
+        break;
+      case Statement::unknown:
+        ++counts.unknown[counts.unknown.size() < most_keywords ? shown(keyword) : "…"];
+        break;
+    }
+  }
+  counts.lines = cursor.line();
+  return counts;
+}
+
+/// Reads one piece of the file into its place in the mesh.
+class ObjChunk {
+ public:
+  /// `before` counts what stands before the piece, `total` what the file holds.
+  ObjChunk(std::string_view text, const std::string& file, char line_end, const ObjCounts& before,
+           const ObjCounts& total, Mesh& mesh)
+      : cursor_(text, file, obj_syntax, line_end, before.lines + 1),
+        at_(before),
+        total_(total),
+        mesh_(mesh) {}
+
+  void read() {
+    for (; cursor_.next_line_with_words(); cursor_.skip_line()) {
+      switch (statement_named(cursor_.word())) {
+        case Statement::vertex:
+          read_vertex();
+          break;
+        case Statement::texture:
+          if (!mesh_.texture_coordinates.empty()) read_texture();
+          ++at_.textures;
+          break;
+        case Statement::normal:
+          if (!mesh_.normals.empty()) read_normal();
+          ++at_.normals;
+          break;
+        case Statement::face:
+          read_face();
+          break;
+        default:
+          break;
+      }
+    }
+  }
+
+ private:
+  void expect_line_end(const char* what) {
+    if (!cursor_.at_line_end()) cursor_.fail_here(what);
+  }
+
+  void read_vertex() {
+    // The file is mapped: should another program change it meanwhile, the counts are wrong.
+    if (at_.vertices >= total_.vertices) fail_changed();
+    MeshPoint& p = mesh_.vertices[at_.vertices];
+    p.x = cursor_.number<double>("coordinate x");
+    p.y = cursor_.number<double>("coordinate y");
+    p.z = cursor_.number<double>("coordinate z");
+    if (!cursor_.at_line_end()) read_weight_or_colour();
+    ++at_.vertices;
+  }
+
+  void read_weight_or_colour() {
+    std::array<double, 4> more{0, 0, 0, 1};
+    std::size_t count = 0;
+    for (; count < 4 && !cursor_.at_line_end(); ++count)
+      more[count] = cursor_.number<double>("a fourth coordinate or a colour");
+    if (count == 2 || !cursor_.at_line_end())
+      cursor_.fail("expected 3 coordinates, with w = 1 or a colour of 3 or 4 components behind");
+    if (count == 1) {
+      if (more[0] != 1)
+        cursor_.fail("a vertex with weight w other than 1, expected a polygonal mesh");
+      return;
+    }
+    if (mesh_.colours.empty()) return;
+    for (std::size_t i = 0; i < 4; ++i)
+      mesh_.colours[at_.vertices][i] = static_cast<float>(std::clamp(more[i], 0.0, 1.0));
+  }
+
+  void read_texture() {
+    if (at_.textures >= total_.textures) fail_changed();
+    auto& t = mesh_.texture_coordinates[at_.textures];
+    t[0] = cursor_.attribute<double>("texture coordinate u");
+    if (!cursor_.at_line_end()) t[1] = cursor_.attribute<double>("texture coordinate v");
+    if (!cursor_.at_line_end()) cursor_.attribute<double>("texture coordinate w");
+    expect_line_end("expected at most 3 texture coordinates");
+  }
+
+  void read_normal() {
+    if (at_.normals >= total_.normals) fail_changed();
+    for (double& c : mesh_.normals[at_.normals])
+      c = cursor_.attribute<double>("a component of the normal");
+    expect_line_end("expected 3 components of the normal");
+  }
+
+  /// a, a/b, a//c or a/b/c.
+  void read_face() {
+    Corner first{}, last{};
+    std::size_t corners = 0;
+    for (; !cursor_.at_line_end(); ++corners) {
+      const Corner corner = read_corner();
+      if (corners == 0) first = corner;
+      if (corners >= 2) add_triangle(first, last, corner);
+      last = corner;
+    }
+    ++at_.faces;
+  }
+
+  struct Corner {
+    std::uint32_t vertex = no_index, texture = no_index, normal = no_index;
+  };
+
+  Corner read_corner() {
+    Corner corner;
+    const char* at = cursor_.position();
+    corner.vertex = read_index(at, at_.vertices, total_.vertices, "vertex");
+    if (at != cursor_.limit() && *at == '/') {
+      ++at;
+      const bool skipped = at != cursor_.limit() && *at == '/';
+      if (!skipped && !cursor_.at_word_end(at))
+        corner.texture = read_index(at, at_.textures, total_.textures, "texture coordinate");
+      if (at != cursor_.limit() && *at == '/') {
+        ++at;
+        if (!cursor_.at_word_end(at))
+          corner.normal = read_index(at, at_.normals, total_.normals, "normal");
+      }
+    }
+    if (!cursor_.at_word_end(at)) fail_corner();
+    cursor_.move_to(at);
+    return corner;
+  }
+
+  /// Reads an index and moves `at` behind it; from 1 or, negative, back from the last of `so_far`.
+  std::uint32_t read_index(const char*& at, std::uint64_t so_far, std::uint64_t count,
+                           const char* what) {
+    std::int64_t index = 0;
+    const char* end = TextCursor::parse_integer(at, cursor_.limit(), index);
+    if (!end) fail_corner();
+    const auto forward = static_cast<std::uint64_t>(index);
+    if (index > 0 && forward <= count) {
+      at = end;
+      return static_cast<std::uint32_t>(forward - 1);
+    }
+    if (index < 0 && 0 - forward <= so_far) {
+      at = end;
+      return static_cast<std::uint32_t>(so_far + forward);
+    }
+    cursor_.fail(std::string(what) + " index " + std::to_string(index) +
+                 " is out of range, expected 1 to " + std::to_string(count) + " or -" +
+                 std::to_string(so_far) + " to -1");
+  }
+
+  [[noreturn]] void fail_corner() {
+    cursor_.fail_here("expected a corner as v, v/vt, v//vn or v/vt/vn");
+  }
+  [[noreturn]] void fail_changed() { cursor_.fail("the file changed while it was read"); }
+
+  void add_triangle(const Corner& a, const Corner& b, const Corner& c) {
+    const std::uint64_t t = at_.triangles++;
+    if (t >= total_.triangles) fail_changed();
+    mesh_.triangles[t] = {a.vertex, b.vertex, c.vertex};
+    if (!mesh_.face_of_triangle.empty())
+      mesh_.face_of_triangle[t] = static_cast<std::uint32_t>(at_.faces);
+    if (!mesh_.texture_triangles.empty())
+      mesh_.texture_triangles[t] = {a.texture, b.texture, c.texture};
+    if (!mesh_.normal_triangles.empty()) mesh_.normal_triangles[t] = {a.normal, b.normal, c.normal};
+  }
+
+  TextCursor cursor_;
+  ObjCounts at_;
+  const ObjCounts& total_;
+  Mesh& mesh_;
+};
+
+void make_room(const ObjCounts& total, bool attributes, const std::string& file, Mesh& mesh) {
+  expect_countable(total.vertices, "vertices", file);
+  expect_countable(total.textures, "texture coordinates", file);
+  expect_countable(total.normals, "normals", file);
+  expect_countable(total.triangles, "triangles", file);
+  expect_countable(total.faces, "faces", file);
+  mesh.face_count = total.faces;
+  mesh.vertices.resize(total.vertices);
+  mesh.triangles.resize(total.triangles);
+  if (total.polygons) mesh.face_of_triangle.resize(total.triangles);
+  if (!attributes) return;
+  if (total.colours) mesh.colours.assign(total.vertices, {1, 1, 1, 1});
+  mesh.texture_coordinates.resize(total.textures);
+  mesh.normals.resize(total.normals);
+  if (total.face_textures) mesh.texture_triangles.resize(total.triangles);
+  if (total.face_normals) mesh.normal_triangles.resize(total.triangles);
+  // Without a reference to them from any face they are nobody's; indices would be the vertices'.
+  if (!total.face_textures) mesh.texture_coordinates.clear();
+  if (!total.face_normals) mesh.normals.clear();
+}
+
+void warn(const ObjCounts& total, const std::string& file, Warnings& warnings) {
+  if (total.not_faces > 0)
+    warnings.push_back(file + ": " + std::to_string(total.not_faces) +
+                       " lines and points (l, p) are ignored");
+  for (const auto& [keyword, count] : total.unknown)
+    warnings.push_back(file + ": unknown keyword '" + keyword + "' on " + std::to_string(count) +
+                       (count == 1 ? " line: ignored" : " lines: ignored"));
+}
+
+}  // namespace
+
+Mesh read_obj(std::string_view text, const std::string& file, const ReadOptions& options,
+              Warnings& warnings) {
+  const char line_end = TextCursor::line_end_of(text);
+  const std::vector<std::string_view> chunks =
+      cut_into_chunks(TextCursor::without_mark(text), line_end, chunk_size);
+
+  // before[i] counts what stands before piece i.
+  std::vector<ObjCounts> before(chunks.size() + 1);
+  for_each_chunk(chunks.size(), options.threads, [&](std::size_t i) {
+    before[i + 1] = count_statements(chunks[i], file, line_end);
+  });
+  for (std::size_t i = 1; i < before.size(); ++i) {
+    ObjCounts sum = before[i - 1];
+    sum.add(before[i]);
+    before[i] = std::move(sum);
+  }
+  const ObjCounts& total = before.back();
+
+  if (total.vertices + total.faces == 0 && !total.unknown.empty())
+    throw InputError(file + ": holds neither vertices nor faces, expected an OBJ file");
+  Mesh mesh;
+  make_room(total, options.attributes, file, mesh);
+  for_each_chunk(chunks.size(), options.threads, [&](std::size_t i) {
+    ObjChunk(chunks[i], file, line_end, before[i], total, mesh).read();
+  });
+  warn(total, file, warnings);
+  cut_polygons(mesh, total.skipped_faces, file, warnings);
+  return mesh;
+}
+
+}  // namespace fathom

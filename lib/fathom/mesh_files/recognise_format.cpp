@@ -1,0 +1,88 @@
+#include "fathom/mesh_files/recognise_format.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "fathom/text/text_cursor.h"
+
+namespace fathom {
+namespace {
+
+std::string in_small_letters(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+std::optional<FileKind> kind_by_suffix(const std::filesystem::path& path) {
+  const std::string suffix = in_small_letters(path.extension().string());
+  if (suffix == ".obj") return FileKind::obj;
+  if (suffix == ".ply") return FileKind::ply;
+  if (suffix == ".stl") return FileKind::stl;
+  if (suffix == ".off" || suffix == ".coff" || suffix == ".noff") return FileKind::off;
+  if (suffix == ".gltf" || suffix == ".glb") return FileKind::gltf;
+  if (suffix == ".json") return FileKind::scene_json;
+  return std::nullopt;
+}
+
+bool is_off_keyword(std::string_view word) {
+  for (const std::string_view prefix : {"ST", "C", "N", "4", "n"})
+    if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
+  return word == "OFF";
+}
+
+bool is_obj_keyword(std::string_view word) {
+  static constexpr std::string_view known[] = {"v", "vt", "vn", "vp",     "f",
+                                               "o", "g",  "s",  "usemtl", "mtllib"};
+  return std::find(std::begin(known), std::end(known), word) != std::end(known);
+}
+
+bool is_binary_stl_by_size(std::span<const std::byte> bytes, std::uint64_t size) {
+  if (bytes.size() < 84) return false;
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, sizeof count);
+  return size == 84 + 50 * std::uint64_t{count};
+}
+
+/// An asset has the key "asset", which a scene file must not have. (A mesh may be named so, but no
+/// colon follows its name.)
+bool has_asset_key(std::string_view text) {
+  constexpr std::string_view key = "\"asset\"";
+  for (std::size_t at = text.find(key); at != text.npos; at = text.find(key, at + 1)) {
+    const std::size_t next = text.find_first_not_of(" \t\r\n", at + key.size());
+    if (next != text.npos && text[next] == ':') return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<FileKind> recognise_format(std::span<const std::byte> bytes, std::uint64_t size,
+                                         const std::filesystem::path& path) {
+  const std::string_view text =
+      TextCursor::without_mark({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (text.starts_with("glTF")) return FileKind::gltf;
+  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return FileKind::ply;
+  if (is_binary_stl_by_size(bytes, size)) return FileKind::stl;
+
+  const std::string no_name;
+  TextCursor cursor(text, no_name, {.comments = true, .continuation = false});
+  if (!cursor.next_line_with_words()) return kind_by_suffix(path);
+  const char first = *cursor.position();
+  if (first == '{' || first == '[') {
+    const std::optional<FileKind> by_suffix = kind_by_suffix(path);
+    if (by_suffix == FileKind::gltf) return by_suffix;
+    return has_asset_key(text) ? FileKind::gltf : FileKind::scene_json;
+  }
+  const std::string_view word = cursor.word();
+  if (is_off_keyword(word)) return FileKind::off;
+  if (in_small_letters(word.substr(0, 6)) == "solid") return FileKind::stl;
+  if (is_obj_keyword(word)) return FileKind::obj;
+  return kind_by_suffix(path);
+}
+
+}  // namespace fathom

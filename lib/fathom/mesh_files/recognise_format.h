@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+
+namespace fathom {
+
+enum class FileKind { obj, ply, stl, off, gltf, scene_json };
+
+/// What a file is: by its content, and where that does not tell (an OBJ or OFF without a word that
+/// gives it away, an STL whose header is arbitrary), by the suffix of its path, in any case.
+/// nullopt if neither tells. `bytes` is the whole file of `size` bytes, or its beginning where only
+/// binary formats matter.
+std::optional<FileKind> recognise_format(std::span<const std::byte> bytes, std::uint64_t size,
+                                         const std::filesystem::path& path);
+inline std::optional<FileKind> recognise_format(std::span<const std::byte> bytes,
+                                                const std::filesystem::path& path) {
+  return recognise_format(bytes, bytes.size(), path);
+}
+
+}  // namespace fathom

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+
+#include "fathom/mesh_files/ply_header.h"
+#include "fathom/mesh_files/triangle_stream.h"
+#include "fathom/text/random_access_file.h"
+
+/// The streams of the two formats; open_triangle_stream() chooses.
+namespace fathom {
+
+std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<RandomAccessFile> file,
+                                                Warnings& warnings);
+
+/// `header` is that of the file, and binary.
+std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<RandomAccessFile> file,
+                                                const PlyHeader& header, Warnings& warnings);
+
+}  // namespace fathom

@@ -1,0 +1,69 @@
+#include "fathom/mesh_files/triangle_stream.h"
+
+#include <algorithm>
+#include <future>
+
+#include "fathom/mesh_files/recognise_format.h"
+#include "fathom/mesh_files/stl_binary.h"
+#include "fathom/mesh_files/streams.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/sha256.h"
+
+namespace fathom {
+namespace {
+
+[[noreturn]] void fail_format(const std::string& file) {
+  throw InputError(file + ": is no binary STL or PLY, expected one of them to stream");
+}
+
+std::vector<std::byte> beginning_of(const RandomAccessFile& file, std::size_t size) {
+  std::vector<std::byte> bytes(
+      static_cast<std::size_t>(std::min<std::uint64_t>(size, file.size())));
+  file.read(0, bytes);
+  return bytes;
+}
+
+FileKind kind_of(const RandomAccessFile& file, const std::filesystem::path& path,
+                 const ReadOptions& options) {
+  if (file.size() == 0) throw InputError(file.name() + ": is empty, expected a mesh");
+  if (options.format == MeshFormat::stl) return FileKind::stl;
+  if (options.format == MeshFormat::ply) return FileKind::ply;
+  if (options.format) fail_format(file.name());
+  const auto kind = recognise_format(beginning_of(file, 512), file.size(), path);
+  if (kind != FileKind::stl && kind != FileKind::ply) fail_format(file.name());
+  return *kind;
+}
+
+std::unique_ptr<TriangleStream> open(std::unique_ptr<RandomAccessFile> file, FileKind kind,
+                                     Warnings& warnings) {
+  const std::string name = file->name();
+  if (kind == FileKind::stl) {
+    if (!is_binary_stl(beginning_of(*file, 512), file->size())) fail_format(name);
+    return open_stl_stream(std::move(file), warnings);
+  }
+  const std::vector<std::byte> head = beginning_of(*file, longest_ply_header);
+  const PlyHeader header =
+      read_ply_header({reinterpret_cast<const char*>(head.data()), head.size()}, name);
+  if (header.encoding == PlyHeader::Encoding::ascii) fail_format(name);
+  return open_ply_stream(std::move(file), header, warnings);
+}
+
+}  // namespace
+
+std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path& path,
+                                                     const ReadOptions& options,
+                                                     Warnings& warnings) {
+  auto file = std::make_unique<RandomAccessFile>(path);
+  const FileKind kind = kind_of(*file, path, options);
+  // The hash is computed beside the reading, in a thread of its own, from a file of its own.
+  std::future<std::string> hash;
+  if (options.hash) {
+    hash = std::async(std::launch::async, [&path] { return sha256(RandomAccessFile(path)); });
+  }
+  std::unique_ptr<TriangleStream> stream = open(std::move(file), kind, warnings);
+  stream->source.path = path.string();
+  if (hash.valid()) stream->source.sha256 = hash.get();
+  return stream;
+}
+
+}  // namespace fathom

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "fathom/mesh/mesh.h"
+#include "fathom/mesh_files/read_options.h"
+#include "fathom/text/source.h"
+
+namespace fathom {
+
+/// Consecutive triangles of a file as a mesh of their own. Its face_of_triangle has numbers of
+/// faces of the file; it is empty where in the whole file triangle t is face t.
+struct TriangleChunk {
+  /// Number within the file of the chunk's first triangle.
+  std::uint32_t first = 0;
+  Mesh mesh;
+};
+
+/// The triangles of a binary STL or PLY file that need not fit into memory, in the order and with
+/// the numbers and corners that read_scene() gives them, bit for bit.
+///
+/// The file was read through once and checked, with the messages of the ordinary readers; it must
+/// not change while the stream is there. Memory: of an STL none that grows with the file; of a PLY
+/// the block of its vertices is mapped, and faces of other than three corners take 24 bytes for
+/// every 256 of the file's faces. (If vertices have list properties: 24 bytes a vertex instead.)
+///
+/// Different threads may read at the same time.
+class TriangleStream {
+ public:
+  TriangleStream() = default;
+  TriangleStream(const TriangleStream&) = delete;
+  TriangleStream& operator=(const TriangleStream&) = delete;
+  virtual ~TriangleStream() = default;
+
+  [[nodiscard]] virtual std::uint32_t triangle_count() const = 0;
+  /// Skipped ones too.
+  [[nodiscard]] virtual std::uint64_t face_count() const = 0;
+
+  /// Least and greatest coordinates of all corners; nullopt if there is no triangle.
+  struct Bounds {
+    MeshPoint lower, upper;
+  };
+  [[nodiscard]] virtual std::optional<Bounds> bounds() const = 0;
+
+  /// `count` triangles from `first` on, or as many as there are.
+  [[nodiscard]] virtual TriangleChunk read(std::uint32_t first, std::uint32_t count) const = 0;
+
+  struct Triangle {
+    std::array<MeshPoint, 3> corners;
+    std::uint32_t face = 0;
+  };
+  /// One triangle, in time that does not depend on the size of the file.
+  [[nodiscard]] virtual Triangle triangle(std::uint32_t number) const = 0;
+
+  /// Of that triangle, the face alone.
+  [[nodiscard]] virtual std::uint32_t face_of(std::uint32_t number) const = 0;
+
+  /// The file and, if it was asked for, its hash.
+  Source source;
+};
+
+/// Opens and checks a binary STL or PLY file. Of the options `format` and `hash` count.
+/// Fails    InputError as read_scene() does, and if the file is of another format or a pipe.
+std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path& path,
+                                                     const ReadOptions& options,
+                                                     Warnings& warnings);
+
+}  // namespace fathom

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "fathom/pipeline/scan/arithmetic.h"
+#include "fathom/pipeline/scan/pixels.h"
+#include "fathom/pipeline/scan/polygon_tests.h"
+
+/// Triangles by edge functions, over an arithmetic: e_A(P) is twice the signed area of P, B, C and
+/// so on around, signed so that the inside of every edge is positive in either winding. A centre on
+/// an edge belongs to the triangle where that is a left or a top edge (specification, section 4).
+/// Source   J. Pineda, A parallel algorithm for polygon rasterization, SIGGRAPH 1988.
+namespace fathom::pipeline {
+
+/// One edge function, a·x + b·y + c: inside where positive, and where zero if left or top.
+template <class Number>
+struct EdgeFunction {
+  Number a, b, c;
+  bool left_or_top;
+
+  [[nodiscard]] Number at(const Number& x, const Number& y) const { return a * x + b * y + c; }
+  [[nodiscard]] bool contains(const Number& value) const {
+    return value > Number(0) || (left_or_top && value == Number(0));
+  }
+};
+
+template <class Number>
+struct EdgeTriangle {
+  std::array<EdgeFunction<Number>, 3> edges;  ///< opposite A, B, C
+  Number twice_area;                          ///< positive
+  bool turned;  ///< the corners run clockwise as seen (y down), so signs were turned
+};
+
+/// nullopt where the area is zero: such a triangle covers nothing.
+template <class Number>
+std::optional<EdgeTriangle<Number>> edge_functions(const std::array<Point<Number>, 3>& corners);
+
+/// A pixel whose centre the triangle covers, with its barycentric weights, which are ratios of
+/// areas.
+template <class Number>
+struct CoveredPixel {
+  Pixel pixel;
+  std::array<Number, 3> edges;  ///< e_A, e_B, e_C
+  std::array<Number, 3> barycentric;
+};
+
+/// Tests every centre of the bounding box, row by row.
+/// Exact    over Exact. In floating point, to be shown: neighbours across an edge evaluate it from
+///          other corners, and can both take a centre near it, or none.
+template <class Number>
+void rasterize_triangle(const std::array<Point<Number>, 3>& corners, const PixelWindow& window,
+                        const std::function<void(const CoveredPixel<Number>&)>& visit);
+
+}  // namespace fathom::pipeline

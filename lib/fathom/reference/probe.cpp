@@ -1,0 +1,63 @@
+#include "fathom/reference/probe.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "fathom/triangle/projected_triangle.h"
+
+namespace fathom {
+namespace {
+
+bool in_range(const Ratio& depth, const Camera& camera) {
+  if (depth.sign() != Sign::positive || depth < Ratio(Dyadic(camera.near))) return false;
+  return camera.far == std::numeric_limits<double>::infinity() ||
+         !(Ratio(Dyadic(camera.far)) < depth);
+}
+
+/// Exact arithmetic only, without any filter, so that it can be held against the engines.
+std::array<Sign, 3> edge_signs(const ProjectedTriangle& t, const ImagePoint& s) {
+  std::array<Sign, 3> signs{};
+  for (std::size_t i = 0; i < 3; ++i) signs[i] = t.edges[i].at(s.u, s.v).sign();
+  return signs;
+}
+
+bool covers(const std::array<Sign, 3>& signs, const std::array<bool, 3>& left_or_top) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (signs[i] == Sign::negative || (signs[i] == Sign::zero && !left_or_top[i])) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<CoveringTriangle> probe(const Scene& scene, const Camera& camera, std::uint32_t x,
+                                    std::uint32_t y, Cull cull) {
+  const ImagePoint s{x + 0.5, y + 0.5};
+  std::vector<CoveringTriangle> covering;
+  TierCounts counts;
+  std::uint32_t number = 0;
+  for (const Object& object : scene.objects) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i, ++number) {
+      const ProjectedTriangle t = project(world_corners(object, mesh, i), number, camera, counts);
+      if (t.orientation == Sign::zero) continue;
+      const std::array<Sign, 3> signs = edge_signs(t, s);
+      if (!covers(signs, t.left_or_top)) continue;
+      CoveringTriangle c{.number = number,
+                         .origin = origin_of(scene, number),
+                         .edge_signs = signs,
+                         .left_or_top = t.left_or_top,
+                         .front_facing = t.front_facing(),
+                         .depth = depth_at(t, s)};
+      c.counts = in_range(c.depth, camera) && is_kept(t, cull);
+      covering.push_back(std::move(c));
+    }
+  }
+  std::stable_sort(covering.begin(), covering.end(), [](const auto& a, const auto& b) {
+    if (a.counts != b.counts) return a.counts;
+    return a.depth < b.depth;
+  });
+  return covering;
+}
+
+}  // namespace fathom

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "fathom/camera/camera.h"
+#include "fathom/image/depth_map.h"
+#include "fathom/scene/scene.h"
+#include "fathom/triangle/options.h"
+
+namespace fathom {
+
+/// One triangle that covers a sample (specification, sections 4 and 5).
+struct CoveringTriangle {
+  std::uint32_t number = 0;
+  TriangleOrigin origin;
+  /// Signs of e_A, e_B, e_C times the sign of Δ: positive inside, zero on the edge.
+  std::array<Sign, 3> edge_signs{};
+  /// For an edge function that is zero: whether the edge is a left or a top edge.
+  std::array<bool, 3> left_or_top{};
+  bool front_facing = false;
+  Ratio depth;
+  /// D > 0, near ≤ D ≤ far, and kept by culling. Only such a triangle can be visible.
+  bool counts = false;
+};
+
+/// Every triangle that covers the sample at the centre of pixel (x, y), nearest first, ties by
+/// number, brute force and all exact; those that do not count come last.
+std::vector<CoveringTriangle> probe(const Scene& scene, const Camera& camera, std::uint32_t x,
+                                    std::uint32_t y, Cull cull = Cull::none);
+
+}  // namespace fathom

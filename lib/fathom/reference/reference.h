@@ -1,0 +1,19 @@
+#pragma once
+
+#include "fathom/camera/camera.h"
+#include "fathom/image/depth_map.h"
+#include "fathom/scene/scene.h"
+#include "fathom/triangle/options.h"
+
+namespace fathom {
+
+/// The reference engine: the specification as code, brute force over the pixels of a certified
+/// bounding box, exact numbers. It is the truth that every other engine is held to.
+///
+/// Exact    every value is the exact number rounded once (specification, section 6).
+/// Needs    a camera without fault (find_fault) and a valid scene.
+/// Fails    OutputError if a depth does not fit options.depth_encoding; it names the first such
+///          pixel in row order.
+DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options);
+
+}  // namespace fathom

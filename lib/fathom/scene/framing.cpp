@@ -1,0 +1,154 @@
+#include "fathom/scene/framing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fathom/camera/camera_making_internal.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/numeric/rounding.h"
+
+namespace fathom {
+
+using namespace camera_making;
+
+namespace {
+
+/// The part of the image's width and height that framed bounds may fill.
+constexpr double filled = 0.9;
+
+/// Bounds around their middle: what framing needs of them.
+struct Box {
+  ExactVector3 middle;
+  std::array<ExactVector3, 8> corners;
+};
+
+Box box_of(const WorldBounds& bounds) {
+  expect_finite(bounds.lower, "a bound of the scene");
+  expect_finite(bounds.upper, "a bound of the scene");
+  Box box;
+  for (int k = 0; k < 3; ++k)
+    box.middle[k] = (Dyadic(bounds.lower[k]) + Dyadic(bounds.upper[k])).scaled(-1);
+  for (unsigned i = 0; i < 8; ++i)
+    for (unsigned k = 0; k < 3; ++k)
+      box.corners[i][k] = ((i >> k) & 1) != 0 ? bounds.upper[k] : bounds.lower[k];
+  return box;
+}
+
+/// Whether every corner projects into the part of the image that may be filled. Projection takes
+/// segments in front of the camera to segments, so then every point between them does. Exact.
+bool sees_corners(const Camera& camera, const Box& box) {
+  const Dyadic reach_u = Dyadic(camera.width) * Dyadic(filled / 2);
+  const Dyadic reach_v = Dyadic(camera.height) * Dyadic(filled / 2);
+  return std::all_of(box.corners.begin(), box.corners.end(), [&](const ExactVector3& corner) {
+    const CameraPoint p = to_camera(camera, {corner[0], corner[1], corner[2]});
+    const auto [U, V, W] = to_image(camera, p);
+    return p.z.sign() == Sign::positive && abs(U - Dyadic(camera.cx) * W) <= reach_u * W &&
+           abs(V - Dyadic(camera.cy) * W) <= reach_v * W;
+  });
+}
+
+bool in_front(const Camera& camera, const Box& box) {
+  return std::all_of(box.corners.begin(), box.corners.end(), [&](const ExactVector3& c) {
+    return to_camera(camera, {c[0], c[1], c[2]}).z.sign() == Sign::positive;
+  });
+}
+
+/// How far away a camera stands, and (orthographic) how much it sees.
+struct Placement {
+  double distance = 1;
+  double vertical_extent = 1;
+};
+
+/// An estimate in floating point of the least placement that frames the box; the caller proves it.
+Placement estimate_placement(const Box& box, const Matrix3& R, const Lens& lens) {
+  std::array<ExactVector3, 8> offsets;
+  long power = 0;  // of two, of the largest coordinate
+  bool single_point = true;
+  for (int i = 0; i < 8; ++i) {
+    const auto& c = box.corners[i];
+    offsets[i] = rotate(R, {c[0] - box.middle[0], c[1] - box.middle[1], c[2] - box.middle[2]});
+    for (const Dyadic& x : offsets[i]) {
+      if (x.is_zero()) continue;
+      const long bits = static_cast<long>(mpz_sizeinbase(x.significand(), 2)) + x.exponent();
+      power = single_point ? bits : std::max(power, bits);
+      single_point = false;
+    }
+  }
+  if (single_point) return {};
+  const Camera camera = with_lens(lens);
+  const double reach_x = filled / 2 * camera.width / camera.fx;
+  const double reach_y = filled / 2 * camera.height / camera.fy;
+  double distance = 0, half_height = 0, radius = 0;
+  for (const ExactVector3& offset : offsets) {
+    const auto scaled = [&](int k) { return round_to_binary64(Ratio(offset[k].scaled(-power))); };
+    const double x = std::abs(scaled(0)), y = std::abs(scaled(1)), z = scaled(2);
+    distance = std::max({distance, x / reach_x - z, y / reach_y - z});
+    half_height = std::max({half_height, y, x * lens.height / lens.width});
+    radius = std::max(radius, std::hypot(x, y, z));
+  }
+  if (half_height == 0) half_height = radius;  // a line seen end on
+  // Half a radius in front of a box that is thin across the view or seen through a wide lens.
+  if (lens.projection == Projection::orthographic) distance = 0;
+  distance = std::max(distance, 1.5 * radius) * (1 + 0x1p-40);
+  const auto unscaled = [&](double x) { return round_to_binary64(Ratio(Dyadic(x).scaled(power))); };
+  return {unscaled(distance), unscaled(2 / filled * half_height * (1 + 0x1p-40))};
+}
+
+/// A quarter more; also of 0 and of numbers so small that a quarter of them rounds away.
+double larger(double x) {
+  return std::max(1.25 * x, std::nextafter(x, std::numeric_limits<double>::infinity()));
+}
+
+Camera place(const Box& box, const Matrix3& R, const Lens& lens, double distance) {
+  Camera camera = with_lens(lens);
+  camera.world_to_camera = pose_that_takes(R, box.middle, {0.0, 0.0, distance});
+  return camera;
+}
+
+}  // namespace
+
+std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBounds& bounds,
+                          const Lens& lens) {
+  expect_count(count);
+  const Box box = box_of(bounds);
+  const bool extent_is_free = lens.projection == Projection::orthographic && !lens.vertical_extent;
+  Lens chosen = lens;
+  if (extent_is_free) chosen.vertical_extent = 1;
+  checked(with_lens(chosen));
+  std::vector<Matrix3> rotations;
+  Placement placement{0, 0};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    rotations.push_back(rotation_of(turned(first, i, count)));
+    const Placement one = estimate_placement(box, rotations.back(), chosen);
+    placement.distance = std::max(placement.distance, one.distance);
+    placement.vertical_extent = std::max(placement.vertical_extent, one.vertical_extent);
+  }
+  const bool all_must_be_seen = lens.projection == Projection::perspective || extent_is_free;
+  // Rounding of the pose can move a small scene that is far from the origin out of the picture;
+  // then farther away will do.
+  for (; std::isfinite(placement.distance);
+       placement = {larger(placement.distance), larger(placement.vertical_extent)}) {
+    if (extent_is_free) chosen.vertical_extent = placement.vertical_extent;
+    std::vector<Camera> path;
+    for (const Matrix3& R : rotations) {
+      const Camera camera = place(box, R, chosen, placement.distance);
+      if (find_fault(camera)) break;
+      if (all_must_be_seen ? !sees_corners(camera, box) : !in_front(camera, box)) break;
+      path.push_back(camera);
+    }
+    if (path.size() == count) return path;
+  }
+  throw InputError("no camera with finite numbers sees the whole scene");
+}
+
+Camera frame(const WorldBounds& bounds, const View& view, const Lens& lens) {
+  return orbit(view, 1, bounds, lens).front();
+}
+
+Camera frame_scene(const Scene& scene, const View& view, const Lens& lens) {
+  const auto bounds = world_bounds(scene);
+  if (!bounds) throw InputError("the scene has no triangle that a camera could frame");
+  return frame(*bounds, view, lens);
+}
+
+}  // namespace fathom

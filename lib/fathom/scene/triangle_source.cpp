@@ -1,0 +1,111 @@
+#include "fathom/scene/triangle_source.h"
+
+#include <algorithm>
+#include <future>
+
+namespace fathom {
+
+TriangleSource::TriangleSource(const Scene& scene) : scene_(&scene) {
+  for (const Object& object : scene.objects) {
+    first_numbers_.push_back(count() + scene.meshes[object.mesh].triangles.size());
+  }
+}
+
+TriangleSource::TriangleSource(const StreamedScene& scene) : streamed_(&scene) {
+  for (const Object& object : scene.objects) {
+    first_numbers_.push_back(count() + scene.streams[object.mesh]->triangle_count());
+  }
+}
+
+TriangleSource::Place TriangleSource::place_of(std::uint32_t number) const {
+  const auto after = std::upper_bound(first_numbers_.begin(), first_numbers_.end(), number);
+  // Objects without triangles share the first number of the next: the last of them has them.
+  const auto object = static_cast<std::size_t>(after - first_numbers_.begin()) - 1;
+  return {static_cast<std::uint32_t>(object),
+          static_cast<std::uint32_t>(number - first_numbers_[object])};
+}
+
+TriangleOrigin TriangleSource::origin(std::uint32_t number) const {
+  const Place place = place_of(number);
+  const Object& object = objects()[place.object];
+  const std::uint32_t face = scene_ ? scene_->meshes[object.mesh].face_of(place.triangle)
+                                    : stream(place.object).face_of(place.triangle);
+  return {place.object, place.triangle, static_cast<std::uint32_t>(object.first_face + face)};
+}
+
+TriangleSource::Triangle TriangleSource::triangle(std::uint32_t number) const {
+  const Place place = place_of(number);
+  const Object& object = objects()[place.object];
+  Triangle result{{place.object, place.triangle, 0}, {}};
+  if (scene_) {
+    const Mesh& mesh = scene_->meshes[object.mesh];
+    for (std::size_t i = 0; i < 3; ++i) {
+      result.corners[i] = mesh.vertices[mesh.triangles[place.triangle][i]];
+    }
+    result.origin.face =
+        static_cast<std::uint32_t>(object.first_face + mesh.face_of(place.triangle));
+  } else {
+    const TriangleStream::Triangle read = stream(place.object).triangle(place.triangle);
+    result.corners = read.corners;
+    result.origin.face = static_cast<std::uint32_t>(object.first_face + read.face);
+  }
+  return result;
+}
+
+std::array<WorldPoint, 3> TriangleSource::world_corners(std::uint32_t number) const {
+  const Triangle mesh_triangle = triangle(number);
+  const Object& object = objects()[mesh_triangle.origin.object];
+  std::array<WorldPoint, 3> world;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const MeshPoint& p = mesh_triangle.corners[i];
+    world[i] = object.placed_as_is ? WorldPoint{p.x, p.y, p.z} : object.world_from_mesh(p);
+  }
+  return world;
+}
+
+namespace {
+
+/// visit(chunk) for a whole file, or those chunks that are wanted; the next chunk is read
+/// meanwhile.
+template <class Wanted, class Visit>
+void for_each_chunk(const TriangleStream& stream, std::uint32_t triangles, const Wanted& wanted,
+                    const Visit& visit) {
+  const std::uint64_t end = stream.triangle_count();
+  /// The first chunk that is wanted of those from `first` on; not valid if there is none.
+  const auto read = [&](std::uint64_t first) -> std::future<TriangleChunk> {
+    while (first < end && !wanted(static_cast<std::uint32_t>(first))) first += triangles;
+    if (first >= end) return {};
+    return std::async(std::launch::async, [&stream, first, triangles] {
+      return stream.read(static_cast<std::uint32_t>(first), triangles);
+    });
+  };
+  std::future<TriangleChunk> next = read(0);
+  while (next.valid()) {
+    const TriangleChunk chunk = next.get();
+    next = read(std::uint64_t{chunk.first} + triangles);
+    visit(chunk);
+  }
+}
+
+}  // namespace
+
+void TriangleSource::for_each_part(std::uint32_t triangles_of_file,
+                                   const std::function<void(const Part&)>& visit,
+                                   const std::function<bool(std::uint32_t)>& wanted) const {
+  for (std::uint32_t i = 0; i < objects().size(); ++i) {
+    const Object& object = objects()[i];
+    const auto first = static_cast<std::uint32_t>(first_numbers_[i]);
+    if (streamed_) {
+      for_each_chunk(
+          stream(i), triangles_of_file,
+          [&](std::uint32_t number) { return wanted(first + number); },
+          [&](const TriangleChunk& chunk) {
+            visit({object, chunk.mesh, first + chunk.first});
+          });
+    } else if (wanted(first)) {
+      visit({object, scene_->meshes[object.mesh], first});
+    }
+  }
+}
+
+}  // namespace fathom

@@ -1,0 +1,77 @@
+#include "fathom/text/input_file.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "fathom/numeric/errors.h"
+
+namespace fathom {
+namespace {
+
+/// Files up to this size are read rather than mapped: another program that cuts a mapped file
+/// short while it is being read would end ours, and below this size memory is no concern.
+constexpr std::size_t largest_read = std::size_t{64} << 20;
+
+[[noreturn]] void fail(const std::string& name, const char* what) {
+  throw InputError(name + ": " + what + ": " + std::generic_category().message(errno));
+}
+
+/// A file descriptor that closes itself; standard input stays open.
+struct Descriptor {
+  int number;
+  ~Descriptor() {
+    if (number > STDIN_FILENO) ::close(number);
+  }
+};
+
+}  // namespace
+
+InputFile::InputFile(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  const Descriptor file{name == "-" ? STDIN_FILENO : ::open(name.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (file.number < 0) fail(name, "cannot be opened");
+  struct stat status {};
+  if (::fstat(file.number, &status) != 0) fail(name, "cannot be examined");
+  if (S_ISDIR(status.st_mode)) throw InputError(name + ": is a directory, expected a file");
+  const auto size = static_cast<std::size_t>(status.st_size);
+  if (S_ISREG(status.st_mode) && size > largest_read && name != "-") {
+    void* mapping = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number, 0);
+    if (mapping != MAP_FAILED) {
+      mapping_ = mapping;
+      bytes_ = {static_cast<const std::byte*>(mapping), size};
+      return;
+    }
+  }
+  read(file.number, S_ISREG(status.st_mode) ? size + 1 : std::size_t{1} << 16, name);
+}
+
+void InputFile::read(int descriptor, std::size_t capacity, const std::string& name) {
+  buffer_ = std::make_unique_for_overwrite<std::byte[]>(capacity);
+  std::size_t filled = 0;
+  while (true) {
+    if (filled == capacity) {
+      auto larger = std::make_unique_for_overwrite<std::byte[]>(2 * capacity);
+      std::copy_n(buffer_.get(), filled, larger.get());
+      buffer_ = std::move(larger);
+      capacity *= 2;
+    }
+    const ssize_t got = ::read(descriptor, buffer_.get() + filled, capacity - filled);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(name, "cannot be read");
+    if (got == 0) break;
+    filled += static_cast<std::size_t>(got);
+  }
+  bytes_ = {buffer_.get(), filled};
+}
+
+InputFile::~InputFile() {
+  if (mapping_) ::munmap(mapping_, bytes_.size());
+}
+
+}  // namespace fathom

@@ -1,0 +1,200 @@
+#include "fathom/text/json_value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "fathom/numeric/errors.h"
+
+namespace fathom {
+namespace {
+
+using nlohmann::json;
+
+constexpr int deepest_nesting = 100;
+
+std::string in_quotes(const std::string& key) {
+  // dump() escapes what would break the line; keys that are no UTF-8 never get here.
+  return json(key).dump();
+}
+
+/// Builds a document, refusing what nlohmann::json would let pass: a key twice in one object, and
+/// nesting so deep that walking it could exhaust the stack.
+class StrictBuilder {
+ public:
+  bool operator()(int depth, json::parse_event_t event, json& parsed) {
+    using Event = json::parse_event_t;
+    if (depth > deepest_nesting)
+      throw InputError("nested more than " + std::to_string(deepest_nesting) + " deep");
+    if (event == Event::object_start) keys_.emplace_back();
+    if (event == Event::object_end) keys_.pop_back();
+    if (event != Event::key) return true;
+    last_key_ = parsed.get<std::string>();
+    if (!keys_.back().insert(last_key_).second)
+      throw InputError("the key " + in_quotes(last_key_) + " stands twice in one object");
+    return true;
+  }
+
+  /// The key read last; empty before the first.
+  [[nodiscard]] const std::string& last_key() const { return last_key_; }
+
+ private:
+  std::vector<std::set<std::string>> keys_;
+  std::string last_key_;
+};
+
+std::size_t line_of(std::string_view text, std::size_t byte) {
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
+  return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
+}
+
+/// What is wrong, without nlohmann's "[json.exception.…] parse error at line 1, column 2: ".
+std::string reason(const json::exception& e) {
+  std::string text = e.what();
+  for (const char* mark : {"] ", "column "})
+    if (const auto at = text.find(mark); at != std::string::npos)
+      text.erase(0, at + std::string_view(mark).size());
+  if (const auto at = text.find(": "); at != std::string::npos) text.erase(0, at + 2);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+json parse_strictly(std::string_view text, const std::string& file) {
+  StrictBuilder builder;
+  try {
+    return json::parse(text.begin(), text.end(), std::ref(builder));
+  } catch (const json::parse_error& e) {
+    // `byte` counts from 1 and is that of the last character read.
+    const std::size_t before = e.byte == 0 ? 0 : e.byte - 1;
+    throw InputError(file + ": line " + std::to_string(line_of(text, before)) +
+                     ": not JSON: " + reason(e));
+  } catch (const json::exception& e) {  // a number beyond binary64
+    throw InputError(file + ": " + builder.last_key() + ": " + reason(e));
+  } catch (const InputError& e) {
+    throw InputError(file + ": " + e.what());
+  }
+}
+
+const char* kind_of(const json& value) {
+  switch (value.type()) {
+    case json::value_t::null:
+      return "null";
+    case json::value_t::object:
+      return "an object";
+    case json::value_t::array:
+      return "a list";
+    case json::value_t::string:
+      return "a string";
+    case json::value_t::boolean:
+      return "true or false";
+    default:
+      return "a number";
+  }
+}
+
+}  // namespace
+
+JsonDocument::JsonDocument(std::string_view text, std::string file)
+    : value_(parse_strictly(text, file)), file_(std::move(file)) {}
+
+void JsonValue::fail(const std::string& message) const {
+  throw InputError(*file_ + ": " + (place_.empty() ? "" : place_ + ": ") + message);
+}
+
+void JsonValue::fail_type(const char* expected) const {
+  fail(std::string("is ") + kind_of(*value_) + ", expected " + expected);
+}
+
+JsonValue JsonValue::at(const std::string& key) const {
+  if (auto member = find(key)) return *std::move(member);
+  fail("the key " + in_quotes(key) + " is missing");
+}
+
+std::optional<JsonValue> JsonValue::find(const std::string& key) const {
+  if (!value_->is_object()) fail_type("an object");
+  const auto member = value_->find(key);
+  if (member == value_->end()) return std::nullopt;
+  return JsonValue(*member, *file_, place_ + (place_.empty() ? "" : ".") + key);
+}
+
+void JsonValue::expect_only(std::initializer_list<std::string_view> known) const {
+  if (!value_->is_object()) fail_type("an object");
+  for (const auto& [key, member] : value_->items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    std::string list;
+    for (const auto& name : known) list += (list.empty() ? "" : ", ") + std::string(name);
+    fail("unknown key " + in_quotes(key) + ", expected one of " + list);
+  }
+}
+
+std::vector<JsonValue> JsonValue::elements() const {
+  if (!value_->is_array()) fail_type("a list");
+  std::vector<JsonValue> result;
+  result.reserve(value_->size());
+  for (std::size_t i = 0; i < value_->size(); ++i) result.push_back(element(i));
+  return result;
+}
+
+JsonValue JsonValue::element(std::size_t i) const {
+  if (!value_->is_array()) fail_type("a list");
+  return {(*value_)[i], *file_, place_ + "[" + std::to_string(i) + "]"};
+}
+
+std::vector<JsonValue> JsonValue::elements(std::size_t size) const {
+  if (!value_->is_array() || value_->size() != size)
+    fail("expected a list of " + std::to_string(size) +
+         (value_->is_array() ? ", found one of " + std::to_string(value_->size()) : ""));
+  return elements();
+}
+
+std::vector<std::pair<std::string, JsonValue>> JsonValue::members() const {
+  if (!value_->is_object()) fail_type("an object");
+  std::vector<std::pair<std::string, JsonValue>> result;
+  for (const auto& [key, member] : value_->items())
+    result.emplace_back(key, JsonValue(member, *file_, place_ + (place_.empty() ? "" : ".") + key));
+  return result;
+}
+
+double JsonValue::number() const {
+  if (!value_->is_number()) fail_type("a number");
+  return value_->get<double>();
+}
+
+std::vector<double> JsonValue::numbers(std::size_t size) const {
+  std::vector<double> result;
+  result.reserve(size);
+  for (const JsonValue& element : elements(size)) result.push_back(element.number());
+  return result;
+}
+
+std::uint64_t JsonValue::integer(std::uint64_t least, std::uint64_t greatest) const {
+  const auto refuse = [&]() {
+    fail("expected an integer from " + std::to_string(least) + " to " + std::to_string(greatest));
+  };
+  std::uint64_t result = 0;
+  if (value_->is_number_unsigned()) {
+    result = value_->get<std::uint64_t>();
+  } else if (value_->is_number_float()) {
+    const double number = value_->get<double>();
+    // 2⁵³: above it a float's text need not be the integer that it is read as.
+    if (!(number >= 0 && number <= 0x1p53) || number != std::floor(number)) refuse();
+    result = static_cast<std::uint64_t>(number);
+  } else {
+    refuse();
+  }
+  if (result < least || result > greatest) refuse();
+  return result;
+}
+
+const std::string& JsonValue::string() const {
+  if (!value_->is_string()) fail_type("a string");
+  return value_->get_ref<const std::string&>();
+}
+
+bool JsonValue::boolean() const {
+  if (!value_->is_boolean()) fail_type("true or false");
+  return value_->get<bool>();
+}
+
+}  // namespace fathom

@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "fathom/text/decimal.h"
+
+namespace fathom {
+
+/// Walks over text, line by line and word by word, and knows the number of its line.
+///
+/// Lines end with LF or CR LF; in a text without any LF, with CR. A file's last line needs no end.
+/// What it does not do: own the text. A byte order mark at the start is skipped.
+class TextCursor {
+ public:
+  struct Syntax {
+    /// A word that begins with '#' and all that follows on its line is a comment.
+    bool comments = false;
+    /// A '\' at the end of a line joins the next line to it.
+    bool continuation = false;
+  };
+
+  TextCursor(std::string_view text, const std::string& file, Syntax syntax, char line_end,
+             std::uint64_t first_line = 1)
+      : at_(text.data()),
+        end_(text.data() + text.size()),
+        file_(&file),
+        syntax_(syntax),
+        line_end_(line_end),
+        line_(first_line) {}
+  TextCursor(std::string_view text, const std::string& file, Syntax syntax)
+      : TextCursor(without_mark(text), file, syntax, line_end_of(text)) {}
+
+  static char line_end_of(std::string_view text) {
+    const bool carriage = text.find('\n') == text.npos && text.find('\r') != text.npos;
+    return carriage ? '\r' : '\n';
+  }
+  static std::string_view without_mark(std::string_view text) {
+    return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+  }
+
+  [[nodiscard]] bool at_end() const { return at_ == end_; }
+  [[nodiscard]] const char* position() const { return at_; }
+  [[nodiscard]] std::uint64_t line() const { return line_; }
+  [[nodiscard]] std::size_t rest() const { return static_cast<std::size_t>(end_ - at_); }
+
+  /// Skips blanks; true where nothing more stands on the line (a comment is nothing).
+  bool at_line_end() {
+    while (at_ != end_) {
+      const char c = *at_;
+      if (c == line_end_ || (c == '#' && syntax_.comments)) return true;
+      if (c == '\\' && syntax_.continuation && skip_line_join()) continue;
+      if (!is_blank(c)) return false;
+      ++at_;
+    }
+    return true;
+  }
+
+  /// Goes to the start of the next line.
+  void skip_line() {
+    while (true) {
+      const void* found = std::memchr(at_, line_end_, static_cast<std::size_t>(end_ - at_));
+      if (!found) {
+        at_ = end_;
+        return;
+      }
+      const char* line_end = static_cast<const char*>(found);
+      const bool joined = syntax_.continuation && joins(at_, line_end);
+      at_ = line_end + 1;
+      ++line_;
+      if (!joined) return;
+    }
+  }
+
+  /// Goes to the next line that has a word on it; false at the end of the text.
+  bool next_line_with_words() {
+    while (at_ != end_) {
+      if (!at_line_end()) return true;
+      skip_rest_of_comment();
+    }
+    return false;
+  }
+
+  /// The next word of this line; empty at its end.
+  std::string_view word() {
+    if (at_line_end()) return {};
+    const char* first = at_;
+    while (at_ != end_ && !ends_word(*at_)) ++at_;
+    return {first, static_cast<std::size_t>(at_ - first)};
+  }
+
+  /// The next word as a finite decimal, rounded once to Real. `what` names it in the error.
+  template <class Real>
+  Real number(const char* what) {
+    if (at_line_end()) fail_missing(what);
+    const DecimalResult<Real> result = parse_decimal<Real>(at_, end_);
+    if (result.fault != DecimalFault::none || !at_word_end(result.end))
+      fail_number(what, result.fault);
+    at_ = result.end;
+    return result.value;
+  }
+
+  /// The same for attributes, of which "nan" and "inf" are taken as they are: programs write them
+  /// for the normals of degenerate triangles.
+  template <class Real>
+  Real attribute(const char* what) {
+    if (at_line_end()) fail_missing(what);
+    const DecimalResult<Real> result = parse_decimal<Real>(at_, end_);
+    if (result.fault != DecimalFault::not_finite || !at_word_end(result.end))
+      return number<Real>(what);
+    at_ = result.end;
+    return result.value;
+  }
+
+  /// The next word as an integer.
+  std::int64_t integer(const char* what) {
+    if (at_line_end()) fail_missing(what);
+    std::int64_t value = 0;
+    const char* end = parse_integer(at_, end_, value);
+    if (!end || !at_word_end(end)) fail_integer(what);
+    at_ = end;
+    return value;
+  }
+
+  /// For words that are read piece by piece: moves to `at`, which lies on the current line.
+  void move_to(const char* at) { at_ = at; }
+  [[nodiscard]] const char* limit() const { return end_; }
+  [[nodiscard]] bool at_word_end(const char* at) const { return at == end_ || ends_word(*at); }
+
+  /// Behind a decimal integer [+-] digits at `first`; nullptr if none stands there or it does not
+  /// fit.
+  static const char* parse_integer(const char* first, const char* last, std::int64_t& value);
+
+  /// Throws InputError "FILE: line N: message".
+  [[noreturn]] void fail(const std::string& message) const { fail_at(line_, message); }
+  [[noreturn]] void fail_at(std::uint64_t line, const std::string& message) const;
+  /// The same, with the word that stands at the cursor: "message, found 'WORD'".
+  [[noreturn]] void fail_here(const std::string& message);
+
+ private:
+  static bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+  }
+  [[nodiscard]] bool ends_word(char c) const {
+    return is_blank(c) || c == line_end_ || (c == '\\' && syntax_.continuation);
+  }
+  /// Whether the line [first, line_end) ends with a '\' that is not in a comment.
+  static bool joins(const char* first, const char* line_end);
+  /// At a '\': skips it and the line end behind it, if there is one.
+  bool skip_line_join();
+  void skip_rest_of_comment();
+  [[noreturn]] void fail_missing(const char* what) const;
+  [[noreturn]] void fail_number(const char* what, DecimalFault fault);
+  [[noreturn]] void fail_integer(const char* what);
+
+  const char* at_;
+  const char* end_;
+  const std::string* file_;
+  Syntax syntax_;
+  char line_end_;
+  std::uint64_t line_;
+};
+
+}  // namespace fathom

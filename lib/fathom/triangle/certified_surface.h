@@ -1,0 +1,350 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "fathom/numeric/certified_rounding.h"
+#include "fathom/numeric/certified_value.h"
+#include "fathom/numeric/double_word.h"
+#include "fathom/triangle/rays.h"
+
+// Depth, barycentric weights and normal of a triangle at a sample, with bounds of their errors, in
+// any arithmetic whose operations have a relative error of at most ε = epsilon<Real>: binary64 and
+// double-words. One derivation serves both (docs/error-analysis.md, "Channels").
+//
+// Method (Möller, Trumbore 1997). p = B − A, r = C − A, n = p × r, t = A − (origin of the ray), d
+// the direction of the ray (fast_rays.h), all in the frame of the mesh. The point of depth D on the
+// ray lies in the plane of the triangle where D·(n·d) = n·t, and there its weights of B and C are
+// d·(r × t)/(n·d) and d·(t × p)/(n·d). No corner needs to lie in front of the camera.
+//
+// How errors are counted. x̂ is the computed x; x̄ ≥ |x|, |x̂| is the value of the same expression
+// with every term replaced by its magnitude. An error of k·ε·x̄ is written "k". A product adds the
+// k's of its factors and 1; a sum of terms takes the greatest k and adds 1. Inputs: coordinates 0,
+// entries of tables 1. Terms of second order are below 2⁻⁴⁰ of the first and go into `slack`, as
+// do the roundings of the bounds themselves.
+//
+//   p, r                     1    difference of two coordinates
+//   n    p·r − p·r           4    1 + 1 + 1 of a product, 1 of the difference
+//   t    A − O               2    1 of O, 1 of the difference; t̄ = |A| + |O|
+//   n·t                      9    4 + 2 + 1 of a product, 2 of sums
+//   n·m  (m a column)        8    4 + 1 + 1, 2
+//   r × t, t × p             5    1 + 2 + 1, 1
+//   (r × t)·m                9    5 + 1 + 1, 2
+//   m × r, p × m             4    1 + 1 + 1, 1
+//   (m × r)·t                9    4 + 2 + 1, 2
+//   (m × r)·m                8    4 + 1 + 1, 2
+//   c + b·v + a·u          k+3    exact u, v; one product, two sums; k ≤ 9: at most 12
+//
+// Nothing underflows: coordinates and leading parts of entries are 0 or between 2⁻¹⁰⁰ and 2¹⁰⁰, so
+// coordinates are multiples of 2⁻¹⁵², entries, whose second words are not below 2⁻²¹⁰, of 2⁻²⁶²,
+// and rounding a multiple of a power of two leaves it one: every intermediate result above, and
+// every error of one, is a multiple of 2⁻⁶⁷⁶. Nor does anything overflow: (2¹⁰¹)⁴·2⁴⁰ < 2⁵⁰⁰.
+namespace fathom {
+
+/// c + b·v + a·u; computed and exact value differ by at most `error` at every sample of the image.
+template <class Real>
+struct Form {
+  Real a{}, b{}, c{};
+  double error = 0;
+
+  [[nodiscard]] Certified<Real> at(const Sample& s) const {
+    return {(c + b * s.v) + a * s.u, error};
+  }
+};
+
+/// Corners of a triangle in its mesh.
+using MeshTriangle = std::array<MeshPoint, 3>;
+
+/// True where the bounds were derived for these corners.
+inline bool is_safe(const MeshTriangle& corners) {
+  for (const MeshPoint& X : corners) {
+    for (const double x : {X.x, X.y, X.z}) {
+      const double size = std::abs(x);
+      if (!(size <= greatest_safe) || (size < least_safe && size != 0)) return false;
+    }
+  }
+  return true;
+}
+
+template <class Real>
+Real dot(const Vector<Real>& a, const Vector<Real>& b) {
+  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+template <class Real>
+Vector<Real> cross(const Vector<Real>& a, const Vector<Real>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The magnitudes of the terms of a cross product, from those of the factors.
+inline Vector<double> cross_size(const Vector<double>& a, const Vector<double>& b) {
+  return {a[1] * b[2] + a[2] * b[1], a[2] * b[0] + a[0] * b[2], a[0] * b[1] + a[1] * b[0]};
+}
+
+template <class Real>
+Vector<double> size_of(const Vector<Real>& a) {
+  return {std::abs(nearest(a[0])), std::abs(nearest(a[1])), std::abs(nearest(a[2]))};
+}
+
+template <class Real>
+Vector<Real> difference(const MeshPoint& a, const MeshPoint& b) {
+  return {difference<Real>(a.x, b.x), difference<Real>(a.y, b.y), difference<Real>(a.z, b.z)};
+}
+
+template <class Real>
+Vector<Real> entries(const std::array<WordPair, 3>& column) {
+  return {entry<Real>(column[0]), entry<Real>(column[1]), entry<Real>(column[2])};
+}
+
+/// p, r and n of a triangle.
+template <class Real>
+struct Edges {
+  Vector<Real> p, r, n;
+  Vector<double> p_size, r_size, n_size;
+
+  explicit Edges(const MeshTriangle& corners)
+      : p(difference<Real>(corners[1], corners[0])),
+        r(difference<Real>(corners[2], corners[0])),
+        n(cross(p, r)),
+        p_size(size_of(p)),
+        r_size(size_of(r)),
+        n_size(cross_size(p_size, r_size)) {}
+};
+
+/// D at the samples of an image. Perspective: constant / varying(s); orthographic:
+/// varying(s) / constant. The divisor is n·d, as in Method above.
+template <class Real>
+struct DepthForms {
+  Form<Real> varying;
+  Certified<Real> constant;
+
+  [[nodiscard]] Certified<Real> at(const Sample& s, bool perspective) const {
+    const Certified<Real> value = varying.at(s);
+    return perspective ? quotient(constant, value) : quotient(value, constant);
+  }
+};
+
+/// What setting up forms needs beside the triangle.
+struct ImageBounds {
+  bool perspective;
+  double u, v;  // no sample's coordinates are greater
+};
+
+/// t = A − O and its size.
+template <class Real>
+Vector<Real> from_origin(const MeshPoint& A, const Rays& rays, Vector<double>& size) {
+  const Vector<Real> O = entries<Real>(rays.columns[3]);
+  size = {std::abs(A.x) + rays.sizes[3][0], std::abs(A.y) + rays.sizes[3][1],
+          std::abs(A.z) + rays.sizes[3][2]};
+  return {Real(A.x) - O[0], Real(A.y) - O[1], Real(A.z) - O[2]};
+}
+
+/// The triangle's corners safe, the object's rays usable.
+template <class Real>
+DepthForms<Real> depth_forms(const MeshTriangle& corners, const Rays& rays,
+                             const ImageBounds& image) {
+  constexpr double e = epsilon<Real> * slack;
+  const Edges<Real> edges(corners);
+  Vector<double> t_size;
+  const Vector<Real> t = from_origin<Real>(corners[0], rays, t_size);
+  const Real nt = dot(edges.n, t);
+  const double nt_size = dot(edges.n_size, t_size);
+  Vector<Real> nm;
+  Vector<double> nm_size;
+  for (std::size_t j = 0; j < 3; ++j) {
+    nm[j] = dot(edges.n, entries<Real>(rays.columns[j]));
+    nm_size[j] = dot(edges.n_size, rays.sizes[j]);
+  }
+  const double part = nm_size[0] * image.u + nm_size[1] * image.v;
+  if (image.perspective) {
+    return {{nm[0], nm[1], nm[2], 12 * e * (part + nm_size[2])}, {nt, 9 * e * nt_size}};
+  }
+  return {{-nm[0], -nm[1], nt, 12 * e * (part + nt_size)}, {nm[2], 9 * e * nm_size[2]}};
+}
+
+/// The weights of B and C: weights[0](s)/divisor(s), weights[1](s)/divisor(s).
+template <class Real>
+struct WeightForms {
+  std::array<Form<Real>, 2> weights;
+  Form<Real> divisor;  // constant under an orthographic camera
+
+  [[nodiscard]] Certified<Real> at(std::size_t k, const Sample& s) const {
+    return quotient(weights[k].at(s), divisor.at(s));
+  }
+};
+
+/// The form g·(u·m₀ + v·m₁ + m₂).
+template <class Real>
+Form<Real> form_along(const Vector<Real>& g, const Vector<double>& g_size, const Rays& rays,
+                      const ImageBounds& image) {
+  const auto along = [&](std::size_t j) { return dot(g, entries<Real>(rays.columns[j])); };
+  const auto size = [&](std::size_t j) { return dot(g_size, rays.sizes[j]); };
+  return {along(0), along(1), along(2),
+          12 * epsilon<Real> * slack * (size(0) * image.u + size(1) * image.v + size(2))};
+}
+
+/// The form y·(t − u·m₀ − v·m₁).
+template <class Real>
+Form<Real> form_across(const Vector<Real>& y, const Vector<double>& y_size, const Vector<Real>& t,
+                       const Vector<double>& t_size, const Rays& rays, const ImageBounds& image) {
+  const auto along = [&](std::size_t j) { return dot(y, entries<Real>(rays.columns[j])); };
+  const auto size = [&](std::size_t j) { return dot(y_size, rays.sizes[j]); };
+  return {
+      -along(0), -along(1), dot(y, t),
+      12 * epsilon<Real> * slack * (size(0) * image.u + size(1) * image.v + dot(y_size, t_size))};
+}
+
+/// The triangle's corners safe, the object's rays usable.
+/// Perspective: d·(r × t) with d varying. Orthographic: d = m₂ and t varies, and d·(r × t) =
+/// (d × r)·t, d·(t × p) = (p × d)·t.
+template <class Real>
+WeightForms<Real> weight_forms(const MeshTriangle& corners, const Rays& rays,
+                               const ImageBounds& image) {
+  const Edges<Real> edges(corners);
+  Vector<double> t_size;
+  const Vector<Real> t = from_origin<Real>(corners[0], rays, t_size);
+  if (image.perspective) {
+    const auto along = [&](const Vector<Real>& g, const Vector<double>& size) {
+      return form_along(g, size, rays, image);
+    };
+    return {{along(cross(edges.r, t), cross_size(edges.r_size, t_size)),
+             along(cross(t, edges.p), cross_size(t_size, edges.p_size))},
+            along(edges.n, edges.n_size)};
+  }
+  const Vector<Real> d = entries<Real>(rays.columns[2]);
+  const Vector<double>& d_size = rays.sizes[2];
+  const auto across = [&](const Vector<Real>& y, const Vector<double>& size) {
+    return form_across(y, size, t, t_size, rays, image);
+  };
+  return {
+      {across(cross(d, edges.r), cross_size(d_size, edges.r_size)),
+       across(cross(edges.p, d), cross_size(edges.p_size, d_size))},
+      {Real{}, Real{}, dot(edges.n, d), 12 * epsilon<Real> * slack * dot(edges.n_size, d_size)}};
+}
+
+/// Origin and direction of the ray of a sample. One of them varies over the image, as
+/// a + b·v + c·u: entries, one product, two sums. Errors are at most 4ε times RaySizes.
+template <class Real>
+struct Ray {
+  Vector<Real> origin, direction;
+};
+template <class Real>
+Ray<Real> ray_at(const Rays& rays, bool perspective, const Sample& s) {
+  const auto &m0 = rays.columns[0], &m1 = rays.columns[1], &m2 = rays.columns[2],
+             &O = rays.columns[3];
+  const auto varying = [&](const std::array<WordPair, 3>& constant) {
+    Vector<Real> sum;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum[i] = (entry<Real>(constant[i]) + entry<Real>(m1[i]) * s.v) + entry<Real>(m0[i]) * s.u;
+    }
+    return sum;
+  };
+  if (perspective) return {entries<Real>(O), varying(m2)};
+  return {varying(O), entries<Real>(m2)};
+}
+
+/// What the magnitudes of the terms of origin and direction add up to, at no sample more.
+struct RaySizes {
+  Vector<double> origin, direction;
+
+  RaySizes(const Rays& rays, const ImageBounds& image)
+      : origin(rays.sizes[3]), direction(rays.sizes[2]) {
+    Vector<double>& varying = image.perspective ? direction : origin;
+    for (std::size_t i = 0; i < 3; ++i) {
+      varying[i] += rays.sizes[0][i] * image.u + rays.sizes[1][i] * image.v;
+    }
+  }
+};
+
+/// Whether n = p × r has components that are exactly 0 for a reason that can be seen: one factor
+/// of either product is 0, or p and r are binary64 numbers and the two products are the same.
+template <class Real>
+std::array<bool, 3> zero_components(const Edges<Real>& edges) {
+  std::array<bool, 3> zero{};
+  for (std::size_t i = 0; i < 3; ++i) zero[i] = edges.n_size[i] == 0;
+  if constexpr (!std::is_same_v<Real, double>) {
+    const auto is_binary64 = [](const Vector<Real>& a) {
+      return a[0].lo == 0 && a[1].lo == 0 && a[2].lo == 0;
+    };
+    if (!is_binary64(edges.p) || !is_binary64(edges.r)) return zero;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      const WordPair x = two_product<false>(edges.p[j].hi, edges.r[k].hi);
+      const WordPair y = two_product<false>(edges.p[k].hi, edges.r[j].hi);
+      zero[i] = zero[i] || (x.hi == y.hi && x.lo == y.lo);
+    }
+  }
+  return zero;
+}
+
+/// The normal in the world, of any length and turned either way: components with errors.
+template <class Real>
+struct WorldNormal {
+  Vector<Real> n;
+  /// Errors are at most 4ε (placed as is) or 8ε (a dot product of cofactors, exact entries rounded
+  /// once, with the mesh's n) times this.
+  Vector<double> size;
+  double factor = 4;
+};
+
+template <class Real>
+WorldNormal<Real> world_normal(const MeshTriangle& corners, const ObjectRays& object) {
+  const Edges<Real> edges(corners);
+  const std::array<bool, 3> zero = zero_components(edges);
+  WorldNormal<Real> mesh{edges.n, edges.n_size};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (zero[i]) {
+      mesh.n[i] = 0.0;
+      mesh.size[i] = 0;
+    }
+  }
+  if (object.placed_as_is) return mesh;
+  WorldNormal<Real> placed;
+  for (std::size_t i = 0; i < 3; ++i) {
+    placed.n[i] = dot(entries<Real>(object.normal_matrix[i]), mesh.n);
+    placed.size[i] = dot(object.normal_sizes[i], mesh.size);
+  }
+  placed.factor = 8;
+  return placed;
+}
+
+/// The unit normal turned towards the camera, at a sample where the triangle is visible; every
+/// error +∞ where its turn is not certain. The triangle's corners safe, the object's rays and the
+/// world's usable.
+///
+/// Turn. Σe = det(H)·(n·d) and Δ = D·Σe for n and d of one frame (H the linear part of the map to
+/// (U, V, D), det H = fx·fy·det R in the world), and D > 0: so the specification's sign
+/// −sign(Δ)·sign(fx·fy·det R) is −sign(n·d). The products n·d err by (8 + 4 + 1)ε and two sums.
+///
+/// Length. Squares err by 2k + 1, sums by 2, the root by half of that and 1; but as the length's
+/// error comes from those of the components, it is counted so: |n̂| and |n| differ by at most the
+/// sum of the components' errors, and |n̂| is computed with an error of (3/2 + 1)ε; 3 is written.
+template <class Real>
+Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRays& object,
+                                    const ObjectRays& world, const ImageBounds& image,
+                                    const Sample& s) {
+  constexpr double e = epsilon<Real> * slack;
+  Vector<Certified<Real>> result;
+  WorldNormal<Real> normal = world_normal<Real>(corners, object);
+  const Vector<Real> d = ray_at<Real>(world.rays, image.perspective, s).direction;
+  const Vector<double> d_size = RaySizes(world.rays, image).direction;
+  const double nd = nearest(dot(normal.n, d));
+  if (!(std::abs(nd) > 15 * e * dot(normal.size, d_size))) return result;
+
+  const double greatest = std::max({normal.size[0], normal.size[1], normal.size[2]});
+  if (!(greatest >= 0x1p-250 && greatest <= 0x1p450)) return result;  // squares stay in range
+  Vector<double> error;
+  for (std::size_t i = 0; i < 3; ++i) error[i] = normal.factor * e * normal.size[i];
+  const Real length = square_root(dot(normal.n, normal.n));
+  const double length_error = (error[0] + error[1] + error[2]) + 3 * e * std::abs(nearest(length));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Real turned = nd > 0 ? -normal.n[i] : normal.n[i];
+    result[i] = quotient<Real>({turned, error[i]}, {length, length_error});
+    if (normal.size[i] == 0) result[i] = {Real(0.0), 0};
+  }
+  return result;
+}
+
+}  // namespace fathom

@@ -1,0 +1,272 @@
+#include "fathom/triangle/channels.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/numeric/rounding.h"
+
+namespace fathom {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+template <class T>
+ImageChannel filled(const std::string& name, std::size_t pixels, T background) {
+  Samples<T> values(pixels);
+  if (background != T{0}) {  // NaN too
+    // A huge page is zeroed by whoever touches it first, while others wait for it.
+    constexpr std::size_t part = (std::size_t{1} << 21) / sizeof(T);
+    tbb::parallel_for(std::size_t{0}, (pixels + part - 1) / part, [&](std::size_t i) {
+      std::fill(values.begin() + i * part, values.begin() + std::min(pixels, (i + 1) * part),
+                background);
+    });
+  }
+  return {name, std::move(values)};
+}
+
+ImageChannel depth_channel(const std::string& name, std::size_t pixels, DepthEncoding::Type type) {
+  switch (type) {
+    case DepthEncoding::Type::binary64:
+      return filled<double>(name, pixels, infinity);
+    case DepthEncoding::Type::scaled_unorm16:
+      return filled<std::uint16_t>(name, pixels, 0);
+    case DepthEncoding::Type::binary32:
+      break;
+  }
+  return filled<float>(name, pixels, infinity);
+}
+
+std::vector<ImageChannel> channels_for(Channel channel, std::size_t n, DepthEncoding::Type type) {
+  switch (channel) {
+    case Channel::Z:
+      return {depth_channel("Z", n, type)};
+    case Channel::A:
+      return {filled<float>("A", n, 0)};
+    case Channel::Zlow:
+      return {filled<float>("Zlow", n, 0)};
+    case Channel::distance:
+      return {depth_channel("distance", n, type)};
+    case Channel::id:
+      return {filled<std::uint32_t>("id", n, no_surface)};
+    case Channel::face:
+      return {filled<std::uint32_t>("face", n, no_surface)};
+    case Channel::object:
+      return {filled<std::uint32_t>("object", n, no_surface)};
+    case Channel::N:
+      return {filled<float>("N.X", n, 0), filled<float>("N.Y", n, 0), filled<float>("N.Z", n, 0)};
+    case Channel::P:
+      return {filled<float>("P.X", n, nan), filled<float>("P.Y", n, nan),
+              filled<float>("P.Z", n, nan)};
+    case Channel::bary:
+      return {filled<float>("bary.U", n, nan), filled<float>("bary.V", n, nan)};
+  }
+  return {};
+}
+
+/// Stores a non-negative quantity x, or √x where `root`, in the channel's type.
+std::optional<std::string> store(const EncodedValues& values, std::size_t pixel, const Ratio& x,
+                                 bool root, double scale) {
+  if (values.binary32) {
+    values.binary32[pixel] = root ? round_sqrt_to_binary32(x) : round_to_binary32(x);
+    return std::nullopt;
+  }
+  if (values.binary64) {
+    values.binary64[pixel] = root ? round_sqrt_to_binary64(x) : round_to_binary64(x);
+    return std::nullopt;
+  }
+  const Dyadic factor(scale);
+  const auto code = root ? round_sqrt_to_integer(x * Ratio(factor * factor), 65535)
+                         : round_to_integer(x * Ratio(factor), 65535);
+  if (!code) return "above 65535";
+  if (*code == 0) return "0, which means no surface";
+  values.codes[pixel] = static_cast<std::uint16_t>(*code);
+  return std::nullopt;
+}
+
+ImageChannel* channel(DepthMap& map, const std::string& name) {
+  for (ImageChannel& c : map.channels) {
+    if (c.name == name) return &c;
+  }
+  return nullptr;
+}
+
+/// The values of a channel if it exists and has this type.
+template <class T>
+T* values_of(DepthMap& map, const std::string& name) {
+  ImageChannel* c = channel(map, name);
+  auto* values = c ? std::get_if<Samples<T>>(&c->values) : nullptr;
+  return values ? values->data() : nullptr;
+}
+
+EncodedValues encoded_values_of(DepthMap& map, const std::string& name) {
+  return {values_of<float>(map, name), values_of<double>(map, name),
+          values_of<std::uint16_t>(map, name)};
+}
+
+}  // namespace
+
+void fail(const EncodingFault& fault, const DepthMap& map) {
+  throw OutputError("pixel (" + std::to_string(fault.pixel % map.width) + ", " +
+                    std::to_string(fault.pixel / map.width) + "): " + fault.why +
+                    "; choose another scale");
+}
+
+namespace {
+
+DepthMap make_map(const Camera& camera, const RenderOptions& options, bool fill_depth) {
+  DepthMap map;
+  map.width = camera.width;
+  map.height = camera.height;
+  const std::size_t pixels = static_cast<std::size_t>(camera.width) * camera.height;
+  std::vector<Channel> seen;
+  for (const Channel channel : options.channels) {
+    if (std::find(seen.begin(), seen.end(), channel) != seen.end()) continue;
+    seen.push_back(channel);
+    if (channel == Channel::Z && !fill_depth) {
+      map.channels.push_back({"Z", Samples<float>(pixels)});
+      continue;
+    }
+    for (ImageChannel& c : channels_for(channel, pixels, options.depth_encoding.type)) {
+      map.channels.push_back(std::move(c));
+    }
+  }
+  if (options.depth_encoding.type == DepthEncoding::Type::scaled_unorm16) {
+    map.png_scale = options.depth_encoding.scale;
+  }
+  return map;
+}
+
+}  // namespace
+
+DepthMap make_background(const Camera& camera, const RenderOptions& options) {
+  return make_map(camera, options, true);
+}
+
+DepthMap make_background_but_depth(const Camera& camera, const RenderOptions& options) {
+  return make_map(camera, options, options.depth_encoding.type != DepthEncoding::Type::binary32);
+}
+
+ChannelValues::ChannelValues(DepthMap& map)
+    : depth(encoded_values_of(map, "Z")),
+      distance(encoded_values_of(map, "distance")),
+      coverage(values_of<float>(map, "A")),
+      low(values_of<float>(map, "Zlow")),
+      id(values_of<std::uint32_t>(map, "id")),
+      face(values_of<std::uint32_t>(map, "face")),
+      object(values_of<std::uint32_t>(map, "object")),
+      normal{values_of<float>(map, "N.X"), values_of<float>(map, "N.Y"),
+             values_of<float>(map, "N.Z")},
+      position{values_of<float>(map, "P.X"), values_of<float>(map, "P.Y"),
+               values_of<float>(map, "P.Z")},
+      barycentric{values_of<float>(map, "bary.U"), values_of<float>(map, "bary.V")} {}
+
+ChannelWriter::ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
+                             const RenderOptions& options)
+    : triangles_(triangles),
+      perspective_(camera.projection == Projection::perspective),
+      encoding_(options.depth_encoding),
+      handedness_(Dyadic(camera.fx).sign() * Dyadic(camera.fy).sign() *
+                  determinant_of_rotation(camera).sign()),
+      values_(map) {}
+
+std::optional<EncodingFault> ChannelWriter::write(std::size_t pixel, const ProjectedTriangle& t,
+                                                  const ImagePoint& s) {
+  write_origin(pixel, t.number);
+  if (values_.normal[0]) write_normal(pixel, t);
+  for (std::size_t k = 0; values_.position[0] && k < 3; ++k) write_position(pixel, k, t, s);
+  for (std::size_t k = 0; values_.barycentric[0] && k < 2; ++k) write_barycentric(pixel, k, t, s);
+  if (values_.distance.wanted()) {
+    if (auto fault = write_distance(pixel, t, s)) return fault;
+  }
+  if (!values_.depth.wanted() && !values_.low) return std::nullopt;
+  const Ratio depth = depth_at(t, s);
+  if (values_.low) write_low_part(pixel, depth);
+  return values_.depth.wanted() ? write_depth(pixel, depth) : std::nullopt;
+}
+
+std::optional<EncodingFault> ChannelWriter::write_depth(std::size_t pixel,
+                                                        const ProjectedTriangle& t,
+                                                        const ImagePoint& s) {
+  return write_depth(pixel, depth_at(t, s));
+}
+
+void ChannelWriter::write_low_part(std::size_t pixel, const ProjectedTriangle& t,
+                                   const ImagePoint& s) {
+  write_low_part(pixel, depth_at(t, s));
+}
+
+std::optional<EncodingFault> ChannelWriter::write_depth(std::size_t pixel, const Ratio& depth) {
+  if (auto why = store(values_.depth, pixel, depth, false, encoding_.scale)) {
+    return EncodingFault{pixel, "depth " + to_decimal(depth, 6) + " would be the code " + *why};
+  }
+  return std::nullopt;
+}
+
+// The ray distance is √(x² + y² + z²) in the camera frame under perspective, z otherwise.
+std::optional<EncodingFault> ChannelWriter::write_distance(std::size_t pixel,
+                                                           const ProjectedTriangle& t,
+                                                           const ImagePoint& s) {
+  const auto& [A, B, C] = t.camera;
+  const Ratio z = depth_at(t, s);
+  Ratio value = z;
+  if (perspective_) {
+    const Ratio x = interpolate(t, s, {A.x, B.x, C.x});
+    const Ratio y = interpolate(t, s, {A.y, B.y, C.y});
+    // The three denominators are the same number.
+    value = {x.numerator * x.numerator + y.numerator * y.numerator + z.numerator * z.numerator,
+             z.denominator * z.denominator};
+  }
+  if (auto why = store(values_.distance, pixel, value, perspective_, encoding_.scale)) {
+    return EncodingFault{pixel, "the ray distance would be the code " + *why};
+  }
+  return std::nullopt;
+}
+
+void ChannelWriter::write_low_part(std::size_t pixel, const Ratio& depth) {
+  const float high = round_to_binary32(depth);
+  values_.low[pixel] = std::isinf(high) ? 0.0F : round_to_binary32(depth - Ratio(Dyadic(high)));
+}
+
+void ChannelWriter::write_origin(std::size_t pixel, std::uint32_t number) {
+  if (values_.id) values_.id[pixel] = number;
+  if (!values_.face && !values_.object) return;
+  const TriangleOrigin origin = triangles_.origin(number);
+  if (values_.face) values_.face[pixel] = origin.face;
+  if (values_.object) values_.object[pixel] = origin.object;
+}
+
+// n / |n| with n = ±(B − A) × (C − A): each component is ±√(nᵢ² / n·n).
+void ChannelWriter::write_normal(std::size_t pixel, const ProjectedTriangle& t) {
+  const auto& [A, B, C] = t.world;
+  const ExactVector3 n =
+      cross({B.x - A.x, B.y - A.y, B.z - A.z}, {C.x - A.x, C.y - A.y, C.z - A.z});
+  const Dyadic squared_length = dot(n, n);
+  const Sign turn = -t.orientation * handedness_;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float magnitude = round_sqrt_to_binary32({n[i] * n[i], squared_length});
+    values_.normal[i][pixel] = n[i].sign() * turn == Sign::negative ? -magnitude : magnitude;
+  }
+}
+
+void ChannelWriter::write_position(std::size_t pixel, std::size_t component,
+                                   const ProjectedTriangle& t, const ImagePoint& s) {
+  constexpr Dyadic WorldPoint::*coordinates[] = {&WorldPoint::x, &WorldPoint::y, &WorldPoint::z};
+  const auto coordinate = coordinates[component];
+  const auto& [A, B, C] = t.world;
+  values_.position[component][pixel] =
+      round_to_binary32(interpolate(t, s, {A.*coordinate, B.*coordinate, C.*coordinate}));
+}
+
+void ChannelWriter::write_barycentric(std::size_t pixel, std::size_t component,
+                                      const ProjectedTriangle& t, const ImagePoint& s) {
+  const double of_B = component == 0 ? 1 : 0;
+  values_.barycentric[component][pixel] =
+      round_to_binary32(interpolate(t, s, {0.0, of_B, 1 - of_B}));
+}
+
+}  // namespace fathom

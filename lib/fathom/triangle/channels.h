@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fathom/image/depth_map.h"
+#include "fathom/scene/triangle_source.h"
+#include "fathom/triangle/options.h"
+#include "fathom/triangle/projected_triangle.h"
+
+namespace fathom {
+
+/// A depth that the encoding cannot hold.
+struct EncodingFault {
+  std::size_t pixel = 0;  // row · width + column
+  std::string why;
+};
+
+/// Throws the OutputError of a depth that the encoding cannot hold; it names the pixel.
+[[noreturn]] void fail(const EncodingFault& fault, const DepthMap& map);
+
+/// The map of a scene without a visible surface: every channel asked for, once, with its
+/// background (specification, section 6), in the encoding asked for.
+DepthMap make_background(const Camera& camera, const RenderOptions& options);
+/// The same, but binary32 values of Z are left 0 for the caller to write, background too.
+DepthMap make_background_but_depth(const Camera& camera, const RenderOptions& options);
+
+/// Where the values of a channel that is encoded as DepthEncoding says are kept: one is not null,
+/// or none where the channel was not asked for.
+struct EncodedValues {
+  float* binary32 = nullptr;
+  double* binary64 = nullptr;
+  std::uint16_t* codes = nullptr;
+
+  [[nodiscard]] bool wanted() const { return binary32 || binary64 || codes; }
+};
+
+/// Where the values of a map's channels are kept; null where a channel was not asked for.
+struct ChannelValues {
+  explicit ChannelValues(DepthMap& map);
+
+  EncodedValues depth, distance;
+  /// Not the writer's to fill: A is no value of one surface.
+  float* coverage = nullptr;
+  float* low = nullptr;
+  std::uint32_t *id = nullptr, *face = nullptr, *object = nullptr;
+  std::array<float*, 3> normal{};
+  std::array<float*, 3> position{};
+  std::array<float*, 2> barycentric{};
+};
+
+/// Writes the values of one visible surface: exact numbers, each rounded once, here and nowhere
+/// else. Different pixels may be written at the same time.
+class ChannelWriter {
+ public:
+  ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
+                const RenderOptions& options);
+  /// Writes every channel. Returns what is wrong if the encoding cannot hold the depth.
+  std::optional<EncodingFault> write(std::size_t pixel, const ProjectedTriangle& triangle,
+                                     const ImagePoint& s);
+
+  /// For writing one channel, or a component of one: it must have been asked for.
+  [[nodiscard]] const ChannelValues& values() const { return values_; }
+  [[nodiscard]] double scale() const { return encoding_.scale; }
+  std::optional<EncodingFault> write_depth(std::size_t pixel, const ProjectedTriangle& triangle,
+                                           const ImagePoint& s);
+  std::optional<EncodingFault> write_distance(std::size_t pixel, const ProjectedTriangle& triangle,
+                                              const ImagePoint& s);
+  void write_low_part(std::size_t pixel, const ProjectedTriangle& triangle, const ImagePoint& s);
+  void write_normal(std::size_t pixel, const ProjectedTriangle& triangle);
+  void write_position(std::size_t pixel, std::size_t component, const ProjectedTriangle& triangle,
+                      const ImagePoint& s);
+  void write_barycentric(std::size_t pixel, std::size_t component,
+                         const ProjectedTriangle& triangle, const ImagePoint& s);
+
+ private:
+  std::optional<EncodingFault> write_depth(std::size_t pixel, const Ratio& depth);
+  void write_low_part(std::size_t pixel, const Ratio& depth);
+  void write_origin(std::size_t pixel, std::uint32_t number);
+
+  TriangleSource triangles_;
+  bool perspective_;
+  DepthEncoding encoding_;
+  /// sign(fx·fy·det R)
+  Sign handedness_;
+  ChannelValues values_;
+};
+
+}  // namespace fathom

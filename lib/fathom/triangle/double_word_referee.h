@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "fathom/triangle/double_word_surface.h"
+#include "fathom/triangle/projected_triangle.h"
+#include "fathom/triangle/rays.h"
+
+namespace fathom {
+
+/// Settles by double-words what binary64 did not: the tier before exact numbers. nullopt: not
+/// known. One for each thread: it remembers the triangles that it was asked about last.
+class WideReferee {
+ public:
+  explicit WideReferee(const SceneRays& rays);
+
+  /// Whether the triangle covers the sample, if that is certain without the top-left rule.
+  std::optional<bool> covers(std::uint32_t number, const ImagePoint& s);
+  /// −1, 1: D at a sample that the triangle covers is certainly less, greater than `limit`.
+  std::optional<int> compare_depth(std::uint32_t number, const ImagePoint& s, double limit);
+  /// −1, 1: D of `a` at a sample that both cover is certainly less, greater than that of `b`.
+  std::optional<int> compare_depths(std::uint32_t a, std::uint32_t b, const ImagePoint& s);
+  /// True only if both triangles certainly lie in one plane, so that they have the same D.
+  bool lie_in_one_plane(std::uint32_t a, std::uint32_t b);
+
+ private:
+  struct Triangle {
+    std::uint32_t number;
+    bool known = false, usable = false, has_depth = false;
+    std::uint32_t object_number = 0;
+    const ObjectRays* object = nullptr;
+    MeshTriangle corners;
+    DepthForms<WordPair> depth;
+  };
+  Triangle& remember(std::uint32_t number);
+  Certified<WordPair> depth_at(std::uint32_t number, const ImagePoint& s);
+
+  const SceneRays& rays_;
+  const WideArithmetic& wide_;
+  ImageBounds image_;
+  std::vector<Triangle> remembered_;
+};
+
+/// True only if the six points certainly lie in one plane: all points of one triangle are points of
+/// the other, or the coordinates have few bits and say so. Not: nothing is known.
+bool certainly_coplanar(const MeshTriangle& a, const MeshTriangle& b);
+
+}  // namespace fathom

@@ -1,0 +1,143 @@
+#include "fathom/triangle/projected_triangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+namespace {
+
+ExactVector3 operator*(Sign sign, ExactVector3 v) {
+  if (sign == Sign::negative) {
+    for (Dyadic& component : v) component = -component;
+  }
+  return v;
+}
+
+/// Left: l_u > 0. Top: l_u = 0 and l_v > 0. `l` is the edge function with its inside positive.
+bool is_left_or_top(const ExactVector3& l) {
+  if (l[0].sign() != Sign::zero) return l[0].sign() == Sign::positive;
+  return l[1].sign() == Sign::positive;
+}
+
+/// Σ aᵢ·lᵢ, the numerator of an interpolated value as a form on the image.
+ExactVector3 weighted_sum(const std::array<ImageForm, 3>& edges,
+                          const std::array<Dyadic, 3>& values) {
+  ExactVector3 sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += values[i] * edges[i].coefficients()[k];
+  }
+  return sum;
+}
+
+/// The integers in [0, count − 1] near an interval of the image, one more on each side, so that
+/// roundings of the ends do no harm. Sets last < first where there is none.
+void near(const Interval& range, std::uint32_t count, std::uint32_t& first, std::uint32_t& last) {
+  const double greatest = static_cast<double>(count) - 1;
+  const double low = std::floor(range.lower) - 1;
+  const double high = std::ceil(range.upper) + 1;
+  if (low > greatest || high < 0) return;
+  first = static_cast<std::uint32_t>(std::clamp(low, 0.0, greatest));
+  last = static_cast<std::uint32_t>(std::clamp(high, 0.0, greatest));
+}
+
+Interval hull(const Interval& a, const Interval& b) {
+  return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
+}
+
+}  // namespace
+
+std::array<WorldPoint, 3> world_corners(const Object& object, const Mesh& mesh,
+                                        std::uint32_t triangle) {
+  std::array<WorldPoint, 3> world;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const MeshPoint& p = mesh.vertices[mesh.triangles[triangle][i]];
+    world[i] = object.placed_as_is ? WorldPoint{p.x, p.y, p.z} : object.world_from_mesh(p);
+  }
+  return world;
+}
+
+ProjectedTriangle project(const std::array<WorldPoint, 3>& world, std::uint32_t number,
+                          const Camera& camera, TierCounts& counts) {
+  ProjectedTriangle t;
+  t.number = number;
+  t.world = world;
+  std::array<ExactVector3, 3> image;  // a, b, c
+  std::array<Dyadic, 3> depths;       // D_A, D_B, D_C
+  for (std::size_t i = 0; i < 3; ++i) {
+    t.camera[i] = to_camera(camera, world[i]);
+    const HomogeneousImagePoint p = to_image(camera, t.camera[i]);
+    image[i] = {p.U, p.V, p.W};
+    depths[i] = t.camera[i].z;
+  }
+  t.orientation = sign_of_determinant(image[0], image[1], image[2], counts);
+  if (t.orientation == Sign::zero) return t;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ExactVector3& from = image[(i + 1) % 3];
+    const ExactVector3& to = image[(i + 2) % 3];
+    t.edges[i] = ImageForm(t.orientation * cross(from, to));
+    t.left_or_top[i] = is_left_or_top(t.edges[i].coefficients());
+  }
+  t.depth_numerator = ImageForm(weighted_sum(t.edges, depths));
+  t.weight = ImageForm(weighted_sum(t.edges, {1.0, 1.0, 1.0}));
+  return t;
+}
+
+bool covers(const ProjectedTriangle& triangle, const ImagePoint& s, TierCounts& counts) {
+  if (triangle.orientation == Sign::zero) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Sign side = triangle.edges[i].sign_at(s.u, s.v, counts);
+    if (side == Sign::negative) return false;
+    if (side == Sign::zero && !triangle.left_or_top[i]) return false;
+  }
+  return true;
+}
+
+bool is_kept(const ProjectedTriangle& triangle, Cull cull) {
+  switch (cull) {
+    case Cull::back:
+      return triangle.orientation == Sign::negative;
+    case Cull::front:
+      return triangle.orientation == Sign::positive;
+    case Cull::none:
+      break;
+  }
+  return true;
+}
+
+Ratio interpolate(const ProjectedTriangle& triangle, const ImagePoint& s,
+                  const std::array<Dyadic, 3>& corner_values) {
+  Dyadic numerator, denominator;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Dyadic e = triangle.edges[i].at(s.u, s.v);
+    numerator += e * corner_values[i];
+    denominator += e;
+  }
+  return {numerator, denominator};
+}
+
+Ratio depth_at(const ProjectedTriangle& triangle, const ImagePoint& s) {
+  return {triangle.depth_numerator.at(s.u, s.v), triangle.weight.at(s.u, s.v)};
+}
+
+PixelBox bounding_box(const ProjectedTriangle& triangle, const Camera& camera) {
+  PixelBox box;
+  std::array<HomogeneousImagePoint, 3> corners;
+  int in_front = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners[i] = to_image(camera, triangle.camera[i]);
+    if (corners[i].W.sign() == Sign::positive) ++in_front;
+  }
+  if (in_front == 0) return box;
+  if (in_front < 3) return {0, camera.width - 1, 0, camera.height - 1};
+  std::array<Interval, 3> u, v;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Interval W = enclose(corners[i].W);
+    u[i] = quotient(enclose(corners[i].U), W);
+    v[i] = quotient(enclose(corners[i].V), W);
+  }
+  near(hull(hull(u[0], u[1]), u[2]), camera.width, box.first_column, box.last_column);
+  near(hull(hull(v[0], v[1]), v[2]), camera.height, box.first_row, box.last_row);
+  return box;
+}
+
+}  // namespace fathom

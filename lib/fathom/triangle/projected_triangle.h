@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "fathom/camera/camera.h"
+#include "fathom/numeric/certified.h"
+#include "fathom/scene/scene.h"
+#include "fathom/triangle/options.h"
+
+namespace fathom {
+
+/// A triangle of the scene seen by a camera, all exact (specification, sections 4 and 5, same
+/// symbols). It holds what coverage and depth at a sample need.
+struct ProjectedTriangle {
+  std::uint32_t number = 0;
+  std::array<WorldPoint, 3> world;
+  std::array<CameraPoint, 3> camera;
+
+  /// sign(Δ); zero if the triangle is seen edge on, and then nothing below is set.
+  Sign orientation = Sign::zero;
+  /// sign(Δ)·(b × c), sign(Δ)·(c × a), sign(Δ)·(a × b): the edge functions e_A, e_B, e_C times
+  /// sign(Δ), so that the inside of every edge is positive.
+  std::array<ImageForm, 3> edges;
+  std::array<bool, 3> left_or_top{};
+  /// D(s) = depth_numerator(s) / weight(s); weight = e_A + e_B + e_C, positive where covered.
+  ImageForm depth_numerator;
+  ImageForm weight;
+
+  [[nodiscard]] bool front_facing() const { return orientation == Sign::negative; }
+};
+
+/// The three corners of a triangle in the world.
+std::array<WorldPoint, 3> world_corners(const Object& object, const Mesh& mesh,
+                                        std::uint32_t triangle);
+
+/// Projects a triangle of the scene. `counts` counts how Δ was decided.
+ProjectedTriangle project(const std::array<WorldPoint, 3>& world, std::uint32_t number,
+                          const Camera& camera, TierCounts& counts);
+
+/// Whether the triangle covers the sample (specification, section 4).
+bool covers(const ProjectedTriangle& triangle, const ImagePoint& s, TierCounts& counts);
+
+/// Whether culling keeps a triangle.
+bool is_kept(const ProjectedTriangle& triangle, Cull cull);
+
+/// Σ eᵢ·aᵢ / Σ eᵢ at a covered sample: perspective-correct interpolation of corner values.
+Ratio interpolate(const ProjectedTriangle& triangle, const ImagePoint& s,
+                  const std::array<Dyadic, 3>& corner_values);
+
+/// D(s) at a covered sample, exactly.
+Ratio depth_at(const ProjectedTriangle& triangle, const ImagePoint& s);
+
+/// Rows and columns of the image outside which a triangle covers no sample that counts;
+/// first > last where there is none.
+struct PixelBox {
+  std::uint32_t first_column = 1, last_column = 0;
+  std::uint32_t first_row = 1, last_row = 0;
+  [[nodiscard]] bool contains(std::uint32_t column, std::uint32_t row) const {
+    return first_column <= column && column <= last_column && first_row <= row && row <= last_row;
+  }
+  [[nodiscard]] bool is_empty() const { return first_column > last_column || first_row > last_row; }
+};
+
+/// A certified box: from the corners' images where all lie in front of the camera; empty where
+/// none does (every point of the triangle then has D ≤ 0); otherwise the whole image.
+PixelBox bounding_box(const ProjectedTriangle& triangle, const Camera& camera);
+
+}  // namespace fathom

@@ -1,0 +1,125 @@
+#include "fathom/triangle/referee.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace fathom {
+namespace {
+
+/// About 5 kB each.
+constexpr std::size_t most_remembered = 2048;
+
+/// Whether D of both is the same function on the image: n_a·w_b = n_b·w_a as polynomials. Of n and
+/// w one is constant, the same for both (|Δ|: w under an orthographic, n under a perspective
+/// camera), so three products of coefficients are compared.
+bool in_one_plane(const ProjectedTriangle& a, const ProjectedTriangle& b, bool perspective) {
+  const auto varying = [&](const ProjectedTriangle& t) -> const ExactVector3& {
+    return (perspective ? t.weight : t.depth_numerator).coefficients();
+  };
+  const auto constant = [&](const ProjectedTriangle& t) -> const Dyadic& {
+    return (perspective ? t.depth_numerator : t.weight).coefficients()[2];
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (compare(varying(a)[k] * constant(b), varying(b)[k] * constant(a)) != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void Referee::make_room() {
+  if (remembered_.size() + 2 > most_remembered) remembered_.clear();
+}
+
+const ProjectedTriangle& Referee::remember(std::uint32_t number) {
+  auto& slot = remembered_[number];
+  if (!slot) {
+    TierCounts counted_before;  // facing is counted when triangles are binned
+    slot = std::make_unique<ProjectedTriangle>(
+        project(triangles_.world_corners(number), number, camera_, counted_before));
+  }
+  return *slot;
+}
+
+const ProjectedTriangle& Referee::projected(std::uint32_t number) {
+  make_room();
+  return remember(number);
+}
+
+// The sign of Δ was certain when the triangle was binned, so that double-words need not ask for it.
+bool Referee::covers(std::uint32_t number, const ImagePoint& s, RenderStatistics& statistics) {
+  ++statistics.edges.exact;
+  if (wide_) {
+    if (const auto certain = wide_->covers(number, s)) {
+      ++statistics.double_words;
+      return *certain;
+    }
+  }
+  TierCounts within;
+  return fathom::covers(projected(number), s, within);
+}
+
+std::optional<bool> Referee::is_in_range_by_double_words(std::uint32_t number,
+                                                         const ImagePoint& s) {
+  const auto from_zero = wide_->compare_depth(number, s, 0);
+  if (from_zero && *from_zero < 0) return false;
+  const auto from_near =
+      camera_.near > 0 ? wide_->compare_depth(number, s, camera_.near) : from_zero;
+  if (from_near && *from_near < 0) return false;
+  const auto from_far = camera_.far < std::numeric_limits<double>::infinity()
+                            ? wide_->compare_depth(number, s, camera_.far)
+                            : std::optional(-1);
+  if (from_far && *from_far > 0) return false;
+  if (from_zero && from_near && from_far) return true;
+  return std::nullopt;
+}
+
+bool Referee::is_in_range(std::uint32_t number, const ImagePoint& s, RenderStatistics& statistics) {
+  ++statistics.range.exact;
+  if (wide_) {
+    if (const auto certain = is_in_range_by_double_words(number, s)) {
+      ++statistics.double_words;
+      return *certain;
+    }
+  }
+  const Ratio depth = depth_at(projected(number), s);
+  if (depth.sign() != Sign::positive) return false;
+  if (compare(depth, Ratio(Dyadic(camera_.near))) < 0) return false;
+  return camera_.far == std::numeric_limits<double>::infinity() ||
+         compare(depth, Ratio(Dyadic(camera_.far))) <= 0;
+}
+
+/// Of triangles that are not degenerate.
+bool Referee::lie_in_one_plane(std::uint32_t a, std::uint32_t b) {
+  if (wide_ && wide_->lie_in_one_plane(a, b)) return true;
+  make_room();
+  const ProjectedTriangle& ta = remember(a);
+  return in_one_plane(ta, remember(b), camera_.projection == Projection::perspective);
+}
+
+bool Referee::hides(std::uint32_t a, std::uint32_t b, const ImagePoint& s,
+                    RenderStatistics& statistics) {
+  ++statistics.visibility.exact;
+  const bool asked_before = first_ == std::min(a, b) && second_ == std::max(a, b);
+  if (wide_ && !(asked_before && same_plane_)) {
+    if (const auto order = wide_->compare_depths(a, b, s)) {
+      ++statistics.double_words;
+      return *order < 0;
+    }
+  }
+  if (!asked_before) {
+    first_ = std::min(a, b);
+    second_ = std::max(a, b);
+    same_plane_ = lie_in_one_plane(a, b);
+  }
+  if (same_plane_) {
+    ++statistics.same_plane;
+    return a < b;
+  }
+  make_room();
+  const ProjectedTriangle& ta = remember(a);
+  const int order = compare(depth_at(ta, s), depth_at(remember(b), s));
+  return order < 0 || (order == 0 && a < b);
+}
+
+}  // namespace fathom

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+
+#include "fathom/scene/triangle_source.h"
+#include "fathom/triangle/double_word_referee.h"
+#include "fathom/triangle/options.h"
+#include "fathom/triangle/projected_triangle.h"
+
+namespace fathom {
+
+/// Settles by exact numbers what a bound did not settle. One for each thread: it remembers the
+/// triangles that it was asked about last.
+class Referee {
+ public:
+  /// With `rays`, double-words are asked before exact numbers.
+  Referee(const TriangleSource& triangles, const Camera& camera, const SceneRays* rays = nullptr)
+      : triangles_(triangles), camera_(camera) {
+    if (rays) wide_.emplace(*rays);
+  }
+
+  /// Valid until the next question.
+  const ProjectedTriangle& projected(std::uint32_t number);
+
+  bool covers(std::uint32_t number, const ImagePoint& s, RenderStatistics& statistics);
+  /// D > 0 and near ≤ D ≤ far, at a covered sample.
+  bool is_in_range(std::uint32_t number, const ImagePoint& s, RenderStatistics& statistics);
+  /// Whether, at a sample that both cover, `a` hides `b`: its D is less, or equal with the lower
+  /// number.
+  bool hides(std::uint32_t a, std::uint32_t b, const ImagePoint& s, RenderStatistics& statistics);
+
+ private:
+  /// Forgets all if there is no room for two more.
+  void make_room();
+  const ProjectedTriangle& remember(std::uint32_t number);
+  bool lie_in_one_plane(std::uint32_t a, std::uint32_t b);
+  std::optional<bool> is_in_range_by_double_words(std::uint32_t number, const ImagePoint& s);
+
+  TriangleSource triangles_;
+  const Camera& camera_;
+  std::optional<WideReferee> wide_;
+  std::unordered_map<std::uint32_t, std::unique_ptr<ProjectedTriangle>> remembered_;
+  /// The pair asked about last, lower number first, and whether they lie in one plane.
+  std::uint32_t first_ = 0, second_ = 0;
+  bool same_plane_ = false;
+};
+
+}  // namespace fathom
