@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fathom {
+namespace fathom::area {
 namespace {
 
 /// x_i·y_j − x_j·y_i
@@ -59,4 +59,4 @@ bool ConvexPolygon::clip(const HalfPlane& h, TierCounts& counts) {
   return true;
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

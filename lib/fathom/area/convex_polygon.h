@@ -5,7 +5,7 @@
 
 #include "fathom/area/half_plane.h"
 
-namespace fathom {
+namespace fathom::area {
 
 /// A box that certainly contains a polygon.
 struct BoundingRectangle {
@@ -58,4 +58,4 @@ struct CertifiedPoint {
 };
 CertifiedPoint approximate_crossing(const HalfPlane& a, const HalfPlane& b);
 
-}  // namespace fathom
+}  // namespace fathom::area

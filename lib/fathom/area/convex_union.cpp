@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-namespace fathom {
+namespace fathom::area {
 namespace {
 
 /// A part of the line of an edge, between two crossings.
@@ -147,7 +147,7 @@ Boundary boundary_of_difference(const ConvexPolygon& subject,
 // Green's theorem: the area is ½·Σ p × q over the segments from p to q. On the line
 // e: e_u·u + e_v·v + e_w = 0, q = p + (τ(to) − τ(from))·(e_v, −e_u), so that
 // p × q = (τ(to) − τ(from))·e_w, with the τ of compare_crossings().
-Ratio area(const Boundary& boundary) {
+Ratio exact_area(const Boundary& boundary) {
   std::vector<Ratio> terms;
   for (const BoundarySegment& s : boundary) {
     const Dyadic& e_w = s.line->exact()[2];
@@ -175,4 +175,4 @@ Certified<double> approximate_area(const Boundary& boundary) {
   return twice * Certified<double>{0.5, 0};
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

@@ -15,6 +15,9 @@
 // triangle near it is asked whether it lies close behind where the first is visible; of the pairs
 // that do, each pixel is asked the same.
 namespace fathom {
+using namespace area;
+using namespace triangle;
+
 namespace {
 
 bool share_a_corner(const std::array<WorldPoint, 3>& a, const std::array<WorldPoint, 3>& b) {

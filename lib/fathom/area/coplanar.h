@@ -5,7 +5,7 @@
 #include "fathom/camera/camera.h"
 #include "fathom/scene/triangle_source.h"
 #include "fathom/triangle/options.h"
-#include "fathom/triangle/projected_triangle.h"
+#include "fathom/geometry/pixel_box.h"
 
 namespace fathom {
 

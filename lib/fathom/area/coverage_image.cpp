@@ -7,7 +7,9 @@
 
 #include "fathom/triangle/triangle_boxes.h"
 
-namespace fathom {
+namespace fathom::area {
+using namespace triangle;
+
 namespace {
 
 constexpr std::uint32_t triangles_of_file = 1U << 19;
@@ -110,4 +112,4 @@ TierCounts write_coverage(const CoverageFrame& frame, float* values,
   return sum;
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

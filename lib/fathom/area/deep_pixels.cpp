@@ -9,7 +9,9 @@
 #include "fathom/numeric/rounding.h"
 #include "fathom/triangle/threads.h"
 
-namespace fathom {
+namespace fathom::area {
+using namespace triangle;
+
 namespace {
 
 /// What of a triangle is visible in a pixel.
@@ -66,7 +68,7 @@ float rounded(const Certified<double>& approximate, const std::function<Ratio()>
 
 Ratio sum_of_areas(std::span<const Fragment> fragments) {
   Ratio sum;
-  for (const Fragment& f : fragments) sum = sum + area(f.boundary);
+  for (const Fragment& f : fragments) sum = sum + exact_area(f.boundary);
   return sum;
 }
 
@@ -80,8 +82,8 @@ float alpha(std::span<const Fragment> from_here, const Boundary& uncovered) {
   for (const Fragment& b : behind) rest = rest + b.approximate_area;
   const Certified<double> one{1, 0};
   return rounded(one / (one + rest / f.approximate_area), [&] {
-    const Ratio a = area(f.boundary);
-    const Ratio sum = sum_of_areas(from_here) + area(uncovered);
+    const Ratio a = exact_area(f.boundary);
+    const Ratio sum = sum_of_areas(from_here) + exact_area(uncovered);
     return Ratio(a.numerator * sum.denominator, a.denominator * sum.numerator);
   });
 }
@@ -103,7 +105,7 @@ std::vector<DeepSample> deep_samples(ImageCell& pixel, PixelSurfaces surfaces) {
   std::vector<DeepSample> samples;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     DeepSample sample = order[i].first;
-    sample.area = rounded(sorted[i].approximate_area, [&] { return area(sorted[i].boundary); });
+    sample.area = rounded(sorted[i].approximate_area, [&] { return exact_area(sorted[i].boundary); });
     sample.A = alpha(std::span(sorted).subspan(i), surfaces.uncovered);
     samples.push_back(sample);
   }
@@ -185,4 +187,4 @@ Mattes mattes_in_pixels(const TriangleSource& triangles, const Camera& camera,
   return mattes;
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

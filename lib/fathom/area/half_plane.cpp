@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-namespace fathom {
+namespace fathom::area {
 namespace {
 
 constexpr double u = unit_roundoff<double>;
@@ -137,4 +137,4 @@ Sign side_of_crossing(const HalfPlane& m, const HalfPlane& e, const HalfPlane& a
   return sign_of_determinant(e, at, m, counts) * sign_of_turn(e, at, counts);
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

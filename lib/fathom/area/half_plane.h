@@ -6,7 +6,7 @@
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/certified_arithmetic.h"
 
-namespace fathom {
+namespace fathom::area {
 
 /// The points (u, v) with l_u·u + l_v·v + l_w ≥ 0, exactly; its line is l = 0. The normal
 /// (l_u, l_v) is not zero, but in forms of which nothing but determinants is asked.
@@ -63,4 +63,4 @@ Sign compare_crossings(const HalfPlane& e, const HalfPlane& m, const HalfPlane& 
 Sign side_of_crossing(const HalfPlane& m, const HalfPlane& e, const HalfPlane& at,
                       TierCounts& counts);
 
-}  // namespace fathom
+}  // namespace fathom::area

@@ -16,6 +16,9 @@
 // How to read this file: add_sampled_coverage() at the end is the whole story. Bands of rows are
 // filled one by one: each triangle is tried at the samples of its box that no other has covered.
 namespace fathom {
+using namespace area;
+using namespace triangle;
+
 namespace {
 
 constexpr std::size_t most_samples = 256;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
-namespace fathom {
+namespace fathom::area {
+using namespace triangle;
+
 namespace {
 
 bool meet(const PixelBox& a, const PixelBox& b) {
@@ -55,4 +57,4 @@ std::vector<std::uint32_t> SceneSurfaces::near(std::uint32_t number) const {
   return found;
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

@@ -13,6 +13,9 @@
 #include "fathom/triangle/threads.h"
 
 namespace fathom {
+using namespace area;
+using namespace triangle;
+
 namespace {
 
 /// Exact areas of a triangle.
@@ -76,7 +79,7 @@ class SceneAreas {
     ExactAreas areas;
     const ConvexPolygon polygons[] = {all.polygon(0)};
     TierCounts counts;
-    areas.unoccluded = area(boundary_of_union(polygons, counts));
+    areas.unoccluded = exact_area(boundary_of_union(polygons, counts));
     const bool others_hide = in_object.size() < all.size();
     areas.visible = visible_parts(std::move(all), areas.unoccluded);
     areas.in_object =
@@ -94,7 +97,7 @@ class SceneAreas {
       for (std::size_t piece = 0; piece < part.size(); ++piece) {
         if (&part.surface(piece) != &surface) continue;
         const Boundary boundary = part.visible(piece);
-        if (!boundary.empty()) parts.push_back(area(boundary));
+        if (!boundary.empty()) parts.push_back(exact_area(boundary));
       }
     });
     return parts;

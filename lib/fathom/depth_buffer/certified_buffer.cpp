@@ -18,7 +18,10 @@
 // How to read this file: fill_certified() at the end is the whole story; exact_buffer.cpp says the
 // same without bounds. Each value is asked of binary64, then of double-words, then of exact
 // numbers.
-namespace fathom {
+namespace fathom::depth_buffer {
+using namespace area;
+using namespace triangle;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -209,4 +212,4 @@ DepthBufferStatistics fill_certified(const BufferWork& work) {
   return sum_of(parts);
 }
 
-}  // namespace fathom
+}  // namespace fathom::depth_buffer

@@ -11,7 +11,10 @@
 
 // How to read this file: fill_exactly() at the end is the whole story. Every number is exact and
 // rounded once.
-namespace fathom {
+namespace fathom::depth_buffer {
+using namespace area;
+using namespace triangle;
+
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -106,4 +109,4 @@ DepthBufferStatistics fill_exactly(const BufferWork& work) {
   return sum_of(parts);
 }
 
-}  // namespace fathom
+}  // namespace fathom::depth_buffer

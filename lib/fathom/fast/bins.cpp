@@ -9,7 +9,8 @@
 #include "fathom/fast/boxes.h"
 #include "fathom/fast/tile.h"
 
-namespace fathom {
+namespace fathom::fast {
+using namespace triangle;
 
 ImageObject::ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
                          std::uint32_t first_triangle)
@@ -132,4 +133,4 @@ void Bins::sort(std::uint32_t tiles) {
   entries_ = {};
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -6,10 +6,12 @@
 #include "fathom/fast/certified_writer_pixel.h"
 
 // How to read this file: CertifiedWriter::write() is the list of channels. What follows from q
-// alone is rounded for a whole row (fast_channel_rows); for the rest Pixel has a function for each
-// channel, which goes through the tiers (fast_channel_pixel). Values and their bounds come from
-// fast_surface.h and fast_wide.h, roundings from certified_rounding.h.
-namespace fathom {
+// alone is rounded for a whole row (channel_rows); for the rest Pixel has a function for each
+// channel, which goes through the tiers (certified_writer_pixel). Values and their bounds come from
+// triangle/certified_surface.h and triangle/double_word_surface.h, roundings from certified_rounding.h.
+namespace fathom::fast {
+using namespace triangle;
+
 namespace {
 
 template <class Visit>
@@ -153,4 +155,4 @@ std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Refer
   return std::nullopt;
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -11,7 +11,7 @@
 #include "fathom/triangle/recent_triangles.h"
 #include "fathom/triangle/referee.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 /// A visible surface at a pixel.
 struct VisibleSurface {
@@ -46,11 +46,11 @@ struct VisibleRow {
 /// One for each thread: it remembers the triangles that it was asked about last.
 class CertifiedWriter {
  public:
-  CertifiedWriter(ChannelWriter& exact, const SceneRays& rays);
+  CertifiedWriter(triangle::ChannelWriter& exact, const triangle::SceneRays& rays);
 
   /// Returns what is wrong if the encoding cannot hold a depth, of the first such pixel.
   /// `statistics.rounding` counts values.
-  std::optional<EncodingFault> write(const VisibleRow& row, Referee& referee,
+  std::optional<triangle::EncodingFault> write(const VisibleRow& row, triangle::Referee& referee,
                                      RenderStatistics& statistics);
 
  private:
@@ -60,13 +60,13 @@ class CertifiedWriter {
     bool has_weights = false, has_depth = false, has_normal = false;
     std::uint8_t constants_known = 0;  // bit k: constant[k] was looked for
     TriangleOrigin origin;
-    const ObjectRays* object = nullptr;
-    MeshTriangle corners;
+    const triangle::ObjectRays* object = nullptr;
+    triangle::MeshTriangle corners;
     std::array<float, 3> normal;
     /// World x, y, z and depth, where they are found to be the same at all three corners.
     std::array<std::optional<WordPair>, 4> constant;
-    WeightForms<double> weights;
-    DepthForms<WordPair> depth;
+    triangle::WeightForms<double> weights;
+    triangle::DepthForms<WordPair> depth;
   };
   class Pixel;
   struct Open;
@@ -74,23 +74,23 @@ class CertifiedWriter {
   /// id, face and object.
   void write_origins(const VisibleRow& row) const;
   /// The normal is the same at all pixels of a triangle.
-  void write_normals(const VisibleRow& row, Referee& referee, RenderStatistics& statistics);
+  void write_normals(const VisibleRow& row, triangle::Referee& referee, RenderStatistics& statistics);
   /// Writes what follows from number and q; returns what is left.
   Open write_settled(const VisibleRow& row, RenderStatistics& statistics) const;
-  std::uint64_t write_encoded(const VisibleRow& row, const EncodedValues& values, bool distance,
+  std::uint64_t write_encoded(const VisibleRow& row, const triangle::EncodedValues& values, bool distance,
                               RenderStatistics& statistics) const;
 
   Triangle& remember(std::uint32_t number);
 
-  ChannelWriter& exact_;
-  const ChannelValues values_;
-  const SceneRays& rays_;
-  const WideArithmetic& wide_;
-  ImageBounds image_;
-  RaySizes world_sizes_;
+  triangle::ChannelWriter& exact_;
+  const triangle::ChannelValues values_;
+  const triangle::SceneRays& rays_;
+  const triangle::WideArithmetic& wide_;
+  triangle::ImageBounds image_;
+  triangle::RaySizes world_sizes_;
   /// Whether a channel was asked for that is not written by rows.
   bool each_pixel_;
-  RecentTriangles<Triangle, 512> remembered_;
+  triangle::RecentTriangles<Triangle, 512> remembered_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -7,11 +7,11 @@
 #include "fathom/fast/certified_writer.h"
 #include "fathom/numeric/last_bit.h"
 
-// For fast_channels.cpp alone.
-namespace fathom {
+// For certified_writer.cpp alone.
+namespace fathom::fast {
 
 /// A double-word that is exact and of one word makes a product with `scale` that is exact.
-inline bool store(const EncodedValues& values, std::size_t pixel, const Certified<WordPair>& x,
+inline bool store(const triangle::EncodedValues& values, std::size_t pixel, const Certified<WordPair>& x,
                   double scale) {
   if (values.binary32) {
     const auto rounded = to_binary32(x.value, x.error);
@@ -33,7 +33,7 @@ inline bool store(const EncodedValues& values, std::size_t pixel, const Certifie
 }
 
 /// At least |n·d| at a sample: from the leading words, whose own errors are 3u of the terms.
-inline double divisor_size(const DepthForms<WordPair>& depth, const ImagePoint& s,
+inline double divisor_size(const triangle::DepthForms<WordPair>& depth, const ImagePoint& s,
                            bool perspective) {
   if (!perspective) return std::abs(depth.constant.value.hi) * slack + depth.constant.error;
   const auto& [a, b, c, error] = depth.varying;
@@ -41,11 +41,11 @@ inline double divisor_size(const DepthForms<WordPair>& depth, const ImagePoint& 
   return std::abs((c.hi + b.hi * s.v) + a.hi * s.u) + terms * 0x1p-50 + error;
 }
 
-/// One pixel while it is written: what the binary64 tier of fast_channel_rows.h did not settle, or
+/// One pixel while it is written: what the binary64 tier of channel_rows.h did not settle, or
 /// does not know. What several channels need is computed when first asked for.
 class CertifiedWriter::Pixel {
  public:
-  Pixel(CertifiedWriter& writer, const VisibleSurface& surface, Referee& referee,
+  Pixel(CertifiedWriter& writer, const VisibleSurface& surface, triangle::Referee& referee,
         RenderStatistics& statistics)
       : writer_(writer),
         values_(writer.values_),
@@ -108,13 +108,13 @@ class CertifiedWriter::Pixel {
     writer_.exact_.write_barycentric(surface_.pixel, k, projected(), sample());
   }
 
-  std::optional<EncodingFault> write_depth() {
+  std::optional<triangle::EncodingFault> write_depth() {
     if (store_depth(values_.depth)) return std::nullopt;
     return writer_.exact_.write_depth(surface_.pixel, projected(), sample());
   }
 
   /// Perspective: depth times the length of the ray at depth 1. Orthographic: the depth.
-  std::optional<EncodingFault> write_distance() {
+  std::optional<triangle::EncodingFault> write_distance() {
     if (!writer_.image_.perspective) {
       if (store_depth(values_.distance)) return std::nullopt;
     } else if (store_distance()) {
@@ -150,7 +150,7 @@ class CertifiedWriter::Pixel {
     if (!triangle_) triangle_ = &writer_.remember(surface_.triangle);
     return *triangle_;
   }
-  const ProjectedTriangle& projected() { return referee_.projected(surface_.triangle); }
+  const triangle::ProjectedTriangle& projected() { return referee_.projected(surface_.triangle); }
   [[nodiscard]] ImagePoint sample() const { return {s_.u, s_.v}; }
 
   /// Each component in its own tier; needs any pixel at which the triangle is visible.
@@ -158,7 +158,7 @@ class CertifiedWriter::Pixel {
     Triangle& t = triangle();
     std::array<bool, 3> known{};
     if (t.usable) {
-      const ObjectRays& world = writer_.rays_.world();
+      const triangle::ObjectRays& world = writer_.rays_.world();
       const auto narrow = unit_normal<double>(t.corners, *t.object, world, writer_.image_, s_);
       std::optional<Vector<Certified<WordPair>>> wide;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -180,7 +180,7 @@ class CertifiedWriter::Pixel {
     for (std::size_t i = 0; i < 3; ++i) t.normal[i] = values_.normal[i][surface_.pixel];
   }
 
-  bool store_depth(const EncodedValues& values) {
+  bool store_depth(const triangle::EncodedValues& values) {
     const double scale = writer_.exact_.scale();
     if (triangle().usable &&
         (store(values, surface_.pixel, wide_depth(), scale) ||
@@ -194,7 +194,7 @@ class CertifiedWriter::Pixel {
   }
 
   bool store_distance() {
-    const EncodedValues& values = values_.distance;
+    const triangle::EncodedValues& values = values_.distance;
     const double scale = writer_.exact_.scale();
     if (triangle().usable) {
       const auto wide = [&](const Certified<WordPair>& depth) {
@@ -261,7 +261,7 @@ class CertifiedWriter::Pixel {
     Triangle& t = triangle();
     if ((t.constants_known >> k & 1) == 0) {
       t.constants_known |= static_cast<std::uint8_t>(1U << k);
-      const ExactRow& row = k < 3 ? t.object->world_rows[k] : t.object->image_rows[2];
+      const triangle::ExactRow& row = k < 3 ? t.object->world_rows[k] : t.object->image_rows[2];
       const auto at_A = row.value_at(t.corners[0]);
       const auto is_at = [&](const MeshPoint& X) {
         const auto value = row.value_at(X);
@@ -274,7 +274,7 @@ class CertifiedWriter::Pixel {
 
   // Values that are exactly 0. At a sample every interpolated value is Σ eᵢ·xᵢ / Σ eᵢ. The
   // coordinates of the corners are multiples of some powers of two, and so are U, V, W, the edge
-  // functions eᵢ and the numerator; Σ eᵢ = det(H)·(n·d) up to its sign (fast_surface.h). So
+  // functions eᵢ and the numerator; Σ eᵢ = det(H)·(n·d) up to its sign (triangle/certified_surface.h). So
   // |value|·|det H|·|n·d| is |numerator|, and if a bound of it is below the power of two of which
   // the numerator is a multiple, the value is 0.
 
@@ -315,9 +315,9 @@ class CertifiedWriter::Pixel {
   }
 
   CertifiedWriter& writer_;
-  const ChannelValues& values_;
+  const triangle::ChannelValues& values_;
   const VisibleSurface& surface_;
-  Referee& referee_;
+  triangle::Referee& referee_;
   RenderStatistics& statistics_;
   ImagePoint s_;
   Triangle* triangle_ = nullptr;
@@ -329,4 +329,4 @@ class CertifiedWriter::Pixel {
   std::optional<std::array<long, 3>> corner_bits_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -6,7 +6,9 @@
 #include "fathom/numeric/rounding.h"
 
 // Setups from exact forms: every coefficient is exact and rounded once.
-namespace fathom {
+namespace fathom::fast {
+using namespace triangle;
+
 namespace {
 
 /// e with |x| < 2^e.
@@ -71,4 +73,4 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
   return setup;
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

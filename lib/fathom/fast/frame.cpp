@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-namespace fathom {
+namespace fathom::fast {
+using namespace triangle;
 
 FastFrame::FastFrame(const Camera& the_camera, const RenderOptions& the_options)
     : camera(the_camera),
@@ -107,4 +108,4 @@ FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& ra
   if (auto* values = std::get_if<Samples<float>>(&depth->values)) depths_ = values->data();
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -8,11 +8,14 @@
 #include "fathom/fast/frame.h"
 
 // How to read this file: render_in_arena() is the whole story. Vertices are transformed to the
-// image with bounds of their errors (fast_vertex), triangles are sorted into tiles (fast_boxes,
-// fast_bins), each tile draws its triangles (fast_setup, fast_tile) and writes what is visible
-// (fast_resolve) and how much of its pixels is covered (fast_coverage). What the bounds do not
-// settle goes to the referee (fast_referee), who computes exactly.
+// image with bounds of their errors (vertex), triangles are sorted into tiles (boxes,
+// bins), each tile draws its triangles (setup, tile) and writes what is visible
+// (resolve) and how much of its pixels is covered (tile_coverage). What the bounds do not
+// settle goes to the referee (triangle/referee), who computes exactly.
 namespace fathom {
+using namespace fast;
+using namespace triangle;
+
 namespace {
 
 constexpr std::uint32_t parts_of_scene = 64;

@@ -16,7 +16,7 @@
 #include "fathom/fast/setup.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace fathom::HWY_NAMESPACE {
+namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -343,7 +343,7 @@ HWY_INLINE void store(V v, SetupBatch::Numbers& numbers) {
   hn::Store(v, D(), numbers.data());
 }
 
-/// As many triangles as there are lanes; see certified_setups in fast_setup.h.
+/// As many triangles as there are lanes; see certified_setups in setup.h.
 HWY_INLINE void set_up_lanes(const ImageVertex* vertices, const CornerIndices* triangles,
                              const PixelBox& area, const DepthRange& range, SetupBatch& batch) {
   const Corners t = load_corners(vertices, triangles);
@@ -376,7 +376,7 @@ HWY_INLINE void set_up_lanes(const ImageVertex* vertices, const CornerIndices* t
 }
 
 }  // namespace
-}  // namespace fathom::HWY_NAMESPACE
+}  // namespace fathom::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per-target include guard

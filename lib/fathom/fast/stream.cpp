@@ -15,6 +15,10 @@
 // tiles fit into the memory that is allowed. Bands after the first leave out what the first saw to
 // lie elsewhere.
 namespace fathom {
+using namespace area;
+using namespace fast;
+using namespace triangle;
+
 namespace {
 
 constexpr std::uint32_t parts_of_chunk = 8;

@@ -9,10 +9,10 @@
 #include "fathom/numeric/unit_roundoff.h"
 #include "fathom/scene/scene.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 /// Vertices that lie exactly on the grid of this step (pixels) are known to, within this distance
-/// of the image's origin: then edge functions are computed without any error (fast_setup-inl.h).
+/// of the image's origin: then edge functions are computed without any error (setup-inl.h).
 inline constexpr double snap_step = 0x1p-8, snap_limit = 0x1p15;
 
 /// A mesh vertex in the image, with what is proved about it.
@@ -91,4 +91,4 @@ class VertexTransform {
   ImageRows rows_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::fast

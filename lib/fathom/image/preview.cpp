@@ -12,6 +12,8 @@
 #include "fathom/numeric/errors.h"
 
 namespace fathom {
+using namespace image;
+
 namespace {
 
 constexpr Rgb plus_infinity_colour{230, 25, 120}, minus_infinity_colour{120, 40, 200},

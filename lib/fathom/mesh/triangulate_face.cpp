@@ -9,7 +9,7 @@
 #include "fathom/numeric/dyadic.h"
 #include "fathom/numeric/unit_roundoff.h"
 
-namespace fathom {
+namespace fathom::mesh {
 namespace {
 
 using Point2 = std::array<double, 2>;
@@ -321,4 +321,4 @@ Triangulation triangulate_face(std::span<const MeshPoint> ring,
   return EarClipping(points, way_of(points, curve)).run(triangles);
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh

@@ -15,7 +15,9 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/text/sha256.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace text;
+
 namespace {
 
 constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
@@ -227,4 +229,4 @@ GltfAsset read_gltf(std::span<const std::byte> bytes, const std::filesystem::pat
   return asset;
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

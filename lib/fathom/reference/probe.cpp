@@ -7,6 +7,8 @@
 #include "fathom/triangle/sampling.h"
 
 namespace fathom {
+using namespace triangle;
+
 namespace {
 
 /// Exact arithmetic only, without any filter, so that it can be held against the engines.

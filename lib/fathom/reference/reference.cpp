@@ -17,6 +17,9 @@
 // bands of rows. For each band, every triangle whose box meets it is tested at every sample of its
 // box, in the order of the triangles' numbers, and the nearest is kept.
 namespace fathom {
+using namespace area;
+using namespace triangle;
+
 namespace {
 
 constexpr std::uint32_t rows_per_band = 16;
@@ -38,7 +41,7 @@ struct Nearest {
 ProjectedTriangle project(const Scene& scene, const Camera& camera, const Candidate& c,
                           TierCounts& counts) {
   const Object& object = scene.objects[c.object];
-  return project(world_corners(object, scene.meshes[object.mesh], c.triangle), c.number, camera,
+  return triangle::project(world_corners(object, scene.meshes[object.mesh], c.triangle), c.number, camera,
                  counts);
 }
 

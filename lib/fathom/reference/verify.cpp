@@ -24,6 +24,9 @@
 // reference's writer, to a map of one row that has a pixel for each chosen one; and that row is
 // compared with the map.
 namespace fathom {
+using namespace reference;
+using namespace triangle;
+
 namespace {
 
 constexpr std::size_t pixels_per_group = std::size_t{1} << 22;
@@ -53,7 +56,7 @@ struct Frame {
 
 ProjectedTriangle project(const Frame& frame, const Candidate& c) {
   TierCounts counts;
-  return project(frame.triangles.world_corners(c.number), c.number, frame.camera, counts);
+  return triangle::project(frame.triangles.world_corners(c.number), c.number, frame.camera, counts);
 }
 
 /// Adds the candidates of a part of the scene, in the order of their numbers.

@@ -16,6 +16,11 @@
 #include "fathom/text/sha256.h"
 
 namespace fathom {
+using namespace mesh;
+using namespace mesh_files;
+using namespace scene;
+using namespace text;
+
 namespace {
 
 FileKind kind_of(MeshFormat format) {

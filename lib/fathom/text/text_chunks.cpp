@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <exception>
 
-namespace fathom {
+namespace fathom::text {
 
 std::vector<std::string_view> cut_into_chunks(std::string_view text, char line_end,
                                               std::size_t size) {
@@ -44,4 +44,4 @@ void for_each_chunk(std::size_t n, int threads, const std::function<void(std::si
     if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace fathom
+}  // namespace fathom::text

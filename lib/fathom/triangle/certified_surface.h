@@ -15,7 +15,7 @@
 // double-words. One derivation serves both (docs/error-analysis.md, "Channels").
 //
 // Method (Möller, Trumbore 1997). p = B − A, r = C − A, n = p × r, t = A − (origin of the ray), d
-// the direction of the ray (fast_rays.h), all in the frame of the mesh. The point of depth D on the
+// the direction of the ray (rays.h), all in the frame of the mesh. The point of depth D on the
 // ray lies in the plane of the triangle where D·(n·d) = n·t, and there its weights of B and C are
 // d·(r × t)/(n·d) and d·(t × p)/(n·d). No corner needs to lie in front of the camera.
 //
@@ -41,7 +41,7 @@
 // coordinates are multiples of 2⁻¹⁵², entries, whose second words are not below 2⁻²¹⁰, of 2⁻²⁶²,
 // and rounding a multiple of a power of two leaves it one: every intermediate result above, and
 // every error of one, is a multiple of 2⁻⁶⁷⁶. Nor does anything overflow: (2¹⁰¹)⁴·2⁴⁰ < 2⁵⁰⁰.
-namespace fathom {
+namespace fathom::triangle {
 
 /// c + b·v + a·u; computed and exact value differ by at most `error` at every sample of the image.
 template <class Real>
@@ -89,7 +89,7 @@ Vector<double> size_of(const Vector<Real>& a) {
 }
 
 template <class Real>
-Vector<Real> difference(const MeshPoint& a, const MeshPoint& b) {
+Vector<Real> displacement(const MeshPoint& a, const MeshPoint& b) {
   return {difference<Real>(a.x, b.x), difference<Real>(a.y, b.y), difference<Real>(a.z, b.z)};
 }
 
@@ -105,8 +105,8 @@ struct Edges {
   Vector<double> p_size, r_size, n_size;
 
   explicit Edges(const MeshTriangle& corners)
-      : p(difference<Real>(corners[1], corners[0])),
-        r(difference<Real>(corners[2], corners[0])),
+      : p(displacement<Real>(corners[1], corners[0])),
+        r(displacement<Real>(corners[2], corners[0])),
         n(cross(p, r)),
         p_size(size_of(p)),
         r_size(size_of(r)),
@@ -347,4 +347,4 @@ Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRay
   return result;
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

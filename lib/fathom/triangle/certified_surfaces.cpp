@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace fathom {
+namespace fathom::triangle {
 
 CertifiedSurfaces::CertifiedSurfaces(const SceneRays& rays)
     : rays_(rays),
@@ -66,4 +66,4 @@ bool CertifiedSurfaces::certainly_covers(std::uint32_t number, const ImagePoint&
   return true;
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

@@ -7,7 +7,7 @@
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/recent_triangles.h"
 
-namespace fathom {
+namespace fathom::triangle {
 
 /// Depths of numbered triangles at samples, with bounds. One for each thread: it remembers the
 /// triangles that it was asked about last.
@@ -42,4 +42,4 @@ class CertifiedSurfaces {
   RecentTriangles<Triangle, 256> remembered_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::triangle

@@ -9,7 +9,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 
-namespace fathom {
+namespace fathom::triangle {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -247,4 +247,4 @@ void ChannelWriter::write_barycentric(std::size_t pixel, std::size_t component,
       round_to_binary32(interpolate(t, s, {0.0, of_B, 1 - of_B}));
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

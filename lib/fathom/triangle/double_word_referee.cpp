@@ -6,7 +6,7 @@
 
 #include "fathom/numeric/last_bit.h"
 
-namespace fathom {
+namespace fathom::triangle {
 namespace {
 
 /// The sign of the exact number if the bound settles it: |value − exact| ≤ error, and hi + lo is
@@ -145,4 +145,4 @@ bool certainly_coplanar(const MeshTriangle& a, const MeshTriangle& b) {
   });
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

@@ -8,7 +8,7 @@
 #include "fathom/triangle/rays.h"
 #include "fathom/triangle/recent_triangles.h"
 
-namespace fathom {
+namespace fathom::triangle {
 
 /// Settles by double-words what binary64 did not: the tier before exact numbers. nullopt: not
 /// known. One for each thread: it remembers the triangles that it was asked about last.
@@ -46,4 +46,4 @@ class WideReferee {
 /// the other, or the coordinates have few bits and say so. Not: nothing is known.
 bool certainly_coplanar(const MeshTriangle& a, const MeshTriangle& b);
 
-}  // namespace fathom
+}  // namespace fathom::triangle

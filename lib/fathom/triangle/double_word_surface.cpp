@@ -2,7 +2,7 @@
 
 #include "fathom/numeric/fused_multiply_add.h"
 
-namespace fathom {
+namespace fathom::triangle {
 namespace {
 
 template <class To, class From>
@@ -31,7 +31,7 @@ struct Wide {
 
   static DepthForms<WordPair> depth_forms(const MeshTriangle& corners, const Rays& rays,
                                           const ImageBounds& image) {
-    return as<WordPair>(fathom::depth_forms<Real>(corners, rays, image));
+    return as<WordPair>(triangle::depth_forms<Real>(corners, rays, image));
   }
   static Certified<WordPair> depth(const DepthForms<WordPair>& forms, const ImagePoint& s,
                                    bool perspective) {
@@ -44,7 +44,7 @@ struct Wide {
   static Vector<Certified<WordPair>> position(const Rays& rays, const RaySizes& sizes,
                                               bool perspective, const ImagePoint& s,
                                               const Certified<WordPair>& depth) {
-    return as<WordPair>(fathom::position(rays, sizes, perspective, s, as<Real>(depth)));
+    return as<WordPair>(triangle::position(rays, sizes, perspective, s, as<Real>(depth)));
   }
   static std::array<Certified<WordPair>, 2> weights(const MeshTriangle& corners, const Rays& rays,
                                                     const ImageBounds& image, const ImagePoint& s) {
@@ -103,4 +103,4 @@ const WideArithmetic& wide_arithmetic() {
   return chosen;
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

@@ -2,7 +2,7 @@
 
 #include "fathom/triangle/certified_surface.h"
 
-namespace fathom {
+namespace fathom::triangle {
 
 /// A sample's ray length in the camera frame, √(x² + y² + 1): x and y err by 4ε times the sums X, Y
 /// of the magnitudes of their terms, their squares by 9ε, the sum by 11ε(X² + Y² + 1); it is at
@@ -33,7 +33,7 @@ Vector<Certified<Real>> position(const Rays& rays, const RaySizes& sizes, bool p
   return point;
 }
 
-/// The double-word tier of fast_surface.h, compiled with and without fused multiply-add, and what
+/// The double-word tier of certified_surface.h, compiled with and without fused multiply-add, and what
 /// of it the processor runs: results may differ in their last bits, bounds hold for both.
 struct WideArithmetic {
   DepthForms<WordPair> (*depth_forms)(const MeshTriangle&, const Rays&, const ImageBounds&);
@@ -55,4 +55,4 @@ extern const WideArithmetic wide_with_fma;
 /// The one for this processor.
 const WideArithmetic& wide_arithmetic();
 
-}  // namespace fathom
+}  // namespace fathom::triangle

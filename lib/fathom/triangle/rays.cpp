@@ -14,7 +14,7 @@
 // H·X + h = (u, v, D), as W = 1. So with m_j the columns of H⁻¹ and O = −H⁻¹h the point is the one
 // that the header names. The columns of H⁻¹ are the cross products of H's rows over det H: exact
 // quotients, rounded once.
-namespace fathom {
+namespace fathom::triangle {
 namespace {
 
 using ExactMatrix = std::array<ExactVector3, 3>;
@@ -187,4 +187,4 @@ const ObjectRays& SceneRays::object(std::uint32_t number) const {
   return *slot.rays;
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

@@ -11,7 +11,7 @@
 #include "fathom/scene/scene.h"
 #include "fathom/scene/triangle_source.h"
 
-namespace fathom {
+namespace fathom::triangle {
 
 /// The points that a sample sees, in the frame of a mesh or in the world. The point of depth D on
 /// the ray of the sample (u, v) is
@@ -99,4 +99,4 @@ class SceneRays {
   mutable std::deque<Slot> objects_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::triangle

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace fathom {
+namespace fathom::triangle {
 
 /// What was found out about the triangles that were asked about last, by their numbers: one for
 /// each number modulo `most`, so that neighbours in number, which often are neighbours in the
@@ -36,4 +36,4 @@ class RecentTriangles {
   std::vector<Slot> slots_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::triangle

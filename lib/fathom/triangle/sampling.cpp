@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace fathom {
+namespace fathom::triangle {
 
 bool is_in_range(const Ratio& depth, const Camera& camera) {
   if (depth.sign() != Sign::positive || depth < Ratio(Dyadic(camera.near))) return false;
@@ -10,4 +10,4 @@ bool is_in_range(const Ratio& depth, const Camera& camera) {
          !(Ratio(Dyadic(camera.far)) < depth);
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

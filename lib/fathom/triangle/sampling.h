@@ -6,7 +6,7 @@
 #include "fathom/numeric/ratio.h"
 
 /// Where a pixel is sampled, and which depths count (specification, sections 2 and 5).
-namespace fathom {
+namespace fathom::triangle {
 
 /// The sample of a pixel: its centre.
 inline ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
@@ -16,4 +16,4 @@ inline ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
 /// D > 0 and near ≤ D ≤ far, exactly.
 bool is_in_range(const Ratio& depth, const Camera& camera);
 
-}  // namespace fathom
+}  // namespace fathom::triangle

@@ -9,7 +9,7 @@
 #include <optional>
 
 /// Threads, and how far they have come.
-namespace fathom {
+namespace fathom::triangle {
 
 /// Reports the share of equal parts that are done, from one thread at a time.
 class Progress {
@@ -41,4 +41,4 @@ auto with_threads(int threads, const Work& work) {
   return arena.execute(work);
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

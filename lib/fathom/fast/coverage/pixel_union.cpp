@@ -5,7 +5,7 @@
 
 #include "fathom/fast/vertex.h"
 
-namespace fathom {
+namespace fathom::fast {
 namespace {
 
 double within_square(double x) {
@@ -97,4 +97,4 @@ void ClippedSquare::clip(const UncertainHalfPlane& h) {
   count_ = kept_count;
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

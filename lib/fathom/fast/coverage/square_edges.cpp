@@ -5,7 +5,7 @@
 
 #include "fathom/fast/vertex.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 void SquareEdges::clear() {
   edges_.clear();
@@ -72,4 +72,4 @@ double SquareEdges::error_of(std::size_t crossings) const {
          32 * unit_roundoff<double> * static_cast<double>(breaks_.size());
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -7,7 +7,7 @@
 
 #include "fathom/numeric/rounding.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile::Context& context,
                          float* values, std::uint32_t image_width) {
@@ -47,7 +47,7 @@ bool TileCoverage::is_open(const TileBox& box) const {
   return false;
 }
 
-// The bound of certified_edges() in fast_setup-inl.h, for coordinates relative to the tile; 10uL²
+// The bound of certified_edges() in setup-inl.h, for coordinates relative to the tile; 10uL²
 // more for adding half a pixel's change (meet()), of a magnitude of at most 2L.
 TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_t i) const {
   const auto& corners = object.mesh.triangles[numbers_[i] - object.first_number];
@@ -298,4 +298,4 @@ float TileCoverage::settle_exactly(std::uint32_t pixel, const Tile::Context& con
                                 area_.first_row + pixel / size);
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast
