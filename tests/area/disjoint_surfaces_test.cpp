@@ -12,6 +12,8 @@
 namespace fathom {
 namespace {
 
+using namespace area;
+using namespace triangle;
 using oracle::Q;
 using testing::camera_of;
 using testing::Case;

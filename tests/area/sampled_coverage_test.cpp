@@ -15,6 +15,7 @@
 namespace fathom {
 namespace {
 
+using namespace triangle;
 using testing::all_patterns;
 using testing::Kind;
 

@@ -16,6 +16,8 @@
 namespace fathom {
 namespace {
 
+using namespace area;
+using namespace triangle;
 using oracle::Q;
 using testing::camera_of;
 using testing::Case;
@@ -57,7 +59,7 @@ void check_pixel(const std::vector<SurfaceRegion>& surfaces, const oracle::Areas
   for (std::size_t piece = 0; piece < visibility.size(); ++piece) {
     const std::uint32_t number = visibility.surface(piece).number;
     const Boundary boundary = visibility.visible(piece);
-    const Q found = testing::rational(area(boundary));
+    const Q found = testing::rational(exact_area(boundary));
     ASSERT_EQ(found, expected[number]) << "triangle " << number;
     EXPECT_EQ(boundary.empty(), sgn(found) == 0);
     const Interval around = enclose(approximate_area(boundary));
@@ -74,7 +76,7 @@ void check_pixel(const std::vector<SurfaceRegion>& surfaces, const oracle::Areas
   for (const auto& [number, area] : expected) {
     ASSERT_EQ(sgn(area), 0) << "triangle " << number << " is visible and has no piece";
   }
-  const Q rest = testing::rational(area(visibility.uncovered()));
+  const Q rest = testing::rational(exact_area(visibility.uncovered()));
   EXPECT_EQ(sum, areas.coverage(column, row));
   EXPECT_EQ(sum + rest, 1);
 }
@@ -167,7 +169,7 @@ TEST(VisibleFragments, DivisionChangesNothing) {
         visibility,
         [&](CellVisibility& part) {
           ++parts;
-          uncovered += testing::rational(area(part.uncovered()));
+          uncovered += testing::rational(exact_area(part.uncovered()));
           for (std::size_t piece = 0; piece < part.size(); ++piece) {
             const Boundary more = part.visible(piece);
             Boundary& all = divided[&part.surface(piece)];
@@ -176,7 +178,7 @@ TEST(VisibleFragments, DivisionChangesNothing) {
         },
         limits);
     EXPECT_GT(parts, 1);
-    EXPECT_EQ(uncovered, testing::rational(area(visibility.uncovered())));
+    EXPECT_EQ(uncovered, testing::rational(exact_area(visibility.uncovered())));
     std::vector<ConvexPolygon> polygons;
     for (std::size_t piece = 0; piece < visibility.size(); ++piece) {
       SCOPED_TRACE(piece);
@@ -184,7 +186,7 @@ TEST(VisibleFragments, DivisionChangesNothing) {
       const SurfaceRegion& surface = visibility.surface(piece);
       const Boundary whole = visibility.visible(piece);
       const Boundary& found = divided[&surface];
-      ASSERT_EQ(testing::rational(area(found)), testing::rational(area(whole)));
+      ASSERT_EQ(testing::rational(exact_area(found)), testing::rational(exact_area(whole)));
       ASSERT_EQ(found.empty(), whole.empty());
       if (whole.empty()) continue;
       const CellDepths depths(pixel, surface);
@@ -194,7 +196,7 @@ TEST(VisibleFragments, DivisionChangesNothing) {
     TierCounts counts;
     Q covered = 0;
     for_each_simple_part(pixel, polygons, counts, [&](std::span<const ConvexPolygon> part) {
-      covered += testing::rational(area(boundary_of_union(part, counts)));
+      covered += testing::rational(exact_area(boundary_of_union(part, counts)));
     });
     EXPECT_EQ(covered, 1 - uncovered);
   }
@@ -219,7 +221,7 @@ TEST(VisibleFragments, DepthsAreThoseOfTheVisiblePartAlone) {
   CellVisibility visibility(pixel);
   for (const SurfaceRegion& surface : surfaces) visibility.add(surface);
   const Boundary boundary = visibility.visible(0);
-  EXPECT_EQ(testing::rational(area(boundary)), Q(1, 2));
+  EXPECT_EQ(testing::rational(exact_area(boundary)), Q(1, 2));
   const CellDepths::Extent extent = CellDepths(pixel, surfaces[0]).extent(boundary);
   EXPECT_EQ(extent.nearest, 2.5F);
   EXPECT_EQ(extent.farthest, 3.0F);

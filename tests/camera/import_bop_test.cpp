@@ -14,6 +14,7 @@
 namespace fathom {
 namespace {
 
+using namespace camera;
 using namespace test;
 using ::testing::HasSubstr;
 

@@ -17,6 +17,7 @@
 namespace fathom {
 namespace {
 
+using namespace camera;
 using namespace test;
 using ::testing::AllOf;
 using ::testing::HasSubstr;

@@ -18,6 +18,7 @@
 namespace fathom {
 namespace {
 
+using namespace triangle;
 using oracle::Q;
 using testing::camera_of;
 using testing::Case;

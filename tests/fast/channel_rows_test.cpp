@@ -14,6 +14,9 @@
 namespace fathom {
 namespace {
 
+using namespace fast;
+using namespace triangle;
+
 /// A row of q with errors, and the exact ends of the intervals of D.
 struct Row {
   std::array<double, samples_of_row> q;

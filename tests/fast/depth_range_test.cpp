@@ -10,6 +10,8 @@
 namespace fathom {
 namespace {
 
+using namespace fast;
+
 /// The ends enclose 1/limit and −limit: exactly compared, and next to them.
 TEST(DepthRange, PerspectiveLimitsEncloseTheReciprocals) {
   Camera c = testing::camera_of(9, 9, 2);

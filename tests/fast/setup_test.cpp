@@ -14,6 +14,8 @@
 namespace fathom {
 namespace {
 
+using namespace fast;
+using namespace triangle;
 using testing::Numbers;
 using testing::Share;
 

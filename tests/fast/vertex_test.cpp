@@ -11,6 +11,7 @@
 namespace fathom {
 namespace {
 
+using namespace fast;
 using testing::Numbers;
 using testing::Share;
 

@@ -13,6 +13,8 @@
 namespace fathom::test {
 namespace {
 
+using namespace mesh_files;
+
 std::string decimal(double x, const char* format = "%.9g") {
   char text[64];
   std::snprintf(text, sizeof text, format, x);

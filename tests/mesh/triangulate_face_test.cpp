@@ -12,6 +12,7 @@
 namespace fathom {
 namespace {
 
+using namespace mesh;
 using testing::ElementsAre;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 using Ring = std::vector<MeshPoint>;

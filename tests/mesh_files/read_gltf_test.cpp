@@ -19,6 +19,7 @@
 namespace fathom {
 namespace {
 
+using namespace mesh_files;
 using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::ElementsAre;

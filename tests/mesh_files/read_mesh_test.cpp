@@ -11,6 +11,7 @@
 namespace fathom {
 namespace {
 
+using namespace mesh_files;
 using test::MeshFile;
 using test::read_variant;
 using test::soup_of;

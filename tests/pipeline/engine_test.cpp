@@ -17,6 +17,8 @@
 namespace fathom::pipeline {
 namespace {
 
+using namespace triangle;
+
 Scene scene_of(std::vector<MeshPoint> vertices, std::vector<CornerIndices> triangles) {
   Scene scene;
   Mesh mesh;

@@ -5,6 +5,8 @@
 namespace fathom {
 namespace {
 
+using namespace reference;
+
 /// More pixels than are taken at once: rows are cut where enough are there.
 TEST(ChosenRows, TakesWholeRowsUntilEnough) {
   const PixelChoice chosen = choose_pixels(10, 7, 35);

@@ -14,6 +14,8 @@
 namespace fathom {
 namespace {
 
+using namespace text;
+
 /// MPFR's correctly rounded answer in the precision and exponent range of the type.
 template <class Real>
 class MpfrReader {

@@ -14,6 +14,7 @@
 namespace fathom {
 namespace {
 
+using namespace triangle;
 using testing::Case;
 using testing::CaseMaker;
 using testing::Kind;

@@ -16,6 +16,7 @@
 namespace fathom {
 namespace {
 
+using namespace triangle;
 using testing::Numbers;
 using testing::root;
 using testing::Share;

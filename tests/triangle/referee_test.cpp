@@ -9,6 +9,8 @@
 namespace fathom {
 namespace {
 
+using namespace triangle;
+
 /// Two triangles that cross along a line through the sample (4.5, 4.5), where their depth is 2; a
 /// copy of the first, and one behind it.
 Scene crossing_scene() {

@@ -9,6 +9,7 @@
 namespace fathom {
 namespace {
 
+using namespace triangle;
 using testing::CaseMaker;
 using testing::effort;
 using testing::Kind;

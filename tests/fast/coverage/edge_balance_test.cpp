@@ -12,6 +12,8 @@
 namespace fathom {
 namespace {
 
+using namespace fast;
+
 TEST(EdgeBalance, OppositeEdgesCancelWhateverTheOrder) {
   std::mt19937_64 random(22);
   for (int i = 0; i < 200; ++i) {

@@ -12,6 +12,7 @@
 namespace fathom {
 namespace {
 
+using namespace fast;
 using oracle::Q;
 using Triangle = std::array<SquarePoint, 3>;
 
