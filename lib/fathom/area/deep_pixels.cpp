@@ -105,7 +105,8 @@ std::vector<DeepSample> deep_samples(ImageCell& pixel, PixelSurfaces surfaces) {
   std::vector<DeepSample> samples;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     DeepSample sample = order[i].first;
-    sample.area = rounded(sorted[i].approximate_area, [&] { return exact_area(sorted[i].boundary); });
+    sample.area =
+        rounded(sorted[i].approximate_area, [&] { return exact_area(sorted[i].boundary); });
     sample.A = alpha(std::span(sorted).subspan(i), surfaces.uncovered);
     samples.push_back(sample);
   }

@@ -36,7 +36,8 @@ struct SurfaceRegion {
   ImageForm depth_numerator, weight;
   std::array<SurfaceCorner, 3> corners;
 };
-std::optional<SurfaceRegion> surface_region(const triangle::ProjectedTriangle& t, const Camera& camera);
+std::optional<SurfaceRegion> surface_region(const triangle::ProjectedTriangle& t,
+                                            const Camera& camera);
 
 /// A rectangle of the image in the coordinates of a cell: the cell or a part of it.
 struct CellPart {

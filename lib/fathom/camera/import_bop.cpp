@@ -45,7 +45,7 @@ void read_pose(const JsonValue& entry, Camera& camera) {
 }  // namespace
 
 std::vector<ImportedCamera> camera::parse_bop(std::string_view text, const std::string& name,
-                                      std::uint32_t width, std::uint32_t height) {
+                                              std::uint32_t width, std::uint32_t height) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   std::vector<std::pair<std::uint64_t, ImportedCamera>> cameras;

@@ -106,8 +106,8 @@ void warn_of_geometry(const JsonValue& root, const std::string& file, Warnings& 
 }  // namespace
 
 std::vector<ImportedCamera> camera::parse_nerf(std::string_view text, const std::string& name,
-                                       std::uint32_t width, std::uint32_t height,
-                                       Warnings& warnings) {
+                                               std::uint32_t width, std::uint32_t height,
+                                               Warnings& warnings) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   warn_of_geometry(root, name, warnings);

@@ -32,12 +32,13 @@ struct RoundedValues {
 // the processor has: triangle/certified_surface.h and certified_rounding.h say the same for one sample, and why.
 
 /// World x, y, z of the visible points. The world's rays usable.
-void round_positions(const SurfaceRow& row, const triangle::Rays& world, const triangle::RaySizes& sizes,
-                     bool perspective, std::array<RoundedValues<float>, 3>& rounded);
+void round_positions(const SurfaceRow& row, const triangle::Rays& world,
+                     const triangle::RaySizes& sizes, bool perspective,
+                     std::array<RoundedValues<float>, 3>& rounded);
 /// Depth, or ray distance where `distance`; as binary32, or scaled as codes.
 void round_depths(const SurfaceRow& row, const triangle::SceneRays& rays, bool distance,
                   RoundedValues<float>& rounded);
-void round_to_codes(const SurfaceRow& row, const triangle::SceneRays& rays, bool distance, double scale,
-                    RoundedValues<std::uint16_t>& rounded);
+void round_to_codes(const SurfaceRow& row, const triangle::SceneRays& rays, bool distance,
+                    double scale, RoundedValues<std::uint16_t>& rounded);
 
 }  // namespace fathom::fast

@@ -86,7 +86,7 @@ class FastOutput {
   /// Of a tile without any triangle.
   void write_background(const PixelBox& area, std::uint32_t image_width) const;
   std::optional<triangle::EncodingFault> write(const Tile& tile, std::uint32_t image_width,
-                                     const Tile::Context& context) {
+                                               const Tile::Context& context) {
     return tile.resolve(certified_.local(), depths_, image_width, context);
   }
 

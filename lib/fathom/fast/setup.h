@@ -73,6 +73,7 @@ void certified_setups(const ImageVertex* vertices, const CornerIndices* triangle
                       SetupBatch& batch);
 
 /// From exact forms; works for every triangle with Δ ≠ 0, also one that reaches behind the camera.
-TriangleSetup exact_setup(const triangle::ProjectedTriangle& triangle, bool perspective, const PixelBox& box);
+TriangleSetup exact_setup(const triangle::ProjectedTriangle& triangle, bool perspective,
+                          const PixelBox& box);
 
 }  // namespace fathom::fast

@@ -56,7 +56,8 @@ class Tile {
   /// Writes the visible surfaces; the first fault in row order ends it. `depths`: where not null,
   /// the values of channel Z, the only channel, written here for the whole area.
   std::optional<triangle::EncodingFault> resolve(CertifiedWriter& certified, float* depths,
-                                       std::uint32_t image_width, const Context& context) const;
+                                                 std::uint32_t image_width,
+                                                 const Context& context) const;
 
   // For the vector code.
   /// Index of a sample by its column and row within the tile.
@@ -80,7 +81,7 @@ class Tile {
                              SetupBatch& batch);
 
  private:
-  /// Rows and columns of the image, of the area.
+  /// Of the surface at a sample: the bound of the error of its q, and its number.
   [[nodiscard]] double error_at(std::size_t i) const { return std::bit_cast<double>(tags_[i]); }
   [[nodiscard]] std::uint32_t number_at(std::size_t i) const {
     return static_cast<std::uint32_t>(tags_[i]);

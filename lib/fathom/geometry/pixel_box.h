@@ -14,5 +14,4 @@ struct PixelBox {
   [[nodiscard]] bool is_empty() const { return first_column > last_column || first_row > last_row; }
 };
 
-
 }  // namespace fathom

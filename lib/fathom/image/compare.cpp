@@ -178,7 +178,7 @@ ChannelComparison compare_channel(const ChannelPair& pair, const CompareOptions&
 }  // namespace
 
 ChannelPair image::make_pair(const DepthMap& truth, const ImageChannel& a, const DepthMap& other,
-                      const ImageChannel& b, const CompareOptions& options) {
+                             const ImageChannel& b, const CompareOptions& options) {
   const bool integers_a = std::holds_alternative<Samples<std::uint32_t>>(a.values);
   const bool integers_b = std::holds_alternative<Samples<std::uint32_t>>(b.values);
   if (integers_a != integers_b)
@@ -209,7 +209,7 @@ ChannelPair image::make_pair(const DepthMap& truth, const ImageChannel& a, const
 }
 
 PairedNames image::paired_channels(const DepthMap& truth, const DepthMap& other,
-                            const CompareOptions& options) {
+                                   const CompareOptions& options) {
   if (truth.width != other.width || truth.height != other.height)
     throw InputError("the maps differ in size: " + std::to_string(truth.width) + "×" +
                      std::to_string(truth.height) + " and " + std::to_string(other.width) + "×" +

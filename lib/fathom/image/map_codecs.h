@@ -13,7 +13,7 @@
 namespace fathom::image {
 
 text::Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
-                 const std::string& name);
+                       const std::string& name);
 DepthMap decode_exr(text::ByteView bytes, const std::string& name);
 
 text::Bytes encode_pfm(const DepthMap& map, const ImageChannel& channel, const std::string& name);

@@ -53,7 +53,8 @@ class GltfAccessor {
   };
   Layout lay_out(const text::JsonValue& root, GltfBuffers& buffers, const text::JsonValue& holder,
                  std::uint64_t count, std::uint64_t element_size, bool strided) const;
-  void read_sparse(const text::JsonValue& root, GltfBuffers& buffers, const text::JsonValue& sparse);
+  void read_sparse(const text::JsonValue& root, GltfBuffers& buffers,
+                   const text::JsonValue& sparse);
   [[nodiscard]] const std::byte* find(std::uint64_t i) const;
 
   text::JsonValue description_;

@@ -36,7 +36,8 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
 class GltfBuffers {
  public:
   /// `container` must outlive this; relative URIs start from the folder of `path`.
-  GltfBuffers(const GltfContainer& container, const text::JsonValue& root, std::filesystem::path path);
+  GltfBuffers(const GltfContainer& container, const text::JsonValue& root,
+              std::filesystem::path path);
 
   /// Buffer `index`, exactly as long as the asset says; memory is taken only for bytes that are
   /// there. `reference` is blamed if there is no such buffer.

@@ -39,8 +39,11 @@ class GltfPrimitives {
   const Vertices& vertices_of(const text::JsonValue& attributes, Mesh& mesh);
   void read_positions(const GltfAccessor& positions, Mesh& mesh) const;
   void read_attributes(const text::JsonValue& attributes, Vertices& vertices, Mesh& mesh);
-  std::vector<std::uint32_t> read_indices(const text::JsonValue& primitive, const Vertices& vertices);
-  GltfAccessor open(const text::JsonValue& reference) { return {root_, buffers_, reference, file_size_}; }
+  std::vector<std::uint32_t> read_indices(const text::JsonValue& primitive,
+                                          const Vertices& vertices);
+  GltfAccessor open(const text::JsonValue& reference) {
+    return {root_, buffers_, reference, file_size_};
+  }
 
   text::JsonValue root_;
   GltfBuffers& buffers_;

@@ -90,7 +90,8 @@ class BinaryRows {
  public:
   BinaryRows(std::string_view body, const std::string& file, const PlyHeader& header)
       : BinaryRows(text::ByteWindow(body, header.size), file) {}
-  BinaryRows(text::ByteWindow bytes, const std::string& file) : bytes_(std::move(bytes)), file_(file) {}
+  BinaryRows(text::ByteWindow bytes, const std::string& file)
+      : bytes_(std::move(bytes)), file_(file) {}
 
   static std::uint64_t least_row_size(const PlyElement& element) {
     return element.least_row_size();

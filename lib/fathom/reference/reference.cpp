@@ -41,8 +41,8 @@ struct Nearest {
 ProjectedTriangle project(const Scene& scene, const Camera& camera, const Candidate& c,
                           TierCounts& counts) {
   const Object& object = scene.objects[c.object];
-  return triangle::project(world_corners(object, scene.meshes[object.mesh], c.triangle), c.number, camera,
-                 counts);
+  return triangle::project(world_corners(object, scene.meshes[object.mesh], c.triangle), c.number,
+                           camera, counts);
 }
 
 /// D > 0 and near ≤ D ≤ far (specification, section 5) as signs of forms on the image, for one
