@@ -9,6 +9,7 @@
 
 #include "fathom/area/cell_division.h"
 #include "fathom/area/coverage.h"
+#include "tests/area/surfaces.h"
 #include "tests/effort.h"
 #include "tests/inputs/random_scenes.h"
 #include "tests/oracle/against_oracle.h"
@@ -24,17 +25,7 @@ using testing::Case;
 using testing::CaseMaker;
 using testing::Kind;
 using testing::scene_of;
-
-std::vector<SurfaceRegion> surfaces_of(const Scene& scene, const Camera& camera) {
-  std::vector<SurfaceRegion> surfaces;
-  TierCounts counts;
-  const TriangleSource triangles(scene);
-  for (std::uint32_t number = 0; number < triangles.count(); ++number) {
-    const auto t = project(triangles.world_corners(number), number, camera, counts);
-    if (auto surface = surface_region(t, camera)) surfaces.push_back(std::move(*surface));
-  }
-  return surfaces;
-}
+using testing::surfaces_of;
 
 struct Tally {
   int fragments = 0, partly_hidden = 0, hidden = 0, crossing = 0;

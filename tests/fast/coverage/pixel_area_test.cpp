@@ -8,6 +8,7 @@
 #include "fathom/fast/vertex.h"
 #include "tests/effort.h"
 #include "tests/oracle/areas.h"
+#include "tests/oracle/clipped_polygon.h"
 
 namespace fathom {
 namespace {
@@ -52,22 +53,6 @@ Q exact_area(const std::vector<Triangle>& triangles) {
     for (std::size_t k = 0; k < 3; ++k) placed.back()[k] = {Q(t[k].x), Q(t[k].y), Q(1)};
   }
   return oracle::Areas(camera, placed).coverage(0, 0);
-}
-
-using ExactPolygon = std::vector<oracle::Point>;
-
-/// Sutherland and Hodgman's cut in rational numbers.
-ExactPolygon clipped(const ExactPolygon& polygon, const Q& a, const Q& b, const Q& c) {
-  ExactPolygon result;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const oracle::Point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const Q f = a * p[0] + b * p[1] + c, g = a * q[0] + b * q[1] + c;
-    if (sgn(f) >= 0) result.push_back(p);
-    if (sgn(f) * sgn(g) >= 0) continue;
-    const Q t = f / (f - g);
-    result.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
-  }
-  return result;
 }
 
 Interval area_of_union(const std::vector<Triangle>& triangles) {
@@ -152,12 +137,12 @@ TEST(PixelArea, ASquareIsClippedByLinesWithinItsBound) {
   for (int i = 0; i < 3000 / testing::effort && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
     ClippedSquare square;
-    ExactPolygon exact{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    oracle::Polygon exact{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     for (int k = 0; k < 1 + i % 5; ++k) {
       const double a = number(random), b = number(random), c = number(random) / 2 + 0.2;
       // Two products and two sums of numbers below 2.7.
       square.clip({a, b, c, 8 * unit_roundoff<double> * 2.7});
-      exact = clipped(exact, Q(a), Q(b), Q(c));
+      exact = oracle::clipped(exact, Q(a), Q(b), Q(c));
     }
     PixelUnion pixel;
     pixel.clear();

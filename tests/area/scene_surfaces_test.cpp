@@ -1,0 +1,59 @@
+// The index of triangles by place finds every pair that a look at all pairs does.
+#include "fathom/area/scene_surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/inputs/random_scenes.h"
+#include "tests/inputs/soup.h"
+
+namespace fathom {
+namespace {
+
+using namespace area;
+using namespace triangle;
+using testing::CaseMaker;
+using testing::Kind;
+
+void check(const Scene& scene, const Camera& camera, Cull cull, int& pairs) {
+  const CoverageFrame frame{scene, camera, cull};
+  const SceneSurfaces surfaces(frame);
+  ASSERT_EQ(surfaces.count(), frame.triangles.count());
+  for (std::uint32_t a = 0; a < surfaces.count(); ++a) {
+    TierCounts counts;
+    const auto t = project(frame.triangles.world_corners(a), a, camera, counts);
+    const bool covers_nothing = t.orientation == Sign::zero || !is_kept(t, cull) ||
+                                bounding_box(t, camera).is_empty() || !surface_region(t, camera);
+    ASSERT_EQ(surfaces.surface(a) == nullptr, covers_nothing);
+    if (covers_nothing) continue;
+    EXPECT_EQ(surfaces.surface(a)->number, a);
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t b = 0; b < surfaces.count(); ++b) {
+      if (b == a || !surfaces.surface(b)) continue;
+      const PixelBox &p = surfaces.box(a), &q = surfaces.box(b);
+      bool meet = false;
+      for (std::uint32_t row = p.first_row; row <= p.last_row && !meet; ++row) {
+        for (std::uint32_t column = p.first_column; column <= p.last_column && !meet; ++column) {
+          meet = q.contains(column, row);
+        }
+      }
+      if (meet) expected.push_back(b);
+    }
+    ASSERT_EQ(surfaces.near(a), expected) << a;
+    pairs += static_cast<int>(expected.size());
+  }
+}
+
+TEST(SceneSurfaces, NeighboursAreThoseWhoseBoxesMeet) {
+  int pairs = 0;
+  CaseMaker maker(161, Kind::few_bits);
+  for (int i = 0; i < 100 && !HasFatalFailure(); ++i) {
+    const testing::Case c = maker.make();
+    check(c.scene, c.camera, i % 3 == 0 ? Cull::back : Cull::none, pairs);
+  }
+  std::mt19937_64 random(162);  // on several tiles of the index
+  check(testing::soup(random, 40, true), testing::camera_of(160, 140, 64), Cull::none, pairs);
+  EXPECT_GT(pairs, 500);
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,142 @@
+// The tiles of an image, and that the triangles of a tile are all that cover a sample of it, or meet
+// it.
+#include "fathom/fast/bins.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "fathom/area/coverage.h"
+#include "fathom/fast/tile.h"
+#include "fathom/triangle/sampling.h"
+#include "tests/inputs/scene_building.h"
+#include "tests/inputs/soup.h"
+
+namespace fathom {
+namespace {
+
+using namespace fast;
+using namespace triangle;
+using testing::camera_of;
+
+TEST(TileGrid, TilesAreThePixelsOnce) {
+  for (const auto& [width, height] : {std::pair{1U, 1U}, {64U, 64U}, {65U, 128U}, {200U, 150U}}) {
+    const TileGrid grid(width, height);
+    EXPECT_EQ(grid.count(), grid.columns * grid.rows);
+    std::vector<int> times(std::size_t{width} * height);
+    for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
+      const PixelBox box = grid.area(tile);
+      ASSERT_EQ(box.first_column % Tile::size, 0U);
+      ASSERT_EQ(box.first_row % Tile::size, 0U);
+      for (std::uint32_t row = box.first_row; row <= box.last_row; ++row) {
+        for (std::uint32_t column = box.first_column; column <= box.last_column; ++column) {
+          ++times.at(std::size_t{row} * width + column);
+        }
+      }
+    }
+    for (const int count : times) ASSERT_EQ(count, 1);
+  }
+}
+
+TEST(ImageObjects, OwnTheNumbersOfTheirTriangles) {
+  const Camera camera = camera_of(8, 8, 4);
+  Scene scene = testing::scene_of({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}, {0, 2, 1}});
+  ImageObjects objects;
+  for (std::uint32_t first = 0; first < 10; first += 2) {
+    objects.emplace_back(scene.objects[0], scene.meshes[0], camera, first);
+  }
+  for (std::uint32_t number = 0; number < 10; ++number) {
+    EXPECT_EQ(object_of(objects, number).first_number, number / 2 * 2);
+  }
+  EXPECT_EQ(objects[3].end_number(), 8U);
+  EXPECT_EQ(objects[3].vertices[1].u, 8);  // 4·1/1 + 4
+}
+
+/// Every triangle is asked for at samples of every tile, exactly, or for the area that it has there.
+void check(const Scene& scene, const Camera& camera, Cull cull, bool by_area, int& met) {
+  const TriangleSource triangles(scene);
+  Referee referee(triangles, camera);
+  RenderStatistics statistics;
+  const TileGrid grid(camera.width, camera.height);
+  ImageObjects objects;
+  objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
+  Bins bins(0, static_cast<std::uint32_t>(triangles.count()));
+  bins.fill({objects, camera, cull, by_area, grid, referee, statistics});
+  EXPECT_EQ(statistics.facing.interval + statistics.facing.exact, triangles.count());
+  for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
+    const auto numbers = bins.in_tile(tile);
+    const std::set<std::uint32_t> in_tile(numbers.begin(), numbers.end());
+    EXPECT_EQ(in_tile.size(), numbers.size());
+    const PixelBox area = grid.area(tile);
+    for (std::uint32_t number = 0; number < triangles.count(); ++number) {
+      TierCounts counts;
+      const ProjectedTriangle t = project(triangles.world_corners(number), number, camera, counts);
+      if (t.orientation == Sign::zero || !is_kept(t, cull)) {
+        EXPECT_EQ(in_tile.count(number), 0U);
+        continue;
+      }
+      const CoverageFrame frame{triangles, camera, cull};
+      const auto counts_at = [&](std::uint32_t column, std::uint32_t row) {
+        if (by_area) return pixel_coverage(frame, {{number}}, column, row).sign() != Sign::zero;
+        const ImagePoint s = centre_of_pixel(column, row);
+        return covers(t, s, counts) && depth_at(t, s).sign() == Sign::positive;
+      };
+      bool meets = false;
+      const std::uint32_t step = by_area ? 5 : 1;
+      for (std::uint32_t row = area.first_row; row <= area.last_row && !meets; row += step) {
+        for (std::uint32_t column = area.first_column; column <= area.last_column && !meets;
+             column += step) {
+          meets = counts_at(column, row);
+        }
+      }
+      met += meets;
+      if (meets) {
+        ASSERT_EQ(in_tile.count(number), 1U) << "triangle " << number << ", tile " << tile;
+      }
+    }
+  }
+}
+
+TEST(Bins, HoldEveryTriangleThatASampleOrAreaOfTheTileSees) {
+  std::mt19937_64 random(181);
+  int met = 0;
+  for (int i = 0; i < 8 && !HasFatalFailure(); ++i) {
+    Camera camera = camera_of(160, 140, 64);
+    if (i % 4 == 3) camera.world_to_camera[2][3] = -3.25;  // among the triangles
+    const Scene scene = testing::soup(random, 24, i % 2 == 0);
+    check(scene, camera, i % 3 == 0 ? Cull::back : Cull::none, i >= 6, met);
+  }
+  EXPECT_GT(met, 100);
+}
+
+/// A bin of a part of the scene holds that part.
+TEST(Bins, HoldTheTrianglesThatTheyAreOf) {
+  std::mt19937_64 random(182);
+  const Scene scene = testing::soup(random, 30, true);
+  const Camera camera = camera_of(160, 140, 64);
+  Referee referee(scene, camera);
+  RenderStatistics statistics;
+  const TileGrid grid(camera.width, camera.height);
+  ImageObjects objects;
+  objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
+  const auto filled = [&](std::uint32_t first, std::uint32_t end) {
+    Bins bins(first, end);
+    bins.fill({objects, camera, Cull::none, false, grid, referee, statistics});
+    return bins;
+  };
+  const Bins all = filled(0, 30), first = filled(0, 11), rest = filled(11, 30);
+  for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
+    std::multiset<std::uint32_t> parts;
+    for (const Bins* bins : {&first, &rest}) {
+      for (const std::uint32_t number : bins->in_tile(tile)) {
+        EXPECT_EQ(number < 11, bins == &first);
+        parts.insert(number);
+      }
+    }
+    const auto whole = all.in_tile(tile);
+    EXPECT_EQ(parts, std::multiset<std::uint32_t>(whole.begin(), whole.end()));
+  }
+}
+
+}  // namespace
+}  // namespace fathom

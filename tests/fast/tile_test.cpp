@@ -1,0 +1,123 @@
+// A tile drawn triangle by triangle: at each sample the nearest, whatever the order.
+#include "fathom/fast/tile.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "fathom/triangle/sampling.h"
+#include "tests/inputs/soup.h"
+
+namespace fathom {
+namespace {
+
+using namespace fast;
+using namespace triangle;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(SurfaceTag, HoldsTheNumberAndABoundThatIsNoLess) {
+  for (const double error : {0.0, 1e-300, 0x1p-60, 1.0, std::nextafter(1.0, 0), 0.1}) {
+    for (const std::uint32_t number : {0U, 7U, 0xFFFFFFFEU}) {
+      const std::uint64_t tag = surface_tag(number, error);
+      EXPECT_EQ(static_cast<std::uint32_t>(tag), number);
+      EXPECT_GE(std::bit_cast<double>(tag), error);
+      EXPECT_LE(std::bit_cast<double>(tag), error * (1 + 0x1p-19) + 1e-300);
+    }
+  }
+  EXPECT_TRUE(std::isnan(std::bit_cast<double>(surface_tag(3, infinity))));
+  EXPECT_EQ(static_cast<std::uint32_t>(no_surface_tag), no_surface);
+  EXPECT_LT(std::bit_cast<double>(no_surface_tag), 1e-300);
+}
+
+/// The number of the visible triangle at a sample, by exact numbers; no_surface where none is.
+std::uint32_t visible_at(const std::vector<ProjectedTriangle>& triangles, const Camera& camera,
+                         const ImagePoint& s) {
+  std::uint32_t best = no_surface;
+  Ratio depth;
+  TierCounts counts;
+  for (const ProjectedTriangle& t : triangles) {
+    if (t.orientation == Sign::zero || !covers(t, s, counts)) continue;
+    const Ratio D = depth_at(t, s);
+    if (!is_in_range(D, camera) || (best != no_surface && !(D < depth))) continue;
+    best = t.number;
+    depth = D;
+  }
+  return best;
+}
+
+TEST(Tile, ShowsTheNearestWhateverTheOrder) {
+  std::mt19937_64 random(201);
+  int seen = 0;
+  for (int i = 0; i < 6; ++i) {
+    const Scene scene = testing::soup(random, 20, i % 2 == 0);
+    Camera camera = testing::camera_of(160, 140, 64);
+    if (i % 3 == 1) camera.near = 3;
+    const TriangleSource source(scene);
+    Referee referee(source, camera);
+    RenderStatistics statistics;
+    const DepthRange range = depth_range(camera);
+    const FastSwitches switches;
+    const Tile::Context context{referee, statistics, range, true, switches};
+    ImageObjects objects;
+    objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
+    std::vector<ProjectedTriangle> projected;
+    std::vector<std::uint32_t> numbers(source.count());
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    TierCounts counts;
+    std::vector<std::uint32_t> kept;
+    for (const std::uint32_t number : numbers) {
+      projected.push_back(project(source.world_corners(number), number, camera, counts));
+      if (projected.back().orientation != Sign::zero) kept.push_back(number);
+    }
+    std::shuffle(kept.begin(), kept.end(), random);
+    const TileGrid grid(camera.width, camera.height);
+    const PixelBox area = grid.area(static_cast<std::uint32_t>(i) % grid.count());
+    Tile tile;
+    tile.start(area);
+    tile.draw(objects[0], kept, context);
+    for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
+      for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
+        const std::size_t at = Tile::index(column - area.first_column, row - area.first_row);
+        const auto number = static_cast<std::uint32_t>(tile.tags()[at]);
+        ASSERT_EQ(number, visible_at(projected, camera, centre_of_pixel(column, row)))
+            << column << ' ' << row;
+        seen += number != no_surface;
+        EXPECT_EQ(tile.q()[at] == -infinity, number == no_surface);
+      }
+    }
+  }
+  EXPECT_GT(seen, 1000);
+}
+
+TEST(Tile, StartEmptiesIt) {
+  const Scene scene = testing::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, {{0, 1, 2}});
+  const Camera camera = testing::camera_of(64, 64, 1);
+  Referee referee(scene, camera);
+  RenderStatistics statistics;
+  const DepthRange range = depth_range(camera);
+  const FastSwitches switches;
+  const Tile::Context context{referee, statistics, range, true, switches};
+  ImageObjects objects;
+  objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
+  Tile tile;
+  tile.start({0, 63, 0, 63});
+  const std::uint32_t first[] = {0};
+  tile.draw(objects[0], first, context);
+  EXPECT_EQ(static_cast<std::uint32_t>(tile.tags()[Tile::index(32, 32)]), 0U);
+  EXPECT_EQ(tile.q()[Tile::index(32, 32)], 1);
+  tile.start({0, 63, 0, 63});
+  for (std::uint32_t row = 0; row < 64; ++row) {
+    for (std::uint32_t column = 0; column < 64; ++column) {
+      ASSERT_EQ(tile.tags()[Tile::index(column, row)], no_surface_tag);
+      ASSERT_EQ(tile.q()[Tile::index(column, row)], -infinity);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fathom
