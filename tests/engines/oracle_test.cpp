@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "fathom/reference/probe.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/threads/threads.h"
 #include "tests/effort.h"
 #include "tests/engines/tested_engine.h"
 #include "tests/inputs/random_scenes.h"

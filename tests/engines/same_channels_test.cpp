@@ -10,7 +10,7 @@
 #include "fathom/camera/camera_making.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/threads/threads.h"
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
 #include "tests/inputs/random_scenes.h"

@@ -7,7 +7,7 @@
 #include "fathom/area/coverage_image.h"
 #include "fathom/area/visible_fragments.h"
 #include "fathom/numeric/rounding.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom::area {
 using namespace triangle;

@@ -1,7 +1,6 @@
 #include "fathom/area/visible_areas.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <atomic>
 
@@ -10,7 +9,7 @@
 #include "fathom/area/visible_fragments.h"
 #include "fathom/numeric/enclosed_sum.h"
 #include "fathom/numeric/rounding.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom {
 using namespace area;
@@ -161,7 +160,7 @@ VisibleAreas areas_in_arena(const CoverageFrame& frame, const RenderOptions& opt
   constexpr std::uint32_t chunk = 64;
   const std::uint32_t chunks = areas.count() / chunk + 1;
   Progress progress(options.progress, chunks);
-  tbb::parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
+  parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
     const std::uint32_t end = std::min(areas.count(), (k + 1) * chunk);
     for (std::uint32_t number = k * chunk; number < end; ++number) {
       const ExactAreas exact = areas.of(number);

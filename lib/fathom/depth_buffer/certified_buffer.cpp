@@ -1,5 +1,4 @@
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/mapping.h"
 #include "fathom/numeric/certified_rounding.h"
+#include "fathom/threads/threads.h"
 #include "fathom/triangle/certified_surfaces.h"
 #include "fathom/triangle/referee.h"
 #include "fathom/triangle/sampling.h"
@@ -204,7 +204,7 @@ DepthBufferStatistics fill_certified(const BufferWork& work) {
       [&] { return Worker(work.triangles, work.camera, rays); });
   const BufferBands bands(work);
   std::vector<DepthBufferStatistics> parts(bands.count());
-  tbb::parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {
+  parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {
     CertifiedBand band(work, format, bands[i], workers.local(), parts[i]);
     band.store();
     if (work.options.against_exact) band.find_winners();

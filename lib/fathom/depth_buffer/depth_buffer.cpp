@@ -5,7 +5,7 @@
 
 #include "fathom/depth_buffer/buffer_work.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom {
 using namespace area;

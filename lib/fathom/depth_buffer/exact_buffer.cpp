@@ -1,4 +1,3 @@
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <limits>
@@ -7,6 +6,7 @@
 #include "fathom/depth_buffer/buffer_work.h"
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/mapping.h"
+#include "fathom/threads/threads.h"
 #include "fathom/triangle/sampling.h"
 
 // How to read this file: fill_exactly() at the end is the whole story. Every number is exact and
@@ -101,7 +101,7 @@ class ExactBand {
 DepthBufferStatistics fill_exactly(const BufferWork& work) {
   const BufferBands bands(work);
   std::vector<DepthBufferStatistics> parts(bands.count());
-  tbb::parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {
+  parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {
     const ExactBand band(work, bands[i]);
     band.store(parts[i]);
     if (work.options.against_exact) band.find_winners(parts[i]);

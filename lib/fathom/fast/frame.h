@@ -12,7 +12,7 @@
 #include "fathom/fast/bins.h"
 #include "fathom/fast/certified_writer.h"
 #include "fathom/fast/tile.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/threads/threads.h"
 
 /// What the fast engine works with, whether its scene lies in memory or in files.
 namespace fathom::fast {

@@ -1,7 +1,5 @@
 #include "fathom/reference/verify.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -12,10 +10,10 @@
 
 #include "fathom/area/coverage.h"
 #include "fathom/reference/verify_samples.h"
+#include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/sampling.h"
-#include "fathom/triangle/threads.h"
 #include "fathom/triangle/triangle_boxes.h"
 
 // How to read this file: verify() at the end is the whole story. The chosen pixels are taken in
@@ -65,7 +63,7 @@ void find_candidates(const TriangleSource::Part& part, const Camera& camera,
   const std::size_t count = part.mesh.triangles.size();
   std::vector<std::vector<Candidate>> found((count + triangles_per_chunk - 1) /
                                             triangles_per_chunk);
-  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
+  parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
     TriangleBoxes boxes(part.object, part.mesh, camera);
     const std::size_t end = std::min(count, (k + 1) * triangles_per_chunk);
     for (std::size_t i = k * triangles_per_chunk; i < end; ++i) {
@@ -278,7 +276,7 @@ Verification verify_in_arena(const Frame& frame, const PixelChoice& chosen) {
     const std::vector<Candidate> candidates = find_candidates(frame, rows);
     const std::vector<Band> bands = cut_into_bands(rows, candidates);
     ExactRow exact(frame, rows);
-    tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t band) {
+    parallel_for(std::size_t{0}, bands.size(), [&](std::size_t band) {
       exact.compute(bands[band]);
       progress.part_done();
     });

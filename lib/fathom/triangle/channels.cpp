@@ -1,13 +1,12 @@
 #include "fathom/triangle/channels.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom::triangle {
 namespace {
@@ -21,7 +20,7 @@ ImageChannel filled(const std::string& name, std::size_t pixels, T background) {
   if (background != T{0}) {  // NaN too
     // A huge page is zeroed by whoever touches it first, while others wait for it.
     constexpr std::size_t part = (std::size_t{1} << 21) / sizeof(T);
-    tbb::parallel_for(std::size_t{0}, (pixels + part - 1) / part, [&](std::size_t i) {
+    parallel_for(std::size_t{0}, (pixels + part - 1) / part, [&](std::size_t i) {
       std::fill(values.begin() + i * part, values.begin() + std::min(pixels, (i + 1) * part),
                 background);
     });
