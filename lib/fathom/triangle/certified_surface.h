@@ -20,10 +20,10 @@
 // d·(t × p)/(n·d). No corner needs to lie in front of the camera.
 //
 // How errors are counted. x̂ is the computed x; x̄ ≥ |x|, |x̂| is the value of the same expression
-// with every term replaced by its magnitude. An error of k·ε·x̄ is written "k". A product has the sum
-// of its factors' k and 1; a sum, the greatest k of its terms and 1. Inputs: coordinates 0, entries
-// of tables 1. Terms of second order are below 2⁻⁴⁰ of those of first order and go into `slack`, as
-// do the roundings of the bounds themselves.
+// with every term replaced by its magnitude. An error of k·ε·x̄ is written "k". A product has the
+// sum of its factors' k and 1; a sum, the greatest k of its terms and 1. Inputs: coordinates 0,
+// entries of tables 1. Terms of second order are below 2⁻⁴⁰ of those of first order and go into
+// `slack`, as do the roundings of the bounds themselves.
 //
 //   p, r                     1    difference of two coordinates
 //   n    p·r − p·r           4    1 + 1 + 1 of a product, 1 of the difference
