@@ -9,7 +9,7 @@
 /// Weiler–Atherton, step 2: what lies beside every edge, and what that makes of every contact.
 namespace fathom::clipping {
 
-/// A piece of border between neighbouring corners or contacts, once even if several rings run there.
+/// A piece of border between neighbouring corners or contacts: one, however many rings run there.
 template <class Number>
 struct LabelledEdge {
   Point2<Number> from, to;
