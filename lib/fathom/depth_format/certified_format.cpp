@@ -120,7 +120,7 @@ std::optional<double> nearest_integer(const WordPair& x, double error, double na
 }
 
 /// round_to_storage() for a float storage: the integer significand at the exponent of x.hi. A power
-/// of two is returned only from within a quarter of a step: the nearer end of its interval is there.
+/// of two is returned only from within a quarter of a step, the nearer end of its interval.
 std::optional<StoredDepth> round_to_float(Storage storage, const WordPair& x, double error) {
   if (!(x.hi > 0x1p-300)) return std::nullopt;
   const int fraction_bits = bits_of(storage);
