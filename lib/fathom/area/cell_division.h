@@ -11,7 +11,7 @@
 
 /// Cutting what lies in a cell in halves until few pieces are left in each part: the work for a
 /// part grows with the square of their number, or faster, so that thousands of triangles in a pixel
-/// would take forever. Areas of the parts add up; of their depths the nearest is taken.
+/// would take forever. Areas of the parts add up, and their nearest depths are compared.
 /// Source   [War69]
 namespace fathom::area {
 

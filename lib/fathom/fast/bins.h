@@ -14,7 +14,7 @@ namespace fathom::fast {
 
 /// One object with its vertices in the image.
 struct ImageObject {
-  /// For an object, or a part of one whose triangles in the scene begin with `first_triangle`.
+  /// For an object or a part of one; its first triangle is number `first_triangle` in the scene.
   ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
               std::uint32_t first_triangle);
 

@@ -12,7 +12,7 @@ inline constexpr std::size_t samples_of_row = 64;
 
 /// What is visible along a row: for each sample q and its tag, whose bits as a binary64 number are
 /// a bound on the error of q and whose lower half is the triangle's number (see surface_tag()).
-/// Anything at samples without a surface.
+/// Samples without a surface may have anything.
 struct SurfaceRow {
   const double* q = nullptr;
   const std::uint64_t* tags = nullptr;
@@ -21,7 +21,7 @@ struct SurfaceRow {
 };
 
 /// Rounded values, and a bit for each sample whose value is settled, that is, the exact one rounded
-/// once. Anything at the others, and at samples without a surface.
+/// once. The others, and samples without a surface, may have anything.
 template <class T>
 struct RoundedValues {
   alignas(64) std::array<T, samples_of_row> values;

@@ -8,8 +8,8 @@ namespace fathom {
 
 enum class MeshFormat { obj, ply, stl, off, gltf };
 
-struct ReadOptions {
 /// What a reader is asked for.
+struct ReadOptions {
   /// Takes precedence over recognition by content and suffix; needed for standard input.
   std::optional<MeshFormat> format;
   /// Threads to use; 0: all.

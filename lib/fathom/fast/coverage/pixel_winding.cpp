@@ -5,8 +5,8 @@
 #include "fathom/fast/vertex.h"
 
 // Let the corners of all triangles go straight from their exact to their computed places, by at
-// most ε in each coordinate. At first the sum of the triangles' winding numbers around a point is
-// the number of triangles that cover it. Cancelled edges cancel all the way, so the sum changes
+// most ε in each coordinate. At the start the sum of the triangles' winding numbers around a point
+// is the number of triangles that cover it. Cancelled edges cancel all the way, so the sum changes
 // only where an edge that is left passes over the point, which is then within √2·ε of that edge.
 // Within the square such a strip has an area of at most 2√2·ε·(√2 + 2√2·ε) ≤ 4.1ε. Everywhere else
 // the winding number of the computed edges is the exact number of triangles; in particular at a

@@ -37,7 +37,7 @@ struct CoverageTriangle {
   TileBox box;
 };
 
-/// For triangles (numbers in the scene) of an object, in a tile. With vector instructions.
+/// Classifies triangles of an object, by their numbers in the scene, in a tile, several at once.
 void classify_for_coverage(const ImageObject& object, std::span<const std::uint32_t> numbers,
                            const DepthRange& range, const PixelBox& tile,
                            CoverageTriangle* classes);
