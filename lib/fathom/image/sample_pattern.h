@@ -14,7 +14,7 @@ using SampleOffset = std::array<double, 2>;
 /// Several samples per pixel (specification, section 5).
 ///
 ///   1, 2, 4, 8, 16   the standard positions of Direct3D and Vulkan, multiples of 1/16
-///   rotated-grid     four samples, the regular 2×2 grid turned by arctan ½
+///   rotated-grid     four samples, the regular 2×2 grid turned by arctan ½ and enlarged by √5/2
 ///   regular:N        N×N at (i + ½)/N − ½
 ///   jittered:N       one sample in each of N×N cells, drawn for every pixel from the seed, the
 ///   jittered:N:SEED  cell and the pixel; multiples of 2⁻¹⁶ of a cell. SEED is 1 unless given
