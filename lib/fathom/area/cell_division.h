@@ -9,24 +9,23 @@
 
 #include "fathom/area/image_cell.h"
 
-/// Cutting what lies in a cell in halves until few pieces are left in each part: the questions
-/// asked about a part take the square of their number, or more, so that thousands of triangles in a
-/// pixel would take forever. Areas of the parts add up, depths of the nearest are compared.
-/// Source   John E. Warnock, A hidden surface algorithm for computer generated halftone pictures,
-///          University of Utah, 1969.
+/// Cutting what lies in a cell in halves until few pieces are left in each part: the work for a
+/// part grows with the square of their number, or faster, so that thousands of triangles in a pixel
+/// would take forever. Areas of the parts add up, and their nearest depths are compared.
+/// Source   [War69]
 namespace fathom::area {
 
 struct DivisionLimits {
-  /// So few pieces are not divided.
+  /// So few pieces are not divided any further.
   std::size_t few = 24;
-  /// The sides of parts stay binary64 numbers: a place on the image takes 24 bits.
+  /// The sides of parts remain binary64 numbers: a place on the image takes 24 bits.
   int cuts = 40;
-  /// A cut is in vain where the halves have many more pieces together than the part: edges that lie
-  /// on each other are not told apart by any number of cuts.
+  /// A cut is in vain if the halves together have many more pieces than the part: no number of cuts
+  /// can separate edges that lie on each other.
   int cuts_in_vain = 6;
 };
 
-/// Calls `visit` with parts of the state, which has size() and halves().
+/// Calls `visit` with parts of the state, which must have size() and halves().
 template <class State, class Visit>
 void divide(State state, const Visit& visit, DivisionLimits left = {}) {
   if (state.size() <= left.few || left.cuts == 0 || left.cuts_in_vain == 0) {
@@ -49,8 +48,8 @@ inline std::optional<ConvexPolygon> in_half(const ConvexPolygon& polygon,
   return result;
 }
 
-/// Divides polygons in a cell and calls `visit` with those in each part. Of polygons of which one
-/// is the whole part, that one is left.
+/// Divides polygons in a cell and calls `visit` with those in each part. If one of the polygons is
+/// the whole part, only that one is left.
 void for_each_simple_part(ImageCell& cell, std::vector<ConvexPolygon> polygons, TierCounts& counts,
                           const std::function<void(std::span<const ConvexPolygon>)>& visit);
 

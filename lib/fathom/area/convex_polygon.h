@@ -11,32 +11,32 @@ namespace fathom::area {
 struct BoundingRectangle {
   Interval u{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Interval v = u;
-  /// False only where two such boxes have no point in common.
+  /// False only if two such boxes have no point in common.
   [[nodiscard]] bool may_meet(const BoundingRectangle& other) const {
     return u.lower <= other.u.upper && other.u.lower <= u.upper && v.lower <= other.v.upper &&
            other.v.lower <= v.upper;
   }
 };
 
-/// A bounded convex polygon of positive area as the half-planes of its edges, none of them
+/// A bounded convex polygon of positive area, as the half-planes of its edges, none of which is
 /// superfluous: each turns left from the one before, and two consecutive ones meet in a vertex.
-/// No vertex is ever computed; every question is a sign of coefficients.
+/// No vertex is ever computed; every question is about a sign of coefficients.
 ///
 /// A view: the half-planes must stay where they are.
 class ConvexPolygon {
  public:
-  /// From edges as above.
+  /// From edges as described above.
   explicit ConvexPolygon(std::vector<const HalfPlane*> edges) : edges_(std::move(edges)) {
     find_bounds();
   }
 
-  /// Cuts off what lies outside of h: one step of Sutherland–Hodgman. Returns false, and leaves a
-  /// polygon that is not to be used any more, where no area is left.
-  /// Source   Ivan E. Sutherland and Gary W. Hodgman, Reentrant polygon clipping, CACM 17, 1974.
+  /// Cuts off what lies outside h: one step of Sutherland and Hodgman's algorithm. Returns false,
+  /// and leaves a polygon that must not be used any more, if no area is left.
+  /// Source   [SH74]
   bool clip(const HalfPlane& h, TierCounts& counts);
 
   [[nodiscard]] const std::vector<const HalfPlane*>& edges() const { return edges_; }
-  /// The edge before or after edge k; with that it meets in the edge's first or last vertex.
+  /// The edge before or after edge k, which it meets in edge k's first or last vertex.
   [[nodiscard]] const HalfPlane& before(std::size_t k) const {
     return *edges_[(k + edges_.size() - 1) % edges_.size()];
   }

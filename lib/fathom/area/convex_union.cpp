@@ -25,7 +25,7 @@ bool is_before(const HalfPlane& e, const HalfPlane& m, const HalfPlane& n, TierC
   return &m != &n && compare_crossings(e, m, n, counts) == Sign::negative;
 }
 
-/// What of a part of e's line lies in the polygon, if that has a length.
+/// The part of a part of e's line that lies in the polygon, if it has a length.
 std::optional<Overlap> overlap(const HalfPlane& e, const Part& part, const ConvexPolygon& polygon,
                                TierCounts& counts) {
   Overlap result{part};
@@ -67,9 +67,9 @@ void add_rest(const HalfPlane& e, const Part& part, std::vector<Part>& hidden, b
   }
 }
 
-/// The edges of polygon i that no other polygon hides: neither by points inside it, nor by an edge
-/// on the other side, nor, so that such an edge counts once, by an earlier one's on the same side.
-/// Where there is a subject, only what lies in it, reversed.
+/// Adds the edges of polygon i that no other polygon hides: neither by points inside it, nor by an
+/// edge on the other side, nor, so that such an edge counts once, by an earlier polygon's edge on
+/// the same side. If there is a subject, only what lies in it, reversed.
 void add_edges(std::span<const ConvexPolygon> polygons, std::size_t i, const ConvexPolygon* subject,
                Boundary& boundary, TierCounts& counts) {
   const ConvexPolygon& polygon = polygons[i];
@@ -95,7 +95,7 @@ void add_edges(std::span<const ConvexPolygon> polygons, std::size_t i, const Con
   }
 }
 
-/// The edges of the subject, but where a polygon lies at their inside.
+/// Adds the edges of the subject, except where a polygon lies on their inside.
 void add_edges_of_subject(const ConvexPolygon& subject, std::span<const ConvexPolygon> polygons,
                           Boundary& boundary, TierCounts& counts) {
   std::vector<Part> hidden;

@@ -10,8 +10,8 @@
 #include "fathom/threads/threads.h"
 
 // How to read this file: coplanar_pairs() at the end. For each triangle, within its box, each
-// triangle near it is asked whether it lies close behind where the first is visible; of the pairs
-// that do, each pixel is asked the same.
+// nearby triangle is asked whether it lies close behind where the first is visible; for the pairs
+// that do, the same is asked of each pixel.
 namespace fathom {
 using namespace area;
 using namespace triangle;
@@ -37,7 +37,7 @@ ImageForm negated(const ImageForm& form) {
   return ImageForm({-l[0], -l[1], -l[2]});
 }
 
-/// A cell with the pieces that triangles cover of it.
+/// A cell with the pieces of it that triangles cover.
 class CellPairs {
  public:
   CellPairs(const PixelBox& box, const SceneSurfaces& surfaces,
@@ -60,8 +60,8 @@ class CellPairs {
   }
   [[nodiscard]] const ImageCell& cell() const { return cell_; }
 
-  /// Where t is visible and s is not in front of it: the boundary, empty if that has no area, or if
-  /// s certainly lies farther behind than `within`.
+  /// The boundary of where t is visible and s is not in front of it; empty if that has no area, or
+  /// if s certainly lies farther behind than `within`.
   Boundary visible_before(std::size_t t, std::size_t s, double within) {
     const auto both = before(t, s);
     if (!both || is_certainly_apart(*both, t, s, within)) return {};
@@ -76,14 +76,14 @@ class CellPairs {
     return boundary_of_difference(*both, hidden, visibility_.decisions());
   }
 
-  /// Where the separation of both is at most `within` over an area.
+  /// Whether the separation of both is at most `within` over an area.
   static bool is_close(const Separation& separation, const Boundary& boundary, double within) {
     if (boundary.empty()) return false;
     return separation.is_below(boundary, within) || separation.is_constantly(within);
   }
 
  private:
-  /// D is monotone along lines: over a polygon it lies between its values at the corners.
+  /// D is monotone along lines: in a polygon it lies between its values at the corners.
   [[nodiscard]] bool is_certainly_apart(const ConvexPolygon& polygon, std::size_t t, std::size_t s,
                                         double within) const {
     const CellDepths front(cell_, surface(t)), behind(cell_, surface(s));
@@ -94,11 +94,11 @@ class CellPairs {
       greatest = std::max(greatest, front.enclose_at(edge, polygon.after(k)).upper);
       least = std::min(least, behind.enclose_at(edge, polygon.after(k)).lower);
     }
-    // The difference is rounded, by less than the factor.
+    // The difference is rounded, by less than this factor.
     return (least - greatest) * (1 - 0x1p-50) > within;
   }
 
-  /// The points that t and s cover, with t in front, or as deep and of the lower number.
+  /// The points that t and s cover, with t in front, or equally deep and with the lower number.
   std::optional<ConvexPolygon> before(std::size_t t, std::size_t s) {
     ConvexPolygon part = visibility_.polygon(t);
     if (!part.bounds().may_meet(visibility_.polygon(s).bounds())) return std::nullopt;

@@ -8,7 +8,7 @@ using namespace triangle;
 
 namespace {
 
-/// What the triangles cover of the pixel, until nothing is left to cover.
+/// Adds what the triangles cover of the pixel, until nothing is left to cover.
 void add(const CoverageFrame& frame, std::span<const std::uint32_t> triangles,
          CellCoverage& coverage) {
   TierCounts counts;

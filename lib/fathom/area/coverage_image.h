@@ -13,8 +13,8 @@ struct BoxedTriangle {
   PixelBox box;
 };
 
-/// The triangles of a scene sorted into bands of rows of the image, those that certainly cover
-/// nothing left out; in the order of their numbers.
+/// The triangles of a scene sorted into bands of rows of the image, in the order of their numbers,
+/// without those that certainly cover nothing.
 class TriangleBands {
  public:
   static constexpr std::uint32_t rows_per_band = 8;
@@ -33,19 +33,19 @@ class TriangleBands {
   std::vector<std::vector<BoxedTriangle>> bands_;
 };
 
-/// What is asked about a pixel, with the triangles that may cover a part of it, in the order of
-/// their numbers, at least one.
+/// What is called for a pixel, with the triangles that may cover a part of it, in the order of
+/// their numbers; there is at least one.
 using VisitPixel = std::function<void(std::uint32_t column, std::uint32_t row,
                                       std::span<const SurfaceRegion* const> triangles)>;
 
-/// Visits every pixel that a triangle may cover a part of, different ones at the same time.
-/// `part_done` is called, where set, after each band of the image (TriangleBands::count()), from
-/// any thread.
+/// Visits every pixel of which a triangle may cover a part, different ones at the same time.
+/// `part_done`, if set, is called after each band of the image (TriangleBands::count()), from any
+/// thread.
 void for_each_pixel(const CoverageFrame& frame, const VisitPixel& visit,
                     const std::function<void()>& part_done = {});
 
-/// Channel A of the whole image: width × height values, row by row, 0 where nothing is covered.
-/// Every pixel is computed by itself. Returns how decisions were made.
+/// Channel A of the whole image: width × height values, row by row from the top left, 0 where
+/// nothing is covered. Every pixel is computed by itself. Returns how decisions were made.
 TierCounts write_coverage(const CoverageFrame& frame, float* values,
                           const std::function<void()>& part_done = {});
 

@@ -14,7 +14,7 @@ using namespace triangle;
 
 namespace {
 
-/// What of a triangle is visible in a pixel.
+/// What is visible of a triangle in a pixel.
 struct Fragment {
   const SurfaceRegion* surface;
   Boundary boundary;
@@ -72,8 +72,8 @@ Ratio sum_of_areas(std::span<const Fragment> fragments) {
   return sum;
 }
 
-/// a / (1 − Σ of those before) = a / (a + rest), where the rest is what those behind it and nothing
-/// cover: a sum of positive numbers, in which nothing cancels.
+/// a / (1 − Σ of those before) = a / (a + rest), where the rest is what is covered by those behind
+/// it and by nothing: a sum of positive numbers, in which nothing cancels.
 float alpha(std::span<const Fragment> from_here, const Boundary& uncovered) {
   const Fragment& f = from_here.front();
   const auto behind = from_here.subspan(1);
@@ -139,14 +139,14 @@ std::vector<MatteShare> shares(const PixelSurfaces& surfaces,
   return result;
 }
 
-/// `compute` for every pixel that triangles may cover; the items of all pixels one after the other,
-/// and how many each has.
+/// Calls `compute` for every pixel that triangles may cover; gathers the items of all pixels, one
+/// pixel after another, and how many each has.
 template <class Item, class Compute>
 void gather(const CoverageFrame& frame, const RenderOptions& options, const Compute& compute,
             std::vector<std::uint32_t>& counts, std::vector<Item>& items) {
   const std::size_t width = frame.camera.width;
   counts.assign(width * frame.camera.height, 0);
-  // A row is one thread's, from left to right.
+  // One thread does a row, from left to right.
   std::vector<std::vector<Item>> rows(frame.camera.height);
   const auto visit = [&](std::uint32_t column, std::uint32_t row,
                          std::span<const SurfaceRegion* const> triangles) {

@@ -11,7 +11,7 @@ bool are_same(const Interval& a, const Interval& b) {
   return a.lower == b.lower && a.upper == b.upper;
 }
 
-/// Of neighbours in a mesh; enclosures differ nearly always where the points do.
+/// For neighbours in a mesh; enclosures nearly always differ if the points do.
 bool are_same(const SurfaceCorner& a, const SurfaceCorner& b) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (!are_same(a.enclosure[k], b.enclosure[k])) return false;
@@ -19,7 +19,7 @@ bool are_same(const SurfaceCorner& a, const SurfaceCorner& b) {
   return a.point == b.point;
 }
 
-/// Whether no corner of s is inside an edge of t. Edge k is opposite to corner k.
+/// Whether no corner of s is inside an edge of t. Edge k is opposite corner k.
 bool lies_outside(const SurfaceRegion& s, const SurfaceRegion& t, std::size_t k) {
   const ImageForm& edge = t.region[k];
   return std::all_of(s.corners.begin(), s.corners.end(), [&](const SurfaceCorner& corner) {

@@ -14,7 +14,7 @@ long top_bit(const Dyadic& x) {
   return static_cast<long>(mpz_sizeinbase(x.significand(), 2)) + x.exponent();
 }
 
-/// The least e for which all components are below 2^e; 0 if they are 0.
+/// The least e such that all components are below 2^e; 0 if they are 0.
 long greatest_exponent(const ExactVector3& l) {
   std::optional<long> top;
   for (const Dyadic& x : l) {
@@ -23,8 +23,8 @@ long greatest_exponent(const ExactVector3& l) {
   return top.value_or(0);
 }
 
-/// Whether the lines are one: the same coefficients up to a sign. (Two lines of other coefficients
-/// may be one all the same; this is the common case, an edge that two triangles share.)
+/// Whether the lines have the same coefficients up to a sign. (Lines with other coefficients may be
+/// the same line, too; this is the common case, an edge that two triangles share.)
 bool same_coefficients(const HalfPlane& a, const HalfPlane& b) {
   if (&a == &b) return true;
   const auto& x = a.exact();

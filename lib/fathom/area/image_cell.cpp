@@ -34,7 +34,7 @@ std::optional<std::vector<ImageForm>> covered_region(const ProjectedTriangle& t,
                                                      const Camera& camera) {
   if (t.orientation == Sign::zero) return std::nullopt;
   std::vector<ImageForm> region(t.edges.begin(), t.edges.end());
-  // D > 0: where D is 0 all over, nothing is left.
+  // D > 0: if D is 0 everywhere, nothing is left.
   const ImageForm& depth = t.depth_numerator;
   if (!is_constant(depth)) {
     region.push_back(depth);
@@ -80,7 +80,7 @@ ImageCell::ImageCell(std::uint32_t column, std::uint32_t row, std::uint32_t widt
 }
 
 std::optional<Sign> CellPart::sign_of(const ImageForm& form) const {
-  // Affine: the signs at the corners decide.
+  // The form is affine: the signs at the corners decide.
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (std::size_t k = 0; k < 4; ++k) {
     const auto [u, v] = corner(k);

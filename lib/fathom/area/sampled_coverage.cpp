@@ -13,7 +13,7 @@
 #include "fathom/triangle/sampling.h"
 
 // How to read this file: add_sampled_coverage() at the end is the whole story. Bands of rows are
-// filled one by one: each triangle is tried at the samples of its box that no other has covered.
+// filled one by one: each triangle is tested at the samples of its box that no other has covered.
 namespace fathom {
 using namespace area;
 using namespace triangle;
@@ -29,7 +29,7 @@ class ExactSamples {
   ExactSamples(const TriangleSource& triangles, const Camera& camera, Cull cull)
       : triangles_(triangles), camera_(camera), cull_(cull) {}
 
-  /// False where the triangle counts nowhere.
+  /// False if the triangle counts nowhere.
   bool take(std::uint32_t number) {
     TierCounts counts;
     triangle_ = project(triangles_.world_corners(number), number, camera_, counts);
@@ -47,7 +47,7 @@ class ExactSamples {
   ProjectedTriangle triangle_;
 };
 
-/// The same, by bounds where they settle it.
+/// Whether triangles count at samples, by bounds where they settle it.
 class CertifiedSamples {
  public:
   CertifiedSamples(const TriangleSource& triangles, const Camera& camera, Cull cull,

@@ -8,13 +8,13 @@
 
 namespace fathom {
 
-/// Adds the channel `Asampled` (FLOAT) to a map: of the samples of each pixel, the share at which a
-/// triangle counts (specification, sections 4 and 5). What `A` would be if a pixel were its
-/// samples.
+/// Adds the channel `Asampled` (FLOAT) to a map: the fraction of the samples of each pixel at which
+/// a triangle counts (specification, sections 4 and 5). What `A` would be if a pixel consisted of
+/// its samples.
 ///
-/// Exact    the shares are multiples of 1/256 or of fewer parts, and each sample is decided
+/// Exact    the fractions are multiples of 1/256 or of fewer parts, and each sample is decided
 ///          exactly: by bounds first, or for the reference engine by exact numbers alone.
-/// Needs    of `options` engine, culling and threads, as the map was rendered.
+/// Needs    in `options` the engine, culling and threads with which the map was rendered.
 void add_sampled_coverage(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                           const SamplePattern& pattern, const RenderOptions& options);
 

@@ -18,7 +18,7 @@ class SceneSurfaces {
     return surfaces_[number] ? &*surfaces_[number] : nullptr;
   }
   [[nodiscard]] const PixelBox& box(std::uint32_t number) const { return boxes_[number]; }
-  /// Numbers of the triangles whose boxes meet this one, `number` left out, in order.
+  /// Numbers of the triangles whose boxes meet that of `number`, without `number`, in order.
   [[nodiscard]] std::vector<std::uint32_t> near(std::uint32_t number) const;
 
  private:
@@ -30,7 +30,7 @@ class SceneSurfaces {
   std::vector<std::vector<std::uint32_t>> tiles_;
 };
 
-/// The cell of the image that is a box.
+/// The cell of the image that a box covers.
 inline ImageCell cell_of(const PixelBox& box) {
   return {box.first_column, box.first_row, box.last_column - box.first_column + 1,
           box.last_row - box.first_row + 1};

@@ -18,7 +18,7 @@ ExactVector3 crossing(const HalfPlane& a, const HalfPlane& b) {
   return point;
 }
 
-/// Non-negative binary64 numbers in their order as integers.
+/// Non-negative binary64 numbers, in their order, from integers.
 double from_place(std::uint64_t place) {
   return std::bit_cast<double>(place);
 }
@@ -52,9 +52,9 @@ Separation::Ends Separation::ends_of(const BoundarySegment& segment) const {
 
 // D_s − D_t < δ ⇔ G = n_s·w_t − n_t·w_s − δ·w_s·w_t < 0, as the weights are positive. On the way
 // from the first to the last point G is, up to a positive factor, the quadratic polynomial
-// (1 − τ)²·G₀ + 2·τ·(1 − τ)·M + τ²·G₁ with the polar form M. Where G₀ and G₁ are not negative, its
-// least value over 0 < τ < 1 is negative just if M < 0 and M² > G₀·G₁; it is 0 at most, with both
-// ends positive, just if M < 0 and M² ≥ G₀·G₁.
+// (1 − τ)²·G₀ + 2·τ·(1 − τ)·M + τ²·G₁ with the polar form M. If G₀ and G₁ are not negative, its
+// least value over 0 < τ < 1 is negative exactly if M < 0 and M² > G₀·G₁; it is at most 0, with
+// both ends positive, exactly if M < 0 and M² ≥ G₀·G₁.
 bool Separation::reaches(const Ends& e, const Dyadic& limit, bool closed) {
   const auto polar = [&](std::size_t i, std::size_t k) {
     const Dyadic twice = e.n_s[i] * e.w_t[k] + e.n_s[k] * e.w_t[i] - e.n_t[i] * e.w_s[k] -
@@ -101,8 +101,8 @@ bool Separation::is_constantly(const Dyadic& limit) const {
   return true;
 }
 
-// The greatest binary64 number that is nowhere exceeded from above, by bisection over the order of
-// the numbers; then the one above it, if the least value lies beyond the middle.
+// The greatest binary64 number below which the separation never falls, by bisection over the order
+// of the numbers; then the one above it, if the least value lies beyond the middle.
 double Separation::least(const Boundary& boundary) const {
   std::uint64_t low = 0;  // not above the least value
   std::uint64_t high = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());

@@ -5,23 +5,23 @@
 
 namespace fathom::area {
 
-/// How far one triangle lies behind another, D_behind − D_front, over a part of a cell in which
-/// both cover every point and that is not negative.
+/// How far one triangle lies behind another, D_behind − D_front in scene units, over a part of a
+/// cell where both cover every point and this is not negative.
 class Separation {
  public:
   Separation(const ImageCell& cell, const SurfaceRegion& front, const SurfaceRegion& behind);
 
-  /// Whether it is below `limit`, or not above, at a point of the boundary (closed).
+  /// Whether it is below `limit`, or at most `limit`, at a point of the boundary (closed).
   [[nodiscard]] bool is_below(const Boundary& boundary, const Dyadic& limit) const;
   [[nodiscard]] bool is_at_most(const Boundary& boundary, const Dyadic& limit) const;
-  /// Whether it is the limit everywhere.
+  /// Whether it equals the limit everywhere.
   [[nodiscard]] bool is_constantly(const Dyadic& limit) const;
 
-  /// The least value over a boundary, rounded once to binary64.
+  /// Its least value over a boundary, rounded once to binary64.
   [[nodiscard]] double least(const Boundary& boundary) const;
 
  private:
-  /// An affine form on the cell in its own scale.
+  /// An affine form on the cell, at the cell's own scale.
   struct Form {
     ExactVector3 exact;
     [[nodiscard]] Dyadic at(const ExactVector3& point) const { return dot(exact, point); }

@@ -87,7 +87,7 @@ class SceneAreas {
   }
 
  private:
-  /// What the others leave of the first piece.
+  /// The parts of the first piece that the others leave.
   static std::vector<Ratio> visible_parts(CellVisibility pieces, const Ratio& unoccluded) {
     if (pieces.size() == 1) return {unoccluded};
     const SurfaceRegion& surface = pieces.surface(0);
@@ -110,7 +110,7 @@ struct ObjectSums {
   EnclosedSum visible, in_object;
 };
 
-/// Where enclosures settle how the areas and their ratio round.
+/// The areas and their ratio, if enclosures settle how they round.
 std::optional<VisibleArea> settled(const Enclosure& visible, const Enclosure& alone) {
   if (alone.low.sign() == Sign::zero) return std::nullopt;
   const VisibleArea low = rounded(visible.low, alone.low), high = rounded(visible.high, alone.high);
@@ -131,7 +131,7 @@ VisibleArea rounded(const ExactAreas& areas) {
   return rounded(exact_sum(areas.visible), areas.unoccluded);
 }
 
-/// The exact areas of an object, where their enclosures do not settle how they round.
+/// Rounds the exact areas of an object, where their enclosures do not settle how they round.
 VisibleArea rounded_exactly(const SceneAreas& areas, std::uint32_t object) {
   std::vector<Ratio> visible, in_object;
   for (std::uint32_t number = 0; number < areas.count(); ++number) {

@@ -9,26 +9,27 @@
 
 namespace fathom {
 
-/// Areas in pixels within the image rectangle, each exact number rounded once to binary64.
+/// Areas within the image rectangle, in pixels, each exact number rounded once to binary64.
 struct VisibleArea {
-  /// Where it is the visible one.
+  /// The area where it is the visible one.
   double visible = 0;
-  /// Where it would be if there were nothing else.
+  /// The area where it would be visible if there were nothing else.
   double unoccluded = 0;
-  /// Of the exact areas; nothing if there is no unoccluded area.
+  /// visible / unoccluded, of the exact areas; nothing if there is no unoccluded area.
   std::optional<double> ratio;
 };
 
 /// Visible and unoccluded areas (specification, section 8) by the numbers of triangles and of
-/// objects. An object's visible area is the sum of its triangles', its unoccluded area that sum
-/// with the triangles of all other objects removed.
+/// objects. An object's visible area is the sum of its triangles' visible areas; its unoccluded
+/// area is that sum with the triangles of all other objects removed.
 struct VisibleAreas {
   std::vector<VisibleArea> triangles, objects;
 };
 
 /// Computed from the triangles' outlines as a whole, not pixel by pixel: the size of the image does
-/// not matter. Of the options culling, threads and progress count.
-/// Needs    a camera without fault.
+/// not matter. Of the options, only culling, threads and progress matter.
+/// Exact    every area, and the ratio of exact areas; each rounded once.
+/// Needs    a camera without fault (find_fault()).
 VisibleAreas visible_areas(const TriangleSource& triangles, const Camera& camera,
                            const RenderOptions& options);
 

@@ -18,7 +18,7 @@ bool is_zero(const ImageForm& form) {
   return l[0].is_zero() && l[1].is_zero() && l[2].is_zero();
 }
 
-/// factor·form, where one of both is a constant form.
+/// a·b, one of which is a constant form.
 ExactVector3 product(const ImageForm& a, const ImageForm& b) {
   const bool a_is_constant = a.coefficients()[0].is_zero() && a.coefficients()[1].is_zero();
   const Dyadic& factor = a_is_constant ? a.coefficients()[2] : b.coefficients()[2];
@@ -28,9 +28,9 @@ ExactVector3 product(const ImageForm& a, const ImageForm& b) {
 
 }  // namespace
 
-// n_s/w_s < n_t/w_t ⇔ n_t·w_s − n_s·w_t > 0, as both weights are positive where s and t cover.
-// Under perspective D is the W of the corners, so that n is Δ without its sign, a constant; under
-// an orthographic projection W = 1 and w is.
+// n_s/w_s < n_t/w_t ⇔ n_t·w_s − n_s·w_t > 0, as both weights are positive where s and t cover. For
+// a perspective camera D is the W of the corners, so n is |Δ|, a constant; for an orthographic one
+// W = 1, and w is.
 ImageForm in_front(const SurfaceRegion& s, const SurfaceRegion& t) {
   const ExactVector3 a = product(t.depth_numerator, s.weight);
   const ExactVector3 b = product(s.depth_numerator, t.weight);
@@ -64,7 +64,7 @@ bool CellVisibility::add_if_it_hides(const SurfaceRegion& surface, std::size_t p
   return false;
 }
 
-// The form of in_front() is affine: the signs at the corners of the cell tell those within.
+// The form of in_front() is affine: the signs at the corners of the cell decide those inside.
 CellVisibility::Order CellVisibility::quick_order(const CornerDepths& s, const CornerDepths& t) {
   bool in_front = true, behind = true;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -87,7 +87,7 @@ void CellVisibility::drop_hidden() {
     if (!pieces_[w].is_whole) continue;
     std::size_t kept = 0, place = 0;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      // Those before i have moved up, the whole one among them perhaps.
+      // Those before i have moved up, perhaps the whole one among them.
       const PieceOfSurface& whole = pieces_[i <= w ? w : place];
       if (i != w && is_in_front(whole, pieces_[i])) continue;
       if (i == w) place = kept;

@@ -9,21 +9,20 @@
 /// Visible surfaces inside a cell of the image (specification, section 8), exactly.
 ///
 /// Weiler and Atherton sort by area: the polygon that is in front cuts all others into what lies
-/// inside of it and outside, and the process goes on with both until each list is one polygon deep.
-/// For triangles the same visible areas follow without sorting and without cutting what is cut
-/// already. The points at which s hides t, both there and D_s < D_t, form a convex polygon, because
-/// D_s < D_t is a half-plane on the image; so
+/// inside it and what lies outside, and the process goes on with both until each list is one
+/// polygon deep. For triangles the same visible areas follow without sorting, and without cutting
+/// again what has been cut. The points at which s hides t, where both are and D_s < D_t, form a
+/// convex polygon, because D_s < D_t is a half-plane on the image; so
 ///
 ///   visible(t) = clip(t) without the union over s of t ∩ s ∩ {D_s < D_t}
 ///
-/// for all triangles, those that penetrate each other or overlap in a cycle included. Where D_s and
-/// D_t are the same all over, the triangle of the lower number hides the other.
-/// Source   Kevin Weiler and Peter Atherton, Hidden surface removal using polygon area sorting,
-///          SIGGRAPH 1977.
+/// for all triangles, even those that penetrate each other or overlap in a cycle. Where D_s and D_t
+/// are the same everywhere, the triangle of the lower number hides the other.
+/// Source   [WA77]
 namespace fathom::area {
 
-/// The form that is positive where s, of two triangles that both cover a point, is in front of t,
-/// and zero where they are equally deep.
+/// The form that, at points covered by both triangles, is positive where s is in front of t and
+/// zero where they are equally deep.
 ImageForm in_front(const SurfaceRegion& s, const SurfaceRegion& t);
 
 /// The pieces of a cell, or of a part of it, that triangles cover, and what of each is visible.
@@ -42,18 +41,18 @@ class CellVisibility {
     return pieces_[piece].polygon;
   }
 
-  /// The same, unless it certainly hides nothing of a piece that is there.
+  /// add(), unless the triangle certainly hides nothing of a piece that was added before.
   bool add_if_it_hides(const SurfaceRegion& surface, std::size_t piece);
-  /// Adds the last piece of another one about the same cell.
+  /// Adds the last piece of another CellVisibility of the same cell.
   void add_last_of(const CellVisibility& other) { pieces_.push_back(other.pieces_.back()); }
 
-  /// Leaves out pieces that one that is the whole cell hides; numbers change.
+  /// Removes pieces that are hidden by one that is the whole cell; numbers change.
   void drop_hidden();
-  /// The pieces in each half of the cell, those that one that is the whole half hides left out.
+  /// The pieces in each half of the cell, without those hidden by one that is the whole half.
   [[nodiscard]] std::array<CellVisibility, 2> halves() const;
 
-  /// The boundary of the visible part of a piece; empty where it is hidden. Only triangles that
-  /// `counts` accepts, where given, hide it.
+  /// The boundary of the visible part of a piece; empty if it is hidden. Only triangles that
+  /// `counts` accepts, if given, hide it.
   Boundary visible(std::size_t piece, const std::function<bool(const SurfaceRegion&)>& counts = {});
   /// The boundary of what no piece covers.
   Boundary uncovered();
@@ -68,7 +67,7 @@ class CellVisibility {
  private:
   CellVisibility(ImageCell& cell, CellPart part) : cell_(&cell), part_(std::move(part)) {}
 
-  /// Of a triangle's plane at the cell's corners; [−∞, ∞] where that is not known.
+  /// Depths of a triangle's plane at the cell's corners; [−∞, ∞] where that is not known.
   using CornerDepths = std::array<Interval, 4>;
   struct PieceOfSurface {
     const SurfaceRegion* surface;
@@ -82,7 +81,7 @@ class CellVisibility {
   [[nodiscard]] bool is_in_front(const PieceOfSurface& s, const PieceOfSurface& t) const;
 
   ImageCell* cell_;
-  /// What of the cell this is about.
+  /// The part of the cell that this is about.
   CellPart part_;
   std::vector<PieceOfSurface> pieces_;
   TierCounts counts_;
@@ -98,8 +97,8 @@ class CellDepths {
   struct Extent {
     float nearest, farthest;
   };
-  /// The least and the greatest depth within a boundary, each rounded once; the boundary is not
-  /// empty. D is monotone along every line, so that both are those of ends of segments.
+  /// The least and the greatest depth within a boundary that is not empty, each rounded once. D is
+  /// monotone along every line, so both are found at ends of segments.
   [[nodiscard]] Extent extent(const Boundary& boundary) const;
 
   /// D at the point where two lines cross.

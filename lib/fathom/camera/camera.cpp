@@ -8,8 +8,8 @@
 namespace fathom {
 namespace {
 
-/// A principal point as it counts in the image of the specification, where the centre of the top
-/// left pixel is at ½: c + (½ − pixel_centre).
+/// A coordinate of the principal point in the image of the specification, where the centre of the
+/// top left pixel is at ½: c + (½ − pixel_centre).
 Dyadic centred(double c, double pixel_centre) {
   return Dyadic(c) + (Dyadic(0.5) - pixel_centre);
 }
@@ -36,7 +36,7 @@ std::optional<std::string> find_fault(const Camera& camera) {
   if (camera.fx == 0) return "fx is 0, expected any other number";
   if (camera.fy == 0) return "fy is 0, expected any other number";
   if (camera.near < 0) return "near is negative, expected 0 or more";
-  // Written so that a far that is NaN is refused too.
+  // Written this way so that a NaN is refused too.
   if (!(camera.far > camera.near)) return "far is not greater than near";
   if (determinant_of_rotation(camera).is_zero())
     return "world_to_camera is singular: the determinant of its first three columns is exactly 0";

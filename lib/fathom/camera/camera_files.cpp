@@ -61,8 +61,8 @@ Camera read_camera(const JsonValue& value) {
   return camera;
 }
 
-/// 17 significant digits: reading them gives the same number bit for bit. A zero keeps its sign
-/// only where it looks like a fraction.
+/// 17 significant digits: reading them back gives the same number bit for bit. A zero keeps its
+/// sign only if it is written as a fraction.
 std::string to_json(double number) {
   if (std::isinf(number)) return "null";
   if (number == 0) return std::signbit(number) ? "-0.0" : "0";

@@ -12,8 +12,8 @@ namespace fathom {
 /// Fails    InputError, naming the key; unknown keys are errors.
 std::vector<Camera> read_cameras(const std::filesystem::path& file);
 
-/// The camera files' JSON with every number to 17 significant digits, so that reading it gives the
-/// same camera bit for bit. Ends without a newline.
+/// The JSON of camera files with every number to 17 significant digits, so that reading it back
+/// gives the same camera bit for bit. Ends without a newline.
 std::string to_json(const Camera& camera);
 /// A list of cameras; a single one is written as an object.
 std::string to_json(const std::vector<Camera>& cameras);

@@ -8,13 +8,14 @@
 #include "fathom/camera/camera.h"
 #include "fathom/text/warnings.h"
 
-/// Cameras of other programs, converted to ours; docs/conventions.md has the formulas. Only
-/// cameras that ours can express exactly in form are taken: a lens distortion is refused, unless
-/// all its parameters are exactly 0. Entries that follow from a formula (quaternions, inverses,
-/// projection matrices) are computed as exact rationals and rounded to binary64 once.
+/// Cameras of other programs, converted to ours; docs/conventions.md has the formulas. Only cameras
+/// that ours can express exactly are taken: lens distortion is refused, unless all its parameters
+/// are exactly 0. Entries that follow from a formula (quaternions, inverses, projection matrices)
+/// are computed as exact rationals and rounded to binary64 once; only NeRF's camera_angle_x and
+/// camera_angle_y go through a tangent in extended precision.
 ///
-/// All fail with InputError, one line that names the file and the line or key; what comes out has
-/// passed find_fault.
+/// All fail with InputError, one line that names the file and the line or key. The cameras that
+/// they return have passed find_fault().
 namespace fathom {
 
 struct ImportedCamera {
@@ -29,16 +30,16 @@ struct ImportedCamera {
 std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder);
 
 /// NeRF's transforms.json (also Nerfstudio's and instant-ngp's), in the order of its frames.
-/// Camera to world, OpenGL axes, corner at 0. Intrinsics for all or per frame: fl_x, fl_y, cx, cy,
-/// w, h, or camera_angle_x with an image size.
-/// `width` and `height` serve where the file has no w and h (the original NeRF data); 0: none.
+/// Camera to world, OpenGL axes, the image's corner at 0. Intrinsics for all frames or each: fl_x,
+/// fl_y, cx, cy, w, h, or camera_angle_x with an image size.
+/// `width` and `height` are used where the file has no w and h (the original NeRF data); 0: none.
 /// Warns of keys that other programs use to change the geometry on loading (scale, offset, …).
 std::vector<ImportedCamera> import_nerf(const std::filesystem::path& file, std::uint32_t width,
                                         std::uint32_t height, Warnings& warnings);
 
-/// BOP's scene_camera.json, in the order of image ids. The image size stands elsewhere in a BOP
-/// data set, so it is given. Without cam_R_w2c and cam_t_w2c the world is the camera frame, in
-/// which scene_gt.json has its poses. Lengths are as in the file (millimetres).
+/// BOP's scene_camera.json, in the order of image ids. A BOP data set keeps the image size in
+/// another place, so the caller gives it. Without cam_R_w2c and cam_t_w2c the world is the camera
+/// frame, in which scene_gt.json gives its poses. Lengths are as in the file (millimetres).
 std::vector<ImportedCamera> import_bop(const std::filesystem::path& file, std::uint32_t width,
                                        std::uint32_t height);
 
@@ -47,10 +48,10 @@ std::vector<ImportedCamera> import_bop(const std::filesystem::path& file, std::u
 ///   "modelview" or "view"   the same; the identity where it is missing
 ///   "viewport"              [width, height] or [x, y, width, height]; the image is the viewport
 ///   "clip_depth"            "minus-one-one" (OpenGL, the default), "zero-one", or "none": near and
-///                           far are not taken over
+///                           far are not imported
 ///   "name"                  optional
-/// Takes perspective and orthographic projections without rotation, also with skew, off-centre,
-/// with an infinite far plane, and reversed in depth.
+/// Takes perspective and orthographic projections without rotation, including skewed, off-centre
+/// and depth-reversed ones and those with an infinite far plane.
 std::vector<ImportedCamera> import_opengl(const std::filesystem::path& file);
 
 }  // namespace fathom

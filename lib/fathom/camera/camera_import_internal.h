@@ -8,8 +8,8 @@
 
 #include "fathom/camera/camera_import.h"
 
-/// The imports of camera_import.h on what has been opened already, for their files, tests and
-/// fuzzers. `name` is the file's name for messages.
+/// The imports of camera_import.h from text and streams that are already open, for their own files,
+/// tests and fuzzers. `name` is the file's name for messages.
 namespace fathom::camera {
 
 /// A stream with its name.

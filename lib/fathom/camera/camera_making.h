@@ -22,8 +22,9 @@ struct Lens {
   double vertical_fov = 40;
   /// Perspective: fx = fy in pixels; takes the place of vertical_fov.
   std::optional<double> focal;
-  /// Orthographic: scene units that the image's height spans; look_at and orbit need it.
+  /// Orthographic: scene units that the image's height spans; look_at() and orbit() need it.
   std::optional<double> vertical_extent;
+  /// The range of planar depth that counts, in scene units.
   double near = 0;
   double far = std::numeric_limits<double>::infinity();
 };
@@ -32,16 +33,17 @@ using Vector3 = std::array<double, 3>;
 
 /// The camera at `eye` that looks at `target` with `up` upwards in the image.
 ///
-/// Exact    R is the exact orthonormal frame with every entry rounded once, t = −R·eye computed
+/// Frame    eye, target and up: world, scene units.
+/// Exact    R is the exact orthonormal frame with every entry rounded once; t = −R·eye is computed
 ///          exactly from the rounded R and rounded once.
 /// Fails    UsageError if eye and target coincide, if `up` is zero or along the line of sight (both
-///          tested exactly), if a number is not finite, or if the lens cannot be.
+///          tested exactly), if a number is not finite, or if the lens is not valid.
 Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up, const Lens& lens = {});
 
 /// The axis of the world that points up.
 enum class UpAxis { y, z };
 
-/// Where an eye is as seen from what it looks at, in degrees.
+/// The direction in which an eye lies, as seen from what it looks at; in degrees.
 ///
 /// elevation  angle above the horizontal plane, −90 (from below) to 90 (from above).
 /// azimuth    angle around the up axis, counter-clockwise as seen from above. At 0 the image's
@@ -53,18 +55,19 @@ struct View {
   UpAxis up = UpAxis::y;
 };
 
-/// The camera at `distance` from `centre` in the direction of `view`, looking at `centre`. Also
-/// from straight above and below, where the azimuth says how the image is turned.
+/// The camera at `distance` (scene units) from the world point `centre` in the direction of `view`,
+/// looking at `centre`. The eye may be straight above or below; the azimuth then says how the image
+/// is turned.
 ///
 /// Exact    sines and cosines are the C library's (exact at multiples of 90°); t = (0, 0, distance)
 ///          − R·centre is computed exactly from the rounded R and rounded once.
 /// Fails    UsageError if distance ≤ 0, elevation is outside [−90, 90], a number is not finite, or
-///          the lens cannot be.
+///          the lens is not valid.
 Camera look_from(const View& view, const Vector3& centre, double distance, const Lens& lens = {});
 
 /// A camera path of `count` views around `centre`, the first at `first`, the others at azimuths
 /// 360°/count apart.
-/// Fails    UsageError as look_from, and if count is 0.
+/// Fails    UsageError as look_from(), and if count is 0 or above 1,000,000.
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const Vector3& centre,
                           double distance, const Lens& lens = {});
 

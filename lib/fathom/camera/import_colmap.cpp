@@ -27,7 +27,7 @@ struct Model {
   const char* name;
   std::size_t parameters;
   std::size_t focals;
-  /// Whether it is a pinhole camera where all its distortion parameters are 0.
+  /// Whether it is a pinhole camera if all its distortion parameters are 0.
   bool pinhole;
 };
 
@@ -46,14 +46,14 @@ constexpr std::array<Model, 11> models{{{"SIMPLE_PINHOLE", 3, 1, true},
 
 using Cameras = std::map<std::uint32_t, Camera>;
 
-/// What a file says of one camera.
+/// What a file says about one camera.
 struct CameraRecord {
   std::uint32_t id = 0;
   std::uint64_t width = 0, height = 0;
   std::vector<double> parameters;
 };
 
-/// What a file says of one image.
+/// What a file says about one image.
 struct ImageRecord {
   std::array<double, 4> quaternion{};  // w, x, y, z
   std::array<double, 3> translation{};
@@ -219,7 +219,7 @@ std::vector<ImportedCamera> read_binary_images(BinaryReader file, const Cameras&
 
 // Text files
 
-/// A line of a text file and where it stands.
+/// A line of a text file and where it is.
 struct Line {
   std::istringstream words;
   std::string where;
@@ -301,7 +301,7 @@ std::vector<ImportedCamera> read_text_images(NamedStream file, const Cameras& ca
     std::getline(line.words >> std::ws, image.name);
     if (image.name.empty()) throw InputError(line.where + ": the image's name is missing");
     images.push_back(place(image, cameras, line.where));
-    // The line of the points; it may be empty, and at the end of the file missing.
+    // The line of the points, which may be empty, and missing at the end of the file.
     file.stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
     ++number;
   }

@@ -14,7 +14,7 @@ using namespace text;
 
 namespace {
 
-/// The keys of one frame, with those of the whole file behind them.
+/// The keys of one frame, backed by those of the whole file.
 struct Frame {
   JsonValue own;
   JsonValue file;
@@ -52,7 +52,7 @@ std::uint32_t image_size(const Frame& frame, const char* key, std::uint32_t give
   return given;
 }
 
-/// ½·size / tan(angle/2), in extended precision, then rounded.
+/// ½·size / tan(angle/2) in extended precision, then rounded.
 double focal_of(std::uint32_t size, double angle) {
   return static_cast<double>(0.5L * size / std::tan(0.5L * static_cast<long double>(angle)));
 }
@@ -68,7 +68,7 @@ void read_intrinsics(const Frame& frame, Camera& camera) {
   camera.cy = frame.number("cy").value_or(camera.height / 2.0);
 }
 
-/// The inverse of the camera-to-world matrix [A | b] with OpenGL's axes, in ours: with
+/// The inverse, in our axes, of the camera-to-world matrix [A | b] in OpenGL's: with
 /// A⁻¹ = adj A / det A, world to camera is diag(1, −1, −1)·[A⁻¹ | −A⁻¹·b], each entry an exact
 /// rational rounded once.
 Matrix34 invert(const JsonValue& matrix) {

@@ -86,7 +86,7 @@ void read_intrinsics(const JsonValue& value, const Matrix4& P, Camera& camera) {
   camera.cy = rounded(h * (perspective ? k + P[1][2] : k - P[1][3]), twice_k);
 }
 
-/// Depth of the plane on which z_ndc = (P₂₃ − P₂₂·z)/W is `ndc`; infinite where there is none.
+/// Depth of the plane where z_ndc = (P₂₃ − P₂₂·z)/W is `ndc`; infinite if there is none.
 double depth_of_plane(const Matrix4& P, Projection projection, double ndc) {
   const Dyadic a = P[2][2], b = P[2][3];
   const bool perspective = projection == Projection::perspective;

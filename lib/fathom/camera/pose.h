@@ -5,7 +5,7 @@
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/ratio.h"
 
-/// Poses with entries that are rounded once. For this room's .cpp files only.
+/// Poses whose entries are rounded once. Only for .cpp files of this room and of scene/.
 namespace fathom::camera {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;

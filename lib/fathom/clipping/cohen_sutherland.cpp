@@ -9,7 +9,7 @@
 namespace fathom::clipping {
 namespace {
 
-/// The first edge of the window at which a point with this code lies outside.
+/// The first edge of the window beyond which a point with this code lies.
 Outcode first_edge(Outcode code) {
   for (const Outcode edge : {outcode::left, outcode::right, outcode::bottom, outcode::top})
     if (code & edge) return edge;
@@ -17,7 +17,7 @@ Outcode first_edge(Outcode code) {
 }
 
 /// The value at `at` of the linear function that is v0 at u0 and v1 at u1. Rounding must not take
-/// it beyond v0 or v1: the segment only ever gets shorter.
+/// it beyond v0 or v1: the segment only ever becomes shorter.
 template <class Number>
 Number value_at(const Number& at, const Number& u0, const Number& v0, const Number& u1,
                 const Number& v1) {

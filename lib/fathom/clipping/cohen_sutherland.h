@@ -9,11 +9,10 @@
 #include "fathom/clipping/window.h"
 
 /// Line clipping with outcodes.
-/// Source   Danny Cohen and Ivan Sutherland, 1967, as printed in W. M. Newman and R. F. Sproull,
-///          Principles of Interactive Computer Graphics, 1973 (2nd ed. 1979, section 5-1).
+/// Source   [NS79] 5-1, which prints the algorithm of Danny Cohen and Ivan Sutherland, 1967.
 namespace fathom::clipping {
 
-/// Four bits: on which sides of the window a point lies outside. A point on the border is inside.
+/// Four bits: on which sides of the window a point is outside. A point on the border is inside.
 using Outcode = std::uint8_t;
 namespace outcode {
 constexpr Outcode inside = 0b0000;
@@ -39,7 +38,7 @@ struct CohenSutherlandStep {
   Segment2<Number> segment;
   Outcode E1, E2;
   int test;
-  /// Where test 3 or 4 held: the edge, one bit, at which the segment is split, and the end (1 or 2)
+  /// If test 3 or 4 held: the edge, one bit, at which the segment is split, and the end (1 or 2)
   /// that moves there. The rest is tested again in the next step.
   Outcode edge = outcode::inside;
   int moved = 0;
@@ -49,8 +48,8 @@ struct CohenSutherlandStep {
 ///
 /// Exact    over Rational. Over double each intersection is rounded, and a coordinate that has been
 ///          moved to an edge of the window lies exactly on it.
-/// Ends     each split moves one end to an edge, at most four splits: an end that is no longer
-///          outside at an edge never gets outside there again without the other end being so too.
+/// Ends     after at most four splits, each of which moves one end to an edge: an end that is no
+///          longer outside at an edge never gets outside there again unless the other end is too.
 template <class Number>
 std::optional<Segment2<Number>> cohen_sutherland(
     const Segment2<Number>& segment, const Window<Number>& window,

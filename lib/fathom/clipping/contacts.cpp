@@ -11,7 +11,7 @@ bool is_between(const Number& x, const Number& a, const Number& b) {
   return a < b ? a <= x && x <= b : b <= x && x <= a;
 }
 
-/// An edge with the place from which it comes.
+/// An edge, with the place where it comes from.
 template <class Number>
 struct PlacedEdge {
   Segment2<Number> segment;
@@ -57,7 +57,7 @@ void append_split(Ring<Number>& ring, const Segment2<Number>& edge, Ring<Number>
   const auto comes_before = [&](const Point2<Number>& a, const Point2<Number>& b) {
     return ascending ? a < b : b < a;
   };
-  // Rounding may put a contact beyond an end.
+  // Rounding can put a contact beyond an end.
   std::erase_if(contacts, [&](const Point2<Number>& p) {
     return !comes_before(start, p) || !comes_before(p, end);
   });
@@ -67,7 +67,7 @@ void append_split(Ring<Number>& ring, const Segment2<Number>& edge, Ring<Number>
   ring.insert(ring.end(), contacts.begin(), contacts.end());
 }
 
-/// Whether neighbouring edges go on into each other without turning back.
+/// Whether neighbouring edges continue each other without turning back.
 bool is_plain_turn(const Segment2<Rational>& a, const Segment2<Rational>& b) {
   const auto turn = [](const auto& in, const auto& out) {
     const Rational dot = (in.end.x - in.start.x) * (out.end.x - out.start.x) +

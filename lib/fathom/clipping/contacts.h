@@ -11,25 +11,25 @@ namespace fathom::clipping {
 
 /// The points that two segments of positive length have in common, as far as rings need to know
 /// them: the point of a proper crossing, and every end of one that lies on the other. A collinear
-/// overlap gives its two ends, so after splitting there two edges are one and the same or meet in
-/// ends only.
+/// overlap gives its two ends, so that after splitting there two edges are the same or meet only in
+/// ends.
 template <class Number>
 std::vector<Point2<Number>> contacts(const Segment2<Number>& a, const Segment2<Number>& b);
 
-/// The rings with every contact between different rings entered in both as a corner. Each ring by
+/// The rings, with every contact between different rings entered in both as a corner. Each ring by
 /// itself must be simple.
 /// Exact    over Rational. Over double a crossing is rounded, to the same point in both rings.
 template <class Number>
 Rings<Number> enter_contacts(const Rings<Number>& rings);
 
-/// Two edges of one ring, numbered by their first corners, that meet elsewhere than neighbours do.
+/// Two edges of one ring, numbered by their first corners, that meet other than as neighbours do.
 struct SelfContact {
   std::size_t first_edge, second_edge;
   Point2<Rational> point;
 };
 std::optional<SelfContact> self_contact(const Ring<Rational>& ring);
 
-/// "(1/3, 2)", long fractions to 17 digits: for messages.
+/// "(1/3, 2)", with long fractions to 17 digits: for messages.
 std::string to_text(const Point2<Rational>& point);
 
 }  // namespace fathom::clipping

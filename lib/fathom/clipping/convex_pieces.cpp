@@ -28,7 +28,7 @@ class Decomposition {
     return sign_of(cross(ring_[a], ring_[b], ring_[c]));
   }
 
-  /// Corner i of what remains turns left, and no other lies in the closed triangle.
+  /// Whether corner i of what remains turns left and no other corner lies in the closed triangle.
   bool is_ear(const Piece& rest, std::size_t i) const {
     const std::size_t n = rest.size();
     const std::size_t a = rest[(i + n - 1) % n], b = rest[i], c = rest[(i + 1) % n];

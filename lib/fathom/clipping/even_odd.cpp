@@ -7,7 +7,7 @@
 namespace fathom::clipping {
 namespace {
 
-/// A band for so many edges, and so many bands at most.
+/// One band for so many edges, and at most so many bands.
 constexpr std::size_t edges_per_band = 8, most_bands = 256;
 
 /// Mirrored at the diagonal: swaps left and right, x and y.
@@ -68,7 +68,7 @@ EvenOdd<Number>::EvenOdd(const Rings<Number>& rings) {
 
 template <class Number>
 Beside EvenOdd<Number>::beside(const Point2<Number>& a, const Point2<Number>& b) const {
-  // A horizontal edge would run along the ray: there the ray goes towards +y.
+  // A horizontal edge would run along the ray; for such an edge the ray goes towards +y.
   const bool upwards_ray = a.y == b.y;
   const auto seen = [&](const Point2<Number>& p) { return upwards_ray ? transposed(p) : p; };
   const Point2<Number> M = seen({a.x / 2 + b.x / 2, a.y / 2 + b.y / 2});
@@ -81,9 +81,9 @@ Beside EvenOdd<Number>::beside(const Point2<Number>& a, const Point2<Number>& b)
     else if (is_crossed(M, seen(*p), seen(*q)))
       beyond = !beyond;
 
-  const bool after = beyond;           // just behind M along the ray
-  const bool before = beyond != here;  // just in front of it
-  // Left of an edge that runs up lies −x; left of one that runs to the right lies +y.
+  const bool after = beyond;           // just after M along the ray
+  const bool before = beyond != here;  // just before it
+  // To the left of an edge that runs up is −x; to the left of one that runs to the right is +y.
   const bool left_is_after = upwards_ray ? a.x < b.x : b.y < a.y;
   return left_is_after ? Beside{after, before} : Beside{before, after};
 }

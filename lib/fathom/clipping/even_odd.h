@@ -4,7 +4,7 @@
 
 #include "fathom/clipping/points.h"
 
-/// The even-odd rule beside an edge: the one question that the clippers of polygons ask of space.
+/// The even-odd rule beside an edge: the one question about space that the polygon clippers ask.
 namespace fathom::clipping {
 
 /// Whether the points just left and just right of the middle of an edge are inside.
@@ -14,7 +14,7 @@ struct Beside {
   friend bool operator==(const Beside&, const Beside&) = default;
 };
 
-/// Rings read by the even-odd rule, to be asked more than once. The rings must outlive it.
+/// Rings read by the even-odd rule, to be asked more than once. The rings must outlive this.
 template <class Number>
 class EvenOdd {
  public:
@@ -23,7 +23,7 @@ class EvenOdd {
   /// What lies beside a → b: a ray from the middle M of ab counts the edges that it crosses,
   /// half-open at their ends; the edges that are ab itself tell left from right. So one answer says
   /// inside (both), outside (neither), or along a border (one of them).
-  /// Exact    over Rational, if no other edge comes through M: contacts are entered (contacts.h).
+  /// Exact    over Rational, if no other edge passes through M: contacts are entered (contacts.h).
   [[nodiscard]] Beside beside(const Point2<Number>& a, const Point2<Number>& b) const;
 
  private:
@@ -32,7 +32,7 @@ class EvenOdd {
   };
   /// Bands across one axis, each with the edges that reach into it.
   struct Bands {
-    /// Where bands end and the next begin.
+    /// Where one band ends and the next begins.
     std::vector<Number> limits;
     std::vector<std::vector<Edge>> edges;
     [[nodiscard]] std::size_t band_of(const Number& coordinate) const;

@@ -13,25 +13,25 @@ namespace fathom::clipping {
 /// A rational number of any size, in lowest terms.
 using Rational = CGAL::Gmpq;
 
-/// The same number for numeric/, which rounds and prints.
+/// `x` as a number of numeric/, which rounds and prints.
 Ratio to_ratio(const Rational& x);
 
-/// Rounded once to binary64, to nearest, ties to even.
+/// `x` rounded once to binary64, to nearest, ties to even.
 double to_binary64(const Rational& x);
 inline double to_binary64(double x) {
   return x;
 }
 
-/// "p/q" in lowest terms, "p" where q is 1.
+/// "p/q" in lowest terms, "p" if q is 1.
 std::string to_fraction(const Rational& x);
 
-/// The number that is `x`; x finite.
+/// The exact value of `x`, which must be finite.
 template <class Number>
 Rational to_rational(const Number& x) {
   return Rational(x);
 }
 
-/// The same rings over another kernel: exact to binary64 rounds each coordinate once.
+/// The same rings over the exact kernel.
 Rings<Rational> to_exact(const Rings<double>& rings);
 inline Rings<Rational> to_exact(const Rings<Rational>& rings) {
   return rings;

@@ -7,14 +7,14 @@
 #include "fathom/clipping/points.h"
 #include "fathom/clipping/sutherland_hodgman.h"
 
-/// Clipping in homogeneous coordinates, before the division by w.
-/// Source   James F. Blinn and Martin E. Newell, Clipping using homogeneous coordinates, SIGGRAPH
-///          1978; the polygon goes through the six boundaries as in sutherland_hodgman.h.
+/// Clipping in homogeneous coordinates, before the division by w. The polygon goes through the six
+/// boundaries as in sutherland_hodgman.h.
+/// Source   [BN78]
 ///
 /// The six boundaries bound an hourglass in (x, y, z, w) with its waist at the origin. The upper
-/// half, w > 0, is what a projection shows. A point of the lower half, w < 0, stands for the same
-/// (x/w, y/w, z/w) as its negative in the upper one; a perspective projection never puts a point
-/// in front of the eye there, rational curves do.
+/// half, w > 0, is what a projection shows. A point of the lower half, w < 0, means the same
+/// (x/w, y/w, z/w) as its negative in the upper one; a perspective projection never puts a point in
+/// front of the eye there, but rational curves do.
 namespace fathom::clipping {
 
 enum class Volume {
@@ -30,7 +30,7 @@ enum class Half { upper, lower };
 constexpr int boundary_count = 6;
 const char* boundary_name(int k);
 
-/// What is not negative on the inner side of boundary k in the upper half: w + x, w − x, …
+/// Not negative on the inner side of boundary k in the upper half: w + x, w − x, …
 template <class Number>
 Number boundary_value(int k, const Point4<Number>& point, Volume volume);
 
@@ -48,9 +48,9 @@ std::vector<Corner4<Number>> clip_homogeneous(const std::vector<Corner4<Number>>
                                               Volume volume, Half half = Half::upper,
                                               ClipStages<Point4, Number>* trace = nullptr);
 
-/// The part of the segment in one half of the hourglass, by the order of parameters; a segment from
-/// one half to the other has a part in each, and between them runs through infinity. Where an end
-/// of the part is the waist, it projects to one point, and both ends are that point.
+/// The part of the segment in one half of the hourglass, by the order of parameters. A segment from
+/// one half to the other has a part in each, and runs through infinity between them. If an end of
+/// the part is the waist, the part projects to one point, and both ends are that point.
 /// Exact    over Rational.
 /// Fails    InputError if an end is (0, 0, 0, 0).
 template <class Number>
@@ -58,14 +58,14 @@ std::optional<Segment4<Number>> clip_homogeneous(const Segment4<Number>& segment
                                                  Half half = Half::upper,
                                                  LiangBarskyTrace<Number>* trace = nullptr);
 
-/// (x/w, y/w, z/w). Fails with InputError where w = 0.
+/// (x/w, y/w, z/w). Fails with InputError if w = 0.
 template <class Number>
 Point3<Number> divided(const Point4<Number>& point);
 
-/// The wrong order, to be shown: divides first and clips the result against the volume's box. An
-/// edge from a point in front of the eye to one behind it runs through infinity after the
-/// projection; here it is joined straight, and the polygon is a wrong one.
-/// Fails    InputError where w = 0.
+/// The wrong order, for demonstration: divides first and clips the result against the volume's box.
+/// An edge from a point in front of the eye to one behind it runs through infinity after the
+/// projection; here its ends are joined by a straight line, and the polygon is wrong.
+/// Fails    InputError if w = 0.
 template <class Number>
 std::vector<Corner3<Number>> clip_after_division(const std::vector<Corner4<Number>>& polygon,
                                                  Volume volume);

@@ -7,9 +7,8 @@
 #include "fathom/clipping/window.h"
 
 /// Line clipping by the order of parameters.
-/// Source   You-Dong Liang and Brian A. Barsky, A new concept and method for line clipping,
-///          ACM Transactions on Graphics 3(1), 1984. Symbols as there: the segment is inside at t
-///          where p_k t ≤ q_k for the edges k = 1 … 4 (left, right, bottom, top).
+/// Source   [LB84], with its symbols: the segment is inside at t where p_k t ≤ q_k for the edges
+///          k = 1 … 4 (left, right, bottom, top).
 namespace fathom::clipping {
 
 enum class Crossing {
@@ -19,11 +18,11 @@ enum class Crossing {
   leaving,
   /// p = 0, q ≥ 0: parallel to the edge and inside.
   parallel_inside,
-  /// p = 0, q < 0: parallel and outside, nothing is visible.
+  /// p = 0, q < 0: parallel and outside; nothing is visible.
   parallel_outside,
 };
 
-/// The line against one edge; k from 1 to 4. t is 0 and means nothing where it is parallel.
+/// The line against one edge; k from 1 to 4. If it is parallel, t is 0 and means nothing.
 template <class Number>
 struct LineParameter {
   int k;
@@ -36,12 +35,13 @@ struct LiangBarskyTrace {
   /// The four edges: crossings in the order of t (at equal t entering before leaving), then
   /// parallels.
   std::vector<LineParameter<Number>> parameters;
-  /// The greatest entering parameter and 0, the least leaving one and 1. The segment is visible if
-  /// no parallel is outside and t_entering ≤ t_leaving; equal at a corner touched in one point.
+  /// The greatest entering parameter or 0, and the least leaving one or 1. The segment is visible
+  /// if no parallel is outside and t_entering ≤ t_leaving; they are equal at a corner touched in
+  /// one point.
   Number t_entering, t_leaving;
 };
 
-/// What the order of the parameters decides: `parameters` are brought into the order of the trace.
+/// What the order of the parameters decides; brings `parameters` into the order of the trace.
 template <class Number>
 struct VisibleRange {
   Number t_entering, t_leaving;
@@ -55,7 +55,7 @@ template <class Number>
 LineParameter<Number> against_boundary(int k, const Number& p, const Number& q);
 
 /// The part of the segment inside the window, border included; nullopt if there is none.
-/// Exact    over Rational. Over double an end that lies inside is kept as it is.
+/// Exact    over Rational. Over double an end that is inside is kept as it is.
 template <class Number>
 std::optional<Segment2<Number>> liang_barsky(const Segment2<Number>& segment,
                                              const Window<Number>& window,

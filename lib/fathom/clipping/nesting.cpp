@@ -18,7 +18,7 @@ struct Placement {
   std::optional<Point2<Rational>> crossing;
 };
 
-/// Both rings with their contacts entered.
+/// Both rings have their contacts entered.
 Placement place_of(const Ring<Rational>& ring, const EvenOdd<Rational>& other) {
   Placement placement;
   for (std::size_t i = 0; i < ring.size() && !placement.crossing; ++i) {

@@ -7,7 +7,7 @@
 /// Points and lines against a plane, exactly over Rational.
 namespace fathom::clipping {
 
-/// The plane A x + B y + C z + D = 0 with the normal N = (A, B, C) ≠ 0 turned to the outside.
+/// The plane A x + B y + C z + D = 0 with the normal N = (A, B, C) ≠ 0 pointing outside.
 template <class Number>
 struct Plane {
   Number A, B, C, D;
@@ -26,18 +26,18 @@ enum class Side { inside = -1, on = 0, outside = 1 };
 /// H·P = A x + B y + C z + D: positive outside. It is the signed distance times |N|.
 template <class Number>
 Number value_at(const Plane<Number>& plane, const Point3<Number>& point);
-/// H·P = A x + B y + C z + D w. Its sign says the side only where w > 0.
+/// H·P = A x + B y + C z + D w. Its sign tells the side only if w > 0.
 template <class Number>
 Number value_at(const Plane<Number>& plane, const Point4<Number>& point);
 
 template <class Number>
 Side side_of(const Plane<Number>& plane, const Point3<Number>& point);
-/// The side of the point (x/w, y/w, z/w), so with w < 0 the sign of H·P is reversed; with w = 0 the
+/// The side of the point (x/w, y/w, z/w), so the sign of H·P is reversed if w < 0; if w = 0, the
 /// side on which the direction (x, y, z) ends at infinity. Throws InputError for (0, 0, 0, 0).
 template <class Number>
 Side side_of(const Plane<Number>& plane, const Point4<Number>& point);
 
-/// The signed distance, positive outside, rounded once to binary64 over Rational; ±∞ for points at
+/// The signed distance, positive outside, over Rational rounded once to binary64; ±∞ for points at
 /// infinity that are not on the plane. It is ±√((H·P)² / (w² |N|²)).
 template <class Number>
 double signed_distance(const Plane<Number>& plane, const Point4<Number>& point);
@@ -48,9 +48,9 @@ struct PlaneLineIntersection {
   Point3<Number> point;
 };
 
-/// Where the line p(t) = R + t (S − R) meets the plane: t = (Q − R)·N / (S − R)·N with Q any point
-/// of the plane, which is −H·R / (S − R)·N. nullopt if the line is parallel to the plane (also when
-/// it lies in it).
+/// Where the line p(t) = R + t (S − R) meets the plane: t = (Q − R)·N / (S − R)·N with any point Q
+/// of the plane, which is −H·R / (S − R)·N. nullopt if the line is parallel to the plane (or lies
+/// in it).
 template <class Number>
 std::optional<PlaneLineIntersection<Number>> plane_line_intersection(const Plane<Number>& plane,
                                                                      const Point3<Number>& R,

@@ -5,8 +5,8 @@
 #include <vector>
 
 /// Points, segments and rings over a kernel: Number is double (every operation rounded to binary64)
-/// or Rational (exact_kernel.h, nothing rounded). y grows upwards wherever a left and a right, a
-/// counter-clockwise or a top is spoken of.
+/// or Rational (exact_kernel.h, nothing rounded). y grows upwards wherever left, right, top or
+/// counter-clockwise is mentioned.
 namespace fathom::clipping {
 
 template <class Number>
@@ -25,7 +25,7 @@ struct Point3 {
   Number x, y, z;
 };
 
-/// A homogeneous point; it stands for (x/w, y/w, z/w) where w ≠ 0, for a direction where w = 0.
+/// A homogeneous point: (x/w, y/w, z/w) if w ≠ 0, a direction if w = 0.
 template <class Number>
 struct Point4 {
   Number x, y, z, w;
@@ -36,7 +36,7 @@ struct Segment2 {
   Point2<Number> start, end;
 };
 
-/// The corners of a closed polyline, the first not repeated.
+/// The corners of a closed polyline; the first is not repeated.
 template <class Number>
 using Ring = std::vector<Point2<Number>>;
 
@@ -44,7 +44,7 @@ using Ring = std::vector<Point2<Number>>;
 template <class Number>
 using Rings = std::vector<Ring<Number>>;
 
-/// Twice the signed area of the triangle a, b, c: positive where c lies left of a → b.
+/// Twice the signed area of the triangle a, b, c: positive if c lies left of a → b.
 template <class Number>
 Number cross(const Point2<Number>& a, const Point2<Number>& b, const Point2<Number>& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);

@@ -15,7 +15,7 @@ Number signed_area(const Ring<Number>& ring);
 template <class Number>
 Number signed_area(const Rings<Number>& rings);
 
-/// The rings of one side as the clippers take them: corners that repeat the one before are dropped,
+/// The rings of one side as the clippers need them: corners that repeat the one before are dropped,
 /// outlines run counter-clockwise and holes clockwise, so that the polygon (even-odd) lies to the
 /// left. Rings may touch each other in points and along edges.
 ///
@@ -25,12 +25,12 @@ Number signed_area(const Rings<Number>& rings);
 template <class Number>
 Rings<Number> checked_rings(const Rings<Number>& rings, const std::string& side);
 
-/// Fails    InputError unless the counter-clockwise simple ring is convex; straight corners may be.
+/// Fails    InputError unless the counter-clockwise simple ring is convex; corners may be straight.
 template <class Number>
 void check_convex(const Ring<Number>& ring, const std::string& side);
 
-/// The ring without the corners at which it goes straight on, from its least corner. The same point
-/// set always gives the same list.
+/// The ring without its straight corners, starting from its least corner. The same point set always
+/// gives the same list.
 template <class Number>
 Ring<Number> canonical(const Ring<Number>& ring);
 

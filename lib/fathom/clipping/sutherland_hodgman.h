@@ -7,15 +7,14 @@
 #include "fathom/clipping/points.h"
 
 /// Reentrant polygon clipping: the polygon goes through one boundary after another.
-/// Source   Ivan E. Sutherland and Gary W. Hodgman, Reentrant polygon clipping, Communications of
-///          the ACM 17(1), 1974. Symbols as there: the edge from S to P.
+/// Source   [SH74], with its symbols: the edge from S to P.
 ///
-/// What it does not do: take a polygon apart. A concave polygon that falls into pieces comes out as
-/// one ring whose pieces are joined by bridging edges, which run along the boundary and back. Its
-/// signed area is right all the same; weiler_atherton.h gives the pieces.
+/// It does not take a polygon apart. A concave polygon that falls into pieces comes out as one ring
+/// whose pieces are joined by bridging edges, which run along the boundary and back. Its signed
+/// area is right all the same; weiler_atherton.h gives the pieces.
 namespace fathom::clipping {
 
-/// A corner with what is carried along: attributes are linear along every edge.
+/// A corner with what it carries along: attributes are linear along every edge.
 template <template <class> class Point, class Number>
 struct Corner {
   Point<Number> position;
@@ -38,10 +37,10 @@ Corner<Point, Number> interpolate(const Corner<Point, Number>& a, const Corner<P
 }
 
 /// The polygon after one boundary. `outside(position)` is affine, positive outside, 0 on the
-/// boundary, which counts as inside. A new corner stands where an edge crosses from strictly inside
-/// to strictly outside or back; it is computed from its inner end, so both polygons at a shared
-/// edge get the same one over double too. A polygon that only touches the boundary from outside
-/// leaves nothing.
+/// boundary, which counts as inside. There is a new corner where an edge crosses from strictly
+/// inside to strictly outside or back; it is computed from its inner end, so both polygons at a
+/// shared edge get the same one, even over double. A polygon that only touches the boundary from
+/// outside leaves nothing.
 template <template <class> class Point, class Number, class Outside>
 std::vector<Corner<Point, Number>> clip_at_boundary(
     const std::vector<Corner<Point, Number>>& polygon, const Outside& outside) {
@@ -72,8 +71,8 @@ std::vector<Corner2<Number>> sutherland_hodgman(const std::vector<Corner2<Number
                                                 const Ring<Number>& convex,
                                                 ClipStages<Point2, Number>* trace = nullptr);
 
-/// A polygon in space against planes whose normals point to what is cut off. It stays where it lies
-/// in a plane.
+/// A polygon in space against planes whose normals point to what is cut off. If it lies in a plane,
+/// it stays.
 /// Exact    over Rational.
 /// Fails    InputError if a normal is zero.
 template <class Number>

@@ -32,8 +32,8 @@ bool in_result(bool in_subject, bool in_clip, SetOperation operation) {
 
 /// The edge as a piece of the result's border; nullopt if the result lies on both sides of it or on
 /// neither. So a subject edge counts where it is inside (outside, for a difference), a clip edge
-/// where it is inside the subject (run backwards, for a difference), a shared one according to
-/// whether both polygons lie on the same side of it.
+/// where it is inside the subject (reversed, for a difference), a shared one depending on whether
+/// both polygons lie on the same side of it.
 template <class Number>
 std::optional<BorderEdge<Number>> border_of(const LabelledEdge<Number>& edge,
                                             SetOperation operation) {
@@ -70,8 +70,8 @@ bool lies_in(const Ring<Number>& hole, const Ring<Number>& outline) {
   return EvenOdd<Number>(rings).beside(hole[0], hole[1]).left;
 }
 
-/// Step 4: each hole goes to the least outline that it lies in. The rings still have the corners at
-/// which they touch others, so the middle of a hole's edge lies on no outline.
+/// Step 4: each hole goes to the least outline that contains it. The rings still have the corners
+/// at which they touch others, so the middle of a hole's edge lies on no outline.
 template <class Number>
 std::vector<Polygon<Number>> nest(const Rings<Number>& rings) {
   std::vector<Polygon<Number>> polygons;

@@ -5,10 +5,7 @@
 #include "fathom/clipping/points.h"
 
 /// Clipping of any polygon by any other: concave, with holes, into several pieces.
-/// Source   Kevin Weiler and Peter Atherton, Hidden surface removal using polygon area sorting,
-///          SIGGRAPH 1977; Kevin Weiler, Polygon comparison using a graph representation, SIGGRAPH
-///          1980. Degenerate contacts: Erich L. Foster, Kai Hormann and Romeo Traian Popa, Clipping
-///          simple polygons with degenerate intersections, Computers & Graphics: X 2, 2019.
+/// Source   [WA77], [Wei80]; [FHP19] for degenerate contacts.
 ///
 /// The four steps, each in a file of its own:
 ///   1  contacts          every point in which a subject ring meets a clip ring is entered in both
@@ -17,16 +14,16 @@
 ///                        entering, leaving or touching   (weiler_atherton_labels.h)
 ///   3  walk              along the subject while it is inside, at a leaving contact onto the clip
 ///                        polygon, to the next entering contact and back onto the subject, until
-///                        the start   (weiler_atherton_walk.h)
-///   4  holes             each clockwise ring goes to the outline that it lies in
-/// Nothing is perturbed. That the labels are those of edges and not of points is what decides every
-/// degenerate contact: a shared vertex, a vertex on an edge, overlapping edges, identical polygons.
+///                        the start is reached   (weiler_atherton_walk.h)
+///   4  holes             each clockwise ring goes to the outline that contains it
+/// Nothing is perturbed. Labelling edges instead of points is what decides every degenerate
+/// contact: a shared vertex, a vertex on an edge, overlapping edges, identical polygons.
 namespace fathom::clipping {
 
 enum class SetOperation { intersection, difference };
 
-/// An outline, counter-clockwise, and its holes, clockwise. Each ring is simple; rings touch in
-/// points at most, and the interior is in one piece.
+/// An outline, counter-clockwise, and its holes, clockwise. Each ring is simple; rings touch at
+/// most in points, and the interior is connected.
 template <class Number>
 struct Polygon {
   Ring<Number> outline;
@@ -37,12 +34,12 @@ struct Polygon {
 enum class Relation { inside, outside, along };
 
 enum class ContactKind {
-  /// The subject comes into the clip polygon here; behind a shared piece, where it has come to.
+  /// The subject enters the clip polygon here, or along the shared piece that ends here.
   entering,
   leaving,
-  /// It is on the same side before and behind.
+  /// It is on the same side before and after.
   touching,
-  /// A shared piece begins or goes on.
+  /// A shared piece begins or continues.
   along,
 };
 
@@ -55,7 +52,7 @@ struct Contact {
   ContactKind kind;
 };
 
-/// Whose border the walk follows from a point on.
+/// Whose border the walk follows from a point.
 enum class Border { subject, clip, both };
 
 template <class Number>
@@ -67,17 +64,17 @@ struct WalkStep {
 template <class Number>
 struct WeilerAthertonTrace {
   std::vector<Contact<Number>> contacts;
-  /// One for each closed walk; a walk that meets itself in a point gives more than one ring.
+  /// One for each closed walk; a walk that meets itself in a point yields more than one ring.
   std::vector<std::vector<WalkStep<Number>>> walks;
 };
 
-/// Subject ∩ clip or subject − clip, as regions: what is left of lower dimension is dropped.
-/// Polygons and holes come in the order of their least corners, rings start there and have no
-/// straight corners, so the same region always gives the same list.
+/// Subject ∩ clip or subject − clip, as regions: parts of lower dimension are dropped. Polygons and
+/// holes are in the order of their least corners; rings start there and have no straight corners,
+/// so the same region always gives the same list.
 ///
-/// Exact    over Rational. Over double crossings are rounded, and the region is about right.
-/// Fails    InputError as checked_rings() does; over double also where rounding has broken the
-///          topology so that a walk does not close.
+/// Exact    over Rational. Over double crossings are rounded, and the region is approximate.
+/// Fails    InputError, as checked_rings() does; over double also if rounding has broken the
+///          topology, so that a walk does not close.
 template <class Number>
 std::vector<Polygon<Number>> weiler_atherton(const Rings<Number>& subject,
                                              const Rings<Number>& clip, SetOperation operation,

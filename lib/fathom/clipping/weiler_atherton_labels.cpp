@@ -10,7 +10,7 @@
 namespace fathom::clipping {
 namespace {
 
-/// Edges are the same whichever way they are run.
+/// Edges are the same in either direction.
 template <class Number>
 using EdgeKey = std::pair<Point2<Number>, Point2<Number>>;
 
@@ -30,8 +30,8 @@ Relation relation_of(Beside beside) {
   return beside.left ? Relation::inside : Relation::outside;
 }
 
-/// The kind of a contact. `came_from` is the last relation that was not along, before the edge
-/// `before`: behind a shared piece it decides whether the subject has changed sides.
+/// The kind of a contact. `came_from` is the last relation before it that was not along: at the end
+/// of a shared piece it decides whether the subject has changed sides.
 ContactKind kind_of(Relation came_from, Relation after) {
   if (after == Relation::along) return ContactKind::along;
   if (came_from == after) return ContactKind::touching;

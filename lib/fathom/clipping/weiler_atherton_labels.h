@@ -9,17 +9,17 @@
 /// Weiler–Atherton, step 2: what lies beside every edge, and what that makes of every contact.
 namespace fathom::clipping {
 
-/// A piece of border between neighbouring corners or contacts, once, however many rings run there.
+/// A piece of border between neighbouring corners or contacts: one, however many rings run there.
 template <class Number>
 struct LabelledEdge {
   Point2<Number> from, to;
-  /// The polygons of which a ring runs along this edge.
+  /// The polygons that have a ring along this edge.
   Border border;
   /// What lies beside it.
   Beside of_subject, of_clip;
 };
 
-/// Both sides with their contacts entered.
+/// Both sides, with their contacts entered.
 template <class Number>
 struct ContactLists {
   Rings<Number> subject, clip;

@@ -9,8 +9,8 @@
 namespace fathom::clipping {
 namespace {
 
-/// How far clockwise from the direction P → reference the direction P → q lies, in half turns:
-/// 0 less than one, 1 exactly one, 2 more.
+/// How far clockwise the direction P → q lies from the direction P → reference, in half turns: 0
+/// for less than one, 1 for exactly one, 2 for more.
 template <class Number>
 int half_turns(const Point2<Number>& P, const Point2<Number>& reference, const Point2<Number>& q) {
   return 1 + sign_of(cross(P, reference, q));
@@ -24,7 +24,7 @@ bool comes_before(const Point2<Number>& P, const Point2<Number>& reference, cons
   return turns_a != turns_b ? turns_a < turns_b : cross(P, a, b) < 0;
 }
 
-/// The edges that have not been walked, by the point that they leave.
+/// The edges that have not been walked, by the point where they begin.
 template <class Number>
 class OpenEdges {
  public:
@@ -41,7 +41,7 @@ class OpenEdges {
     return edges_[i];
   }
 
-  /// The edge that goes on from the end of `edge`.
+  /// The edge that continues from the end of `edge`.
   const BorderEdge<Number>& take_next(const BorderEdge<Number>& edge) {
     const std::vector<std::size_t>& choices = leaving_[edge.to];
     if (choices.empty())

@@ -8,23 +8,24 @@
 /// Weiler–Atherton, step 3: the walk.
 namespace fathom::clipping {
 
-/// A piece of the result's border, run so that the result lies to its left.
+/// A piece of the result's border, directed so that the result lies to its left.
 template <class Number>
 struct BorderEdge {
   Point2<Number> from, to;
   Border along;
 };
 
-/// Closed walks that together run along every edge once. Where several edges leave a point, the
-/// walk takes the first one clockwise from where it came: the one that bounds, with the edge it
-/// came by, the same wedge of the result. So pieces that only touch are walked separately.
+/// Closed walks that together run along every edge once. If several edges leave a point, the walk
+/// takes the first one clockwise from where it came: the one that bounds, together with the edge by
+/// which it came, the same wedge of the result. So pieces that only touch are walked separately.
 ///
-/// The first edges are started from in the order given.
-/// Fails    InputError where no edge leads on; over Rational that cannot be.
+/// Walks start from the first edges, in the given order.
+/// Fails    InputError if no edge leads on; over Rational that cannot happen.
 template <class Number>
 std::vector<std::vector<BorderEdge<Number>>> walk(const std::vector<BorderEdge<Number>>& edges);
 
-/// The rings of a walk: taken apart where it comes through a point again, so each ring is simple.
+/// The rings of a walk, which is taken apart where it passes through a point again, so that each
+/// ring is simple.
 template <class Number>
 Rings<Number> simple_rings(const std::vector<BorderEdge<Number>>& closed_walk);
 

@@ -2,7 +2,7 @@
 
 namespace fathom::clipping {
 
-/// A clip rectangle [xmin, xmax] × [ymin, ymax], its border included; xmin ≤ xmax, ymin ≤ ymax.
+/// A clip rectangle [xmin, xmax] × [ymin, ymax], including its border; xmin ≤ xmax, ymin ≤ ymax.
 template <class Number>
 struct Window {
   Number xmin, ymin, xmax, ymax;

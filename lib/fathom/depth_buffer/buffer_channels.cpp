@@ -10,7 +10,7 @@
 namespace fathom::depth_buffer {
 namespace {
 
-/// The binary32 number that a stored value of float16 or float32 is.
+/// The value of a stored value of float16 or float32 as a binary32 number.
 float value_of_float(Storage storage, StoredDepth stored) {
   if (storage == Storage::float32) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(stored.bits));

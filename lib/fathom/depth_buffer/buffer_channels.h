@@ -7,8 +7,8 @@
 
 namespace fathom::depth_buffer {
 
-/// The channels of depth_buffer.h in a map, with their background at first. A view: no channel may
-/// be added to the map or taken from it meanwhile.
+/// The channels of depth_buffer.h in a map, which begin with their background. A view: no channel
+/// may be added to the map or removed from it meanwhile.
 class BufferChannels {
  public:
   BufferChannels(DepthMap& map, const DepthFormat& format, bool against_exact);
@@ -17,7 +17,7 @@ class BufferChannels {
   [[nodiscard]] StoredDepth stored(std::size_t pixel) const;
 
   float* decoded = nullptr;
-  /// Null but for against_exact.
+  /// Null unless against_exact.
   float* error = nullptr;
   std::uint32_t *winner = nullptr, *fight = nullptr;
   const std::uint32_t* id = nullptr;

@@ -7,7 +7,7 @@
 #include "fathom/depth_buffer/buffer_channels.h"
 #include "fathom/depth_buffer/depth_buffer.h"
 
-/// The two ways to fill the channels; both in the arena of their caller.
+/// The two ways to fill the channels; both work in the arena of their caller.
 namespace fathom::depth_buffer {
 
 struct BufferWork {
@@ -17,7 +17,7 @@ struct BufferWork {
   const DepthBufferOptions& options;
 };
 
-/// Bands of rows; with their triangles where these are asked about.
+/// Bands of rows, with their triangles if these are needed.
 class BufferBands {
  public:
   explicit BufferBands(const BufferWork& work);

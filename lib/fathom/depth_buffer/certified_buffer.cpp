@@ -15,8 +15,8 @@
 #include "fathom/triangle/referee.h"
 #include "fathom/triangle/sampling.h"
 
-// How to read this file: fill_certified() at the end is the whole story; exact_buffer.cpp says the
-// same without bounds. Each value is asked of binary64, then of double-words, then of exact
+// How to read this file: fill_certified() at the end is the whole story; exact_buffer.cpp does the
+// same without bounds. Each value is tried in binary64, then in double-words, then in exact
 // numbers.
 namespace fathom::depth_buffer {
 using namespace area;
@@ -26,7 +26,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What a thread asks.
+/// What a thread works with.
 struct Worker {
   CertifiedSurfaces surfaces;
   Referee referee;
@@ -34,7 +34,7 @@ struct Worker {
       : surfaces(rays), referee(triangles, camera, &rays) {}
 };
 
-/// The rounded number where the bound settles it; +∞ is no bound.
+/// The rounded number if the bound settles it; +∞ is no bound.
 std::optional<float> rounded(const Certified<double>& x) {
   return to_binary32(x.value, x.error);
 }
@@ -69,7 +69,7 @@ class CertifiedBand {
     }
   }
 
-  /// Draws the triangles of lower numbers than the visible one where they can have its code.
+  /// Draws the triangles with lower numbers than the visible one where they can have its code.
   void find_winners() {
     find_ends();
     for (const BoxedTriangle& boxed : band_.triangles) draw(boxed);
@@ -107,7 +107,7 @@ class CertifiedBand {
     return fathom::encode(format_.format(), exact_depth(number, s));
   }
 
-  /// Neighbouring pixels often have the same stored value.
+  /// The depth that a stored value means. Neighbouring pixels often have the same one.
   float decoded(StoredDepth stored) {
     if (has_last_ && stored == last_stored_) return last_decoded_;
     has_last_ = true;
@@ -130,7 +130,7 @@ class CertifiedBand {
     return round_to_binary32(difference(*exact, exact_depth(number, s)));
   }
 
-  /// For each pixel of the band, how far depths of its code reach; −∞ without a surface.
+  /// For each pixel of the band, how far depths with its code reach; −∞ without a surface.
   void find_ends() {
     ends_.assign(static_cast<std::size_t>(band_.end_row - band_.first_row) * work_.camera.width,
                  -infinity);

@@ -8,45 +8,46 @@
 #include "fathom/scene/triangle_source.h"
 #include "fathom/triangle/options.h"
 
-/// What a depth buffer would hold of a rendered map (specification, section 9, the ideal model).
+/// What a depth buffer would hold for a rendered map (specification, section 9, the ideal model).
 namespace fathom {
 
 /// The depth format with the camera's near and far.
-/// Fails    UsageError where they, or the combination, mean nothing.
+/// Fails    UsageError if they, or the combination, mean nothing.
 DepthFormat depth_format_of(const Camera& camera, Mapping mapping, Storage storage, double c = 1);
 
 struct DepthBufferOptions {
   /// With the camera's near and far.
   DepthFormat format;
-  /// Also how far the decoded depth is off, and which surface the format lets win.
+  /// Also compute how far the decoded depth is off, and which surface the format lets win.
   bool against_exact = false;
-  /// Of `render` only engine, culling, threads and progress are looked at; as the map was rendered.
+  /// Of `render` only engine, culling, threads and progress matter; as the map was rendered.
   RenderOptions render;
 };
 
-/// How many stored depths were settled by which arithmetic, and what was seen.
+/// How many stored depths were settled by which arithmetic, and what was found.
 struct DepthBufferStatistics {
   std::uint64_t by_binary64 = 0, by_double_words = 0, by_exact_numbers = 0;
   /// Pixels where the format lets another surface win than the visible one.
   std::uint64_t fighting = 0;
 };
 
-/// Adds channels to a map. The value behind the last semicolon is that of pixels without a surface.
+/// Adds channels to a map. The value after the last semicolon is that of pixels without a surface.
 ///
 ///   Zwindow    the stored depth. unorm: UINT, the code. float16, float32: FLOAT, the value. A
-///              float64 does not fit a channel: UINT `Zwindow.high` and `Zwindow.low`, the halves of
-///              its bits. Background: what a buffer is cleared to, the value of the farthest depth.
-///   Zdecoded   FLOAT: the depth that the stored value stands for, rounded once; +∞.
+///              float64 does not fit into a channel: UINT `Zwindow.high` and `Zwindow.low`, the
+///              halves of its bits. Background: what a buffer is cleared to, the value of the
+///              farthest depth.
+///   Zdecoded   FLOAT: the depth that the stored value means, in scene units, rounded once; +∞.
 /// against_exact:
 ///   Zerror     FLOAT: that depth minus the exact one, rounded once; 0.
-///   Zwinner    UINT: number of the triangle that wins where the strictly nearer stored depth wins
-///              in the order of the triangles' numbers; 4294967295.
+///   Zwinner    UINT: number of the triangle that wins if the strictly nearer stored depth wins in
+///              the order of the triangles' numbers; 4294967295.
 ///   Zfight     UINT: 1 where that is not the visible triangle, else 0; 0.
 ///
-/// Exact    each value follows from the exact depth of the visible triangle, rounded once. Both
-///          engines give the same bits; the reference goes by exact numbers alone.
-/// Needs    the map's channel `id`; the depths of visible surfaces between the format's near and
-///          far, as they are if these are the camera's.
+/// Exact    each value follows from the exact depth of the visible triangle and is rounded once.
+///          Both engines give the same bits; the reference uses exact numbers alone.
+/// Needs    the map's channel `id`; depths of visible surfaces between the format's near and far,
+///          which they are if these are the camera's.
 DepthBufferStatistics add_depth_buffer(DepthMap& map, const TriangleSource& triangles,
                                        const Camera& camera, const DepthBufferOptions& options);
 

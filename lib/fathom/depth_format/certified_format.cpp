@@ -10,10 +10,10 @@
 #include "fathom/numeric/fused_multiply_add.h"
 #include "fathom/numeric/logarithm.h"
 
-// Constants are exact numbers rounded to double-words, which errs by less than ε = epsilon<T>, of
-// which binary64 takes the leading part: also ε. Everything else is Certified, whose operations
-// carry the bounds. near, far and C lie between 2⁻¹⁰⁰ and 2¹⁰⁰, depths below 2²⁰⁰, stored values
-// are 0 or above 2⁻⁴⁰⁰: so nothing overflows, and no error of a product is lost to underflow.
+// Constants are exact numbers rounded to double-words, with errors below ε = epsilon<T>; binary64
+// takes their leading parts: also ε. Everything else is Certified, whose operations carry the
+// bounds. near, far and C lie between 2⁻¹⁰⁰ and 2¹⁰⁰, depths are below 2²⁰⁰, stored values are 0 or
+// above 2⁻⁴⁰⁰: so nothing overflows, and no error of a product is lost to underflow.
 namespace fathom {
 namespace {
 
@@ -104,13 +104,13 @@ Certified<DoubleWord<fused>> value(const Constants& constants,
   return fathom::quotient(logarithm(argument), rounded<T>(constants.k));
 }
 
-/// 2^power, for an exponent of a normal number.
+/// 2^power, for the exponent of a normal number.
 double power_of_two(int power) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(power + 1023) << 52);
 }
 
-/// The integer nearest to every number that x and its error allow, at most 2⁵³; below
-/// `narrow_at` the numbers have half the distance.
+/// The integer nearest to every number that x and its error allow, at most 2⁵³; below `narrow_at`
+/// the numbers are half as far apart.
 std::optional<double> nearest_integer(const WordPair& x, double error, double narrow_at) {
   const double code = std::nearbyint(x.hi);
   // x.hi − code is exact, the sum rounds once.
@@ -119,8 +119,8 @@ std::optional<double> nearest_integer(const WordPair& x, double error, double na
   return code;
 }
 
-/// round_to_storage() of a float storage: the integer significand at the exponent that x.hi has. A
-/// power of two is rounded to only from within a quarter of a step, the nearer end of its interval.
+/// round_to_storage() for a float storage: the integer significand at the exponent of x.hi. A power
+/// of two is returned only from within a quarter of a step, the nearer end of its interval.
 std::optional<StoredDepth> round_to_float(Storage storage, const WordPair& x, double error) {
   if (!(x.hi > 0x1p-300)) return std::nullopt;
   const int fraction_bits = bits_of(storage);
@@ -153,18 +153,18 @@ std::optional<StoredDepth> rounded_to_storage(Storage storage, const Certified<T
   return StoredDepth{static_cast<std::uint64_t>(*code)};
 }
 
-/// A stored value s in [0, 1] as s/scale, exactly, and t/scale = 1 − s. The scale is 0 where that
-/// cannot be said.
+/// A stored value s in [0, 1] as s/scale, exactly, and t/scale = 1 − s. The scale is 0 if that
+/// cannot be given.
 struct StoredShare {
   WordPair s, t;
   double scale = 1;
-  /// What t may be off by.
+  /// Bound on the error of t.
   double t_error = 0;
 };
 
 /// Positive values below this are left to exact arithmetic: products with them might underflow.
 constexpr double least_share = 0x1p-400;
-/// As are depths above this.
+/// So are depths above this.
 constexpr double greatest_depth = 0x1p200;
 
 double value_of_float(Storage storage, std::uint64_t bits) {
@@ -191,9 +191,9 @@ StoredShare share_of(Storage storage, StoredDepth stored) {
   return {{s}, two_sum(1, -s), 1};
 }
 
-/// Halfway between two neighbours, the lower one given. Of floats: a + d with d half the distance,
-/// 1 − (a + d) = (1 − a) − d: 1 − a as two words whose second is 0 or at least as fine as a's last
-/// bit.
+/// Halfway between two neighbours, given the lower one. For floats: a + d with d half the distance,
+/// and 1 − (a + d) = (1 − a) − d: 1 − a as two words, the second of which is 0 or at least as fine
+/// as a's last bit.
 StoredShare share_above(Storage storage, StoredDepth lower) {
   if (is_unorm(storage)) {
     const double steps = steps_of(storage), twice = 2 * static_cast<double>(lower.bits) + 1;
@@ -208,7 +208,7 @@ StoredShare share_above(Storage storage, StoredDepth lower) {
 }
 
 /// The depth of a stored share, by a mapping without logarithms. Every sum is of numbers of one
-/// sign, so that no relative precision is lost.
+/// sign, so no relative precision is lost.
 template <class T>
 Certified<T> rational_depth(const DepthFormat& format, const Certified<T>& s, const Certified<T>& t,
                             double scale) {

@@ -6,9 +6,9 @@
 #include "fathom/depth_format/stored_depth.h"
 #include "fathom/numeric/certified_value.h"
 
-/// encode() and decode() in floating point, with proved bounds: what comes out is what exact
-/// arithmetic gives, and what a bound does not settle does not come out. Binary64 first, then
-/// double-words; logarithms have the second only (numeric/certified_logarithm.h).
+/// encode() and decode() in floating point, with proved bounds: they return what exact arithmetic
+/// gives, and nothing where a bound does not settle it. Binary64 first, then double-words; only the
+/// latter for logarithms (numeric/certified_logarithm.h).
 namespace fathom {
 
 /// A value of either width as a pair of words.
@@ -24,26 +24,27 @@ class CertifiedFormat {
   /// Needs    a meaningful format.
   explicit CertifiedFormat(const DepthFormat& format);
 
-  /// The stored value of every depth between near and far that the bound allows; nullopt where
-  /// there is more than one, or it is not known.
+  /// The stored value of every depth between near and far that the bound allows; nullopt if there
+  /// is more than one, or it is not known.
   [[nodiscard]] std::optional<StoredDepth> encode(const Certified<double>& depth) const;
   [[nodiscard]] std::optional<StoredDepth> encode(const Certified<WordPair>& depth) const;
 
-  /// The depth that a stored value stands for; the error is +∞ where that is infinity or not known.
+  /// The depth that a stored value means; the error is +∞ if that is infinite or not known.
   [[nodiscard]] Certified<double> decode(StoredDepth stored) const;
   [[nodiscard]] Certified<WordPair> wide_decode(StoredDepth stored) const;
 
-  /// No depth that is stored as this value is greater; +∞ where that is not known.
+  /// No depth that is stored as this value is greater; +∞ if no such bound is known.
   [[nodiscard]] double farthest_stored_as(StoredDepth stored) const;
 
   [[nodiscard]] const DepthFormat& format() const { return constants_.format; }
 
-  /// What the constructor works out, and with or without fused multiply-add: no result differs.
+  /// What the constructor works out, and arithmetic with or without fused multiply-adds, which give
+  /// the same results.
   struct Constants {
     DepthFormat format;
-    /// False where a number is of a magnitude for which no bound was derived.
+    /// False if a number has a magnitude for which no bound was derived.
     bool usable = false;
-    /// Of f = k·N(D)/M(D): k. Of logarithms: log(1 + C·far) or log(far/near).
+    /// k of f = k·N(D)/M(D); for logarithms: log(1 + C·far) or log(far/near).
     WordPair k;
   };
   struct Arithmetic {
@@ -59,8 +60,8 @@ class CertifiedFormat {
   const Arithmetic* arithmetic_;
 };
 
-/// round_to_storage() of every number in [0, 1] that the bound allows; nullopt where there is more
-/// than one.
+/// round_to_storage() of every number in [0, 1] that the bound allows; nullopt if there is more
+/// than one result.
 std::optional<StoredDepth> certified_rounding(Storage storage, const Certified<double>& value);
 
 }  // namespace fathom

@@ -31,7 +31,7 @@ long least_exponent(Storage storage) {
 Ratio resolvable_difference(Storage storage, const Ratio& greatest_z) {
   const int n = bits_of(storage);
   if (is_unorm(storage)) return {Dyadic(1.0), Dyadic(std::ldexp(1.0, n) - 1)};
-  // Below the least normal number the steps stay as they are there.
+  // Below the least normal number the steps stay as they are at that number.
   const long e = greatest_z.sign() == Sign::zero
                      ? least_exponent(storage)
                      : std::max(exponent_of(magnitude(greatest_z)), least_exponent(storage));

@@ -15,12 +15,13 @@
 ///       and n bits of significand without the hidden one, in all three interfaces.
 ///       unorm formats: Direct3D: the least value above 0, 1/(2ⁿ − 1). OpenGL and Vulkan leave it
 ///       to the implementation: a constant such that depths that differ by r are stored
-///       differently. The least such constant is 1/(2ⁿ − 1), taken here; the 2⁻ⁿ that is often
+///       differently. The least such constant is 1/(2ⁿ − 1), used here; the 2⁻ⁿ that is often
 ///       quoted is too small: round((2ⁿ − 1)·x) can be the same for x and x + 2⁻ⁿ.
 ///   clamp   a limit of 0 (or, in OpenGL and Vulkan, NaN) leaves o as it is, a positive one is the
 ///       greatest o, a negative one the least.
 ///
-/// Source   OpenGL 4.6, 14.6.5; Vulkan 1.3, Depth Bias Computation; Direct3D 11, Depth Bias.
+/// Unit     window depths are in [0, 1], slopes per pixel.
+/// Source   [GL46] 14.6.5; [VK13] Depth Bias Computation; [DX11] Depth Bias.
 namespace fathom {
 
 struct DepthBias {
@@ -31,17 +32,17 @@ struct DepthBias {
   double clamp = 0;
 };
 
-/// The window depth of a polygon: an affine function of the window, by its slopes, and the greatest
-/// magnitude that it takes at a corner.
+/// The window depth of a polygon, an affine function on the window: its slopes, and the greatest
+/// magnitude that it has at a corner.
 struct WindowSlopes {
   Ratio dz_dx, dz_dy;
   Ratio greatest_z;
 };
 
-/// r.
+/// r, exactly.
 Ratio resolvable_difference(Storage storage, const Ratio& greatest_z);
 
-/// o.
+/// o, exactly.
 Ratio depth_offset(Storage storage, const DepthBias& bias, const WindowSlopes& slopes);
 
 /// z + o, limited to [0, 1] as all three interfaces do before the depth is stored.

@@ -8,12 +8,13 @@
 namespace fathom {
 
 /// The map f from depth D to the stored value, given near, far and C.
+/// Source   [Kem09], [Kem13] for `log`; [Ulrich] for `log_ulrich`.
 enum class Mapping {
   standard,           ///< far·(D − near) / (D·(far − near))
   reversed,           ///< near·(far − D) / (D·(far − near))
   infinite,           ///< 1 − near/D
   reversed_infinite,  ///< near/D
-  opengl,             ///< as standard; a pipeline goes through z_ndc in [−1, 1]
+  opengl,             ///< as standard; but a pipeline goes through z_ndc in [−1, 1]
   linear,             ///< (D − near) / (far − near)
   w,                  ///< D / far
   log,                ///< log(1 + C·D) / log(1 + C·far)
@@ -30,8 +31,8 @@ enum class Storage { unorm16, unorm24, unorm32, float16, float32, float64 };
 inline constexpr Storage all_storages[] = {Storage::unorm16, Storage::unorm24, Storage::unorm32,
                                            Storage::float16, Storage::float32, Storage::float64};
 
-/// A depth format. `near` and `far` bound the depths it takes, in scene units; far is +∞ where the
-/// mapping allows it. `c` belongs to `log` alone.
+/// A depth format. `near` and `far` bound the planar depths that it takes, in scene units; far is
+/// +∞ if the mapping allows it. `c` is only used by `log`.
 struct DepthFormat {
   Mapping mapping = Mapping::standard;
   Storage storage = Storage::float32;
@@ -40,11 +41,11 @@ struct DepthFormat {
   double c = 1;
 };
 
-/// Refuses a format that means nothing; the functions of this room expect one that passed.
+/// Refuses a format that means nothing; the functions of this room expect one that has passed.
 /// Fails    UsageError, naming the value and the combinations that exist.
 void require_meaningful(const DepthFormat& format);
 
-/// The names of the specification. Fails with UsageError, naming those that exist.
+/// The names used in the specification. Fails with UsageError, naming those that exist.
 std::string_view name_of(Mapping mapping);
 std::string_view name_of(Storage storage);
 Mapping mapping_named(std::string_view name);

@@ -19,7 +19,7 @@ const Ratio& one() {
 Real stored_value(const DepthFormat& format, const Ratio& depth) {
   const auto& D = depth;
   const Ratio near = Dyadic(format.near);
-  // Mappings that know far only as infinity may have a far that is not a number of this kind.
+  // Mappings that know far only as infinity may have a far that no Dyadic can hold.
   const Ratio far = takes_infinite_far(format.mapping) ? Ratio() : Ratio(Dyadic(format.far));
   switch (format.mapping) {
     case Mapping::standard:
@@ -77,14 +77,14 @@ std::optional<Real> depth_of(const DepthFormat& format, const Ratio& value) {
   return std::nullopt;
 }
 
-// a − b for two depths of one format (depth_of), or a depth and a rational number.
+// a − b for two depths of one format (depth_of()), or a depth and a rational number.
 //
-// The difference is rational only if both are, or if they are equal (then the stored values are,
-// and it is not asked for). For logarithms let x be the least root of the base, b = r^k of a
+// The difference is rational only if both are, or if they are equal (then the stored values are
+// too, and it is not asked for). For logarithms let x be the least root of the base, b = r^k of a
 // primitive r, such that both powers are powers of x: x = r^(1/m). X^m − r is irreducible over the
-// rationals (r > 0 is no p-th power for a prime p), so 1, x, …, x^(m−1) are linearly independent.
-// A power x^i is a rational times x^(i mod m). If i mod m ≠ j mod m and not both are 0, the
-// difference has an irrational part; if they are equal and not 0, it is x^(i mod m) times a
+// rationals (r > 0 is not a p-th power for any prime p), so 1, x, …, x^(m−1) are linearly
+// independent. A power x^i is a rational times x^(i mod m). If i mod m ≠ j mod m and not both are
+// 0, the difference has an irrational part; if they are equal and not 0, it is x^(i mod m) times a
 // rational that is not 0.
 Real difference(const Real& a, const Real& b) {
   return {[a, b](long bits) {

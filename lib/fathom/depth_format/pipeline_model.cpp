@@ -10,7 +10,7 @@
 namespace fathom {
 namespace {
 
-/// A number of the model: a binary32 number, or an exact one. Only speed tells them apart.
+/// A number of the model: a binary32 number, or an exact one. They differ only in speed.
 using Number = std::variant<float, Ratio>;
 
 Ratio exact(const Number& x) {
@@ -27,8 +27,8 @@ Number rounded(const Ratio& x, bool rounds) {
   return rounds ? checked(round_to_binary32(x)) : Number(x);
 }
 
-/// One operation: in binary32 where it rounds. On binary32 operands the processor's own operation
-/// is the exact result rounded once, as IEEE 754 has it; else the exact result is rounded.
+/// One operation: in binary32 if it rounds. On binary32 operands the processor's own operation is
+/// the exact result rounded once, as IEEE 754 requires; otherwise the exact result is rounded.
 template <class Operation>
 Number apply(const Number& a, const Number& b, bool rounds, const Operation& operation) {
   const auto* x = std::get_if<float>(&a);

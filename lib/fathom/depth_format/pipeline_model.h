@@ -6,11 +6,11 @@
 
 /// What a graphics pipeline makes of a depth before it is stored: matrices, transform, division and
 /// interpolation in binary32, each operation rounded (specification, section 9). Every source of
-/// error can be switched off; what is switched off is computed exactly. So a study can tell them
-/// apart, and with all of them off the model is the ideal one.
+/// error can be switched off; what is switched off is computed exactly. So a study can separate
+/// them, and with all of them off the model is the ideal one.
 ///
-/// Depth is along the view, z forward, as Direct3D and Vulkan have it; OpenGL's z backward changes
-/// signs only, which no rounding to nearest notices.
+/// Depth is along the view, z forward, as in Direct3D and Vulkan; OpenGL's z, which points
+/// backward, only changes signs, which do not affect rounding to nearest.
 namespace fathom {
 
 /// Which steps round to binary32 after every operation; `storage` rounds to the depth format.
@@ -30,28 +30,29 @@ struct PipelineModel {
   /// standard, reversed, infinite, reversed-infinite or opengl.
   DepthFormat format;
   ViewRow view = identity_view;
-  /// Whether view and projection are multiplied to one matrix first, or applied one by one.
+  /// Whether view and projection are first multiplied into one matrix, or applied one by one.
   bool premultiplied = false;
   PipelineRounding rounding;
 };
 
-/// A vertex in the world, binary32 as in a vertex buffer.
+/// A vertex in the world, in scene units, binary32 as in a vertex buffer.
 using Vertex = std::array<float, 3>;
 
 /// The vertex's depth: the view applied exactly, its entries not rounded.
 Ratio exact_depth(const PipelineModel& model, const Vertex& vertex);
 
-/// The window depth of a vertex. A number of binary32 where division rounds.
-/// Fails    UsageError where the mapping is no projection, or a number leaves binary32's range.
+/// The window depth of a vertex, in [0, 1] between near and far. A binary32 number if division
+/// rounds.
+/// Fails    UsageError if the mapping is not a projection, or a number exceeds binary32's range.
 Ratio window_depth(const PipelineModel& model, const Vertex& vertex);
 
-/// The window depth at a point between vertices a and b, whose image lies the share t of the way
-/// from a's image to b's: z_a + t·(z_b − z_a), with t rounded where interpolation rounds.
+/// The window depth at a point between vertices a and b whose image lies a fraction t of the way
+/// from a's image to b's: z_a + t·(z_b − z_a), with t rounded if interpolation rounds.
 Ratio interpolated_window_depth(const PipelineModel& model, const Vertex& a, const Vertex& b,
                                 const Ratio& t);
 
-/// What is stored for a window depth, limited to [0, 1]; a number that is comparable with others of
-/// the same model, greater or less as the window depth is.
+/// What is stored for a window depth, limited to [0, 1]: a number that can be compared with others
+/// of the same model, and is in the same order as the window depths.
 Ratio stored_number(const PipelineModel& model, const Ratio& window_depth);
 
 }  // namespace fathom

@@ -25,8 +25,8 @@ std::optional<double> distance(const DepthFormat& format, StoredDepth from,
   return round_to_binary64(farther ? difference(*there, *here) : difference(*here, *there));
 }
 
-/// Where the interval of depths that are stored as `stored` ends on one side, without regard to
-/// near and far. nullopt where it has no end.
+/// Where the interval of depths that are stored as `stored` ends on one side, regardless of near
+/// and far; nullopt if it has no end.
 std::optional<Real> end_of_bin(const DepthFormat& format, StoredDepth stored, bool farther) {
   const std::optional<StoredDepth> next = neighbour(format, stored, farther);
   if (!next) return std::nullopt;

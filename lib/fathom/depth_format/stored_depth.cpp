@@ -6,7 +6,7 @@
 namespace fathom {
 namespace {
 
-/// The value of the bits of a number in [0, 1] of an IEEE 754 format.
+/// The value of a number in [0, 1] in an IEEE 754 format, from its bits.
 Ratio value_of_float(std::uint64_t bits, int fraction_bits, long bias) {
   const std::uint64_t hidden = std::uint64_t{1} << fraction_bits;
   const auto exponent = static_cast<long>(bits >> fraction_bits);

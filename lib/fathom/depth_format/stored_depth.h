@@ -7,9 +7,9 @@
 
 namespace fathom {
 
-/// A stored depth value in [0, 1]: the code of a unorm storage, the bits of a float storage.
-/// Greater values have greater `bits`, and neighbouring values differ by one there, in either kind.
-/// It does not know its storage.
+/// A stored depth value in [0, 1]: the code of a unorm storage, the bits of a float storage. In
+/// both kinds greater values have greater `bits`, and neighbouring values have `bits` that differ
+/// by one. It does not know its storage.
 struct StoredDepth {
   std::uint64_t bits = 0;
   friend constexpr bool operator==(StoredDepth, StoredDepth) = default;
@@ -17,18 +17,18 @@ struct StoredDepth {
   friend constexpr bool operator>(StoredDepth a, StoredDepth b) { return a.bits > b.bits; }
 };
 
-/// The value 1, the greatest; the least is 0.
+/// The stored value 1, the greatest; the least is 0.
 StoredDepth greatest_stored(Storage storage);
 
-/// The number in [0, 1] that a stored value is; exact.
+/// The number in [0, 1] that a stored value represents; exact.
 Ratio value_of(Storage storage, StoredDepth stored);
 
 /// The stored value nearest to a number in [0, 1], ties to even.
-/// Throws std::domain_error outside of [0, 1].
+/// Throws std::domain_error outside [0, 1].
 StoredDepth round_to_storage(Storage storage, const Real& value);
 
-/// The number halfway between a stored value that is not the greatest and the next greater one:
-/// where rounding steps.
+/// The number halfway between a stored value, which must not be the greatest, and the next greater
+/// one, where rounding steps.
 Ratio boundary_above(Storage storage, StoredDepth stored);
 
 }  // namespace fathom

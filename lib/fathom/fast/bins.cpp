@@ -55,7 +55,7 @@ void Bins::fill(const Context& context) {
 
 namespace {
 
-/// Where a triangle of which nothing was certain can be visible; empty where it is not.
+/// The pixels where a triangle about which nothing was certain can be visible; empty if none.
 PixelBox visible_box_exactly(const ImageObject& object, std::uint32_t number,
                              const Bins::Context& context) {
   const Mesh& mesh = object.mesh;

@@ -14,7 +14,7 @@ namespace fathom::fast {
 
 /// One object with its vertices in the image.
 struct ImageObject {
-  /// Of an object or a part of it, whose triangles in the scene begin with `first_triangle`.
+  /// For an object or a part of one; its first triangle is number `first_triangle` in the scene.
   ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
               std::uint32_t first_triangle);
 
@@ -29,7 +29,7 @@ struct ImageObject {
     return first_number + static_cast<std::uint32_t>(mesh.triangles.size());
   }
 };
-/// In the order of the scene, so that the numbers of their triangles follow each other.
+/// In the order of the scene, so that the numbers of their triangles are consecutive.
 using ImageObjects = std::deque<ImageObject>;
 
 /// The object that a triangle belongs to.
@@ -48,14 +48,14 @@ struct TileGrid {
 /// Consecutive triangles, and for each tile those that can be visible in it, or that meet it.
 class Bins {
  public:
-  /// Triangles first ≤ number < end of the scene.
+  /// For the triangles first ≤ number < end of the scene.
   Bins(std::uint32_t first, std::uint32_t end) : first_(first), end_(end) {}
 
   struct Context {
     const ImageObjects& objects;
     const Camera& camera;
     Cull cull;
-    /// All tiles that a triangle meets, not only those in which it can cover a sample.
+    /// Take all tiles that a triangle meets, not only those in which it can cover a sample.
     bool by_area;
     const TileGrid& grid;
     triangle::Referee& referee;
@@ -63,7 +63,7 @@ class Bins {
   };
   void fill(const Context& context);
 
-  /// Numbers of triangles, those of an object beside each other.
+  /// Numbers of triangles, those of one object next to each other.
   [[nodiscard]] std::span<const std::uint32_t> in_tile(std::uint32_t tile) const {
     return std::span(sorted_).subspan(starts_[tile], starts_[tile + 1] - starts_[tile]);
   }
@@ -74,7 +74,7 @@ class Bins {
   void sort(std::uint32_t tiles);
 
   std::uint32_t first_, end_;
-  /// Tile (upper half) and triangle.
+  /// Tile (upper half) and triangle (lower half).
   std::vector<std::uint64_t> entries_;
   std::vector<std::uint32_t> sorted_;
   std::vector<std::size_t> starts_;

@@ -17,13 +17,13 @@ struct BoxRequest {
   std::uint32_t count;  // at most BoxBatch::most
   std::uint32_t first_number;
   Cull cull;
-  /// Pixels that triangles meet, not only those whose samples they can cover.
+  /// Take all pixels that triangles meet, not only those whose samples they can cover.
   bool by_area;
   std::uint32_t image_width, image_height;
   std::uint32_t tile_columns;
 };
 
-/// What is certain of them: which can be visible, and where.
+/// What is certain about them: which can be visible, and where.
 struct BoxBatch {
   static constexpr std::size_t most = 1024;
 

@@ -4,8 +4,8 @@
 #include <bit>
 
 // How to read this file: CertifiedWriter::write() is the list of channels. What follows from q
-// alone is rounded for a whole row (channel_rows.h); for the rest PixelWriter has a function for each
-// channel, which goes through the tiers. Values and their bounds come from
+// alone is rounded for a whole row (channel_rows.h); for the rest, PixelWriter has a function for
+// each channel, which goes through the tiers. Values and their bounds come from
 // triangle/certified_surface.h and double_word_surface.h, roundings from
 // numeric/certified_rounding.h.
 namespace fathom::fast {

@@ -14,7 +14,7 @@
 
 namespace fathom::fast {
 
-/// A row of a tile, as far as surfaces are visible in it.
+/// A row of a tile, with the surfaces that are visible in it.
 struct VisibleRow {
   SurfaceRow lanes;
   /// A bit for each sample that shows a surface.
@@ -28,9 +28,9 @@ struct VisibleRow {
   }
 };
 
-/// Writes every channel of the specification, section 6, by certified floating point: a value
-/// comes with a proved bound of its error, and is written where all numbers that the bound allows
-/// round to the same one. Tiers, each asked where the one before does not settle a value:
+/// Writes every channel of the specification, section 6, by certified floating point: a value comes
+/// with a proved bound on its error, and is written if all numbers that the bound allows round to
+/// the same one. Tiers, each tried where the one before does not settle a value:
 ///   binary64      from the tile's q (Z, distance, P) or from the triangle (N, bary);
 ///   double-words  from the triangle; Zlow and binary64 output begin here;
 ///   constants     depth or a world coordinate is exactly the same at the three corners, or a
@@ -42,13 +42,13 @@ class CertifiedWriter {
  public:
   CertifiedWriter(triangle::ChannelWriter& exact, const triangle::SceneRays& rays);
 
-  /// Returns what is wrong if the encoding cannot hold a depth, of the first such pixel.
+  /// If the encoding cannot hold a depth, returns what is wrong at the first such pixel.
   /// `statistics.rounding` counts values.
   std::optional<triangle::EncodingFault> write(const VisibleRow& row, triangle::Referee& referee,
                                                RenderStatistics& statistics);
 
  private:
-  /// The samples of a row that channels are still to be written at.
+  /// The samples of a row at which channels are still to be written.
   struct Open;
 
   /// id, face and object.

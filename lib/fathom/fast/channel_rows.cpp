@@ -25,8 +25,8 @@ HWY_INLINE V load_u(const SurfaceRow& row, std::size_t first) {
   return hn::Add(hn::Iota(D(), static_cast<double>(first)), constant(row.first_u));
 }
 
-/// D from q: 1/q, as |1/q̂ − 1/q| = |q − q̂|/(q·q̂) and q ≥ q̂·(1 − 2⁻²⁰), and the division rounds; or
-/// −q. A bound that is NaN says that nothing is known.
+/// D from q. Perspective: 1/q, where |1/q̂ − 1/q| = |q − q̂|/(q·q̂) and q ≥ q̂·(1 − 2⁻²⁰), and the
+/// division rounds. Orthographic: −q. A bound that is NaN says that nothing is known.
 HWY_INLINE CertifiedLanes load_depth(const SurfaceRow& row, std::size_t first, bool perspective) {
   const D d;
   const V q = hn::LoadU(d, row.q + first);
@@ -39,7 +39,7 @@ HWY_INLINE CertifiedLanes load_depth(const SurfaceRow& row, std::size_t first, b
   return {depth, hn::IfThenElse(known, error, constant(std::numeric_limits<double>::infinity()))};
 }
 
-/// As to_binary32() of a binary64 number.
+/// Like to_binary32() of a binary64 number.
 HWY_INLINE void round_lanes(const CertifiedLanes& x, std::size_t first,
                             RoundedValues<float>& rounded) {
   const D d;
@@ -53,7 +53,7 @@ HWY_INLINE void round_lanes(const CertifiedLanes& x, std::size_t first,
   rounded.settled |= std::uint64_t{bits_of(hn::And(one_sign, same))} << first;
 }
 
-/// As to_code() of a binary64 number with an error, which it may be off by when scaled.
+/// Like to_code() of a binary64 number with an error, to which scaling adds a rounding.
 HWY_INLINE void round_lanes(const CertifiedLanes& x, double scale, std::size_t first,
                             RoundedValues<std::uint16_t>& rounded) {
   const D d;
@@ -81,7 +81,7 @@ struct AlongRow {
   [[nodiscard]] HWY_INLINE V at(V u) const { return hn::MulAdd(constant(b), u, constant(a)); }
 };
 
-/// As position() in triangle/double_word_surface.h.
+/// Like position() in triangle/double_word_surface.h.
 HWY_ATTR void round_lanes_of_positions(const SurfaceRow& row, const Rays& world,
                                        const RaySizes& sizes, bool perspective,
                                        std::array<RoundedValues<float>, 3>& rounded) {
@@ -105,7 +105,7 @@ HWY_ATTR void round_lanes_of_positions(const SurfaceRow& row, const Rays& world,
   }
 }
 
-/// As ray_length() and product() in triangle/double_word_surface.h.
+/// Like ray_length() and product() in triangle/double_word_surface.h.
 HWY_INLINE CertifiedLanes times_ray_length(const CertifiedLanes& depth, V u, const SurfaceRow& row,
                                            const SceneRays& rays) {
   const auto& [kx, ky] = rays.lens();

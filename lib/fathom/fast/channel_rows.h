@@ -11,8 +11,8 @@ namespace fathom::fast {
 inline constexpr std::size_t samples_of_row = 64;
 
 /// What is visible along a row: for each sample q and its tag, whose bits as a binary64 number are
-/// a bound of the error of q and whose lower half is the triangle's number (see surface_tag). Of
-/// samples without a surface anything.
+/// a bound on the error of q and whose lower half is the triangle's number (see surface_tag()).
+/// Samples without a surface may have anything.
 struct SurfaceRow {
   const double* q = nullptr;
   const std::uint64_t* tags = nullptr;
@@ -20,8 +20,8 @@ struct SurfaceRow {
   double first_u = 0, v = 0;
 };
 
-/// Rounded values, and a bit for each sample whose value is settled: it is the exact one rounded
-/// once. Of the others, and of samples without a surface, anything.
+/// Rounded values, and a bit for each sample whose value is settled, that is, the exact one rounded
+/// once. The others, and samples without a surface, may have anything.
 template <class T>
 struct RoundedValues {
   alignas(64) std::array<T, samples_of_row> values;
@@ -29,9 +29,11 @@ struct RoundedValues {
 };
 
 // The binary64 tier of what follows from q alone, several samples at once, by the instructions that
-// the processor has: triangle/certified_surface.h and certified_rounding.h say the same for one sample, and why.
+// the processor has. triangle/certified_surface.h and numeric/certified_rounding.h do the same for
+// one sample, and say why.
 
-/// World x, y, z of the visible points. The world's rays usable.
+/// World x, y, z of the visible points, in scene units.
+/// Needs    usable rays of the world.
 void round_positions(const SurfaceRow& row, const triangle::Rays& world,
                      const triangle::RaySizes& sizes, bool perspective,
                      std::array<RoundedValues<float>, 3>& rounded);

@@ -6,7 +6,7 @@ namespace fathom::fast {
 
 /// The depths that count (specification, section 5: D > 0, near ≤ D ≤ far) as a range of q (see
 /// ImageVertex), with doubt at its ends: exact q in [inside_least, inside_greatest] certainly
-/// counts, q < outside_least or q > outside_greatest certainly does not.
+/// counts; q < outside_least or q > outside_greatest certainly does not.
 struct DepthRange {
   double inside_least, inside_greatest;
   double outside_least, outside_greatest;

@@ -25,19 +25,19 @@ double rounded(const Dyadic& x) {
 
 // Edges are scaled by a power of two so that |c|, |a|·X, |b|·Y < 1, where X, Y ≤ 2^extent bound the
 // local samples. Then the rounded coefficients err by 3u together, the two products by 2u, the two
-// sums by 2.01u and 3.01u: 10.1u; underflow is below 2⁻¹⁰⁰⁰. 12u is written.
+// sums by 2.01u and 3.01u: 10.1u; underflow is below 2⁻¹⁰⁰⁰. 12u is used.
 //
-// q = w/n under a perspective camera, −n/w under an orthographic one, where D = n/w; the
-// denominator is |Δ|, constant over the image. With S = |c| + |a|X + |b|Y the error is at most u·S
-// for the coefficients, u·S for the products and 2.01u·S for the sums; 5u·S and a floor against
-// underflow are written.
+// q = w/n for a perspective camera, −n/w for an orthographic one, where D = n/w; the denominator is
+// |Δ|, constant over the image. With S = |c| + |a|X + |b|Y the error is at most u·S for the
+// coefficients, u·S for the products and 2.01u·S for the sums; 5u·S and a floor against underflow
+// are used.
 TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const PixelBox& box) {
   TriangleSetup setup;
   setup.number = t.number;
   setup.column = box.first_column;
   setup.row = box.first_row;
   const double origin_u = box.first_column + 0.5, origin_v = box.first_row + 0.5;
-  // Samples up to 8 beyond the box count too.
+  // Samples up to 8 pixels beyond the box count too.
   const double extent =
       std::max(box.last_column - box.first_column, box.last_row - box.first_row) + 8.0;
   const long extent_bits = std::ilogb(extent) + 1;

@@ -35,7 +35,7 @@ std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t fir
 
 namespace {
 
-/// Draws triangles that may be of several objects, those of an object beside each other.
+/// Draws triangles, possibly of several objects, those of one object next to each other.
 void draw(std::span<const std::uint32_t> numbers, const ImageObjects& objects, Tile& tile,
           const Tile::Context& context) {
   while (!numbers.empty()) {

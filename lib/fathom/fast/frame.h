@@ -14,7 +14,7 @@
 #include "fathom/fast/tile.h"
 #include "fathom/threads/threads.h"
 
-/// What the fast engine works with, whether its scene lies in memory or in files.
+/// What the fast engine works with, whether its scene is in memory or in files.
 namespace fathom::fast {
 
 /// What a thread works with.
@@ -27,10 +27,10 @@ struct FastWorker {
 };
 using FastWorkers = tbb::enumerable_thread_specific<FastWorker>;
 
-/// The sum over all threads.
+/// The sum of the statistics of all threads.
 RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles);
 
-/// Those of all threads, where they are asked for.
+/// Collects the doubtful pixels of all threads, if they were asked for.
 void collect_doubtful(const FastWorkers& workers, const Camera& camera,
                       const RenderOptions& options);
 
@@ -48,12 +48,13 @@ struct FastFrame {
   TileGrid grid;
   DepthRange range;
   bool perspective;
-  /// Tiles get all triangles that meet them, for channel A.
+  /// Whether tiles get all triangles that meet them, for channel A.
   bool by_area = false;
 };
 
-/// Sorts triangles [first, end) of the scene, all of these objects, into tiles: `parts` bins of
-/// equal length or fewer, so that each thread has several and their tables of tiles stay small.
+/// Sorts triangles [first, end) of the scene, all of which belong to these objects, into tiles:
+/// `parts` bins of equal length, or fewer, so that each thread has several and their tables of
+/// tiles stay small.
 std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
                                   std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
                                   FastWorkers& workers);
@@ -77,13 +78,13 @@ class FirstFault {
   std::mutex mutex_;
 };
 
-/// Where the tiles write; any thread may.
+/// Where the tiles write, from any thread.
 class FastOutput {
  public:
   FastOutput(DepthMap& map, triangle::ChannelWriter& writer, const triangle::SceneRays& rays);
-  /// Whether tiles write all values of Z, so that the map need not be filled before.
+  /// Whether tiles write all values of Z, so that the map need not be filled beforehand.
   static bool writes_whole_tiles(const RenderOptions& options);
-  /// Of a tile without any triangle.
+  /// For a tile without any triangle.
   void write_background(const PixelBox& area, std::uint32_t image_width) const;
   std::optional<triangle::EncodingFault> write(const Tile& tile, std::uint32_t image_width,
                                                const Tile::Context& context) {
@@ -92,7 +93,7 @@ class FastOutput {
 
  private:
   tbb::enumerable_thread_specific<CertifiedWriter> certified_;
-  /// The values of Z, if that is the only channel of surfaces and binary32.
+  /// The values of Z, if it is the only channel besides A, and binary32.
   float* depths_ = nullptr;
 };
 

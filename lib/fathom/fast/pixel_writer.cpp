@@ -17,8 +17,8 @@ bool take(const Certified<WordPair>& x, float& target) {
   return take(to_binary32(x.value, x.error), target);
 }
 
-/// Stores a value as the channel is encoded. A double-word that is exact and of one word makes a
-/// product with `scale` that is exact.
+/// Stores a value as the channel is encoded. If it is exact and a single word, its product with
+/// `scale` is an exact double-word.
 bool store(const EncodedValues& values, std::size_t pixel, const Certified<WordPair>& x,
            double scale) {
   if (values.binary32) return take(x, values.binary32[pixel]);
@@ -141,7 +141,7 @@ const std::array<float, 3>& PixelWriter::normal() {
   return *facts_.normal;
 }
 
-/// Each component in its own tier.
+/// Each component by its own tier.
 bool PixelWriter::settle_normal(std::array<float, 3>& normal) {
   const ObjectRays& world = frame_.rays.world();
   const auto narrow =

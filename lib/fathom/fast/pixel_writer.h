@@ -13,7 +13,7 @@ struct VisibleSurface {
   ImagePoint sample;
 };
 
-/// What is written to, and who computes exactly what no bound settles.
+/// What is written to, and what computes exactly where no bound settles a value.
 struct WriterTarget {
   const triangle::ChannelValues& values;
   triangle::ChannelWriter& exact;
@@ -22,8 +22,8 @@ struct WriterTarget {
   RenderStatistics& statistics;
 };
 
-/// Writes the channels of one pixel: what the binary64 tier of channel_rows.h did not settle, or does
-/// not know.
+/// Writes the channels of one pixel: what the binary64 tier of channel_rows.h did not settle, or
+/// does not deal with.
 class PixelWriter {
  public:
   PixelWriter(const VisibleSurface& surface, SurfaceFacts& facts, const ValueFrame& frame,
@@ -34,7 +34,7 @@ class PixelWriter {
         target_(target),
         values_(facts, frame, surface.sample) {}
 
-  /// The normal of the surface, at whichever of its pixels.
+  /// The normal of the surface, from any one of its pixels.
   const std::array<float, 3>& normal();
   void write_position(std::size_t k);
   void write_barycentric(std::size_t k);
@@ -46,7 +46,7 @@ class PixelWriter {
   const triangle::ProjectedTriangle& projected() {
     return target_.referee.projected(surface_.triangle);
   }
-  /// Each of them: false, and nothing is written or counted, where no bound settles the value.
+  /// Each returns false, and writes and counts nothing, if no bound settles the value.
   bool settle_position(std::size_t k);
   bool settle_barycentric(std::size_t k);
   bool settle_low_part();

@@ -7,10 +7,10 @@
 #include "fathom/threads/threads.h"
 
 // How to read this file: render_in_arena() is the whole story. Vertices are transformed to the
-// image with bounds of their errors (vertex), triangles are sorted into tiles (boxes,
-// bins), each tile draws its triangles (setup, tile) and writes what is visible
-// (resolve) and how much of its pixels is covered (tile_coverage). What the bounds do not
-// settle goes to the referee (triangle/referee), who computes exactly.
+// image with bounds on their errors (vertex), triangles are sorted into tiles (boxes, bins), and
+// each tile draws its triangles (setup, tile) and writes what is visible (resolve) and how much of
+// its pixels is covered (tile_coverage). What the bounds do not settle goes to the referee
+// (triangle/referee), which computes exactly.
 namespace fathom {
 using namespace fast;
 using namespace triangle;

@@ -7,12 +7,14 @@
 
 namespace fathom {
 
-/// The fast engine: floating point with proved bounds, exact arithmetic where a bound does not
-/// settle a decision (specification, section 7). Its map equals that of render_reference bit for
+/// The fast engine: floating point with proved bounds, and exact arithmetic where a bound does not
+/// settle a decision (specification, section 7). Its map equals that of render_reference() bit for
 /// bit, on every input; docs/error-analysis.md gathers the bounds.
 ///
-/// Needs    a camera without fault (find_fault) and a valid scene.
-/// Fails    as render_reference.
+/// Unit     depths in scene units, of planar depth in the camera frame (specification, section 6).
+/// Exact    every value is the exact number rounded once.
+/// Needs    a camera without fault (find_fault()) and a valid scene.
+/// Fails    as render_reference().
 DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options);
 
 /// The kind of vector instructions that the fast engine uses on this machine, by Highway's names:

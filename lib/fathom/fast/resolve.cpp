@@ -54,7 +54,8 @@ HWY_INLINE DepthInterval orthographic_depth(V q, V error) {
           hn::Gt(least, constant(0))};
 }
 
-// Both ends of an interval that contains D round to the same number, and rounding is monotone.
+// If both ends of an interval that contains D round to the same number, so does D: rounding is
+// monotone.
 void round_row(const double* q_at, const std::uint64_t* tags, bool perspective, RoundedRow& row) {
   const D d;
   const DU du;

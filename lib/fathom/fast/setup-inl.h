@@ -1,8 +1,8 @@
-// Triangles, several at once, with bounds of their errors: included once for every kind of vector
-// instructions, by the files of which foreach_target.h makes one version for each.
+// Triangles, several at once, with bounds on their errors. Included once for every kind of vector
+// instructions, by the files that foreach_target.h compiles for each.
 //
 // The bounds of this file, with u = 2⁻⁵³ (docs/error-analysis.md, "Triangles"). All magnitudes are
-// between 2⁻¹⁰⁰ and 2¹⁰⁰ or differences of such, so nothing overflows; errors of underflow are
+// between 2⁻¹⁰⁰ and 2¹⁰⁰, or differences of such, so nothing overflows; errors of underflow are
 // below 2⁻¹⁰⁰⁰ and vanish in the terms u·L² and the floors of the vertices' bounds.
 #if defined(FATHOM_FAST_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FATHOM_FAST_SETUP_INL_H
@@ -39,15 +39,15 @@ HWY_INLINE V greatest_magnitude(V a, V b, V c) {
   return greatest_of(hn::Abs(a), hn::Abs(b), hn::Abs(c));
 }
 
-/// One lane a bit.
+/// One bit per lane.
 HWY_INLINE unsigned bits_of(M mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(D(), mask, bytes);
   return bytes[0];
 }
 
-/// Rounded to binary32, what is greater than all its numbers to ±∞. Emulated vectors would give the
-/// greatest number instead.
+/// Rounded to binary32; what is beyond its greatest number becomes ±∞. Emulated vectors would give
+/// the greatest number instead.
 template <class D32>
 HWY_INLINE hn::Vec<D32> to_binary32(D32 d32, V v) {
 #if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR
@@ -79,7 +79,7 @@ HWY_INLINE Corner corner_from(V u, V v, V q, V errors) {
           hn::BitCast(d, hn::ShiftLeft<32>(bits))};
 }
 
-/// Corner `which` of as many triangles as there are lanes. A vertex is four numbers in a row, so
+/// Corner `which` of as many triangles as there are lanes. A vertex is four consecutive numbers, so
 /// whole vertices are loaded and transposed.
 template <std::size_t which>
 HWY_INLINE Corner load_corner(const ImageVertex* vertices, const CornerIndices* triangles) {
@@ -122,7 +122,7 @@ HWY_INLINE Corner load_corner(const ImageVertex* vertices, const CornerIndices* 
 #endif
 }
 
-/// As many triangles as there are lanes.
+/// Loads as many triangles as there are lanes.
 HWY_INLINE Corners load_corners(const ImageVertex* vertices, const CornerIndices* triangles) {
   Corners t{load_corner<0>(vertices, triangles),
             load_corner<1>(vertices, triangles),
@@ -134,11 +134,11 @@ HWY_INLINE Corners load_corners(const ImageVertex* vertices, const CornerIndices
   return t;
 }
 
-/// All corners usable: the greatest error is a number less than 1 (see ImageVertex::is_usable).
+/// All corners are usable: the greatest error is a number less than 1 (ImageVertex::is_usable()).
 HWY_INLINE M are_usable(const Corners& t) {
   return hn::Lt(t.position_error, constant(1));
 }
-/// All corners exactly on the grid of snap_step.
+/// All corners are exactly on the grid of snap_step.
 HWY_INLINE M are_snapped(const Corners& t) {
   return hn::Eq(t.position_error, constant(0));
 }
@@ -148,8 +148,8 @@ struct Orientation {
   M positive, negative, zero;
 };
 
-// Differences of coordinates, M the greatest of them in magnitude: each differs from the exact one
-// by at most d = 2e + uM. A difference of two products of such differences then errs by at most
+// Let M be the greatest magnitude of the differences of coordinates; each differs from the exact
+// one by at most d = 2e + uM. A difference of two products of such differences then errs by at most
 // 4dM + 2d² for its factors and 2uM² + 2uM²(1 + u) ≤ 4.01uM² for its roundings.
 // On the grid of snap_step differences and products are exact (2·16 + 16 bits), and so is the sign.
 HWY_INLINE Orientation certified_orientation(const Corners& t) {
@@ -167,7 +167,7 @@ HWY_INLINE Orientation certified_orientation(const Corners& t) {
           hn::And(snapped, hn::Eq(doubled_area, constant(0)))};
 }
 
-/// Whole numbers; empty where a first is greater than a last.
+/// Integers; empty where a first is greater than a last.
 struct Boxes {
   V first_column, last_column, first_row, last_row;
 };
@@ -187,7 +187,8 @@ HWY_INLINE V last_sample(V high, V error, double greatest) {
   return hn::Floor(hn::Min(hn::Sub(hn::Add(high, margin), constant(0.5)), constant(greatest)));
 }
 
-/// The pixels of the area whose samples the triangles can cover. All corners usable.
+/// The pixels of the area whose samples the triangles can cover.
+/// Needs    usable corners.
 HWY_INLINE Boxes sample_boxes(const Corners& t, const PixelBox& area) {
   const V e = t.position_error;
   return {first_sample(least_of(t.A.u, t.B.u, t.C.u), e, area.first_column),
@@ -196,7 +197,8 @@ HWY_INLINE Boxes sample_boxes(const Corners& t, const PixelBox& area) {
           last_sample(greatest_of(t.A.v, t.B.v, t.C.v), e, area.last_row)};
 }
 
-/// The pixels of the area that the triangles meet, by the same argument. All corners usable.
+/// The pixels of the area that the triangles meet, by the same argument.
+/// Needs    usable corners.
 HWY_INLINE Boxes area_boxes(const Corners& t, const PixelBox& area) {
   const auto first = [&](V low, double least) HWY_ATTR {
     const V margin =
@@ -215,7 +217,7 @@ HWY_INLINE Boxes area_boxes(const Corners& t, const PixelBox& area) {
 }
 
 /// Triangles relative to their boxes' first samples, turned so that their doubled area T is
-/// positive by exchanging B and C where it was not.
+/// positive by exchanging B and C where it is not.
 struct LocalTriangles {
   V Au, Av, Bu, Bv, Cu, Cv;
   V qA, qB, qC;
@@ -281,10 +283,10 @@ HWY_INLINE Edges certified_edges(const LocalTriangles& t) {
 }
 
 // Corners on the grid of step g = 2⁻⁸ with L ≤ 2¹⁶: every term of an edge function is a multiple of
-// g² = 2⁻¹⁶ (samples are, by the ½ of the origin, whole numbers away), every sum below 2³⁶, so
-// nothing is rounded. A left edge (a > 0) or top edge (a = 0, b > 0) has its samples: half of g²
-// more makes 0 positive and leaves other signs; elsewhere half of g² less makes 0 negative. With 17
-// bits after the point and 36 before it the moved functions are exact too.
+// g² = 2⁻¹⁶ (samples are integers, as the origin is a sample), every sum below 2³⁶, so nothing is
+// rounded. A left edge (a > 0) or top edge (a = 0, b > 0) owns its samples: half of g² more makes 0
+// positive and leaves other signs alone; elsewhere half of g² less makes 0 negative. With 17 bits
+// after the point and 36 before it the moved functions are exact too.
 HWY_INLINE void use_top_left_rule(M exact, Edges& e) {
   constexpr double half_step = snap_step * snap_step / 2;
   for (int i = 0; i < 3; ++i) {
@@ -324,7 +326,7 @@ HWY_INLINE Depths certified_depths(const Corners& t, const LocalTriangles& l, co
   const V corners = hn::MulAdd(constant(4.1 * unit_roundoff<double>), hn::Abs(l.qA), t.q_error);
   const V slope = hn::Mul(
       hn::MulAdd(constant(72), l.delta, hn::Mul(constant(230 * unit_roundoff<double>), l.L)), l.L);
-  // 2⁻¹⁹: the room promised, and the roundings of this bound.
+  // 2⁻¹⁹: the promised room, and the roundings of this bound.
   q.error = hn::Mul(hn::MulAdd(hn::Mul(slope, dq), inverse, corners), constant(1 + 0x1p-19));
   return q;
 }
@@ -343,7 +345,7 @@ HWY_INLINE void store(V v, SetupBatch::Numbers& numbers) {
   hn::Store(v, D(), numbers.data());
 }
 
-/// As many triangles as there are lanes; see certified_setups in setup.h.
+/// As many triangles as there are lanes; see certified_setups() in setup.h.
 HWY_INLINE void set_up_lanes(const ImageVertex* vertices, const CornerIndices* triangles,
                              const PixelBox& area, const DepthRange& range, SetupBatch& batch) {
   const Corners t = load_corners(vertices, triangles);

@@ -16,7 +16,7 @@ namespace {
 
 void set_up_batch(const ImageVertex* vertices, const CornerIndices* triangles, std::size_t count,
                   const PixelBox& area, const DepthRange& range, SetupBatch& batch) {
-  // Lanes may be fewer than the batch's: the parts are put together.
+  // There may be fewer lanes than a batch has: the parts are put together.
   const std::size_t lanes = hn::Lanes(D());
   CornerIndices corners[SetupBatch::most];
   for (std::size_t i = 0; i < SetupBatch::most; ++i) corners[i] = triangles[std::min(i, count - 1)];

@@ -7,12 +7,12 @@
 #include "fathom/fast/frame.h"
 #include "fathom/threads/threads.h"
 
-// How to read this file: render_in_arena() is the whole story. The image is done in bands of rows
-// of tiles. For each band the files are read from beginning to end, some triangles at a time, which
-// are transformed, sorted into tiles and drawn like those of a scene in memory; the tiles of the
-// band keep what is visible so far. How many rows a band has is found on the way: the most whose
-// tiles fit into the memory that is allowed. Bands after the first leave out what the first saw to
-// lie elsewhere.
+// How to read this file: render_in_arena() is the whole story. The image is rendered in bands of
+// rows of tiles. For each band the files are read from beginning to end, some triangles at a time,
+// which are transformed, sorted into tiles and drawn like those of a scene in memory; the tiles of
+// the band keep what is visible so far. How many rows a band has is found on the way: as many as
+// have tiles that fit into the allowed memory. Bands after the first leave out what the first saw
+// to lie elsewhere.
 namespace fathom {
 using namespace area;
 using namespace fast;
@@ -28,8 +28,8 @@ bool is_met(std::uint32_t number, const std::vector<Bins>& bins) {
                      [&](const Bins& b) { return !b.in_tile(number).empty(); });
 }
 
-/// Rows of tiles [first_row, end_row), each tile there from the first triangle on that may be
-/// visible in it.
+/// Rows of tiles [first_row, end_row); a tile exists from the first triangle on that may be visible
+/// in it.
 class Band {
  public:
   Band(const TileGrid& grid, std::uint32_t first_row, std::uint64_t most_bytes)
@@ -44,7 +44,7 @@ class Band {
   [[nodiscard]] std::uint32_t first() const { return first_row_ * grid_.columns; }
   [[nodiscard]] std::uint32_t end() const { return end_row_ * grid_.columns; }
 
-  /// Gives up the last rows, at least one staying, until the tiles that are there and those that
+  /// Gives up the last rows, though never all of them, until the tiles that exist and those that
   /// these triangles need are not too many.
   void make_room(const std::vector<Bins>& bins) {
     std::uint64_t needed = 0;
@@ -91,7 +91,7 @@ class Band {
   std::vector<std::unique_ptr<Tile>> tiles_;
 };
 
-/// The rows of tiles in which parts of the scene may be visible, known once they were sorted.
+/// The rows of tiles in which parts of the scene may be visible, known once they have been sorted.
 class RowsOfParts {
  public:
   void note(std::uint32_t first_number, const std::vector<Bins>& bins, const TileGrid& grid) {
@@ -118,8 +118,8 @@ class RowsOfParts {
   std::map<std::uint32_t, Rows> rows_;
 };
 
-/// Reports progress from the thread that reads: rows of tiles done, and of the band under way the
-/// share of triangles.
+/// Reports progress from the thread that reads: rows of tiles that are done, and, of the band under
+/// way, the share of its triangles.
 void report(const RenderOptions& options, const Band& band, const TileGrid& grid,
             std::uint32_t first_row, double share_of_triangles) {
   if (!options.progress) return;

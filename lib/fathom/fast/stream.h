@@ -9,25 +9,25 @@
 
 namespace fathom {
 
-/// How much is held at a time. The map does not depend on it.
+/// How much is kept in memory at a time. The map does not depend on it.
 struct StreamLimits {
   /// Triangles of a file.
   std::uint32_t triangles_at_once = 1U << 19;
-  /// About what each of them takes: twice its corners (the next ones are read meanwhile), their
-  /// images, and its places in tiles.
+  /// About what each of them takes in bytes: twice its corners (the next ones are read meanwhile),
+  /// their images, and its places in tiles.
   static constexpr std::uint32_t bytes_per_triangle = 300;
-  /// Memory for the tiles of the image that surfaces were seen in, 16 bytes a pixel. Where they
-  /// need more, the files are read again for the rest of the image. A row of tiles, 64 rows of
-  /// pixels, is held at least.
+  /// Memory for the tiles of the image in which surfaces were seen, 16 bytes per pixel. If they
+  /// need more, the files are read again for the rest of the image. At least one row of tiles, 64
+  /// rows of pixels, is kept.
   std::uint64_t tile_bytes = std::uint64_t{1} << 30;
 };
 
 /// The fast engine on a scene that stays in its files: the map of render_fast() on the same files
 /// read by read_scene(), bit for bit.
 ///
-/// Memory   the channels asked for, and what the limits say; nothing that grows with the number of
-///          triangles (but see TriangleStream).
-/// Fails    as render_reference(); InputError if a file changes meanwhile.
+/// Memory   the channels asked for, and what the limits allow; nothing that grows with the number
+///          of triangles (but see TriangleStream).
+/// Fails    as render_reference(); InputError if a file changes in the meantime.
 DepthMap render_streamed(const StreamedScene& scene, const Camera& camera,
                          const RenderOptions& options, const StreamLimits& limits = {});
 

@@ -10,7 +10,7 @@
 
 namespace fathom::fast {
 
-/// What the values of all surfaces are computed with.
+/// What the values of all surfaces are computed from.
 struct ValueFrame {
   explicit ValueFrame(const triangle::SceneRays& its_rays);
 
@@ -20,11 +20,10 @@ struct ValueFrame {
   triangle::RaySizes world_sizes;
 };
 
-/// A triangle that is visible, with what was found out about it so far. Functions that find out more
+/// A visible triangle, with what has been found out about it so far. Functions that find out more
 /// keep it here.
 struct SurfaceFacts {
-  /// False where a number is of a magnitude for which no bound was derived: nothing but exact numbers
-  /// will do.
+  /// False if a number has a magnitude for which no bound was derived: only exact numbers will do.
   bool usable = false;
   TriangleOrigin origin;
   const triangle::ObjectRays* object = nullptr;
@@ -34,20 +33,19 @@ struct SurfaceFacts {
   std::optional<triangle::DepthForms<WordPair>> depth;
   /// The normal as it is written.
   std::optional<std::array<float, 3>> normal;
-  /// World x, y, z and depth, where they are found to be the same at all three corners; bit k of
+  /// World x, y, z and depth, if they are found to be the same at all three corners; bit k of
   /// constants_known: constants[k] was looked for.
   std::array<std::optional<WordPair>, 4> constants;
   std::uint8_t constants_known = 0;
 };
 
-/// A triangle of the scene of which nothing more is known.
+/// A triangle of the scene about which nothing more is known yet.
 SurfaceFacts surface_facts(std::uint32_t number, const ValueFrame& frame);
 
 const triangle::WeightForms<double>& weights_of(SurfaceFacts& t, const ValueFrame& frame);
 const triangle::DepthForms<WordPair>& depth_of(SurfaceFacts& t, const ValueFrame& frame);
 
-/// World coordinate k, or the depth (3), where it is the same number at all corners and found to be
-/// so.
+/// World coordinate k, or the depth (3), if it is found to be the same number at all corners.
 const std::optional<WordPair>& constant_of(SurfaceFacts& t, std::size_t k);
 
 }  // namespace fathom::fast

@@ -9,7 +9,8 @@
 namespace fathom::fast {
 
 /// The values of a visible surface at a sample in double-words, with bounds; what several channels
-/// need is computed when it is first asked for. The surface must be usable.
+/// need is computed when it is first asked for.
+/// Needs    a usable surface.
 class SurfaceValues {
  public:
   SurfaceValues(SurfaceFacts& surface, const ValueFrame& frame, const ImagePoint& s)
@@ -20,11 +21,11 @@ class SurfaceValues {
   const Certified<WordPair>& position(std::size_t k);
   const Certified<WordPair>& weight(std::size_t k);
 
-  /// The depth where it is known exactly: that of all three corners, or the binary32 or binary64
+  /// The depth if it is known exactly: that of all three corners, or the binary32 or binary64
   /// number nearest to it.
   const std::optional<WordPair>& exact_depth();
 
-  /// Whether world coordinate k, or a weight with a bound of its size in any arithmetic, is exactly 0.
+  /// Whether world coordinate k or a weight is exactly 0; any certified value of it will do.
   bool position_is_zero(std::size_t k);
   bool weight_is_zero(const Certified<double>& narrow);
   bool weight_is_zero(std::size_t k);

@@ -34,8 +34,8 @@ void Tile::set_up_exactly(std::uint32_t number, const PixelBox& box, const Conte
   batch.set(0, setup, box);
 }
 
-// The decisions of the vector code once more (tile_lanes.cpp), each in its own tier. The
-// functions are summed in another order perhaps, within the same bounds.
+// The decisions of the vector code (tile_lanes.cpp) once more, each by its own tier. The functions
+// may be summed in another order, within the same bounds.
 void Tile::settle(const TriangleSetup& setup, bool test_range, std::uint32_t column,
                   std::uint32_t row, const Context& context) {
   context.note_doubt(column, row);

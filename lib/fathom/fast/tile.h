@@ -36,7 +36,7 @@ class Tile {
     const DepthRange& range;
     bool perspective;
     const FastSwitches& switches;
-    /// Gets the pixels at which a bound does not settle a decision, where not null.
+    /// If not null, gets the pixels at which a bound does not settle a decision.
     std::vector<DoubtfulPixel>* doubtful = nullptr;
 
     void note_doubt(std::uint32_t column, std::uint32_t row) const {
@@ -53,8 +53,8 @@ class Tile {
   void draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
             const Context& context);
 
-  /// Writes the visible surfaces; the first fault in row order ends it. `depths`: where not null,
-  /// the values of channel Z, the only channel, written here for the whole area.
+  /// Writes the visible surfaces; stops at the first fault in row order. `depths`: if not null, the
+  /// values of channel Z, the only one of surfaces, which are written here for the whole area.
   std::optional<triangle::EncodingFault> resolve(CertifiedWriter& certified, float* depths,
                                                  std::uint32_t image_width,
                                                  const Context& context) const;
@@ -64,7 +64,7 @@ class Tile {
   static std::size_t index(std::uint32_t column, std::uint32_t row) {
     return static_cast<std::size_t>(row) * size + column;
   }
-  /// The surface at a sample: its q, −∞ where there is none, and its tag.
+  /// The surface at a sample: its q, −∞ if there is none, and its tag.
   double* q() { return q_.data(); }
   std::uint64_t* tags() { return tags_.data(); }
   [[nodiscard]] const double* q() const { return q_.data(); }
@@ -73,7 +73,7 @@ class Tile {
   double* farthest() { return farthest_.data(); }
   /// How often a block was drawn into since its number above was computed.
   std::uint8_t* draws() { return draws_.data(); }
-  /// Settles one sample exactly, as far as the bounds do not. Column and row of the image.
+  /// Settles one sample, exactly where the bounds do not. Column and row are those of the image.
   void settle(const TriangleSetup& setup, bool test_range, std::uint32_t column, std::uint32_t row,
               const Context& context);
   /// Sets up a triangle from exact numbers, for the samples of `box`.
@@ -81,7 +81,7 @@ class Tile {
                              SetupBatch& batch);
 
  private:
-  /// Of the surface at a sample: the bound of the error of its q, and its number.
+  /// Of the surface at a sample: the bound on the error of its q, and its number.
   [[nodiscard]] double error_at(std::size_t i) const { return std::bit_cast<double>(tags_[i]); }
   [[nodiscard]] std::uint32_t number_at(std::size_t i) const {
     return static_cast<std::uint32_t>(tags_[i]);
@@ -96,13 +96,13 @@ class Tile {
   std::array<std::uint8_t, blocks> draws_;
 };
 
-/// Tag of a surface: number in the lower half, and as a whole, read as a binary64 number, a bound
-/// of the error of its q: upper_half() rounds it up, so that the lower half can only add to it. A
-/// bound of +∞ becomes NaN, for which no comparison holds: nothing is certain.
+/// Tag of a surface: its number in the lower half and, read as a whole as a binary64 number, a
+/// bound on the error of its q: upper_half() rounds up, so that the lower half can only add to it.
+/// A bound of +∞ becomes NaN, for which no comparison holds: nothing is certain.
 inline std::uint64_t surface_tag(std::uint32_t number, double q_error) {
   return upper_half(q_error) << 32 | number;
 }
-/// No surface: an error of next to nothing.
+/// No surface: an error of almost nothing.
 inline constexpr std::uint64_t no_surface_tag = std::uint64_t{0x00100000} << 32 | no_surface;
 
 }  // namespace fathom::fast

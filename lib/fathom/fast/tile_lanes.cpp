@@ -89,14 +89,14 @@ struct Strip {
   int first_lane, last_lane;
 };
 
-// At every sample one of three is certain, or none: the triangle is the nearest surface so far
-// ("wins"), it is not ("loses"), or neither is known. The third is settled exactly.
+// At every sample the triangle is certainly the nearest surface so far ("wins"), or certainly not
+// ("loses"), or neither is certain. The third case is settled exactly.
 //
 // d is the difference of two values of q with a relative error of u; the sum of their errors has
 // one too, and both errors leave out 2⁻²⁰ of themselves: d > sum implies that the exact q of this
-// triangle is greater. Where the triangle does not cover the sample the bound of q does not hold,
+// triangle is greater. Where the triangle does not cover the sample the bound on q does not hold,
 // but then "loses" is right anyway. Ends of the range are compared with q moved by twice its error:
-// a bound of q is never below u·|q|, so that the second half covers the rounding of the end.
+// a bound on q is never below u·|q|, so the second half covers the rounding of the end.
 template <bool test_edges, bool test_range>
 HWY_INLINE bool draw_strip(Tile& tile, const Drawn& t, const Strip& strip,
                            const Tile::Context& context) {
@@ -117,7 +117,7 @@ HWY_INLINE bool draw_strip(Tile& tile, const Drawn& t, const Strip& strip,
     const std::size_t start = Tile::index(static_cast<std::uint32_t>(strip.column + part), 0);
     V y = constant(t.y + strip.first_row - 1);
     for (int row = strip.first_row; row <= strip.last_row; ++row) {
-      y = hn::Add(y, constant(1));  // whole numbers: exact
+      y = hn::Add(y, constant(1));  // integers: exact
       double* const q_at = tile.q() + start + static_cast<std::size_t>(row) * Tile::size;
       std::uint64_t* const tag_at =
           tile.tags() + start + static_cast<std::size_t>(row) * Tile::size;
@@ -171,16 +171,16 @@ HWY_INLINE void draw_box(Tile& tile, const Drawn& t, const Tile::Context& contex
   }
 }
 
-/// What is certain of a row of blocks of a tile, a bit for each block.
+/// What is certain about a row of blocks of a tile, a bit for each block.
 struct BlockRow {
   unsigned drawn, inside;
 };
 
-// Products and sums are rounded monotonically, so that no sample of a block has a computed value
-// above that of the corner where the function is greatest, or below that of the opposite corner;
-// only blocks that the box meets count, and the bounds hold up to 8 samples beyond it.
-// Hidden: no block has a surface with less than its farthest q, and the triangle's greatest q with
-// its error is below that: twice the error, for the rounding of the sum.
+// Products and sums are rounded monotonically, so no sample of a block has a computed value above
+// that of the corner where the function is greatest, or below that of the opposite corner; only
+// blocks that the box meets count, and the bounds hold up to 8 samples beyond it.
+// Hidden: no surface of the block has a q below the block's farthest, and the triangle's greatest q
+// with its error is below that: twice the error, for the rounding of the sum.
 HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, int block_row, bool reject) {
   const D d;
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -219,8 +219,8 @@ HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, int block_row, bo
   return row;
 }
 
-// The least q − 3·error: a bound of q is never below u·|q|, so that what is computed is not greater
-// than the exact q. A surface without a bound (NaN) leaves nothing known.
+// The least q − 3·error: a bound on q is never below u·|q|, so the computed value is not greater
+// than the exact q. If a surface has no bound (NaN), nothing is known.
 HWY_INLINE void update_farthest(Tile& tile, std::size_t block_number) {
   const D d;
   const DU du;
@@ -244,8 +244,8 @@ HWY_INLINE void update_farthest(Tile& tile, std::size_t block_number) {
   tile.draws()[block_number] = 0;
 }
 
-/// Rows of blocks: those without a covered sample and those behind all that is drawn already are
-/// left out, in those that lie inside the triangle edges are not asked about.
+/// Draws by rows of blocks: blocks without a covered sample and those behind everything that is
+/// already drawn are left out; in those that lie inside the triangle, edges are not tested.
 HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& context) {
   constexpr std::uint8_t draws_until_update = 4;
   const bool reject = context.switches.early_rejection;
@@ -293,7 +293,7 @@ HWY_INLINE unsigned small_lanes(const SetupBatch& batch) {
 }
 
 /// One sample of each of the small triangles, by its column and row in their boxes: the decisions
-/// of draw_strip, those about edges for all triangles at once.
+/// of draw_strip(), those about edges for all triangles at once.
 HWY_INLINE void draw_sample_of_each(Tile& tile, const SetupBatch& batch, unsigned drawn, int column,
                                     int row, const Tile::Context& context) {
   const D d;
@@ -348,13 +348,13 @@ HWY_NOINLINE void draw_exactly(Tile& tile, std::uint32_t number, const PixelBox&
   draw_triangle(tile, exact, 0, true, context);
 }
 
-/// Triangles to draw, as many as there are lanes (the last one repeated where there are fewer).
+/// Triangles to draw, as many as there are lanes (the last one repeated if there are fewer).
 struct Triangles {
   std::array<std::uint32_t, SetupBatch::most> number;
   std::array<CornerIndices, SetupBatch::most> corners;
 };
 
-/// Reads those from `first` on, and asks the memory for what comes next: triangles of a tile lie
+/// Reads those from `first` on, and prefetches those that come next: triangles of a tile may be
 /// anywhere in the mesh.
 HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> numbers,
                       std::size_t first, Triangles& next) {
@@ -370,7 +370,7 @@ HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> 
   }
 }
 
-/// Edge functions without any error have no bound.
+/// Edge functions without any error have no bound to widen.
 HWY_NOINLINE void widen(SetupBatch& batch, double factor) {
   for (std::size_t k = 0; k < hn::Lanes(D()); ++k) {
     if (!(batch.snapped >> k & 1)) batch.edge_error[k] *= factor;

@@ -12,10 +12,10 @@
 // exactly and rounded once, so that a rounded entry is m(1 + δ), |δ| ≤ u. Entries are 0 or between
 // 2⁻²⁰⁰ and 2²⁰⁰ in magnitude, else the object is not usable.
 //
-// Affine value. m₀x + m₁y + m₂z + m₃ from rounded entries: each term meets at most one rounding of
-// its entry, one of the product and three of sums, so the error is at most γ₅·S, where
+// Affine value. m₀x + m₁y + m₂z + m₃ from rounded entries: each term goes through at most one
+// rounding of its entry, one of the product and three of sums, so the error is at most γ₅·S, where
 // S = |m₀x| + |m₁y| + |m₂z| + |m₃| and γ₅ = 5u/(1 − 5u). S is computed with a relative error of at
-// most γ₅ as well. 6u·S, computed, is therefore a bound; what 6 is more than 5 covers the second
+// most γ₅ as well. 6u·S, computed, is therefore a bound; the excess of 6 over 5 covers the second
 // order. A product that underflows adds at most 2⁻¹⁰⁷⁵ absolutely: each user says what covers it.
 namespace fathom::fast {
 namespace {
@@ -71,7 +71,7 @@ bool is_safe(double entry) {
   return size == 0 || (size >= 0x1p-200 && size <= 0x1p200);
 }
 
-/// m·x without rounding, or not known.
+/// m·x without rounding; false: not known.
 bool multiply_exactly(double m, double x, double& product) {
   product = m * x;
   if (m == 0 || x == 0) return true;
@@ -79,14 +79,14 @@ bool multiply_exactly(double m, double x, double& product) {
   return no_underflow && std::fma(m, x, -product) == 0;
 }
 
-/// a + b without rounding, or not known (Knuth's TwoSum gives the rounding error).
+/// a + b without rounding; false: not known. TwoSum ([Knu97] 4.2.2) gives the rounding error.
 bool add_exactly(double a, double b, double& sum) {
   sum = a + b;
   const double b_part = sum - a;
   return (a - (sum - b_part)) + (b - b_part) == 0;
 }
 
-/// The affine value without any rounding, or not known.
+/// The affine value without any rounding; false: not known.
 bool apply_exactly(const Row& m, const MeshPoint& X, double& value) {
   double mx, my, mz, xy, xyz;
   return multiply_exactly(m[0], X.x, mx) && multiply_exactly(m[1], X.y, my) &&
@@ -120,9 +120,9 @@ ImageVertex VertexTransform::operator()(const MeshPoint& X) const {
   return vertex;
 }
 
-// If U, V and W are computed without rounding, u = U/W is the multiple given exactly if u·W = U;
-// the fused multiply-add rounds u·W − U once, and a number that is not 0 does not round to 0 here
-// (no underflow: u·W and U are multiples of 2⁻⁹⁰⁰⁻⁵³⁻⁸).
+// If U, V and W are computed without rounding, U/W is exactly the given multiple u if u·W = U; the
+// fused multiply-add rounds u·W − U once, and a number that is not 0 does not round to 0 here (no
+// underflow: u·W and U are multiples of 2⁻⁹⁰⁰⁻⁵³⁻⁸).
 bool VertexTransform::lies_exactly_at(const MeshPoint& X, double u, double v) const {
   double U, V, W;
   if (!exact_ || !apply_exactly(rows_.U, X, U) || !apply_exactly(rows_.V, X, V)) return false;
@@ -138,12 +138,12 @@ VertexTransform::Homogeneous VertexTransform::homogeneous(const MeshPoint& X) co
           affine_error * apply(rows_.size_W, ax, ay, az)};
 }
 
-// A covered sample s is a combination of the corners with weights that are not negative (divided by
-// Δ, the edge functions), so that a linear form in (U, V, W) that is negative at every corner is
+// A covered sample s is a combination of the corners with weights that are not negative (the edge
+// functions divided by Δ), so a linear form in (U, V, W) that is negative at every corner is
 // negative at (s_u, s_v, 1). The forms: W itself; U − ½W, which is not negative at any sample;
 // (w − ½)W − U; and the same two for V. With k = ½ or w − ½, the computed form errs by at most
 // E_UV + k·E_W and by roundings of k·Ŵ and of the difference, at most u(|Û| + 2k|Ŵ|)(1 + u), which
-// is less than (E_UV + 2k·E_W)/5, as |Û| ≤ E_UV/(6u)·(1 + 2⁻⁵⁰) and likewise for Ŵ. 1.5 is written.
+// is less than (E_UV + 2k·E_W)/5, as |Û| ≤ E_UV/(6u)·(1 + 2⁻⁵⁰) and likewise for Ŵ. 1.5 is used.
 bool VertexTransform::misses_image(const std::array<MeshPoint, 3>& corners) const {
   if (!usable_) return false;
   bool behind = true, left = true, right = true, above = true, below = true;

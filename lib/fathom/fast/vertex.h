@@ -11,36 +11,36 @@
 
 namespace fathom::fast {
 
-/// Vertices that lie exactly on the grid of this step (pixels) are known to, within this distance
-/// of the image's origin: then edge functions are computed without any error (setup-inl.h).
+/// It is known which vertices lie exactly on the grid of this step (pixels) within this distance of
+/// the image's origin: there, edge functions are computed without any error (setup-inl.h).
 inline constexpr double snap_step = 0x1p-8, snap_limit = 0x1p15;
 
 /// A mesh vertex in the image, with what is proved about it.
 ///
 /// q is affine in the image over every triangle, and of two surfaces at a sample the nearer has the
-/// greater q: 1/D under a perspective camera, −D under an orthographic one.
+/// greater q: 1/D for a perspective camera, −D for an orthographic one.
 struct alignas(32) ImageVertex {
   double u, v;  // pixels
   double q;
-  /// Two bounds as the upper halves of their binary64 representations, rounded up: of the errors of
-  /// u and v in the upper, of q in the lower half.
+  /// Two bounds as the upper halves of their binary64 representations, rounded up: in the upper
+  /// half that on the errors of u and v, in the lower half that on the error of q.
   std::uint64_t errors;
 
   /// |u − exact u| and |v − exact v| are at most this; 0: u and v are exact multiples of snap_step;
-  /// +∞ where nothing is known of the vertex (see is_usable).
+  /// +∞ if nothing is known about the vertex (see is_usable()).
   [[nodiscard]] double position_error() const {
     return std::bit_cast<double>(errors & 0xFFFFFFFF00000000);
   }
   /// |q − exact q| is at most this.
   [[nodiscard]] double q_error() const { return std::bit_cast<double>(errors << 32); }
 
-  /// Certainly in front of the camera, and of a magnitude for which the bounds were derived.
+  /// Certainly in front of the camera, and of magnitudes for which the bounds were derived.
   /// Otherwise u and v mean nothing, and q < 0 says that the vertex is certainly not in front.
   [[nodiscard]] bool is_usable() const { return position_error() < 1; }
   [[nodiscard]] bool is_behind() const { return !is_usable() && q < 0; }
 };
 
-/// A bound as half of ImageVertex::errors: a number not less than `bound`, by 2⁻²⁰ of it at most.
+/// A bound as half of ImageVertex::errors: not less than `bound`, and at most 2⁻²⁰ of it greater.
 inline std::uint64_t upper_half(double bound) {
   return (std::bit_cast<std::uint64_t>(bound) >> 32) + 1;
 }
@@ -53,7 +53,7 @@ struct ImageRows {
   Row size_UV, size_W, size_D;
 };
 
-/// From the vertices of one object to the image.
+/// Takes the vertices of one object to the image.
 class VertexTransform {
  public:
   VertexTransform(const Object& object, const Camera& camera);
@@ -62,8 +62,8 @@ class VertexTransform {
   void operator()(std::span<const MeshPoint> points, ImageVertex* image) const;
   ImageVertex operator()(const MeshPoint& X) const;
 
-  /// True only if no point of the image is covered by a triangle with these corners, for the
-  /// corners' sake: all of them behind the camera, or all beyond one side of the image.
+  /// True only if a triangle with these corners covers no point of the image because of where they
+  /// are: all of them behind the camera, or all beyond one side of the image.
   /// Meant for corners that are not usable; false means "not known".
   [[nodiscard]] bool misses_image(const std::array<MeshPoint, 3>& corners) const;
 
@@ -75,7 +75,7 @@ class VertexTransform {
   [[nodiscard]] bool lies_exactly_at(const MeshPoint& X, double u, double v) const;
 
  private:
-  /// U, V, W rounded, with bounds of their errors.
+  /// U, V, W rounded, with bounds on their errors.
   struct Homogeneous {
     double U, V, W;
     double error_UV, error_W;
@@ -83,7 +83,7 @@ class VertexTransform {
   [[nodiscard]] Homogeneous homogeneous(const MeshPoint& X) const;
 
   bool perspective_;
-  /// False where an entry of the matrix is of a magnitude for which the bounds were not derived.
+  /// False if an entry of the matrix has a magnitude for which the bounds were not derived.
   bool usable_ = true;
   /// Whether the rounded entries are the exact ones.
   bool exact_ = false;

@@ -2,7 +2,7 @@
 
 #include "fathom/fast/vertex.h"
 
-// Constants of the vertices' bounds; their derivations stand where they are used (vertex.cpp,
+// Constants of the vertices' bounds; their derivations are where they are used (vertex.cpp,
 // vertex_lanes.cpp).
 namespace fathom::fast::vertex_bounds {
 
@@ -11,7 +11,7 @@ inline constexpr double affine_error = 6 * unit_roundoff<double>;
 /// 2⁻⁴⁸) and the terms of second order named there (2⁻¹⁸).
 inline constexpr double slack = 1 + 0x1p-15;
 /// Absolute floor of every bound, above all effects of underflow: these are errors of 2⁻¹⁰⁷⁵ in U,
-/// V, W or D, grown by at most 2¹⁵⁰ by divisions.
+/// V, W or D, which divisions enlarge by at most 2¹⁵⁰.
 inline constexpr double underflow_floor = 0x1p-100;
 
 inline constexpr double least_W = 0x1p-60, greatest_W = 0x1p60;

@@ -1,5 +1,5 @@
-// Vertices to the image, several at once: compiled for every kind of vector instructions, the best
-// of the machine chosen when run.
+// Vertices to the image, several at once: compiled for every kind of vector instructions, of which
+// the best that the machine has is chosen at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fathom/fast/vertex_lanes.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
@@ -43,9 +43,9 @@ struct Result {
 // Û, Ŵ computed, E_U, E_W their bounds, r = Û/Ŵ the real quotient, U, W exact. Then
 //   |r − U/W| = |(Û − U) + (U/W)(W − Ŵ)| / Ŵ ≤ (E_U + (|r| + |r − U/W|)·E_W) / Ŵ,
 // so with E_W ≤ 2⁻²⁰·Ŵ: |r − U/W| ≤ (1 + 2⁻¹⁹)·(E_U + |r|·E_W) / Ŵ. And û = fl(Û·fl(1/Ŵ)) differs
-// from r by at most 2.01u·|r|; 3u is written. 2⁻¹⁹ and the difference of r and û go into `slack`.
+// from r by at most 2.01u·|r|; 3u is used. 2⁻¹⁹ and the difference of r and û go into `slack`.
 // Likewise |1/Ŵ − 1/W| ≤ E_W/(Ŵ·W) ≤ (1 + 2⁻¹⁹)·E_W/Ŵ², and the division rounds once more.
-// Overflow anywhere makes a condition of `usable` false.
+// An overflow anywhere makes a condition of `usable` false.
 HWY_INLINE Result perspective_vertex(const ImageRows& rows, V x, V y, V z) {
   using namespace vertex_bounds;
   const V ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
@@ -92,7 +92,7 @@ HWY_INLINE Result orthographic_vertex(const ImageRows& rows, V x, V y, V z) {
   return r;
 }
 
-/// See ImageVertex::errors; a position error of +∞ stays.
+/// See ImageVertex::errors; a position error of +∞ stays +∞.
 HWY_INLINE hn::Vec<DU> errors_of(const Result& r) {
   const DU du;
   const auto position = hn::ShiftRight<32>(hn::BitCast(du, r.position_error));
@@ -114,7 +114,7 @@ HWY_INLINE M may_snap(const Result& r) {
                  hn::And(hn::Le(distance, r.position_error), hn::Le(size, constant(snap_limit))));
 }
 
-/// Puts the vertices that lie exactly on the grid there; few do, in most scenes none.
+/// Moves the vertices that lie exactly on the grid to their places; few do, in most scenes none.
 HWY_NOINLINE void snap(const VertexTransform& transform, const MeshPoint* points,
                        ImageVertex* image, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {

@@ -10,7 +10,7 @@ using namespace triangle;
 
 namespace {
 
-/// At least |n·d| at a sample: from the leading words, whose own errors are 3u of the terms.
+/// Not less than |n·d| at a sample: from the leading words, whose own errors are 3u of the terms.
 double divisor_size(const DepthForms<WordPair>& depth, const ImagePoint& s, bool perspective) {
   if (!perspective) return std::abs(depth.constant.value.hi) * slack + depth.constant.error;
   const auto& [a, b, c, error] = depth.varying;

@@ -14,10 +14,10 @@ ApproximateRow::ApproximateRow(const std::array<Dyadic, 4>& row) {
   }
 }
 
-// With u = 2⁻⁵³, the coefficients (truncated: an error of 2u), the products and the two to three
-// sums that each goes through err together by at most (1 + 2u)(1 + u)⁴ − 1 < 2⁻⁵⁰ of the sum S of
-// the magnitudes; S itself is computed at most as much too small, which leaves room within 2⁻⁴⁹·S.
-// A product that underflows adds 2⁻¹⁰⁷⁵. Infinities and NaNs come out as the whole line.
+// With u = 2⁻⁵³: the error of a term comes from its coefficient (truncated: 2u), its product and
+// the up to three sums that it goes through, together at most (1 + 2u)(1 + u)⁴ − 1 < 2⁻⁵⁰ of the
+// sum S of the magnitudes. The computed S is too small by at most as much, which leaves room within
+// 2⁻⁴⁹·S. A product that underflows adds 2⁻¹⁰⁷⁵. Infinities and NaNs yield the whole line.
 Interval ApproximateRow::at(const MeshPoint& p) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto& [a, b, c, d] = coefficients_;

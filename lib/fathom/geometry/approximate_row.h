@@ -6,11 +6,11 @@
 
 namespace fathom {
 
-/// One row of an exact affine map in binary64, with a bound of its error.
+/// One row of an exact affine map in binary64, with a bound on its error.
 class ApproximateRow {
  public:
   explicit ApproximateRow(const std::array<Dyadic, 4>& row);
-  /// An interval that contains row·(x, y, z, 1); the whole line where nothing is known.
+  /// An interval that contains row·(x, y, z, 1); the whole real line where nothing is known.
   [[nodiscard]] Interval at(const MeshPoint& p) const;
 
  private:

@@ -10,7 +10,7 @@
 /// specification, sections 2 to 4. All coordinates here are exact.
 namespace fathom {
 
-/// A corner of a mesh in the frame of its file, as read: binary64 numbers that are the truth.
+/// A point of a mesh in its file's frame and unit, as read: its binary64 numbers are the truth.
 struct MeshPoint {
   double x = 0, y = 0, z = 0;
   friend bool operator==(const MeshPoint&, const MeshPoint&) = default;
@@ -26,12 +26,12 @@ struct CameraPoint {
   Dyadic x, y, z;
 };
 
-/// A homogeneous image point: the image is (U/W, V/W) in pixels, u right, v down, where W > 0.
+/// A homogeneous image point: its image is (U/W, V/W) in pixels, u right, v down, where W > 0.
 struct HomogeneousImagePoint {
   Dyadic U, V, W;
 };
 
-/// A sample position on the image in pixels, (0, 0) the top left corner; exact binary fractions.
+/// A sample position in the image in pixels, (0, 0) its top left corner; exact binary fractions.
 struct ImagePoint {
   double u = 0, v = 0;
 };

@@ -4,7 +4,8 @@
 
 namespace fathom {
 
-/// Pixels of an image from a first to a last column and row; first > last where there is none.
+/// A box of pixels, from its first to its last column and row; first > last where it is empty.
+/// Column 0 is at the left, row 0 at the top.
 struct PixelBox {
   std::uint32_t first_column = 1, last_column = 0;
   std::uint32_t first_row = 1, last_row = 0;

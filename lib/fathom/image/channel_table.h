@@ -13,31 +13,31 @@ namespace fathom {
 
 enum class Channel { Z, A, Zlow, distance, id, face, object, N, P, bary };
 
-/// What a channel's values mean, and with it which value says "no surface".
+/// What a channel's values mean, which decides what value says "no surface".
 enum class ChannelKind {
   depth,       ///< Z, distance, disparity, Zdecoded: background +∞, of codes 0
   identifier,  ///< id, face, object and every other 32-bit integer: background no_surface
   direction,   ///< N.X, N.Y, N.Z: background 0 in all three
   position,    ///< P.*, bary.*: background NaN
-  quantity     ///< everything else (A, Zlow, other programs' channels): 0, which is no background
+  quantity     ///< everything else (A, Zlow, other programs' channels): 0, which is a value too
 };
 
 /// What a channel is stored as.
 enum class ChannelType {
-  encoded,    ///< binary32, binary64 or codes of 16 bits, as is asked for (DepthEncoding)
+  encoded,    ///< binary32, binary64 or 16-bit codes, as asked for (DepthEncoding)
   binary32,   ///< binary32
-  identifier  ///< an integer of 32 bits
+  identifier  ///< a 32-bit integer
 };
 
 struct ChannelDescription {
   Channel channel;
-  /// In files and options, without its part.
+  /// Its name in files and options, without a part.
   std::string_view name;
   /// A letter for each part: `N` has the channels N.X, N.Y and N.Z. Empty: a single channel.
   std::string_view parts;
   ChannelType type;
   ChannelKind kind;
-  /// In a word or two, for people.
+  /// For people, in a few words.
   std::string_view meaning;
 };
 
@@ -64,7 +64,7 @@ inline const ChannelDescription& description_of(Channel channel) {
 /// "Z" → Channel::Z, …; nullopt if there is no such channel.
 std::optional<Channel> channel_named(std::string_view name);
 
-/// The names of its parts, "N.X", "N.Y" and "N.Z"; of a single channel, its own.
+/// The names of its parts, "N.X", "N.Y" and "N.Z"; for a single channel, its own name.
 std::vector<std::string> part_names(Channel channel);
 
 /// "Z, A, Zlow, … and bary"

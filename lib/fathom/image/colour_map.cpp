@@ -76,7 +76,7 @@ Rgb colour_at(ColourMap map, double t) {
 }
 
 /// Hue by the golden ratio, so that neighbours are far apart; saturation and value by further bits
-/// of a multiplicative hash (Knuth, The Art of Computer Programming, vol. 3, 6.4).
+/// of a multiplicative hash ([Knu98] 6.4).
 Rgb colour_of_identifier(std::uint32_t id) {
   const std::uint32_t hash = id * 2654435769u;
   const double hue = hash / 4294967296.0 * 6;

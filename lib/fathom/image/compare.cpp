@@ -17,7 +17,7 @@ PixelPosition position_of(std::size_t k, std::uint32_t width) {
   return {static_cast<std::uint32_t>(k % width), static_cast<std::uint32_t>(k / width)};
 }
 
-/// Numbers in the order of their values, one apart where nothing lies between; both zeros are 0.
+/// Integers in the order of the numbers, one apart for neighbours; 0 for both zeros.
 template <class Float, class Integer>
 Integer ordinal(Float value) {
   const auto bits = std::bit_cast<Integer>(value);
@@ -44,7 +44,7 @@ BackgroundRule rule_for(const ImageChannel& channel, const std::optional<double>
   return {std::isfinite(*given) ? given : std::nullopt, ""};
 }
 
-/// A depth channel under whatever name.
+/// The only depth channel of a map, whatever its name.
 const ImageChannel* lone_depth(const DepthMap& map) {
   const ImageChannel* found = nullptr;
   for (const ImageChannel& channel : map.channels) {
@@ -83,7 +83,7 @@ Measure measure(const Reading& a, const Reading& b, std::size_t k) {
   return m;
 }
 
-/// A kind of difference at every compared pixel, and where.
+/// Differences of one kind at all compared pixels, and where the largest is.
 struct Differences {
   std::vector<double> values;
   std::size_t worst = 0;
@@ -193,7 +193,7 @@ ChannelPair image::make_pair(const DepthMap& truth, const ImageChannel& a, const
                    {},
                    {},
                    truth.width};
-  // Identifiers tell an overflowed depth from background, but only where both maps have them.
+  // Identifiers distinguish an overflowed depth from background, but only if both maps have them.
   const bool by_identifiers = identifiers_of(truth) && identifiers_of(other);
   pair.truth_mask = surface_mask(truth, a,
                                  options.truth_background || kind_of(a) == ChannelKind::depth

@@ -12,12 +12,13 @@
 /// How two maps of the same view differ.
 namespace fathom {
 
+/// Column and row of a pixel, from 0 at the top left.
 struct PixelPosition {
   std::uint32_t x = 0, y = 0;
   friend bool operator==(PixelPosition, PixelPosition) = default;
 };
 
-/// Figures over the compared pixels (ChannelComparison::compared); all 0 where there are none.
+/// Figures over the compared pixels (ChannelComparison::compared); all 0 if there are none.
 /// Percentiles are nearest-rank: the least value that at least p % of the pixels do not exceed.
 struct DifferenceSummary {
   double max = 0, mean = 0;
@@ -32,12 +33,12 @@ struct DifferenceSummary {
 ///   bit patterns are equal    bit_equal, differences 0
 ///   identifiers               equal or in `different_identifiers`; no differences are measured
 ///   a NaN, or an infinity     `incommensurable` unless both are the same infinity or both NaN
-///   against another value     (difference 0): no difference is measured, and no tolerance is met
+///   against another value     (difference 0): no difference is measured, no tolerance is met
 ///   otherwise                 absolute |a − b|; relative |a − b| / max(|a|, |b|), 0 if both are 0;
-///                             ulp: how many binary32 numbers lie from one to the other, −0 and +0
-///                             being one (binary64 numbers if both channels are binary64; steps of
+///                             ulp: steps from one binary32 number to the next between a and b,
+///                             −0 and +0 being one (binary64 numbers if both channels are; steps of
 ///                             the code if both are 16-bit codes of one scale)
-/// All differences are computed in binary64.
+/// All differences are computed in binary64; absolute ones have the unit of the channel.
 struct ChannelComparison {
   std::string truth_channel, other_channel;
   bool identifiers = false;
@@ -47,7 +48,7 @@ struct ChannelComparison {
   /// The first pixel, row by row, where only one has a surface.
   std::optional<PixelPosition> first_coverage_disagreement;
 
-  /// Of the `both` pixels: both = compared + incommensurable for numbers.
+  /// Of the `both` pixels; where numbers are compared, both = compared + incommensurable.
   std::uint64_t compared = 0;
   std::uint64_t bit_equal = 0;
   std::uint64_t incommensurable = 0;
@@ -59,7 +60,7 @@ struct ChannelComparison {
   std::uint64_t beyond_tolerance = 0;
 
   DifferenceSummary absolute, relative, ulp;
-  /// What the reader should know, a line each: a background that was guessed, types that differ, ….
+  /// What the reader should know, a line each: a background that was guessed, types that differ, …
   std::vector<std::string> notes;
 
   [[nodiscard]] bool within_tolerance() const {
@@ -80,24 +81,25 @@ struct MapComparison {
 
 struct CompareOptions {
   double tolerance_ulp = 0;
-  /// Compare this channel only; empty: all that both have. Where both have no name in common, a
-  /// depth channel of each is compared (`ViewLayer.Depth.Z`), with a note.
+  /// Compare this channel only; empty: all that both have. If they have no name in common, a depth
+  /// channel of each is compared (`ViewLayer.Depth.Z`), with a note.
   std::string channel;
-  /// Its name in the other map, where that differs.
+  /// Its name in the other map, if that differs.
   std::string other_channel;
-  /// The value that stands for background in depth channels (NaN and infinities always do); where
-  /// empty, it is detected (surface.h) and noted.
+  /// The value that means background in depth channels (NaN and infinities always do); if empty, it
+  /// is detected (surface.h) and noted.
   std::optional<double> truth_background, other_background;
 };
 
+/// Compares the channels of two maps, pixel by pixel.
 /// Fails    InputError if the sizes differ or there is nothing in common to compare; UsageError if
 ///          a channel that was asked for is missing.
 MapComparison compare_maps(const DepthMap& truth, const DepthMap& other,
                            const CompareOptions& options = {});
 
-/// A picture of the differences in one channel (empty: the first that compare_maps compares):
-/// equal pixels dark, differing ones by the logarithm of their ulp difference, surfaces in one
-/// map only and what cannot be measured in colours of their own, with a legend.
+/// A picture of the differences in one channel (empty: the first that compare_maps() compares):
+/// equal pixels dark, differing ones coloured by the logarithm of their ulp difference; surfaces in
+/// only one map, and values that cannot be compared, have colours of their own. With a legend.
 RgbImage draw_differences(const DepthMap& truth, const DepthMap& other,
                           const CompareOptions& options = {});
 

@@ -9,8 +9,8 @@
 /// What compare.cpp and difference_picture.cpp share.
 namespace fathom::image {
 
-/// The values of a channel whatever its type: as binary64 (codes decoded where their scale is
-/// known), and as bits.
+/// The values of a channel of any type: as binary64 (codes decoded where their scale is known), and
+/// as bits.
 class Reading {
  public:
   Reading(const ImageChannel& channel, const std::optional<double>& scale)
@@ -29,7 +29,7 @@ class Reading {
     if (const auto* v = std::get_if<Samples<std::uint16_t>>(&values_)) return (*v)[k];
     return std::get<Samples<std::uint32_t>>(values_)[k];
   }
-  /// Bit patterns mean the same in two channels of equal type (codes: of equal scale, too).
+  /// Bit patterns mean the same in two channels of equal type (and, for codes, of equal scale).
   [[nodiscard]] std::pair<std::size_t, std::optional<double>> type() const {
     return {values_.index(), is_codes() ? scale_ : std::nullopt};
   }
@@ -46,7 +46,7 @@ class Reading {
   std::optional<double> scale_;
 };
 
-/// One channel of each map with what is background in it.
+/// One channel of each map, and which of its values are background.
 struct ChannelPair {
   const ImageChannel& truth;
   const ImageChannel& other;
@@ -63,7 +63,7 @@ struct ChannelPair {
 ChannelPair make_pair(const DepthMap& truth, const ImageChannel& a, const DepthMap& other,
                       const ImageChannel& b, const CompareOptions& options);
 
-/// Which channels are compared with which, after the sizes were checked.
+/// Which channels are compared with which; the sizes have been checked.
 struct PairedNames {
   std::vector<std::pair<const ImageChannel*, const ImageChannel*>> pairs;
   std::string note;

@@ -6,61 +6,63 @@
 
 #include "fathom/image/depth_map.h"
 
-/// Conversions of maps that are already written, from their stored, rounded values: what comes out
-/// is rounded twice, unlike a channel that render wrote. Computed in binary64, then rounded to
-/// nearest-even to the type of the channel.
+/// Conversions of maps that are already written, from their stored, rounded values: the results are
+/// rounded twice, unlike channels that are rendered. Computed in binary64, then rounded to nearest,
+/// ties to even, to the type of the channel.
 namespace fathom {
 
-/// What this room needs to know of a camera; the specification's section 2 in binary64.
+/// What this room needs to know about a camera; the specification's section 2 in binary64.
 struct MapView {
   bool orthographic = false;
+  /// In pixels; for an orthographic camera fx, fy and skew in pixels per scene unit.
   double fx = 1, fy = 1, cx = 0, cy = 0, skew = 0;
   double pixel_centre = 0.5;
   /// 3×4 [R | t], world to camera frame (x right, y down, z forward).
   std::array<std::array<double, 4>, 3> world_to_camera{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 };
 
-/// The inverse [R⁻¹ | −R⁻¹·t].
+/// The inverse [R⁻¹ | −R⁻¹·t], camera frame to world.
 /// Exact    every entry is the exact one rounded once to binary64.
 /// Fails    InputError if det R = 0, tested exactly.
 std::array<std::array<double, 4>, 3> camera_to_world(const MapView& view);
 
-/// The camera's point (x, y, z) seen at the centre of pixel (i, j) with planar depth `z`:
+/// The point seen at the centre of pixel (i, j) at planar depth `z`; camera frame, scene units.
 ///   perspective    y' = (j + ½ − cy')/fy, x' = (i + ½ − cx' − skew·y')/fx, point (x'·z, y'·z, z)
 ///   orthographic   (x', y', z)
 std::array<double, 3> point_at(const MapView& view, double i, double j, double z);
 
 enum class DepthQuantity { planar_depth, ray_distance, disparity };
-/// The channel that holds it: Z, distance, disparity.
+/// The channel that holds it: Z, distance or disparity.
 std::string channel_of(DepthQuantity quantity);
 
 /// A rectified stereo pair: disparity = |fx|·baseline / Z − doffs (Middlebury's calib.txt).
+/// Unit     baseline: scene units; doffs and disparities: pixels.
 struct StereoRig {
   double baseline = 0;
   double doffs = 0;
 };
 
-/// Returns a map with one channel: `to` computed from the map's channel `from`, of the same type,
+/// Returns a map with one channel: `to`, computed from the map's channel `from`, of the same type,
 /// with the map's texts. Background is +∞ in all three (Middlebury's "unknown" for disparity); a
-/// depth of +∞ (overflow) stays so; NaN is taken for background.
-///   ray distance   Z·√(1 + x'² + y'²) with x', y' as in point_at (Z itself if orthographic)
-/// Fails    UsageError if the channel `from` is missing, or if disparity is asked for without a
-///          rig, with baseline ≤ 0, or with an orthographic view; InputError, naming the pixel, if
-///          a disparity with doffs is negative (nothing is there).
+/// depth of +∞ (overflow) stays +∞, and NaN becomes background.
+///   ray distance   Z·√(1 + x'² + y'²) with x', y' as in point_at() (Z itself if orthographic)
+/// Fails    UsageError if the channel `from` is missing or holds codes, or if disparity is asked
+///          for without a rig, with baseline ≤ 0, or with an orthographic view; InputError, naming
+///          the pixel, if a disparity plus doffs is negative (no point has it).
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
                           const MapView& view, const std::optional<StereoRig>& rig = std::nullopt);
 
 /// How a depth channel is stored. Identifiers keep their 32 bits.
 enum class StoredType { binary32, binary64, scaled_unorm16 };
 
-/// Returns a map with only `channel` (empty: Z, or else the only one), stored as `type`.
+/// Returns a map with only `channel` (empty: Z, or else the only channel), stored as `type`.
 ///   to binary32           rounded to nearest even; from codes, code / scale
 ///   to binary64           widened; from codes, code / scale rounded once
 ///   to scaled_unorm16     code = round-half-even(scale·D), computed exactly; background is 0.
 ///                         `scale` is required.
-/// Fails    OutputError, naming the pixel, if a depth's code would be 0 or above 65535 (an
-///          overflowed depth as well); UsageError if the channel is missing or ambiguous, is not
-///          one of depth, or scale is not a positive number; InputError if codes carry no scale.
+/// Fails    OutputError, naming the pixel, if a depth's code would be 0 or above 65535 (as for an
+///          overflowed depth); UsageError if the channel is missing or ambiguous or does not hold
+///          depth, or scale is not a positive number; InputError if codes carry no scale.
 DepthMap with_storage(const DepthMap& map, const std::string& channel, StoredType type,
                       std::optional<double> scale = std::nullopt);
 

@@ -16,7 +16,7 @@ double stretch_at(const MapView& view, double i, double j) {
   return std::hypot(one, x, y);
 }
 
-/// Conversions of one pixel, all by way of planar depth.
+/// Conversions at one pixel, all of them through planar depth.
 struct Converter {
   DepthQuantity from, to;
   const MapView& view;
@@ -44,7 +44,7 @@ struct Converter {
     const double z = planar(value, i, j);
     if (to == DepthQuantity::planar_depth) return z;
     if (to == DepthQuantity::ray_distance) return z * stretch_at(view, i, j);
-    // Disparity 0 is as far as can be; "unknown" is kept for what is not finite.
+    // Disparity 0 would be infinitely far away; what is not finite is "unknown".
     return std::isfinite(z) ? std::abs(view.fx) * rig.baseline / z - rig.doffs : infinity;
   }
 };

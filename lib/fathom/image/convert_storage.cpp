@@ -19,7 +19,7 @@ const ImageChannel& depth_channel(const DepthMap& map, const std::string& asked)
 }
 
 /// Decodes 16-bit codes: code / scale in binary64, which rounds once; binary32 from the exact
-/// quotient, lest it be rounded twice.
+/// quotient, so as not to be rounded twice.
 template <class T>
 Samples<T> decode(const Samples<std::uint16_t>& codes, const std::optional<double>& scale) {
   if (!scale)

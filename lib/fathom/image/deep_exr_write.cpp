@@ -38,7 +38,7 @@ Imf::Compression deep_compression(Compression compression) {
 struct DeepChannel {
   const char* name;
   Imf::PixelType type;
-  /// Of the channel's value within a sample.
+  /// Where the value is within a sample, in bytes.
   std::size_t offset;
 };
 
@@ -73,7 +73,7 @@ Bytes encode(const DeepMap& map, Compression compression, int threads, const std
 
   const std::size_t width = description.width;
   Imf::DeepFrameBuffer pixels;
-  // OpenEXR takes pointers that are not const and does not write through them.
+  // OpenEXR takes non-const pointers but does not write through them.
   auto* counts = reinterpret_cast<char*>(const_cast<std::uint32_t*>(map.counts.data()));
   pixels.insertSampleCountSlice(Imf::Slice(Imf::UINT, counts, 4, 4 * width));
   std::vector<std::vector<const char*>> pointers;

@@ -8,15 +8,15 @@
 
 namespace fathom {
 
-/// A visible fragment in a pixel (docs/coverage.md), every number rounded once from the exact one.
+/// A fragment that is visible in a pixel (docs/coverage.md); every number is rounded once.
 struct DeepSample {
-  /// Depth of the nearest and of the farthest point that is visible.
+  /// Planar depth of its nearest and of its farthest visible point, in scene units.
   float Z = 0, ZBack = 0;
   /// Number of the triangle.
   std::uint32_t id = no_surface;
-  /// The part of the pixel where it is visible, in (0, 1] (0 where that underflows).
+  /// The fraction of the pixel where it is visible, in (0, 1] (0 where that underflows).
   float area = 0;
-  /// area over what the samples before it leave of the pixel, so that "over" adds up the areas.
+  /// `area` over what earlier samples leave of the pixel, so that "over" adds up the areas.
   float A = 0;
 };
 
@@ -24,18 +24,18 @@ struct DeepSample {
 struct DeepMap {
   /// Size, object names, texts and matrices; it has no channels.
   DepthMap description;
-  /// Number of samples at each pixel, row by row.
+  /// Number of samples at each pixel, row by row from the top left.
   std::vector<std::uint32_t> counts;
-  /// The samples of all pixels, one pixel after the other.
+  /// The samples of all pixels, one pixel after another.
   std::vector<DeepSample> samples;
 };
 
-/// Throws UsageError for a compression that deep files do not have.
+/// Fails    UsageError for a compression that deep files do not have.
 void check_deep_compression(Compression compression);
 
 /// Writes a deep scan-line EXR with the channels A, Z, ZBack (FLOAT), area (FLOAT) and id (UINT)
-/// and deepImageState SORTED; `none`, `rle` and `zips` are the compressions there are for it. Fails
-/// OutputError: "PATH: why". UsageError: another compression.
+/// and deepImageState SORTED; such files can have the compressions `none`, `rle` and `zips`.
+/// Fails    OutputError: "PATH: why"; UsageError for another compression.
 void write_deep_map(const DeepMap& map, const std::filesystem::path& path,
                     Compression compression = Compression::zips, int threads = 0);
 

@@ -16,17 +16,17 @@ namespace fathom {
 inline constexpr std::uint32_t no_surface = 0xFFFFFFFF;
 
 /// One channel: width × height values, row by row from the top, each row from the left.
-/// binary32 is what EXR and PFM hold; binary64 only `Z` and `distance` for NPY; 16 bits only PNG
-/// codes (see DepthMap::png_scale); 32-bit integers are identifiers.
+/// binary32 is what EXR and PFM hold; binary64 is only for `Z` and `distance` in NPY; 16 bits only
+/// for PNG codes (see DepthMap::png_scale); 32-bit integers are identifiers.
 struct ImageChannel {
   std::string name;
   std::variant<Samples<float>, Samples<double>, Samples<std::uint16_t>, Samples<std::uint32_t>>
       values;
 };
 
-/// A rendered map: named channels of one size, and what is needed to recompute it.
-/// Values are those of the specification, section 6, already rounded. What it does not do: look
-/// at the scene or the camera; the texts here are opaque to this room.
+/// A rendered map: named channels of one size, and what is needed to compute it again. Values are
+/// those of the specification, section 6, with their units, already rounded. Not its task: to look
+/// at the scene or the camera; the texts are opaque to this room.
 struct DepthMap {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -37,7 +37,7 @@ struct DepthMap {
 
   /// Names of the objects that channel `object` numbers.
   std::vector<std::string> object_names;
-  /// Attributes as they stand in the file: `fathom.camera`, `fathom.sources`, `fathom.engine`, …
+  /// Attributes as they are in the file: `fathom.camera`, `fathom.sources`, `fathom.engine`, …
   /// (`fathom.objects` is made from object_names).
   std::map<std::string, std::string> texts;
   /// EXR's standard camera matrices for column vectors, row by row (the file holds them for row

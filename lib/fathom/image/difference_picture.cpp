@@ -26,12 +26,12 @@ constexpr std::array<KindLook, 5> looks{
      {Kind::incommensurable, {255, 0, 255}, "cannot be measured (NaN, infinity)"},
      {Kind::neither, {206, 210, 216}, "no surface in either"}}};
 
-/// Above a dark ground: the upper three fifths of magma.
+/// Brighter than the dark colour of equal pixels: the upper three fifths of magma.
 Rgb heat(double t) {
   return colour_at(ColourMap::magma, 0.4 + 0.6 * t);
 }
 
-/// Marks at the powers of two or of ten, whichever are few.
+/// Marks at the powers of two, ten or a thousand, whichever are few enough.
 std::vector<ColourBar::Mark> logarithmic_marks(double greatest) {
   const double range = std::log2(greatest);
   const auto label = [](double ulp) {

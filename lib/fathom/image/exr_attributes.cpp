@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* objects_attribute = "fathom.objects";
 
-/// Attributes of the format itself: texts of these names are no texts of ours.
+/// Attributes of the format itself: texts with these names are not ours.
 constexpr std::array<std::string_view, 17> reserved{"channels",
                                                     "compression",
                                                     "dataWindow",
@@ -61,7 +61,7 @@ bool fits_binary32(const std::array<double, 16>& matrix) {
 }
 
 void set_window(Imf::Header& header, const DepthMap& map) {
-  // The limits of OpenEXR for a header that it writes.
+  // OpenEXR's limits for the headers that it writes.
   if (map.pixel_aspect_ratio >= 1e-6 && map.pixel_aspect_ratio <= 1e6)
     header.pixelAspectRatio() = static_cast<float>(map.pixel_aspect_ratio);
   const auto x = static_cast<float>(map.screen_window_centre[0]);

@@ -8,10 +8,10 @@ namespace fathom::image {
 
 /// Puts the map's camera matrices, texts, object names and window into an EXR header. Numbers that
 /// EXR cannot hold there (a mirrored screen window, a matrix beyond binary32) are left out or
-/// neutral: `fathom.camera` has them all.
+/// neutral; `fathom.camera` has them all.
 void set_attributes(Imf::Header& header, const DepthMap& map);
 
-/// The reverse; every string attribute becomes a text.
+/// Reads them back; every string attribute becomes a text.
 void get_attributes(const Imf::Header& header, DepthMap& map);
 
 }  // namespace fathom::image

@@ -9,8 +9,9 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
 
-/// What an OpenEXR header claims, checked against the size of the file before OpenEXR, which
-/// allocates by those claims, sees it. Layout: "OpenEXR File Layout" of the format's documentation.
+/// Checks what an OpenEXR header claims against the size of the file, before OpenEXR, which
+/// allocates by those claims, sees it.
+/// Source   [OpenEXR] for the layout.
 namespace fathom::image {
 using namespace text;
 
@@ -18,9 +19,9 @@ namespace {
 
 constexpr std::uint32_t flag_deep = 0x800, flag_multipart = 0x1000;
 
-/// OpenEXR's compression codes 0 … 9: scan lines in a chunk, and a bound of image bytes per file
-/// byte. RLE: 128 from 2. DEFLATE: 1032, doubled for PXR24, which drops a byte of four first. PIZ:
-/// a code of one bit and a run length of 8 stand for at most 256 16-bit values, 455. B44: 32
+/// For OpenEXR's compression codes 0 … 9: scan lines per chunk, and a bound on image bytes per file
+/// byte. RLE: 128 from 2. DEFLATE: 1032; its doubling covers PXR24, which first drops a byte of
+/// four. PIZ: a code of one bit and a run length of 8 give at most 256 16-bit values, 455. B44: 32
 /// from 3. DWA: DEFLATE of one 16-bit coefficient for a block of 64 values.
 struct CompressionBound {
   std::uint64_t lines, ratio;
@@ -36,7 +37,7 @@ constexpr std::array<CompressionBound, 10> compression_bounds{{{1, 1},
                                                                {32, 64 * greatest_deflate_ratio},
                                                                {256, 64 * greatest_deflate_ratio}}};
 
-/// OpenEXR reads these types in their own size whatever the file says, and would lose step.
+/// OpenEXR reads these types at their own size whatever the file says, and would lose its place.
 constexpr std::array<std::pair<std::string_view, std::size_t>, 24> fixed_sizes{
     {{"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
      {"compression", 1}, {"double", 8},   {"envmap", 1},
@@ -47,7 +48,7 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 24> fixed_sizes{
      {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
      {"v3f", 12},        {"v3d", 24},     {"deepImageState", 1}}};
 
-/// Whether a value is as long as its own contents say, for the types whose length they tell.
+/// Whether a value is as long as its own contents say, for the types whose length they give.
 bool is_consistent(std::string_view type, ByteView value) {
   const auto count_at = [&](std::size_t at) {
     return std::uint64_t{load<std::uint32_t>(&value[at], std::endian::little)};
@@ -116,8 +117,8 @@ class Claims {
       if (name.empty()) return attributes;
       const std::size_t type_at = position_;
       const std::string_view type = read_name();
-      // OpenEXR 3.1 takes four bytes more than such an attribute has, and what follows is misread.
-      // It passes over a type that it does not know.
+      // OpenEXR 3.1 reads four bytes more than such an attribute has, and misreads what follows.
+      // It skips types that it does not know.
       if (type == "idmanifest") defused_.push_back(type_at);
       if (bytes_.size() - position_ < 4) fail("truncated: its header does not end");
       const auto size = load<std::uint32_t>(&bytes_[position_], std::endian::little);
@@ -180,15 +181,15 @@ class Claims {
     if (!tiled && (height - 1) / bound.lines >= bytes_.size() / 8) refuse(width, height);
     if (!first) return;
 
-    // width·height < 2^64, so the quotient is compared, not the product with a pixel's bytes.
+    // width·height < 2^64 is compared with a quotient: times a pixel's bytes it might overflow.
     const std::uint64_t most_pixels =
         bytes_.size() * bound.ratio / bytes_of_a_pixel(attribute(part, "channels", 1));
     if (width * height > most_pixels) refuse(width, height);
     if (tiled) check_tiles(attribute(part, "tiles", 9), width, height, most_pixels);
   }
 
-  /// OpenEXR allocates whole tiles also where the image ends inside them: beyond the pixels that
-  /// the file can hold, 2^24 are let pass.
+  /// OpenEXR allocates whole tiles even where the image ends inside them: besides the pixels that
+  /// the file can hold, up to 2^24 are allowed.
   void check_tiles(ByteView tiles, std::uint64_t width, std::uint64_t height,
                    std::uint64_t most_pixels) const {
     const std::int64_t tile_width = int_at(tiles, 0), tile_height = int_at(tiles, 4);

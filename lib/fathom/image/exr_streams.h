@@ -12,8 +12,8 @@
 
 namespace fathom::image {
 
-/// OpenEXR reading from bytes in memory. At the positions `defused` (see check_exr_claims) it sees
-/// the letter X, whatever stands there.
+/// OpenEXR reading from bytes in memory. At the positions `defused` (see check_exr_claims()) it
+/// sees the letter X, whatever is there.
 class ByteInput : public Imf::IStream {
  public:
   ByteInput(text::ByteView bytes, const std::string& name, std::vector<std::size_t> defused)
@@ -62,11 +62,11 @@ class ByteOutput : public Imf::OStream {
   std::size_t position_ = 0;
 };
 
-/// The threads that OpenEXR shall use, 0 meaning all of the machine. OpenEXR has one pool for the
-/// whole process: it is grown to that number, never shrunk.
+/// Lets OpenEXR use so many threads, 0 meaning all of the machine's, and returns their number.
+/// OpenEXR has one pool for the whole process, which grows to that number and never shrinks.
 int reserve_exr_threads(int threads);
 
-/// What OpenEXR says of a failure, on one line.
+/// What OpenEXR says about a failure, on one line.
 std::string exr_reason(const std::exception& failure);
 
 }  // namespace fathom::image

@@ -32,8 +32,8 @@ Imf::Compression compression_of(Compression compression) {
   return Imf::ZIP_COMPRESSION;
 }
 
-/// FLOAT or UINT, and where the values stand. OpenEXR takes a pointer that is not const and does
-/// not write through it.
+/// FLOAT or UINT, and where the values are. OpenEXR takes a non-const pointer but does not write
+/// through it.
 struct Source {
   Imf::PixelType type;
   const char* values;

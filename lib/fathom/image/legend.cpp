@@ -72,10 +72,10 @@ std::string formatted(double value, int digits) {
 }  // namespace
 
 std::vector<ColourBar::Mark> linear_marks(double low, double high) {
-  // Halves, so that the range of binary64 does not overflow.
+  // Halves, so that the range does not overflow binary64.
   const double half_range = high / 2 - low / 2;
   const double greatest = std::max(std::abs(low), std::abs(high));
-  // Enough digits that a thousandth of the range shows.
+  // Enough digits to show a thousandth of the range.
   const int digits =
       std::clamp(4 + static_cast<int>(std::ceil(std::log10(greatest / 2 / half_range))), 5, 17);
   std::vector<ColourBar::Mark> marks{{0, formatted(low, digits)}, {1, formatted(high, digits)}};

@@ -13,7 +13,7 @@ namespace fathom::image {
 struct ColourBar {
   /// The colour at t in [0, 1], from the low end to the high one.
   std::function<Rgb(double)> colour;
-  /// Marks: where in [0, 1], and what is written there. The ends come first and are always drawn.
+  /// Marks: where in [0, 1], and what is written there. Both ends come first and are always drawn.
   struct Mark {
     double t;
     std::string text;
@@ -33,13 +33,13 @@ struct Sheet {
   std::vector<LegendEntry> entries;
 };
 
-/// The marks of a linear scale: both ends in full, and round numbers between.
+/// The marks of a linear scale: both ends, and round numbers between them.
 std::vector<ColourBar::Mark> linear_marks(double low, double high);
 
 RgbImage lay_out(const Sheet& sheet);
 
-/// `picture` with every pixel a block of k × k if it is small, or with every k-th pixel of every
-/// k-th row if it is large; says so in a few words, empty if nothing was done.
+/// `picture` with every pixel enlarged to a block of k × k if it is small, or only every k-th pixel
+/// of every k-th row if it is large; the remark says so in a few words, or is empty.
 struct FittedPicture {
   RgbImage image;
   std::string remark;

@@ -16,9 +16,9 @@ class Lettering {
   Lettering(Lettering&&) noexcept;
   Lettering& operator=(Lettering&&) = delete;
 
-  /// Width of a line in pixels at a size of so many pixels an em.
+  /// Width of a line in pixels, at a size given in pixels per em.
   [[nodiscard]] int width(const std::string& text, int size) const;
-  /// Draws a line whose baseline begins at (x, y); what lies outside the image is cut off.
+  /// Draws a line whose baseline begins at (x, y); whatever is outside the image is cut off.
   void draw(RgbImage& image, int x, int y, const std::string& text, int size, Rgb colour) const;
 
  private:

@@ -28,16 +28,16 @@ DepthMap decode_npy(text::ByteView bytes, const std::string& name);
 /// Recognises the format by the first bytes and decodes.
 DepthMap decode_map(text::ByteView bytes, const std::string& name);
 
-/// Throws InputError if an OpenEXR file's header (its first part) claims more than the file can
-/// hold, is not a plain image, or cannot be followed. See exr_claims.cpp.
-/// Returns where the types of attributes stand that OpenEXR must not interpret (see ByteInput).
+/// Fails    InputError if an OpenEXR file's header (its first part) claims more than the file can
+///          hold, is not that of a plain image, or cannot be followed. See exr_claims.cpp.
+/// Returns the positions of attribute types that OpenEXR must not interpret (see ByteInput).
 std::vector<std::size_t> check_exr_claims(text::ByteView bytes, const std::string& name);
 
-/// Greatest ratio of image bytes to file bytes that DEFLATE reaches (1032:1, zlib's documentation),
-/// doubled so as not to depend on the last detail.
+/// Greatest ratio of image bytes to file bytes that DEFLATE reaches (1032:1, [zlib]), doubled so as
+/// not to depend on the last detail.
 inline constexpr std::uint64_t greatest_deflate_ratio = 2064;
 
-/// JSON list of names, and back (empty where the text is not such a list).
+/// A JSON list of names, and back (empty if the text is not such a list).
 std::string object_names_as_json(const std::vector<std::string>& names);
 std::vector<std::string> object_names_from_json(const std::string& text);
 

@@ -7,8 +7,8 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
 
-/// NPY (NumPy enhancement proposal 1): "\x93NUMPY", version, length of the header, a Python
-/// dictionary of descr, fortran_order and shape, then the values.
+/// NPY ([Ker07]): "\x93NUMPY", version, length of the header, a Python dictionary of descr,
+/// fortran_order and shape, then the values.
 namespace fathom::image {
 using namespace text;
 

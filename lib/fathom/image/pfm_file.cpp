@@ -6,10 +6,10 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
 
-/// PFM (Debevec; Netpbm): "Pf" or "PF", width, height, scale, one white space after each, then
-/// binary32 rows from the bottom up. A negative scale says little endian. The scale's magnitude is
-/// a unit that most readers ignore: it is not applied, so that the values keep their bits; where it
-/// is not 1 it is kept as the text `pfm.scale`.
+/// PFM ([Netpbm]): "Pf" or "PF", width, height and scale, one white space after each, then binary32
+/// rows from the bottom up. A negative scale means little endian. The scale's magnitude is a unit
+/// that most readers ignore: it is not applied, so that the values keep their bits; if it is not 1,
+/// it is kept as the text `pfm.scale`.
 namespace fathom::image {
 using namespace text;
 

@@ -52,8 +52,8 @@ void read_bytes(png_structp png, png_bytep to, std::size_t count) {
   reading->position += count;
 }
 
-/// libpng allocates as long a chunk as its header claims. Walks over the chunks (length, type,
-/// data, sum), since a chunk may be no longer than what is left of the file.
+/// libpng allocates as much for a chunk as its header claims. Walks over the chunks (length, type,
+/// data, checksum): none may be longer than what is left of the file.
 bool chunks_fit(ByteView bytes) {
   constexpr std::size_t signature = 8, around = 12;
   for (std::size_t at = signature; at < bytes.size();) {
@@ -69,7 +69,7 @@ bool read_header(Reading& reading) {
   if (setjmp(png_jmpbuf(reading.png))) return false;
   png_set_read_fn(reading.png, &reading, read_bytes);
   png_set_user_limits(reading.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-  // Compressed texts: libpng's usual limit.
+  // For compressed texts, at least libpng's usual limit.
   png_set_chunk_malloc_max(reading.png, std::max<std::size_t>(reading.bytes.size(), 8000000));
   png_read_info(reading.png, reading.info);
   return true;

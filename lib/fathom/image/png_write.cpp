@@ -73,7 +73,7 @@ bool is_plain(const std::string& text) {
                      [](char c) { return c == '\n' || (' ' <= c && c <= '~'); });
 }
 
-/// tEXt where plain characters do, else iTXt, which is UTF-8.
+/// tEXt where plain characters are enough, else iTXt, which is UTF-8.
 png_text as_chunk(const std::string& key, const std::string& text) {
   png_text chunk{};
   chunk.compression = is_plain(text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;

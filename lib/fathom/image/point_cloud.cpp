@@ -23,7 +23,7 @@ Vector transform_point(const Affine& m, const Vector& p) {
   return result;
 }
 
-/// Three channels `GROUP.X`, `GROUP.Y`, `GROUP.Z`, if the map has them all.
+/// The three channels `GROUP.X`, `GROUP.Y`, `GROUP.Z`, if the map has them all.
 struct Triple {
   std::array<const Samples<float>*, 3> parts{};
   Triple(const DepthMap& map, const std::string& group) {
@@ -69,7 +69,7 @@ class Points {
   [[nodiscard]] Vector normal(std::size_t k) const {
     const Vector n = normal_[k];
     if (frame_ == PointFrame::world) return n;
-    // Normals go by the inverse transpose: (n in the camera)_r = Σ_c (R⁻¹)_cr n_c.
+    // Normals transform by the inverse transpose: (n in the camera)_r = Σ_c (R⁻¹)_cr n_c.
     Vector turned{};
     for (std::size_t r = 0; r < 3; ++r)
       for (std::size_t c = 0; c < 3; ++c) turned[r] += world_from_camera_[c][r] * n[c];

@@ -16,10 +16,11 @@ struct PointCloudOptions {
 
 /// Writes one point for each pixel that shows a surface at a finite depth, row by row, as PLY,
 /// binary little endian: x y z; nx ny nz (float) where the map has N; id, face, object (uint) where
-/// it has them. In the world frame, points of the map's own P channels are taken as they are, since
-/// they are exact numbers rounded once; otherwise points come from `Z` (or `distance`) by point_at
-/// and camera_to_world in binary64. Normals are the map's own (world), in the camera frame
-/// inverse-transposed and renormalised.
+/// it has them. In the world frame, the map's own P channels are used as they are if it has them,
+/// since they are exact numbers rounded once; otherwise points come from `Z` (or `distance`) by
+/// point_at() and camera_to_world() in binary64. Normals are the map's own (world); for the camera
+/// frame they are transformed by the inverse transpose and normalised again.
+/// Unit     scene units.
 /// Fails    UsageError if there is no Z, distance or P; OutputError: "PATH: why".
 void write_point_cloud(const DepthMap& map, const MapView& view, const std::filesystem::path& path,
                        const PointCloudOptions& options = {});

@@ -19,12 +19,12 @@ namespace {
 constexpr Rgb plus_infinity_colour{230, 25, 120}, minus_infinity_colour{120, 40, 200},
     nan_colour{255, 120, 0};
 
-/// A neutral colour that the colour map does not have.
+/// A neutral colour that is not in the colour map.
 Rgb background_colour(ColourMap colours) {
   return colours == ColourMap::grey ? Rgb{74, 92, 122} : Rgb{206, 210, 216};
 }
 
-/// What stands above the picture of a channel.
+/// What is written above the picture of a channel.
 std::string title_of(const DepthMap& map, const ImageChannel& channel) {
   std::string text = channel.name;
   if (const auto ours = channel_named(channel.name)) {
@@ -44,7 +44,7 @@ std::string percentage(std::uint64_t part, std::uint64_t whole) {
   return text.data();
 }
 
-/// Legend entries for the pixels that are no plain value, if there are any.
+/// Legend entries for the pixels that are not plain values, if there are any.
 class Specials {
  public:
   void count(const std::string& what, Rgb colour) {
@@ -80,7 +80,7 @@ Range range_of(const Reading& values, const std::vector<std::uint8_t>& mask) {
   return range;
 }
 
-/// Where `value` lies between the ends; halves, so that no difference overflows.
+/// How far `value` is from the low end to the high one; halves, so that no difference overflows.
 double share(double value, const Range& range) {
   if (range.low == range.high) return 0.5;
   return (value / 2 - range.low / 2) / (range.high / 2 - range.low / 2);

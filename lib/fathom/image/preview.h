@@ -15,28 +15,28 @@ enum class ColourMap { viridis, magma, turbo, grey };
 /// "viridis", "magma", "turbo", "grey" (also "gray"); nullopt for other names.
 std::optional<ColourMap> colour_map_named(const std::string& name);
 
-/// The colour at t, clamped to [0, 1].
-/// Source   viridis, magma: van der Walt and Smith (2015), in Zucker's degree-6 polynomials
-///          (CC0); turbo: Mikhailov (2019), his degree-5 polynomial.
+/// The colour at t, which is clamped to [0, 1].
+/// Source   viridis, magma: [VdWS15], as the degree-6 polynomials of [Zucker]; turbo: [Mik19], its
+///          degree-5 polynomial.
 Rgb colour_at(ColourMap map, double t);
 
-/// The colour of an identifier: the same everywhere, neighbouring numbers far apart.
+/// The colour of an identifier: always the same, and neighbouring numbers far apart.
 Rgb colour_of_identifier(std::uint32_t id);
 
 struct PreviewOptions {
-  /// Channel to draw; empty: Z, or else the map's first. `N` draws N.X, N.Y, N.Z as RGB.
+  /// The channel to draw; empty: Z, or else the map's first. `N` draws N.X, N.Y, N.Z as RGB.
   std::string channel;
   ColourMap colours = ColourMap::viridis;
   /// Ends of the colour bar; by default the least and the greatest finite value of a surface.
   /// Values beyond an end take the colour of that end.
   std::optional<double> low, high;
-  /// Written behind the channel's name, "m" for instance; empty: nothing is written.
+  /// Written after the channel's name, for instance "m"; empty: nothing is written.
   std::string unit;
 };
 
-/// A picture of one channel at the map's own pixels (small maps are enlarged by a whole factor,
-/// very large ones show every k-th pixel and say so), beside it a colour bar with the range in
-/// figures, the channel's name and what the background, infinities and NaNs look like.
+/// A picture of one channel, pixel by pixel (small maps are enlarged by a whole factor, very large
+/// ones show every k-th pixel and say so), beside it a colour bar with the range in figures, the
+/// channel's name, and what background, infinities and NaNs look like.
 /// Fails    UsageError if there is no such channel or if low ≥ high; OutputError if the font is
 ///          missing.
 RgbImage draw_preview(const DepthMap& map, const PreviewOptions& options = {});

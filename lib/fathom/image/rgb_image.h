@@ -7,11 +7,11 @@
 
 namespace fathom {
 
-/// A colour, 8 bits a component, in sRGB.
+/// A colour in sRGB, 8 bits per component.
 using Rgb = std::array<std::uint8_t, 3>;
 
-/// A picture for people to look at: width × height colours, row by row from the top left.
-/// What it does not do: carry measurements; those are DepthMap.
+/// A picture for people to look at: width × height colours, row by row from the top left. Not for
+/// measurements; those are in a DepthMap.
 struct RgbImage {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -29,8 +29,8 @@ struct RgbImage {
   }
 };
 
-/// Writes `image` as an 8-bit RGB PNG to `path` itself, in place. The bytes depend on the image
-/// only.
+/// Writes `image` as an 8-bit RGB PNG to `path` itself, in place. The bytes depend only on the
+/// image.
 /// Fails    OutputError: "PATH: why".
 void write_png(const RgbImage& image, const std::filesystem::path& path);
 

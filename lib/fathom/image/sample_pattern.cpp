@@ -8,8 +8,9 @@
 namespace fathom {
 namespace {
 
-/// In sixteenths of a pixel from the centre. Direct3D 11, D3D11_STANDARD_MULTISAMPLE_PATTERN;
-/// Vulkan 1.3, Standard Sample Locations, has the same, from the upper left corner.
+/// In sixteenths of a pixel from the centre.
+/// Source   [DX11] D3D11_STANDARD_MULTISAMPLE_PATTERN; [VK13] Standard Sample Locations has the
+///          same positions, counted from the upper left corner.
 using Sixteenths = std::vector<std::array<int, 2>>;
 
 Sixteenths standard_positions(int count) {
@@ -36,7 +37,7 @@ SamplePattern from_sixteenths(const std::string& name, const Sixteenths& positio
   return pattern;
 }
 
-/// The cells of an n×n grid, each with a share of the way across it.
+/// One sample in each cell of an n×n grid, a given share of the way across it.
 SamplePattern grid(const std::string& name, int n, double share) {
   SamplePattern pattern{.name = name, .cell = 1.0 / n};
   for (int row = 0; row < n; ++row) {
@@ -60,7 +61,7 @@ std::optional<int> side(const std::string& text) {
   return std::nullopt;
 }
 
-/// splitmix64 (Steele, Lea, Flood 2014): the output for a state.
+/// splitmix64 ([SLF14]): the output for a state.
 std::uint64_t scrambled(std::uint64_t x) {
   x += 0x9E3779B97F4A7C15U;
   x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9U;

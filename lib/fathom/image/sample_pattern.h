@@ -7,14 +7,14 @@
 
 namespace fathom {
 
-/// Where a sample lies in its pixel: from the centre, u to the right and v down, in pixels. Exact
+/// Where a sample is in its pixel: from the centre, u to the right and v down, in pixels. Exact
 /// binary fractions.
 using SampleOffset = std::array<double, 2>;
 
-/// Several samples a pixel (specification, section 5).
+/// Several samples per pixel (specification, section 5).
 ///
 ///   1, 2, 4, 8, 16   the standard positions of Direct3D and Vulkan, multiples of 1/16
-///   rotated-grid     four samples, the regular 2×2 grid turned by arctan ½
+///   rotated-grid     four samples, the regular 2×2 grid turned by arctan ½ and enlarged by √5/2
 ///   regular:N        N×N at (i + ½)/N − ½
 ///   jittered:N       one sample in each of N×N cells, drawn for every pixel from the seed, the
 ///   jittered:N:SEED  cell and the pixel; multiples of 2⁻¹⁶ of a cell. SEED is 1 unless given
@@ -22,7 +22,7 @@ using SampleOffset = std::array<double, 2>;
 /// N is 1, 2, 4, 8 or 16, so that offsets are binary fractions.
 struct SamplePattern {
   std::string name;
-  /// Of a jittered pattern the least corners of the cells.
+  /// For a jittered pattern, the top left corners of the cells.
   std::vector<SampleOffset> offsets;
   bool jittered = false;
   double cell = 1;  ///< side of a cell of a jittered pattern

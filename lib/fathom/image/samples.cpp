@@ -24,7 +24,7 @@ std::size_t whole_pages(std::size_t bytes) {
   return (bytes + huge_page - 1) / huge_page * huge_page;
 }
 
-/// A mapping that begins at a multiple of the huge page, as only such are backed by them.
+/// A mapping that begins at a multiple of the huge-page size: only these get huge pages.
 void* map_zeros(std::size_t bytes) {
   const std::size_t length = whole_pages(bytes), room = length + huge_page;
   void* mapped = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -34,7 +34,7 @@ void* map_zeros(std::size_t bytes) {
   auto* memory = static_cast<std::byte*>(mapped) + before;
   if (before > 0) munmap(mapped, before);
   if (after > 0) munmap(memory + length, after);
-  madvise(memory, length, MADV_HUGEPAGE);  // a wish: small pages do as well
+  madvise(memory, length, MADV_HUGEPAGE);  // a hint: small pages will do
   return memory;
 }
 

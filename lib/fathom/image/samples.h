@@ -11,14 +11,14 @@
 
 namespace fathom {
 
-/// Zeroed memory for a map's channel; nullptr for no bytes. Large blocks come from the system page
+/// Zeroed memory for a map's channel; nullptr for no bytes. The system provides large blocks page
 /// by page when they are first written, so that the threads that fill a map share that work too,
-/// and in huge pages where it offers them.
+/// and in huge pages where it has them.
 /// Fails    std::bad_alloc.
 void* allocate_zeros(std::size_t bytes);
 void free_zeros(void* memory, std::size_t bytes) noexcept;
 
-/// A fixed number of values, 0 until written. What it does not do: grow or shrink.
+/// A fixed number of values, 0 until written. It cannot grow or shrink.
 template <class T>
 class Samples {
   static_assert(std::is_arithmetic_v<T>);

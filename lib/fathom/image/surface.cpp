@@ -24,7 +24,7 @@ NameTail tail_of(std::string_view name) {
 
 template <class T>
 std::vector<std::uint8_t> mask_of_numbers(const Samples<T>& values, const BackgroundRule& rule) {
-  // A rule of 0 covers the values below as well: no depth is negative.
+  // A rule of 0 covers values below 0 as well: no depth is negative.
   std::vector<std::uint8_t> mask(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
     const auto value = static_cast<double>(values[k]);
@@ -55,7 +55,7 @@ std::vector<std::uint8_t> depth_mask(const ImageChannel& channel, const Backgrou
       channel.values);
 }
 
-/// Where any channel of the group is not `background` (NaN: is a number).
+/// Where any channel of the group is not 0 or, if `nan`, not NaN.
 std::vector<std::uint8_t> group_mask(const DepthMap& map, const ImageChannel& channel, bool nan) {
   const std::string group = channel.name.substr(0, channel.name.rfind('.') + 1);
   std::vector<std::uint8_t> mask(std::size_t{map.width} * map.height);
@@ -136,7 +136,7 @@ std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& 
                                        const std::optional<BackgroundRule>& rule,
                                        bool by_identifiers) {
   std::vector<std::uint8_t> everywhere(std::size_t{map.width} * map.height, 1);
-  // `A` says itself how much of a pixel is covered: no pixel of it is background.
+  // `A` itself says how much of a pixel is covered: none of its pixels is background.
   if (channel.name == "A") return everywhere;
   const Samples<std::uint32_t>* ids = by_identifiers ? identifiers_of(map) : nullptr;
   if (ids) return mask_of_identifiers(*ids);

@@ -15,7 +15,7 @@ std::array<std::array<double, 4>, 3> camera_to_world(const MapView& view) {
   const Dyadic det = determinant(a, b, c);
   if (det.is_zero()) throw InputError("the camera cannot be inverted: its matrix is singular");
   const std::array<ExactVector3, 3> rows{cross(b, c), cross(c, a), cross(a, b)};
-  // Ratio wants a positive denominator.
+  // Ratio needs a positive denominator.
   const bool flip = det.sign() == Sign::negative;
   const Dyadic denominator = abs(det);
   const auto entry = [&](const Dyadic& numerator) {

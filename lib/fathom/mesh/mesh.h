@@ -14,27 +14,27 @@ inline constexpr std::uint32_t no_index = 0xFFFFFFFF;
 
 using CornerIndices = std::array<std::uint32_t, 3>;
 
-/// A list of triangles numbered from 0 in file order, degenerate ones counted (specification,
-/// section 3). Readers validate: every coordinate is finite and every index in range, so engines
-/// do not ask again. What it does not hold: a transform (see Object), topology, materials.
+/// A list of triangles numbered from 0 in file order, degenerate ones included (specification,
+/// section 3). Readers check that every coordinate is finite and every index in range, so engines
+/// need not. Not in it: a transform (see Object), topology, materials.
 struct Mesh {
-  /// One point per vertex.
+  /// One point per vertex, in the file's own frame and unit.
   std::vector<MeshPoint> vertices;
   /// Three indices into `vertices` per triangle; at most 2³² − 2 triangles.
   std::vector<CornerIndices> triangles;
-  /// Per triangle the number of the face of its file that it comes from, counted from 0 over all
-  /// faces, skipped ones too. Empty where triangle t is face t.
+  /// For each triangle the number of the face of its file that it comes from, counted from 0 over
+  /// all faces, including skipped ones. Empty where triangle t is face t.
   std::vector<std::uint32_t> face_of_triangle;
-  /// Number of faces of the file, skipped ones too.
+  /// The number of faces in the file, including skipped ones.
   std::uint64_t face_count = 0;
 
-  /// Optional attributes, kept as the file has them; empty where the file has none.
+  /// Optional attributes as in the file; empty where the file has none.
   std::vector<std::array<double, 2>> texture_coordinates;
   std::vector<std::array<double, 3>> normals;
   /// Linear or not, as the file says; components in [0, 1].
   std::vector<std::array<float, 4>> colours;
-  /// Per triangle, indices of its corners into the lists above (no_index where a corner has none).
-  /// Empty where an attribute is given per vertex, so that its indices are those of `triangles`.
+  /// For each triangle, indices of its corners into the lists above (no_index where a corner has
+  /// none). Empty where an attribute is given per vertex, so that the indices of `triangles` apply.
   std::vector<CornerIndices> texture_triangles;
   std::vector<CornerIndices> normal_triangles;
 

@@ -13,7 +13,7 @@ struct FanRange {
   std::size_t first, end;
 };
 
-/// The corners of a fan, as they stand in `list`.
+/// The corners of a fan, as they are in `list`.
 void ring_of_fan(const std::vector<CornerIndices>& list, FanRange fan,
                  std::vector<std::uint32_t>& ring) {
   ring.assign({list[fan.first][0], list[fan.first][1]});

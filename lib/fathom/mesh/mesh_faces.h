@@ -10,25 +10,25 @@
 /// From the faces of a file to the triangles of a mesh.
 namespace fathom::mesh {
 
-/// Neither triangles nor vertices nor faces may be more: the number above means "none".
+/// The most triangles, vertices or faces that are allowed: the next number means "none".
 inline constexpr std::uint64_t most_elements = 0xFFFFFFFE;
 
 /// Throws InputError "FILE: N WHAT are more than …" where `count` is above most_elements.
 void expect_countable(std::uint64_t count, const char* what, const std::string& file);
 
-/// Throws the InputError of a file with more triangles or faces than that.
+/// Throws the InputError of a file with more than most_elements triangles or faces.
 [[noreturn]] void fail_too_many_triangles(const std::string& file);
 
 /// Warns of faces that were skipped, and of `odd` ones that were cut in spite of their shape.
 void warn_of_faces(std::uint64_t skipped, std::uint64_t odd, const std::string& file,
                    Warnings& warnings);
 
-/// Adds the faces of a file one by one; each as a fan for now, see cut_polygons().
+/// Adds the faces of a file one by one, for now each as a fan; see cut_polygons().
 class FaceCollector {
  public:
   FaceCollector(Mesh& mesh, const std::string& file) : mesh_(mesh), file_(file) {}
 
-  /// `corners` are indices of vertices, in range. Fewer than three: the face counts and is skipped.
+  /// `corners` are indices of vertices, in range. A face of fewer than three counts but is skipped.
   void add(std::span<const std::uint32_t> corners) {
     if (corners.size() != 3) note_odd_face(corners.size());
     for (std::size_t k = 2; k < corners.size(); ++k) {
@@ -47,13 +47,13 @@ class FaceCollector {
 
   Mesh& mesh_;
   const std::string& file_;
-  bool odd_ = false;  // some face before had not three corners
+  bool odd_ = false;  // an earlier face did not have three corners
   std::uint64_t skipped_ = 0;
 };
 
-/// Cuts the faces of more than three corners, which stand in the mesh as fans (0, k, k+1), as the
-/// specification (section 3) has it, and warns of what was skipped or cut in spite of its shape.
-/// Texture and normal triangles, laid out as the triangles are, follow.
+/// Cuts the faces of more than three corners, which are in the mesh as fans (0, k, k+1), as section
+/// 3 of the specification says, and warns of those skipped or cut in spite of their shape.
+/// Texture and normal triangles, laid out in the same way, are cut like them.
 void cut_polygons(Mesh& mesh, std::uint64_t skipped_faces, const std::string& file,
                   Warnings& warnings);
 

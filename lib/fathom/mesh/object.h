@@ -16,7 +16,7 @@ struct Object {
   /// True where `world_from_mesh` is the identity, the common case.
   bool placed_as_is = true;
   std::string name;
-  /// Number, in its file, of this object's first face (glTF: faces run over all nodes of a file).
+  /// Number of this object's first face in its file (glTF: faces are counted over all its nodes).
   std::uint64_t first_face = 0;
   /// Index into Scene::sources of the file that the mesh comes from.
   std::size_t source = 0;

@@ -46,7 +46,7 @@ int exact_projection_axis(std::span<const MeshPoint> ring) {
   return best;
 }
 
-/// The same in binary64, or −2 where the errors do not let it be told.
+/// exact_projection_axis() in binary64, or −2 where the error bounds leave it open.
 ///
 /// Bound. With a, b relative to the first corner, each difference is rounded once, so each of the
 /// 2(n−1) products carries a relative error of at most (1+u)³ − 1 < 3.01u, u = 2⁻⁵³, and the sum of
@@ -75,7 +75,7 @@ int filtered_projection_axis(std::span<const MeshPoint> ring) {
   for (int axis = 1; axis < 3; ++axis)
     if (std::abs(sum[axis]) > std::abs(sum[best])) best = axis;
   if (!(size[best] >= 0x1p-900 && size[best] < std::numeric_limits<double>::infinity())) return -2;
-  // The bounds below are themselves rounded: the factor 1 + 2⁻²⁰ outweighs that many times over.
+  // The bounds are themselves rounded: the factor 1 + 2⁻²⁰ outweighs that many times over.
   const double least = std::abs(sum[best]) - u * size[best] * (1 + 0x1p-20);
   if (!(least > 0)) return -2;
   for (int axis = 0; axis < 3; ++axis) {
@@ -97,7 +97,7 @@ std::vector<Point2> project(std::span<const MeshPoint> ring, int axis) {
   return result;
 }
 
-/// Numbers of the corners that differ from the one before them; the ring as a curve is the same.
+/// Numbers of the corners that differ from the one before them; they trace the same curve.
 std::vector<Corner> without_repeats(const std::vector<Point2>& points) {
   std::vector<Corner> result;
   for (Corner i = 0; i < points.size(); ++i)
@@ -111,13 +111,13 @@ int half_of_direction(const Point2& a, const Point2& b) {
   return b[0] > a[0] ? 1 : -1;
 }
 
-/// At a corner b with a, b, c on one line: whether the way turns back on itself.
+/// At a corner b with a, b, c on one line: whether the ring turns back on itself.
 bool turns_back(const Point2& a, const Point2& b, const Point2& c) {
   return half_of_direction(a, b) != half_of_direction(b, c);
 }
 
-/// Turns one way or straight, and winds once: each full turn passes between the two halves of the
-/// directions twice.
+/// Whether the ring turns only one way or goes straight, and winds once: each full turn passes
+/// between the two halves of the directions twice.
 bool is_convex(const std::vector<Point2>& points, const std::vector<Corner>& ring) {
   const std::size_t n = ring.size();
   if (n < 3) return false;
@@ -156,7 +156,7 @@ bool segments_meet(const Point2& a, const Point2& b, const Point2& c, const Poin
 }
 
 /// Whether the ring, in which neighbours differ, is a simple closed curve: neighbouring edges share
-/// their corner only, others nothing. Edges are swept by their least abscissa.
+/// only their corner, others nothing. Edges are swept by their least abscissa.
 bool is_simple(const std::vector<Point2>& points, const std::vector<Corner>& ring) {
   const std::size_t n = ring.size();
   if (n < 3) return false;
@@ -189,7 +189,7 @@ bool is_simple(const std::vector<Point2>& points, const std::vector<Corner>& rin
   return true;
 }
 
-/// The way a simple ring runs: the turn at its lowest of the leftmost corners that is not straight.
+/// The way a simple ring turns: at the lowest of its leftmost corners, where it is not straight.
 Sign way_of(const std::vector<Point2>& points, const std::vector<Corner>& ring) {
   const std::size_t n = ring.size();
   std::size_t extreme = 0;
@@ -199,8 +199,8 @@ Sign way_of(const std::vector<Point2>& points, const std::vector<Corner>& ring) 
                      points[ring[(extreme + 1) % n]]);
 }
 
-/// Cuts ears off a simple ring. A corner that is no ear remembers what makes it none, so that it is
-/// looked at again only when that is gone or one of its neighbours is.
+/// Cuts ears off a simple ring. A corner that is no ear remembers an obstacle, so that it is looked
+/// at again only when that or one of its neighbours is gone.
 class EarClipping {
  public:
   EarClipping(const std::vector<Point2>& points, Sign way)
@@ -234,7 +234,7 @@ class EarClipping {
 
  private:
   static constexpr Corner unknown = 0xFFFFFFFF;
-  /// It does not turn the ring's way: no other corner has to do with it.
+  /// It does not turn the ring's way; that has nothing to do with any other corner.
   static constexpr Corner its_turn = 0xFFFFFFFE;
   static constexpr Corner removed = 0xFFFFFFFD;
   static constexpr Corner none = 0xFFFFFFFF;
@@ -291,7 +291,7 @@ class EarClipping {
   const std::vector<Point2>& points_;
   Sign way_;
   std::vector<Corner> next_, previous_;
-  /// Per corner what keeps it from being an ear: another corner, or one of the values above.
+  /// For each corner what keeps it from being an ear: another corner, or one of the values above.
   std::vector<Corner> obstacle_;
   Corner first_ = 0;
 };

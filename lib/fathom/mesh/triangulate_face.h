@@ -20,11 +20,12 @@ enum class Triangulation {
 
 /// Cuts a face of n ≥ 3 corners into n − 2 triangles, appended to `triangles` as numbers of corners
 /// (specification, section 3). A fan is (0, k, k+1) for k = 1 … n−2; an ear is written (corner
-/// before, middle, corner behind), in the order in which ears are cut.
+/// before, middle, corner after), in the order in which ears are cut.
 ///
 /// Exact    every test, for all finite coordinates; no corner is moved or dropped. A corner that
-///          repeats the one before it does not disturb convexity or simplicity.
-/// Cost     n log n for convex rings; ear clipping is about n² and at worst n³.
+///          repeats the one before it does not affect convexity or simplicity.
+/// Cost     n for convex rings; ear clipping is about n² and at worst n³.
+/// Source   [Mei75]: a simple polygon has ears; [SSS74]: Newell's normal.
 Triangulation triangulate_face(std::span<const MeshPoint> ring,
                                std::vector<std::array<std::uint32_t, 3>>& triangles);
 

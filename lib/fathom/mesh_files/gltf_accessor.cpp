@@ -91,7 +91,7 @@ JsonValue referred(const JsonValue& root, const char* list, const JsonValue& ref
 GltfAccessor::GltfAccessor(const JsonValue& root, GltfBuffers& buffers, const JsonValue& reference,
                            std::uint64_t most_zeros)
     : description_(referred(root, "accessors", reference)) {
-  // Indices have 32 bits, and index 2³²−1 restarts a primitive.
+  // Indices have 32 bits, and the index 2³²−1 restarts a primitive.
   count_ = description_.at("count").integer(1, std::numeric_limits<std::uint32_t>::max());
   component_ = read_component_type(description_.at("componentType"));
   width_ = read_width(description_.at("type"));
@@ -122,8 +122,8 @@ GltfAccessor::Layout GltfAccessor::lay_out(const JsonValue& root, GltfBuffers& b
       byte_stride->fail("is less than the size of an element of " + std::to_string(element_size) +
                         " bytes");
   }
-  // The last element need not be followed by a whole stride. count < 2³² and stride < 2⁸: no
-  // overflow.
+  // The last element need not be followed by a whole stride. count < 2³² and stride < 2⁸: this
+  // cannot overflow.
   const std::uint64_t offset = optional_integer(holder, "byteOffset", 0);
   const std::uint64_t needed = stride * (count - 1) + element_size;
   if (offset > view_length || needed > view_length - offset)

@@ -8,7 +8,7 @@
 #include "fathom/text/json_value.h"
 
 /// The numbers of a glTF asset. For this room's .cpp files only.
-/// Source: Khronos Group, glTF 2.0 specification, sections 3.6.2 (accessors) and 3.6.2.3 (sparse).
+/// Source   [GLTF20] 3.6.2 (accessors), 3.6.2.3 (sparse)
 namespace fathom::mesh_files {
 
 /// The numeric types of accessors, with glTF's codes.
@@ -21,25 +21,25 @@ enum class GltfComponent {
   float32 = 5126
 };
 
-/// An accessor's elements: every one of them lies inside its buffer, which is checked when the
-/// accessor is opened, before anything is allocated.
+/// An accessor's elements. That each of them lies inside its buffer is checked when the accessor is
+/// opened, before anything is allocated.
 class GltfAccessor {
  public:
-  /// Fails with InputError if it is malformed or reaches out of its buffer. An accessor without a
-  /// bufferView is all zeros; it may have `most_zeros` elements at most.
+  /// Fails with InputError if it is malformed or reaches beyond its buffer. An accessor without a
+  /// bufferView is all zeros; it may have at most `most_zeros` elements.
   GltfAccessor(const text::JsonValue& root, GltfBuffers& buffers, const text::JsonValue& reference,
                std::uint64_t most_zeros);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] GltfComponent component() const { return component_; }
   [[nodiscard]] bool normalized() const { return normalized_; }
-  /// Numbers per element: matrices, which nothing that is read here has, are refused.
+  /// Numbers per element. Matrices, which nothing that is read here has, are refused.
   [[nodiscard]] unsigned width() const { return width_; }
   [[nodiscard]] const text::JsonValue& description() const { return description_; }
 
   /// Number `k` of element `i` as it is stored; exact.
   [[nodiscard]] double stored(std::uint64_t i, unsigned k) const;
-  /// The same with normalized integers divided by the largest; rounded once.
+  /// stored(), with normalized integers divided by the largest; rounded once.
   [[nodiscard]] double value(std::uint64_t i, unsigned k) const;
   [[nodiscard]] std::uint32_t index(std::uint64_t i) const {
     return static_cast<std::uint32_t>(stored(i, 0));
@@ -63,7 +63,7 @@ class GltfAccessor {
   unsigned width_ = 1;
   bool normalized_ = false;
   std::optional<Layout> elements_;
-  /// Elements that are given apart, in increasing order.
+  /// Elements that are given separately, in increasing order.
   std::vector<std::uint32_t> replaced_;
   Layout replacements_;
 };

@@ -14,7 +14,7 @@
 #include "fathom/text/json_value.h"
 
 /// Where the bytes of a glTF asset come from. For this room's .cpp files only.
-/// Source: Khronos Group, glTF 2.0 specification, sections 3.6.1 (buffers) and 4 (GLB).
+/// Source   [GLTF20] 3.6.1 (buffers), 4 (GLB)
 namespace fathom::mesh_files {
 
 using Bytes = std::span<const std::byte>;
@@ -29,7 +29,7 @@ struct GltfContainer {
 /// Splits a file. Fails with InputError "FILE: byte N: …".
 GltfContainer split_gltf(Bytes file, const std::string& name);
 
-/// The decoded text of a "data:…;base64,…" URI, or nullopt if it is none or is damaged.
+/// The decoded bytes of a "data:…;base64,…" URI, or nullopt if it is not one or is damaged.
 std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
 
 /// The buffers of an asset, loaded when they are asked for.

@@ -21,7 +21,7 @@ std::size_t triangles_in(Mode mode, std::size_t corners) {
   return corners < 3 ? 0 : corners - 2;
 }
 
-/// Triangle `i` of a primitive, as section 3.7.2.1 of the glTF specification has it.
+/// Triangle `i` of a primitive, as in [GLTF20] 3.7.2.1.
 std::array<std::size_t, 3> corners_of(Mode mode, std::size_t i) {
   switch (mode) {
     case Mode::strip:
@@ -39,7 +39,7 @@ void expect_count(const GltfAccessor& accessor, std::uint64_t count) {
                                 std::to_string(count) + " as the positions have");
 }
 
-/// Binary32, or integers that mean fractions.
+/// Expects binary32 numbers, or integers that mean fractions.
 void expect_fractions(const GltfAccessor& accessor) {
   const bool integers =
       accessor.component() == GltfComponent::uint8 || accessor.component() == GltfComponent::uint16;
@@ -54,7 +54,7 @@ double finite(const GltfAccessor& accessor, std::uint64_t i, unsigned k) {
   return value;
 }
 
-/// The indices of the corners that have an attribute, where not all have it.
+/// The indices of the corners that have an attribute, if not all have it.
 template <class HasIt>
 std::vector<CornerIndices> only_where(const std::vector<CornerIndices>& triangles,
                                       const HasIt& has_it) {
@@ -73,7 +73,7 @@ Mesh GltfPrimitives::read(const JsonValue& description) {
   for (const JsonValue& primitive : description.at("primitives").elements())
     read_primitive(primitive, mesh);
   mesh.face_count = mesh.triangles.size();
-  // Per vertex where all have an attribute, per corner where only some do, nothing where none do.
+  // Per vertex if all have an attribute, per corner if only some do, nothing if none do.
   const auto settle = [&](auto has_it, auto& values, std::vector<CornerIndices>& corners) {
     if (std::all_of(runs_.begin(), runs_.end(), has_it)) return;
     if (std::none_of(runs_.begin(), runs_.end(), has_it)) {
@@ -151,7 +151,7 @@ void GltfPrimitives::read_positions(const GltfAccessor& positions, Mesh& mesh) c
 }
 
 /// The lists of attributes stay as long as the list of vertices: what a primitive lacks is filled
-/// up, texture coordinates and normals with zeros that no corner will refer to, colours with white,
+/// in, texture coordinates and normals with zeros to which no corner refers, colours with white,
 /// which is what glTF means by none.
 void GltfPrimitives::read_attributes(const JsonValue& attributes, Vertices& vertices, Mesh& mesh) {
   const auto size = mesh.vertices.size();

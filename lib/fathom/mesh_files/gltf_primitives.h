@@ -12,7 +12,7 @@
 #include "fathom/text/warnings.h"
 
 /// Triangles of glTF meshes. For this room's .cpp files only.
-/// Source: Khronos Group, glTF 2.0 specification, section 3.7.2 (geometry).
+/// Source   [GLTF20] 3.7.2 (geometry)
 namespace fathom::mesh_files {
 
 class GltfPrimitives {
@@ -26,7 +26,7 @@ class GltfPrimitives {
   /// vertices.
   Mesh read(const text::JsonValue& mesh);
 
-  /// Warns of what has been skipped.
+  /// Warns of what was skipped.
   void report(const std::string& file, Warnings& warnings) const;
 
  private:
@@ -50,9 +50,9 @@ class GltfPrimitives {
   bool attributes_;
   std::uint64_t file_size_;
 
-  // Of the mesh that is being read: vertices by the accessors of their attributes.
+  // For the mesh that is being read: vertices by the accessors of their attributes.
   std::map<std::array<std::uint64_t, 4>, Vertices> vertices_;
-  // Per run of triangles, where it ends and which attributes it has.
+  // For each run of triangles, where it ends and which attributes it has.
   struct Run {
     std::size_t end = 0;
     bool has_texture = false, has_normals = false;

@@ -11,7 +11,7 @@
 
 namespace fathom::mesh_files {
 
-/// What the properties of a vertex are for us.
+/// What the properties of a vertex mean to us.
 enum PlySlot : int {
   slot_x = 0,
   slot_normal = 3,
@@ -23,12 +23,12 @@ enum PlySlot : int {
 /// The values of a vertex that were asked for, each in the slot of its kind.
 using PlyVertex = std::array<double, slot_count>;
 
-/// Walks over the rows of all elements in the order of the file, checks everything, and gives
+/// Walks over the rows of all elements in the order of the file, checks everything, and passes
 /// vertices and faces to a sink:
 ///   begin_vertices(element, has, rows)      has(slot): whether the element has that value
 ///   vertex(values)
-///   begin_faces(element, indices, most, rows)   at most so many of three corners fit into the file
-///   face(ring, rows)                        behind its row
+///   begin_faces(element, indices, most, rows)   `most` faces of three corners fit into the file
+///   face(ring, rows)                        after its row
 template <class Rows, class Sink>
 class PlyBody {
  public:
@@ -75,7 +75,7 @@ class PlyBody {
     throw InputError(file + ": element vertex lacks x, y or z, expected all three");
   }
 
-  /// The rows that the header claims must be able to stand in what is left of the file.
+  /// There must be room in what is left of the file for the rows that the header claims.
   void expect_room(const PlyElement& element) {
     mesh::expect_countable(element.count, ("rows of element " + element.name).c_str(), file_);
     const std::uint64_t size = Rows::least_row_size(element);
@@ -129,7 +129,7 @@ class PlyBody {
     if (slot >= slot_colour) row[slot] = colour_component(row[slot], property.type);
   }
 
-  /// In [0, 1]: integers are shares of the greatest of their type.
+  /// In [0, 1]: integers are fractions of the greatest of their type.
   static double colour_component(double value, PlyType type) {
     if (type == PlyType::uint8) value /= 255;
     if (type == PlyType::uint16) value /= 65535;

@@ -77,7 +77,7 @@ void read_property(TextCursor& cursor, PlyHeader& header) {
   element.properties.push_back(std::move(property));
 }
 
-/// The end of the first line tells how lines end: LF (with or without CR before it) or CR alone.
+/// The end of the first line shows how lines end: LF (with or without CR before it) or CR alone.
 char line_end_of_first(std::string_view text) {
   const std::size_t at = text.find_first_of("\r\n");
   const bool carriage = at != text.npos && text[at] == '\r' && !text.substr(at).starts_with("\r\n");

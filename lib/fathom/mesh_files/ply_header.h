@@ -21,7 +21,7 @@ inline bool is_integer(PlyType type) {
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float32;
-  /// Of a list: the type of its count.
+  /// For a list: the type of its count.
   std::optional<PlyType> count_type;
 };
 
@@ -33,7 +33,7 @@ struct PlyElement {
   /// The place of the first property that has one of these names.
   [[nodiscard]] std::optional<std::size_t> find(
       std::initializer_list<std::string_view> names) const;
-  /// Least number of bytes of a binary row: of lists the count only.
+  /// The least number of bytes of a binary row: of lists only the count.
   [[nodiscard]] std::size_t least_row_size() const;
   [[nodiscard]] bool has_lists() const;
 };
@@ -41,7 +41,7 @@ struct PlyElement {
 struct PlyHeader {
   enum class Encoding { ascii, little_endian, big_endian } encoding = Encoding::ascii;
   std::vector<PlyElement> elements;
-  /// Bytes and lines that the header takes.
+  /// Bytes and lines that the header takes up.
   std::size_t size = 0;
   std::uint64_t lines = 0;
 

@@ -18,17 +18,17 @@
 
 static_assert(std::endian::native == std::endian::little, "little endian PLY is read as it lies");
 
-/// The values of the rows of a PLY file, one after the other, whatever its encoding.
+/// The values of the rows of a PLY file, one after another, whatever its encoding.
 namespace fathom::mesh_files {
 
-/// The values of a body that is text. Every row stands on a line of its own.
+/// The values of a body that is text. Every row is on a line of its own.
 class AsciiRows {
  public:
   AsciiRows(std::string_view body, const std::string& file, const PlyHeader& header)
       : cursor_(body, file, {}, text::TextCursor::line_end_of(body), header.lines + 1) {}
 
   static std::uint64_t least_row_size(const PlyElement& element) {
-    return 2 * element.properties.size();  // a digit and what divides it from the next
+    return 2 * element.properties.size();  // a digit and what separates it from the next
   }
   static std::uint64_t least_triangle_size(const PlyElement& element, const PlyProperty&) {
     return least_row_size(element) + 6;
@@ -74,7 +74,7 @@ class AsciiRows {
   void skip(PlyType type, std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i) skip(type);
   }
-  /// Meant for binary rows alone.
+  /// Only for binary rows.
   [[nodiscard]] static std::uint64_t position() { return 0; }
   [[nodiscard]] bool has_more() { return cursor_.next_line_with_words(); }
   [[nodiscard]] std::string place() const { return "line " + std::to_string(cursor_.line()); }
@@ -84,7 +84,7 @@ class AsciiRows {
   text::TextCursor cursor_;
 };
 
-/// The values of a binary body, one after the other.
+/// The values of a binary body, one after another.
 template <bool big_endian>
 class BinaryRows {
  public:
@@ -162,7 +162,7 @@ class BinaryRows {
   const std::string& file_;
 };
 
-/// What faces are made of: lists of indices of vertices, and properties that nobody asked for.
+/// What faces consist of: lists of indices of vertices, and properties that nobody asked for.
 template <class Rows>
 class PlyRowReader {
  public:

@@ -7,7 +7,7 @@
 #include "fathom/mesh_files/ply_vertices.h"
 #include "fathom/mesh_files/streams.h"
 
-// The file is read through once by the rows and checks of the ordinary reader; what is kept is
+// The file is read through once, with the rows and checks of the ordinary reader; what is kept is
 // where things are. Faces are read again, from the file, whenever triangles are asked for.
 namespace fathom::mesh_files {
 using namespace mesh;
@@ -45,8 +45,8 @@ class FaceIndex {
     end_.offset = offset;
   }
 
-  /// A face at or before the one that triangle `number` comes from, less than 256 before it or
-  /// followed by no triangle in between.
+  /// A face at or before the one that triangle `number` comes from, less than 256 faces before it
+  /// or with no triangle in between.
   [[nodiscard]] FacePlace before(std::uint64_t number) const {
     if (even_) return {number, number, start_ + number * row_size_};
     const auto after = std::upper_bound(
@@ -55,7 +55,7 @@ class FaceIndex {
     return *(after - 1);
   }
 
-  /// Behind the last face.
+  /// The place after the last face.
   [[nodiscard]] const FacePlace& end() const { return end_; }
   [[nodiscard]] bool triangles_only() const { return triangles_only_; }
   [[nodiscard]] bool has_polygons() const { return has_polygons_; }
@@ -83,14 +83,14 @@ class FaceIndex {
 struct Scan {
   bool big_endian = false;
   std::optional<PlyVertexLayout> layout;
-  /// Where vertices have list properties.
+  /// Used if vertices have list properties.
   std::vector<MeshPoint> list;
 
   PlyElement face_element;
   std::size_t indices = 0;
   FaceIndex faces;
   std::uint64_t skipped = 0;
-  /// Vertices that belong to a triangle; what is beyond its end does not.
+  /// Which vertices belong to a triangle; those beyond its end do not.
   std::vector<bool> used;
 };
 
@@ -130,7 +130,8 @@ class ScanSink {
 
  private:
   void note_used(std::uint32_t vertex) {
-    // A vertex takes three bytes at least: of one that cannot be there, reading will tell.
+    // A vertex takes at least three bytes: one that cannot be there will be noticed when it is
+    // read.
     if (vertex >= file_.size() / 3) return;
     if (vertex >= scan_.used.size()) {
       scan_.used.resize(std::max<std::size_t>(std::size_t{vertex} + 1, 2 * scan_.used.size()));
@@ -143,7 +144,7 @@ class ScanSink {
   bool lists_ = false;
 };
 
-/// The vertices of a chunk, each once where uses of it follow each other closely.
+/// The vertices of a chunk, each only once if its uses follow each other closely.
 class ChunkVertices {
  public:
   ChunkVertices(const PlyVertices& all, std::vector<MeshPoint>& chunk)
@@ -225,7 +226,7 @@ class PlyStream : public TriangleStream {
     scan_.used = {};
   }
 
-  /// Faces that are cut into a fan in spite of their shape.
+  /// The number of faces that are cut into a fan in spite of their shape.
   [[nodiscard]] std::uint64_t count_odd_shapes() const {
     if (!scan_.faces.has_polygons()) return 0;
     std::uint64_t odd = 0;
@@ -237,7 +238,7 @@ class PlyStream : public TriangleStream {
     return odd;
   }
 
-  /// Triangles as numbers of corners.
+  /// Cuts a face into triangles, as numbers of corners.
   Triangulation cut_face(const std::vector<std::uint32_t>& ring,
                          std::vector<CornerIndices>& cut) const {
     cut.clear();
@@ -252,7 +253,8 @@ class PlyStream : public TriangleStream {
     return triangulate_face(points, cut);
   }
 
-  /// visit(face, corners) for `count` triangles from `first` on, corners as numbers of vertices.
+  /// Calls visit(face, corners) for `count` triangles from `first` on, corners being numbers of
+  /// vertices.
   template <class Visit>
   void walk(std::uint32_t first, std::uint32_t count, std::size_t window,
             const Visit& visit) const {
@@ -271,8 +273,8 @@ class PlyStream : public TriangleStream {
         });
   }
 
-  /// visit(first triangle, face, ring) for the faces that triangles [first, first + count) come
-  /// from, and for some before them.
+  /// Calls visit(first triangle, face, ring) for the faces that triangles [first, first + count)
+  /// come from, and for some before them.
   template <class Visit>
   void walk_faces(std::uint32_t first, std::uint32_t count, std::size_t window,
                   const Visit& visit) const {

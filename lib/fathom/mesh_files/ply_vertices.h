@@ -11,14 +11,14 @@
 
 namespace fathom::mesh_files {
 
-/// Where the coordinates of the vertices of a binary PLY file lie: rows of equal length.
+/// Where the coordinates of the vertices are in a binary PLY file: rows of equal length.
 struct PlyVertexLayout {
-  /// Of the first row in the file.
+  /// The position of the first row in the file.
   std::uint64_t offset = 0;
   std::uint64_t count = 0;
   std::size_t row_size = 0;
   bool big_endian = false;
-  /// Of x, y and z within a row.
+  /// Positions of x, y and z within a row.
   std::array<std::size_t, 3> places{};
   std::array<PlyType, 3> types{};
 };
@@ -27,11 +27,11 @@ struct PlyVertexLayout {
 PlyVertexLayout layout_of_vertices(const PlyElement& element, std::uint64_t offset,
                                    bool big_endian);
 
-/// The vertices of a PLY file by their numbers: mapped, so that they take addresses but no memory
-/// that the system could not take back; or, where their rows differ in length, a list.
+/// The vertices of a PLY file by number: mapped, so that they take addresses but no memory that the
+/// system could not take back; or, if their rows differ in length, a list.
 class PlyVertices {
  public:
-  /// Fails    InputError if the block cannot be mapped, for want of addresses for instance.
+  /// Fails    InputError if the block cannot be mapped, for instance for lack of addresses.
   PlyVertices(const text::RandomAccessFile& file, const PlyVertexLayout& layout);
   explicit PlyVertices(std::vector<MeshPoint> list) : list_(std::move(list)) {}
   PlyVertices(const PlyVertices&) = delete;

@@ -30,7 +30,7 @@ void check_version(const JsonValue& root) {
     version.fail("expected glTF 2, found " + version.string());
 }
 
-/// Required extensions that change how things look, not where they are.
+/// Required extensions that change how things look, but not where they are.
 void check_required_extensions(const JsonValue& root) {
   static const std::set<std::string_view> harmless{
       "KHR_texture_transform", "KHR_texture_basisu", "KHR_lights_punctual", "KHR_xmp_json_ld",
@@ -203,7 +203,7 @@ class GltfReader {
   std::vector<JsonValue> nodes_;
   std::vector<JsonValue> meshes_;
   std::vector<bool> visited_;
-  /// Per glTF mesh that has been read, its place among the asset's.
+  /// For each glTF mesh that has been read, its place among the asset's.
   std::map<std::uint64_t, std::size_t> read_meshes_;
   std::uint64_t next_face_ = 0;
   std::uint64_t skins_ = 0, morphs_ = 0;

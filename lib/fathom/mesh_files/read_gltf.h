@@ -17,21 +17,21 @@ struct GltfAsset {
   std::vector<Mesh> meshes;
   /// Object::mesh counts from the first of `meshes`; Object::source is not set.
   std::vector<Object> objects;
-  /// External buffers, in the order of loading; the asset's own file is the caller's.
+  /// External buffers, in the order of loading; the asset's own file is left to the caller.
   std::vector<Source> buffers;
 };
 
 /// Reads a glTF 2.0 asset (.gltf or .glb): one object per node with a mesh, depth first, of the
-/// default scene, or of the first where none is named; an asset without scenes gives all its nodes,
+/// default scene, or of the first if none is named; an asset without scenes gives all its nodes,
 /// with a warning. Nodes that show the same glTF mesh share a Mesh. Faces are numbered over all
 /// objects of the asset. No image is opened.
 ///
-/// `path` names the file in messages; buffers beside it are found from its folder.
-/// Exact    positions are binary32, widened; node transforms are composed exactly, a quaternion
-///          meaning the polynomial matrix of the glTF specification.
+/// `path` names the file in messages; buffers beside it are looked for from its folder.
+/// Exact    positions are binary32, widened; node transforms are composed exactly, and a quaternion
+///          means the polynomial matrix of the glTF specification.
 /// Fails    InputError: one line that names the file and the key or byte.
-/// Ignored  with a warning: points, lines, skins, morph targets; animations and cameras silently.
-/// Source   Khronos Group, glTF 2.0 specification.
+/// Ignored  with a warning: points, lines, skins, morph targets; silently: animations and cameras.
+/// Source   [GLTF20]
 GltfAsset read_gltf(std::span<const std::byte> bytes, const std::filesystem::path& path,
                     const ReadOptions& options, Warnings& warnings);
 

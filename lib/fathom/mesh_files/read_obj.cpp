@@ -8,8 +8,8 @@
 #include "fathom/text/text_chunks.h"
 #include "fathom/text/text_cursor.h"
 
-/// Read in two passes over pieces of the file, each in parallel: count what each piece holds, so
-/// that the place of everything is known; then read every piece into its place.
+/// Read in two passes over pieces of the file, each in parallel: first count what each piece has,
+/// so that the place of everything is known; then read every piece into its place.
 namespace fathom::mesh_files {
 using namespace mesh;
 using namespace text;
@@ -34,13 +34,13 @@ Statement statement_named(std::string_view keyword) {
   return Statement::unknown;
 }
 
-/// How many of each a piece of the file holds; sums of them are places.
+/// How many of each a piece of the file has; sums of them are places.
 struct ObjCounts {
   std::uint64_t lines = 0;
   std::uint64_t vertices = 0, textures = 0, normals = 0;
   std::uint64_t faces = 0, triangles = 0;
   std::uint64_t skipped_faces = 0, not_faces = 0;
-  bool polygons = false;  // a face that has not three corners
+  bool polygons = false;  // a face that does not have three corners
   bool colours = false, face_textures = false, face_normals = false;
   std::map<std::string, std::uint64_t> unknown;
 
@@ -61,7 +61,7 @@ struct ObjCounts {
   }
 };
 
-/// A keyword as it may stand in a one-line warning.
+/// A keyword as it can be shown in a one-line warning.
 std::string shown(std::string_view keyword) {
   std::string text(keyword.substr(0, 20));
   for (char& c : text)
@@ -86,7 +86,7 @@ void count_face(TextCursor& cursor, ObjCounts& counts) {
 
 ObjCounts count_statements(std::string_view text, const std::string& file, char line_end) {
   ObjCounts counts;
-  // More different unknown keywords than this are lumped together.
+  // Different unknown keywords beyond this number are lumped together.
   constexpr std::size_t most_keywords = 8;
   TextCursor cursor(text, file, obj_syntax, line_end, 0);
   for (; cursor.next_line_with_words(); cursor.skip_line()) {
@@ -126,7 +126,7 @@ ObjCounts count_statements(std::string_view text, const std::string& file, char 
 /// Reads one piece of the file into its place in the mesh.
 class ObjChunk {
  public:
-  /// `before` counts what stands before the piece, `total` what the file holds.
+  /// `before` counts what comes before the piece, `total` what the file has.
   ObjChunk(std::string_view text, const std::string& file, char line_end, const ObjCounts& before,
            const ObjCounts& total, Mesh& mesh)
       : cursor_(text, file, obj_syntax, line_end, before.lines + 1),
@@ -163,7 +163,7 @@ class ObjChunk {
   }
 
   void read_vertex() {
-    // The file is mapped: should another program change it meanwhile, the counts are wrong.
+    // The file is mapped: if another program changes it meanwhile, the counts are wrong.
     if (at_.vertices >= total_.vertices) fail_changed();
     MeshPoint& p = mesh_.vertices[at_.vertices];
     p.x = cursor_.number<double>("coordinate x");
@@ -206,7 +206,7 @@ class ObjChunk {
     expect_line_end("expected 3 components of the normal");
   }
 
-  /// a, a/b, a//c or a/b/c.
+  /// Corners are a, a/b, a//c or a/b/c.
   void read_face() {
     Corner first{}, last{};
     std::size_t corners = 0;
@@ -243,7 +243,7 @@ class ObjChunk {
     return corner;
   }
 
-  /// Reads an index and moves `at` behind it; from 1 or, negative, back from the last of `so_far`.
+  /// Reads an index and moves `at` past it; from 1 or, if negative, back from the last of `so_far`.
   std::uint32_t read_index(const char*& at, std::uint64_t so_far, std::uint64_t count,
                            const char* what) {
     std::int64_t index = 0;
@@ -301,7 +301,8 @@ void make_room(const ObjCounts& total, bool attributes, const std::string& file,
   mesh.normals.resize(total.normals);
   if (total.face_textures) mesh.texture_triangles.resize(total.triangles);
   if (total.face_normals) mesh.normal_triangles.resize(total.triangles);
-  // Without a reference to them from any face they are nobody's; indices would be the vertices'.
+  // If no face refers to them they belong to nobody; without indices, those of the vertices would
+  // be used.
   if (!total.face_textures) mesh.texture_coordinates.clear();
   if (!total.face_normals) mesh.normals.clear();
 }
@@ -323,7 +324,7 @@ Mesh read_obj(std::string_view text, const std::string& file, const ReadOptions&
   const std::vector<std::string_view> chunks =
       cut_into_chunks(TextCursor::without_mark(text), line_end, chunk_size);
 
-  // before[i] counts what stands before piece i.
+  // before[i] counts what comes before piece i.
   std::vector<ObjCounts> before(chunks.size() + 1);
   for_each_chunk(chunks.size(), options.threads, [&](std::size_t i) {
     before[i + 1] = count_statements(chunks[i], file, line_end);

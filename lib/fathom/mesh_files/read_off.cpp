@@ -124,7 +124,7 @@ class OffReader {
     expect_line_end("the vertex");
   }
 
-  /// Three or four components: floats in [0, 1], or integers in [0, 255] where no component has a
+  /// Three or four components: floats in [0, 1], or integers in [0, 255] if no component has a
   /// point.
   void read_colour() {
     std::array<float, 4> colour{0, 0, 0, 1};
@@ -144,7 +144,7 @@ class OffReader {
     if (keep_attributes_) mesh_.colours.push_back(colour);
   }
 
-  /// After three components: whether a fourth stands before the texture coordinates, if any.
+  /// After three components: whether there is a fourth before the texture coordinates, if any.
   bool one_more_before_texture() {
     TextCursor ahead = cursor_;
     std::size_t words = 0;

@@ -6,7 +6,7 @@ using namespace mesh;
 
 namespace {
 
-/// Takes vertices and faces into a mesh.
+/// Collects vertices and faces in a mesh.
 class MeshSink {
  public:
   explicit MeshSink(const std::string& file) : faces_(mesh_, file) {}

@@ -43,7 +43,7 @@ class AsciiStlReader {
   AsciiStlReader(std::string_view text, const std::string& file, const ReadOptions& options)
       : cursor_(text, file, {}), file_(file), keep_attributes_(options.attributes) {}
 
-  /// solid NAME, facets, endsolid NAME; again and again.
+  /// solid NAME, facets, endsolid NAME; repeated.
   Mesh read() {
     reserve();
     while (cursor_.next_line_with_words()) {
@@ -56,7 +56,7 @@ class AsciiStlReader {
   }
 
  private:
-  /// Room for as many corners as there are lines that begin with "vertex".
+  /// Reserves room for as many corners as there are lines that begin with "vertex".
   void reserve() {
     TextCursor ahead = cursor_;
     std::uint64_t corners = 0;
@@ -70,7 +70,7 @@ class AsciiStlReader {
     mesh_.normal_triangles.reserve(corners / 3);
   }
 
-  /// The next word in small letters, on this line or a later one.
+  /// The next word in lower case, on this line or a later one.
   std::string_view next_word() {
     if (!cursor_.next_line_with_words()) cursor_.fail("the file ends, expected endsolid");
     const std::string_view word = cursor_.word();

@@ -50,8 +50,8 @@ bool is_binary_stl_by_size(std::span<const std::byte> bytes, std::uint64_t size)
   return size == 84 + 50 * std::uint64_t{count};
 }
 
-/// An asset has the key "asset", which a scene file must not have. (A mesh may be named so, but no
-/// colon follows its name.)
+/// An asset has the key "asset", which a scene file must not have. (A mesh may have that name, but
+/// no colon follows a name.)
 bool has_asset_key(std::string_view text) {
   constexpr std::string_view key = "\"asset\"";
   for (std::size_t at = text.find(key); at != text.npos; at = text.find(key, at + 1)) {

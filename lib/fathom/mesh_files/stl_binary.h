@@ -9,13 +9,13 @@
 #include "fathom/mesh/mesh.h"
 #include "fathom/text/warnings.h"
 
-/// Binary STL: a header of 84 bytes that ends with the number of triangles, then 50 bytes for each.
+/// Binary STL: a header of 84 bytes, which ends with the number of triangles, then 50 bytes each.
 namespace fathom::mesh_files {
 
 inline constexpr std::size_t stl_header_size = 84, stl_triangle_size = 50;
 
-/// Number of triangles of a binary STL of `size` bytes, of which `head` has the first 84 or all;
-/// warns of bytes after the last one.
+/// The number of triangles of a binary STL of `size` bytes, of which `head` has the first 84 or
+/// all; warns of bytes after the last triangle.
 /// Fails    InputError if the file is too short for the triangles that it claims.
 std::uint64_t count_binary_stl(std::span<const std::byte> head, std::uint64_t size,
                                const std::string& file, Warnings& warnings);
@@ -25,8 +25,8 @@ std::uint64_t count_binary_stl(std::span<const std::byte> head, std::uint64_t si
 std::array<float, 12> read_stl_triangle(const std::byte* record, std::uint64_t number,
                                         const std::string& file);
 
-/// Whether STL is binary: its size is what its count of triangles says, or it does not read "solid"
-/// followed by text. `head` has the first 512 bytes or all.
+/// Whether STL is binary: its size matches its count of triangles, or it does not begin with
+/// "solid" followed by text. `head` has the first 512 bytes or all.
 bool is_binary_stl(std::span<const std::byte> head, std::uint64_t size);
 
 }  // namespace fathom::mesh_files

@@ -58,7 +58,7 @@ class StlStream : public TriangleStream {
   [[nodiscard]] std::uint32_t face_of(std::uint32_t number) const override { return number; }
 
  private:
-  /// Reads the file through and finds the bounds.
+  /// Reads through the file and finds the bounds.
   void check() {
     if (count_ == 0) return;
     const MeshPoint start = triangle(0).corners[0];

@@ -6,7 +6,7 @@
 #include "fathom/mesh_files/triangle_stream.h"
 #include "fathom/text/random_access_file.h"
 
-/// The streams of the two formats; open_triangle_stream() chooses.
+/// The streams of the two formats; open_triangle_stream() chooses between them.
 namespace fathom::mesh_files {
 
 std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<text::RandomAccessFile> file,

@@ -14,9 +14,9 @@
 namespace fathom {
 
 /// Consecutive triangles of a file as a mesh of their own. Its face_of_triangle has numbers of
-/// faces of the file; it is empty where in the whole file triangle t is face t.
+/// faces of the file; it is empty if in the whole file triangle t is face t.
 struct TriangleChunk {
-  /// Number within the file of the chunk's first triangle.
+  /// The number of the chunk's first triangle in the file.
   std::uint32_t first = 0;
   Mesh mesh;
 };
@@ -24,12 +24,13 @@ struct TriangleChunk {
 /// The triangles of a binary STL or PLY file that need not fit into memory, in the order and with
 /// the numbers and corners that read_scene() gives them, bit for bit.
 ///
-/// The file was read through once and checked, with the messages of the ordinary readers; it must
-/// not change while the stream is there. Memory: of an STL none that grows with the file; of a PLY
-/// the block of its vertices is mapped, and faces of other than three corners take 24 bytes for
-/// every 256 of the file's faces. (If vertices have list properties: 24 bytes a vertex instead.)
+/// The file has been read through once and checked, with the messages of the ordinary readers; it
+/// must not change while the stream exists. Memory: for an STL none that grows with the file; for a
+/// PLY the block of its vertices is mapped, and if not all faces have three corners, they take 24
+/// bytes for every 256 of the file's faces. (If vertices have list properties: 24 bytes per vertex
+/// instead.)
 ///
-/// Different threads may read at the same time.
+/// Several threads may read at the same time.
 class TriangleStream {
  public:
   TriangleStream() = default;
@@ -38,10 +39,11 @@ class TriangleStream {
   virtual ~TriangleStream() = default;
 
   [[nodiscard]] virtual std::uint32_t triangle_count() const = 0;
-  /// Skipped ones too.
+  /// The number of faces, including skipped ones.
   [[nodiscard]] virtual std::uint64_t face_count() const = 0;
 
-  /// Least and greatest coordinates of all corners; nullopt if there is no triangle.
+  /// Least and greatest coordinates of all corners, in the file's own frame and unit; nullopt if
+  /// there is no triangle.
   struct Bounds {
     MeshPoint lower, upper;
   };
@@ -57,15 +59,15 @@ class TriangleStream {
   /// One triangle, in time that does not depend on the size of the file.
   [[nodiscard]] virtual Triangle triangle(std::uint32_t number) const = 0;
 
-  /// Of that triangle, the face alone.
+  /// Only the face that a triangle comes from.
   [[nodiscard]] virtual std::uint32_t face_of(std::uint32_t number) const = 0;
 
   /// The file and, if it was asked for, its hash.
   Source source;
 };
 
-/// Opens and checks a binary STL or PLY file. Of the options `format` and `hash` count.
-/// Fails    InputError as read_scene() does, and if the file is of another format or a pipe.
+/// Opens and checks a binary STL or PLY file. Of the options, only `format` and `hash` matter.
+/// Fails    InputError, as read_scene() does, and if the file is of another format or a pipe.
 std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path& path,
                                                      const ReadOptions& options,
                                                      Warnings& warnings);

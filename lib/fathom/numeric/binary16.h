@@ -6,7 +6,7 @@
 
 namespace fathom {
 
-/// The binary32 number that a binary16 number is; exact. A NaN keeps its sign and payload.
+/// The value of a binary16 number as a binary32 number; exact. A NaN keeps its sign and payload.
 inline float widen_binary16(std::uint16_t bits) {
   const std::uint32_t sign = std::uint32_t{bits & 0x8000u} << 16;
   const std::uint32_t exponent = (bits >> 10) & 0x1Fu;

@@ -13,7 +13,7 @@
 namespace fathom {
 namespace {
 
-/// CGAL's interval type for use while a Rounding object lives: the processor rounds upwards then.
+/// CGAL's interval type, for use while a Rounding object lives: the processor then rounds upwards.
 using FilterNumber = CGAL::Interval_nt<false>;
 using Rounding = FilterNumber::Protector;
 

@@ -10,7 +10,7 @@
 /// does not settle it. No decision is ever made by a tolerance.
 namespace fathom {
 
-/// How many decisions each tier settled. Passed along explicitly; there is no global count.
+/// How many decisions each tier settled. Passed along explicitly; there is no global counter.
 struct TierCounts {
   std::uint64_t interval = 0;
   std::uint64_t exact = 0;
@@ -33,21 +33,21 @@ Dyadic determinant(const ExactVector3& a, const ExactVector3& b, const ExactVect
 Sign sign_of_determinant(const ExactVector3& a, const ExactVector3& b, const ExactVector3& c,
                          TierCounts& counts);
 
-/// The sign of the turn a → b → c in the plane: positive where c lies left of ab with y up.
+/// The sign of the turn a → b → c in the plane: positive if c lies left of ab with y up.
 /// Decided by CGAL's filtered orientation predicate; exact for all finite coordinates.
 Sign orientation(const std::array<double, 2>& a, const std::array<double, 2>& b,
                  const std::array<double, 2>& c);
 
-/// An affine function l_u·u + l_v·v + l_w on the image, with exact coefficients and an enclosure
-/// of them for the filter. Edge functions and the numerators and denominators of everything that
-/// is interpolated over a triangle have this form.
+/// An affine function l_u·u + l_v·v + l_w on the image (u, v in pixels), with exact coefficients
+/// and an enclosure of them for the filter. Edge functions, and the numerators and denominators of
+/// everything that is interpolated over a triangle, have this form.
 class ImageForm {
  public:
   ImageForm() : ImageForm(ExactVector3{}) {}
   explicit ImageForm(ExactVector3 coefficients);
 
   [[nodiscard]] const ExactVector3& coefficients() const { return coefficients_; }
-  /// Intervals that contain them.
+  /// Intervals that contain the coefficients.
   [[nodiscard]] const std::array<Interval, 3>& enclosures() const { return enclosures_; }
   /// The exact value at the sample (u, v); u and v finite.
   [[nodiscard]] Dyadic at(double u, double v) const;

@@ -13,11 +13,10 @@ constexpr double u = unit_roundoff<double>;
 
 }  // namespace
 
-// With x = fl(…) the rounded result, |x − exact| ≤ u·|x| + 2⁻¹⁰⁷⁴ for each
-// operation of IEEE 754; the errors of the operands are carried to first order and beyond without
-// being dropped. The bound itself is computed with at most 6 roundings of non-negative numbers,
-// each of which may make it too small by a factor 1 − u: the factor bound_rounding makes good for
-// them.
+// With x = fl(…) the rounded result, |x − exact| ≤ u·|x| + 2⁻¹⁰⁷⁴ for each operation of IEEE 754;
+// the errors of the operands are carried to first order and beyond without dropping anything. The
+// bound itself is computed with at most 6 roundings of non-negative numbers, each of which may make
+// it too small by a factor 1 − u: the factor bound_rounding makes up for them.
 Certified<double> operator+(const Certified<double>& a, const Certified<double>& b) {
   const double value = a.value + b.value;
   return {value, (a.error + b.error + u * std::abs(value) + most_underflow) * bound_rounding};
@@ -30,8 +29,8 @@ Certified<double> operator*(const Certified<double>& a, const Certified<double>&
                      bound_rounding};
 }
 
-// (A / B) − (a / b) = ((A − a) − (a / b)·(B − b)) / B, and |B| ≥ |b| − error of b. For q = fl(a /
-// b) the quotient a / b lies within u·|q| + 2⁻¹⁰⁷⁴ of it.
+// (A / B) − (a / b) = ((A − a) − (a / b)·(B − b)) / B, and |B| ≥ |b| − error of b. The quotient
+// a / b lies within u·|q| + 2⁻¹⁰⁷⁴ of q = fl(a / b).
 Certified<double> operator/(const Certified<double>& a, const Certified<double>& b) {
   const double least = std::abs(b.value) * (1 - 4 * u) - b.error;
   if (!(least > 0)) return {0, std::numeric_limits<double>::infinity()};

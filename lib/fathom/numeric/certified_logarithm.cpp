@@ -36,7 +36,7 @@ const LogarithmTables& logarithm_tables() {
   return tables;
 }
 
-// The low end of an enclosure of 160 bits differs by less than 2⁻¹⁵⁰|x|; two roundings to nearest
+// The low end of an enclosure with 160 bits is off by less than 2⁻¹⁵⁰|x|; two roundings to nearest
 // leave 2⁻¹⁰⁶|x|.
 WordPair to_double_word(const Real& x) {
   const Ratio low = x.enclose(160).low;

@@ -6,17 +6,18 @@
 
 #include "fathom/numeric/certified_value.h"
 
-/// Logarithms and exponentials of double-words, with bounds of their errors: about 80 bits, for
-/// what rounds to binary32 or to a code and needs no more than a certificate (logarithm.h has as
-/// many bits as are asked for).
+/// Logarithms and exponentials of double-words, with bounds on their errors: about 80 bits, for
+/// what is rounded to binary32 or to a code and needs no more than a certificate (logarithm.h gives
+/// as many bits as are asked for).
 ///
-/// Method (Tang 1989, 1990). y = 2^e·c·(1 + r) with c a multiple of 1/64 and |r| ≤ 0.0112, so that
+/// Method ([Tan89], [Tan90]). y = 2^e·c·(1 + r) with c a multiple of 1/64 and |r| ≤ 0.0112, so that
 /// log y = e·log 2 + log c + log(1 + r); exp y = 2^(k/64)·exp(r) with |r| ≤ 0.00542. Constants are
 /// exact numbers rounded to double-words. Of the series the first three terms are double-words, the
 /// rest is binary64.
 ///
-/// How errors are counted. ε = epsilon<DoubleWord> bounds each operation and each constant
-/// relatively, u = 2⁻⁵³ those of binary64; ρ = |r|. Terms of second order go into `slack`.
+/// How errors are counted. ε = epsilon<DoubleWord> bounds the relative error of each operation and
+/// each constant, u = 2⁻⁵³ that of those in binary64; ρ = |r|. Terms of second order go into
+/// `slack`.
 namespace fathom {
 
 struct LogarithmTables {
@@ -30,11 +31,11 @@ struct LogarithmTables {
 };
 const LogarithmTables& logarithm_tables();
 
-/// A double-word nearest to x but for 2⁻¹⁰⁵|x|.
+/// A double-word nearest to x, up to 2⁻¹⁰⁵|x|.
 class Real;
 WordPair to_double_word(const Real& x);
 
-/// log y, for y > 0; the error is +∞ where y's is more than 2⁻²⁰ of it, or y beyond 2^±1000.
+/// log y, for y > 0; the error is +∞ if that of y is more than 2⁻²⁰ of it, or y beyond 2^±1000.
 template <bool fused>
 Certified<DoubleWord<fused>> logarithm(const Certified<DoubleWord<fused>>& y) {
   using Wide = DoubleWord<fused>;
@@ -56,9 +57,9 @@ Certified<DoubleWord<fused>> logarithm(const Certified<DoubleWord<fused>>& y) {
   const Wide r = (Wide(m, y.value.lo * scale) - Wide(c)) / Wide(c);
   const double rho = std::abs(r.hi);
 
-  // log(1 + r) = r − r²/2 + r³/3 − r⁴·P, P = 1/4 − r/5 + … + r⁸/12 and what is left out at most
+  // log(1 + r) = r − r²/2 + r³/3 − r⁴·P, P = 1/4 − r/5 + … + r⁸/12, and what is left out is at most
   // ρ¹³/(13(1 − ρ)). Double-words: r², r³, 1/3, its product, two sums, the last: 5ερ. P: each of 8
-  // steps rounds twice and takes r for r.hi; Σρᵏ/(k + 4) < 0.2525, so P errs by 26u·0.2525 < 7u,
+  // steps rounds twice and takes r.hi for r; Σρᵏ/(k + 4) < 0.2525, so P errs by 26u·0.2525 < 7u,
   // r⁴·P by less than 8u·ρ⁴.
   double P = 1.0 / 12;
   for (int i = 11; i >= 4; --i) P = 1.0 / i - P * r.hi;
@@ -74,7 +75,7 @@ Certified<DoubleWord<fused>> logarithm(const Certified<DoubleWord<fused>>& y) {
   return {(power_part + log_c) + series, error * slack};
 }
 
-/// exp y, for 0 ≤ y ≤ 690; the error is +∞ elsewhere, and where y's is more than 2⁻²⁰.
+/// exp y, for 0 ≤ y ≤ 690; the error is +∞ for others, and if that of y is more than 2⁻²⁰.
 template <bool fused>
 Certified<DoubleWord<fused>> exponential(const Certified<DoubleWord<fused>>& y) {
   using Wide = DoubleWord<fused>;
@@ -86,8 +87,9 @@ Certified<DoubleWord<fused>> exponential(const Certified<DoubleWord<fused>>& y) 
   const Wide r = y.value - Wide(tables.log_2_by_64) * k;
   const double rho = std::abs(r.hi);
 
-  // exp(r) − 1 = r + r²/2 + r³/6 + r⁴·Q, Q = 1/4! + … + r⁷/11! < 0.042 and what is left out below
-  // 1.01·ρ¹²/12!. Double-words as above: 5ερ; Q errs by 23u·0.042 < u, r⁴·Q by less than 2u·ρ⁴.
+  // exp(r) − 1 = r + r²/2 + r³/6 + r⁴·Q, Q = 1/4! + … + r⁷/11! < 0.042, and what is left out is
+  // below 1.01·ρ¹²/12!. Double-words as above: 5ερ; Q errs by 23u·0.042 < u, r⁴·Q by less than
+  // 2u·ρ⁴.
   double Q = 1.0 / 39916800;
   double factorial = 39916800;
   for (int i = 11; i >= 5; --i) {

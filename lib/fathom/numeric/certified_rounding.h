@@ -7,18 +7,18 @@
 
 #include "fathom/numeric/double_word.h"
 
-/// Correct rounding of a number known up to an error: |computed − exact| ≤ error. The rounded
-/// number comes out only if every number that the bound allows rounds to it, ties excluded; so it
-/// is the exact number rounded once (specification, section 6). nullopt: not settled. An error that
-/// is +∞ or NaN, or a value that is NaN, settles nothing.
+/// Correct rounding of a number known up to an error: |computed − exact| ≤ error. A rounded number
+/// is returned only if every number that the bound allows rounds to it, without ties; so it is the
+/// exact number rounded once (specification, section 6). nullopt: not settled. An error that is +∞
+/// or NaN, or a value that is NaN, settles nothing.
 namespace fathom {
 
 /// Magnitudes for which the bounds of the fast engine's channels are derived.
 inline constexpr double least_safe = 0x1p-100, greatest_safe = 0x1p100;
 
-/// Rounding is monotone: both ends of the interval round to the same number. The ends are moved
-/// outwards by 2⁻⁵¹ of themselves against their own rounding. An interval that holds 0 is not
-/// settled, but for the point 0.
+/// Rounding is monotone, so it is enough that both ends of the interval round to the same number.
+/// The ends are moved outwards by 2⁻⁵¹ of themselves, for their own rounding. An interval that
+/// contains 0 is not settled, unless it is the point 0.
 inline std::optional<float> to_binary32(double value, double error) {
   if (value == 0 && error == 0) return 0.0F;
   const double margin = error + std::abs(value) * 0x1p-51;
@@ -29,8 +29,8 @@ inline std::optional<float> to_binary32(double value, double error) {
   return rounded;
 }
 
-/// Half the distance from |x| to the next number towards 0, the nearer neighbour of the two; x
-/// normal.
+/// Half the distance from |x| to the next number towards 0, the nearer of its two neighbours; x
+/// must be normal.
 inline double half_gap(float x) {
   const float size = std::abs(x);
   const auto next = std::bit_cast<float>(std::bit_cast<std::uint32_t>(size) - 1);
@@ -42,9 +42,9 @@ inline double half_gap(double x) {
 }
 
 /// The candidate f is the nearest to hi; hi − f is exact (both are multiples of the last bit of
-/// hi), the rest is rounded once: a number whose distance to f stays below half of the smaller gap
-/// beside f rounds to f. A binary64 number that is exact is rounded once by its conversion, ties
-/// too.
+/// hi), the rest is rounded once: a number whose distance to f is below half of the smaller gap
+/// beside f rounds to f. A binary64 number that is exact is rounded once by its conversion, even if
+/// it is a tie.
 inline std::optional<float> to_binary32(const WordPair& x, double error) {
   if (error == 0 && x.lo == 0) return static_cast<float>(x.hi);
   const double size = std::abs(x.hi);
@@ -63,8 +63,8 @@ inline std::optional<double> to_binary64(const WordPair& x, double error) {
   return x.hi;
 }
 
-/// The code of 16 bits nearest to x, ties to even; nullopt also where it would be 0 or above 65535.
-/// Where x is known exactly and a binary64 number, a tie is settled too.
+/// The 16-bit code nearest to x, ties to even; nullopt also if it would be 0 or above 65535. If x
+/// is known exactly and is a binary64 number, a tie is settled too.
 inline std::optional<std::uint16_t> to_code(const WordPair& x, double error) {
   if (!(x.hi > 0.25 && x.hi < 65536)) return std::nullopt;
   auto code = static_cast<std::uint32_t>(x.hi);

@@ -5,14 +5,14 @@
 
 #include "fathom/numeric/double_word.h"
 
-/// Numbers of binary64 or double-words with bounds of their errors, and what arithmetic makes of
+/// Numbers in binary64 or double-words with bounds on their errors, and what arithmetic makes of
 /// the bounds.
 namespace fathom {
 
-/// Relative slack of every bound: terms of second order, and roundings in the bound.
+/// Relative slack of every bound, for terms of second order and for roundings in the bound.
 inline constexpr double slack = 1 + 0x1p-15;
 
-/// |value − exact| ≤ error.
+/// A number and a bound on its error: |value − exact| ≤ error.
 template <class Real>
 struct Certified {
   Real value{};
@@ -35,7 +35,7 @@ Certified<Real> product(const Certified<Real>& x, const Certified<Real>& y) {
 
 /// The quotient x/y. With X, Y the exact numbers,
 ///   |x/y − X/Y| = |(x − X) + (X/Y)·(Y − y)| / |y| ≤ (E_x + (|x/y| + |x/y − X/Y|)·E_y) / |y|,
-/// so with E_y ≤ 2⁻²⁰|y| at most (E_x + |x/y|·E_y)/|y|·(1 + 2⁻¹⁹). The division adds ε.
+/// so if E_y ≤ 2⁻²⁰|y| at most (E_x + |x/y|·E_y)/|y|·(1 + 2⁻¹⁹). The division adds ε.
 template <class Real>
 Certified<Real> quotient(const Certified<Real>& x, const Certified<Real>& y) {
   const double size = std::abs(nearest(y.value));

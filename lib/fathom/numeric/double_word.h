@@ -6,18 +6,16 @@
 #include "fathom/numeric/unit_roundoff.h"
 
 /// Double-word ("double-double") arithmetic: a number is kept as the unevaluated sum of two
-/// binary64 numbers, hi the one nearest to the sum.
+/// binary64 numbers, hi being the one nearest to the sum.
 ///
 /// Exactness  Each operation has a relative error of at most the multiple of u² = 2⁻¹⁰⁶ that is
-///            written beside it, for all operands, those that cancel too, as long as no
-///            intermediate result overflows and every one is 0 or a multiple of 2⁻⁹⁰⁰ (so that
-///            errors of products are representable). epsilon<Real> is above all of them.
+///            written beside it, for all operands, even if they cancel, as long as no intermediate
+///            result overflows and every one is 0 or a multiple of 2⁻⁹⁰⁰ (so that errors of
+///            products are representable). epsilon<Real> is above all of them.
 /// Needs      rounding to nearest, no fast-math, no contraction: std::fma is fused where it is
 ///            written and nothing else is (-ffp-contract=off).
-/// Source     [JMP17] M. Joldes, J.-M. Muller, V. Popescu: Tight and Rigorous Error Bounds for
-///            Basic Building Blocks of Double-Word Arithmetic, ACM TOMS 44 (2017), 15res; bounds
-///            proved formally by Muller and Rideau, ACM TOMS 48 (2022). Algorithm numbers are
-///            those of [JMP17].
+/// Source     [JMP17], whose algorithm numbers are used here; [MR22] for formal proofs of the
+///            bounds.
 namespace fathom {
 
 /// A double-word number without its operations, as tables hold it.
@@ -33,20 +31,20 @@ inline WordPair two_sum(double a, double b) {
   return {s, (a - a_part) + (b - b_part)};
 }
 
-/// a + b exactly where |a| ≥ |b| or a = 0 (Algorithm 1, Fast2Sum).
+/// a + b exactly, if |a| ≥ |b| or a = 0 (Algorithm 1, Fast2Sum).
 inline WordPair fast_two_sum(double a, double b) {
   const double s = a + b;
   return {s, b - (s - a)};
 }
 
-/// x as a sum of two numbers of at most 26 bits (Veltkamp); |x| < 2⁹⁹⁵.
+/// x as a sum of two numbers of at most 26 bits (Veltkamp, see [Dek71]); |x| < 2⁹⁹⁵.
 inline WordPair split(double x) {
   const double c = 0x1p27 * x + x;
   const double high = c - (c - x);
   return {high, x - high};
 }
 
-/// a · b exactly (Algorithm 3, 2Prod): by a fused multiply-add, or by Dekker's algorithm.
+/// a · b exactly (Algorithm 3, 2Prod): by a fused multiply-add, or by the algorithm of [Dek71].
 template <bool fused>
 inline WordPair two_product(double a, double b) {
   const double p = a * b;
@@ -58,7 +56,7 @@ inline WordPair two_product(double a, double b) {
   }
 }
 
-/// A double-word number; `fused` says how products are made, and changes no bound.
+/// A double-word number; `fused` says how products are made, and affects no bound.
 template <bool fused>
 struct DoubleWord {
   double hi = 0, lo = 0;
@@ -103,10 +101,10 @@ struct DoubleWord {
 };
 
 /// One step of Newton's iteration from r = fl(√hi). With x = r² + d exactly,
-/// √x = r + d/(2r) − d²/(8r³) + …; r has a relative error of less than 1.01u, hi one of u against
-/// x, so that |d| ≤ 3.1u·x and the terms left out are below 1.3u²·√x. d/(2r) ≤ 1.6u·√x meets
-/// three roundings: of x.lo − error of r², of the sum with hi − r² (exact by Sterbenz's lemma), of
-/// the quotient: 5u² together. At most 8u².
+/// √x = r + d/(2r) − d²/(8r³) + …; r has a relative error of less than 1.01u, hi one of u with
+/// respect to x, so |d| ≤ 3.1u·x and the terms left out are below 1.3u²·√x. d/(2r) ≤ 1.6u·√x goes
+/// through three roundings: of x.lo − error of r², of the sum with hi − r² (exact by Sterbenz's
+/// lemma, [Ste74]), of the quotient: 5u² together. At most 8u².
 template <bool fused>
 inline DoubleWord<fused> square_root(const DoubleWord<fused>& x) {
   if (!(x.hi > 0)) return 0.0;
@@ -119,7 +117,7 @@ inline double square_root(double x) {
   return std::sqrt(x);
 }
 
-/// Bound of the relative error of one operation: 2⁻⁵³ in binary64; 2⁻¹⁰² = 16u² in double-words.
+/// Bound on the relative error of one operation: 2⁻⁵³ in binary64; 2⁻¹⁰² = 16u² in double-words.
 template <class Real>
 inline constexpr double epsilon = 0x1p-102;
 template <>
@@ -144,7 +142,7 @@ inline double nearest(const DoubleWord<fused>& x) {
   return x.hi;
 }
 
-/// A table's entry in an arithmetic: binary64 takes its leading part.
+/// An entry of a table in an arithmetic: binary64 takes its leading part.
 template <class Real>
 inline Real entry(const WordPair& x) {
   return x;

@@ -20,8 +20,8 @@ struct Mpz {
 
 }  // namespace
 
-// A finite binary64 number is an integer below 2⁵³ times a power of two; trailing zeros are
-// dropped so that small integers stay small through products.
+// A finite binary64 number is an integer below 2⁵³ times a power of two; trailing zeros are dropped
+// so that small integers stay small when they are multiplied.
 Dyadic::Dyadic(double value) {
   if (!std::isfinite(value)) throw std::invalid_argument("a Dyadic is made from a finite number");
   const auto bits = std::bit_cast<std::uint64_t>(value);
@@ -80,7 +80,7 @@ Dyadic& Dyadic::operator+=(const Dyadic& other) {
   return *this;
 }
 
-// −((−a) + b). Where b is a itself, the first negation would change it too.
+// −((−a) + b). If b is a itself, the first negation would change it too.
 Dyadic& Dyadic::operator-=(const Dyadic& other) {
   if (this == &other) return *this = Dyadic();
   mpz_neg(significand_, significand_);

@@ -12,7 +12,7 @@ namespace fathom {
 ///
 /// Every finite binary64 number is one, and they are closed under +, − and ×. All quantities of
 /// the specification are dyadic, quotients of dyadics (Ratio), or square roots of such quotients.
-/// What it does not do: division, and anything rounded; see ratio.h and rounding.h.
+/// Not in it: division, and anything rounded; see ratio.h and rounding.h.
 class Dyadic {
  public:
   Dyadic() { mpz_init(significand_); }
@@ -53,7 +53,7 @@ class Dyadic {
   long exponent_ = 0;
 };
 
-/// The least interval of binary64 numbers that contains `x`; a point where x is representable.
+/// The smallest interval of binary64 numbers that contains `x`; a point if x is representable.
 Interval enclose(const Dyadic& x);
 
 Dyadic abs(const Dyadic& x);

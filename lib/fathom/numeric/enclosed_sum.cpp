@@ -7,7 +7,7 @@ namespace {
 
 constexpr long bits = 320;
 
-/// x·2^bits for a negative number of bits too, numerator and denominator integers.
+/// The fraction times 2^power, of either sign; numerator and denominator stay integers.
 void shift(mpz_ptr numerator, mpz_ptr denominator, long power) {
   if (power >= 0) {
     mpz_mul_2exp(numerator, numerator, static_cast<mp_bitcnt_t>(power));

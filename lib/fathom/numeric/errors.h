@@ -5,8 +5,8 @@
 #include <utility>
 
 /// The three ways in which a user's request can fail. The message is one line: what is wrong and
-/// what was expected, beginning with "FILE: " or "FILE: line N: " where a file is to blame.
-/// Broken invariants of ours are assertions, "nothing there" is an optional; neither is an Error.
+/// what was expected, beginning with "FILE: " or "FILE: line N: " if a file is to blame.
+/// Our own broken invariants are assertions, "nothing there" is an optional; neither is an Error.
 namespace fathom {
 
 class Error : public std::runtime_error {
@@ -14,7 +14,7 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The request itself cannot be meant: options that contradict each other (exit status 2).
+/// The request makes no sense: options that contradict each other (exit status 2).
 class UsageError : public Error {
  public:
   using Error::Error;

@@ -16,8 +16,8 @@ inline bool processor_has_fma() {
 }  // namespace fathom
 
 /// Compiles a function, and everything that it calls, with fused multiply-adds (where std::fma is
-/// written: nothing is contracted): the build may not use the instruction everywhere, so that it is
-/// allowed function by function. Only to be called where processor_has_fma(), or it is slow.
+/// written: nothing is contracted). The build cannot use the instruction everywhere, so it is
+/// allowed function by function. To be called only if processor_has_fma(); otherwise it is slow.
 #if defined(__x86_64__)
 #define FATHOM_WITH_FMA [[gnu::target("fma"), gnu::flatten]]
 #else

@@ -23,7 +23,7 @@ class Integer {
   ~Integer() { mpz_clear(value_); }
   operator mpz_ptr() { return value_; }
   operator mpz_srcptr() const { return value_; }
-  /// For GMP's macros, which do not see the conversions.
+  /// For GMP's macros, in which the conversions do not take effect.
   [[nodiscard]] mpz_srcptr get() const { return value_; }
 
  private:
@@ -44,7 +44,7 @@ void divide_to_nearest_even(mpz_ptr result, mpz_srcptr numerator, mpz_srcptr den
 
 std::string to_string(const Integer& value);
 
-/// An integer that is not negative as an exact number.
+/// A non-negative integer as an exact number.
 Dyadic to_dyadic(mpz_srcptr value);
 
 }  // namespace fathom

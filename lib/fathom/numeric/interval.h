@@ -4,8 +4,8 @@ namespace fathom {
 
 /// A closed interval of binary64 numbers that contains an exact value.
 ///
-/// Exact    every function that returns one rounds its ends outwards. An end may be infinite.
-///          A NaN at an end means "nothing is known"; every comparison with it is undecided.
+/// Exact    every function that returns one rounds its ends outwards. An end may be infinite. A NaN
+///          at an end means "nothing is known"; every comparison with it is undecided.
 struct Interval {
   double lower = 0;
   double upper = 0;

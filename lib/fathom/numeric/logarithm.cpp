@@ -23,7 +23,7 @@ class BigFloat {
   mpfr_t value_;
 };
 
-/// The number that a finite, non-negative x is.
+/// The value of a finite, non-negative x.
 Ratio to_ratio(mpfr_ptr x) {
   if (mpfr_zero_p(x) != 0) return Dyadic();
   Integer significand;
@@ -44,8 +44,8 @@ void set(mpfr_ptr result, const Ratio& x, mpfr_rnd_t direction) {
 
 using Function = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);
 
-/// A function that increases, at x ≥ 0, rounded towards one side: the argument is rounded to that
-/// side, and so is the value.
+/// An increasing function at x ≥ 0, rounded to one side: the argument is rounded to that side, and
+/// so is the value.
 Ratio at(Function function, const Ratio& x, long bits, mpfr_rnd_t direction) {
   BigFloat value(bits);
   set(value, x, direction);
@@ -57,7 +57,7 @@ Ratio quotient(const Ratio& a, const Ratio& b) {
   return {a.numerator * b.denominator, a.denominator * b.numerator};
 }
 
-/// log a / log b enclosed. Logarithms of 1 + x keep their relative precision where x is small.
+/// log a / log b enclosed. Logarithms of 1 + x keep their relative precision if x is small.
 Enclosure enclose_quotient(const Ratio& a, const Ratio& b, long bits) {
   const Ratio one = Dyadic(1.0);
   const Ratio x = a - one, y = b - one;
@@ -85,7 +85,7 @@ Ratio to_ratio(const Fraction& f) {
   return {to_dyadic(f.numerator), to_dyadic(f.denominator)};
 }
 
-/// Replaces a fraction > 1 in lowest terms by its k-th root where that is rational: numerator and
+/// Replaces a fraction > 1 in lowest terms by its k-th root if that is rational: numerator and
 /// denominator have no common factor, so both must be k-th powers.
 bool take_root(Fraction& f, unsigned long k) {
   if (k > mpz_sizeinbase(f.numerator, 2)) return false;  // 2^k exceeds the numerator
@@ -104,7 +104,7 @@ struct PrimitivePower {
 
 PrimitivePower primitive_power(const Ratio& x) {
   PrimitivePower power{in_lowest_terms(x)};
-  // A composite k fails wherever its prime factors did, so that only primes succeed.
+  // A composite k fails wherever its prime factors did, so only primes succeed.
   for (unsigned long k = 2; k <= mpz_sizeinbase(power.root.numerator, 2); ++k) {
     while (take_root(power.root, k)) power.exponent *= k;
   }

@@ -13,7 +13,7 @@ namespace fathom {
 /// log a / log b, for a ≥ 1 and b > 1. Throws std::domain_error otherwise.
 Real quotient_of_logarithms(const Ratio& a, const Ratio& b);
 
-/// log a, for a ≥ 1: irrational but for a = 1 (Lindemann). Throws std::domain_error otherwise.
+/// log a, for a ≥ 1: irrational except for a = 1 (Lindemann). Throws std::domain_error otherwise.
 Real natural_logarithm(const Ratio& a);
 
 /// b^e − 1, for b > 1 and e ≥ 0. Throws std::domain_error otherwise.

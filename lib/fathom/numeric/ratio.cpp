@@ -45,7 +45,7 @@ std::string to_fraction(const Ratio& x) {
 
 namespace {
 
-/// 10^power times a fraction, power of either sign.
+/// 10^power times a fraction; the power may have either sign.
 Fraction times_power_of_ten(const Fraction& f, long power) {
   Fraction scaled;
   Integer ten_to;
@@ -63,8 +63,8 @@ Fraction times_power_of_ten(const Fraction& f, long power) {
 std::string to_decimal(const Ratio& x, int digits) {
   if (x.sign() == Sign::zero) return "0";
   const Fraction f = magnitude_as_fraction(x);
-  // GMP's count of decimal digits is right or one too high, so this is a lower bound of the decimal
-  // exponent of the first digit. Too low an exponent shows as too many digits.
+  // GMP's count of decimal digits is right or one too high, so this is a lower bound on the decimal
+  // exponent of the first digit. An exponent that is too low shows as too many digits.
   long exponent = static_cast<long>(mpz_sizeinbase(f.numerator, 10)) -
                   static_cast<long>(mpz_sizeinbase(f.denominator, 10)) - 2;
   Integer code;

@@ -30,7 +30,7 @@ inline bool operator<(const Ratio& a, const Ratio& b) {
   return compare(a, b) < 0;
 }
 
-/// "p/q" in lowest terms, "p" where q is 1.
+/// "p/q" in lowest terms, "p" if q is 1.
 std::string to_fraction(const Ratio& x);
 
 /// `digits` significant decimal digits in scientific notation, rounded half to even.

@@ -18,24 +18,24 @@ struct Enclosure {
 ///
 /// Rounding follows Ziv: enclose, round both ends, and go on with twice the bits while they differ.
 /// That ends for an irrational number, which lies on no boundary of rounding. So a number that is
-/// rational after all has to be told apart, and is, before the bits are raised for the first time.
-/// What it does not do: arithmetic. Irrational numbers are made where the proof that they are
-/// stands.
+/// rational after all has to be recognised, and is, before the bits are raised for the first time.
+/// Not in it: arithmetic. Irrational numbers are made where it is proved that they are irrational.
+/// Source   [Ziv91]
 class Real {
  public:
   /// An enclosure whose width goes to zero as `bits` grows; `bits` is about its relative precision.
   using Enclose = std::function<Enclosure(long bits)>;
-  /// The value where it is rational, nullopt only where it is proved not to be.
+  /// The value if it is rational; nullopt only if it is proved not to be.
   using Decide = std::function<std::optional<Ratio>()>;
 
   Real(Ratio value) : rational_(std::move(value)) {}
   Real(Enclose enclose, Decide decide) : enclose_(std::move(enclose)), decide_(std::move(decide)) {}
 
-  /// The value where it is rational, else nullopt. Decides if that has not been done.
+  /// The value if it is rational, else nullopt. Decides that if it has not been done.
   [[nodiscard]] std::optional<Ratio> rational() const;
   [[nodiscard]] Enclosure enclose(long bits) const;
 
-  /// `round` of the number, for a `round` that is monotone and steps at rational numbers only.
+  /// `round` of the number, for a `round` that is monotone and steps only at rational numbers.
   template <class Round>
   auto rounded(const Round& round) const {
     if (rational_) return round(*rational_);
@@ -49,7 +49,7 @@ class Real {
   }
 
  private:
-  /// Settles all but about one in 2⁶⁰ roundings to binary32, one in 2³⁰ to binary64.
+  /// Settles all except about one in 2⁶⁰ roundings to binary32, one in 2³⁰ to binary64.
   static constexpr long first_bits = 96;
 
   std::optional<Ratio> rational_;
@@ -57,7 +57,7 @@ class Real {
   Decide decide_;
 };
 
-/// Correct rounding as in rounding.h.
+/// Correct rounding, as in rounding.h.
 float round_to_binary32(const Real& x);
 double round_to_binary64(const Real& x);
 Binary16 round_to_binary16(const Real& x);

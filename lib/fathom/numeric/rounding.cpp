@@ -10,7 +10,7 @@ namespace {
 
 /// An IEEE 754 binary interchange format.
 struct Format {
-  int precision;           // bits of the significand, the hidden one counted
+  int precision;           // bits of the significand, including the hidden one
   long least_exponent;     // exponent of the last bit of a subnormal
   long greatest_exponent;  // numbers are below 2^greatest_exponent
 };
@@ -18,14 +18,14 @@ constexpr Format binary16{11, -24, 16};
 constexpr Format binary32{24, -149, 128};
 constexpr Format binary64{53, -1074, 1024};
 
-/// A non-negative exact number in (or at the ends of) [2^(top−1), 2^(top+1)).
+/// Rounds a non-negative exact number in (or at the ends of) [2^(top−1), 2^(top+1)).
 /// `nearest(q, e)` sets q to the integer nearest to the number over 2^e, ties to even.
 ///
 /// The exponent e of the last bit kept starts from the lower estimate of the size. If the rounded
 /// significand needs more than `precision` bits, the estimate was one too low or rounding carried
 /// to the next power of two; rounding once more from the *exact* number with e + 1 is right in
-/// both cases. The encoding of significand and exponent as bits is monotone, so that a carry from
-/// subnormal to normal, or to infinity, needs no care.
+/// both cases. The encoding of significand and exponent as bits is monotone, so a carry from
+/// subnormal to normal, or to infinity, needs no special care.
 template <class Nearest>
 std::uint64_t round_magnitude(const Format& format, long top, const Nearest& nearest) {
   long e = top - format.precision;

@@ -13,10 +13,10 @@ using Ring = clipping::Ring<Exact>;
 using Rings = clipping::Rings<Exact>;
 using Point = clipping::Point2<Exact>;
 
-/// A triangle's part in a pixel.
+/// The part of a triangle in a pixel.
 struct Part {
   std::size_t triangle;
-  Ring ring;  ///< in grid units, counter-clockwise for the clippers
+  Ring ring;  ///< in grid units, counter-clockwise as clippers see it
   GridPoint centroid;
   StoredDepth stored;
 };
@@ -35,14 +35,14 @@ GridPoint centroid_of(const Ring& ring) {
   return {static_cast<std::int64_t>(x / n), static_cast<std::int64_t>(y / n)};
 }
 
-/// The part of a convex ring on one side of the line a → b: the left with y up for sign 1.
+/// The part of a convex ring on one side of the line a → b: on the left, with y up, for sign 1.
 Ring side_of(const Ring& ring, const Point& a, const Point& b, int sign) {
   return clipping::ring_of(clipping::clip_at_boundary(
       clipping::corners_of(ring),
       [&](const Point& p) { return Exact(-sign * clipping::cross(a, b, p)); }));
 }
 
-/// Takes what a convex ring covers away from convex pieces that do not overlap; returns its area.
+/// Cuts what a convex ring covers out of convex pieces that do not overlap; returns its area.
 Exact cut_out(Rings& pieces, const Ring& ring) {
   Exact area(0);
   Rings left;

@@ -6,12 +6,12 @@
 namespace fathom::pipeline {
 
 /// Area sampling: each pixel's colour is the mean of the surfaces that are seen in its square, each
-/// weighted by the area that is seen of it and shaded at its centroid. The parts of triangles in a
-/// pixel are taken from the nearest to the farthest and cut out of what is left of the square.
+/// weighted by its visible area and shaded at its centroid. The parts of triangles in a pixel are
+/// taken from the nearest to the farthest and cut out of what is left of the square.
 ///
 /// Exact    the areas, of triangles on the subpixel grid.
-/// Rounded  the order: it is that of the depths at the parts' centroids, so that surfaces that
-///          penetrate each other inside a pixel are weighted wrongly there.
+/// Rounded  the order: it is that of the depths at the parts' centroids, so surfaces that penetrate
+///          each other inside a pixel are weighted wrongly there.
 /// Source   [WA77], [Cat78]
 template <class Real>
 ColourImage area_sampled(const std::vector<WindowTriangle<Real>>& triangles,

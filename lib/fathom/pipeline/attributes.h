@@ -5,7 +5,7 @@
 
 namespace fathom::pipeline {
 
-/// What vertices carry to fragments, by the place of its first component.
+/// What vertices carry to fragments, by the index of its first component.
 namespace attribute {
 inline constexpr std::size_t depth = 0;   ///< along the view, scene units
 inline constexpr std::size_t world = 1;   ///< position, three

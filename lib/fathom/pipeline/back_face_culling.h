@@ -12,18 +12,19 @@ namespace fathom::pipeline {
 
 enum class Facing { front, back, edge_on };
 
-/// The sign of the determinant in the window, which is twice the signed area: front where the
-/// corners run as `front_face` says, as seen. Source: OpenGL 4.6, 14.6.1.
+/// The sign of the determinant in the window, which is twice the signed area: front if the corners
+/// run as `front_face` says, as seen.
+/// Source   [GL46] 14.6.1
 template <class Real>
 Facing facing_in_window(const std::array<WindowVertex<Real>, 3>& triangle, FrontFace front_face);
 
-/// The z component of the cross product of the edges in normalised device coordinates (y up): > 0
-/// is counter-clockwise as seen.
+/// The z component of the cross product of the edges in normalised device coordinates (y up): if it
+/// is > 0, the corners run counter-clockwise as seen.
 template <class Real>
 Facing facing_in_ndc(const std::array<NdcVertex<Real>, 3>& triangle, FrontFace front_face);
 
-/// N·V in the world, V from a corner of this very face to the eye; for an orthographic view V is
-/// the direction towards the viewer. `mirrored`: camera and world are of different handedness.
+/// N·V in the world, where V points from a corner of this face to the eye; for an orthographic view
+/// V is the direction towards the viewer. `mirrored`: camera and world differ in handedness.
 template <class Real>
 Facing facing_in_world(const std::array<WorldVertex<Real>, 3>& triangle,
                        const std::array<double, 3>& eye_or_direction, bool perspective,

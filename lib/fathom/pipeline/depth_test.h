@@ -13,11 +13,11 @@ class DepthTest {
  public:
   explicit DepthTest(const PipelineOptions& options);
 
-  /// What the depth buffer keeps of a fragment. Mappings that are no projection are computed here,
-  /// from the depth along the view, in the options' precision.
+  /// What the depth buffer keeps for a fragment. Mappings that are not projections are computed
+  /// here, from the depth along the view, in the options' precision.
   [[nodiscard]] StoredDepth stored(const Fragment& fragment) const;
 
-  /// Strictly nearer wins, so that of equal ones the first stays.
+  /// Strictly nearer wins, so the first of equal ones stays.
   [[nodiscard]] bool is_nearer(StoredDepth a, StoredDepth b) const {
     return greater_is_nearer_ ? a > b : a < b;
   }

@@ -12,7 +12,7 @@ double luma(const Colour& c) {
   return 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2];
 }
 
-/// The picture between pixels, its border repeated; (0, 0) is the centre of the first pixel.
+/// The picture between pixels, with its border repeated; (0, 0) is the centre of the first pixel.
 Colour at(const ColourImage& image, double x, double y) {
   const auto clamp = [](double v, std::uint32_t size) {
     return std::clamp(v, 0.0, static_cast<double>(size - 1));

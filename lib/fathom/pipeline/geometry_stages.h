@@ -5,7 +5,7 @@
 namespace fathom::pipeline {
 
 /// The stages up to the window: transform, clip, divide, cull, viewport, in that order. Parts of a
-/// clipped triangle follow one another.
+/// clipped triangle come one after another.
 template <class Real>
 WindowPrimitives<Real> to_window(const Scene& scene, const Camera& camera,
                                  const PipelineOptions& options, PipelineStatistics& statistics);

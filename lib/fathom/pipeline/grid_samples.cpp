@@ -15,7 +15,7 @@ double radical_inverse(int k, int base) {
   return inverse;
 }
 
-/// From pixels.
+/// From pixels to grid units, rounded down.
 GridPoint on_grid(double u, double v) {
   const auto one = static_cast<double>(grid_one);
   return {static_cast<std::int64_t>(std::floor(u * one)),

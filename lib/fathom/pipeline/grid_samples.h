@@ -9,16 +9,16 @@
 
 namespace fathom::pipeline {
 
-/// Where in a pixel it is sampled: moves from its centre in grid units, at most half a pixel.
+/// Where a pixel is sampled: offsets from its centre in grid units, at most half a pixel.
 class GridSamples {
  public:
   /// One sample at the centre.
   static GridSamples centre();
-  /// Rounded down to the grid, which holds all patterns but the jittered ones exactly.
+  /// Rounded down to the grid, which holds all patterns except the jittered ones exactly.
   static GridSamples of(SamplePattern pattern);
-  /// n × n samples at (i + ½)/n, rounded down to the grid where n is no power of two.
+  /// n × n samples at (i + ½)/n, rounded down to the grid if n is not a power of two.
   static GridSamples regular(int n);
-  /// One sample, at the place k of Halton's sequence for the bases 2 and 3.
+  /// One sample, at place k of Halton's sequence for the bases 2 and 3 ([Hal60]).
   static GridSamples halton(int k);
 
   [[nodiscard]] std::size_t size() const {

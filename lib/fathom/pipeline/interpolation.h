@@ -10,26 +10,26 @@ struct Fragment {
   double window_z = 0;  ///< in [0, 1]
   double depth = 0;     ///< along the view, scene units
   Attributes<double> attributes{};
-  /// Texture coordinates a pixel further to the right and down, less those here.
+  /// Texture coordinates one pixel to the right, and one pixel down, minus those here.
   std::array<double, 2> duv_dx{}, duv_dy{};
 };
 
-/// A triangle on the subpixel grid and its corners' values.
+/// A triangle on the subpixel grid, and the values at its corners.
 ///
 /// Window depth is affine in the window and interpolated with the weights λ = e/Σe as they are;
-/// depth along the view always, other attributes where asked for, with (λ/w)/Σ(λ/w). Interpolating
+/// depth along the view always, and other attributes if asked for, with (λ/w)/Σ(λ/w). Interpolating
 /// the window depth that way would divide by w twice.
 template <class Real>
 class Interpolator {
  public:
-  /// nullopt where snapping left no area.
+  /// nullopt if snapping left no area.
   static std::optional<Interpolator> of(const WindowTriangle<Real>& triangle,
                                         const PipelineOptions& options);
 
   [[nodiscard]] const GridTriangle& grid() const { return grid_; }
   [[nodiscard]] const WindowTriangle<Real>& triangle() const { return *triangle_; }
 
-  /// Window depth and depth along the view, which the depth test needs.
+  /// Only what the depth test needs: window depth, and depth along the view.
   [[nodiscard]] Fragment depths_at(const GridPoint& sample) const;
   /// Adds the rest.
   void complete(Fragment& fragment, const GridPoint& sample) const;

@@ -9,7 +9,7 @@
 /// Output merger: what becomes of a shaded fragment, and of the samples at the end.
 namespace fathom::pipeline {
 
-/// A picture of floating-point colours, row by row from the top.
+/// A picture of floating-point colours, row by row from the top left.
 struct ColourImage {
   std::uint32_t width = 0, height = 0;
   std::vector<Colour> pixels;
@@ -22,16 +22,16 @@ struct ColourImage {
 /// Rounded to 8 bits, to nearest.
 RgbImage to_rgb(const ColourImage& image);
 
-/// What is kept of a sample. A cleared depth buffer is farther than every depth: a fragment at the
+/// What is kept for a sample. A cleared depth buffer is farther than every depth: a fragment at the
 /// far end passes.
 struct StoredSample {
   std::uint32_t id = no_surface;
   std::array<float, 3> colour{};
   StoredDepth stored;
-  double depth = 0;  ///< along the view, of what `id` names
+  double depth = 0;  ///< along the view, of the triangle that `id` names
 };
 
-/// Colour and depth buffer, `samples` for each pixel, of the rows of an image from `first_row` on.
+/// Colour and depth buffer, `samples` per pixel, for the rows of an image from `first_row` on.
 class FrameBuffer {
  public:
   FrameBuffer(std::uint32_t width, std::uint32_t height, std::size_t samples,
@@ -51,7 +51,7 @@ class FrameBuffer {
   void replace(const Pixel& p, std::size_t sample, std::uint32_t id, StoredDepth stored,
                double depth, const Colour& colour);
   /// Blends: colour over what is stored, by its opacity. What is drawn first lies below, however
-  /// near it is; the depth buffer goes on keeping the nearest.
+  /// near it is; the depth buffer still keeps the nearest.
   void blend(const Pixel& p, std::size_t sample, const Colour& colour, double alpha);
 
   /// The mean of each pixel's samples.

@@ -15,7 +15,7 @@ constexpr std::uint64_t most_splits = 1000000;
 /// A convex polygon in the window; farness grows away from the eye.
 template <class Real>
 struct Polygon {
-  WindowTriangle<Real> source;  ///< its corners are those of the triangle that this is a part of
+  WindowTriangle<Real> source;  ///< its corners are those of the triangle of which this is a part
   std::size_t plane = 0;        ///< the number of that triangle here
   std::vector<WindowVertex<Real>> corners;
   std::vector<Point3d> points;  ///< x, y, farness of `corners`
@@ -23,15 +23,15 @@ struct Polygon {
   bool moved = false;           ///< since the last one was painted
   /// What the splits that made it have decided: on which side of a plane it lies.
   std::vector<std::pair<std::size_t, Sign>> known_sides;
-  /// Edges, 3·plane + i, seen end on, that have cut it already: rounded cuts lie beside their line,
-  /// and would be cut again.
+  /// Edges, 3·plane + i, seen end on, that have already cut it: rounded cuts lie beside their line,
+  /// and would be made again.
   std::vector<std::size_t> known_edges;
   std::size_t serial = 0;
-  /// Serial numbers of polygons that it is painted before, whatever the tests say.
+  /// Serial numbers of polygons before which it is painted, whatever the tests say.
   std::vector<std::size_t> forced_before;
 };
 
-/// Between a and b in the window: x, y, z and 1/w are linear there, attributes over w.
+/// A point between a and b in the window: x, y, z and 1/w are linear there, attributes over w.
 template <class Real>
 WindowVertex<Real> between(const WindowVertex<Real>& a, const WindowVertex<Real>& b, Real t) {
   const auto mix = [&](Real p, Real q) { return p + t * (q - p); };
@@ -100,7 +100,7 @@ class Painter {
     });
   }
 
-  /// The first of Newell's tests by which P may be painted before Q; 5 where none holds.
+  /// The first of Newell's tests by which P may be painted before Q; 5 if none holds.
   [[nodiscard]] std::size_t test(const Polygon<Real>& P, const Polygon<Real>& Q) const {
     for (std::size_t k = 0; k < 2; ++k)
       if (P.high[k] <= Q.low[k] || Q.high[k] <= P.low[k]) return k;
@@ -112,11 +112,11 @@ class Painter {
     return projections_overlap(P.points, Q.points) ? 5 : 4;
   }
 
-  /// True where the first polygon may be painted; else the list has been changed.
+  /// True if the first polygon may be painted; otherwise the list has been changed.
   bool settle_first() {
     const Place P = todo_.begin();
     for (Place Q = std::next(P); Q != todo_.end(); ++Q) {
-      // Polygons that were moved stand out of order, so the list is looked through to its end.
+      // Polygons that were moved are out of order, so the list is searched to its end.
       if (Q->high[2] <= P->low[2]) {
         ++count_.z_disjoint;
         continue;
@@ -152,9 +152,9 @@ class Painter {
     for (Polygon<Real>& q : todo_) q.moved = false;
   }
 
-  /// By the plane of the other, or where that cuts nothing, by an edge of the other seen end on. A
-  /// cycle in which neither cuts is none but for rounding: if P covers Q within one outline, what
-  /// must lie between them in the order goes through one of their planes.
+  /// Splits by the plane of the other or, if that cuts nothing, by an edge of the other seen end
+  /// on. A cycle in which neither cuts exists only because of rounding: if P covers Q within one
+  /// outline, whatever must come between them in the order passes through one of their planes.
   void split(Place P, Place Q) {
     const auto plane_of = [&](const Polygon<Real>& q) {
       const std::vector<Point3d>& corners = planes_[q.plane];
@@ -170,7 +170,7 @@ class Painter {
     if (!is_known(*P, Q->plane) && cut(P, plane_of(*Q), Q->plane)) return;
     if (!is_known(*Q, P->plane) && cut(Q, plane_of(*P), P->plane)) return;
     if (cut_by_edges(P, Q->plane) || cut_by_edges(Q, P->plane)) return;
-    // Nothing cuts: they overlap by rounding only. In the order of the list.
+    // Nothing cuts: they overlap only by rounding. Keep the order of the list.
     P->forced_before.push_back(Q->serial);
   }
 
@@ -196,7 +196,7 @@ class Painter {
            (ux * vy - uy * vx) * (p[2] - q[0][2]);
   }
 
-  /// Replaces a polygon by its parts on the two sides of `value` = 0; false where all of it lies on
+  /// Replaces a polygon by its parts on the two sides of `value_at` = 0; false if all of it lies on
   /// one side, or a part would have no area.
   template <class Value>
   bool cut(Place place, const Value& value_at, std::size_t plane) {

@@ -37,8 +37,8 @@ Sign side_of_plane(const Point3d& a, const Point3d& b, const Point3d& c, const P
   const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
   const double wx = p[0] - a[0], wy = p[1] - a[1], wz = p[2] - a[2];
   const double d = ux * (vy * wz - vz * wy) - uy * (vx * wz - vz * wx) + uz * (vx * wy - vy * wx);
-  // Differences have one rounding, each term two products and a difference more, then two sums:
-  // relative errors of the six products of three below (1 + 2⁻⁵³)⁸ − 1 < 2⁻⁴⁹ of their sum.
+  // Differences have one rounding, each term two products and one more difference, then two sums:
+  // the relative errors of the six products of three are below (1 + 2⁻⁵³)⁸ − 1 < 2⁻⁴⁹ of their sum.
   const double size = std::abs(ux) * (std::abs(vy * wz) + std::abs(vz * wy)) +
                       std::abs(uy) * (std::abs(vx * wz) + std::abs(vz * wx)) +
                       std::abs(uz) * (std::abs(vx * wy) + std::abs(vy * wx));

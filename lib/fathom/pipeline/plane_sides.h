@@ -5,13 +5,13 @@
 
 #include "fathom/numeric/interval.h"
 
-/// Exact signs for the painter's algorithm, of points (x, y, depth in the window).
+/// Exact signs for the painter's algorithm, for points (x, y, depth in the window).
 namespace fathom::pipeline {
 
 using Point3d = std::array<double, 3>;
 
-/// The sign of det(b − a, c − a, p − a): a bound on the rounding of the determinant in binary64
-/// settles most, exact numbers the rest.
+/// The sign of det(b − a, c − a, p − a): mostly settled by a bound on the rounding of the
+/// determinant in binary64, the rest by exact numbers.
 Sign side_of_plane(const Point3d& a, const Point3d& b, const Point3d& c, const Point3d& p);
 
 /// Whether two convex polygons overlap in x and y by more than their boundaries.

@@ -32,7 +32,7 @@ std::vector<Vector> smooth_normals(const Mesh& mesh) {
   return normals;
 }
 
-/// The index of a corner into a list that has its own triangles, or the vertex's.
+/// The index of a corner into a list that has triangles of its own, else that of the vertex.
 std::uint32_t index_of(const std::vector<CornerIndices>& own, const Mesh& mesh, std::size_t t,
                        std::size_t corner) {
   return own.empty() ? mesh.triangles[t][corner] : own[t][corner];

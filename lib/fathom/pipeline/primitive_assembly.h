@@ -23,8 +23,8 @@ struct InputTriangle {
   std::array<InputVertex, 3> corners;
 };
 
-/// Indices joined to primitives: points by ones, lines by twos, triangles by threes; what is left
-/// over at the end is dropped, as graphics interfaces do.
+/// Joins indices to primitives: points by ones, lines by twos, triangles by threes; leftover
+/// indices at the end are dropped, as graphics interfaces do.
 template <std::size_t corners>
 std::vector<std::array<std::uint32_t, corners>> assemble(
     const std::vector<std::uint32_t>& indices) {
@@ -34,8 +34,8 @@ std::vector<std::array<std::uint32_t, corners>> assemble(
   return primitives;
 }
 
-/// The triangles of an object. Normals are the mesh's, or else at each vertex the sum of the area
-/// vectors of its triangles, of unit length.
+/// The triangles of an object. Normals are those of the mesh, or else at each vertex the sum of the
+/// area vectors of its triangles, scaled to unit length.
 std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
                                               std::uint32_t first_number);
 

@@ -10,8 +10,8 @@ namespace fathom::pipeline {
 
 enum class ShadingRate {
   per_sample,
-  /// Once for each pixel and triangle: at the centre, or where that lies outside, at the mean of
-  /// the covered samples (multisampling).
+  /// Once for each pixel and triangle: at the centre or, if that is not covered, at the mean of the
+  /// covered samples (multisampling).
   per_pixel,
 };
 
@@ -19,13 +19,13 @@ struct RasterizerSettings {
   const PipelineOptions& options;
   const GridSamples& pattern;
   ShadingRate rate = ShadingRate::per_sample;
-  /// Without a depth test, what comes later lies above (the painter's algorithm).
+  /// Without a depth test, what comes later is on top (the painter's algorithm).
   bool depth_tested = true;
   /// The part of the window that is drawn to.
   PixelWindow window;
 };
 
-/// Draws triangles in their order. `shader` may be null where colours are not asked for.
+/// Draws triangles in their order. `shader` may be null if colours are not asked for.
 template <class Real>
 void rasterize(const std::vector<WindowTriangle<Real>>& triangles,
                const RasterizerSettings& settings, Shader<Real>* shader, FrameBuffer& target,

@@ -13,7 +13,7 @@
 namespace fathom::pipeline {
 namespace {
 
-/// A rectangle with its origin in the lower left corner, as pixels of the image.
+/// A rectangle with its origin at the lower left corner, as pixels of the image.
 PixelWindow in_image(const WindowRectangle& r, const Camera& camera) {
   return {r.x, camera.height - r.y - r.height, r.x + r.width, camera.height - r.y};
 }
@@ -131,7 +131,7 @@ class Frame {
     return GridSamples::of(sample_pattern("jittered:" + std::to_string(side)));
   }
 
-  /// In strips, so that many samples a pixel need no more memory than few.
+  /// Works in strips, so that many samples per pixel need no more memory than few.
   ColourImage sampled(const GridSamples& pattern, Shader<Real>& shader, ShadingRate rate) {
     constexpr std::size_t most_samples = std::size_t{1} << 22;
     const auto rows = static_cast<std::uint32_t>(std::clamp<std::size_t>(
@@ -150,8 +150,8 @@ class Frame {
     return image;
   }
 
-  /// Each frame looks through another place of the pixel; the history takes it in with the weight
-  /// that makes it the mean of all frames, which a camera at rest allows.
+  /// Each frame samples another place in the pixel; the history takes it in with the weight that
+  /// makes it the mean of all frames, which is right for a camera at rest.
   ColourImage temporal(Shader<Real>& shader, int frames) {
     ColourImage history;
     for (int k = 0; k < frames; ++k) {

@@ -4,24 +4,24 @@
 #include "fathom/pipeline/output_merger.h"
 #include "fathom/pipeline/painters_algorithm.h"
 
-/// The pipeline from end to end. Its story, a file a stage, in the order of the data:
+/// The pipeline from end to end, one file per stage, in the order of the data:
 ///   primitive_assembly, vertex_transform, window_transform (clipping, division, viewport),
-///   back_face_culling; painters_algorithm where asked for; rasterizer with subpixel_grid (scan
+///   back_face_culling; painters_algorithm if asked for; rasterizer with subpixel_grid (scan
 ///   conversion), interpolation, depth_test, shading and texture; output_merger, fxaa.
 namespace fathom::pipeline {
 
 struct PipelineFrame {
-  /// What is seen at each pixel's centre: 1 / (interpolated 1/w), rounded to binary32, and the
-  /// number of the triangle; background as in the specification.
+  /// What is seen at each pixel's centre: planar depth in scene units, as 1 / (interpolated 1/w)
+  /// rounded to binary32, and the number of the triangle; background as in the specification.
   Samples<float> depth;
   Samples<std::uint32_t> id;
-  /// The picture, antialiased; empty where it is not asked for.
+  /// The picture, antialiased; empty if it is not asked for.
   ColourImage picture;
   PipelineStatistics statistics;
   PainterStatistics painter;
 };
 
-/// Renders a scene. `with_picture` is what costs most.
+/// Renders a scene. The picture is what takes most of the time.
 /// Fails    UsageError for options that do not go together; InputError for a texture that cannot be
 ///          used, or a scene without texture coordinates.
 PipelineFrame render_frame(const Scene& scene, const Camera& camera, const PipelineOptions& options,

@@ -15,7 +15,7 @@ Vector3 minus(const Vector3& a, const Vector3& b) {
 Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-/// Of unit length; zero stays.
+/// Scaled to unit length; zero stays zero.
 Vector3 unit(const Vector3& a) {
   const double length = std::sqrt(dot(a, a));
   return length > 0 ? Vector3{a[0] / length, a[1] / length, a[2] / length} : Vector3{0, 0, 0};
@@ -30,8 +30,8 @@ Vector3 vector_at(const Attributes<Real>& a, std::size_t place) {
 }  // namespace
 
 Lighting lighting_of(const Camera& camera) {
-  // The rows of a rotation are the camera's axes in the world; of another matrix, the directions
-  // that its inverse takes there.
+  // The rows of a rotation are the camera's axes in the world; for another matrix, use the
+  // directions that its inverse takes there.
   const auto& m = camera.world_to_camera;
   const Vector3 r0{m[0][0], m[0][1], m[0][2]}, r1{m[1][0], m[1][1], m[1][2]},
       r2{m[2][0], m[2][1], m[2][2]};

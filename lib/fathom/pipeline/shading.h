@@ -11,10 +11,10 @@ namespace fathom::pipeline {
 
 using Vector3 = std::array<double, 3>;
 
-/// A light that shines from everywhere in one direction, and the eye.
+/// A light that comes from everywhere in one direction, and the eye.
 struct Lighting {
   Vector3 towards_light{0, 0, 1};  ///< unit, in the world
-  Vector3 eye{0, 0, 0};            ///< in the world; a direction where orthographic
+  Vector3 eye{0, 0, 0};            ///< in the world; a direction if orthographic
   bool orthographic = false;
 };
 /// A light above the camera's left shoulder.
@@ -22,8 +22,7 @@ Lighting lighting_of(const Camera& camera);
 
 /// Lambert's diffuse and Blinn and Phong's specular light on a surface point; the normal is turned
 /// towards the eye first. Ambient 0.15, diffuse 0.75, specular 0.25 with exponent 40.
-/// Source   J. F. Blinn, Models of light reflection for computer synthesized pictures, SIGGRAPH
-/// 1977.
+/// Source   [Bli77]
 struct Light {
   double diffuse = 0, specular = 0;
 };
@@ -35,7 +34,7 @@ class Shader {
  public:
   Shader(const Camera& camera, const PipelineOptions& options, std::optional<Texture> texture);
 
-  /// What is computed once a triangle: the face normal's light (flat), the corners' (Gouraud).
+  /// What is computed once per triangle: the face normal's light (flat), the corners' (Gouraud).
   void begin(const WindowTriangle<Real>& triangle);
   [[nodiscard]] Colour shade(const Fragment& fragment, const std::array<Real, 3>& weights) const;
 

@@ -48,7 +48,7 @@ Span GridTriangle::span_of_row(std::int64_t y, const PixelWindow& window, std::i
   Span span{y, window.x_begin, window.x_end};
   const GridPoint origin = sample_of({0, y}, dx, dy);
   for (const Edge& e : edges_) {
-    // Inside where value + x·step ≥ least; x is a whole column.
+    // Inside where value + x·step ≥ least; x is an integer column.
     const Int128 value = e.at(origin) - (e.left_or_top ? 0 : 1);
     const Int128 step = e.a * grid_one;
     if (step == 0) {

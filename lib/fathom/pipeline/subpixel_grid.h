@@ -8,8 +8,8 @@
 #include "fathom/pipeline/scan/pixels.h"
 
 /// Triangles on a fixed-point grid, as graphics processors have them: corners are snapped to 2⁰ …
-/// 2¹⁶ positions a pixel, and everything after that is decided in integers, without an error.
-/// Triangles that share an edge share its two snapped ends, so each sample on its sides belongs to
+/// 2¹⁶ positions per pixel, and everything after that is decided in integers, without an error.
+/// Triangles that share an edge share its two snapped ends, so each sample on the edge belongs to
 /// exactly one of them, at every number of bits.
 namespace fathom::pipeline {
 
@@ -25,14 +25,14 @@ struct GridPoint {
   friend bool operator==(const GridPoint&, const GridPoint&) = default;
 };
 
-/// The number of the nearest of 2^bits positions a pixel, ties to even, as a grid coordinate.
-/// |x| ≤ 2³¹, 0 ≤ bits ≤ 16. Exact.
+/// The nearest of 2^bits positions per pixel, ties to even, as a grid coordinate.
+/// |x| ≤ 2³¹ in pixels, 0 ≤ bits ≤ 16. Exact.
 std::int64_t snap(double x, int bits);
 inline GridPoint snap(double x, double y, int bits) {
   return {snap(x, bits), snap(y, bits)};
 }
 
-/// The centre of a pixel; `dx`, `dy` move the sample in grid units.
+/// The centre of a pixel, from which `dx`, `dy` move the sample in grid units.
 constexpr GridPoint sample_of(const Pixel& p, std::int64_t dx = 0, std::int64_t dy = 0) {
   return {p.x * grid_one + grid_one / 2 + dx, p.y * grid_one + grid_one / 2 + dy};
 }
@@ -40,23 +40,23 @@ constexpr GridPoint sample_of(const Pixel& p, std::int64_t dx = 0, std::int64_t 
 /// A triangle of grid points with its edge functions; the inside of every edge is positive.
 class GridTriangle {
  public:
-  /// nullopt where the area is zero.
+  /// nullopt if the area is zero.
   static std::optional<GridTriangle> of(const std::array<GridPoint, 3>& corners);
 
   /// e_A, e_B, e_C at a sample; they add up to twice_area().
   [[nodiscard]] std::array<Int128, 3> edges_at(const GridPoint& sample) const;
   [[nodiscard]] bool covers(const GridPoint& sample) const;
   [[nodiscard]] Int128 twice_area() const { return twice_area_; }
-  /// Counter-clockwise as seen, with y down.
+  /// Whether the corners run counter-clockwise as seen, with y down.
   [[nodiscard]] bool counter_clockwise() const { return !turned_; }
 
   /// The pixels of a row whose samples, moved by (dx, dy) from the centre, are covered.
   [[nodiscard]] Span span_of_row(std::int64_t y, const PixelWindow& window, std::int64_t dx = 0,
                                  std::int64_t dy = 0) const;
-  /// The pixels that can have a covered point at all.
+  /// The pixels in which any point can be covered.
   [[nodiscard]] PixelWindow bounding_box() const;
 
-  /// A square block of pixels against the edges: nothing of its samples (centres moved by less than
+  /// A square block of pixels against the edges: none of its samples (centres moved by less than
   /// half a pixel) is covered, all are, or some may be.
   enum class BlockCoverage { none, some, all };
   [[nodiscard]] BlockCoverage test_block(const Pixel& corner, std::int64_t size) const;

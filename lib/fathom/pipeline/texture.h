@@ -9,8 +9,8 @@
 
 namespace fathom::pipeline {
 
-/// Where a fragment looks into a texture: coordinates, (0, 0) the lower left corner, repeating, and
-/// their changes to the next pixel.
+/// Where a fragment looks into a texture: coordinates, (0, 0) being the lower left corner,
+/// repeated, and their changes to the next pixel.
 struct TextureFootprint {
   std::array<double, 2> uv{}, duv_dx{}, duv_dy{};
 };
@@ -23,9 +23,9 @@ class Texture {
   /// 8 × 8 squares, black and white.
   static Texture checker();
 
-  /// Nearest and bilinear look at the finest level alone. Trilinear goes by the longer of the two
+  /// Nearest and bilinear use only the finest level. Trilinear goes by the longer of the two
   /// changes, which blurs what is seen obliquely; anisotropic goes by the shorter one and takes the
-  /// mean of up to 16 looks along the longer.
+  /// mean of up to 16 samples along the longer.
   [[nodiscard]] Colour sample(const TextureFootprint& footprint, TextureFilter filter) const;
 
   [[nodiscard]] std::size_t level_count() const { return levels_.size(); }
@@ -45,8 +45,8 @@ class Texture {
   std::vector<Level> levels_;
 };
 
-/// Reads an 8 or 16 bit PNG as colours of 8 bits.
-/// Fails    InputError: missing, no PNG, or beyond 8192 × 8192.
+/// Reads an 8 or 16 bit PNG as 8-bit colours.
+/// Fails    InputError: missing, not a PNG, or larger than 8192 × 8192.
 RgbImage read_rgb_png(const std::filesystem::path& path);
 
 }  // namespace fathom::pipeline

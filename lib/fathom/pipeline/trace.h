@@ -4,7 +4,7 @@
 
 #include "fathom/pipeline/depth_test.h"
 
-/// One triangle followed through the pipeline: what goes into each stage and what comes out.
+/// One triangle followed through the pipeline: what enters each stage and what leaves it.
 namespace fathom::pipeline {
 
 struct CornerTrace {
@@ -12,7 +12,7 @@ struct CornerTrace {
   std::array<double, 4> clip;
 };
 
-/// A corner of what clipping left.
+/// A corner of what clipping has left.
 struct WindowCornerTrace {
   std::array<double, 4> clip;
   std::array<double, 3> ndc, window;
@@ -31,16 +31,16 @@ struct SampleTrace {
 
 struct TriangleTrace {
   std::array<CornerTrace, 3> corners;
-  std::vector<WindowCornerTrace> polygon;  ///< after clipping; empty: nothing is left
-  /// The three tests; of triangles that clipping cut, of the first three corners that it left.
+  std::vector<WindowCornerTrace> polygon;  ///< after clipping; empty if nothing is left
+  /// The three tests; for triangles that were clipped, of the first three corners that are left.
   Facing in_world{}, in_ndc{}, in_window{};
   bool culled = false;
-  std::uint64_t fragments = 0;  ///< centres that it covers, over its parts
+  std::uint64_t fragments = 0;  ///< number of centres that it covers, over all its parts
   std::optional<SampleTrace> sample;
   double near = 0, far = 0;
 };
 
-/// Fails    UsageError if there is no such triangle; InputError as render_frame.
+/// Fails    UsageError if there is no such triangle; InputError as render_frame().
 TriangleTrace trace_triangle(const Scene& scene, const Camera& camera,
                              const PipelineOptions& options, std::uint32_t number,
                              const std::optional<Pixel>& pixel);

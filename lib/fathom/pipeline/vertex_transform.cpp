@@ -29,7 +29,7 @@ Rows model_matrix(const Object& object) {
   return m;
 }
 
-/// The camera's frame has y down and z forward, the eye's y up and z backward.
+/// The camera's frame has y down and z forward; the eye's has y up and z backward.
 Rows view_matrix(const Camera& camera) {
   Rows m{};
   for (std::size_t i = 0; i < 3; ++i)
@@ -39,7 +39,7 @@ Rows view_matrix(const Camera& camera) {
   return m;
 }
 
-/// The rows of z: z_clip = a·z_eye + b, for a projection with w = −z_eye or with w = 1.
+/// The row of z: z_clip = a·z_eye + b, for a projection with w = −z_eye or with w = 1.
 std::array<double, 2> depth_row(const DepthFormat& f, bool perspective) {
   const double n = f.near, r = f.far - f.near;
   switch (f.mapping) {
@@ -80,8 +80,8 @@ Real row_times(const std::array<Real, 4>& row, Real x, Real y, Real z) {
   return row[0] * x + row[1] * y + row[2] * z + row[3];
 }
 
-/// A direction through the inverse transpose of the model matrix, up to a positive factor: the
-/// cofactors, with the sign of the determinant.
+/// Takes a direction through the inverse transpose of the model matrix, up to a positive factor:
+/// the cofactors, with the sign of the determinant.
 std::array<double, 3> to_world_normal(const Rows& m, const std::array<double, 3>& n) {
   const auto cofactor = [&](std::size_t i, std::size_t j) {
     const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;

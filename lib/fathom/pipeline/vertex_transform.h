@@ -10,8 +10,8 @@
 
 /// Vertex stage: model, view and projection, in binary32 or binary64, each matrix rounded to it.
 ///
-/// Frames   world; eye: x right, y up, z backward, as OpenGL has it; clip: (x, y, z, w) with
-///          −w ≤ x, y ≤ w inside, y up, and z as the depth format's volume says.
+/// Frames   world; eye: x right, y up, z backward, as in OpenGL; clip: (x, y, z, w) with
+///          −w ≤ x, y ≤ w inside, y up, and z according to the depth format's volume.
 namespace fathom::pipeline {
 
 template <class Real>
@@ -42,15 +42,16 @@ struct VertexTransform {
   [[nodiscard]] ClipVertex<Real> operator()(const InputVertex& vertex) const;
 };
 
-/// The volume that the mapping's projection fills: OpenGL's z from −w, the others' from 0.
+/// The volume that the mapping's projection fills: z from −w for OpenGL, from 0 for the others.
 clipping::Volume volume_of(Mapping mapping);
 
-/// Whether the mapping is no projection, so that fragments compute their stored depth themselves
+/// Whether the mapping is not a projection, so that fragments compute their stored depth themselves
 /// from their depth along the view.
 bool is_per_fragment(Mapping mapping);
 
-/// The camera's near and far; where it has none, ones that hold the scene: near half the least
-/// vertex depth if every depth is positive, else 10⁻⁴ of the greatest; far twice the greatest.
+/// Fills in the camera's near and far or, if it has none, ones that contain the scene: near half
+/// the least vertex depth if every depth is positive, else 10⁻⁴ of the greatest; far twice the
+/// greatest.
 /// Fails    UsageError if the camera is orthographic and the mapping needs a perspective one.
 void fill_in_range(const Scene& scene, const Camera& camera, DepthFormat& format);
 

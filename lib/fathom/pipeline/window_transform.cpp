@@ -76,7 +76,7 @@ WindowVertex<Real> Viewport::operator()(const NdcVertex<Real>& v) const {
   const auto width = static_cast<Real>(rectangle.width),
              height = static_cast<Real>(rectangle.height);
   const auto left = static_cast<Real>(rectangle.x);
-  // The upper edge of the viewport, from the upper edge of the window.
+  // The upper edge of the viewport, measured from the upper edge of the window.
   const auto top = static_cast<Real>(window_height - rectangle.y - rectangle.height);
   const auto near = static_cast<Real>(depth_range[0]), far = static_cast<Real>(depth_range[1]);
   const Real z = volume == clipping::Volume::opengl ? v.z * half + half : v.z;

@@ -17,7 +17,7 @@ struct NdcVertex {
   Attributes<Real> attributes;
 };
 
-/// Window coordinates in pixels from the upper left corner of the image, y down; z in [0, 1].
+/// Window coordinates in pixels from the top left corner of the image, y down; z in [0, 1].
 template <class Real>
 struct WindowVertex {
   Real x, y, z;
@@ -26,13 +26,14 @@ struct WindowVertex {
 };
 
 /// Clipping stage: the part of a triangle in the view volume, as a convex polygon with w > 0; empty
-/// where nothing of it is inside. A triangle that lies inside comes out as it is.
+/// if nothing of it is inside. A triangle that is entirely inside comes out unchanged.
 template <class Real>
 std::vector<ClipVertex<Real>> clip_triangle(const std::vector<ClipVertex<Real>>& triangle,
                                             clipping::Volume volume);
 
 /// The part of a line in the view volume, as its two ends with w > 0: Liang and Barsky's parameters
 /// over the six boundaries.
+/// Source   [LB84]
 template <class Real>
 std::optional<std::array<ClipVertex<Real>, 2>> clip_line(const ClipVertex<Real>& a,
                                                          const ClipVertex<Real>& b,
@@ -41,14 +42,14 @@ std::optional<std::array<ClipVertex<Real>, 2>> clip_line(const ClipVertex<Real>&
 template <class Real>
 bool is_inside(const ClipVertex<Real>& corner, clipping::Volume volume);
 
-/// Division stage: x, y, z over w. w ≠ 0.
+/// Division stage: x, y, z over w, which must not be 0.
 template <class Real>
 NdcVertex<Real> divide(const ClipVertex<Real>& vertex);
 
 /// glViewport and glDepthRange: which rectangle of the window the square −1 ≤ x, y ≤ 1 fills.
 struct Viewport {
   WindowRectangle rectangle;       ///< lower left origin
-  std::int64_t window_height = 0;  ///< to turn to the upper left origin of images
+  std::int64_t window_height = 0;  ///< to convert to the top left origin of images
   std::array<double, 2> depth_range{0, 1};
   clipping::Volume volume = clipping::Volume::zero_one;
 
@@ -59,7 +60,7 @@ struct Viewport {
 
 Viewport viewport_of(const Camera& camera, const PipelineOptions& options);
 
-/// Whether the viewport's width : height is not the camera's, so that the picture is stretched.
+/// Whether the viewport's aspect ratio is not the camera's, so that the picture is stretched.
 bool is_stretched(const Camera& camera, const PipelineOptions& options);
 
 }  // namespace fathom::pipeline

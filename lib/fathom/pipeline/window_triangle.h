@@ -13,7 +13,7 @@ namespace fathom::pipeline {
 /// A triangle as it reaches scan conversion.
 template <class Real>
 struct WindowTriangle {
-  std::uint32_t number = 0;  ///< of the triangle of the scene that it is, or is a part of
+  std::uint32_t number = 0;  ///< of the triangle of the scene that it is, or of which it is a part
   std::array<WindowVertex<Real>, 3> corners;
   bool front = true;
   Real depth_offset = 0;  ///< polygon offset, added to the window depth of its fragments
@@ -33,7 +33,7 @@ struct WindowPoint {
   WindowVertex<Real> place;
 };
 
-/// What reaches scan conversion. Lines and points are there where the options draw them, of the
+/// What reaches scan conversion. Lines and points are there if the options draw them, for the
 /// triangles that are not culled; they are clipped as lines and points.
 template <class Real>
 struct WindowPrimitives {
@@ -42,11 +42,11 @@ struct WindowPrimitives {
   std::vector<WindowPoint<Real>> points;
 };
 
-/// The corners on the subpixel grid.
+/// The corners, snapped to the subpixel grid.
 template <class Real>
 std::array<GridPoint, 3> snapped(const WindowTriangle<Real>& triangle, int bits);
 
-/// The offset of the options for a triangle (depth_format/depth_bias.h).
+/// The offset that the options give for a triangle (depth_format/depth_bias.h).
 template <class Real>
 Real depth_offset(const WindowTriangle<Real>& triangle, const PipelineOptions& options);
 

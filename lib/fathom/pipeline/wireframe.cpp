@@ -44,7 +44,7 @@ class OutlineDrawer {
  private:
   static std::int64_t column(Real x) { return floor_of(x); }
 
-  /// The window depth of the line's point whose projection on it is nearest to the centre.
+  /// Draws a pixel at the window depth of the line's point that is nearest to its centre.
   void put(const Pixel& p) {
     ++count_.fragments;
     const Real dx = b_->x - a_->x, dy = b_->y - a_->y, length2 = dx * dx + dy * dy;

@@ -11,7 +11,7 @@ using namespace triangle;
 
 namespace {
 
-/// Exact arithmetic only, without any filter, so that it can be held against the engines.
+/// Exact arithmetic only, without any filter, so that the engines can be checked against it.
 std::array<Sign, 3> edge_signs(const ProjectedTriangle& t, const ImagePoint& s) {
   std::array<Sign, 3> signs{};
   for (std::size_t i = 0; i < 3; ++i) signs[i] = t.edges[i].at(s.u, s.v).sign();

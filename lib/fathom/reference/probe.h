@@ -20,13 +20,17 @@ struct CoveringTriangle {
   /// For an edge function that is zero: whether the edge is a left or a top edge.
   std::array<bool, 3> left_or_top{};
   bool front_facing = false;
+  /// Exact planar depth at the sample, in scene units.
   Ratio depth;
-  /// D > 0, near ≤ D ≤ far, and kept by culling. Only such a triangle can be visible.
+  /// Whether D > 0, near ≤ D ≤ far, and culling keeps it. Only such a triangle can be visible.
   bool counts = false;
 };
 
-/// Every triangle that covers the sample at the centre of pixel (x, y), nearest first, ties by
-/// number, brute force and all exact; those that do not count come last.
+/// Every triangle that covers the sample at the centre of pixel (x, y), column and row from the top
+/// left: nearest first, ties by number, and last those that do not count. Brute force.
+///
+/// Exact    everything, without an interval filter for the edges.
+/// Needs    a valid scene and a camera without fault (find_fault()).
 std::vector<CoveringTriangle> probe(const Scene& scene, const Camera& camera, std::uint32_t x,
                                     std::uint32_t y, Cull cull = Cull::none);
 

@@ -30,7 +30,7 @@ struct Candidate {
   PixelBox box;
 };
 
-/// What the depth test knows of the nearest surface so far at a sample.
+/// What the depth test knows about the nearest surface so far at a sample.
 struct Nearest {
   const ProjectedTriangle* triangle = nullptr;
   Interval depth;  // contains D(s)
@@ -108,7 +108,7 @@ class Band {
     }
   }
 
-  /// Writes the visible surface at every pixel; the first fault in row order ends it.
+  /// Writes the visible surface at every pixel; stops at the first fault in row order.
   std::optional<EncodingFault> resolve(ChannelWriter& writer, RenderStatistics& statistics) const {
     for (std::uint32_t row = first_row_; row <= last_row_; ++row) {
       for (std::uint32_t column = 0; column < width_; ++column) {

@@ -7,11 +7,12 @@
 
 namespace fathom {
 
-/// The reference engine: the specification as code, brute force over the pixels of a certified
-/// bounding box, exact numbers. It is the truth that every other engine is held to.
+/// The reference engine: the specification as code, brute force over the pixels of certified
+/// bounding boxes, in exact numbers. It is the truth to which every other engine is held.
 ///
+/// Unit     depths in scene units, of planar depth in the camera frame (specification, section 6).
 /// Exact    every value is the exact number rounded once (specification, section 6).
-/// Needs    a camera without fault (find_fault) and a valid scene.
+/// Needs    a camera without fault (find_fault()) and a valid scene.
 /// Fails    OutputError if a depth does not fit options.depth_encoding; it names the first such
 ///          pixel in row order.
 DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options);

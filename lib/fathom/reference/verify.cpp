@@ -38,13 +38,13 @@ struct Candidate {
   PixelBox box;
 };
 
-/// What is visible at a chosen pixel, as far as is known.
+/// What is visible at a chosen pixel, as far as is known yet.
 struct Visible {
   const Candidate* triangle = nullptr;
   Ratio depth;
 };
 
-/// What is the same for all pixels.
+/// What all pixels share.
 struct Frame {
   const DepthMap& map;
   const TriangleSource& triangles;
@@ -108,8 +108,8 @@ std::vector<Band> cut_into_bands(const ChosenRows& chosen, const std::vector<Can
   return bands;
 }
 
-/// The pixels of a group computed again: a map of one row, a pixel for each chosen one, and what
-/// the encoding could not hold.
+/// The pixels of a group computed again: a map of one row, with a pixel for each chosen one, and
+/// what the encoding could not hold.
 class ExactRow {
  public:
   ExactRow(const Frame& frame, const ChosenRows& chosen)
@@ -118,7 +118,7 @@ class ExactRow {
         map_(make_background(row_camera(frame.camera, chosen.size()), frame.options)),
         writer_(map_, frame.triangles, frame.camera, frame.options) {}
 
-  /// Different bands may be computed at the same time.
+  /// Several threads may compute different bands at the same time.
   void compute(const Band& band) {
     const std::size_t first = chosen_.start(band.first_row);
     std::vector<Visible> visible(chosen_.start(band.end_row) - first);
@@ -151,7 +151,7 @@ class ExactRow {
         if (!covers(*projected, s, tiers)) continue;
         Ratio depth = depth_at(*projected, s);
         if (!is_in_range(depth, frame_.camera)) continue;
-        // Triangles come in the order of their numbers: among equals the lowest stays.
+        // Triangles come in the order of their numbers: among equals the lowest number stays.
         Visible& nearest = visible[k - first];
         if (!nearest.triangle || depth < nearest.depth) nearest = {&c, std::move(depth)};
       }
@@ -226,7 +226,7 @@ std::string value_at(const ImageChannel& channel, std::size_t at) {
   return std::visit([&](const auto& values) { return in_digits(values[at]); }, channel.values);
 }
 
-/// Where pixel `at` of a channel differs from pixel k of the exact one: what both have.
+/// Where pixel `at` of a channel differs from pixel k of the exact one, the values of both.
 std::optional<std::pair<std::string, std::string>> difference(const ImageChannel& found,
                                                               std::size_t at,
                                                               const ImageChannel& exact,
@@ -272,7 +272,7 @@ Verification verify_in_arena(const Frame& frame, const PixelChoice& chosen) {
   for (std::uint32_t row = 0; row < camera.height;) {
     const ChosenRows rows(chosen, camera.width, camera.height, row, pixels_per_group);
     row = rows.end_row();
-    if (rows.size() == 0) break;  // no other is chosen to the end of the image
+    if (rows.size() == 0) break;  // none is chosen from here to the end of the image
     const std::vector<Candidate> candidates = find_candidates(frame, rows);
     const std::vector<Band> bands = cut_into_bands(rows, candidates);
     ExactRow exact(frame, rows);

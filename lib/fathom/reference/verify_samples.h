@@ -11,8 +11,7 @@ namespace fathom::reference {
 /// The chosen pixels of consecutive rows of an image, numbered from 0 in row order.
 class ChosenRows {
  public:
-  /// Takes rows from `first_row` on, at least one, until `enough` pixels are taken or the image
-  /// ends.
+  /// Takes rows from `first_row` on, at least one, until it has `enough` pixels or the image ends.
   ChosenRows(const PixelChoice& chosen, std::uint32_t width, std::uint32_t height,
              std::uint32_t first_row, std::size_t enough);
 

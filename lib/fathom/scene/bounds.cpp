@@ -11,7 +11,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The vertices that some triangle uses.
+/// The vertices that at least one triangle uses.
 std::vector<bool> used_vertices(const Mesh& mesh) {
   std::vector<bool> used(mesh.vertices.size());
   for (const CornerIndices& triangle : mesh.triangles)
@@ -34,13 +34,13 @@ void include_as_is(WorldBounds& bounds, const Mesh& mesh, const std::vector<bool
   }
 }
 
-/// Widens one axis of the bounds by the placed vertices: exactly, but only for those that the
+/// Widens one axis of the bounds to the placed vertices: exactly, but only for those that the
 /// approximation cannot tell from an extreme one.
 void include_placed(WorldBounds& bounds, int axis, const Object& object, const Mesh& mesh,
                     const std::vector<bool>& used) {
   const auto& row = object.world_from_mesh.rows[axis];
   const ApproximateRow approximate(row);
-  // The lower bounds' least upper end, and the upper bounds' greatest lower end.
+  // The minimum is at most `lowest`, the maximum at least `highest`.
   double lowest = infinity, highest = -infinity;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (!used[i]) continue;
@@ -74,7 +74,7 @@ std::optional<WorldBounds> world_bounds(const Scene& scene) {
     }
   }
   if (empty) return std::nullopt;
-  // −0 and +0 are the same number; say +0.
+  // −0 and +0 are the same number; return +0.
   for (int axis = 0; axis < 3; ++axis) {
     bounds.lower[axis] += 0.0;
     bounds.upper[axis] += 0.0;

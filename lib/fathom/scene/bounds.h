@@ -14,11 +14,11 @@ struct WorldBounds {
   friend bool operator==(const WorldBounds&, const WorldBounds&) = default;
 };
 
-/// The least box of binary64 numbers that contains every corner of every triangle in the world;
+/// The smallest box of binary64 numbers in the world that contains every corner of every triangle;
 /// vertices that no triangle uses do not count. nullopt if there is no triangle.
 ///
-/// Exact    corners are placed exactly; the exact extremes are rounded outwards, once. An end that
-///          lies beyond the largest binary64 number is infinite.
+/// Exact    corners are placed exactly; the exact extremes are rounded outwards, once. An end
+///          beyond the largest binary64 number is infinite.
 std::optional<WorldBounds> world_bounds(const Scene& scene);
 
 }  // namespace fathom

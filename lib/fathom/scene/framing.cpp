@@ -17,7 +17,7 @@ namespace {
 /// The part of the image's width and height that framed bounds may fill.
 constexpr double filled = 0.9;
 
-/// Bounds around their middle: what framing needs of them.
+/// What framing needs of bounds.
 struct Box {
   ExactVector3 middle;
   std::array<ExactVector3, 8> corners;
@@ -36,7 +36,8 @@ Box box_of(const WorldBounds& bounds) {
 }
 
 /// Whether every corner projects into the part of the image that may be filled. Projection takes
-/// segments in front of the camera to segments, so then every point between them does. Exact.
+/// segments in front of the camera to segments, so every point between the corners then does too.
+/// Exact.
 bool sees_corners(const Camera& camera, const Box& box) {
   const Dyadic reach_u = Dyadic(camera.width) * Dyadic(filled / 2);
   const Dyadic reach_v = Dyadic(camera.height) * Dyadic(filled / 2);
@@ -54,7 +55,7 @@ bool in_front(const Camera& camera, const Box& box) {
   });
 }
 
-/// How far away a camera stands, and (orthographic) how much it sees.
+/// How far away a camera is, and (orthographic) how much it sees.
 struct Placement {
   double distance = 1;
   double vertical_extent = 1;
@@ -88,14 +89,14 @@ Placement estimate_placement(const Box& box, const Matrix3& R, const Lens& lens)
     radius = std::max(radius, std::hypot(x, y, z));
   }
   if (half_height == 0) half_height = radius;  // a line seen end on
-  // Half a radius in front of a box that is thin across the view or seen through a wide lens.
+  // Stay half a radius in front of a box that is thin across the view or seen through a wide lens.
   if (lens.projection == Projection::orthographic) distance = 0;
   distance = std::max(distance, 1.5 * radius) * (1 + 0x1p-40);
   const auto unscaled = [&](double x) { return round_to_binary64(Ratio(Dyadic(x).scaled(power))); };
   return {unscaled(distance), unscaled(2 / filled * half_height * (1 + 0x1p-40))};
 }
 
-/// A quarter more; also of 0 and of numbers so small that a quarter of them rounds away.
+/// A quarter more; more also where x is 0 or so small that a quarter of it rounds away.
 double larger(double x) {
   return std::max(1.25 * x, std::nextafter(x, std::numeric_limits<double>::infinity()));
 }
@@ -126,7 +127,7 @@ std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBou
   }
   const bool all_must_be_seen = lens.projection == Projection::perspective || extent_is_free;
   // Rounding of the pose can move a small scene that is far from the origin out of the picture;
-  // then farther away will do.
+  // moving farther away mends that.
   for (; std::isfinite(placement.distance);
        placement = {larger(placement.distance), larger(placement.vertical_extent)}) {
     if (extent_is_free) chosen.vertical_extent = placement.vertical_extent;

@@ -68,7 +68,7 @@ class SceneReader {
     }
     add_source(file, options_.hash ? sha256(input.bytes()) : "");
     const std::vector<PlacedFile> meshes = read_scene_json(input.text(), path);
-    // A mesh file that is placed more than once is read once: its objects, as they were read.
+    // A mesh file that is placed more than once is read once; these are its objects as read.
     ObjectsOfFile known;
     for (const PlacedFile& placed : meshes) add_placed(placed, known);
   }
@@ -93,7 +93,7 @@ class SceneReader {
     scene_.sources.push_back({path, std::move(hash)});
   }
 
-  /// The hash is computed beside the reading, in a thread of its own.
+  /// The hash is computed during the reading, in a thread of its own.
   void add_mesh_file(FileKind kind, const InputFile& input, const std::filesystem::path& path) {
     std::future<std::string> hash;
     if (options_.hash) hash = std::async(std::launch::async, [&] { return sha256(input.bytes()); });

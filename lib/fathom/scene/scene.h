@@ -17,15 +17,15 @@ struct Scene {
   std::vector<Source> sources;
 };
 
-/// Number of triangles over all objects.
+/// The number of triangles in all objects.
 std::uint64_t triangle_count(const Scene& scene);
 
 /// Where triangle `number` of the scene comes from.
 struct TriangleOrigin {
   std::uint32_t object = 0;
-  /// Number within its object's mesh.
+  /// Its number within its object's mesh.
   std::uint32_t triangle = 0;
-  /// Number of its face within its file.
+  /// The number of its face within its file.
   std::uint32_t face = 0;
 };
 TriangleOrigin origin_of(const Scene& scene, std::uint32_t number);

@@ -12,13 +12,13 @@ namespace fathom::scene {
 
 /// One mesh of a scene file.
 struct PlacedFile {
-  /// As the scene file says, from its folder where relative.
+  /// As the scene file gives it; relative paths start from the scene file's folder.
   std::filesystem::path file;
   std::optional<std::string> name;
   std::optional<WorldFromMesh> transform;
 };
 
-/// Reads a scene file (interface.md, "Scene file"): {"meshes": [{"file", "transform", "name"}]}.
+/// Reads a scene file: {"meshes": [{"file", "transform", "name"}]}, the last two optional.
 /// A transform is 3×4, or 4×4 with the last row 0 0 0 1.
 /// Fails    InputError, naming the key; unknown keys are errors.
 std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesystem::path& path);

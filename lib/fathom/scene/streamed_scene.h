@@ -13,22 +13,22 @@ namespace fathom {
 /// A scene whose meshes stay in their files: binary STL and PLY that need not fit into memory.
 /// Triangles, objects and faces have the numbers that they would have in a Scene.
 struct StreamedScene {
-  /// One object a file, in order, placed as it is; `mesh` is its number among the streams.
+  /// One object per file, in order, placed as it is; `mesh` is its index into `streams`.
   std::vector<Object> objects;
   std::vector<std::unique_ptr<TriangleStream>> streams;
   std::vector<Source> sources;
 };
 
-/// Opens the files as one scene. Of the options `format` and `hash` count.
-/// Fails    InputError as open_triangle_stream() and read_scene() do.
+/// Opens the files as one scene. Of the options, only `format` and `hash` matter.
+/// Fails    InputError, as open_triangle_stream() and read_scene() do.
 StreamedScene stream_scene(const std::vector<std::filesystem::path>& files,
                            const ReadOptions& options, Warnings& warnings);
 
 std::uint64_t triangle_count(const StreamedScene& scene);
 TriangleOrigin origin_of(const StreamedScene& scene, std::uint32_t number);
 
-/// A scene in memory with the same objects, sources and world_bounds(), but of each mesh only a
-/// triangle that spans its bounds, or none where it has none: what cameras are made from.
+/// A scene in memory with the same objects, sources and world_bounds(), in which each mesh is a
+/// single triangle that spans its bounds, or empty if it has none: enough to make cameras from.
 Scene outline_of(const StreamedScene& scene);
 
 }  // namespace fathom

@@ -19,7 +19,7 @@ TriangleSource::TriangleSource(const StreamedScene& scene) : streamed_(&scene) {
 
 TriangleSource::Place TriangleSource::place_of(std::uint32_t number) const {
   const auto after = std::upper_bound(first_numbers_.begin(), first_numbers_.end(), number);
-  // Objects without triangles share the first number of the next: the last of them has them.
+  // An object without triangles shares its first number with the next: the last of them has it.
   const auto object = static_cast<std::size_t>(after - first_numbers_.begin()) - 1;
   return {static_cast<std::uint32_t>(object),
           static_cast<std::uint32_t>(number - first_numbers_[object])};
@@ -65,13 +65,12 @@ std::array<WorldPoint, 3> TriangleSource::world_corners(std::uint32_t number) co
 
 namespace {
 
-/// visit(chunk) for a whole file, or those chunks that are wanted; the next chunk is read
-/// meanwhile.
+/// Calls visit(chunk) for the chunks of a file that are wanted, reading the next one meanwhile.
 template <class Wanted, class Visit>
 void for_each_chunk(const TriangleStream& stream, std::uint32_t triangles, const Wanted& wanted,
                     const Visit& visit) {
   const std::uint64_t end = stream.triangle_count();
-  /// The first chunk that is wanted of those from `first` on; not valid if there is none.
+  /// Begins to read the first chunk from `first` on that is wanted; not valid if there is none.
   const auto read = [&](std::uint64_t first) -> std::future<TriangleChunk> {
     while (first < end && !wanted(static_cast<std::uint32_t>(first))) first += triangles;
     if (first >= end) return {};

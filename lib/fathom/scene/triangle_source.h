@@ -10,14 +10,14 @@
 
 namespace fathom {
 
-/// Triangles by their numbers, whether the scene lies in memory or in files. A view: the scene must
-/// stay, and must not change. Different threads may ask at the same time.
+/// Triangles by number, whether the scene is in memory or in files. A view: the scene must outlive
+/// it unchanged. Several threads may ask at the same time.
 class TriangleSource {
  public:
   TriangleSource(const Scene& scene);          // implicit: a scene is a source,
   TriangleSource(const StreamedScene& scene);  // and so is this one
 
-  /// Of triangles.
+  /// The number of triangles.
   [[nodiscard]] std::uint64_t count() const { return first_numbers_.back(); }
   [[nodiscard]] const std::vector<Object>& objects() const {
     return scene_ ? scene_->objects : streamed_->objects;
@@ -40,15 +40,15 @@ class TriangleSource {
     const Mesh& mesh;
     std::uint32_t first_number;
   };
-  /// visit(part) for parts that together are the scene, in the order of their triangles, one after
-  /// the other in this thread: whole objects in memory, at most so many triangles of a file. Parts
-  /// of which wanted(their first number) is false are left out, and not read.
+  /// Calls visit(part) for parts that together are the scene, in the order of their triangles, one
+  /// after another in this thread: whole objects in memory, at most `triangles_of_file` triangles
+  /// of a file. Parts where wanted(their first number) is false are left out, and not read.
   void for_each_part(
       std::uint32_t triangles_of_file, const std::function<void(const Part&)>& visit,
       const std::function<bool(std::uint32_t)>& wanted = [](std::uint32_t) { return true; }) const;
 
  private:
-  /// Object, and number of the triangle within it.
+  /// An object, and the number of a triangle within it.
   struct Place {
     std::uint32_t object, triangle;
   };

@@ -10,13 +10,14 @@
 
 namespace fathom::text {
 
-/// Walks over bytes from first to last, which lie in memory or are read from a file piece by piece.
+/// Walks over bytes from first to last, which are in memory or are read from a file piece by piece.
 class ByteWindow {
  public:
-  /// Bytes in memory, which must stay; the first has the number `offset` in its file.
+  /// Bytes in memory, which must outlive this; the first has the number `offset` in its file.
   ByteWindow(std::string_view bytes, std::uint64_t offset)
       : at_(bytes.data()), end_(at_ + bytes.size()), end_offset_(offset + bytes.size()) {}
-  /// The bytes [offset, end) of a file, which must stay, at most `capacity` at a time (at least 8).
+  /// The bytes [offset, end) of a file, which must outlive this, at most `capacity` at a time (at
+  /// least 8).
   ByteWindow(const RandomAccessFile& file, std::uint64_t offset, std::uint64_t end,
              std::size_t capacity)
       : end_offset_(offset),
@@ -30,14 +31,14 @@ class ByteWindow {
 
   /// The next byte and those that certainly follow it in memory.
   [[nodiscard]] const char* at() const { return at_; }
-  /// True if `count` more bytes (8 at most) lie at at(), after reading on where they did not.
+  /// Whether `count` more bytes (at most 8) lie at at(), if necessary after reading on.
   bool has(std::size_t count) {
     return static_cast<std::size_t>(end_ - at_) >= count || read_on(count);
   }
   void advance(std::size_t count) { at_ += count; }
   /// Back over bytes that were just advanced over.
   void back(std::size_t count) { at_ -= count; }
-  /// Leaves `count` bytes out, of which rest() has as many.
+  /// Leaves out `count` bytes, at most as many as rest().
   void skip(std::uint64_t count);
 
   [[nodiscard]] std::uint64_t rest() const {

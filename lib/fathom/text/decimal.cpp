@@ -11,8 +11,8 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Whether the number that stands in [first, last) and is known to be out of range is a small one:
-/// its leading digit's power of ten is negative.
+/// Whether the number in [first, last), which is known to be out of range, is a small one: its
+/// leading digit's power of ten is negative.
 bool is_small(const char* first, const char* last) {
   const char* at = first;
   if (*at == '-') ++at;
@@ -31,15 +31,15 @@ bool is_small(const char* first, const char* last) {
   ++at;  // e
   const bool negative = *at == '-';
   if (*at == '-' || *at == '+') ++at;
-  // `power` is at most the length of the text; an exponent that reaches 10¹⁸ settles it.
+  // `power` is at most the length of the text; an exponent that reaches 10¹⁷ settles it.
   long long exponent = 0;
   for (; at != last && exponent < 1'000'000'000'000'000'000 / 10; ++at)
     exponent = 10 * exponent + (*at - '0');
   return power + (negative ? -exponent : exponent) < 0;
 }
 
-/// Below the least normal number std::from_chars may report a range error for 0 only: a number
-/// that rounds to a subnormal is read like any other (held to MPFR by decimal_test).
+/// Below the least normal number std::from_chars may report a range error only for 0: a number that
+/// rounds to a subnormal is read like any other (checked against MPFR in decimal_test).
 template <class Real>
 DecimalResult<Real> out_of_range(const char* first, const char* end) {
   if (is_small(first, end))
@@ -51,7 +51,7 @@ DecimalResult<Real> out_of_range(const char* first, const char* end) {
 
 template <class Real>
 DecimalResult<Real> parse_decimal(const char* first, const char* last) {
-  // std::from_chars takes no '+'; and "+-1" is no number.
+  // std::from_chars takes no '+'; and "+-1" is not a number.
   if (first != last && *first == '+') {
     ++first;
     if (first != last && *first == '-') return {0, first, DecimalFault::malformed};
@@ -62,7 +62,7 @@ DecimalResult<Real> parse_decimal(const char* first, const char* last) {
   if (error == std::errc::result_out_of_range) return out_of_range<Real>(first, end);
   if (error != std::errc()) return {0, first, DecimalFault::malformed};
   if (!std::isfinite(result.value)) {
-    // Either the words "inf", "nan" or an overflow, which std::from_chars may also report so.
+    // Either the words "inf" or "nan", or an overflow, which std::from_chars may also report so.
     const char* at = *first == '-' ? first + 1 : first;
     const bool is_number = is_digit(*at) || *at == '.';
     result.fault = is_number ? DecimalFault::overflow : DecimalFault::not_finite;

@@ -5,7 +5,7 @@ namespace fathom::text {
 
 enum class DecimalFault {
   none,
-  /// No decimal number stands there.
+  /// There is no decimal number.
   malformed,
   /// Beyond the largest finite number of the type.
   overflow,
@@ -16,13 +16,13 @@ enum class DecimalFault {
 template <class Real>
 struct DecimalResult {
   Real value = 0;
-  /// Behind the last character that belongs to the number.
+  /// After the last character that belongs to the number.
   const char* end = nullptr;
   DecimalFault fault = DecimalFault::none;
 };
 
-/// Reads the longest decimal at `first`: [+-] digits [. digits] [e [+-] digits], digits on at least
-/// one side of the point. Leading blanks are no part of it; no locale plays a role.
+/// Reads the longest decimal at `first`: [+-] digits [. digits] [e [+-] digits], with digits on at
+/// least one side of the point. It does not begin with blanks, and no locale plays a role.
 /// Exact    rounded once from the text to Real (float or double), to nearest, ties to even;
 ///          subnormals are kept; below half the least subnormal the result is a signed zero.
 template <class Real>

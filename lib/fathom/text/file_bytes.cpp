@@ -26,7 +26,7 @@ Bytes read_file(const std::filesystem::path& path) {
   if (!file) throw InputError(why(path, errno));
   std::error_code unknown;
   const auto size = std::filesystem::file_size(path, unknown);
-  // One byte more than the file has, so that its end is met without growing. Pipes grow.
+  // One byte more than the file has, so that its end is reached without growing. Pipes grow.
   Bytes bytes(unknown || size == 0 ? std::size_t{1} << 16 : size + 1);
   std::size_t length = 0;
   while (const std::size_t n =

@@ -6,18 +6,19 @@
 #include <string>
 #include <vector>
 
-/// Whole files in memory: every format here is coded to bytes and decoded from bytes, so that a
-/// full disk, a pipe and a truncated file are each dealt with in one place.
+/// Whole files in memory: every format is encoded to bytes and decoded from bytes, so that a full
+/// disk, a pipe and a truncated file are each dealt with in one place.
 namespace fathom::text {
 
 using Bytes = std::vector<std::byte>;
 using ByteView = std::span<const std::byte>;
 
+/// Reads a whole file.
 /// Fails    InputError: "PATH: why".
 Bytes read_file(const std::filesystem::path& path);
 
 /// Writes to the file itself, in place (a device or a pipe is written through).
-/// Fails    OutputError: "PATH: why"; what was written by then stays.
+/// Fails    OutputError: "PATH: why"; what has been written by then stays.
 void write_file(const std::filesystem::path& path, ByteView bytes);
 
 void append(Bytes& bytes, ByteView more);

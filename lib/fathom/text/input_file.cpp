@@ -14,8 +14,8 @@
 namespace fathom::text {
 namespace {
 
-/// Files up to this size are read rather than mapped: another program that cuts a mapped file
-/// short while it is being read would end ours, and below this size memory is no concern.
+/// Files up to this size are read rather than mapped: if another program truncated a mapped file
+/// while it is being read, ours would be killed, and below this size memory is no concern.
 constexpr std::size_t largest_read = std::size_t{64} << 20;
 
 [[noreturn]] void fail(const std::string& name, const char* what) {

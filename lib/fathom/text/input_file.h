@@ -9,13 +9,13 @@
 
 namespace fathom::text {
 
-/// The bytes of an input file, or of standard input where the path is "-".
+/// The bytes of an input file, or of standard input if the path is "-".
 ///
 /// Large regular files are mapped, so that they take no memory of ours; small ones, pipes and
-/// standard input are read into memory, as far as they reach.
+/// standard input are read into memory, up to their end.
 class InputFile {
  public:
-  /// Fails    InputError "PATH: why": not there, not readable, a directory.
+  /// Fails    InputError "PATH: why": missing, not readable, or a directory.
   explicit InputFile(const std::filesystem::path& path);
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;

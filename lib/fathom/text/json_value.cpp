@@ -15,11 +15,11 @@ using nlohmann::json;
 constexpr int deepest_nesting = 100;
 
 std::string in_quotes(const std::string& key) {
-  // dump() escapes what would break the line; keys that are no UTF-8 never get here.
+  // dump() escapes what would break the line; keys that are not UTF-8 never get here.
   return json(key).dump();
 }
 
-/// Builds a document, refusing what nlohmann::json would let pass: a key twice in one object, and
+/// Builds a document, refusing what nlohmann::json would accept: a key twice in one object, and
 /// nesting so deep that walking it could exhaust the stack.
 class StrictBuilder {
  public:
@@ -36,7 +36,7 @@ class StrictBuilder {
     return true;
   }
 
-  /// The key read last; empty before the first.
+  /// The key that was read last; empty before the first.
   [[nodiscard]] const std::string& last_key() const { return last_key_; }
 
  private:
@@ -65,7 +65,7 @@ json parse_strictly(std::string_view text, const std::string& file) {
   try {
     return json::parse(text.begin(), text.end(), std::ref(builder));
   } catch (const json::parse_error& e) {
-    // `byte` counts from 1 and is that of the last character read.
+    // `byte` counts from 1 and refers to the last character read.
     const std::size_t before = e.byte == 0 ? 0 : e.byte - 1;
     throw InputError(file + ": line " + std::to_string(line_of(text, before)) +
                      ": not JSON: " + reason(e));
@@ -177,7 +177,7 @@ std::uint64_t JsonValue::integer(std::uint64_t least, std::uint64_t greatest) co
     result = value_->get<std::uint64_t>();
   } else if (value_->is_number_float()) {
     const double number = value_->get<double>();
-    // 2⁵³: above it a float's text need not be the integer that it is read as.
+    // 2⁵³: above it, the text of a float need not be the integer that it is read as.
     if (!(number >= 0 && number <= 0x1p53) || number != std::floor(number)) refuse();
     result = static_cast<std::uint64_t>(number);
   } else {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-/// Reading JSON strictly, with errors that name the file and the key. For this room's .cpp files
-/// only: no public header includes it.
+/// Reading JSON strictly, with errors that name the file and the key. Only for .cpp files and
+/// internal headers: no public header includes it.
 namespace fathom::text {
 
 /// A value in a JSON document that knows its place in it.
@@ -21,10 +21,10 @@ class JsonValue {
   /// Throws InputError "FILE: PLACE: message".
   [[noreturn]] void fail(const std::string& message) const;
 
-  /// An object's member; fails if it is missing or this is no object.
+  /// An object's member; fails if it is missing or this is not an object.
   [[nodiscard]] JsonValue at(const std::string& key) const;
   [[nodiscard]] std::optional<JsonValue> find(const std::string& key) const;
-  /// Fails if there is a key that is none of `known`.
+  /// Fails if there is a key that is not one of `known`.
   void expect_only(std::initializer_list<std::string_view> known) const;
 
   /// The elements of a list.

@@ -9,22 +9,23 @@
 namespace fathom::text {
 
 /// A regular file that is read here and there, however large it is; nothing of it stays in memory.
-/// Different threads may read at the same time.
+/// Several threads may read at the same time.
 class RandomAccessFile {
  public:
-  /// Fails    InputError "PATH: why": not there, not readable, not a regular file.
+  /// Fails    InputError "PATH: why": missing, not readable, or not a regular file.
   explicit RandomAccessFile(const std::filesystem::path& path);
   RandomAccessFile(const RandomAccessFile&) = delete;
   RandomAccessFile& operator=(const RandomAccessFile&) = delete;
   ~RandomAccessFile();
 
-  /// As it was when the file was opened.
+  /// The size when the file was opened.
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
   /// Fills `bytes` from `offset` on.
-  /// Fails    InputError if the file has fewer, having been cut short since, or cannot be read.
+  /// Fails    InputError if the file has fewer bytes, having been cut short since, or cannot be
+  ///          read.
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
 
  private:

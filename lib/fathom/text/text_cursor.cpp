@@ -20,7 +20,7 @@ bool TextCursor::joins(const char* first, const char* line_end) {
   const char* last = line_end;
   if (last != first && last[-1] == '\r') --last;
   if (last == first || last[-1] != '\\') return false;
-  // A comment begins a word; what follows it is no part of the line.
+  // A comment begins a word; what follows it is not part of the line.
   for (const char* at = first; at != last; ++at)
     if (*at == '#' && (at == first || is_blank(at[-1]))) return false;
   return true;
@@ -30,7 +30,7 @@ bool TextCursor::skip_line_join() {
   const char* next = at_ + 1;
   if (next != end_ && *next == '\r' && line_end_ == '\n') ++next;
   if (next == end_ || *next != line_end_) {
-    // A '\' at the very end of the file joins nothing to it; any other is part of a word.
+    // A '\' at the very end of the file joins nothing; any other is part of a word.
     if (next == end_) at_ = end_;
     return next == end_;
   }
@@ -40,7 +40,7 @@ bool TextCursor::skip_line_join() {
 }
 
 void TextCursor::skip_rest_of_comment() {
-  // at_line_end() has consumed line joins before it came here: what is left holds none.
+  // at_line_end() has consumed line joins before this is called: what is left has none.
   const void* found = std::memchr(at_, line_end_, static_cast<std::size_t>(end_ - at_));
   at_ = found ? static_cast<const char*>(found) + 1 : end_;
   if (found) ++line_;

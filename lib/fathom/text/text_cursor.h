@@ -12,11 +12,11 @@ namespace fathom::text {
 /// Walks over text, line by line and word by word, and knows the number of its line.
 ///
 /// Lines end with LF or CR LF; in a text without any LF, with CR. A file's last line needs no end.
-/// What it does not do: own the text. A byte order mark at the start is skipped.
+/// A byte order mark at the start is skipped. The text must outlive the cursor.
 class TextCursor {
  public:
   struct Syntax {
-    /// A word that begins with '#' and all that follows on its line is a comment.
+    /// A word that begins with '#' and all that follows it on its line are a comment.
     bool comments = false;
     /// A '\' at the end of a line joins the next line to it.
     bool continuation = false;
@@ -46,7 +46,7 @@ class TextCursor {
   [[nodiscard]] std::uint64_t line() const { return line_; }
   [[nodiscard]] std::size_t rest() const { return static_cast<std::size_t>(end_ - at_); }
 
-  /// Skips blanks; true where nothing more stands on the line (a comment is nothing).
+  /// Skips blanks; true if nothing more is on the line (a comment is nothing).
   bool at_line_end() {
     while (at_ != end_) {
       const char c = *at_;
@@ -102,8 +102,8 @@ class TextCursor {
     return result.value;
   }
 
-  /// The same for attributes, of which "nan" and "inf" are taken as they are: programs write them
-  /// for the normals of degenerate triangles.
+  /// number() for attributes, where "nan" and "inf" are accepted: programs write them for the
+  /// normals of degenerate triangles.
   template <class Real>
   Real attribute(const char* what) {
     if (at_line_end()) fail_missing(what);
@@ -129,14 +129,14 @@ class TextCursor {
   [[nodiscard]] const char* limit() const { return end_; }
   [[nodiscard]] bool at_word_end(const char* at) const { return at == end_ || ends_word(*at); }
 
-  /// Behind a decimal integer [+-] digits at `first`; nullptr if none stands there or it does not
-  /// fit.
+  /// Reads a decimal integer [+-] digits at `first`, and returns the position after it; nullptr if
+  /// there is none or it does not fit.
   static const char* parse_integer(const char* first, const char* last, std::int64_t& value);
 
   /// Throws InputError "FILE: line N: message".
   [[noreturn]] void fail(const std::string& message) const { fail_at(line_, message); }
   [[noreturn]] void fail_at(std::uint64_t line, const std::string& message) const;
-  /// The same, with the word that stands at the cursor: "message, found 'WORD'".
+  /// fail(), with the word at the cursor: "message, found 'WORD'".
   [[noreturn]] void fail_here(const std::string& message);
 
  private:
@@ -148,7 +148,7 @@ class TextCursor {
   }
   /// Whether the line [first, line_end) ends with a '\' that is not in a comment.
   static bool joins(const char* first, const char* line_end);
-  /// At a '\': skips it and the line end behind it, if there is one.
+  /// At a '\': skips it and the line end after it, if there is one.
   bool skip_line_join();
   void skip_rest_of_comment();
   [[noreturn]] void fail_missing(const char* what) const;

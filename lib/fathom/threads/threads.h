@@ -8,23 +8,23 @@
 #include <type_traits>
 #include <utility>
 
-/// Threads, and how far they have come. oneTBB does the work, in one .cpp: its headers take seconds to
-/// compile.
+/// Parallel work, and reports of its progress. oneTBB does it, in one .cpp: its headers take
+/// seconds to compile.
 namespace fathom {
 
-/// work(0), …, work(count − 1), different ones at the same time, in the threads of with_threads() or
-/// all that there are. An exception ends it and is passed on.
+/// Calls work(0), …, work(count − 1), several at the same time, in the threads of with_threads() or
+/// in all that there are. An exception ends it and is passed on.
 void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work);
 
-/// The same from `first` to `end` − 1, first ≤ end.
+/// in_parallel() for work(first), …, work(end − 1), with first ≤ end.
 template <class Index, class Work>
 void parallel_for(Index first, Index end, const Work& work) {
   in_parallel(static_cast<std::size_t>(end - first),
               [&](std::size_t i) { work(static_cast<Index>(first + static_cast<Index>(i))); });
 }
 
-/// Runs `work` with as many threads as asked for; 0: all. More threads than the machine has are
-/// allowed: TBB's own limit is lifted meanwhile.
+/// Runs `work` with as many threads as asked for; 0: all. There may be more threads than the
+/// machine has: TBB's own limit is lifted meanwhile.
 void run_with_threads(int threads, const std::function<void()>& work);
 
 template <class Work>
@@ -38,7 +38,7 @@ auto with_threads(int threads, const Work& work) {
   }
 }
 
-/// Reports the share of equal parts that are done, from one thread at a time.
+/// Reports the fraction of equal parts that are done, from one thread at a time.
 class Progress {
  public:
   Progress(const std::function<void(double)>& report, std::uint64_t parts)

@@ -10,20 +10,20 @@
 #include "fathom/numeric/double_word.h"
 #include "fathom/triangle/rays.h"
 
-// Depth, barycentric weights and normal of a triangle at a sample, with bounds of their errors, in
+// Depth, barycentric weights and normal of a triangle at a sample, with bounds on their errors, in
 // any arithmetic whose operations have a relative error of at most ε = epsilon<Real>: binary64 and
 // double-words. One derivation serves both (docs/error-analysis.md, "Channels").
 //
-// Method (Möller, Trumbore 1997). p = B − A, r = C − A, n = p × r, t = A − (origin of the ray), d
-// the direction of the ray (rays.h), all in the frame of the mesh. The point of depth D on the
-// ray lies in the plane of the triangle where D·(n·d) = n·t, and there its weights of B and C are
-// d·(r × t)/(n·d) and d·(t × p)/(n·d). No corner needs to lie in front of the camera.
+// Method ([MT97]). p = B − A, r = C − A, n = p × r, t = A − (origin of the ray), d the direction of
+// the ray (rays.h), all in the frame of the mesh. The point of depth D on the ray lies in the plane
+// of the triangle where D·(n·d) = n·t, and there its weights of B and C are d·(r × t)/(n·d) and
+// d·(t × p)/(n·d). No corner needs to lie in front of the camera.
 //
 // How errors are counted. x̂ is the computed x; x̄ ≥ |x|, |x̂| is the value of the same expression
-// with every term replaced by its magnitude. An error of k·ε·x̄ is written "k". A product adds the
-// k's of its factors and 1; a sum of terms takes the greatest k and adds 1. Inputs: coordinates 0,
-// entries of tables 1. Terms of second order are below 2⁻⁴⁰ of the first and go into `slack`, as
-// do the roundings of the bounds themselves.
+// with every term replaced by its magnitude. An error of k·ε·x̄ is written "k". A product has the
+// sum of its factors' k and 1; a sum, the greatest k of its terms and 1. Inputs: coordinates 0,
+// entries of tables 1. Terms of second order are below 2⁻⁴⁰ of those of first order and go into
+// `slack`, as do the roundings of the bounds themselves.
 //
 //   p, r                     1    difference of two coordinates
 //   n    p·r − p·r           4    1 + 1 + 1 of a product, 1 of the difference
@@ -39,11 +39,11 @@
 //
 // Nothing underflows: coordinates and leading parts of entries are 0 or between 2⁻¹⁰⁰ and 2¹⁰⁰, so
 // coordinates are multiples of 2⁻¹⁵², entries, whose second words are not below 2⁻²¹⁰, of 2⁻²⁶²,
-// and rounding a multiple of a power of two leaves it one: every intermediate result above, and
-// every error of one, is a multiple of 2⁻⁶⁷⁶. Nor does anything overflow: (2¹⁰¹)⁴·2⁴⁰ < 2⁵⁰⁰.
+// and a multiple of a power of two remains one when it is rounded: every intermediate result above,
+// and every error of one, is a multiple of 2⁻⁶⁷⁶. Nor does anything overflow: (2¹⁰¹)⁴·2⁴⁰ < 2⁵⁰⁰.
 namespace fathom::triangle {
 
-/// c + b·v + a·u; computed and exact value differ by at most `error` at every sample of the image.
+/// c + b·v + a·u; its computed and exact values differ by at most `error` at every sample.
 template <class Real>
 struct Form {
   Real a{}, b{}, c{};
@@ -57,7 +57,7 @@ struct Form {
 /// Corners of a triangle in its mesh.
 using MeshTriangle = std::array<MeshPoint, 3>;
 
-/// True where the bounds were derived for these corners.
+/// Whether the bounds were derived for such corners.
 inline bool is_safe(const MeshTriangle& corners) {
   for (const MeshPoint& X : corners) {
     for (const double x : {X.x, X.y, X.z}) {
@@ -126,7 +126,7 @@ struct DepthForms {
   }
 };
 
-/// What setting up forms needs beside the triangle.
+/// What is needed to set up forms besides the triangle.
 struct ImageBounds {
   bool perspective;
   double u, v;  // no sample's coordinates are greater
@@ -141,7 +141,7 @@ Vector<Real> from_origin(const MeshPoint& A, const Rays& rays, Vector<double>& s
   return {Real(A.x) - O[0], Real(A.y) - O[1], Real(A.z) - O[2]};
 }
 
-/// The triangle's corners safe, the object's rays usable.
+/// Needs    safe corners, and usable rays of the object.
 template <class Real>
 DepthForms<Real> depth_forms(const MeshTriangle& corners, const Rays& rays,
                              const ImageBounds& image) {
@@ -196,9 +196,9 @@ Form<Real> form_across(const Vector<Real>& y, const Vector<double>& y_size, cons
       12 * epsilon<Real> * slack * (size(0) * image.u + size(1) * image.v + dot(y_size, t_size))};
 }
 
-/// The triangle's corners safe, the object's rays usable.
 /// Perspective: d·(r × t) with d varying. Orthographic: d = m₂ and t varies, and d·(r × t) =
 /// (d × r)·t, d·(t × p) = (p × d)·t.
+/// Needs    safe corners, and usable rays of the object.
 template <class Real>
 WeightForms<Real> weight_forms(const MeshTriangle& corners, const Rays& rays,
                                const ImageBounds& image) {
@@ -245,7 +245,7 @@ Ray<Real> ray_at(const Rays& rays, bool perspective, const ImagePoint& s) {
   return {varying(O), entries<Real>(m2)};
 }
 
-/// What the magnitudes of the terms of origin and direction add up to, at no sample more.
+/// Bounds, for all samples, on the sums of the magnitudes of the terms of origin and direction.
 struct RaySizes {
   Vector<double> origin, direction;
 
@@ -258,8 +258,8 @@ struct RaySizes {
   }
 };
 
-/// Whether n = p × r has components that are exactly 0 for a reason that can be seen: one factor
-/// of either product is 0, or p and r are binary64 numbers and the two products are the same.
+/// Which components of n = p × r are 0 for a reason that is plain to see: each of the two products
+/// has a factor 0, or p and r are binary64 numbers and the two products are the same.
 template <class Real>
 std::array<bool, 3> zero_components(const Edges<Real>& edges) {
   std::array<bool, 3> zero{};
@@ -310,17 +310,17 @@ WorldNormal<Real> world_normal(const MeshTriangle& corners, const ObjectRays& ob
   return placed;
 }
 
-/// The unit normal turned towards the camera, at a sample where the triangle is visible; every
-/// error +∞ where its turn is not certain. The triangle's corners safe, the object's rays and the
-/// world's usable.
+/// The unit normal, turned towards the camera, at a sample where the triangle is visible; every
+/// error is +∞ if it is not certain which way to turn it.
+/// Needs    safe corners, and usable rays of the object and of the world.
 ///
 /// Turn. Σe = det(H)·(n·d) and Δ = D·Σe for n and d of one frame (H the linear part of the map to
 /// (U, V, D), det H = fx·fy·det R in the world), and D > 0: so the specification's sign
 /// −sign(Δ)·sign(fx·fy·det R) is −sign(n·d). The products n·d err by (8 + 4 + 1)ε and two sums.
 ///
-/// Length. Squares err by 2k + 1, sums by 2, the root by half of that and 1; but as the length's
-/// error comes from those of the components, it is counted so: |n̂| and |n| differ by at most the
-/// sum of the components' errors, and |n̂| is computed with an error of (3/2 + 1)ε; 3 is written.
+/// Length. Squares err by 2k + 1, sums by 2, the root by half of that and 1; but since the length's
+/// error comes from those of the components, it is counted thus: |n̂| and |n| differ by at most the
+/// sum of the components' errors, and |n̂| is computed with an error of (3/2 + 1)ε; 3 is used.
 template <class Real>
 Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRays& object,
                                     const ObjectRays& world, const ImageBounds& image,

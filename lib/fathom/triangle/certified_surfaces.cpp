@@ -50,8 +50,8 @@ std::array<Certified<double>, 3> CertifiedSurfaces::weights(std::uint32_t number
   return {Certified<double>{1 - (b.value + c.value), error * (1 + 0x1p-40)}, b, c};
 }
 
-// A negative weight at a covered sample means D < 0, three positive ones where D > 0 that it is
-// covered (WideReferee::covers).
+// At a covered sample, a negative weight means D < 0; where D > 0, three positive weights mean that
+// the sample is covered (WideReferee::covers()).
 bool CertifiedSurfaces::certainly_misses(std::uint32_t number, const ImagePoint& s) {
   for (const Certified<double>& weight : weights(number, s)) {
     if (weight.value + weight.error < 0) return true;

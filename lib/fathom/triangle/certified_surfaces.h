@@ -33,7 +33,7 @@ class CertifiedSurfaces {
     WeightForms<double> weights;
   };
   Triangle& remember(std::uint32_t number);
-  /// Of A, B, C; errors are +∞ where nothing is known.
+  /// The weights of A, B and C; errors are +∞ where nothing is known.
   std::array<Certified<double>, 3> weights(std::uint32_t number, const ImagePoint& s);
 
   const SceneRays& rays_;

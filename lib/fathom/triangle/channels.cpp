@@ -18,7 +18,7 @@ template <class T>
 ImageChannel filled(const std::string& name, std::size_t pixels, T background) {
   Samples<T> values(pixels);
   if (background != T{0}) {  // NaN too
-    // A huge page is zeroed by whoever touches it first, while others wait for it.
+    // A huge page is zeroed by whichever thread touches it first, while others wait for it.
     constexpr std::size_t part = (std::size_t{1} << 21) / sizeof(T);
     parallel_for(std::size_t{0}, (pixels + part - 1) / part, [&](std::size_t i) {
       std::fill(values.begin() + i * part, values.begin() + std::min(pixels, (i + 1) * part),
@@ -28,7 +28,7 @@ ImageChannel filled(const std::string& name, std::size_t pixels, T background) {
   return {name, std::move(values)};
 }
 
-/// A channel without a surface. Its kind says what stands for that.
+/// A channel that shows no surface; its kind decides which value says so.
 ImageChannel background_of(const std::string& name, const ChannelDescription& d, std::size_t pixels,
                            DepthEncoding::Type encoding) {
   if (d.type == ChannelType::identifier) return filled<std::uint32_t>(name, pixels, no_surface);

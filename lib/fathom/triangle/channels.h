@@ -24,11 +24,11 @@ struct EncodingFault {
 /// The map of a scene without a visible surface: every channel asked for, once, with its
 /// background (specification, section 6), in the encoding asked for.
 DepthMap make_background(const Camera& camera, const RenderOptions& options);
-/// The same, but binary32 values of Z are left 0 for the caller to write, background too.
+/// make_background(), but all binary32 values of Z are left 0 for the caller to write.
 DepthMap make_background_but_depth(const Camera& camera, const RenderOptions& options);
 
-/// Where the values of a channel that is encoded as DepthEncoding says are kept: one is not null,
-/// or none where the channel was not asked for.
+/// Where the values of a channel that is stored as DepthEncoding says are kept: one pointer is not
+/// null, or none if the channel was not asked for.
 struct EncodedValues {
   float* binary32 = nullptr;
   double* binary64 = nullptr;
@@ -42,7 +42,7 @@ struct ChannelValues {
   explicit ChannelValues(DepthMap& map);
 
   EncodedValues depth, distance;
-  /// Not the writer's to fill: A is no value of one surface.
+  /// Not filled by ChannelWriter: A is not a value of a single surface.
   float* coverage = nullptr;
   float* low = nullptr;
   std::uint32_t *id = nullptr, *face = nullptr, *object = nullptr;
@@ -52,7 +52,7 @@ struct ChannelValues {
 };
 
 /// Writes the values of one visible surface: exact numbers, each rounded once, here and nowhere
-/// else. Different pixels may be written at the same time.
+/// else. Several threads may write different pixels at the same time.
 class ChannelWriter {
  public:
   ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
@@ -61,7 +61,7 @@ class ChannelWriter {
   std::optional<EncodingFault> write(std::size_t pixel, const ProjectedTriangle& triangle,
                                      const ImagePoint& s);
 
-  /// For writing one channel, or a component of one: it must have been asked for.
+  /// For writing one channel, or one component: it must have been asked for.
   [[nodiscard]] const ChannelValues& values() const { return values_; }
   [[nodiscard]] double scale() const { return encoding_.scale; }
   std::optional<EncodingFault> write_depth(std::size_t pixel, const ProjectedTriangle& triangle,

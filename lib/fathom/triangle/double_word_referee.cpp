@@ -19,7 +19,7 @@ std::optional<int> sign_of(const Certified<WordPair>& x) {
   return std::nullopt;
 }
 
-/// x − y with its bound; both bounds with room for the roundings of their sum.
+/// x − y with its bound, both widened for the roundings of their sums.
 Certified<WordPair> difference(const Certified<WordPair>& x, const Certified<WordPair>& y) {
   using Word = DoubleWord<false>;
   const Word value = Word(x.value) - Word(y.value);
@@ -60,10 +60,10 @@ Certified<WordPair> WideReferee::depth_at(std::uint32_t number, const ImagePoint
 }
 
 // The weights are β = e_B/S, γ = e_C/S, α = 1 − β − γ with S = e_A + e_B + e_C, and the sample is
-// covered where all e/Δ ≥ 0 (and > 0 is certain). Perspective: D = Δ/S, so that where D > 0 the
-// signs of weights are those of e/Δ; where D < 0 the sum of the e/Δ is negative and so is one of
-// them. Orthographic: S = Δ. A negative weight therefore says "no" either way, and three positive
-// ones say "yes" if D > 0.
+// covered only where all e/Δ ≥ 0, and certainly where all are > 0. Perspective: D = Δ/S, so where
+// D > 0 the weights have the signs of e/Δ; where D < 0 the sum of the e/Δ is negative and so is one
+// of them. Orthographic: S = Δ. A negative weight therefore says "no" either way, and three
+// positive ones say "yes" if D > 0.
 std::optional<bool> WideReferee::covers(std::uint32_t number, const ImagePoint& s) {
   const Triangle& t = remember(number);
   if (!t.usable) return std::nullopt;
@@ -94,7 +94,7 @@ std::optional<int> WideReferee::compare_depths(std::uint32_t a, std::uint32_t b,
 }
 
 bool WideReferee::lie_in_one_plane(std::uint32_t a, std::uint32_t b) {
-  const Triangle first = remember(a);  // a copy: both may have the same place
+  const Triangle first = remember(a);  // a copy: both may share a slot
   const Triangle& second = remember(b);
   const bool same_frame = first.object_number == second.object_number ||
                           (first.object->placed_as_is && second.object->placed_as_is);
@@ -113,7 +113,7 @@ bool is_one_of(const MeshPoint& X, const MeshTriangle& t) {
 
 }  // namespace
 
-// Six points as whole numbers of a common unit, less than 2³⁹ in magnitude: differences are below
+// Six points as integer multiples of a common unit, below 2³⁹ in magnitude: differences are below
 // 2⁴⁰, components of the normal below 2⁸¹, its product with a difference below 2¹²³.
 bool certainly_coplanar(const MeshTriangle& a, const MeshTriangle& b) {
   if (std::all_of(b.begin(), b.end(), [&](const MeshPoint& X) { return is_one_of(X, a); })) {

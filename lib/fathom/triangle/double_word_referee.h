@@ -10,7 +10,7 @@
 
 namespace fathom::triangle {
 
-/// Settles by double-words what binary64 did not: the tier before exact numbers. nullopt: not
+/// Settles with double-words what binary64 did not: the tier before exact numbers. nullopt: not
 /// known. One for each thread: it remembers the triangles that it was asked about last.
 class WideReferee {
  public:
@@ -18,9 +18,9 @@ class WideReferee {
 
   /// Whether the triangle covers the sample, if that is certain without the top-left rule.
   std::optional<bool> covers(std::uint32_t number, const ImagePoint& s);
-  /// −1, 1: D at a sample that the triangle covers is certainly less, greater than `limit`.
+  /// −1 or 1 if D, at a sample that the triangle covers, is certainly less or greater than `limit`.
   std::optional<int> compare_depth(std::uint32_t number, const ImagePoint& s, double limit);
-  /// −1, 1: D of `a` at a sample that both cover is certainly less, greater than that of `b`.
+  /// −1 or 1 if D of `a`, at a sample that both cover, is certainly less or greater than D of `b`.
   std::optional<int> compare_depths(std::uint32_t a, std::uint32_t b, const ImagePoint& s);
   /// True only if both triangles certainly lie in one plane, so that they have the same D.
   bool lie_in_one_plane(std::uint32_t a, std::uint32_t b);
@@ -43,7 +43,7 @@ class WideReferee {
 };
 
 /// True only if the six points certainly lie in one plane: all points of one triangle are points of
-/// the other, or the coordinates have few bits and say so. Not: nothing is known.
+/// the other, or the coordinates have so few bits that it can be computed. False: nothing is known.
 bool certainly_coplanar(const MeshTriangle& a, const MeshTriangle& b);
 
 }  // namespace fathom::triangle

@@ -4,9 +4,9 @@
 
 namespace fathom::triangle {
 
-/// A sample's ray length in the camera frame, √(x² + y² + 1): x and y err by 4ε times the sums X, Y
-/// of the magnitudes of their terms, their squares by 9ε, the sum by 11ε(X² + Y² + 1); it is at
-/// least 1, so that the root halves that, and rounds once.
+/// Length of a sample's ray in the camera frame, √(x² + y² + 1): x and y err by 4ε times the sums X
+/// and Y of the magnitudes of their terms, their squares by 9ε, the sum by 11ε(X² + Y² + 1); it is
+/// at least 1, so the root halves that, and rounds once.
 template <class Real>
 Certified<Real> ray_length(const SceneRays& rays, const ImagePoint& s) {
   const auto coordinate = [&](const std::array<WordPair, 3>& k) {
@@ -18,7 +18,7 @@ Certified<Real> ray_length(const SceneRays& rays, const ImagePoint& s) {
 }
 
 /// The point of depth D on the ray of a sample, o + d·D. o and d err by 4ε of their sizes ō and d̄,
-/// so that the point errs by 5ε·d̄·|D̂| + d̄·E_D + 4ε·ō for its terms and by ε for the sum.
+/// so the point errs by 5ε·d̄·|D̂| + d̄·E_D + 4ε·ō for its terms and by ε for the sum.
 template <class Real>
 Vector<Certified<Real>> position(const Rays& rays, const RaySizes& sizes, bool perspective,
                                  const ImagePoint& s, const Certified<Real>& depth) {
@@ -33,8 +33,8 @@ Vector<Certified<Real>> position(const Rays& rays, const RaySizes& sizes, bool p
   return point;
 }
 
-/// The double-word tier of certified_surface.h, compiled with and without fused multiply-add, and what
-/// of it the processor runs: results may differ in their last bits, bounds hold for both.
+/// The double-word tier of certified_surface.h, compiled with and without fused multiply-adds.
+/// Results may differ in their last bits; the bounds hold for both.
 struct WideArithmetic {
   DepthForms<WordPair> (*depth_forms)(const MeshTriangle&, const Rays&, const ImageBounds&);
   Certified<WordPair> (*depth)(const DepthForms<WordPair>&, const ImagePoint&, bool perspective);
@@ -50,7 +50,7 @@ struct WideArithmetic {
 };
 
 extern const WideArithmetic wide_without_fma;
-/// Runs on every processor; slow where it has no such instruction.
+/// Runs on every processor; slow on one without the instruction.
 extern const WideArithmetic wide_with_fma;
 /// The one for this processor.
 const WideArithmetic& wide_arithmetic();

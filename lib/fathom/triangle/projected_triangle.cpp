@@ -30,7 +30,7 @@ ExactVector3 weighted_sum(const std::array<ImageForm, 3>& edges,
 }
 
 /// The integers in [0, count − 1] near an interval of the image, one more on each side, so that
-/// roundings of the ends do no harm. Sets last < first where there is none.
+/// roundings of the ends do no harm. Leaves `first` and `last` alone if there is none.
 void near(const Interval& range, std::uint32_t count, std::uint32_t& first, std::uint32_t& last) {
   const double greatest = static_cast<double>(count) - 1;
   const double low = std::floor(range.lower) - 1;

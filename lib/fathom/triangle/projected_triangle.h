@@ -12,14 +12,14 @@
 
 namespace fathom::triangle {
 
-/// A triangle of the scene seen by a camera, all exact (specification, sections 4 and 5, same
-/// symbols). It holds what coverage and depth at a sample need.
+/// A triangle of the scene seen by a camera, all exact (specification, sections 4 and 5, with its
+/// symbols). It holds what is needed for coverage and depth at a sample.
 struct ProjectedTriangle {
   std::uint32_t number = 0;
   std::array<WorldPoint, 3> world;
   std::array<CameraPoint, 3> camera;
 
-  /// sign(Δ); zero if the triangle is seen edge on, and then nothing below is set.
+  /// sign(Δ); zero if the triangle is seen edge on, in which case nothing below is set.
   Sign orientation = Sign::zero;
   /// sign(Δ)·(b × c), sign(Δ)·(c × a), sign(Δ)·(a × b): the edge functions e_A, e_B, e_C times
   /// sign(Δ), so that the inside of every edge is positive.
@@ -36,7 +36,7 @@ struct ProjectedTriangle {
 std::array<WorldPoint, 3> world_corners(const Object& object, const Mesh& mesh,
                                         std::uint32_t triangle);
 
-/// Projects a triangle of the scene. `counts` counts how Δ was decided.
+/// Projects a triangle of the scene. `counts` records how sign(Δ) was decided.
 ProjectedTriangle project(const std::array<WorldPoint, 3>& world, std::uint32_t number,
                           const Camera& camera, TierCounts& counts);
 
@@ -53,8 +53,8 @@ Ratio interpolate(const ProjectedTriangle& triangle, const ImagePoint& s,
 /// D(s) at a covered sample, exactly.
 Ratio depth_at(const ProjectedTriangle& triangle, const ImagePoint& s);
 
-/// A certified box: from the corners' images where all lie in front of the camera; empty where
-/// none does (every point of the triangle then has D ≤ 0); otherwise the whole image.
+/// A certified box: around the corners' images if all are in front of the camera; empty if none is
+/// (every point of the triangle then has D ≤ 0); otherwise the whole image.
 PixelBox bounding_box(const ProjectedTriangle& triangle, const Camera& camera);
 
 }  // namespace fathom::triangle

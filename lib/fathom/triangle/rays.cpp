@@ -9,11 +9,11 @@
 #include "fathom/numeric/last_bit.h"
 #include "fathom/numeric/rounding.h"
 
-// Over a mesh the image is affine: (U, V, D) = H·X + h, exactly. A sample (u, v) of a perspective
-// camera sees at depth D the X with H·X + h = D·(u, v, 1), as W = D; an orthographic one that with
-// H·X + h = (u, v, D), as W = 1. So with m_j the columns of H⁻¹ and O = −H⁻¹h the point is the one
-// that the header names. The columns of H⁻¹ are the cross products of H's rows over det H: exact
-// quotients, rounded once.
+// Over a mesh the image is affine: (U, V, D) = H·X + h, exactly. At depth D, a sample (u, v) of a
+// perspective camera sees the X with H·X + h = D·(u, v, 1), as W = D; of an orthographic one, the X
+// with H·X + h = (u, v, D), as W = 1. With m_j the columns of H⁻¹ and O = −H⁻¹h, X is the point in
+// the header. The columns of H⁻¹ are the cross products of H's rows over det H: exact quotients,
+// rounded once.
 namespace fathom::triangle {
 namespace {
 
@@ -24,8 +24,8 @@ bool is_safe(double x) {
   return size == 0 || (size >= least_safe && size <= greatest_safe);
 }
 
-/// lo is dropped where it is below 2⁻¹¹⁰·|hi|, so that its last bit is never far below: the
-/// relative error stays below 2⁻¹⁰⁶ + 2⁻¹¹⁰.
+/// lo is dropped if it is below 2⁻¹¹⁰·|hi|, so that its last bit is never far below: the relative
+/// error stays below 2⁻¹⁰⁶ + 2⁻¹¹⁰.
 WordPair rounded(const Ratio& x) {
   const double hi = round_to_binary64(x);
   if (!std::isfinite(hi)) return {hi, 0};
@@ -33,14 +33,14 @@ WordPair rounded(const Ratio& x) {
   return {hi, std::abs(lo) < std::abs(hi) * 0x1p-110 ? 0 : lo};
 }
 
-/// Sets an entry and its magnitude; false where it is not of a safe magnitude.
+/// Sets an entry and its magnitude; false if that is not safe.
 bool set(const Ratio& exact, WordPair& entry, double& size) {
   entry = rounded(exact);
   size = std::abs(entry.hi);
   return is_safe(entry.hi);
 }
 
-/// The world as a mesh.
+/// The world as an object.
 Object identity() {
   return {};
 }
@@ -75,7 +75,7 @@ ExactMatrix cofactors(const ExactMatrix& m) {
   return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
 }
 
-/// False where an entry is not of a safe magnitude, or H is singular.
+/// False if the magnitude of an entry is not safe, or H is singular.
 bool invert(const std::array<ExactRow, 3>& rows, Rays& rays, double& determinant_size) {
   const ExactMatrix H = linear_part(rows);
   const Dyadic det = determinant(H[0], H[1], H[2]);

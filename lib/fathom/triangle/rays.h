@@ -26,7 +26,7 @@ struct Rays {
   std::array<std::array<double, 3>, 4> sizes{};
 };
 
-/// An affine function of a mesh point with exact coefficients; the last is the constant.
+/// An affine function of a mesh point with exact coefficients, the last of them the constant.
 struct ExactRow {
   std::array<Dyadic, 4> coefficients;
   /// The coefficients where all of them are binary64 numbers.
@@ -39,16 +39,16 @@ struct ExactRow {
   /// n such that the value at every point whose coordinates are multiples of 2^(bits[k]) is a
   /// multiple of 2ⁿ.
   [[nodiscard]] long last_bit_at(const std::array<long, 3>& bits) const;
-  /// The value at X where it is a double-word number and found to be one.
+  /// The value at X, if it is a double-word number and is found to be one.
   [[nodiscard]] std::optional<WordPair> value_at(const MeshPoint& X) const;
 };
 
-/// How the meshes of an object lie to the camera; all that the channels need of it.
+/// How the mesh of an object lies relative to the camera: all that the channels need to know of it.
 struct ObjectRays {
   ObjectRays(const Object& object, const Camera& camera);
 
-  /// False where a number is of a magnitude for which no bound was derived, or where the placement
-  /// flattens the mesh: then the object's channels are written from exact numbers.
+  /// False if a number has a magnitude for which no bound was derived, or if the placement flattens
+  /// the mesh: then the object's channels are written from exact numbers.
   bool usable = false;
   Rays rays;
   /// Takes the normal of a triangle of the mesh to the world: the cofactors of the placement.
@@ -63,15 +63,15 @@ struct ObjectRays {
   double determinant = 0;
 };
 
-/// What the channels need of camera and scene; objects are prepared when first asked for, by any
-/// thread.
+/// What the channels need to know of camera and scene; objects are prepared when they are first
+/// asked for, by any thread.
 class SceneRays {
  public:
   SceneRays(const TriangleSource& triangles, const Camera& camera);
 
   [[nodiscard]] const TriangleSource& triangles() const { return triangles_; }
   [[nodiscard]] bool perspective() const { return perspective_; }
-  /// Bounds of the samples' coordinates.
+  /// Upper bounds on the samples' coordinates, in pixels.
   [[nodiscard]] double greatest_u() const { return greatest_u_; }
   [[nodiscard]] double greatest_v() const { return greatest_v_; }
   /// Rays in the world.

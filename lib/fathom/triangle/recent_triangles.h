@@ -6,14 +6,14 @@
 
 namespace fathom::triangle {
 
-/// What was found out about the triangles that were asked about last, by their numbers: one for
-/// each number modulo `most`, so that neighbours in number, which often are neighbours in the
-/// image, do not drive each other out.
+/// What was found out about the triangles that were asked about last, by number: one for each
+/// number modulo `most`, so that triangles with neighbouring numbers, which are often neighbours in
+/// the image, do not displace each other.
 template <class Facts, std::size_t most>
 class RecentTriangles {
  public:
-  /// The facts about a triangle. Where it is not remembered, make(facts) is called first, on what
-  /// was known of another triangle or on Facts{}. A reference is valid until another number is
+  /// The facts about a triangle. If they are not remembered, make(facts) is called first, on the
+  /// facts about another triangle or on Facts{}. The reference is valid until another number is
   /// asked for.
   template <class Make>
   Facts& get(std::uint32_t number, const Make& make) {

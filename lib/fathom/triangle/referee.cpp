@@ -9,8 +9,8 @@ namespace {
 /// About 5 kB each.
 constexpr std::size_t most_remembered = 2048;
 
-/// Whether D of both is the same function on the image: n_a·w_b = n_b·w_a as polynomials. Of n and
-/// w one is constant, the same for both (|Δ|: w under an orthographic, n under a perspective
+/// Whether D of both is the same function on the image: n_a·w_b = n_b·w_a as polynomials. One of n
+/// and w is constant, the same one for both (|Δ|: w for an orthographic, n for a perspective
 /// camera), so three products of coefficients are compared.
 bool in_one_plane(const ProjectedTriangle& a, const ProjectedTriangle& b, bool perspective) {
   const auto varying = [&](const ProjectedTriangle& t) -> const ExactVector3& {
@@ -46,7 +46,7 @@ const ProjectedTriangle& Referee::projected(std::uint32_t number) {
   return remember(number);
 }
 
-// The sign of Δ was certain when the triangle was binned, so that double-words need not ask for it.
+// The sign of Δ was certain when the triangle was binned, so double-words need not decide it.
 bool Referee::covers(std::uint32_t number, const ImagePoint& s, RenderStatistics& statistics) {
   ++statistics.edges.exact;
   if (wide_) {
@@ -89,7 +89,7 @@ bool Referee::is_in_range(std::uint32_t number, const ImagePoint& s, RenderStati
          compare(depth, Ratio(Dyadic(camera_.far))) <= 0;
 }
 
-/// Of triangles that are not degenerate.
+/// Needs    triangles that are not degenerate.
 bool Referee::lie_in_one_plane(std::uint32_t a, std::uint32_t b) {
   if (wide_ && wide_->lie_in_one_plane(a, b)) return true;
   make_room();

@@ -12,11 +12,11 @@
 
 namespace fathom::triangle {
 
-/// Settles by exact numbers what a bound did not settle. One for each thread: it remembers the
+/// Settles with exact numbers what a bound did not settle. One for each thread: it remembers the
 /// triangles that it was asked about last.
 class Referee {
  public:
-  /// With `rays`, double-words are asked before exact numbers.
+  /// With `rays`, double-words are tried before exact numbers.
   Referee(const TriangleSource& triangles, const Camera& camera, const SceneRays* rays = nullptr)
       : triangles_(triangles), camera_(camera) {
     if (rays) wide_.emplace(*rays);
@@ -26,14 +26,14 @@ class Referee {
   const ProjectedTriangle& projected(std::uint32_t number);
 
   bool covers(std::uint32_t number, const ImagePoint& s, RenderStatistics& statistics);
-  /// D > 0 and near ≤ D ≤ far, at a covered sample.
+  /// Whether D > 0 and near ≤ D ≤ far, at a covered sample.
   bool is_in_range(std::uint32_t number, const ImagePoint& s, RenderStatistics& statistics);
   /// Whether, at a sample that both cover, `a` hides `b`: its D is less, or equal with the lower
   /// number.
   bool hides(std::uint32_t a, std::uint32_t b, const ImagePoint& s, RenderStatistics& statistics);
 
  private:
-  /// Forgets all if there is no room for two more.
+  /// Forgets everything if there is no room for two more.
   void make_room();
   const ProjectedTriangle& remember(std::uint32_t number);
   bool lie_in_one_plane(std::uint32_t a, std::uint32_t b);

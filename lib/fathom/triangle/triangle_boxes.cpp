@@ -9,8 +9,8 @@ namespace {
 constexpr std::size_t remembered_corners = 4096;
 
 /// The integers near an interval of the image, one more on each side, so that roundings of the ends
-/// do no harm; `first` at most `count`, `last` at least −1. An end that is not known (NaN) is that
-/// of the image.
+/// do no harm; `first` at most `count`, `last` at least −1. An end that is not known (NaN) becomes
+/// that of the image.
 void near(const Interval& range, std::uint32_t count, std::int64_t& first, std::int64_t& last) {
   const double low = std::floor(range.lower) - 1, high = std::ceil(range.upper) + 1;
   const double size = count;
@@ -19,7 +19,7 @@ void near(const Interval& range, std::uint32_t count, std::int64_t& first, std::
                           : static_cast<std::int64_t>(std::clamp(high, -1.0, size - 1));
 }
 
-/// U, V and W as exact affine functions of the mesh point, by their values at four points.
+/// U, V and W as exact affine functions of the mesh point, from their values at four points.
 std::array<ApproximateRow, 3> image_rows(const Object& object, const Camera& camera) {
   const auto image = [&](const MeshPoint& p) {
     const HomogeneousImagePoint a = to_image(camera, to_camera(camera, object.world_from_mesh(p)));

@@ -9,18 +9,18 @@
 
 namespace fathom::triangle {
 
-/// Boxes of the triangles of one object: the pixels outside which a triangle covers no sample that
-/// counts, as bounding_box() has them or a little larger. Corners are projected in binary64 with a
-/// bound, exactly where the bound does not tell whether W > 0; once where triangles that follow
-/// each other share them.
+/// Boxes of the triangles of one object: outside its box a triangle covers no sample that counts.
+/// Equal to bounding_box() or a little larger. Corners are projected in binary64 with a bound, or
+/// exactly where the bound leaves open whether W > 0; only once where consecutive triangles share
+/// them.
 class TriangleBoxes {
  public:
   TriangleBoxes(const Object& object, const Mesh& mesh, const Camera& camera);
   PixelBox box(std::uint32_t triangle);
 
  private:
-  /// Columns and rows from first to last, one corner's image, or beyond the image's sides;
-  /// `in_front`: W > 0, without which nothing else is set.
+  /// First and last column and row of one corner's image, or beyond the image's sides; nothing else
+  /// is set unless `in_front`: W > 0.
   struct Corner {
     std::uint32_t vertex = 0;
     bool known = false, in_front = false;
@@ -36,7 +36,7 @@ class TriangleBoxes {
   const Camera& camera_;
   /// U, V and W.
   std::array<ApproximateRow, 3> rows_;
-  /// The corner that was projected last, of those whose number has the same low bits.
+  /// The corner that was projected last among those whose numbers have the same low bits.
   std::vector<Corner> recent_;
 };
 

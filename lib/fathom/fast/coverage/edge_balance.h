@@ -8,11 +8,11 @@
 
 namespace fathom::fast {
 
-/// Directed edges of which opposite ones cancel.
+/// Directed edges, of which opposite ones cancel.
 ///
-/// Triangles turned so that their area is positive walk a common edge in opposite directions where
-/// they lie on its two sides. How many triangles cover a point changes only across the edges that
-/// are left.
+/// Triangles turned so that their area is positive run along a common edge in opposite directions
+/// if they lie on its two sides. How many triangles cover a point changes only across the edges
+/// that are left.
 class EdgeBalance {
  public:
   struct Edge {
@@ -21,8 +21,8 @@ class EdgeBalance {
 
   /// Empties it, with room for about so many different edges; there may be more.
   void start(std::size_t expected_edges);
-  /// Of vertices less than 2³² − 1. Cancels an edge from `to` to `from`, or keeps this one until
-  /// its opposite comes.
+  /// Vertices must be less than 2³² − 1. Cancels an edge from `to` to `from`, or keeps this one
+  /// until its opposite comes.
   void add(std::uint32_t from, std::uint32_t to) {
     const std::uint64_t edge = key(from, to), opposite = key(to, from);
     for (std::size_t i = start_of(from, to);; i = (i + 1) & mask_) {
@@ -37,7 +37,7 @@ class EdgeBalance {
       }
     }
   }
-  /// visit(Edge) for each that is left.
+  /// Calls visit(Edge) for each edge that is left.
   template <class Visit>
   void for_each_left(const Visit& visit) const {
     for (const std::uint64_t slot : slots_) {
@@ -54,7 +54,7 @@ class EdgeBalance {
     return (std::uint64_t{from} + 1) << 32 | to;
   }
   [[nodiscard]] std::size_t start_of(std::uint32_t from, std::uint32_t to) const {
-    // The same for both directions (Fibonacci hashing; Knuth, TAOCP 3, 6.4).
+    // The same for both directions (Fibonacci hashing, [Knu98] 6.4).
     const std::uint64_t sum = std::uint64_t{from} + to, product = std::uint64_t{from} * to;
     return static_cast<std::size_t>(((sum ^ product << 1) * 0x9E3779B97F4A7C15) >> shift_);
   }

@@ -28,7 +28,7 @@ void PixelUnion::add(std::span<const SquarePoint> corners, double area_error) {
   ++polygons_;
 }
 
-// The measure of a union of spans changes by no more than an end is moved.
+// The measure of a union of spans changes by no more than one of its ends is moved.
 double PixelUnion::length_at(double height) {
   constexpr Span none{2, -1};
   of_polygon_.assign(static_cast<std::size_t>(polygons_), none);
@@ -56,7 +56,7 @@ double PixelUnion::length_at(double height) {
   return length;
 }
 
-// A line crosses the boundary of each polygon twice at most.
+// A line crosses the boundary of each polygon at most twice.
 Interval PixelUnion::area() {
   edges_.cut(true);
   const double sum = edges_.integrate([&](double height) { return length_at(height); });
@@ -65,9 +65,9 @@ Interval PixelUnion::area() {
   return {std::max(sum - bound, 0.0), std::min(sum + bound, 1.0)};
 }
 
-// Corners where the computed f is not negative stay. So all that is cut off too much or too little
-// has |exact f| ≤ 2·error + (|a| + |b|)·8u, a strip across the square of a width of at most twice
-// that over max(|a|, |b|), and of a length of at most √2.
+// Corners where the computed f is not negative stay. So whatever is cut off or kept by mistake has
+// |exact f| ≤ 2·error + (|a| + |b|)·8u: a strip across the square with a width of at most twice
+// that over max(|a|, |b|), and a length of at most √2.
 void ClippedSquare::clip(const UncertainHalfPlane& h) {
   std::array<double, most> f{};
   bool all_inside = true, all_outside = true;

@@ -10,15 +10,15 @@
 
 namespace fathom::fast {
 
-/// The area of the union of convex polygons within the unit square, by binary64 with a bound
+/// The area of the union of convex polygons within the unit square, in binary64 with a bound
 /// (square_edges.h). No predicate has to be right: contacts of any kind, common edges and slivers
-/// need no care.
+/// need no special care.
 class PixelUnion {
  public:
   void clear();
   /// Corners in the order of the boundary, either way round, finite; they may lie outside the
-  /// square. `area_error`: by how much area the polygon and the one meant differ within the square
-  /// at most.
+  /// square. `area_error`: at most by how much area, within the square, the polygon differs from
+  /// the one that is meant.
   void add(std::span<const SquarePoint> corners, double area_error);
   /// An interval that contains the area of the union of the polygons that are meant, within [0, 1].
   Interval area();
@@ -38,11 +38,12 @@ class PixelUnion {
 /// f = c + a·x + b·y ≥ 0.
 struct UncertainHalfPlane {
   double a, b, c;
-  /// Of f at any point of the unit square, with the roundings of its evaluation.
+  /// Of f at any point of the unit square, including the roundings of its evaluation.
   double error;
 };
 
-/// What lies of the unit square on the inner sides of lines (Sutherland, Hodgman 1974).
+/// The part of the unit square on the inner sides of lines.
+/// Source   [SH74]
 class ClippedSquare {
  public:
   ClippedSquare() : corners_{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, count_(4) {}
@@ -50,7 +51,7 @@ class ClippedSquare {
   [[nodiscard]] std::span<const SquarePoint> corners() const {
     return std::span(corners_).first(count_);
   }
-  /// By how much area this differs at most from the square clipped by the exact lines.
+  /// At most by how much area this differs from the square clipped by the exact lines.
   [[nodiscard]] double area_error() const { return area_error_; }
 
  private:

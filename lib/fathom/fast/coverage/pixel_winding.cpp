@@ -5,15 +5,15 @@
 #include "fathom/fast/vertex.h"
 
 // Let the corners of all triangles go straight from their exact to their computed places, by at
-// most ε in each coordinate. The sum of the triangles' winding numbers around a point is the number
-// of triangles that cover it at the beginning; cancelled edges cancel all the way, so on the way it
-// changes only where an edge that is left passes over the point, within √2·ε of that edge. Within
-// the square such a strip has an area of at most 2√2·ε·(√2 + 2√2·ε) ≤ 4.1ε. Everywhere else the
-// winding number of the computed edges is the exact number, and it is that number at a point whose
-// count is certain for all points within ε.
+// most ε in each coordinate. At the start the sum of the triangles' winding numbers around a point
+// is the number of triangles that cover it. Cancelled edges cancel all the way, so the sum changes
+// only where an edge that is left passes over the point, which is then within √2·ε of that edge.
+// Within the square such a strip has an area of at most 2√2·ε·(√2 + 2√2·ε) ≤ 4.1ε. Everywhere else
+// the winding number of the computed edges is the exact number of triangles; in particular at a
+// point where that number is certain for all points within ε.
 //
 // The length of the points with a positive winding number changes by no more than a crossing is
-// moved, and crossings at the same place may stand in any order: square_edges.h.
+// moved, and crossings at the same place may come in any order: square_edges.h.
 namespace fathom::fast {
 
 void PixelWinding::clear() {

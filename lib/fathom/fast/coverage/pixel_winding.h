@@ -9,7 +9,7 @@ namespace fathom::fast {
 
 /// The area within the unit square of the points that at least one triangle covers, from the edges
 /// across which the number of covering triangles changes (EdgeBalance) and that number at a point
-/// of each slab (square_edges.h), by binary64 with a bound.
+/// of each slab (square_edges.h), in binary64 with a bound.
 class PixelWinding {
  public:
   void clear();
@@ -18,9 +18,9 @@ class PixelWinding {
   void add(const SquarePoint& from, const SquarePoint& to, double position_error);
 
   /// An interval that contains the area, within [0, 1]. `count(point)` is the number of triangles
-  /// that cover a point of the square, certainly so for all points within the position errors
-  /// around it, and negative where it is not certain. Where it is not at several points, nothing is
-  /// known of the area ({0, 1}).
+  /// that cover a point of the square, if it is certain that it is the same for all points within
+  /// the position errors around it; otherwise negative. If it is negative at several points,
+  /// nothing is known about the area ({0, 1}).
   template <class Count>
   Interval area(const Count& count);
 
@@ -31,13 +31,13 @@ class PixelWinding {
   };
   /// Crossings of a horizontal line in order, between the square's sides.
   void find_crossings(double height);
-  /// Between crossings: left of number `place`, or behind all.
+  /// Between crossings: to the left of number `place`, or to the right of all.
   struct Gap {
     std::size_t place;
     double left, width;
   };
   [[nodiscard]] Gap widest_gap() const;
-  /// Of the gaps where the number is not 0, which it is `number` in gap `known`.
+  /// Length of the gaps where the number is positive; it is `number` in gap `known`.
   [[nodiscard]] double covered_length(std::size_t known, int number) const;
   [[nodiscard]] Interval enclose(double sum) const;
 
@@ -54,7 +54,7 @@ Interval PixelWinding::area(const Count& count) {
     if (!known) return 0.0;
     find_crossings(height);
     const Gap gap = widest_gap();
-    // Off the middle: edges of regular meshes go through it.
+    // Not the middle: edges of regular meshes pass through it.
     for (const double share : {0.4142, 0.6180, 0.2679}) {
       const int number = count(SquarePoint{gap.left + gap.width * share, height});
       if (number >= 0) return covered_length(gap.place, number);

@@ -53,7 +53,7 @@ void SquareEdges::cut(bool tags_apart) {
   for (const Edge& edge : edges_) {
     breaks_.push_back(edge.low);
     breaks_.push_back(edge.high);
-    // Beyond a side all the way: as good as the side itself.
+    // Beyond a side all the way: equivalent to the side itself.
     if (std::max(edge.x_low, edge.x_high) <= 0 || std::min(edge.x_low, edge.x_high) >= 1) continue;
     add_crossing(edge, left);
     add_crossing(edge, right);

@@ -25,7 +25,7 @@ void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile
   settle_open(context, values, image_width);
 }
 
-// The number of triangles that cover a point is the same all over the inside of such a pixel, and
+// The number of triangles that cover a point is the same throughout the inside of such a pixel, and
 // at its sample it is 0 exactly where no surface is seen.
 void TileCoverage::write_closed(const Tile& tile, float* values, std::uint32_t image_width) const {
   const std::uint32_t columns = area_.last_column - area_.first_column + 1;
@@ -74,8 +74,8 @@ TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_
 
 // The functions of exact_setup() are relative to the sample of the tile's first pixel, half a pixel
 // from its corner: c moves by (a + b)/2. Their bounds hold for any point up to 8 pixels beyond the
-// tile. The two roundings more, of c and of what meet() and add_to_union() add, are below u·S each,
-// which half of a bound more covers. Ends of the range are known up to the next number.
+// tile. Two more roundings, of c and of what meet() and add_to_union() add, are below u·S each,
+// which the additional half of a bound covers. Ends of the range are known up to the next number.
 TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context& context) const {
   const TriangleSetup s =
       exact_setup(context.referee.projected(numbers_[i]), context.perspective, area_);
@@ -230,9 +230,9 @@ Interval TileCoverage::area_of_union(std::uint32_t pixel) {
 }
 
 // Two polygons whose corresponding corners are at most ε apart in both coordinates differ only
-// within √2·ε of the edges: the boundary sweeps over every other point on the way from the one to
-// the other. In the square such a strip has an area of at most 2√2·ε·(√2 + 2√2·ε) ≤ 4.1ε, three
-// of them 12.3ε.
+// within √2·ε of the edges: on the way from one to the other, the boundary passes over every point
+// where they differ. In the square such a strip has an area of at most 2√2·ε·(√2 + 2√2·ε) ≤ 4.1ε,
+// three of them 12.3ε.
 void TileCoverage::add_to_union(const Shape& shape, std::uint32_t x, std::uint32_t y) {
   if (shape.is_open) {
     ClippedSquare square;
@@ -270,7 +270,7 @@ float TileCoverage::settle(std::uint32_t pixel, const Tile::Context& context) {
   };
   const bool any_open = std::any_of(shapes.begin(), shapes.end(),
                                     [&](std::uint32_t i) { return shapes_[i].is_open; });
-  // Slabs between all ends and crossings take the cube of the number of edges.
+  // With slabs between all ends and crossings, time grows with the cube of the number of edges.
   constexpr std::size_t most = 400;
   if ((any_open ? shapes.size() : edges_at_.at(pixel).size()) > most) {
     return settle_exactly(pixel, context);

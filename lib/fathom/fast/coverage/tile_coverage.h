@@ -14,11 +14,11 @@
 
 namespace fathom::fast {
 
-/// What is certain of a triangle whose area counts for channel A.
+/// What is certain about a triangle whose area counts for channel A.
 enum class CoverageClass : std::uint8_t {
   nothing,   // no point of it has a depth in the range that counts
   positive,  // certainly Δ > 0; all of it in front of the camera and in the range
-  negative,  // the same with Δ < 0
+  negative,  // certainly Δ < 0; all of it in front of the camera and in the range
   open       // none of these
 };
 
@@ -31,27 +31,27 @@ struct TileBox {
 
 struct CoverageTriangle {
   CoverageClass kind;
-  /// Positive or negative, and so large that its pixels are worth looking at one by one.
+  /// Positive or negative, and so large that it pays to look at its pixels one by one.
   bool is_large;
   /// The pixels that it can meet, unless it is open.
   TileBox box;
 };
 
-/// Of triangles (numbers in the scene) of an object, in a tile. Vector instructions.
+/// Classifies triangles of an object, by their numbers in the scene, in a tile, several at once.
 void classify_for_coverage(const ImageObject& object, std::span<const std::uint32_t> numbers,
                            const DepthRange& range, const PixelBox& tile,
                            CoverageTriangle* classes);
 
-/// Channel A of one tile after the other (specification, section 6), the same values as
+/// Channel A (specification, section 6), one tile after another, with the same values as
 /// rounded_pixel_coverage().
 ///
-/// How many triangles cover a point of the image changes only across edges at which triangles do
-/// not lie beside each other (EdgeBalance). A pixel that no such edge meets is covered wholly or
-/// not at all, as its sample is, and so is one that a single triangle covers; what is left is
-/// mostly silhouettes. There, it is the area between such edges that counts (PixelWinding), or that
-/// of the union of what meets the pixel where triangles are cut by the range of depths
-/// (PixelUnion). Where a bound does not settle the rounding, the ends of the edges are computed
-/// from exact numbers, and last the area is.
+/// How many triangles cover a point of the image changes only across edges that do not lie between
+/// two adjacent triangles (EdgeBalance). A pixel that no such edge meets is covered wholly or not
+/// at all, as its sample is, and one that a single triangle covers is covered wholly; what is left
+/// is mostly silhouettes. There, the area between such edges counts (PixelWinding) or, where
+/// triangles are cut by the range of depths, the area of the union of what meets the pixel
+/// (PixelUnion). Where a bound does not settle the rounding, first the ends of the edges are
+/// computed from exact numbers, and in the end the area.
 class TileCoverage {
  public:
   struct Scene {
@@ -61,8 +61,8 @@ class TileCoverage {
   };
   explicit TileCoverage(const Scene& scene) : scene_(scene) {}
 
-  /// `tile` is drawn; its triangles are those of the bins, which must be sorted by area, not by
-  /// samples. Writes the values of its pixels into an image of this width.
+  /// `tile` has been drawn; its triangles are those of the bins, which must be sorted by area, not
+  /// by samples. Writes the values of its pixels into an image of this width.
   void write(const Tile& tile, std::uint32_t tile_number, const Tile::Context& context,
              float* values, std::uint32_t image_width);
 
@@ -79,7 +79,7 @@ class TileCoverage {
     std::uint32_t count = 0;
     void add(double a, double b, double c, double error) { sides[count++] = {a, b, c, error}; }
   };
-  /// Something that meets a pixel, a shape or an edge; pixels are numbered by rows of the tile.
+  /// A shape or an edge that meets a pixel; pixels are numbered by rows of the tile.
   struct Meeting {
     std::uint32_t pixel, index;
   };
@@ -91,7 +91,7 @@ class TileCoverage {
       unsorted_.push_back({pixel, static_cast<std::uint32_t>(index)});
     }
     void sort();
-    /// Of a pixel, in the order in which they were added.
+    /// Those of a pixel, in the order in which they were added.
     [[nodiscard]] std::span<const std::uint32_t> at(std::uint32_t pixel) const {
       return std::span(sorted_).subspan(starts_[pixel], starts_[pixel + 1] - starts_[pixel]);
     }
@@ -141,7 +141,7 @@ class TileCoverage {
   [[nodiscard]] Shape exact_shape(std::size_t i, const Tile::Context& context) const;
   void settle_open(const Tile::Context& context, float* values, std::uint32_t image_width);
   float settle(std::uint32_t pixel, const Tile::Context& context);
-  /// The same by exact numbers alone.
+  /// settle() by exact numbers alone.
   float settle_exactly(std::uint32_t pixel, const Tile::Context& context);
   enum class Corners { computed, exact };
   [[nodiscard]] Interval area_between_edges(std::uint32_t pixel, Corners corners);
@@ -152,7 +152,7 @@ class TileCoverage {
 
   Scene scene_;
   PixelBox area_;
-  /// The triangles of the tile, those of an object beside each other, and their classes.
+  /// The triangles of the tile, those of one object next to each other, and their classes.
   std::vector<std::uint32_t> numbers_;
   std::vector<CoverageTriangle> classes_;
   /// A bit for each pixel, a word for each row: covered wholly by one triangle; open; open at
@@ -163,9 +163,9 @@ class TileCoverage {
   std::vector<std::uint32_t> vertex_at_;
   std::vector<UnbalancedEdge> unbalanced_;
   std::vector<Shape> shapes_;
-  /// Of open triangles that may meet the tile, in the order of numbers_.
+  /// For open triangles that may meet the tile, in the order of numbers_.
   std::vector<Shape> open_shapes_;
-  /// Of open pixels.
+  /// For open pixels.
   Meetings shapes_at_, edges_at_;
   std::vector<std::uint32_t> exact_numbers_;
   PixelUnion union_;

@@ -15,9 +15,9 @@ bool TileCoverage::is_full(const TileBox& box) const {
   return true;
 }
 
-// Where in a row of pixels a function is greater than its error at all four corners of a pixel is
-// found by a division, and then asked at the two ends that come out: products and sums are rounded
-// monotonically, so that it holds between two pixels where it holds.
+// A division finds where, in a row of pixels, a function is greater than its error at all four
+// corners of a pixel; the two ends that come out are then tested. Products and sums are rounded
+// monotonically, so what holds at two pixels holds between them.
 void TileCoverage::fill(const Shape& shape, const TileBox& box) {
   for (int row = box.top; row <= box.bottom; ++row) {
     double first = box.left, last = box.right;

@@ -23,7 +23,7 @@ HWY_INLINE M certainly_miss(const DepthRange& range, const Corners& t) {
                 hn::Gt(least, constant(range.outside_greatest)));
 }
 
-/// Reads triangles from the `first` number on, and asks the memory for what comes next.
+/// Reads triangles from the `first` number on, and prefetches those that come next.
 HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> numbers,
                       std::size_t first, std::array<CornerIndices, SetupBatch::most>& next) {
   const std::size_t lanes = hn::Lanes(D());
@@ -52,7 +52,7 @@ void classify(const ImageObject& object, std::span<const std::uint32_t> numbers,
     const unsigned positive = bits_of(hn::And(simple, o.positive));
     const unsigned negative = bits_of(hn::And(simple, o.negative));
     const unsigned nothing = bits_of(hn::And(usable, hn::Or(o.zero, certainly_miss(range, t))));
-    // Computed coordinates will do: this decides only about time.
+    // Computed coordinates will do: this affects only the time.
     const V width = hn::Sub(greatest_of(t.A.u, t.B.u, t.C.u), least_of(t.A.u, t.B.u, t.C.u));
     const V height = hn::Sub(greatest_of(t.A.v, t.B.v, t.C.v), least_of(t.A.v, t.B.v, t.C.v));
     const unsigned large = bits_of(hn::Gt(hn::Min(width, height), constant(16)));

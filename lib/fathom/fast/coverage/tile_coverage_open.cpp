@@ -5,7 +5,7 @@
 #include "fathom/fast/coverage/tile_coverage.h"
 
 // Which pixels of a tile may be covered in part: those that an unbalanced edge meets, and those of
-// triangles of which nothing simple is certain.
+// triangles about which nothing simple is certain.
 namespace fathom::fast {
 namespace {
 
@@ -13,7 +13,7 @@ namespace {
 constexpr double rounding_room = 0x1p-20;
 constexpr double far = 0x1p28;
 
-/// A number the same for −0 and 0.
+/// A hash that is the same for −0 and 0.
 std::uint64_t hash_of(const MeshPoint& point) {
   std::uint64_t hash = 0;
   for (const double x : {point.x, point.y, point.z}) {
@@ -27,7 +27,7 @@ bool same_place(const MeshPoint& a, const MeshPoint& b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/// The first of the vertices asked for that lies at the same place.
+/// Maps each vertex to the first one asked for at the same place.
 class VertexAtPlace {
  public:
   VertexAtPlace(const Mesh& mesh, std::size_t most, std::vector<std::uint32_t>& slots)
@@ -58,7 +58,7 @@ void TileCoverage::collect_triangles(std::uint32_t tile_number) {
   }
 }
 
-/// The pixels that the rectangle around the edge meets, `margin` added on all sides.
+/// The pixels that the rectangle around the edge meets, widened by `margin` on all sides.
 TileBox TileCoverage::box_of(const UnbalancedEdge& edge, double margin) const {
   const auto [least_u, greatest_u] = std::minmax({edge.from->u, edge.to->u});
   const auto [least_v, greatest_v] = std::minmax({edge.from->v, edge.to->v});
@@ -72,7 +72,7 @@ TileBox TileCoverage::box_of(const UnbalancedEdge& edge, double margin) const {
       within(least_v - top - margin, 0, size), within(greatest_v - top + margin, -1, all.bottom)};
 }
 
-// As meet(), by a division for each row, with a pixel more on both sides for its rounding.
+// Like meet(), by a division for each row, with one more pixel on both sides for its rounding.
 void TileCoverage::open_where_it_may_be(const Shape& shape) {
   const TileBox box = whole();
   for (int row = box.top; row <= box.bottom; ++row) {
@@ -91,9 +91,10 @@ void TileCoverage::open_where_it_may_be(const Shape& shape) {
 }
 
 // Every point of the exact edge lies within e, the corners' error, of its counterpart on the
-// computed one in both coordinates. In the heights of a row of pixels, e more on both sides, the
-// computed edge lies between its two ends' x; these err by at most 5.1u·|Δu| for the product (see
-// square_edges.h) and 4u of a coordinate for sums: less than rounding_room up to `far`.
+// computed one in both coordinates. Within the heights of a row of pixels, widened by e on both
+// sides, the computed edge lies between the x of its two ends there; these err by at most
+// 5.1u·|Δu| for the product (see square_edges.h) and 4u of a coordinate for sums: less than
+// rounding_room up to `far`.
 template <class Visit>
 void TileCoverage::for_each_row(const UnbalancedEdge& edge, const Visit& visit) const {
   const ImageVertex &p = *edge.from, &q = *edge.to;
@@ -118,14 +119,14 @@ void TileCoverage::for_each_row(const UnbalancedEdge& edge, const Visit& visit) 
     const double x = at(above), y = at(above + 1 + 2 * e);
     const double left = std::min(x, y) - e - origin, right = std::max(x, y) + e - origin;
     if (left >= last + 1 || right < 0) continue;
-    // Whole parts of numbers that are not negative.
+    // Integer parts of numbers that are not negative.
     visit(static_cast<std::size_t>(row), columns_between(static_cast<int>(std::max(left, 0.0)),
                                                          static_cast<int>(std::min(right, last))));
   }
 }
 
-// Triangles that follow each other in a file often have an edge in common, which then needs no
-// table: it is left out of both.
+// Consecutive triangles of a file often have an edge in common, which then needs no table: it is
+// left out of both.
 void TileCoverage::balance_edges(const ImageObject& object, std::size_t first, std::size_t end) {
   balance_.start(end - first);
   std::array<EdgeBalance::Edge, 3> waiting{};
@@ -161,7 +162,7 @@ void TileCoverage::balance_edges(const ImageObject& object, std::size_t first, s
   balance_.for_each_left([&](const EdgeBalance::Edge& edge) { left_.push_back(edge); });
   if (left_.empty()) return;
 
-  // Vertices that stand in the file more than once, at the same place.
+  // Vertices that are in the file more than once, at the same place, are taken as one.
   VertexAtPlace vertex_at(object.mesh, 2 * left_.size(), vertex_at_);
   balance_.start(left_.size());
   for (const auto& [from, to] : left_) balance_.add(vertex_at(from), vertex_at(to));

@@ -5,7 +5,7 @@
 
 #include "fathom/clipping/exact_kernel.h"
 
-/// The arithmetics that scan conversion runs in. Number is one of
+/// The arithmetics in which scan conversion runs. Number is one of
 ///   Exact    rational numbers, nothing rounded;
 ///   double   every operation rounded to binary64;
 ///   float    every operation rounded to binary32.
@@ -28,7 +28,7 @@ std::int64_t ceiling_of(const Number& x) {
   return -floor_of(Number(-x));
 }
 
-/// The integer nearest to x; at a tie the larger one. Correct in every arithmetic: x − ⌊x⌋ may be
+/// The integer nearest to x; at a tie the greater one. Correct in every arithmetic: x − ⌊x⌋ may be
 /// rounded, but ½ is a number of each, and rounding is monotone.
 template <class Number>
 std::int64_t nearest_integer(const Number& x) {
@@ -64,7 +64,7 @@ inline double to_binary64(const Exact& x) {
   return clipping::to_binary64(x);
 }
 
-/// Integers of 128 bits: products of differences of coordinates below 2⁶² are exact in them.
+/// 128-bit integers: products of differences of coordinates below 2⁶² are exact in them.
 __extension__ using Int128 = __int128;
 
 /// ⌊a / b⌋ for b > 0.

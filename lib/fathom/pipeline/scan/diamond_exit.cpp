@@ -24,15 +24,15 @@ struct Visit {
   Perturbed<Number> enters;
 };
 
-/// Between two parallel sides of a diamond: |s − s_c| < ½ where s runs from s_a + shift to
-/// s_a + shift + ds. The parameters at which the segment is between them.
+/// The strip between two parallel sides of a diamond: |s − s_c| < ½, where s runs from s_a + shift
+/// to s_a + shift + ds. Finds the parameters at which the segment is in it.
 template <class Number>
 class Strip {
  public:
   Strip(Number s_a, Number ds, Number first, Number second)
       : s_a_(s_a), ds_(ds), first_(first), second_(second) {}
 
-  /// Narrows enters < t < leaves; false where the segment is never between them.
+  /// Narrows enters < t < leaves; false if the segment is never between them.
   bool narrow(const Number& s_c, Perturbed<Number>& enters, Perturbed<Number>& leaves) const {
     const Number half = Number(1) / Number(2);
     const Perturbed<Number> low{Number(s_c - half - s_a_), Number(-first_), Number(-second_)};
@@ -76,7 +76,7 @@ class Segment {
     return enters;
   }
 
-  /// The minor coordinates that the segment can have where the major one is between a and b.
+  /// The minor coordinates that the segment can have while the major one is between a and b.
   [[nodiscard]] std::pair<std::int64_t, std::int64_t> minor_range(const Number& a,
                                                                   const Number& b) const {
     const Number major0 = steep() ? s_.y0 : s_.x0, minor0 = steep() ? s_.x0 : s_.y0;
@@ -108,7 +108,7 @@ void diamond_exit_line(const WindowSegment<Number>& ends, const PixelWindow& win
       std::min(floor_of(std::max(from, to)) + 1, (steep ? window.y_end : window.x_end) - 1);
   for (std::int64_t k = 0; k <= last - first; ++k) {
     const std::int64_t major = backwards ? last - k : first + k;
-    // The diamonds of a column lie within it: their order along the segment is the columns'.
+    // The diamonds of a column are inside it: their order along the segment is that of the columns.
     std::vector<Visit<Number>> column;
     const auto [low, high] =
         segment.minor_range(number_of<Number>(major), number_of<Number>(major + 1));

@@ -7,19 +7,19 @@
 
 namespace fathom::pipeline {
 
-/// A segment in window coordinates.
+/// A segment in window coordinates, in pixels, y down.
 template <class Number>
 struct WindowSegment {
   Number x0, y0, x1, y1;
 };
 
-/// The diamond-exit rule of graphics processors: a pixel is drawn where the segment leaves its
-/// diamond |x − x_c| + |y − y_c| < ½, so that segments joined end to end draw no pixel twice. The
-/// segment is taken as moved by (−ε, −ε²) with ε infinitely small, which decides every tie; the ε
-/// is carried along symbolically. Pixels come in drawing order.
+/// The diamond-exit rule of graphics processors: a pixel is drawn if the segment leaves its diamond
+/// |x − x_c| + |y − y_c| < ½, so that segments joined end to end draw no pixel twice. The segment
+/// is regarded as moved by (−ε, −ε²) with ε infinitely small, which decides every tie; the ε is
+/// carried along symbolically. Pixels come in drawing order.
 ///
 /// Exact    over Exact.
-/// Source   OpenGL 4.6, 14.5.1, in window coordinates with y down.
+/// Source   [GL46] 14.5.1, in window coordinates with y down.
 template <class Number>
 void diamond_exit_line(const WindowSegment<Number>& segment, const PixelWindow& window,
                        const std::function<void(const Pixel&)>& visit);

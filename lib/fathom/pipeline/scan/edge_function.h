@@ -11,11 +11,11 @@
 
 /// Triangles by edge functions, over an arithmetic: e_A(P) is twice the signed area of P, B, C and
 /// so on around, signed so that the inside of every edge is positive in either winding. A centre on
-/// an edge belongs to the triangle where that is a left or a top edge (specification, section 4).
-/// Source   J. Pineda, A parallel algorithm for polygon rasterization, SIGGRAPH 1988.
+/// an edge belongs to the triangle if that is a left or a top edge (specification, section 4).
+/// Source   [Pin88]
 namespace fathom::pipeline {
 
-/// One edge function, a·x + b·y + c: inside where positive, and where zero if left or top.
+/// One edge function, a·x + b·y + c: inside if positive, and if zero on a left or top edge.
 template <class Number>
 struct EdgeFunction {
   Number a, b, c;
@@ -31,10 +31,10 @@ template <class Number>
 struct EdgeTriangle {
   std::array<EdgeFunction<Number>, 3> edges;  ///< opposite A, B, C
   Number twice_area;                          ///< positive
-  bool turned;  ///< the corners run clockwise as seen (y down), so signs were turned
+  bool turned;  ///< the corners run clockwise as seen (y down), so signs were reversed
 };
 
-/// nullopt where the area is zero: such a triangle covers nothing.
+/// nullopt if the area is zero: such a triangle covers nothing.
 template <class Number>
 std::optional<EdgeTriangle<Number>> edge_functions(const std::array<Point<Number>, 3>& corners);
 
@@ -48,8 +48,8 @@ struct CoveredPixel {
 };
 
 /// Tests every centre of the bounding box, row by row.
-/// Exact    over Exact. In floating point, to be shown: neighbours across an edge evaluate it from
-///          other corners, and can both take a centre near it, or none.
+/// Exact    over Exact. In floating point, for demonstration: neighbours across an edge evaluate it
+///          from different corners, and can both take a centre near it, or neither.
 template <class Number>
 void rasterize_triangle(const std::array<Point<Number>, 3>& corners, const PixelWindow& window,
                         const std::function<void(const CoveredPixel<Number>&)>& visit);

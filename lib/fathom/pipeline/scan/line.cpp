@@ -6,19 +6,19 @@
 namespace fathom::pipeline {
 namespace {
 
-/// The slope, signed: the minor coordinate's change in a step.
+/// The signed slope: the change of the minor coordinate in one step.
 template <class Number>
 Number slope_of(const LineAxes& a) {
   if (a.d_major == 0) return number_of<Number>(0);
   return Number(number_of<Number>(a.minor_sign * a.d_minor) / number_of<Number>(a.d_major));
 }
 
-/// The number of the 2·d_major-ths by which the exact line lies beyond `steps_up` minor steps.
+/// By how many 2·d_major-ths the exact line is beyond `steps_up` minor steps.
 std::int64_t twice_excess(const LineAxes& a, std::int64_t step, std::int64_t steps_up) {
   return static_cast<std::int64_t>(2 * (Int128{step} * a.d_minor - Int128{steps_up} * a.d_major));
 }
 
-/// Minor steps made up to a step: the nearest, at a tie the larger minor coordinate.
+/// Minor steps made up to a step: the nearest, at a tie the greater minor coordinate.
 std::int64_t minor_steps(const LineAxes& a, std::int64_t step) {
   if (a.d_major == 0) return 0;
   const Int128 twice = Int128{2} * step * a.d_minor;

@@ -8,21 +8,21 @@
 
 /// Lines between two pixels.
 ///
-/// A line steps along the axis of the greater difference (x where they are equal), the major one,
-/// from its first end to its second, and takes in every step the pixel nearest to the exact line;
-/// at a tie the larger minor coordinate. So the exact algorithms draw the same pixels from either
-/// end, and all of them the same ones.
+/// A line steps along the axis of the greater difference (x if they are equal), the major one, from
+/// its first end to its second, and in every step takes the pixel nearest to the exact line; at a
+/// tie the greater minor coordinate. So the exact algorithms draw the same pixels from either end,
+/// and all of them draw the same ones.
 ///
-/// What it does not do: clip. `window` limits which pixels are visited, never which line is drawn;
-/// algorithms that can begin anywhere skip what lies outside, however long the line.
+/// Lines are not clipped: `window` limits which pixels are visited, never which line is drawn;
+/// algorithms that can begin anywhere skip what is outside, however long the line.
 namespace fathom::pipeline {
 
-/// Ends with |coordinate| ≤ 2³¹.
+/// Ends in pixels, with |coordinate| ≤ 2³¹.
 struct LineEnds {
   std::int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// A line in the terms of its major and minor axis.
+/// A line in terms of its major and minor axis.
 struct LineAxes {
   explicit LineAxes(const LineEnds& ends);
 
@@ -45,7 +45,7 @@ struct LineAxes {
   [[nodiscard]] Steps steps_in(const PixelWindow& window) const;
 };
 
-/// A pixel of a line, in drawing order, and what decided it: `state` is
+/// A pixel of a line, in drawing order, and what decided it. `state` is
 ///   explicit, dda   the minor coordinate before it was rounded;
 ///   bresenham       the error before this step;
 ///   midpoint        the decision variable d from which the next pixel follows.
@@ -56,22 +56,21 @@ using VisitLine = std::function<void(const Pixel& pixel, const State& state)>;
 template <class Number>
 void explicit_line(const LineEnds& ends, const PixelWindow& window, const VisitLine<Number>& visit);
 
-/// Digital differential analyser: y grows by m in every step, and is rounded to be drawn. In
+/// Digital differential analyser: y grows by m in every step, and is rounded for drawing. In
 /// floating point the errors of the sums add up.
 template <class Number>
 void dda_line(const LineEnds& ends, const PixelWindow& window, const VisitLine<Number>& visit);
 
 /// Bresenham's line: the distance to the exact line, in units of 1/(2·d_major), is carried along in
 /// integers.
-/// Source   J. E. Bresenham, Algorithm for computer control of a digital plotter, IBM Systems
-///          Journal 4(1), 1965; all eight octants.
+/// Source   [Bre65]; all eight octants.
 void bresenham_line(const LineEnds& ends, const PixelWindow& window,
                     const VisitLine<std::int64_t>& visit);
 
-/// The midpoint algorithm: the sign of d = 2·d_minor − d_major + … says on which side of the
+/// The midpoint algorithm: the sign of d = 2·d_minor − d_major + … tells on which side of the
 /// midpoint between the two next pixels the line passes. d > 0: north-east, d += 2(d_minor −
 /// d_major); d < 0: east, d += 2·d_minor; d = 0 is a tie.
-/// Source   J. R. Van Aken, An efficient ellipse-drawing algorithm, IEEE CG&A 4(9), 1984.
+/// Source   [Van84]
 void midpoint_line(const LineEnds& ends, const PixelWindow& window,
                    const VisitLine<std::int64_t>& visit);
 

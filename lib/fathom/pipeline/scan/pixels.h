@@ -20,8 +20,8 @@ struct Span {
   friend bool operator==(const Span&, const Span&) = default;
 };
 
-/// The pixels that are asked for: x_begin ≤ x < x_end, y_begin ≤ y < y_end. By default all that an
-/// algorithm can reach.
+/// The pixels that are asked for: x_begin ≤ x < x_end, y_begin ≤ y < y_end. By default all pixels
+/// that an algorithm can reach.
 struct PixelWindow {
   static constexpr std::int64_t far_away = std::int64_t{1} << 40;
   std::int64_t x_begin = -far_away, y_begin = -far_away;
@@ -35,13 +35,13 @@ struct PixelWindow {
   friend bool operator==(const PixelWindow&, const PixelWindow&) = default;
 };
 
-/// The part of a span that is asked for; x_begin ≥ x_end where there is none.
+/// The part of a span that is asked for; x_begin ≥ x_end if there is none.
 inline Span clipped(const Span& span, const PixelWindow& window) {
   if (span.y < window.y_begin || span.y >= window.y_end) return {span.y, 0, 0};
   return {span.y, std::max(span.x_begin, window.x_begin), std::min(span.x_end, window.x_end)};
 }
 
-/// Coordinates, in pixels, that scan conversion takes: |x| ≤ 2³¹.
+/// The range of coordinates, in pixels, for scan conversion: |x| ≤ 2³¹.
 inline constexpr double greatest_coordinate = 2147483648.0;
 
 }  // namespace fathom::pipeline

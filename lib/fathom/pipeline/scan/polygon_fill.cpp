@@ -6,7 +6,7 @@
 namespace fathom::pipeline {
 namespace {
 
-/// An edge and where it crosses the scan line that is next.
+/// An edge, and where it crosses the next scan line.
 template <class Number>
 struct Edge {
   std::int64_t y_begin, y_end;  ///< the scan lines that it crosses
@@ -25,8 +25,7 @@ std::int64_t first_row(const Number& y) {
   return ceiling_of(Number(y - Number(1) / Number(2)));
 }
 
-/// The edge from a to b, at its first scan line in the window; y_begin = y_end where it crosses
-/// none.
+/// The edge from a to b, at its first scan line in the window; y_begin = y_end if it crosses none.
 template <class Number>
 Edge<Number> edge_between(const FillCorner<Number>& a, const FillCorner<Number>& b,
                           const PixelWindow& window) {

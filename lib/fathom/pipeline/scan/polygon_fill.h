@@ -8,15 +8,15 @@
 
 /// Scan-line fill with active edges.
 ///
-/// A pixel is filled where its centre lies inside, by a rule that is half-open both ways: an edge
-/// crosses a scan line where y_min ≤ y < y_max, so that of two edges that meet in a corner exactly
-/// one does unless the corner is a local extremum (two at the top of the polygon, none at its
-/// bottom; y grows down), and horizontal edges never do; a span takes the centres with
-/// x_left ≤ x < x_right. Polygons that share an edge so share no pixel and leave none out.
-/// Source   Foley, van Dam, Feiner, Hughes, Computer Graphics: Principles and Practice, 3.6.
+/// A pixel is filled if its centre is inside, by a rule that is half-open both ways: an edge
+/// crosses a scan line if y_min ≤ y < y_max, so that of two edges that meet in a corner exactly one
+/// does unless the corner is a local extremum (two at the top of the polygon, none at its bottom; y
+/// grows down), and horizontal edges never do; a span takes the centres with x_left ≤ x < x_right.
+/// So polygons that share an edge share no pixel and leave none out.
+/// Source   [FvDFH90] 3.6
 namespace fathom::pipeline {
 
-/// A corner with what is carried along: attributes are linear along edges and spans.
+/// A corner with what it carries along: attributes are linear along edges and spans.
 template <class Number>
 struct FillCorner {
   Number x, y;
@@ -28,22 +28,22 @@ template <class Number>
 using FillPolygon = std::vector<std::vector<FillCorner<Number>>>;
 
 enum class FillRule {
-  even_odd,  ///< inside where a ray meets the outline an odd number of times
-  non_zero,  ///< inside where the outline winds around
+  even_odd,  ///< inside if a ray meets the outline an odd number of times
+  non_zero,  ///< inside if the outline winds around
 };
 
 /// Where an edge crosses a scan line.
 template <class Number>
 struct Crossing {
   Number x;
-  int winding;  ///< +1 where the edge runs down, −1 where it runs up
+  int winding;  ///< +1 if the edge runs down, −1 if it runs up
   std::vector<Number> attributes;
   /// The edge's change from one scan line to the next: Δx/Δy and ΔR/Δy.
   Number dx_dy;
   std::vector<Number> dr_dy;
 };
 
-/// A span of a scan line and its ends' crossings, as indices.
+/// A span of a scan line, and the crossings at its ends as indices.
 template <class Number>
 struct FilledSpan {
   Span pixels;
@@ -59,8 +59,8 @@ struct ScanLine {
   std::vector<FilledSpan<Number>> spans;    ///< some may be empty
 };
 
-/// Fills a polygon, scan line by scan line from the top; scan lines without a crossing are left
-/// out. Attributes go along edges by ΔR/Δy, then along spans by ΔR/Δx.
+/// Fills a polygon, scan line by scan line from the top, without scan lines that have no crossing.
+/// Attributes change along edges by ΔR/Δy, then along spans by ΔR/Δx.
 /// Exact    over Exact; in floating point the increments' errors add up.
 template <class Number>
 void fill_polygon(const FillPolygon<Number>& polygon, FillRule rule, const PixelWindow& window,

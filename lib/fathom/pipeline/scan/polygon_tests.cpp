@@ -9,7 +9,7 @@ namespace {
 
 using clipping::sign_of;
 
-/// Which half of the directions: 0 for angles in [0, π), 1 for [π, 2π), with y up.
+/// Which half of the directions d is in: 0 for angles in [0, π), 1 for [π, 2π), with y up.
 template <class Number>
 int half_of(const Point<Number>& d) {
   return d.y > 0 || (d.y == 0 && d.x > 0) ? 0 : 1;
@@ -31,7 +31,7 @@ int turn_of(const Point<Number>& d, const Point<Number>& e) {
   return sign_of(Number(d.x * e.y - d.y * e.x));
 }
 
-/// Whole turns: how often the direction passes the positive x axis, counter-clockwise less
+/// Whole turns: how often the direction passes the positive x axis, counter-clockwise minus
 /// clockwise, turning by less than π at each corner.
 template <class Number>
 std::optional<int> turning_number_of(const std::vector<Point<Number>>& d) {
@@ -93,8 +93,7 @@ RayCrossings ray_crossings(const Rings<Number>& rings, const Point<Number>& p) {
       result.on_outline = result.on_outline || is_on_edge(a, b, p);
       if ((a.y <= p.y) == (b.y <= p.y)) continue;
       const bool down = a.y < b.y;
-      // The crossing lies right of p where p lies on the right of the edge as it runs down … that
-      // is where the upward edge has it on its left.
+      // The crossing is to the right of p if p is to the left of the edge, directed upwards.
       const int side = sign_of(down ? left_of(b, a, p) : left_of(a, b, p));
       if (side <= 0) continue;
       ++result.count;
@@ -127,7 +126,7 @@ Ring<Number> convex_hull(std::vector<Point<Number>> points) {
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
-  // Down the left as seen and to the right first: with y down that is the chain of greatest y.
+  // First down the left as seen and to the right: with y down that is the chain of greatest y.
   Ring<Number> hull;
   const auto add_chain = [&](auto begin, auto end) {
     const std::size_t base = hull.size();

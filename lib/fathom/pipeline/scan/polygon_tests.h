@@ -5,9 +5,9 @@
 
 #include "fathom/clipping/points.h"
 
-/// Questions about polygons in window coordinates. y grows down, so that a ring that runs
-/// counter-clockwise as seen has a negative cross product at its convex corners; "left" is left as
-/// seen, when walking along the edge.
+/// Questions about polygons in window coordinates. y grows down, so a ring that runs
+/// counter-clockwise as seen has a negative cross product at its convex corners; "left" means left
+/// as seen, when walking along the edge.
 /// Exact    over Exact; in floating point every sign is that of a rounded number.
 namespace fathom::pipeline {
 
@@ -19,17 +19,17 @@ template <class Number>
 using Point = clipping::Point2<Number>;
 
 /// f(x, y) = (y₁ − y₂)x + (x₂ − x₁)y + x₁y₂ − x₂y₁, the implicit form of the line a → b with y up;
-/// with y down its sign turns. Positive on the left as seen.
+/// with y down its sign is reversed. Positive on the left as seen.
 template <class Number>
 Number left_of(const Point<Number>& a, const Point<Number>& b, const Point<Number>& p);
 
-/// Whether the point lies left of every edge or right of every edge, or on one of them: the inside
-/// of a convex ring. Of another ring it is a part of the inside, or nothing.
+/// Whether the point is left of every edge or right of every edge, or on one of them: the inside of
+/// a convex ring. For other rings it is a part of the inside, or nothing.
 template <class Number>
 bool is_on_one_side_of_every_edge(const Ring<Number>& ring, const Point<Number>& p);
 
 /// How a horizontal ray from the point to the right meets the outline. Edges are half-open as in
-/// polygon_fill.h (y_min ≤ y < y_max), and a crossing counts where it lies right of the point, so
+/// polygon_fill.h (y_min ≤ y < y_max), and a crossing counts if it is to the right of the point, so
 /// that the answers agree with the pixels that are filled.
 struct RayCrossings {
   int count = 0;    ///< odd: inside by the even-odd rule
@@ -40,24 +40,23 @@ template <class Number>
 RayCrossings ray_crossings(const Rings<Number>& rings, const Point<Number>& p);
 
 struct Convexity {
-  /// Turns one way only, straight corners allowed, and around once.
+  /// Turns only one way, straight corners allowed, and around once.
   bool convex = false;
-  /// No corner lies left of one edge and none right of another: all corners against all edges. Says
-  /// the same, but needs n² tests.
+  /// No corner is left of one edge and none right of another: all corners against all edges. Gives
+  /// the same answer, but needs n² tests.
   bool corners_on_one_side = false;
-  /// Of each corner: +1 turns left as seen, −1 right, 0 straight on or back.
+  /// For each corner: +1 turns left as seen, −1 right, 0 straight on or back.
   std::vector<int> turns;
-  /// How often the ring's direction turns around, counter-clockwise as seen; nullopt where an edge
-  /// has no length or turns straight back, and the number has no meaning.
+  /// How often the ring's direction turns around, counter-clockwise as seen; nullopt if an edge has
+  /// no length or turns straight back, in which case the number has no meaning.
   std::optional<int> turning_number;
 };
 template <class Number>
 Convexity convexity_of(const Ring<Number>& ring);
 
 /// The convex hull, counter-clockwise as seen from its leftmost, then uppermost corner; corners on
-/// its edges are left out. One or two points where all points are equal or on one line.
-/// Source   A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions,
-///          Information Processing Letters 9(5), 1979.
+/// its edges are left out. One or two points if all points are equal or on one line.
+/// Source   [And79]
 template <class Number>
 Ring<Number> convex_hull(std::vector<Point<Number>> points);
 

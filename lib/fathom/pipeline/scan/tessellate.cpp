@@ -40,7 +40,7 @@ std::vector<std::array<Point<Exact>, 3>> tessellate(const Rings<Exact>& polygon)
       const auto& p = face->vertex(i)->point();
       triangle[static_cast<std::size_t>(i)] = {p.x(), p.y()};
     }
-    // Every outline is an edge of faces, so a face lies inside or outside as a whole.
+    // Every outline consists of edges of faces, so a face is inside or outside as a whole.
     if (ray_crossings(polygon, centroid(triangle)).count % 2 != 0) triangles.push_back(triangle);
   }
   return triangles;
