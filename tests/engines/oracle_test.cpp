@@ -11,7 +11,6 @@
 namespace fathom {
 namespace {
 
-using namespace triangle;
 using testing::Case;
 using testing::CaseMaker;
 using testing::Kind;

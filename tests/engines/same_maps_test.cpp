@@ -16,7 +16,6 @@
 namespace fathom {
 namespace {
 
-using namespace triangle;
 using testing::CaseMaker;
 using testing::every_channel;
 using testing::expect_same;
