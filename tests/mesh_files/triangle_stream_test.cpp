@@ -412,7 +412,8 @@ TEST(TriangleStream, ClaimsTakeNoMemory) {
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    const rlimit limit{std::uint64_t{150} << 20, std::uint64_t{150} << 20};
+    const rlim_t most = addresses_taken() + (rlim_t{100} << 20);
+    const rlimit limit{most, most};
     if (setrlimit(RLIMIT_AS, &limit) != 0) _exit(3);
     int refused = 0;
     for (const fs::path& path : {a, b}) {

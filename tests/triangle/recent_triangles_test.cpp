@@ -19,8 +19,8 @@ TEST(RecentTriangles, FactsAreFoundOutOnceWhileTheyAreRemembered) {
   const auto fact = [&](std::uint32_t number) {
     return recent
         .get(number,
-             [&](Fact& fact) {
-               fact.number = number;
+             [&](Fact& made_now) {
+               made_now.number = number;
                made.push_back(number);
              })
         .number;

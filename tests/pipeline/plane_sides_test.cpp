@@ -1,0 +1,65 @@
+#include "fathom/pipeline/plane_sides.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "fathom/numeric/certified.h"
+
+namespace fathom::pipeline {
+namespace {
+
+ExactVector3 exact_difference(const Point3d& p, const Point3d& q) {
+  return {Dyadic(p[0]) - Dyadic(q[0]), Dyadic(p[1]) - Dyadic(q[1]), Dyadic(p[2]) - Dyadic(q[2])};
+}
+
+/// Points in a plane, next to it by an ulp, and anywhere, of sizes at which products underflow too.
+TEST(PlaneSides, AreThoseOfTheExactDeterminant) {
+  std::mt19937_64 random(251);
+  int zero = 0, other = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double scale = i % 5 == 0 ? 0x1p-330 : 1;
+    const auto number = [&] { return (static_cast<int>(random() % 17) - 8) * scale; };
+    const auto point = [&](bool in_plane) {
+      Point3d p{number(), number(), number()};
+      if (in_plane) p[2] = p[0] + 2 * p[1];
+      if (random() % 4 == 0) p[2] = std::nextafter(p[2], random() % 2 ? 1e9 : -1e9);
+      return p;
+    };
+    const bool flat = i % 2 == 0;
+    const Point3d a = point(flat), b = point(flat), c = point(flat), p = point(flat);
+    const Sign expected =
+        determinant(exact_difference(b, a), exact_difference(c, a), exact_difference(p, a)).sign();
+    ASSERT_EQ(side_of_plane(a, b, c, p), expected);
+    ++(expected == Sign::zero ? zero : other);
+  }
+  EXPECT_GT(zero, 2000);
+  EXPECT_GT(other, 5000);
+}
+
+TEST(PlaneSides, ProjectionsOverlapByMoreThanTheirBoundaries) {
+  const auto square = [](double x, double y, double side, bool turned = false) {
+    std::vector<Point3d> p{{x, y, 1}, {x + side, y, 2}, {x + side, y + side, 3}, {x, y + side, 4}};
+    return turned ? std::vector<Point3d>(p.rbegin(), p.rend()) : p;
+  };
+  for (const bool turned : {false, true}) {
+    const auto a = square(0, 0, 2);
+    EXPECT_TRUE(projections_overlap(a, square(1, 1, 2, turned)));
+    EXPECT_TRUE(projections_overlap(a, square(0.5, 0.5, 1, turned)));  // inside
+    EXPECT_TRUE(projections_overlap(a, a));
+    EXPECT_FALSE(projections_overlap(a, square(2, 0, 2, turned)));  // a common side
+    EXPECT_FALSE(projections_overlap(a, square(2, 2, 2, turned)));  // a common corner
+    EXPECT_FALSE(projections_overlap(a, square(5, 5, 1, turned)));
+    EXPECT_TRUE(projections_overlap(a, square(std::nextafter(2.0, 0), 0, 2, turned)));
+  }
+}
+
+TEST(PlaneSides, TurnsInTheWindow) {
+  EXPECT_EQ(turn_in_window({0, 0, 7}, {1, 0, 3}, {0, 1, -2}), Sign::positive);
+  EXPECT_EQ(turn_in_window({0, 0, 7}, {0, 1, 3}, {1, 0, -2}), Sign::negative);
+  EXPECT_EQ(turn_in_window({0, 0, 7}, {1, 1, 3}, {2, 2, -2}), Sign::zero);
+}
+
+}  // namespace
+}  // namespace fathom::pipeline
