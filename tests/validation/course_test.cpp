@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "validation/studies/course_meshes.h"
-#include "validation/studies/course_pictures.h"
+#include "validation/studies/course/course_meshes.h"
+#include "validation/studies/course/course_pictures.h"
 
 namespace fathom::studies {
 namespace {

@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/numeric/errors.h"
-#include "validation/studies/coverage_by_samples.h"
-#include "validation/studies/mitigation.h"
-#include "validation/studies/scene_fights.h"
-#include "validation/studies/snapped_raster.h"
-#include "validation/studies/subpixel.h"
+#include "validation/studies/antialiasing/coverage_by_samples.h"
+#include "validation/studies/mitigation/mitigation.h"
+#include "validation/studies/subpixel/snapped_raster.h"
+#include "validation/studies/subpixel/subpixel.h"
+#include "validation/studies/z_fighting/scene_fights.h"
 
 namespace fathom::studies {
 namespace {

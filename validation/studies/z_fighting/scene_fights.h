@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fathom/depth_buffer/depth_buffer.h"
-#include "validation/studies/layers.h"
+#include "validation/studies/z_fighting/layers.h"
 
 /// Z-fighting over the image of a scene, ideal model.
 namespace fathom::studies {

@@ -1,4 +1,4 @@
-#include "validation/studies/z_fighting.h"
+#include "validation/studies/z_fighting/z_fighting.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/numeric/errors.h"
-#include "validation/studies/coplanar_pair.h"
-#include "validation/studies/fights_by_angle.h"
 #include "validation/studies/page.h"
 #include "validation/studies/plot.h"
 #include "validation/studies/sampling.h"
-#include "validation/studies/scene_fights.h"
+#include "validation/studies/z_fighting/coplanar_pair.h"
+#include "validation/studies/z_fighting/fights_by_angle.h"
+#include "validation/studies/z_fighting/scene_fights.h"
 
 namespace fathom::studies {
 namespace {

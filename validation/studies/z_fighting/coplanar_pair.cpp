@@ -1,4 +1,4 @@
-#include "validation/studies/coplanar_pair.h"
+#include "validation/studies/z_fighting/coplanar_pair.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "validation/studies/lines.h"
+#include "validation/studies/lines/lines.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "validation/studies/coverage_by_samples.h"
+#include "validation/studies/antialiasing/coverage_by_samples.h"
 
 #include <fmt/format.h>
 

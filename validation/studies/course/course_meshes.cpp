@@ -1,4 +1,4 @@
-#include "validation/studies/course_meshes.h"
+#include "validation/studies/course/course_meshes.h"
 
 #include <array>
 #include <cmath>

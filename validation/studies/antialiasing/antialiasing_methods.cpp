@@ -1,4 +1,4 @@
-#include "validation/studies/antialiasing_methods.h"
+#include "validation/studies/antialiasing/antialiasing_methods.h"
 
 #include <fmt/format.h>
 

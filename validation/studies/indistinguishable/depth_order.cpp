@@ -1,4 +1,4 @@
-#include "validation/studies/depth_order.h"
+#include "validation/studies/indistinguishable/depth_order.h"
 
 #include <cmath>
 #include <random>

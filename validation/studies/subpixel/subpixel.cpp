@@ -1,4 +1,4 @@
-#include "validation/studies/subpixel.h"
+#include "validation/studies/subpixel/subpixel.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include "fathom/numeric/errors.h"
 #include "validation/studies/page.h"
 #include "validation/studies/plot.h"
-#include "validation/studies/snapped_raster.h"
 #include "validation/studies/study_scene.h"
+#include "validation/studies/subpixel/snapped_raster.h"
 
 namespace fathom::studies {
 namespace {

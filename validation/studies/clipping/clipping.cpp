@@ -1,4 +1,4 @@
-#include "validation/studies/clipping.h"
+#include "validation/studies/clipping/clipping.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "validation/studies/course.h"
+#include "validation/studies/course/course.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "fathom/numeric/errors.h"
-#include "validation/studies/course_meshes.h"
-#include "validation/studies/course_pictures.h"
+#include "validation/studies/course/course_meshes.h"
+#include "validation/studies/course/course_pictures.h"
 #include "validation/studies/page.h"
 #include "validation/studies/picture.h"
 

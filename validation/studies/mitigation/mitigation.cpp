@@ -1,4 +1,4 @@
-#include "validation/studies/mitigation.h"
+#include "validation/studies/mitigation/mitigation.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -10,7 +10,7 @@
 #include "fathom/numeric/errors.h"
 #include "validation/studies/page.h"
 #include "validation/studies/plot.h"
-#include "validation/studies/scene_fights.h"
+#include "validation/studies/z_fighting/scene_fights.h"
 
 namespace fathom::studies {
 namespace {

@@ -1,4 +1,4 @@
-#include "validation/studies/indistinguishable.h"
+#include "validation/studies/indistinguishable/indistinguishable.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/numeric/errors.h"
-#include "validation/studies/depth_order.h"
+#include "validation/studies/indistinguishable/depth_order.h"
 #include "validation/studies/page.h"
 #include "validation/studies/plot.h"
 #include "validation/studies/sampling.h"

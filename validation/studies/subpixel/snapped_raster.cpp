@@ -1,4 +1,4 @@
-#include "validation/studies/snapped_raster.h"
+#include "validation/studies/subpixel/snapped_raster.h"
 
 #include <algorithm>
 #include <cmath>

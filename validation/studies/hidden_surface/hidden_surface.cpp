@@ -1,4 +1,4 @@
-#include "validation/studies/hidden_surface.h"
+#include "validation/studies/hidden_surface/hidden_surface.h"
 
 #include <fmt/format.h>
 

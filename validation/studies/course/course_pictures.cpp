@@ -1,4 +1,4 @@
-#include "validation/studies/course_pictures.h"
+#include "validation/studies/course/course_pictures.h"
 
 #include <fmt/format.h>
 

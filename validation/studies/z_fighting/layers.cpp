@@ -1,4 +1,4 @@
-#include "validation/studies/layers.h"
+#include "validation/studies/z_fighting/layers.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>

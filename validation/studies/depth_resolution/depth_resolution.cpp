@@ -1,4 +1,4 @@
-#include "validation/studies/depth_resolution.h"
+#include "validation/studies/depth_resolution/depth_resolution.h"
 
 #include <fmt/format.h>
 

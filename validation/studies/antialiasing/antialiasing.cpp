@@ -1,10 +1,10 @@
-#include "validation/studies/antialiasing.h"
+#include "validation/studies/antialiasing/antialiasing.h"
 
 #include <nlohmann/json.hpp>
 
 #include "fathom/numeric/errors.h"
-#include "validation/studies/antialiasing_methods.h"
-#include "validation/studies/coverage_by_samples.h"
+#include "validation/studies/antialiasing/antialiasing_methods.h"
+#include "validation/studies/antialiasing/coverage_by_samples.h"
 #include "validation/studies/page.h"
 #include "validation/studies/plot.h"
 #include "validation/studies/study_scene.h"

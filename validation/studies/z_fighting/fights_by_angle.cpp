@@ -1,4 +1,4 @@
-#include "validation/studies/fights_by_angle.h"
+#include "validation/studies/z_fighting/fights_by_angle.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -9,8 +9,8 @@
 #include <numbers>
 #include <string>
 
-#include "validation/studies/coplanar_pair.h"
 #include "validation/studies/plot.h"
+#include "validation/studies/z_fighting/coplanar_pair.h"
 
 namespace fathom::studies {
 namespace {

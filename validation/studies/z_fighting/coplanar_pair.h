@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fathom/depth_format/pipeline_model.h"
-#include "validation/studies/depth_order.h"
+#include "validation/studies/indistinguishable/depth_order.h"
 
 /// Two parallel surfaces, one a little behind the other, seen over a patch of the image as wide as
 /// it is distant: what lets the wrong one win.

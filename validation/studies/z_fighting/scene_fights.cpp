@@ -1,4 +1,4 @@
-#include "validation/studies/scene_fights.h"
+#include "validation/studies/z_fighting/scene_fights.h"
 
 #include <fmt/format.h>
 
