@@ -2,12 +2,10 @@
 
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "fathom/image/depth_map.h"
-#include "validation/studies/page.h"
 #include "validation/studies/study.h"
 
 /// Coverage by samples against the exact area `A`.
@@ -49,14 +47,5 @@ DepthMap exact_coverage(const SceneView& view);
 /// Fails    UsageError where no pixel of `exact`, which is exact_coverage(view), is partly covered.
 CoverageBySamples measure_coverage_by_samples(const SceneView& view, const DepthMap& exact,
                                               const std::function<void(double)>& tick);
-
-/// patterns.csv, edges.csv, and the plots `error` and `edge`.
-std::vector<StudyFile> files_of(const CoverageBySamples& measured);
-
-/// Adds "patterns" and "edges".
-void add_to_summary(const CoverageBySamples& measured, nlohmann::ordered_json& summary);
-
-/// Tables, plots and what is seen in them.
-void add_to_page(const CoverageBySamples& measured, Page& page);
 
 }  // namespace fathom::studies

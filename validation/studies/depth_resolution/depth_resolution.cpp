@@ -1,291 +1,148 @@
 #include "validation/studies/depth_resolution/depth_resolution.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <ranges>
 
-#include "fathom/depth_format/resolution.h"
 #include "fathom/numeric/errors.h"
-#include "validation/studies/page.h"
-#include "validation/studies/plot.h"
+#include "validation/studies/depth_resolution/format_steps.h"
+#include "validation/studies/formats.h"
+#include "validation/studies/page_texts.h"
+#include "validation/studies/results.h"
 #include "validation/studies/sampling.h"
 
 namespace fathom::studies {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// One format at one depth.
-struct Step {
-  double depth;
-  double step;       ///< the larger distance to a neighbouring code's depth
-  double bin_width;  ///< of the depths that are stored alike
-};
-
-struct Measured {
+/// A step with its format: a row of steps.csv.
+struct StepOfFormat {
   DepthFormat format;
-  std::vector<Step> steps;
+  Step at;
 };
 
-double step_at(const DepthFormat& format, double depth) {
-  const Resolution r = resolution(format, Dyadic(depth));
-  return std::max(r.to_nearer.value_or(0), r.to_farther.value_or(0));
-}
-
-Measured measure(const DepthFormat& format, const std::vector<double>& depths) {
-  Measured measured{format, {}};
-  for (const double depth : depths) {
-    measured.steps.push_back({depth, step_at(format, depth), bin_width(format, Dyadic(depth))});
+Table steps_table(const std::vector<FormatSteps>& all) {
+  using Row = StepOfFormat;
+  std::vector<Row> rows;
+  for (const FormatSteps& m : all) {
+    for (const Step& step : m.steps) rows.push_back({m.format, step});
   }
-  return measured;
+  return {rows,
+          {{{.key = "mapping"}, [](const Row& r) { return name_of(r.format.mapping); }},
+           {{.key = "storage"}, [](const Row& r) { return name_of(r.format.storage); }},
+           {{.key = "near"}, [](const Row& r) { return r.format.near; }},
+           {{.key = "far"}, [](const Row& r) { return r.format.far; }},
+           {{.key = "depth"}, [](const Row& r) { return r.at.depth; }},
+           {{.key = "step"}, [](const Row& r) { return r.at.step; }},
+           {{.key = "relative_step"}, [](const Row& r) { return r.at.step / r.at.depth; }},
+           {{.key = "bin_width"}, [](const Row& r) { return r.at.bin_width; }}}};
 }
 
-std::string label_of(const DepthFormat& format) {
-  return std::string(name_of(format.mapping)) + " " + std::string(name_of(format.storage));
+Table best_table(const std::vector<BestMapping>& rows) {
+  using Row = BestMapping;
+  return {rows,
+          {{{.key = "storage"}, [](const Row& r) { return name_of(r.storage); }},
+           {{.key = "depth"}, &Row::depth},
+           {{.key = "best_mapping"}, [](const Row& r) { return name_of(r.mapping); }},
+           {{.key = "step"}, &Row::step}}};
 }
 
-StudyFile steps_csv(const std::vector<Measured>& all) {
-  std::string text = "mapping,storage,near,far,depth,step,relative_step,bin_width\n";
-  for (const Measured& m : all) {
-    for (const Step& s : m.steps) {
-      text += fmt::format("{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n",
-                          name_of(m.format.mapping), name_of(m.format.storage), m.format.near,
-                          m.format.far, s.depth, s.step, s.step / s.depth, s.bin_width);
-    }
-  }
-  return {"steps.csv", text};
+Table ranges_table(const std::vector<BestRange>& rows) {
+  using Row = BestRange;
+  return {rows,
+          {{{.key = "storage"}, [](const Row& r) { return name_of(r.storage); }},
+           {{.key = "mapping"}, [](const Row& r) { return name_of(r.mapping); }},
+           {{.key = "from_depth"}, &Row::from},
+           {{.key = "to_depth"}, &Row::to}}};
 }
 
-/// opengl is standard in the ideal model, and is left out where formats compete.
-bool competes(const Measured& m) {
-  return m.format.mapping != Mapping::opengl;
+Table moved_table(const std::vector<MovedStep>& rows) {
+  using Row = MovedStep;
+  return {rows,
+          {{{.key = "moved"}, [](const Row& r) { return r.moved == Moved::near ? "near" : "far"; }},
+           {{.key = "mapping"}, [](const Row& r) { return name_of(r.format.mapping); }},
+           {{.key = "storage"}, [](const Row& r) { return name_of(r.format.storage); }},
+           {{.key = "near"}, [](const Row& r) { return r.format.near; }},
+           {{.key = "far"}, [](const Row& r) { return r.format.far; }},
+           {{.key = "depth"}, &Row::depth},
+           {{.key = "step"}, &Row::step}}};
 }
 
-/// For each storage and depth the mapping of the least step.
-struct Best {
-  Storage storage;
-  double depth;
-  Mapping mapping;
-  double step;
-};
-
-std::vector<Best> best_mappings(const std::vector<Measured>& all) {
-  std::vector<Best> best;
-  for (const Storage storage : all_storages) {
-    for (std::size_t i = 0; i < all.front().steps.size(); ++i) {
-      Best least{storage, all.front().steps[i].depth, Mapping::standard, INFINITY};
-      for (const Measured& m : all) {
-        if (m.format.storage != storage || !competes(m)) continue;
-        if (m.steps[i].step < least.step) {
-          least.mapping = m.format.mapping;
-          least.step = m.steps[i].step;
-        }
-      }
-      best.push_back(least);
-    }
-  }
-  return best;
-}
-
-StudyFile best_csv(const std::vector<Best>& best) {
-  std::string text = "storage,depth,best_mapping,step\n";
-  for (const Best& b : best) {
-    text += fmt::format("{},{:.17g},{},{:.17g}\n", name_of(b.storage), b.depth, name_of(b.mapping),
-                        b.step);
-  }
-  return {"best.csv", text};
-}
-
-/// The runs of depths over which one mapping is the best of a storage.
-Json best_ranges(const std::vector<Best>& best) {
-  Json ranges = Json::array();
-  for (const Best& b : best) {
-    const std::string storage(name_of(b.storage)), mapping(name_of(b.mapping));
-    if (!ranges.empty() && ranges.back()["storage"] == storage &&
-        ranges.back()["mapping"] == mapping) {
-      ranges.back()["to_depth"] = b.depth;
-    } else {
-      ranges.push_back({{"storage", storage},
-                        {"mapping", mapping},
-                        {"from_depth", b.depth},
-                        {"to_depth", b.depth}});
-    }
-  }
-  return ranges;
-}
-
-/// The share of all codes between near and far that depths up to `times` near get.
-double share_of_codes(const DepthFormat& format, double times) {
-  const Ratio near = Dyadic(format.near), far = Dyadic(format.far);
-  const double limit = std::min(times * format.near, format.far);
-  return static_cast<double>(codes_between(format, near, Dyadic(limit))) /
-         static_cast<double>(codes_between(format, near, far));
-}
-
-Json summary_of(const Measured& m) {
-  const auto worst = std::max_element(
-      m.steps.begin(), m.steps.end(),
-      [](const Step& a, const Step& b) { return a.step / a.depth < b.step / b.depth; });
-  return {{"mapping", name_of(m.format.mapping)},
-          {"storage", name_of(m.format.storage)},
-          {"codes", codes_between(m.format, Dyadic(m.format.near), Dyadic(m.format.far))},
-          {"share_of_codes_nearer_than_2_near", share_of_codes(m.format, 2)},
-          {"share_of_codes_nearer_than_10_near", share_of_codes(m.format, 10)},
-          {"step_at_near", m.steps.front().step},
-          {"step_at_far", m.steps.back().step},
-          {"greatest_relative_step", worst->step / worst->depth},
-          {"greatest_relative_step_at", worst->depth}};
-}
-
-/// How the step at fixed depths moves when near or far does.
-struct Sweep {
-  const char* moved;  ///< "near" or "far"
-  DepthFormat format;
-  double depth;
-  double step;
-};
-
-constexpr double sweep_factors[] = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100};
-
-std::vector<Sweep> sweep(double near, double far) {
-  std::vector<Sweep> rows;
-  const double depth = std::sqrt(near) * std::sqrt(far);
-  for (const Mapping mapping : all_mappings) {
-    for (const Storage storage : {Storage::unorm16, Storage::unorm24, Storage::float32}) {
-      for (const double factor : sweep_factors) {
-        const DepthFormat by_near{mapping, storage, near * factor, far};
-        if (by_near.near <= depth) {
-          rows.push_back({"near", by_near, depth, step_at(by_near, depth)});
-        }
-        const DepthFormat by_far{mapping, storage, near, far * factor};
-        if (by_far.far >= depth) rows.push_back({"far", by_far, depth, step_at(by_far, depth)});
-      }
-    }
-  }
-  return rows;
-}
-
-StudyFile sweep_csv(const std::vector<Sweep>& rows) {
-  std::string text = "moved,mapping,storage,near,far,depth,step\n";
-  for (const Sweep& r : rows) {
-    text += fmt::format("{},{},{},{:.17g},{:.17g},{:.17g},{:.17g}\n", r.moved,
-                        name_of(r.format.mapping), name_of(r.format.storage), r.format.near,
-                        r.format.far, r.depth, r.step);
-  }
-  return {"near-far.csv", text};
+Table formats_table(const std::vector<FormatSteps>& rows) {
+  using Row = FormatSteps;
+  return {rows,
+          {{{.heading = "format"}, [](const Row& r) { return label_of(r.format); }},
+           {{.key = "mapping"}, [](const Row& r) { return name_of(r.format.mapping); }},
+           {{.key = "storage"}, [](const Row& r) { return name_of(r.format.storage); }},
+           {{.key = "codes", .heading = "codes"}, &Row::codes},
+           {{.key = "share_of_codes_nearer_than_2_near",
+             .heading = "up to 2·near",
+             .page_format = "{:.2f} %",
+             .percent = true},
+            &Row::share_below_2},
+           {{.key = "share_of_codes_nearer_than_10_near",
+             .heading = "up to 10·near",
+             .page_format = "{:.2f} %",
+             .percent = true},
+            &Row::share_below_10},
+           {{.key = "step_at_near"}, [](const Row& r) { return r.steps.front().step; }},
+           {{.key = "step_at_far"}, [](const Row& r) { return r.steps.back().step; }},
+           {{.key = "greatest_relative_step",
+             .heading = "greatest relative step",
+             .page_format = "{:.3g}"},
+            &Row::greatest_relative},
+           {{.key = "greatest_relative_step_at", .heading = "at depth", .page_format = "{:.4g}"},
+            &Row::greatest_at}}};
 }
 
 /// Near a stored 0 the steps of float formats are subnormal numbers, which would squeeze the rest
 /// of a plot: what is finer than 10⁻¹⁷ of the depth is left out there, not in the figures.
-bool is_drawn(double depth, double step) {
-  return std::isfinite(step) && step > 1e-17 * depth;
+template <class Row>
+bool is_coarse_enough(const Row& row) {
+  return row.step > 1e-17 * row.depth;
 }
 
-Plot steps_plot(const std::vector<Measured>& all, Storage storage) {
-  Plot plot{"steps-" + std::string(name_of(storage)),
-            fmt::format("Distance between neighbouring codes, {}", name_of(storage)),
-            "depth (scene units)",
-            "step (scene units)",
-            true,
-            true,
-            {}};
-  for (const Measured& m : all) {
-    if (m.format.storage != storage || !competes(m)) continue;
-    Series series{std::string(name_of(m.format.mapping)), {}};
-    for (const Step& s : m.steps) {
-      if (is_drawn(s.depth, s.step)) series.points.emplace_back(s.depth, s.step);
+Plot steps_plot(const std::vector<FormatSteps>& all, Storage storage) {
+  const std::string name(name_of(storage));
+  Plot plot{.name = "steps-" + name,
+            .title = "Distance between neighbouring codes, " + name,
+            .x_label = "depth (scene units)",
+            .y_label = "step (scene units)",
+            .logarithmic_x = true,
+            .logarithmic_y = true};
+  for (const FormatSteps& m : all) {
+    // opengl is standard in the ideal model.
+    if (m.format.storage != storage || m.format.mapping == Mapping::opengl) continue;
+    plot.series.push_back(series_of(std::string(name_of(m.format.mapping)),
+                                    m.steps | std::views::filter(is_coarse_enough<Step>),
+                                    &Step::depth, &Step::step));
+  }
+  return plot;
+}
+
+/// A line for each format that is shown, in the order of their names.
+Plot moved_plot(const std::vector<MovedStep>& rows, Moved moved) {
+  const std::string name = moved == Moved::near ? "near" : "far";
+  Plot plot{.name = "step-by-" + name,
+            .title = "Step at depth " + text_of(rows.front().depth, "{:.4g}") + " when " + name +
+                     " moves",
+            .x_label = name + " (scene units)",
+            .y_label = "step (scene units)",
+            .logarithmic_x = true,
+            .logarithmic_y = true};
+  std::map<std::string, std::vector<MovedStep>> lines;
+  for (const MovedStep& r : rows) {
+    const bool is_shown = r.format.storage != Storage::unorm16 &&
+                          r.format.mapping != Mapping::opengl &&
+                          !takes_infinite_far(r.format.mapping);
+    if (r.moved == moved && is_shown && is_coarse_enough(r)) {
+      lines[label_of(r.format)].push_back(r);
     }
-    plot.series.push_back(series);
+  }
+  for (const auto& [label, line] : lines) {
+    plot.series.push_back(series_of(label, line, &MovedStep::place, &MovedStep::step));
   }
   return plot;
-}
-
-Plot sweep_plot(const std::vector<Sweep>& rows, const std::string& moved) {
-  Plot plot{"step-by-" + moved,
-            fmt::format("Step at depth {:.4g} when {} moves", rows.front().depth, moved),
-            moved + " (scene units)",
-            "step (scene units)",
-            true,
-            true,
-            {}};
-  std::map<std::string, Series> series;
-  for (const Sweep& r : rows) {
-    const bool shown = r.format.storage != Storage::unorm16 &&
-                       r.format.mapping != Mapping::opengl && !takes_infinite_far(r.format.mapping);
-    if (moved != r.moved || !shown || !is_drawn(r.depth, r.step)) continue;
-    Series& line = series[label_of(r.format)];
-    line.label = label_of(r.format);
-    line.points.emplace_back(moved == "near" ? r.format.near : r.format.far, r.step);
-  }
-  for (auto& [label, line] : series) {
-    std::sort(line.points.begin(), line.points.end());
-    plot.series.push_back(line);
-  }
-  return plot;
-}
-
-void append(std::vector<StudyFile>& files, std::vector<StudyFile> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(files));
-}
-
-StudyFile page_of(double near, double far, const Json& summary) {
-  Page page(fmt::format("Resolution of depth formats, near {:g}, far {:g}", near, far));
-  page.paragraph(
-      "A depth buffer tells two surfaces apart where their depths are stored as different codes. "
-      "The step is the distance, in scene units, between the depths that neighbouring codes stand "
-      "for: the larger of the two around a depth. Every figure is computed exactly and rounded "
-      "once; no sampling and no formula of thumb enters.");
-  page.heading("What is seen");
-  page.paragraph(
-      "Mappings with 1/D in unorm storage have steps that grow with the square of the depth, so "
-      "that most codes lie just behind near. In standard float32 they do too: the exponents lie "
-      "near 0, where near is, and do not help. Reversed, the exponents lie at far, and the step of "
-      "float32 is nearly proportional to the depth, like that of a logarithmic format. Linear and "
-      "w "
-      "in unorm storage have the same step everywhere. log-ulrich has the same relative step "
-      "everywhere; log gives up resolution below 1/C, where its step stops shrinking.");
-  for (const Storage storage : all_storages) {
-    page.plot("steps-" + std::string(name_of(storage)),
-              fmt::format("Step against depth in {}; opengl is standard in the ideal model. Steps "
-                          "below 1e-17 of the depth are left out.",
-                          name_of(storage)));
-  }
-  page.heading("Codes");
-  page.paragraph(
-      "The share of the codes that depths up to twice and up to ten times near take, the greatest "
-      "relative step and where it is.");
-  std::vector<std::vector<std::string>> rows;
-  for (const Json& f : summary["formats"]) {
-    rows.push_back(
-        {f["mapping"].get<std::string>() + " " + f["storage"].get<std::string>(),
-         std::to_string(f["codes"].get<std::uint64_t>()),
-         fmt::format("{:.2f} %", 100 * f["share_of_codes_nearer_than_2_near"].get<double>()),
-         fmt::format("{:.2f} %", 100 * f["share_of_codes_nearer_than_10_near"].get<double>()),
-         fmt::format("{:.3g}", f["greatest_relative_step"].get<double>()),
-         fmt::format("{:.4g}", f["greatest_relative_step_at"].get<double>())});
-  }
-  page.table(
-      {"format", "codes", "up to 2·near", "up to 10·near", "greatest relative step", "at depth"},
-      rows);
-  page.heading("Moving near and far");
-  page.paragraph(
-      "At a fixed depth, the step of standard is inversely proportional to near and hardly depends "
-      "on far: moving near out by ten gains more than three bits, moving far in gains nothing. "
-      "Reversed float32 moves by less than a factor of two with either; logarithms depend on both, "
-      "weakly; linear and w are "
-      "proportional to far.");
-  page.plot("step-by-near", "Step at one depth against near.");
-  page.plot("step-by-far", "Step at one depth against far.");
-  page.heading("Files");
-  page.paragraph(
-      "steps.csv: every format at every depth. best.csv: the mapping of the least step for each "
-      "storage and depth. near-far.csv: the sweeps. summary.json: the table above, and the ranges "
-      "of depth over which each mapping is the best of its storage. *.gp: the scripts of the "
-      "plots, for gnuplot.");
-  return page.file();
 }
 
 }  // namespace
@@ -299,32 +156,25 @@ std::vector<StudyFile> study_depth_resolution(const StudyOptions& options,
   }
   const std::vector<double> depths = logarithmic_samples(near, far, options.samples.value_or(121));
   require_gnuplot();
+  const std::vector<FormatSteps> all =
+      measure_formats(near, far, depths, [&](double share) { tick(0.8 * share); });
+  const std::vector<BestMapping> best = best_mappings(all);
+  const std::vector<MovedStep> moved = move_near_and_far(near, far);
 
-  std::vector<Measured> all;
-  for (const Mapping mapping : all_mappings) {
-    for (const Storage storage : all_storages) {
-      all.push_back(measure({mapping, storage, near, far}, depths));
-      tick(0.8 * static_cast<double>(all.size()) / 54);
-    }
-  }
-  const std::vector<Best> best = best_mappings(all);
-  const std::vector<Sweep> sweeps = sweep(near, far);
-
-  Json summary{{"study", "depth-resolution"},
-               {"near", near},
-               {"far", far},
-               {"samples", depths.size()},
-               {"formats", Json::array()}};
-  for (const Measured& m : all) summary["formats"].push_back(summary_of(m));
-  summary["best"] = best_ranges(best);
-
-  std::vector<StudyFile> files{
-      steps_csv(all), best_csv(best), sweep_csv(sweeps), {"summary.json", summary.dump(2) + "\n"}};
-  for (const Storage storage : all_storages) append(files, draw(steps_plot(all, storage)));
-  for (const char* moved : {"near", "far"}) append(files, draw(sweep_plot(sweeps, moved)));
-  files.push_back(page_of(near, far, summary));
+  Results results("depth-resolution", page_texts::depth_resolution);
+  results.figure("near", near);
+  results.figure("far", far);
+  results.figure("samples", depths.size());
+  results.table(formats_table(all), {.json = "formats", .page = "formats"});
+  results.table(ranges_table(best_ranges(best)), {.json = "best"});
+  results.table(steps_table(all), {.csv = "steps"});
+  results.table(best_table(best), {.csv = "best"});
+  results.table(moved_table(moved), {.csv = "near-far"});
+  for (const Storage storage : all_storages) results.plot(steps_plot(all, storage));
+  results.plot(moved_plot(moved, Moved::near));
+  results.plot(moved_plot(moved, Moved::far));
   tick(1);
-  return files;
+  return results.files();
 }
 
 }  // namespace fathom::studies

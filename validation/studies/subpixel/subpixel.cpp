@@ -1,24 +1,19 @@
 #include "validation/studies/subpixel/subpixel.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
 
 #include "fathom/numeric/errors.h"
-#include "validation/studies/page.h"
-#include "validation/studies/plot.h"
+#include "validation/studies/page_texts.h"
+#include "validation/studies/results.h"
 #include "validation/studies/study_scene.h"
 #include "validation/studies/subpixel/snapped_raster.h"
 
 namespace fathom::studies {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr int most_bits = 16;
 
+/// A map with corners on the grid against the exact one.
 struct Row {
   int bits;
   std::uint64_t pixels = 0;  ///< with a surface in either map
@@ -26,6 +21,8 @@ struct Row {
   /// |D − exact|/exact, where both maps show the same triangle.
   double greatest_error = 0, mean_error = 0;
   std::uint64_t left_out = 0;
+
+  [[nodiscard]] std::uint64_t covered_otherwise() const { return lost + gained; }
 };
 
 Row compare(const SnappedMap& snapped, const DepthMap& exact, int bits) {
@@ -53,83 +50,56 @@ Row compare(const SnappedMap& snapped, const DepthMap& exact, int bits) {
   return row;
 }
 
-std::string csv_of(const std::vector<Row>& rows) {
-  std::string text =
-      "bits,pixels,lost,gained,other_triangle,greatest_relative_depth_error,"
-      "mean_relative_depth_error,triangles_left_out\n";
-  for (const Row& r : rows) {
-    text += fmt::format("{},{},{},{},{},{:.6g},{:.6g},{}\n", r.bits, r.pixels, r.lost, r.gained,
-                        r.other_triangle, r.greatest_error, r.mean_error, r.left_out);
+std::vector<Row> compare_all(const SceneView& view, const std::function<void(double)>& tick) {
+  RenderOptions options{.channels = {Channel::Z, Channel::id}};
+  options.depth_encoding.type = DepthEncoding::Type::binary64;
+  const DepthMap exact = render(view.scene, view.camera, options);
+  std::vector<Row> rows;
+  for (int bits = 0; bits <= most_bits; ++bits) {
+    rows.push_back(compare(draw_snapped(view, bits), exact, bits));
+    tick(0.9 * (bits + 1) / (most_bits + 1));
   }
-  return text;
+  return rows;
+}
+
+Table table_of(const std::vector<Row>& rows) {
+  return {rows,
+          {{{.key = "bits", .heading = "bits"}, &Row::bits},
+           {{.key = "pixels"}, &Row::pixels},
+           {{.key = "lost", .heading = "lost"}, &Row::lost},
+           {{.key = "gained", .heading = "gained"}, &Row::gained},
+           {{.key = "other_triangle", .heading = "another triangle"}, &Row::other_triangle},
+           {{.key = "greatest_relative_depth_error",
+             .csv_format = "{:.6g}",
+             .heading = "greatest depth error",
+             .page_format = "{:.3g}"},
+            &Row::greatest_error},
+           {{.key = "mean_relative_depth_error",
+             .csv_format = "{:.6g}",
+             .heading = "mean",
+             .page_format = "{:.3g}"},
+            &Row::mean_error},
+           {{.key = "triangles_left_out"}, &Row::left_out}}};
 }
 
 Plot coverage_plot(const std::vector<Row>& rows) {
-  Plot plot{"coverage",
-            "Pixels that differ from the exact map, by subpixel bits",
-            "subpixel bits",
-            "pixels",
-            false,
-            true,
-            {{"covered or not", {}}, {"another triangle", {}}}};
-  for (const Row& r : rows) {
-    const auto differ = static_cast<double>(r.lost + r.gained);
-    if (differ > 0) plot.series[0].points.emplace_back(r.bits, differ);
-    if (r.other_triangle > 0) plot.series[1].points.emplace_back(r.bits, r.other_triangle);
-  }
-  std::erase_if(plot.series, [](const Series& s) { return s.points.empty(); });
-  return plot;
+  return {.name = "coverage",
+          .title = "Pixels that differ from the exact map, by subpixel bits",
+          .x_label = "subpixel bits",
+          .y_label = "pixels",
+          .logarithmic_y = true,
+          .series = {series_of("covered or not", rows, &Row::bits, &Row::covered_otherwise),
+                     series_of("another triangle", rows, &Row::bits, &Row::other_triangle)}};
 }
 
 Plot depth_plot(const std::vector<Row>& rows) {
-  Plot plot{"depth",
-            "Error of depth where the same triangle shows, by subpixel bits",
-            "subpixel bits",
-            "relative error of the depth",
-            false,
-            true,
-            {{"greatest", {}}, {"mean", {}}}};
-  for (const Row& r : rows) {
-    if (r.greatest_error > 0) plot.series[0].points.emplace_back(r.bits, r.greatest_error);
-    if (r.mean_error > 0) plot.series[1].points.emplace_back(r.bits, r.mean_error);
-  }
-  std::erase_if(plot.series, [](const Series& s) { return s.points.empty(); });
-  return plot;
-}
-
-StudyFile page_of(const SceneView& view, const std::vector<Row>& rows, bool coverage, bool depth) {
-  Page page("Subpixel bits: " + view.name);
-  page.paragraph(
-      "Corners are moved to the nearest point of a grid of 2^-bits pixels, as hardware does before "
-      "it draws; coverage is then decided by the top-left rule in exact integers. Against it "
-      "stands "
-      "the exact map, in which no corner moves. Direct3D and Vulkan ask for 8 bits and 4.");
-  page.heading("Coverage")
-      .paragraph(
-          "A corner moves by at most half a step on either axis, so pixels change hands along "
-          "edges "
-          "only, and their number falls to a half with every bit as long as there are enough of "
-          "them.");
-  if (coverage) page.plot("coverage", "Pixels that differ from the exact map");
-  page.heading("Depth").paragraph(
-      "The depth of the moved triangle is right at its corners, which stand elsewhere: what is off "
-      "is the slope of the surface times the distance, and falls to a half with every bit.");
-  if (depth) page.plot("depth", "Relative error of the depth");
-  std::vector<std::vector<std::string>> cells;
-  cells.reserve(rows.size());
-  for (const Row& r : rows) {
-    cells.push_back({fmt::format("{}", r.bits), fmt::format("{}", r.lost),
-                     fmt::format("{}", r.gained), fmt::format("{}", r.other_triangle),
-                     fmt::format("{:.3g}", r.greatest_error), fmt::format("{:.3g}", r.mean_error)});
-  }
-  page.table({"bits", "lost", "gained", "another triangle", "greatest depth error", "mean"}, cells);
-  if (rows[0].left_out > 0) {
-    page.paragraph(fmt::format(
-        "{} triangles reach behind the camera or far beside the image; they were not drawn, and "
-        "count as lost.",
-        rows[0].left_out));
-  }
-  return page.file();
+  return {.name = "depth",
+          .title = "Error of depth where the same triangle shows, by subpixel bits",
+          .x_label = "subpixel bits",
+          .y_label = "relative error of the depth",
+          .logarithmic_y = true,
+          .series = {series_of("greatest", rows, &Row::bits, &Row::greatest_error),
+                     series_of("mean", rows, &Row::bits, &Row::mean_error)}};
 }
 
 }  // namespace
@@ -139,41 +109,18 @@ std::vector<StudyFile> study_subpixel(const StudyOptions& options,
   if (options.separation || options.samples) {
     throw UsageError("the study subpixel has no --separation and no --samples");
   }
-  SceneView view = options.scene ? *options.scene : wheel();
-  if (options.near) view.camera.near = *options.near;
-  if (options.far) view.camera.far = *options.far;
-  if (const auto fault = find_fault(view.camera)) throw UsageError(*fault);
+  const SceneView view = scene_or_wheel(options);
   require_gnuplot();
-  RenderOptions exact{.channels = {Channel::Z, Channel::id}};
-  exact.depth_encoding.type = DepthEncoding::Type::binary64;
-  const DepthMap map = render(view.scene, view.camera, exact);
-  std::vector<Row> rows;
-  for (int bits = 0; bits <= most_bits; ++bits) {
-    rows.push_back(compare(draw_snapped(view, bits), map, bits));
-    tick(0.9 * (bits + 1) / (most_bits + 1));
-  }
-  Json summary{{"study", "subpixel"}, {"scene", view.name}};
-  for (const Row& r : rows) {
-    summary["bits"].push_back({{"bits", r.bits},
-                               {"pixels", r.pixels},
-                               {"lost", r.lost},
-                               {"gained", r.gained},
-                               {"other_triangle", r.other_triangle},
-                               {"greatest_relative_depth_error", r.greatest_error},
-                               {"mean_relative_depth_error", r.mean_error},
-                               {"triangles_left_out", r.left_out}});
-  }
-  const Plot coverage = coverage_plot(rows), depth = depth_plot(rows);
-  std::vector<StudyFile> files{{"subpixel.csv", csv_of(rows)},
-                               {"summary.json", summary.dump(2) + "\n"},
-                               page_of(view, rows, has_points(coverage), has_points(depth))};
-  for (const Plot& plot : {coverage, depth}) {
-    if (!has_points(plot)) continue;
-    auto drawn = draw(plot);
-    std::move(drawn.begin(), drawn.end(), std::back_inserter(files));
-  }
+  const std::vector<Row> rows = compare_all(view, tick);
+
+  Results results("subpixel", page_texts::subpixel);
+  results.figure("scene", view.name);
+  results.table(table_of(rows), {.csv = "subpixel", .json = "bits", .page = "rows"});
+  results.plot(coverage_plot(rows));
+  results.plot(depth_plot(rows));
+  if (rows[0].left_out > 0) results.quote("left_out", rows[0].left_out);
   tick(1);
-  return files;
+  return results.files();
 }
 
 }  // namespace fathom::studies

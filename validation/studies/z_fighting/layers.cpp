@@ -81,8 +81,8 @@ StoredDepth encode_layer(const CertifiedFormat& format, const Layer& layer) {
   return encode(format.format(), layer.depth);
 }
 
-PairsByDistance pairs_by_distance(const std::vector<LayeredSample>& samples,
-                                  const DepthFormat& format) {
+std::vector<LostSeparation> lost_separations(const std::vector<LayeredSample>& samples,
+                                             const DepthFormat& format) {
   const CertifiedFormat certified(format);
   std::map<int, double> lost;  // class: depths from 2^((k−1)/2) to 2^(k/2)
   for (const LayeredSample& sample : samples) {
@@ -97,12 +97,10 @@ PairsByDistance pairs_by_distance(const std::vector<LayeredSample>& samples,
       }
     }
   }
-  PairsByDistance result;
+  std::vector<LostSeparation> result;
   for (const auto& [k, greatest] : lost) {
     const double end = std::clamp(std::exp2(k / 2.0), format.near, format.far);
-    result.distances.push_back(end);
-    result.greatest_lost.push_back(greatest);
-    result.predicted.push_back(bin_width(format, Dyadic(end)));
+    result.push_back({end, greatest, bin_width(format, Dyadic(end))});
   }
   return result;
 }

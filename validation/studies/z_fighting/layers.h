@@ -31,17 +31,16 @@ std::vector<LayeredSample> layered_samples(const SceneView& view);
 /// The stored value of a layer: by bounds from the rounded depth, or else from the exact one.
 StoredDepth encode_layer(const CertifiedFormat& format, const Layer& layer);
 
-/// How a format does where one surface lies behind another: by the distance of the visible one, for
-/// pairs of it and another.
-struct PairsByDistance {
-  std::vector<double> distances;  ///< upper ends of the classes, a factor of √2 apart
-  /// Greatest separation of a pair that is not told apart; 0 where all are.
-  std::vector<double> greatest_lost;
+/// How a format does where one surface lies behind another, over pairs of the visible one and
+/// another whose visible one lies in a class of distances.
+struct LostSeparation {
+  double distance;       ///< upper end of the class, a factor of √2 beyond the last
+  double greatest_lost;  ///< greatest separation of a pair that is not told apart; 0: all are
   /// The width of the bin at the upper end: no lost separation is greater.
-  std::vector<double> predicted;
+  double predicted;
 };
-PairsByDistance pairs_by_distance(const std::vector<LayeredSample>& samples,
-                                  const DepthFormat& format);
+std::vector<LostSeparation> lost_separations(const std::vector<LayeredSample>& samples,
+                                             const DepthFormat& format);
 
 /// Offsets for triangles whose number is `first` or greater, the others have none.
 struct OffsetLayers {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
+#include <string>
 #include <vector>
 
 #include "fathom/depth_buffer/depth_buffer.h"
-#include "validation/studies/z_fighting/layers.h"
+#include "validation/studies/study_scene.h"
 
 /// Z-fighting over the image of a scene, ideal model.
 namespace fathom::studies {
@@ -32,9 +32,5 @@ BufferedScene buffer_scene(const SceneView& view, const DepthMap& visible,
 
 /// Pictures: where it fights, and how far decoded depths are off.
 std::vector<StudyFile> pictures_of(const std::string& name, const BufferedScene& buffered);
-
-/// z-fighting on options.scene: tables, pictures, least safe separation by distance.
-std::vector<StudyFile> study_scene_fights(const StudyOptions& options,
-                                          const std::function<void(double)>& tick);
 
 }  // namespace fathom::studies

@@ -1,14 +1,12 @@
 #pragma once
 
 #include <array>
-#include <string>
-#include <vector>
 
 #include "fathom/depth_format/depth_format.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/pipeline/render_pipeline.h"
 
-/// The exercises and the demo of the textbooks, one function each: pictures and figures.
+/// The exercises of the textbooks, a function each: pictures and figures.
 namespace fathom::studies {
 
 /// Exercise 1: Bresenham's lines from the middle at the eight multiples of 45 degrees.
@@ -45,27 +43,5 @@ struct PartialPixels {
   std::array<double, 4> mean_error{};  ///< of the coverage of the pixels that the edge cuts
 };
 PartialPixels partial_pixels();
-
-/// The demo of section 6: two overlapping triangles of 320 × 240.
-struct Demo {
-  RgbImage picture;
-  std::uint64_t near_fragments = 0, far_fragments = 0, union_of_both = 0, overlap = 0;
-  std::uint64_t passed_far_first = 0, passed_near_first = 0;
-};
-Demo demo();
-
-/// The z-buffer tables: a black triangle at depth 0.5, then a grey one from 0.25 to 0.95. Rows of
-/// depths and of colours before and after the grey one.
-struct Tables {
-  std::vector<std::string> depth_before, colour_before, depth_after, colour_after;
-};
-Tables z_buffer_tables();
-
-/// A curve filled at 48 × 48 and enlarged eight times, and filled anew at 384 × 384.
-std::array<RgbImage, 2> curve_twice();
-
-/// A wheel of 12 spokes that turns by 27 degrees a frame, in eight frames side by side: as it is,
-/// and as the mean of 16 instants for each frame.
-RgbImage turning_wheel(bool temporal_supersampling);
 
 }  // namespace fathom::studies

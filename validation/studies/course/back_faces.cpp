@@ -1,20 +1,15 @@
-#include "validation/studies/course/course_meshes.h"
+#include "validation/studies/course/back_faces.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <utility>
 
 #include "fathom/pipeline/render_pipeline.h"
-#include "fathom/pipeline/subpixel_grid.h"
 #include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
 namespace {
 
-using pipeline::GridPoint;
-using pipeline::GridTriangle;
 using pipeline::PipelineOptions;
 
 /// Of radius 1 around (0, 0, z), its triangles counter-clockwise from outside; the poles lie on y.
@@ -101,69 +96,6 @@ RgbImage open_box(pipeline::FrontFace front_face, pipeline::Culling culling) {
   options.antialias = {pipeline::AntialiasMethod::msaa, 8};
   Camera camera = front_camera(160, 160, 1, 20);
   return to_rgb(render_frame(scene, camera, options, true).picture);
-}
-
-SharedEdges count_shared_edges(int bits) {
-  constexpr int cells = 16, pixels = 12, looks = 16;  // looks² samples a pixel
-  constexpr double cell = 0.75;                       // of a pixel
-  std::mt19937_64 random(2026);
-  // (q − p) × (r − p) ≥ (1 − 2s)² − (2s)² = 1 − 4s cells > 0: none is turned over unsnapped.
-  std::uniform_real_distribution<double> move(-0.2499 * cell, 0.2499 * cell);
-  std::vector<GridPoint> corners;
-  for (int y = 0; y <= cells; ++y) {
-    for (int x = 0; x <= cells; ++x) {
-      const bool border = x == 0 || y == 0 || x == cells || y == cells;
-      const double dx = move(random), dy = move(random);
-      corners.push_back(
-          pipeline::snap(cell * x + (border ? 0 : dx), cell * y + (border ? 0 : dy), bits));
-    }
-  }
-  std::vector<GridTriangle> triangles;
-  SharedEdges result{bits};
-  const auto add = [&](int p, int q, int r) {
-    const auto at = [&](int k) { return corners[static_cast<std::size_t>(k)]; };
-    ++result.triangles;
-    const auto t = GridTriangle::of({at(p), at(q), at(r)});
-    if (!t) {
-      ++result.without_area;
-      return;
-    }
-    result.turned_over += !t->counter_clockwise();
-    triangles.push_back(*t);
-  };
-  for (int y = 0; y < cells; ++y) {
-    for (int x = 0; x < cells; ++x) {
-      const int p = y * (cells + 1) + x, q = p + 1, r = p + cells + 1, s = r + 1;
-      add(p, r, q);
-      add(q, r, s);
-    }
-  }
-  constexpr std::uint32_t side = pixels * looks;
-  result.picture = RgbImage(side, side);
-  constexpr std::int64_t step = pipeline::grid_one / looks;
-  for (std::uint32_t y = 0; y < side; ++y) {
-    for (std::uint32_t x = 0; x < side; ++x) {
-      const GridPoint sample{x * step + step / 2, y * step + step / 2};
-      int by_sign = 0, all = 0;
-      bool turned = false;
-      std::size_t which = 0;
-      for (std::size_t i = 0; i < triangles.size(); ++i) {
-        if (!triangles[i].covers(sample)) continue;
-        ++all;
-        by_sign += triangles[i].counter_clockwise() ? 1 : -1;
-        turned = turned || !triangles[i].counter_clockwise();
-        which = i;
-      }
-      ++result.samples;
-      result.signed_not_one += by_sign != 1;
-      result.unsigned_not_one += all != 1;
-      result.unexplained += all != 1 && !turned;
-      const auto shade = static_cast<std::uint8_t>(150 + which * 37 % 90);
-      result.picture.at(x, y) =
-          all == 1 ? Rgb{static_cast<std::uint8_t>(shade - 40), shade, 255} : Rgb{220, 40, 30};
-    }
-  }
-  return result;
 }
 
 }  // namespace fathom::studies

@@ -6,7 +6,7 @@
 #include "fathom/image/rgb_image.h"
 #include "fathom/pipeline/options.h"
 
-/// What the course shows of whole meshes: back faces, and edges that triangles share.
+/// Which side of a triangle is seen.
 namespace fathom::studies {
 
 /// How many triangles of a closed ball face the eye by each of the three tests.
@@ -22,18 +22,5 @@ std::vector<FacingCount> count_facings();
 
 /// A box without its lid from above, by the rule of what is front and the side that is culled.
 RgbImage open_box(pipeline::FrontFace front_face, pipeline::Culling culling);
-
-/// A mesh of narrow triangles on the subpixel grid: how often its samples are covered.
-struct SharedEdges {
-  int bits = 0;
-  std::uint64_t triangles = 0, turned_over = 0, without_area = 0;
-  std::uint64_t samples = 0;
-  std::uint64_t signed_not_one = 0;    ///< samples, counted by orientation
-  std::uint64_t unsigned_not_one = 0;  ///< samples, every triangle counted
-  std::uint64_t unexplained = 0;       ///< of these, with no triangle that was turned over
-  /// Blue: covered once; red: three times, one of them by a triangle that was turned over.
-  RgbImage picture;
-};
-SharedEdges count_shared_edges(int bits);
 
 }  // namespace fathom::studies

@@ -2,11 +2,9 @@
 
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "validation/studies/page.h"
 #include "validation/studies/study.h"
 
 /// Pictures by every kind of antialiasing that the pipeline has, against exact areas.
@@ -31,14 +29,10 @@ struct AntialiasingMethods {
   /// Of a texture that fills the picture, without an edge of any triangle: the share of pixels that
   /// FXAA changes all the same.
   double texture_changed_by_fxaa = 0;
+  /// star-METHOD, plane-FILTER and plane-truth, texture-none and texture-fxaa.
   std::vector<StudyFile> pictures;
 };
 
 AntialiasingMethods measure_antialiasing(const std::function<void(double)>& tick);
-
-void add_to_summary(const AntialiasingMethods& measured, nlohmann::ordered_json& summary);
-void add_to_page(const AntialiasingMethods& measured, Page& page);
-/// methods.csv, the pictures, and the plot of what frequency a grating seems to have.
-std::vector<StudyFile> files_of(const AntialiasingMethods& measured);
 
 }  // namespace fathom::studies
