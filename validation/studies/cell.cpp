@@ -6,7 +6,7 @@ namespace fathom::studies {
 namespace {
 
 struct Writer {
-  const char* format;
+  std::string format;
 
   std::string operator()(std::monostate) const { return ""; }
   std::string operator()(bool flag) const { return flag ? "true" : "false"; }
@@ -24,7 +24,7 @@ struct Writer {
 }  // namespace
 
 std::string text_of(const Cell& cell, const char* format) {
-  return std::visit(Writer{format}, cell.value);
+  return std::visit(Writer{std::string("{:") + format + "}"}, cell.value);
 }
 
 }  // namespace fathom::studies

@@ -33,8 +33,8 @@ struct Cell {
   Cell(const std::optional<T>& maybe) : Cell(maybe ? Cell(*maybe) : Cell()) {}
 };
 
-/// As plain text; a list's numbers one after another. `format`, as {fmt} reads it, is that of
-/// floating-point numbers: "{:.3g}".
-std::string text_of(const Cell& cell, const char* format = "{}");
+/// As plain text; a list's numbers one after another. `format` is that of floating-point numbers,
+/// as {fmt} reads it after a colon: ".3g". Without one, as many digits as it takes.
+std::string text_of(const Cell& cell, const char* format = "");
 
 }  // namespace fathom::studies

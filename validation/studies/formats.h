@@ -18,4 +18,8 @@ std::string label_of(const DepthFormat& format);
 /// "standard-unorm24", for names of files
 std::string file_name_of(const DepthFormat& format);
 
+/// Names in a row with the member `format`.
+inline constexpr auto mapping_of = [](const auto& row) { return name_of(row.format.mapping); };
+inline constexpr auto storage_of = [](const auto& row) { return name_of(row.format.storage); };
+
 }  // namespace fathom::studies

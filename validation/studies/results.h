@@ -20,9 +20,9 @@ class Results {
   Results(const std::string& study, std::string_view page);
 
   /// A figure of summary.json, which the page may quote as {{key}}, formatted as text_of() does.
-  void figure(const std::string& key, const Cell& value, const char* page_format = "{:g}");
+  void figure(const std::string& key, const Cell& value, const char* page_format = "g");
   /// A figure that the page alone quotes.
-  void quote(const std::string& name, const Cell& value, const char* page_format = "{:g}");
+  void quote(const std::string& name, const Cell& value, const char* page_format = "g");
 
   /// Where a table goes: the file CSV.csv, the key `json` of summary.json, the page's
   /// {{table:page}}. Empty: not there.

@@ -19,7 +19,7 @@ Json json_of(const Cell& cell) {
       cell.value);
 }
 
-/// The place in an object that a key names: see Column.
+/// The place in an object that a key names: see Column::json.
 Json& place_in(Json& object, const std::string& key) {
   if (key.ends_with("[]")) return object[key.substr(0, key.size() - 2)].emplace_back(nullptr);
   const std::size_t point = key.find('.');
@@ -32,8 +32,7 @@ Json json_of(const Table& table) {
   for (const std::vector<Cell>& row : table.rows()) {
     Json object = Json::object();
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const Column& column = table.columns()[i];
-      const std::string key = column.json_key.value_or(column.key);
+      const std::string& key = table.columns()[i].json_key;
       if (!key.empty()) place_in(object, key) = json_of(row[i]);
     }
     list.push_back(std::move(object));

@@ -12,13 +12,10 @@ std::string csv_field(const std::string& text) {
   return quoted + "\"";
 }
 
-Cell hundredfold(const Cell& cell) {
-  const double* share = std::get_if<double>(&cell.value);
-  return share ? Cell(100 * *share) : cell;
-}
-
 std::string page_text(const Column& column, const Cell& cell) {
-  return text_of(column.percent ? hundredfold(cell) : cell, column.page_format);
+  const double* share = std::get_if<double>(&cell.value);
+  if (!column.is_percent || !share) return text_of(cell, column.page_format);
+  return text_of(100 * *share, column.page_format) + " %";
 }
 
 /// A line of the CSV; `text_at` gives the text of a column.

@@ -9,19 +9,46 @@
 
 namespace fathom::studies {
 
-/// A column of a table: where it is written, under which name, and how.
+/// A column of a table: where it is written, under which name, and how its floating-point numbers
+/// are formatted there (see text_of). Without more it is in CSV and JSON.
 struct Column {
-  /// In CSV and, unless json_key says otherwise, in JSON. Empty: in neither.
-  std::string key;
-  const char* csv_format = "{:.17g}";  ///< of floating-point numbers
-  /// "a.b" is the member b of the object a of each row; "a[]" is the next entry of its list a.
-  /// Empty: not in JSON.
-  std::optional<std::string> json_key;
-  /// On the page. None: not there.
-  std::optional<std::string> heading;
-  const char* page_format = "{}";  ///< of floating-point numbers
-  bool percent = false;            ///< the page shows a hundred times the value
+  std::string key;  ///< in CSV; empty: not there
+  const char* csv_format;
+  std::string json_key;                ///< empty: not there
+  std::optional<std::string> heading;  ///< on the page; none: not there
+  const char* page_format = "";
+  bool is_percent = false;  ///< the page shows a hundred times the value
+
+  Column(const char* name) : Column(std::string(name)) {}
+  Column(const std::string& name, const char* format = ".17g")
+      : key(name), csv_format(format), json_key(name) {}
+
+  /// Under another name in JSON: "a.b" is the member b of the object a of each row, "a[]" the next
+  /// entry of its list a.
+  Column& json(const std::string& name) {
+    json_key = name;
+    return *this;
+  }
+  Column& csv_only() { return json(""); }
+  /// On the page too.
+  Column& page(const std::string& name, const char* format = "") {
+    heading = name;
+    page_format = format;
+    return *this;
+  }
+  Column& percent(const std::string& name, const char* format) {
+    is_percent = true;
+    return page(name, format);
+  }
 };
+
+/// A column of the page alone.
+inline Column heading(const std::string& name, const char* format = "") {
+  return Column("").page(name, format);
+}
+inline Column percent_heading(const std::string& name, const char* format) {
+  return Column("").percent(name, format);
+}
 
 template <class Row>
 struct ColumnOf {

@@ -13,35 +13,24 @@
 namespace fathom::studies {
 namespace {
 
-double percent_seen(const PatternError& r) {
-  return 100.0 * static_cast<double>(r.seen_partial) / static_cast<double>(r.partial);
+std::string percent_seen(const PatternError& r) {
+  return text_of(100.0 * static_cast<double>(r.seen_partial) / static_cast<double>(r.partial),
+                 ".1f") +
+         " %";
 }
 
 Table patterns_table(const std::vector<PatternError>& rows) {
   using Row = PatternError;
   return {rows,
-          {{{.key = "pattern", .heading = "pattern"}, &Row::pattern},
-           {{.key = "samples", .heading = "samples"}, &Row::samples},
-           {{.key = "partial_pixels"}, &Row::partial},
-           {{.key = "seen_partial"}, &Row::seen_partial},
-           {{.key = "mean_error",
-             .csv_format = "{:.6g}",
-             .heading = "mean error",
-             .page_format = "{:.4f}"},
-            &Row::mean},
-           {{.key = "rms_error", .csv_format = "{:.6g}", .heading = "rms", .page_format = "{:.4f}"},
-            &Row::root_mean_square},
-           {{.key = "greatest_error",
-             .csv_format = "{:.6g}",
-             .heading = "greatest",
-             .page_format = "{:.4f}"},
-            &Row::greatest},
-           {{.key = "bias_pixels",
-             .csv_format = "{:.6g}",
-             .heading = "area gained (pixels)",
-             .page_format = "{:+.2f}"},
-            &Row::bias},
-           {{.heading = "seen as partial", .page_format = "{:.1f} %"}, percent_seen}}};
+          {{Column("pattern").page("pattern"), &Row::pattern},
+           {Column("samples").page("samples"), &Row::samples},
+           {"partial_pixels", &Row::partial},
+           {"seen_partial", &Row::seen_partial},
+           {Column("mean_error", ".6g").page("mean error", ".4f"), &Row::mean},
+           {Column("rms_error", ".6g").page("rms", ".4f"), &Row::root_mean_square},
+           {Column("greatest_error", ".6g").page("greatest", ".4f"), &Row::greatest},
+           {Column("bias_pixels", ".6g").page("area gained (pixels)", "+.2f"), &Row::bias},
+           {heading("seen as partial"), percent_seen}}};
 }
 
 std::string samples_label(std::size_t k) {
@@ -51,30 +40,26 @@ std::string samples_label(std::size_t k) {
 /// What is seen of each edge, and, in CSV and JSON, the errors.
 Table edges_table(const std::vector<EdgeSeen>& edges) {
   std::vector<ColumnOf<EdgeSeen>> columns{
-      {{.key = "slope", .csv_format = "{:g}", .heading = "slope", .page_format = "{:g}"},
-       &EdgeSeen::slope},
-      {{.key = "exact", .heading = "exact"}, &EdgeSeen::partial}};
+      {Column("slope", "g").page("slope", "g"), &EdgeSeen::slope},
+      {Column("exact").page("exact"), &EdgeSeen::partial}};
   for (std::size_t k = 0; k < 4; ++k) {
-    columns.push_back({{.key = "seen_by_" + std::to_string(1 << k),
-                        .json_key = "seen[]",
-                        .heading = samples_label(k)},
-                       [k](const EdgeSeen& e) { return e.seen[k]; }});
+    columns.push_back(
+        {Column("seen_by_" + std::to_string(1 << k)).json("seen[]").page(samples_label(k)),
+         [k](const EdgeSeen& e) { return e.seen[k]; }});
   }
   for (std::size_t k = 0; k < std::size(edge_patterns); ++k) {
     const std::string pattern = edge_patterns[k];
-    columns.push_back(
-        {{.key = "rms_" + pattern, .csv_format = "{:.6g}", .json_key = "rms_error." + pattern},
-         [k](const EdgeSeen& e) { return e.root_mean_square[k]; }});
+    columns.push_back({Column("rms_" + pattern, ".6g").json("rms_error." + pattern),
+                       [k](const EdgeSeen& e) { return e.root_mean_square[k]; }});
   }
   return {edges, columns};
 }
 
 /// The errors, for the page.
 Table edge_errors_table(const std::vector<EdgeSeen>& edges) {
-  std::vector<ColumnOf<EdgeSeen>> columns{
-      {{.heading = "slope", .page_format = "{:g}"}, &EdgeSeen::slope}};
+  std::vector<ColumnOf<EdgeSeen>> columns{{heading("slope", "g"), &EdgeSeen::slope}};
   for (std::size_t k = 0; k < std::size(edge_patterns); ++k) {
-    columns.push_back({{.heading = edge_patterns[k], .page_format = "{:.4f}"},
+    columns.push_back({heading(edge_patterns[k], ".4f"),
                        [k](const EdgeSeen& e) { return e.root_mean_square[k]; }});
   }
   return {edges, columns};
@@ -83,23 +68,21 @@ Table edge_errors_table(const std::vector<EdgeSeen>& edges) {
 Table methods_table(const std::vector<MethodError>& rows) {
   using Row = MethodError;
   return {rows,
-          {{{.key = "method", .heading = "method"}, &Row::name},
-           {{.key = "mean", .heading = "mean error", .page_format = "{:.4f}"}, &Row::mean},
-           {{.key = "rms", .heading = "rms", .page_format = "{:.4f}"}, &Row::rms},
-           {{.key = "greatest", .heading = "greatest", .page_format = "{:.3f}"}, &Row::greatest},
-           {{.key = "texture_mean", .heading = "on texture", .page_format = "{:.4f}"},
-            &Row::texture_mean},
-           {{.key = "shaded", .heading = "shaded"}, &Row::shaded},
-           {{.key = "ms", .heading = "ms", .page_format = "{:.1f}"}, &Row::ms},
-           {{.key = "megabytes", .heading = "MB", .page_format = "{:.2f}"}, &Row::megabytes}}};
+          {{Column("method").page("method"), &Row::name},
+           {Column("mean").page("mean error", ".4f"), &Row::mean},
+           {Column("rms").page("rms", ".4f"), &Row::rms},
+           {Column("greatest").page("greatest", ".3f"), &Row::greatest},
+           {Column("texture_mean").page("on texture", ".4f"), &Row::texture_mean},
+           {Column("shaded").page("shaded"), &Row::shaded},
+           {Column("ms").page("ms", ".1f"), &Row::ms},
+           {Column("megabytes").page("MB", ".2f"), &Row::megabytes}}};
 }
 
 Table filters_table(const std::vector<FilterError>& rows) {
   return {
       rows,
-      {{{.key = "filter", .heading = "filter"}, &FilterError::filter},
-       {{.key = "mean_error", .heading = "mean error, one sample a pixel", .page_format = "{:.4f}"},
-        &FilterError::mean}}};
+      {{Column("filter").page("filter"), &FilterError::filter},
+       {Column("mean_error").page("mean error, one sample a pixel", ".4f"), &FilterError::mean}}};
 }
 
 /// Which of the families that a plot tells apart a pattern belongs to.
@@ -163,7 +146,7 @@ void add(Results& results, const AntialiasingMethods& measured) {
                 {.csv = "methods", .json = "methods", .page = "methods"});
   results.table(filters_table(measured.filters), {.json = "filters", .page = "filters"});
   results.figure("texture_changed_by_fxaa", measured.texture_changed_by_fxaa);
-  results.quote("changed", 100 * measured.texture_changed_by_fxaa, "{:.1f} %");
+  results.quote("changed", 100 * measured.texture_changed_by_fxaa, ".1f");
   results.pictures(measured.pictures);
 }
 

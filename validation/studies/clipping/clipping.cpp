@@ -15,32 +15,30 @@ Table shapes_table(const std::vector<ClippedShape>& shapes) {
     return [member](const Shape& s) -> Cell { return s.figures.*member; };
   };
   using Figures = ClippingFigures;
-  return {
-      shapes,
-      {{{.key = "shape", .heading = "shape"}, &Shape::name},
-       {{.key = "corners", .json_key = ""}, figure(&Figures::corners)},
-       {{.key = "pieces", .heading = "pieces"}, figure(&Figures::pieces)},
-       {{.key = "convex_pieces", .heading = "convex pieces"}, figure(&Figures::convex_pieces)},
-       {{.key = "border", .heading = "border", .page_format = "{:.4g}"}, figure(&Figures::border)},
-       {{.key = "bridges", .heading = "bridging edges", .page_format = "{:.4g}"},
-        figure(&Figures::bridges)},
-       {{.key = "cuts", .heading = "cuts", .page_format = "{:.4g}"}, figure(&Figures::cuts)},
-       {{.key = "areas_agree"}, figure(&Figures::areas_agree)},
-       {{.heading = "areas"},
-        [](const Shape& s) { return s.figures.areas_agree ? "equal" : "different"; }}}};
+  return {shapes,
+          {{Column("shape").page("shape"), &Shape::name},
+           {Column("corners").csv_only(), figure(&Figures::corners)},
+           {Column("pieces").page("pieces"), figure(&Figures::pieces)},
+           {Column("convex_pieces").page("convex pieces"), figure(&Figures::convex_pieces)},
+           {Column("border").page("border", ".4g"), figure(&Figures::border)},
+           {Column("bridges").page("bridging edges", ".4g"), figure(&Figures::bridges)},
+           {Column("cuts").page("cuts", ".4g"), figure(&Figures::cuts)},
+           {"areas_agree", figure(&Figures::areas_agree)},
+           {heading("areas"),
+            [](const Shape& s) { return s.figures.areas_agree ? "equal" : "different"; }}}};
 }
 
 Table random_table(const std::vector<RandomPolygons>& rows) {
   using Row = RandomPolygons;
   return {rows,
-          {{{.key = "corners"}, &Row::corners},
-           {{.key = "polygons", .json_key = ""}, &Row::polygons},
-           {{.key = "in_pieces"}, &Row::in_pieces},
-           {{.key = "pieces", .json_key = ""}, &Row::pieces},
-           {{.key = "convex_pieces", .json_key = ""}, &Row::convex_pieces},
-           {{.key = "bridge_percent"}, &Row::bridge_percent},
-           {{.key = "cut_percent"}, &Row::cut_percent},
-           {{.key = "areas_agree"}, &Row::areas_agree}}};
+          {{"corners", &Row::corners},
+           {Column("polygons").csv_only(), &Row::polygons},
+           {"in_pieces", &Row::in_pieces},
+           {Column("pieces").csv_only(), &Row::pieces},
+           {Column("convex_pieces").csv_only(), &Row::convex_pieces},
+           {"bridge_percent", &Row::bridge_percent},
+           {"cut_percent", &Row::cut_percent},
+           {"areas_agree", &Row::areas_agree}}};
 }
 
 Plot bridges_plot(const std::vector<RandomPolygons>& rows) {

@@ -50,15 +50,14 @@ void exercise_3(Results& results) {
     }
   }
   results.table({rows,
-                 {{{.key = "distance"}, &Row::distance},
-                  {{.key = "storage"}, [](const Row& r) { return name_of(r.storage); }},
-                  {{.key = "wrong_share"}, &Row::wrong_share}}},
+                 {{"distance", &Row::distance},
+                  {"storage", [](const Row& r) { return name_of(r.storage); }},
+                  {"wrong_share", &Row::wrong_share}}},
                 {.json = "exercise_3"});
-  std::vector<ColumnOf<PageRow>> columns{{{.heading = "distance"}, &PageRow::distance}};
+  std::vector<ColumnOf<PageRow>> columns{{heading("distance"), &PageRow::distance}};
   for (std::size_t k = 0; k < std::size(storages); ++k) {
-    columns.push_back(
-        {{.heading = std::string(name_of(storages[k])), .page_format = "{:.1f} %", .percent = true},
-         [k](const PageRow& r) { return r.wrong_shares[k]; }});
+    columns.push_back({percent_heading(std::string(name_of(storages[k])), ".1f"),
+                       [k](const PageRow& r) { return r.wrong_shares[k]; }});
   }
   results.table({page_rows, columns}, {.page = "exercise_3"});
 }
@@ -74,10 +73,10 @@ void exercise_4(Results& results) {
     show(results, std::string("exercise-4-") + row.interpolation, row.board.picture, 2);
   }
   results.table({rows,
-                 {{{.key = "interpolation", .heading = "interpolation"}, &Row::interpolation},
-                  {{.key = "mean_error", .heading = "mean error", .page_format = "{:.3g}"},
+                 {{Column("interpolation").page("interpolation"), &Row::interpolation},
+                  {Column("mean_error").page("mean error", ".3g"),
                    [](const Row& r) { return r.board.mean_error; }},
-                  {{.key = "greatest_error", .heading = "greatest error", .page_format = "{:.3g}"},
+                  {Column("greatest_error").page("greatest error", ".3g"),
                    [](const Row& r) { return r.board.greatest_error; }}}},
                 {.json = "exercise_4", .page = "exercise_4"});
 }
@@ -90,10 +89,10 @@ void exercise_5(Results& results) {
 void exercise_6(Results& results) {
   const PartialPixels partial = partial_pixels();
   Table table(std::vector<std::size_t>{0, 1, 2, 3},
-              {{{.key = "samples", .heading = "samples"}, [](std::size_t i) { return 1 << i; }},
-               {{.key = "partial", .heading = "partial pixels"},
+              {{Column("samples").page("samples"), [](std::size_t i) { return 1 << i; }},
+               {Column("partial").page("partial pixels"),
                 [&](std::size_t i) { return partial.counted[i]; }},
-               {{.key = "mean_error", .heading = "mean error of coverage", .page_format = "{:.4f}"},
+               {Column("mean_error").page("mean error of coverage", ".4f"),
                 [&](std::size_t i) { return partial.mean_error[i]; }}});
   results.table(table, {.json = "exercise_6"});
   results.figure("exercise_6_exact", partial.exact);
@@ -106,21 +105,21 @@ void back_faces(Results& results) {
   const auto culled_share = [](const Row& f) {
     return 1 - static_cast<double>(f.front_in_window) / static_cast<double>(f.triangles);
   };
-  results.table({count_facings(),
-                 {{{.key = "precision", .heading = "arithmetic"},
-                   [](const Row& f) {
-                     return f.precision == pipeline::Precision::binary32 ? "binary32" : "binary64";
-                   }},
-                  {{.key = "distance", .heading = "distance"}, &Row::distance},
-                  {{.key = "triangles"}, &Row::triangles},
-                  {{.heading = "culled", .page_format = "{:.2f} %", .percent = true}, culled_share},
-                  {{.heading = "unseen surface", .page_format = "{:.2f} %", .percent = true},
-                   [](const Row& f) { return 1 - f.seen_share; }},
-                  {{.key = "front_in_world", .heading = "front: world"}, &Row::front_in_world},
-                  {{.key = "front_in_ndc", .heading = "front: NDC"}, &Row::front_in_ndc},
-                  {{.key = "front_in_window", .heading = "front: window"}, &Row::front_in_window},
-                  {{.key = "disagreeing", .heading = "the tests disagree"}, &Row::disagreeing}}},
-                {.json = "facings", .page = "facings"});
+  results.table(
+      {count_facings(),
+       {{Column("precision").page("arithmetic"),
+         [](const Row& f) {
+           return f.precision == pipeline::Precision::binary32 ? "binary32" : "binary64";
+         }},
+        {Column("distance").page("distance"), &Row::distance},
+        {"triangles", &Row::triangles},
+        {percent_heading("culled", ".2f"), culled_share},
+        {percent_heading("unseen surface", ".2f"), [](const Row& f) { return 1 - f.seen_share; }},
+        {Column("front_in_world").page("front: world"), &Row::front_in_world},
+        {Column("front_in_ndc").page("front: NDC"), &Row::front_in_ndc},
+        {Column("front_in_window").page("front: window"), &Row::front_in_window},
+        {Column("disagreeing").page("the tests disagree"), &Row::disagreeing}}},
+      {.json = "facings", .page = "facings"});
   using enum pipeline::FrontFace;
   using pipeline::Culling;
   show(results, "box-ccw-back", open_box(counter_clockwise, Culling::back), 1);
@@ -140,15 +139,14 @@ void shared_edges(Results& results) {
   }
   results.table(
       {rows,
-       {{{.key = "subpixel_bits", .heading = "bits"}, &Row::bits},
-        {{.key = "triangles"}, &Row::triangles},
-        {{.key = "turned_over", .heading = "turned over"}, &Row::turned_over},
-        {{.key = "without_area", .heading = "without area"}, &Row::without_area},
-        {{.key = "samples"}, &Row::samples},
-        {{.key = "signed_not_one", .heading = "samples not covered once, signed"},
-         &Row::signed_not_one},
-        {{.key = "unsigned_not_one", .heading = "not once, unsigned"}, &Row::unsigned_not_one},
-        {{.key = "unexplained", .heading = "of these unexplained"}, &Row::unexplained}}},
+       {{Column("subpixel_bits").page("bits"), &Row::bits},
+        {"triangles", &Row::triangles},
+        {Column("turned_over").page("turned over"), &Row::turned_over},
+        {Column("without_area").page("without area"), &Row::without_area},
+        {"samples", &Row::samples},
+        {Column("signed_not_one").page("samples not covered once, signed"), &Row::signed_not_one},
+        {Column("unsigned_not_one").page("not once, unsigned"), &Row::unsigned_not_one},
+        {Column("unexplained").page("of these unexplained"), &Row::unexplained}}},
       {.json = "shared_edges", .page = "shared_edges"});
 }
 
@@ -169,7 +167,7 @@ void demo_of_section_6(Results& results) {
       {"fragments that pass the depth test, far drawn first", d.passed_far_first},
       {"fragments that pass the depth test, near drawn first", d.passed_near_first}};
   for (const Row& row : rows) results.figure(std::string("demo.") + row.what, row.count);
-  results.table({rows, {{{.heading = ""}, &Row::what}, {{.heading = "count"}, &Row::count}}},
+  results.table({rows, {{heading(""), &Row::what}, {heading("count"), &Row::count}}},
                 {.page = "demo"});
 }
 

@@ -70,7 +70,7 @@ Tables z_buffer_tables() {
     const auto write = [&](std::vector<std::string>& depths, std::vector<std::string>& colours) {
       std::string d, c;
       for (int x = 0; x < columns; ++x) {
-        d += (x ? " " : "") + text_of(depth[x], "{:.3g}");
+        d += (x ? " " : "") + text_of(depth[x], ".3g");
         c += (x ? " " : "") + std::string(1, colour[x]);
       }
       depths.push_back(d);

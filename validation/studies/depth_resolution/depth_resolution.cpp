@@ -28,71 +28,62 @@ Table steps_table(const std::vector<FormatSteps>& all) {
     for (const Step& step : m.steps) rows.push_back({m.format, step});
   }
   return {rows,
-          {{{.key = "mapping"}, [](const Row& r) { return name_of(r.format.mapping); }},
-           {{.key = "storage"}, [](const Row& r) { return name_of(r.format.storage); }},
-           {{.key = "near"}, [](const Row& r) { return r.format.near; }},
-           {{.key = "far"}, [](const Row& r) { return r.format.far; }},
-           {{.key = "depth"}, [](const Row& r) { return r.at.depth; }},
-           {{.key = "step"}, [](const Row& r) { return r.at.step; }},
-           {{.key = "relative_step"}, [](const Row& r) { return r.at.step / r.at.depth; }},
-           {{.key = "bin_width"}, [](const Row& r) { return r.at.bin_width; }}}};
+          {{"mapping", mapping_of},
+           {"storage", storage_of},
+           {"near", [](const Row& r) { return r.format.near; }},
+           {"far", [](const Row& r) { return r.format.far; }},
+           {"depth", [](const Row& r) { return r.at.depth; }},
+           {"step", [](const Row& r) { return r.at.step; }},
+           {"relative_step", [](const Row& r) { return r.at.step / r.at.depth; }},
+           {"bin_width", [](const Row& r) { return r.at.bin_width; }}}};
 }
 
 Table best_table(const std::vector<BestMapping>& rows) {
   using Row = BestMapping;
   return {rows,
-          {{{.key = "storage"}, [](const Row& r) { return name_of(r.storage); }},
-           {{.key = "depth"}, &Row::depth},
-           {{.key = "best_mapping"}, [](const Row& r) { return name_of(r.mapping); }},
-           {{.key = "step"}, &Row::step}}};
+          {{"storage", [](const Row& r) { return name_of(r.storage); }},
+           {"depth", &Row::depth},
+           {"best_mapping", [](const Row& r) { return name_of(r.mapping); }},
+           {"step", &Row::step}}};
 }
 
 Table ranges_table(const std::vector<BestRange>& rows) {
   using Row = BestRange;
   return {rows,
-          {{{.key = "storage"}, [](const Row& r) { return name_of(r.storage); }},
-           {{.key = "mapping"}, [](const Row& r) { return name_of(r.mapping); }},
-           {{.key = "from_depth"}, &Row::from},
-           {{.key = "to_depth"}, &Row::to}}};
+          {{"storage", [](const Row& r) { return name_of(r.storage); }},
+           {"mapping", [](const Row& r) { return name_of(r.mapping); }},
+           {"from_depth", &Row::from},
+           {"to_depth", &Row::to}}};
 }
 
 Table moved_table(const std::vector<MovedStep>& rows) {
   using Row = MovedStep;
   return {rows,
-          {{{.key = "moved"}, [](const Row& r) { return r.moved == Moved::near ? "near" : "far"; }},
-           {{.key = "mapping"}, [](const Row& r) { return name_of(r.format.mapping); }},
-           {{.key = "storage"}, [](const Row& r) { return name_of(r.format.storage); }},
-           {{.key = "near"}, [](const Row& r) { return r.format.near; }},
-           {{.key = "far"}, [](const Row& r) { return r.format.far; }},
-           {{.key = "depth"}, &Row::depth},
-           {{.key = "step"}, &Row::step}}};
+          {{"moved", [](const Row& r) { return r.moved == Moved::near ? "near" : "far"; }},
+           {"mapping", mapping_of},
+           {"storage", storage_of},
+           {"near", [](const Row& r) { return r.format.near; }},
+           {"far", [](const Row& r) { return r.format.far; }},
+           {"depth", &Row::depth},
+           {"step", &Row::step}}};
 }
 
 Table formats_table(const std::vector<FormatSteps>& rows) {
   using Row = FormatSteps;
   return {rows,
-          {{{.heading = "format"}, [](const Row& r) { return label_of(r.format); }},
-           {{.key = "mapping"}, [](const Row& r) { return name_of(r.format.mapping); }},
-           {{.key = "storage"}, [](const Row& r) { return name_of(r.format.storage); }},
-           {{.key = "codes", .heading = "codes"}, &Row::codes},
-           {{.key = "share_of_codes_nearer_than_2_near",
-             .heading = "up to 2·near",
-             .page_format = "{:.2f} %",
-             .percent = true},
+          {{heading("format"), [](const Row& r) { return label_of(r.format); }},
+           {"mapping", mapping_of},
+           {"storage", storage_of},
+           {Column("codes").page("codes"), &Row::codes},
+           {Column("share_of_codes_nearer_than_2_near").percent("up to 2·near", ".2f"),
             &Row::share_below_2},
-           {{.key = "share_of_codes_nearer_than_10_near",
-             .heading = "up to 10·near",
-             .page_format = "{:.2f} %",
-             .percent = true},
+           {Column("share_of_codes_nearer_than_10_near").percent("up to 10·near", ".2f"),
             &Row::share_below_10},
-           {{.key = "step_at_near"}, [](const Row& r) { return r.steps.front().step; }},
-           {{.key = "step_at_far"}, [](const Row& r) { return r.steps.back().step; }},
-           {{.key = "greatest_relative_step",
-             .heading = "greatest relative step",
-             .page_format = "{:.3g}"},
+           {"step_at_near", [](const Row& r) { return r.steps.front().step; }},
+           {"step_at_far", [](const Row& r) { return r.steps.back().step; }},
+           {Column("greatest_relative_step").page("greatest relative step", ".3g"),
             &Row::greatest_relative},
-           {{.key = "greatest_relative_step_at", .heading = "at depth", .page_format = "{:.4g}"},
-            &Row::greatest_at}}};
+           {Column("greatest_relative_step_at").page("at depth", ".4g"), &Row::greatest_at}}};
 }
 
 /// Near a stored 0 the steps of float formats are subnormal numbers, which would squeeze the rest
@@ -123,13 +114,13 @@ Plot steps_plot(const std::vector<FormatSteps>& all, Storage storage) {
 /// A line for each format that is shown, in the order of their names.
 Plot moved_plot(const std::vector<MovedStep>& rows, Moved moved) {
   const std::string name = moved == Moved::near ? "near" : "far";
-  Plot plot{.name = "step-by-" + name,
-            .title = "Step at depth " + text_of(rows.front().depth, "{:.4g}") + " when " + name +
-                     " moves",
-            .x_label = name + " (scene units)",
-            .y_label = "step (scene units)",
-            .logarithmic_x = true,
-            .logarithmic_y = true};
+  Plot plot{
+      .name = "step-by-" + name,
+      .title = "Step at depth " + text_of(rows.front().depth, ".4g") + " when " + name + " moves",
+      .x_label = name + " (scene units)",
+      .y_label = "step (scene units)",
+      .logarithmic_x = true,
+      .logarithmic_y = true};
   std::map<std::string, std::vector<MovedStep>> lines;
   for (const MovedStep& r : rows) {
     const bool is_shown = r.format.storage != Storage::unorm16 &&

@@ -12,23 +12,23 @@ namespace {
 Table scenes_table(const std::vector<HiddenSurfaceCase>& rows) {
   using Row = HiddenSurfaceCase;
   return {rows,
-          {{{.key = "scene", .heading = "scene"}, &Row::name},
-           {{.key = "pixels", .heading = "pixels"}, &Row::seen},
-           {{.key = "wrong_float32", .heading = "wrong: z-buffer float32"}, &Row::buffer32},
-           {{.key = "wrong_unorm16", .heading = "z-buffer unorm16"}, &Row::buffer16},
-           {{.key = "wrong_painter", .heading = "painter"}, &Row::painter},
-           {{.key = "moved", .heading = "moved"}, [](const Row& r) { return r.order.moved; }},
-           {{.key = "splits", .heading = "splits"}, [](const Row& r) { return r.order.splits; }}}};
+          {{Column("scene").page("scene"), &Row::name},
+           {Column("pixels").page("pixels"), &Row::seen},
+           {Column("wrong_float32").page("wrong: z-buffer float32"), &Row::buffer32},
+           {Column("wrong_unorm16").page("z-buffer unorm16"), &Row::buffer16},
+           {Column("wrong_painter").page("painter"), &Row::painter},
+           {Column("moved").page("moved"), [](const Row& r) { return r.order.moved; }},
+           {Column("splits").page("splits"), [](const Row& r) { return r.order.splits; }}}};
 }
 
 Table costs_table(const std::vector<HiddenSurfaceCost>& rows) {
   using Row = HiddenSurfaceCost;
   return {rows,
-          {{{.heading = "triangles"}, &Row::triangles},
-           {{.heading = "z-buffer ms", .page_format = "{:.2f}"}, &Row::buffer_ms},
-           {{.heading = "painter ms", .page_format = "{:.2f}"}, &Row::painter_ms},
-           {{.heading = "comparisons"}, &Row::comparisons},
-           {{.heading = "splits"}, &Row::splits}}};
+          {{heading("triangles"), &Row::triangles},
+           {heading("z-buffer ms", ".2f"), &Row::buffer_ms},
+           {heading("painter ms", ".2f"), &Row::painter_ms},
+           {heading("comparisons"), &Row::comparisons},
+           {heading("splits"), &Row::splits}}};
 }
 
 Plot cost_plot(const std::vector<HiddenSurfaceCost>& rows) {

@@ -29,44 +29,38 @@ std::string name_of_matrices(Mapping mapping, bool premultiplied) {
 Table order_table(const std::vector<LostOrder>& rows) {
   using Row = LostOrder;
   return {rows,
-          {{{.key = "spacing"}, [](const Row& r) { return name_of(r.way.spacing); }},
-           {{.key = "mapping"}, [](const Row& r) { return fathom::name_of(r.way.mapping); }},
-           {{.key = "matrices"}, [](const Row& r) { return matrices_name(r.way.premultiplied); }},
-           {{.key = "rounding"}, [](const Row& r) { return r.way.sources->name; }},
-           {{.key = "storage"}, [](const Row& r) { return name_of(r.way.storage); }},
-           {{.key = "pairs"}, [](const Row& r) { return r.counts.pairs; }},
-           {{.key = "equal"}, [](const Row& r) { return r.counts.equal; }},
-           {{.key = "swapped"}, [](const Row& r) { return r.counts.swapped; }},
-           {{.key = "equal_percent", .csv_format = "{:.4f}", .json_key = ""},
+          {{"spacing", [](const Row& r) { return name_of(r.way.spacing); }},
+           {"mapping", [](const Row& r) { return fathom::name_of(r.way.mapping); }},
+           {"matrices", [](const Row& r) { return matrices_name(r.way.premultiplied); }},
+           {"rounding", [](const Row& r) { return r.way.sources->name; }},
+           {"storage", [](const Row& r) { return name_of(r.way.storage); }},
+           {"pairs", [](const Row& r) { return r.counts.pairs; }},
+           {"equal", [](const Row& r) { return r.counts.equal; }},
+           {"swapped", [](const Row& r) { return r.counts.swapped; }},
+           {Column("equal_percent", ".4f").csv_only(),
             [](const Row& r) { return percent_equal(r.counts); }},
-           {{.key = "swapped_percent", .csv_format = "{:.4f}", .json_key = ""},
+           {Column("swapped_percent", ".4f").csv_only(),
             [](const Row& r) { return percent_swapped(r.counts); }}}};
 }
 
 std::string range_text(double least, double greatest) {
-  return text_of(least, "{:.1f}") + " … " + text_of(greatest, "{:.1f} %");
+  return text_of(least, ".1f") + " … " + text_of(greatest, ".1f") + " %";
 }
 
 Table views_table(const std::vector<OrderSpread>& rows) {
   using Row = OrderSpread;
   return {
       rows,
-      {{{.heading = ""}, [](const Row& r) { return name_of_matrices(r.mapping, r.premultiplied); }},
-       {{.key = "mapping"}, [](const Row& r) { return fathom::name_of(r.mapping); }},
-       {{.key = "matrices"}, [](const Row& r) { return matrices_name(r.premultiplied); }},
-       {{.key = "equal_percent_least", .csv_format = "{:.4f}", .json_key = "equal_percent[]"},
-        &Row::least_equal},
-       {{.key = "equal_percent_greatest", .csv_format = "{:.4f}", .json_key = "equal_percent[]"},
-        &Row::greatest_equal},
-       {{.key = "swapped_percent_least", .csv_format = "{:.4f}", .json_key = "swapped_percent[]"},
-        &Row::least_swapped},
-       {{.key = "swapped_percent_greatest",
-         .csv_format = "{:.4f}",
-         .json_key = "swapped_percent[]"},
+      {{heading(""), [](const Row& r) { return name_of_matrices(r.mapping, r.premultiplied); }},
+       {"mapping", [](const Row& r) { return fathom::name_of(r.mapping); }},
+       {"matrices", [](const Row& r) { return matrices_name(r.premultiplied); }},
+       {Column("equal_percent_least", ".4f").json("equal_percent[]"), &Row::least_equal},
+       {Column("equal_percent_greatest", ".4f").json("equal_percent[]"), &Row::greatest_equal},
+       {Column("swapped_percent_least", ".4f").json("swapped_percent[]"), &Row::least_swapped},
+       {Column("swapped_percent_greatest", ".4f").json("swapped_percent[]"),
         &Row::greatest_swapped},
-       {{.heading = "equal"},
-        [](const Row& r) { return range_text(r.least_equal, r.greatest_equal); }},
-       {{.heading = "swapped"},
+       {heading("equal"), [](const Row& r) { return range_text(r.least_equal, r.greatest_equal); }},
+       {heading("swapped"),
         [](const Row& r) { return range_text(r.least_swapped, r.greatest_swapped); }}}};
 }
 
@@ -78,9 +72,9 @@ struct Control {
 
 Table control_table(const std::vector<Control>& rows) {
   return {rows,
-          {{{.key = "spacing"}, [](const Control& c) { return name_of(c.spacing); }},
-           {{.key = "equal"}, [](const Control& c) { return c.counts.equal; }},
-           {{.key = "swapped"}, [](const Control& c) { return c.counts.swapped; }}}};
+          {{"spacing", [](const Control& c) { return name_of(c.spacing); }},
+           {"equal", [](const Control& c) { return c.counts.equal; }},
+           {"swapped", [](const Control& c) { return c.counts.swapped; }}}};
 }
 
 const OrderCount& counts_of(const std::vector<LostOrder>& rows, Spacing spacing, Mapping mapping,
@@ -97,16 +91,16 @@ const OrderCount& counts_of(const std::vector<LostOrder>& rows, Spacing spacing,
 /// For the page: vertices in linear spacing.
 Table vertices_table(const std::vector<LostOrder>& rows) {
   std::vector<ColumnOf<Mapping>> columns{
-      {{.heading = "linear spacing"}, [](Mapping m) { return fathom::name_of(m); }}};
+      {heading("linear spacing"), [](Mapping m) { return fathom::name_of(m); }}};
   for (const bool premultiplied : {true, false}) {
     for (const Storage storage : {Storage::float32, Storage::unorm24}) {
-      const std::string heading =
+      const std::string name =
           std::string(matrices_name(premultiplied)) + ", " + std::string(fathom::name_of(storage));
-      columns.push_back({{.heading = heading}, [&rows, premultiplied, storage](Mapping mapping) {
+      columns.push_back({heading(name), [&rows, premultiplied, storage](Mapping mapping) {
                            const OrderCount& c = counts_of(rows, Spacing::linear, mapping,
                                                            premultiplied, "vertices", storage);
-                           return text_of(percent_equal(c), "{:.1f} % equal, ") +
-                                  text_of(percent_swapped(c), "{:.1f} % swapped");
+                           return text_of(percent_equal(c), ".1f") + " % equal, " +
+                                  text_of(percent_swapped(c), ".1f") + " % swapped";
                          }});
     }
   }

@@ -95,7 +95,7 @@ std::vector<DecidedLine> decided_lines() {
     DecidedLine line{algorithm, {}, std::string(variable) + ":"};
     draw([&](const Pixel& p, const auto& state) {
       line.rows.push_back(static_cast<double>(p.y));
-      line.decisions += " " + text_of(static_cast<double>(state), "{:.4g}");
+      line.decisions += " " + text_of(static_cast<double>(state), ".4g");
     });
     lines.push_back(std::move(line));
   };

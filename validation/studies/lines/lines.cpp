@@ -13,34 +13,30 @@ namespace {
 
 Table drift_table(const std::vector<LineDrift>& rows) {
   using Row = LineDrift;
-  return {rows,
-          {{{.key = "algorithm", .heading = "algorithm"}, &Row::algorithm},
-           {{.key = "length", .heading = "length"}, &Row::length},
-           {{.key = "pixels", .heading = "pixels"}, &Row::pixels},
-           {{.key = "wrong", .heading = "wrong"}, &Row::wrong},
-           {{.key = "wrong_at_ties", .heading = "of these at ties"}, &Row::wrong_at_ties},
-           {{.key = "greatest_drift",
-             .json_key = "greatest",
-             .heading = "greatest drift",
-             .page_format = "{:.3g}"},
-            &Row::greatest}}};
+  return {
+      rows,
+      {{Column("algorithm").page("algorithm"), &Row::algorithm},
+       {Column("length").page("length"), &Row::length},
+       {Column("pixels").page("pixels"), &Row::pixels},
+       {Column("wrong").page("wrong"), &Row::wrong},
+       {Column("wrong_at_ties").page("of these at ties"), &Row::wrong_at_ties},
+       {Column("greatest_drift").json("greatest").page("greatest drift", ".3g"), &Row::greatest}}};
 }
 
 Table costs_table(const std::vector<LineCost>& rows) {
   using Row = LineCost;
   return {rows,
-          {{{.key = "algorithm", .heading = "algorithm"}, &Row::algorithm},
-           {{.heading = "in each step"}, &Row::step},
-           {{.key = "nanoseconds", .heading = "ns a pixel, here", .page_format = "{:.2f}"},
-            &Row::nanoseconds}}};
+          {{Column("algorithm").page("algorithm"), &Row::algorithm},
+           {heading("in each step"), &Row::step},
+           {Column("nanoseconds").page("ns a pixel, here", ".2f"), &Row::nanoseconds}}};
 }
 
 Table known_line_table(const std::vector<DecidedLine>& rows) {
   using Row = DecidedLine;
   return {rows,
-          {{{.heading = "algorithm"}, &Row::algorithm},
-           {{.heading = "row in each column"}, &Row::rows},
-           {{.heading = "decided by"}, &Row::decisions}}};
+          {{heading("algorithm"), &Row::algorithm},
+           {heading("row in each column"), &Row::rows},
+           {heading("decided by"), &Row::decisions}}};
 }
 
 /// `y` of every algorithm against the length.

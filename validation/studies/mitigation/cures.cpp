@@ -28,7 +28,7 @@ std::vector<Cure> farther_near_planes(const SceneView& view, const DepthMap& vis
   for (double near = view.camera.near;; near = std::min(2 * near, nearest)) {
     SceneView moved = view;
     moved.camera.near = near;
-    cures.push_back({"near " + text_of(near, "{:.3g}"),
+    cures.push_back({"near " + text_of(near, ".3g"),
                      buffer_scene(moved, visible, uncured_format(moved.camera)).fights});
     if (near >= nearest) return cures;
   }

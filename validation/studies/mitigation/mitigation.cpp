@@ -16,30 +16,25 @@ namespace {
 Table cures_table(const std::vector<Cure>& rows, const std::string& key) {
   using Row = Cure;
   return {rows,
-          {{{.key = key, .json_key = "cure", .heading = ""}, &Row::name},
-           {{.key = "near", .json_key = ""}, [](const Row& c) { return c.fights.format.near; }},
-           {{.key = "surface_pixels"}, [](const Row& c) { return c.fights.surface_pixels; }},
-           {{.key = "fighting_pixels", .heading = "fighting pixels"},
+          {{Column(key).json("cure").page(""), &Row::name},
+           {Column("near").csv_only(), [](const Row& c) { return c.fights.format.near; }},
+           {"surface_pixels", [](const Row& c) { return c.fights.surface_pixels; }},
+           {Column("fighting_pixels").page("fighting pixels"),
             [](const Row& c) { return c.fights.fighting; }},
-           {{.heading = "share", .page_format = "{:.3f} %", .percent = true},
-            [](const Row& c) { return c.fights.share(); }},
-           {{.key = "greatest_depth_error",
-             .csv_format = "{:.9g}",
-             .json_key = "",
-             .heading = "greatest depth error",
-             .page_format = "{:.3g}"},
+           {percent_heading("share", ".3f"), [](const Row& c) { return c.fights.share(); }},
+           {Column("greatest_depth_error", ".9g").csv_only().page("greatest depth error", ".3g"),
             [](const Row& c) { return c.fights.greatest_error; }}}};
 }
 
 Table offsets_table(const std::vector<OffsetCount>& rows) {
   using Row = OffsetCount;
   return {rows,
-          {{{.key = "factor", .csv_format = "{:g}", .heading = "factor", .page_format = "{:g}"},
+          {{Column("factor", "g").page("factor", "g"),
             [](const Row& c) { return c.bias.slope_factor; }},
-           {{.key = "units", .csv_format = "{:g}", .heading = "units", .page_format = "{:g}"},
+           {Column("units", "g").page("units", "g"),
             [](const Row& c) { return c.bias.constant_factor; }},
-           {{.key = "fights", .heading = "fights"}, &Row::fights},
-           {{.key = "hidden_surfaces_that_show", .heading = "hidden surfaces that show"},
+           {Column("fights").page("fights"), &Row::fights},
+           {Column("hidden_surfaces_that_show").page("hidden surfaces that show"),
             &Row::shows_through}}};
 }
 
@@ -69,7 +64,7 @@ Plot offset_plot(const std::vector<OffsetCount>& counts) {
     const auto is_same = [&](const OffsetCount& c) { return c.bias.slope_factor == factor; };
     auto rows = counts | std::views::filter(is_same);
     const auto minus_units = [](const OffsetCount& c) { return -c.bias.constant_factor; };
-    const std::string label = "factor " + text_of(factor, "{:g}");
+    const std::string label = "factor " + text_of(factor, "g");
     plot.series.push_back(series_of(label + ": fights", rows, minus_units, &OffsetCount::fights));
     plot.series.push_back(
         series_of(label + ": hidden shows", rows, minus_units, &OffsetCount::shows_through));

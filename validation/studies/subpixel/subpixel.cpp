@@ -64,22 +64,15 @@ std::vector<Row> compare_all(const SceneView& view, const std::function<void(dou
 
 Table table_of(const std::vector<Row>& rows) {
   return {rows,
-          {{{.key = "bits", .heading = "bits"}, &Row::bits},
-           {{.key = "pixels"}, &Row::pixels},
-           {{.key = "lost", .heading = "lost"}, &Row::lost},
-           {{.key = "gained", .heading = "gained"}, &Row::gained},
-           {{.key = "other_triangle", .heading = "another triangle"}, &Row::other_triangle},
-           {{.key = "greatest_relative_depth_error",
-             .csv_format = "{:.6g}",
-             .heading = "greatest depth error",
-             .page_format = "{:.3g}"},
+          {{Column("bits").page("bits"), &Row::bits},
+           {"pixels", &Row::pixels},
+           {Column("lost").page("lost"), &Row::lost},
+           {Column("gained").page("gained"), &Row::gained},
+           {Column("other_triangle").page("another triangle"), &Row::other_triangle},
+           {Column("greatest_relative_depth_error", ".6g").page("greatest depth error", ".3g"),
             &Row::greatest_error},
-           {{.key = "mean_relative_depth_error",
-             .csv_format = "{:.6g}",
-             .heading = "mean",
-             .page_format = "{:.3g}"},
-            &Row::mean_error},
-           {{.key = "triangles_left_out"}, &Row::left_out}}};
+           {Column("mean_relative_depth_error", ".6g").page("mean", ".3g"), &Row::mean_error},
+           {"triangles_left_out", &Row::left_out}}};
 }
 
 Plot coverage_plot(const std::vector<Row>& rows) {

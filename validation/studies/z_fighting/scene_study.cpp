@@ -23,28 +23,29 @@ DepthFormat format_of(const Camera& camera, Mapping mapping, Storage storage) {
 Table fights_table(const std::vector<SceneFights>& rows) {
   using Row = SceneFights;
   return {rows,
-          {{{.key = "mapping"}, [](const Row& f) { return name_of(f.format.mapping); }},
-           {{.key = "storage"}, [](const Row& f) { return name_of(f.format.storage); }},
-           {{.key = "near", .json_key = ""}, [](const Row& f) { return f.format.near; }},
-           {{.key = "far", .json_key = ""}, [](const Row& f) { return f.format.far; }},
-           {{.key = "surface_pixels"}, &Row::surface_pixels},
-           {{.key = "fighting_pixels"}, &Row::fighting},
-           {{.key = "greatest_depth_error", .csv_format = "{:.9g}"}, &Row::greatest_error}}};
+          {{"mapping", mapping_of},
+           {"storage", storage_of},
+           {Column("near").csv_only(), [](const Row& f) { return f.format.near; }},
+           {Column("far").csv_only(), [](const Row& f) { return f.format.far; }},
+           {"surface_pixels", &Row::surface_pixels},
+           {"fighting_pixels", &Row::fighting},
+           {Column("greatest_depth_error", ".9g"), &Row::greatest_error}}};
 }
 
 /// For the page: a row of fighting pixels for each mapping, by storage. Rows are ordered by
 /// mapping.
 Table fights_by_mapping(const std::vector<SceneFights>& rows) {
   std::vector<ColumnOf<Mapping>> columns{
-      {{.heading = "fighting pixels"}, [](Mapping mapping) { return name_of(mapping); }}};
+      {heading("fighting pixels"), [](Mapping mapping) { return name_of(mapping); }}};
   for (const Storage storage : all_storages) {
-    columns.push_back(
-        {{.heading = std::string(name_of(storage))}, [&rows, storage](Mapping mapping) {
-           const auto fights = std::find_if(rows.begin(), rows.end(), [&](const SceneFights& f) {
-             return f.format.mapping == mapping && f.format.storage == storage;
-           });
-           return std::to_string(fights->fighting) + text_of(100 * fights->share(), " ({:.3f} %)");
-         }});
+    columns.push_back({heading(std::string(name_of(storage))), [&rows, storage](Mapping mapping) {
+                         const auto fights =
+                             std::find_if(rows.begin(), rows.end(), [&](const SceneFights& f) {
+                               return f.format.mapping == mapping && f.format.storage == storage;
+                             });
+                         return std::to_string(fights->fighting) + " (" +
+                                text_of(100 * fights->share(), ".3f") + " %)";
+                       }});
   }
   return {std::vector<Mapping>(std::begin(all_mappings), std::end(all_mappings)), columns};
 }
@@ -59,15 +60,13 @@ Table separations_table(const std::vector<FormatLosses>& all) {
   for (const FormatLosses& f : all) {
     for (const LostSeparation& lost : f.lost) rows.push_back({f.format, lost});
   }
-  return {rows,
-          {{{.key = "mapping"}, [](const Row& r) { return name_of(r.format.mapping); }},
-           {{.key = "storage"}, [](const Row& r) { return name_of(r.format.storage); }},
-           {{.key = "distance_up_to", .csv_format = "{:.9g}"},
-            [](const Row& r) { return r.at.distance; }},
-           {{.key = "greatest_lost_separation", .csv_format = "{:.9g}"},
-            [](const Row& r) { return r.at.greatest_lost; }},
-           {{.key = "predicted", .csv_format = "{:.9g}"},
-            [](const Row& r) { return r.at.predicted; }}}};
+  return {
+      rows,
+      {{"mapping", mapping_of},
+       {"storage", storage_of},
+       {Column("distance_up_to", ".9g"), [](const Row& r) { return r.at.distance; }},
+       {Column("greatest_lost_separation", ".9g"), [](const Row& r) { return r.at.greatest_lost; }},
+       {Column("predicted", ".9g"), [](const Row& r) { return r.at.predicted; }}}};
 }
 
 /// The same, a row for each format.
@@ -80,11 +79,11 @@ Table separation_lists(const std::vector<FormatLosses>& rows) {
     };
   };
   return {rows,
-          {{{.key = "mapping"}, [](const FormatLosses& f) { return name_of(f.format.mapping); }},
-           {{.key = "storage"}, [](const FormatLosses& f) { return name_of(f.format.storage); }},
-           {{.key = "distance_up_to"}, list(&LostSeparation::distance)},
-           {{.key = "greatest_lost"}, list(&LostSeparation::greatest_lost)},
-           {{.key = "predicted"}, list(&LostSeparation::predicted)}}};
+          {{"mapping", mapping_of},
+           {"storage", storage_of},
+           {"distance_up_to", list(&LostSeparation::distance)},
+           {"greatest_lost", list(&LostSeparation::greatest_lost)},
+           {"predicted", list(&LostSeparation::predicted)}}};
 }
 
 Plot separation_plot(const std::vector<FormatLosses>& all) {

@@ -20,32 +20,16 @@ namespace {
 Table fights_table(const std::vector<FightByDistance>& rows, double separation) {
   using Row = FightByDistance;
   return {rows,
-          {{{.key = "mapping"}, [](const Row& f) { return name_of(f.format.mapping); }},
-           {{.key = "storage", .heading = "standard"},
-            [](const Row& f) { return name_of(f.format.storage); }},
-           {{.key = "distance", .heading = "distance", .page_format = "{:.4g}"}, &Row::distance},
-           {{.key = "separation", .json_key = ""}, [separation](const Row&) { return separation; }},
-           {{.key = "wrong_ideal",
-             .heading = "wrong, ideal",
-             .page_format = "{:.1f} %",
-             .percent = true},
-            &Row::ideal},
-           {{.key = "wrong_pipeline_separate",
-             .heading = "pipeline, separate",
-             .page_format = "{:.1f} %",
-             .percent = true},
-            &Row::separate},
-           {{.key = "wrong_pipeline_premultiplied",
-             .heading = "pipeline, premultiplied",
-             .page_format = "{:.1f} %",
-             .percent = true},
+          {{"mapping", mapping_of},
+           {Column("storage").page("standard"), storage_of},
+           {Column("distance").page("distance", ".4g"), &Row::distance},
+           {Column("separation").csv_only(), [separation](const Row&) { return separation; }},
+           {Column("wrong_ideal").percent("wrong, ideal", ".1f"), &Row::ideal},
+           {Column("wrong_pipeline_separate").percent("pipeline, separate", ".1f"), &Row::separate},
+           {Column("wrong_pipeline_premultiplied").percent("pipeline, premultiplied", ".1f"),
             &Row::premultiplied},
-           {{.key = "least_safe_separation",
-             .heading = "least safe separation",
-             .page_format = "{:.3g}"},
-            &Row::safe},
-           {{.key = "predicted_safe_separation", .heading = "predicted", .page_format = "{:.3g}"},
-            &Row::predicted}}};
+           {Column("least_safe_separation").page("least safe separation", ".3g"), &Row::safe},
+           {Column("predicted_safe_separation").page("predicted", ".3g"), &Row::predicted}}};
 }
 
 /// What the page shows of them: the mapping standard, in three storages.
@@ -63,14 +47,14 @@ std::vector<FightByDistance> shown_of(const std::vector<FightByDistance>& rows) 
 Table angles_table(const std::vector<FightByAngle>& rows) {
   using Row = FightByAngle;
   return {rows,
-          {{{.key = "mapping"}, [](const Row& f) { return name_of(f.format.mapping); }},
-           {{.key = "storage"}, [](const Row& f) { return name_of(f.format.storage); }},
-           {{.key = "degrees", .csv_format = "{:g}"}, &Row::degrees},
-           {{.key = "distance", .csv_format = "{:.9g}"}, &Row::distance},
-           {{.key = "wrong_ideal", .csv_format = "{:.6g}"}, &Row::ideal},
-           {{.key = "wrong_pipeline_premultiplied", .csv_format = "{:.6g}"}, &Row::premultiplied},
-           {{.key = "least_safe_separation", .csv_format = "{:.9g}"}, &Row::safe},
-           {{.key = "predicted_safe_separation", .csv_format = "{:.9g}"}, &Row::predicted}}};
+          {{"mapping", mapping_of},
+           {"storage", storage_of},
+           {Column("degrees", "g"), &Row::degrees},
+           {Column("distance", ".9g"), &Row::distance},
+           {Column("wrong_ideal", ".6g"), &Row::ideal},
+           {Column("wrong_pipeline_premultiplied", ".6g"), &Row::premultiplied},
+           {Column("least_safe_separation", ".9g"), &Row::safe},
+           {Column("predicted_safe_separation", ".9g"), &Row::predicted}}};
 }
 
 /// `y` of the fights in one format, by distance.
@@ -85,12 +69,11 @@ Series series_of_format(std::string label, const std::vector<FightByDistance>& r
 }
 
 Plot share_plot(const std::vector<FightByDistance>& rows, double separation) {
-  Plot plot{
-      .name = "share",
-      .title = "Samples where the wrong surface wins, separation " + text_of(separation, "{:g}"),
-      .x_label = "distance (scene units)",
-      .y_label = "share of samples (%)",
-      .logarithmic_x = true};
+  Plot plot{.name = "share",
+            .title = "Samples where the wrong surface wins, separation " + text_of(separation, "g"),
+            .x_label = "distance (scene units)",
+            .y_label = "share of samples (%)",
+            .logarithmic_x = true};
   const auto add = [&](Mapping mapping, Storage storage, const char* model, auto percent) {
     const std::string label = label_of({mapping, storage}) + ", " + model;
     plot.series.push_back(series_of_format(label, rows, mapping, storage, percent));
@@ -130,7 +113,7 @@ template <class Y>
 std::vector<Series> series_by_angle(const std::vector<FightByAngle>& rows, Y y) {
   std::vector<Series> all;
   for (const FightByAngle& f : rows) {
-    const std::string label = label_of(f.format) + ", distance " + text_of(f.distance, "{:.3g}");
+    const std::string label = label_of(f.format) + ", distance " + text_of(f.distance, ".3g");
     if (all.empty() || all.back().label != label) all.push_back({label, {}});
     all.back().points.emplace_back(f.degrees, std::invoke(y, f));
   }
@@ -139,8 +122,8 @@ std::vector<Series> series_by_angle(const std::vector<FightByAngle>& rows, Y y) 
 
 Plot angle_share_plot(const std::vector<FightByAngle>& rows, double separation) {
   return {.name = "angle-share",
-          .title = "Samples where the wrong surface wins, separation " +
-                   text_of(separation, "{:g}") + ", by tilt",
+          .title = "Samples where the wrong surface wins, separation " + text_of(separation, "g") +
+                   ", by tilt",
           .x_label = "tilt (degrees)",
           .y_label = "share of samples (%)",
           .series = series_by_angle(rows, [](const FightByAngle& f) { return 100 * f.ideal; })};
