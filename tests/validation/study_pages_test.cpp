@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tests/effort.h"
 #include "validation/studies/study.h"
 
 namespace fathom::studies {
@@ -34,6 +35,7 @@ std::size_t pictures_of(const std::string& study, const StudyOptions& options = 
 }
 
 TEST(StudyPages, Antialiasing) {
+  if (testing::effort > 1) GTEST_SKIP() << "twenty seconds without sanitizers";
   EXPECT_EQ(pictures_of("antialiasing"), 15U);
 }
 TEST(StudyPages, Course) {

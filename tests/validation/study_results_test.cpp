@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -66,6 +67,26 @@ TEST(StudyTable, Json) {
             "\"member\":{\"agrees\":true}},"
             "{\"name\":\"a\\\"b\\\"\",\"list\":[-7,0.5],\"measured\":null,"
             "\"member\":{\"agrees\":false}}],\"none\":[]}");
+}
+
+/// What has no place on an axis is not drawn, and no series or plot without a point.
+TEST(StudyPlot, PointsWithoutAPlaceAreLeftOut) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  Plot plot{.name = "p",
+            .title = "t",
+            .logarithmic_y = true,
+            .series = {{"first", {{-1, 0.5}, {2, 0}, {3, -1}, {infinity, 1}, {4, infinity}}},
+                       {"none", {{1, std::nan("")}}},
+                       {"last", {{5, 0.25}}}}};
+  const std::vector<StudyFile> files = draw(plot);
+  ASSERT_EQ(files.size(), 3U);
+  EXPECT_EQ(files[0].name, "p.gp");
+  EXPECT_THAT(files[0].content,
+              HasSubstr("$series0 << END\n-1 0.5\nEND\n$series1 << END\n5 0.25\nEND\n"));
+  EXPECT_THAT(files[0].content, Not(HasSubstr("\"none\"")));
+  plot.series.pop_back();
+  plot.series.erase(plot.series.begin());
+  EXPECT_TRUE(draw(plot).empty());
 }
 
 TEST(StudyPage, BlocksAndPlaceholders) {
