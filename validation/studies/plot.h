@@ -20,7 +20,7 @@ struct Series {
 
 /// A point for each row; x and y are numbers among its members, or functions of it.
 template <class Rows, class X, class Y>
-Series series_of(std::string label, Rows&& rows, X x, Y y) {
+Series series_of(std::string label, const Rows& rows, X x, Y y) {
   Series series{std::move(label), {}};
   for (const auto& row : rows) {
     series.points.emplace_back(std::invoke(x, row), std::invoke(y, row));

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -56,6 +58,14 @@ struct ColumnOf {
   /// A member or a function of a row.
   std::function<Cell(const Row&)> value;
 };
+
+/// The rows that `holds` is true of.
+template <class Row, class Predicate>
+std::vector<Row> rows_where(const std::vector<Row>& rows, const Predicate& holds) {
+  std::vector<Row> some;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(some), holds);
+  return some;
+}
 
 /// Rows of values under columns, each declared once for CSV, JSON and the page.
 class Table {

@@ -1,7 +1,5 @@
 #include "validation/studies/antialiasing/antialiasing.h"
 
-#include <ranges>
-
 #include "fathom/numeric/errors.h"
 #include "validation/studies/antialiasing/coverage_by_samples.h"
 #include "validation/studies/antialiasing/methods.h"
@@ -101,8 +99,8 @@ Plot error_plot(const std::vector<PatternError>& rows) {
             .logarithmic_y = true};
   for (const char* family : {"standard", "regular", "jittered", "rotated grid"}) {
     const auto is_member = [&](const PatternError& row) { return family_of(row) == family; };
-    plot.series.push_back(series_of(family, rows | std::views::filter(is_member),
-                                    &PatternError::samples, &PatternError::root_mean_square));
+    plot.series.push_back(series_of(family, rows_where(rows, is_member), &PatternError::samples,
+                                    &PatternError::root_mean_square));
   }
   return plot;
 }

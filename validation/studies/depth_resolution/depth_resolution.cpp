@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 
 #include "fathom/numeric/errors.h"
 #include "validation/studies/depth_resolution/format_steps.h"
@@ -105,8 +104,8 @@ Plot steps_plot(const std::vector<FormatSteps>& all, Storage storage) {
     // opengl is standard in the ideal model.
     if (m.format.storage != storage || m.format.mapping == Mapping::opengl) continue;
     plot.series.push_back(series_of(std::string(name_of(m.format.mapping)),
-                                    m.steps | std::views::filter(is_coarse_enough<Step>),
-                                    &Step::depth, &Step::step));
+                                    rows_where(m.steps, is_coarse_enough<Step>), &Step::depth,
+                                    &Step::step));
   }
   return plot;
 }

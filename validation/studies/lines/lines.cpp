@@ -1,7 +1,6 @@
 #include "validation/studies/lines/lines.h"
 
 #include <cmath>
-#include <ranges>
 
 #include "fathom/numeric/errors.h"
 #include "validation/studies/lines/line_drift.h"
@@ -46,8 +45,7 @@ std::vector<Series> series_by_length(const std::vector<LineDrift>& rows, Y y) {
   for (const LineDrift& first : rows) {
     if (first.length != rows.front().length) break;
     const auto is_same = [&](const LineDrift& d) { return d.algorithm == first.algorithm; };
-    all.push_back(
-        series_of(first.algorithm, rows | std::views::filter(is_same), &LineDrift::length, y));
+    all.push_back(series_of(first.algorithm, rows_where(rows, is_same), &LineDrift::length, y));
   }
   return all;
 }

@@ -1,7 +1,6 @@
 #include "validation/studies/mitigation/mitigation.h"
 
 #include <cmath>
-#include <ranges>
 
 #include "fathom/numeric/errors.h"
 #include "validation/studies/formats.h"
@@ -62,7 +61,7 @@ Plot offset_plot(const std::vector<OffsetCount>& counts) {
             .logarithmic_x = true};
   for (const double factor : offset_factors) {
     const auto is_same = [&](const OffsetCount& c) { return c.bias.slope_factor == factor; };
-    auto rows = counts | std::views::filter(is_same);
+    const auto rows = rows_where(counts, is_same);
     const auto minus_units = [](const OffsetCount& c) { return -c.bias.constant_factor; };
     const std::string label = "factor " + text_of(factor, "g");
     plot.series.push_back(series_of(label + ": fights", rows, minus_units, &OffsetCount::fights));

@@ -1,9 +1,7 @@
 #include "validation/studies/z_fighting/z_fighting.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 
 #include "fathom/numeric/errors.h"
 #include "validation/studies/formats.h"
@@ -34,14 +32,12 @@ Table fights_table(const std::vector<FightByDistance>& rows, double separation) 
 
 /// What the page shows of them: the mapping standard, in three storages.
 std::vector<FightByDistance> shown_of(const std::vector<FightByDistance>& rows) {
-  std::vector<FightByDistance> shown;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(shown), [](const FightByDistance& f) {
+  return rows_where(rows, [](const FightByDistance& f) {
     const Storage storage = f.format.storage;
     return f.format.mapping == Mapping::standard &&
            (storage == Storage::unorm16 || storage == Storage::unorm32 ||
             storage == Storage::float32);
   });
-  return shown;
 }
 
 Table angles_table(const std::vector<FightByAngle>& rows) {
@@ -64,8 +60,7 @@ Series series_of_format(std::string label, const std::vector<FightByDistance>& r
   const auto is_shown = [&](const FightByDistance& f) {
     return f.format.mapping == mapping && f.format.storage == storage;
   };
-  return series_of(std::move(label), rows | std::views::filter(is_shown),
-                   &FightByDistance::distance, y);
+  return series_of(std::move(label), rows_where(rows, is_shown), &FightByDistance::distance, y);
 }
 
 Plot share_plot(const std::vector<FightByDistance>& rows, double separation) {
