@@ -63,11 +63,12 @@ constexpr std::uint32_t half_plane_size = 64;
 
 /// Its area in every pixel, as white.
 pipeline::ColourImage exact_half_plane() {
-  std::vector<MeshPoint> corners;
-  for (const auto& [x, y] : half_plane) corners.push_back({x, y, 0.5});
+  const auto corner = [](std::size_t i) {
+    return MeshPoint{half_plane[i][0], half_plane[i][1], 0.5};
+  };
   PipelineOptions options = precise_options();
   options.antialias.method = pipeline::AntialiasMethod::area;
-  return render_frame(scene_of(corners, {{0, 1, 2}}),
+  return render_frame(scene_of({corner(0), corner(1), corner(2)}, {{0, 1, 2}}),
                       window_camera(half_plane_size, half_plane_size), options, true)
       .picture;
 }
