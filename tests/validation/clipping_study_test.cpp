@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/numeric/errors.h"
-#include "validation/studies/clipping.h"
+#include "validation/studies/clipping/clipping.h"
 
 namespace fathom::studies {
 namespace {

@@ -1,13 +1,13 @@
 // Two nearly coplanar surfaces of the study `z-fighting`.
 
-#include "validation/studies/coplanar_pair.h"
+#include "validation/studies/z_fighting/coplanar_pair.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "validation/studies/fights_by_angle.h"
+#include "validation/studies/z_fighting/fights_by_angle.h"
 
 namespace fathom::studies {
 namespace {

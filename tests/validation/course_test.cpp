@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "validation/studies/course_meshes.h"
-#include "validation/studies/course_pictures.h"
+#include "validation/studies/course/back_faces.h"
+#include "validation/studies/course/demo.h"
+#include "validation/studies/course/exercises.h"
+#include "validation/studies/course/shared_edges.h"
 
 namespace fathom::studies {
 namespace {

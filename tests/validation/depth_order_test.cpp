@@ -1,7 +1,7 @@
 // The experiment of the study `indistinguishable`, held to what is published and to the ideal
 // model.
 
-#include "validation/studies/depth_order.h"
+#include "validation/studies/indistinguishable/depth_order.h"
 
 #include <gtest/gtest.h>
 

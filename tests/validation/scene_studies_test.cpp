@@ -1,14 +1,17 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "fathom/numeric/errors.h"
-#include "validation/studies/coverage_by_samples.h"
-#include "validation/studies/mitigation.h"
-#include "validation/studies/scene_fights.h"
-#include "validation/studies/snapped_raster.h"
-#include "validation/studies/subpixel.h"
+#include "validation/studies/antialiasing/coverage_by_samples.h"
+#include "validation/studies/mitigation/mitigation.h"
+#include "validation/studies/subpixel/snapped_raster.h"
+#include "validation/studies/subpixel/subpixel.h"
+#include "validation/studies/z_fighting/layers.h"
+#include "validation/studies/z_fighting/scene_fights.h"
+#include "validation/studies/z_fighting/scene_study.h"
 
 namespace fathom::studies {
 namespace {
@@ -73,13 +76,12 @@ TEST(SceneStudies, NoLostSeparationExceedsTheBin) {
   std::size_t lost = 0;
   for (const Mapping mapping : {Mapping::standard, Mapping::log, Mapping::linear}) {
     for (const Storage storage : {Storage::unorm16, Storage::unorm24, Storage::float32}) {
-      const PairsByDistance pairs = pairs_by_distance(samples, {mapping, storage, 0.01, 1000});
       // Bins of these grow with the depth, but that the bin at the end can be the shorter by the
       // rounding of its own ends: by less than one part in 2^10 where a bin holds so many numbers;
       // a class reaches a factor of √2 farther, and bins of standard grow by 2 over it.
-      for (std::size_t i = 0; i < pairs.distances.size(); ++i) {
-        EXPECT_LE(pairs.greatest_lost[i], pairs.predicted[i] * (1 + 0x1p-10));
-        lost += pairs.greatest_lost[i] > 0 ? 1 : 0;
+      for (const LostSeparation& s : lost_separations(samples, {mapping, storage, 0.01, 1000})) {
+        EXPECT_LE(s.greatest_lost, s.predicted * (1 + 0x1p-10));
+        lost += s.greatest_lost > 0 ? 1 : 0;
       }
     }
   }
@@ -159,13 +161,12 @@ TEST(SceneStudies, CoverageBySamplesConvergesToTheArea) {
   SceneView view = wheel();  // at a quarter of its size
   view.camera.width = view.camera.height = 80;
   view.camera.fx = view.camera.fy = view.camera.cx = view.camera.cy = 40;
-  nlohmann::ordered_json summary;
-  add_to_summary(measure_coverage_by_samples(view, exact_coverage(view), no_tick), summary);
+  const CoverageBySamples measured =
+      measure_coverage_by_samples(view, exact_coverage(view), no_tick);
   const auto rms = [&](const std::string& pattern) {
-    for (const auto& row : summary["patterns"]) {
-      if (row["pattern"] == pattern) return row["rms_error"].get<double>();
-    }
-    return 0.0;
+    const auto row = std::find_if(measured.patterns.begin(), measured.patterns.end(),
+                                  [&](const PatternError& p) { return p.pattern == pattern; });
+    return row == measured.patterns.end() ? 0.0 : row->root_mean_square;
   };
   EXPECT_GT(rms("1"), rms("2"));
   EXPECT_GT(rms("2"), rms("4"));
@@ -174,18 +175,21 @@ TEST(SceneStudies, CoverageBySamplesConvergesToTheArea) {
   EXPECT_GT(rms("regular:2"), rms("regular:4"));
   EXPECT_GT(rms("regular:4"), rms("regular:8"));
   EXPECT_GT(rms("regular:8"), rms("regular:16"));
-  for (const auto& edge : summary["edges"]) {
-    EXPECT_GE(edge["exact"].get<int>(), 64);  // at least one pixel a column
-    EXPECT_EQ(edge["seen"][0], 0);            // one sample sees no part
-    EXPECT_LE(edge["seen"][3], edge["exact"]);
-    const auto& error = edge["rms_error"];
-    if (edge["slope"] == 0.03) {  // nearly level: rows count
-      EXPECT_LT(error["rotated-grid"], error["regular:2"]);
-      EXPECT_LT(error["16"], error["regular:4"]);
+  for (const EdgeSeen& edge : measured.edges) {
+    EXPECT_GE(edge.partial, 64U);  // at least one pixel a column
+    EXPECT_EQ(edge.seen[0], 0U);   // one sample sees no part
+    EXPECT_LE(edge.seen[3], edge.partial);
+    const auto error = [&](const std::string& pattern) {
+      const auto at = std::find(std::begin(edge_patterns), std::end(edge_patterns), pattern);
+      return edge.root_mean_square.at(static_cast<std::size_t>(at - std::begin(edge_patterns)));
+    };
+    if (edge.slope == 0.03) {  // nearly level: rows count
+      EXPECT_LT(error("rotated-grid"), error("regular:2"));
+      EXPECT_LT(error("16"), error("regular:4"));
     }
-    if (edge["slope"] == 0.71) {
-      EXPECT_GT(error["rotated-grid"], error["regular:2"]);
-      EXPECT_GT(error["16"], error["regular:4"]);
+    if (edge.slope == 0.71) {
+      EXPECT_GT(error("rotated-grid"), error("regular:2"));
+      EXPECT_GT(error("16"), error("regular:4"));
     }
   }
 }

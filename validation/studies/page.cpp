@@ -1,81 +1,120 @@
 #include "validation/studies/page.h"
 
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "validation/studies/html.h"
+
 namespace fathom::studies {
 namespace {
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+/// The lines between empty lines, joined.
+std::vector<std::string> blocks_of(const std::string& markdown) {
+  std::vector<std::string> blocks(1);
+  std::istringstream lines(markdown);
+  for (std::string line; std::getline(lines, line);) {
+    std::string& block = blocks.back();
+    if (!line.empty()) {
+      block += (block.empty() ? "" : " ") + line;
+    } else if (!block.empty()) {
+      blocks.emplace_back();
+    }
   }
-  return result;
+  if (blocks.back().empty()) blocks.pop_back();
+  return blocks;
 }
 
-std::string row_of(const std::vector<std::string>& cells, const char* tag) {
-  std::string row = "<tr>";
-  for (const std::string& cell : cells) {
-    row += std::string("<") + tag + ">" + escaped(cell) + "</" + tag + ">";
-  }
-  return row + "</tr>\n";
+/// What a block begins with, without braces, and what comes after it.
+struct Placeholder {
+  std::string name, rest;
+};
+
+Placeholder first_placeholder(const std::string& block) {
+  const std::size_t end = block.find("}}");
+  if (!block.starts_with("{{") || end == std::string::npos) return {"", block};
+  const std::size_t rest = block.find_first_not_of(' ', end + 2);
+  return {block.substr(2, end - 2), rest == std::string::npos ? "" : block.substr(rest)};
 }
 
 }  // namespace
 
-Page::Page(const std::string& title) : title_(title) {
-  body_ = "<h1>" + escaped(title) + "</h1>\n";
+void Page::add_plot(const std::string& name, bool is_drawn) {
+  add_part("plot:" + name, is_drawn ? name : "");
 }
 
-Page& Page::heading(const std::string& text) {
-  body_ += "<h2>" + escaped(text) + "</h2>\n";
-  return *this;
+void Page::add_table(const std::string& name, const Table& table) {
+  add_part("table:" + name, table.rows().empty() ? "" : html_of(table));
 }
 
-Page& Page::paragraph(const std::string& text) {
-  body_ += "<p>" + escaped(text) + "</p>\n";
-  return *this;
+void Page::add_text(const std::string& name, const std::string& text) {
+  add_part("text:" + name, text);
 }
 
-Page& Page::plot(const std::string& name, const std::string& caption) {
-  body_ += "<figure><a href=\"" + name + ".svg\"><img src=\"" + name + ".png\" alt=\"" +
-           escaped(caption) + "\"></a><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
-  return *this;
+void Page::add_part(const std::string& placeholder, const std::string& content) {
+  if (markdown_.find("{{" + placeholder + "}}") == std::string::npos) {
+    throw std::logic_error("the page has no place for " + placeholder);
+  }
+  parts_[placeholder] = content;
 }
 
-Page& Page::picture(const std::string& name, const std::string& caption) {
-  body_ += "<figure class=\"small\"><img src=\"" + name + ".png\" alt=\"" + escaped(caption) +
-           "\"><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
-  return *this;
+bool Page::has(const std::string& placeholder) const {
+  const auto found = parts_.find(placeholder);
+  return found != parts_.end() ? !found->second.empty() : values_.contains(placeholder);
 }
 
-Page& Page::preformatted(const std::string& text, const std::string& caption) {
-  body_ += "<figure class=\"small\"><pre>" + escaped(text) + "</pre><figcaption>" +
-           escaped(caption) + "</figcaption></figure>\n";
-  return *this;
+const std::string& Page::part(const std::string& placeholder) const {
+  const auto found = parts_.find(placeholder);
+  if (found == parts_.end()) throw std::logic_error("there is no " + placeholder + " for the page");
+  return found->second;
 }
 
-Page& Page::table(const std::vector<std::string>& head,
-                  const std::vector<std::vector<std::string>>& rows) {
-  body_ += "<div class=\"wide\"><table>\n" + row_of(head, "th");
-  for (const std::vector<std::string>& row : rows) body_ += row_of(row, "td");
-  body_ += "</table></div>\n";
-  return *this;
+std::string Page::with_values(const std::string& text) const {
+  std::string result;
+  std::size_t at = 0;
+  for (;;) {
+    const std::size_t begin = text.find("{{", at);
+    result += text.substr(at, begin - at);
+    if (begin == std::string::npos) return result;
+    const Placeholder value = first_placeholder(text.substr(begin));
+    const auto found = values_.find(value.name);
+    if (found == values_.end()) throw std::logic_error("there is no value " + value.name);
+    result += found->second;
+    at = begin + value.name.size() + 4;
+  }
 }
 
-StudyFile Page::file() const {
-  return {"index.html",
-          "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-          "<meta name=\"viewport\" content=\"width=device-width\"><title>" +
-              escaped(title_) +
-              "</title>\n<style>body{font-family:sans-serif;max-width:70em;margin:2em "
-              "auto;padding:0 1em}"
-              ".wide{overflow-x:auto}pre{overflow-x:auto;margin:0}figure{margin:1em 0}"
-              ".small{display:inline-block;vertical-align:top;margin-right:1.5em;max-width:100%}"
-              ".small img{image-rendering:pixelated}.small figcaption{max-width:24em}"
-              "figcaption{color:#444;font-size:90%;padding-top:0.3em}"
-              "table{border-collapse:collapse}td,th{border:1px solid #888;padding:0.2em 0.6em;"
-              "text-align:right}td:first-child,th:first-child{text-align:left}"
-              "img{max-width:100%}</style></head>\n<body>\n" +
-              body_ + "</body></html>\n"};
+std::string Page::block(const std::string& block) const {
+  if (block.starts_with("# ")) return html_heading(1, with_values(block.substr(2)));
+  if (block.starts_with("## ")) return html_heading(2, with_values(block.substr(3)));
+  const auto [name, rest] = first_placeholder(block);
+  const std::string kind = name.substr(0, name.find(':'));
+  if (kind == name) return html_paragraph(with_values(block));
+  const std::string &content = part(name), caption = with_values(rest);
+  if (content.empty()) return "";
+  if (kind == "plot") return html_plot(content, caption);
+  if (kind == "picture") return html_picture(content, caption);
+  if (kind == "text") return html_text(content, caption);
+  return content;
+}
+
+std::string Page::html() const {
+  const std::vector<std::string> blocks = blocks_of(markdown_);
+  std::string body;
+  bool is_shown = true;
+  for (const std::string& text : blocks) {
+    const std::string name = first_placeholder(text).name;
+    if (name.starts_with("if:")) {
+      is_shown = has(name.substr(3));
+    } else if (name == "else") {
+      is_shown = !is_shown;
+    } else if (name == "end") {
+      is_shown = true;
+    } else if (is_shown) {
+      body += block(text);
+    }
+  }
+  return html_document(with_values(blocks.front().substr(2)), body);
 }
 
 }  // namespace fathom::studies

@@ -1,33 +1,52 @@
 #pragma once
 
+#include <map>
 #include <string>
-#include <vector>
+#include <string_view>
 
-#include "validation/studies/study.h"
+#include "validation/studies/table.h"
 
 namespace fathom::studies {
 
-/// The page of a study: text with plots and tables, in plain HTML.
+/// The page of a study: a little Markdown, and what is there for its placeholders.
+///
+///   # Title                     the first block; blocks are separated by empty lines
+///   ## Heading
+///   A paragraph.
+///   {{name}}                    in any text: a value
+///   {{plot:name}} Caption       NAME.png, linked to NAME.svg; left out where nothing was drawn
+///   {{picture:name}} Caption    NAME.png, its pixels kept sharp
+///   {{text:name}} Caption       text in letters of one width
+///   {{table:name}}              left out where it has no row
+///   {{if:plot:name}}            also of a table or a value: what follows, up to {{else}} or
+///                               {{end}}, is there if that is; blocks of their own, not nested
 class Page {
  public:
-  explicit Page(const std::string& title);
-  Page& heading(const std::string& text);
-  Page& paragraph(const std::string& text);
-  /// The plot NAME.png, linked to NAME.svg.
-  Page& plot(const std::string& name, const std::string& caption);
-  /// The picture NAME.png, its pixels kept sharp. Pictures and texts stand side by side where there
-  /// is room.
-  Page& picture(const std::string& name, const std::string& caption);
-  /// Text as it is, every character of the same width.
-  Page& preformatted(const std::string& text, const std::string& caption);
-  Page& table(const std::vector<std::string>& head,
-              const std::vector<std::vector<std::string>>& rows);
-  /// index.html
-  [[nodiscard]] StudyFile file() const;
+  explicit Page(std::string_view markdown) : markdown_(markdown) {}
+
+  void add_value(const std::string& name, const std::string& text) { values_[name] = text; }
+  /// Every plot, table and text that is added has to have its place.
+  void add_plot(const std::string& name, bool is_drawn);
+  void add_table(const std::string& name, const Table& table);
+  void add_text(const std::string& name, const std::string& text);
+  /// A picture may have none.
+  void add_picture(const std::string& name) { parts_["picture:" + name] = name; }
+
+  /// Fails    std::logic_error where page and parts do not belong together.
+  [[nodiscard]] std::string html() const;
 
  private:
-  std::string body_;
-  std::string title_;
+  void add_part(const std::string& placeholder, const std::string& content);
+  [[nodiscard]] std::string block(const std::string& block) const;
+  [[nodiscard]] std::string with_values(const std::string& text) const;
+  [[nodiscard]] const std::string& part(const std::string& placeholder) const;
+  [[nodiscard]] bool has(const std::string& placeholder) const;
+
+  std::string markdown_;
+  std::map<std::string, std::string> values_;
+  /// Placeholder without braces → content: HTML of a table, text, or the name of files. Empty where
+  /// there is nothing to show.
+  std::map<std::string, std::string> parts_;
 };
 
 }  // namespace fathom::studies

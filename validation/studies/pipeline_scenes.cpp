@@ -18,6 +18,14 @@ Scene scene_of(std::vector<MeshPoint> vertices, std::vector<CornerIndices> trian
   return scene;
 }
 
+pipeline::PipelineOptions precise_options() {
+  pipeline::PipelineOptions options;
+  options.precision = pipeline::Precision::binary64;
+  options.subpixel_bits = 16;
+  options.shading = pipeline::Shading::none;
+  return options;
+}
+
 Camera front_camera(std::uint32_t width, std::uint32_t height, double near, double far) {
   Camera camera;
   camera.width = width;

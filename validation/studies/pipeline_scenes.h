@@ -1,12 +1,16 @@
 #pragma once
 
 #include "fathom/camera/camera.h"
+#include "fathom/pipeline/options.h"
 #include "fathom/scene/scene.h"
 
 /// Scenes and cameras for studies of the pipeline.
 namespace fathom::studies {
 
 Scene scene_of(std::vector<MeshPoint> vertices, std::vector<CornerIndices> triangles);
+
+/// In binary64, on a grid so fine that snapping has next to no say, and without shading.
+pipeline::PipelineOptions precise_options();
 
 /// At the origin, looking along +z with y down; the focal length is the width.
 Camera front_camera(std::uint32_t width, std::uint32_t height, double near, double far);

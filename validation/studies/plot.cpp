@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "validation/studies/gnuplot.h"
 
@@ -34,6 +35,20 @@ std::string axes(const std::string& title, const std::string& y_label) {
 bool is_negative(const Series& series) {
   return std::any_of(series.points.begin(), series.points.end(),
                      [](const auto& point) { return point.second < 0; });
+}
+
+Plot drawable(Plot plot) {
+  const auto has_place = [](double x, bool logarithmic) {
+    return std::isfinite(x) && !(logarithmic && x <= 0);
+  };
+  for (Series& series : plot.series) {
+    std::erase_if(series.points, [&](const auto& point) {
+      return !has_place(point.first, plot.logarithmic_x) ||
+             !has_place(point.second, plot.logarithmic_y);
+    });
+  }
+  std::erase_if(plot.series, [](const Series& series) { return series.points.empty(); });
+  return plot;
 }
 
 std::string script_of(const Plot& plot) {
@@ -105,11 +120,6 @@ std::string script_of(const HeatMap& map) {
 
 }  // namespace
 
-bool has_points(const Plot& plot) {
-  return !plot.series.empty() && std::none_of(plot.series.begin(), plot.series.end(),
-                                              [](const Series& s) { return s.points.empty(); });
-}
-
 bool has_heights(const BarChart& chart) {
   return std::any_of(chart.series.begin(), chart.series.end(), [](const BarChart::Bars& bars) {
     return std::any_of(bars.heights.begin(), bars.heights.end(), [](double h) { return h != 0; });
@@ -117,7 +127,9 @@ bool has_heights(const BarChart& chart) {
 }
 
 std::vector<StudyFile> draw(const Plot& plot) {
-  return run_gnuplot(plot.name, script_of(plot));
+  const Plot shown = drawable(plot);
+  if (shown.series.empty()) return {};
+  return run_gnuplot(plot.name, script_of(shown));
 }
 
 std::vector<StudyFile> draw(const BarChart& chart) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,15 +18,24 @@ struct Series {
   std::vector<std::pair<double, double>> points;
 };
 
+/// A point for each row; x and y are numbers among its members, or functions of it.
+template <class Rows, class X, class Y>
+Series series_of(std::string label, const Rows& rows, X x, Y y) {
+  Series series{std::move(label), {}};
+  for (const auto& row : rows) {
+    series.points.emplace_back(std::invoke(x, row), std::invoke(y, row));
+  }
+  return series;
+}
+
+/// Points that are not finite, or not positive on a logarithmic axis, are not drawn, nor are series
+/// without a point.
 struct Plot {
   std::string name;  ///< of its files, without the suffix
   std::string title, x_label, y_label;
   bool logarithmic_x = false, logarithmic_y = false;
   std::vector<Series> series;
 };
-
-/// Whether there is anything to draw: no series without a point is to be drawn.
-bool has_points(const Plot& plot);
 
 /// A group of bars for each category: one bar of every series, stacked or side by side.
 struct BarChart {
@@ -50,7 +60,7 @@ struct HeatMap {
 /// Whether a bar has a height.
 bool has_heights(const BarChart& chart);
 
-/// NAME.gp, the script that draws it, NAME.png and NAME.svg.
+/// NAME.gp, the script that draws it, NAME.png and NAME.svg. No file of a plot without a point.
 /// Fails    OutputError if gnuplot is missing or fails.
 std::vector<StudyFile> draw(const Plot& plot);
 std::vector<StudyFile> draw(const BarChart& chart);

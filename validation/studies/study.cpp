@@ -1,16 +1,16 @@
 #include "validation/studies/study.h"
 
 #include "fathom/numeric/errors.h"
-#include "validation/studies/antialiasing.h"
-#include "validation/studies/clipping.h"
-#include "validation/studies/course.h"
-#include "validation/studies/depth_resolution.h"
-#include "validation/studies/hidden_surface.h"
-#include "validation/studies/indistinguishable.h"
-#include "validation/studies/lines.h"
-#include "validation/studies/mitigation.h"
-#include "validation/studies/subpixel.h"
-#include "validation/studies/z_fighting.h"
+#include "validation/studies/antialiasing/antialiasing.h"
+#include "validation/studies/clipping/clipping.h"
+#include "validation/studies/course/course.h"
+#include "validation/studies/depth_resolution/depth_resolution.h"
+#include "validation/studies/hidden_surface/hidden_surface.h"
+#include "validation/studies/indistinguishable/indistinguishable.h"
+#include "validation/studies/lines/lines.h"
+#include "validation/studies/mitigation/mitigation.h"
+#include "validation/studies/subpixel/subpixel.h"
+#include "validation/studies/z_fighting/z_fighting.h"
 
 namespace fathom::studies {
 

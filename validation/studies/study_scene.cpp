@@ -1,13 +1,12 @@
 #include "validation/studies/study_scene.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "fathom/numeric/errors.h"
+#include "validation/studies/cell.h"
 #include "validation/studies/gnuplot.h"
 
 namespace fathom::studies {
@@ -98,6 +97,14 @@ SceneView wheel() {
   return view;
 }
 
+SceneView scene_or_wheel(const StudyOptions& options) {
+  SceneView view = options.scene ? *options.scene : wheel();
+  if (options.near) view.camera.near = *options.near;
+  if (options.far) view.camera.far = *options.far;
+  if (const auto fault = find_fault(view.camera)) throw UsageError(*fault);
+  return view;
+}
+
 DepthMap visible_map(const SceneView& view) {
   return render(view.scene, view.camera, {.channels = {Channel::Z, Channel::id}});
 }
@@ -105,7 +112,7 @@ DepthMap visible_map(const SceneView& view) {
 Camera with_range(const SceneView& view, const StudyOptions& options) {
   Camera camera = view.camera;
   if (options.near && !(*options.near > 0)) {
-    throw UsageError(fmt::format("near = {} is not a positive number", *options.near));
+    throw UsageError("near = " + text_of(*options.near) + " is not a positive number");
   }
   if (options.near) camera.near = *options.near;
   if (options.far) camera.far = *options.far;

@@ -20,6 +20,10 @@ SceneView panels_with_decals();
 /// 320×320 pixels.
 SceneView wheel();
 
+/// The scene of the options, or the wheel, with their near and far.
+/// Fails    UsageError for a camera that means nothing.
+SceneView scene_or_wheel(const StudyOptions& options);
+
 /// The camera with a range for a depth buffer: options first, then what the camera has, then the
 /// powers of ten that leave a factor of 20 before and of 2 behind what is visible.
 /// Fails    UsageError where options and scene leave nothing visible.

@@ -1,0 +1,175 @@
+#include "validation/studies/antialiasing/antialiasing.h"
+
+#include "fathom/numeric/errors.h"
+#include "validation/studies/antialiasing/coverage_by_samples.h"
+#include "validation/studies/antialiasing/methods.h"
+#include "validation/studies/antialiasing/nyquist.h"
+#include "validation/studies/page_texts.h"
+#include "validation/studies/results.h"
+#include "validation/studies/study_scene.h"
+
+namespace fathom::studies {
+namespace {
+
+std::string percent_seen(const PatternError& r) {
+  return text_of(100.0 * static_cast<double>(r.seen_partial) / static_cast<double>(r.partial),
+                 ".1f") +
+         " %";
+}
+
+Table patterns_table(const std::vector<PatternError>& rows) {
+  using Row = PatternError;
+  return {rows,
+          {{Column("pattern").page("pattern"), &Row::pattern},
+           {Column("samples").page("samples"), &Row::samples},
+           {"partial_pixels", &Row::partial},
+           {"seen_partial", &Row::seen_partial},
+           {Column("mean_error", ".6g").page("mean error", ".4f"), &Row::mean},
+           {Column("rms_error", ".6g").page("rms", ".4f"), &Row::root_mean_square},
+           {Column("greatest_error", ".6g").page("greatest", ".4f"), &Row::greatest},
+           {Column("bias_pixels", ".6g").page("area gained (pixels)", "+.2f"), &Row::bias},
+           {heading("seen as partial"), percent_seen}}};
+}
+
+std::string samples_label(std::size_t k) {
+  return std::to_string(1 << k) + (k == 0 ? " sample" : " samples");
+}
+
+/// What is seen of each edge, and, in CSV and JSON, the errors.
+Table edges_table(const std::vector<EdgeSeen>& edges) {
+  std::vector<ColumnOf<EdgeSeen>> columns{
+      {Column("slope", "g").page("slope", "g"), &EdgeSeen::slope},
+      {Column("exact").page("exact"), &EdgeSeen::partial}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    columns.push_back(
+        {Column("seen_by_" + std::to_string(1 << k)).json("seen[]").page(samples_label(k)),
+         [k](const EdgeSeen& e) { return e.seen[k]; }});
+  }
+  for (std::size_t k = 0; k < std::size(edge_patterns); ++k) {
+    const std::string pattern = edge_patterns[k];
+    columns.push_back({Column("rms_" + pattern, ".6g").json("rms_error." + pattern),
+                       [k](const EdgeSeen& e) { return e.root_mean_square[k]; }});
+  }
+  return {edges, columns};
+}
+
+/// The errors, for the page.
+Table edge_errors_table(const std::vector<EdgeSeen>& edges) {
+  std::vector<ColumnOf<EdgeSeen>> columns{{heading("slope", "g"), &EdgeSeen::slope}};
+  for (std::size_t k = 0; k < std::size(edge_patterns); ++k) {
+    columns.push_back({heading(edge_patterns[k], ".4f"),
+                       [k](const EdgeSeen& e) { return e.root_mean_square[k]; }});
+  }
+  return {edges, columns};
+}
+
+Table methods_table(const std::vector<MethodError>& rows) {
+  using Row = MethodError;
+  return {rows,
+          {{Column("method").page("method"), &Row::name},
+           {Column("mean").page("mean error", ".4f"), &Row::mean},
+           {Column("rms").page("rms", ".4f"), &Row::rms},
+           {Column("greatest").page("greatest", ".3f"), &Row::greatest},
+           {Column("texture_mean").page("on texture", ".4f"), &Row::texture_mean},
+           {Column("shaded").page("shaded"), &Row::shaded},
+           {Column("ms").page("ms", ".1f"), &Row::ms},
+           {Column("megabytes").page("MB", ".2f"), &Row::megabytes}}};
+}
+
+Table filters_table(const std::vector<FilterError>& rows) {
+  return {
+      rows,
+      {{Column("filter").page("filter"), &FilterError::filter},
+       {Column("mean_error").page("mean error, one sample a pixel", ".4f"), &FilterError::mean}}};
+}
+
+/// Which of the families that a plot tells apart a pattern belongs to.
+std::string family_of(const PatternError& row) {
+  if (row.pattern.starts_with("regular")) return "regular";
+  if (row.pattern.starts_with("jittered")) return "jittered";
+  return row.pattern == "rotated-grid" ? "rotated grid" : "standard";
+}
+
+Plot error_plot(const std::vector<PatternError>& rows) {
+  Plot plot{.name = "error",
+            .title = "Coverage by samples against the exact area, pixels that are partly covered",
+            .x_label = "samples a pixel",
+            .y_label = "root mean square error of the coverage",
+            .logarithmic_x = true,
+            .logarithmic_y = true};
+  for (const char* family : {"standard", "regular", "jittered", "rotated grid"}) {
+    const auto is_member = [&](const PatternError& row) { return family_of(row) == family; };
+    plot.series.push_back(series_of(family, rows_where(rows, is_member), &PatternError::samples,
+                                    &PatternError::root_mean_square));
+  }
+  return plot;
+}
+
+Plot edge_plot(const std::vector<EdgeSeen>& edges) {
+  Plot plot{.name = "edge",
+            .title = "Pixels of an edge that are partly covered, exactly and as samples see them",
+            .x_label = "slope of the edge",
+            .y_label = "pixels",
+            .series = {series_of("exact area", edges, &EdgeSeen::slope, &EdgeSeen::partial)}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    plot.series.push_back(series_of(samples_label(k), edges, &EdgeSeen::slope,
+                                    [k](const EdgeSeen& e) { return e.seen[k]; }));
+  }
+  return plot;
+}
+
+Plot nyquist_plot() {
+  const std::vector<GratingSeen> rows = gratings_seen();
+  return {
+      .name = "nyquist",
+      .title = "What frequency a grating seems to have",
+      .x_label = "cycles a pixel",
+      .y_label = "cycles a pixel, seen",
+      .series = {
+          series_of("sampled once a pixel", rows, &GratingSeen::frequency, &GratingSeen::apparent),
+          series_of("the truth", rows, &GratingSeen::frequency, &GratingSeen::frequency)}};
+}
+
+void add(Results& results, const CoverageBySamples& measured) {
+  results.table(patterns_table(measured.patterns),
+                {.csv = "patterns", .json = "patterns", .page = "patterns"});
+  results.table(edges_table(measured.edges), {.csv = "edges", .json = "edges", .page = "edges"});
+  results.table(edge_errors_table(measured.edges), {.page = "edge_errors"});
+  results.plot(error_plot(measured.patterns));
+  results.plot(edge_plot(measured.edges));
+}
+
+void add(Results& results, const AntialiasingMethods& measured) {
+  results.table(methods_table(measured.methods),
+                {.csv = "methods", .json = "methods", .page = "methods"});
+  results.table(filters_table(measured.filters), {.json = "filters", .page = "filters"});
+  results.figure("texture_changed_by_fxaa", measured.texture_changed_by_fxaa);
+  results.quote("changed", 100 * measured.texture_changed_by_fxaa, ".1f");
+  results.pictures(measured.pictures);
+}
+
+}  // namespace
+
+std::vector<StudyFile> study_antialiasing(const StudyOptions& options,
+                                          const std::function<void(double)>& tick) {
+  if (options.separation || options.samples) {
+    throw UsageError("the study antialiasing has no --separation and no --samples");
+  }
+  const SceneView view = scene_or_wheel(options);
+  require_gnuplot();
+  const DepthMap exact = exact_coverage(view);
+  const CoverageBySamples coverage =
+      measure_coverage_by_samples(view, exact, [&](double share) { tick(share / 2); });
+  const AntialiasingMethods methods =
+      measure_antialiasing([&](double share) { tick(0.5 + share / 2); });
+
+  Results results("antialiasing", page_texts::antialiasing);
+  results.figure("scene", view.name);
+  add(results, coverage);
+  results.picture(picture("coverage", exact, {.channel = "A", .colours = ColourMap::grey}));
+  add(results, methods);
+  results.plot(nyquist_plot());
+  return results.files();
+}
+
+}  // namespace fathom::studies

@@ -1,0 +1,89 @@
+#include "validation/studies/clipping/clipping.h"
+
+#include "fathom/numeric/errors.h"
+#include "validation/studies/clipping/clipped_shapes.h"
+#include "validation/studies/clipping/shape_plot.h"
+#include "validation/studies/page_texts.h"
+#include "validation/studies/results.h"
+
+namespace fathom::studies {
+namespace {
+
+Table shapes_table(const std::vector<ClippedShape>& shapes) {
+  using Shape = ClippedShape;
+  const auto figure = [](auto member) {
+    return [member](const Shape& s) -> Cell { return s.figures.*member; };
+  };
+  using Figures = ClippingFigures;
+  return {shapes,
+          {{Column("shape").page("shape"), &Shape::name},
+           {Column("corners").csv_only(), figure(&Figures::corners)},
+           {Column("pieces").page("pieces"), figure(&Figures::pieces)},
+           {Column("convex_pieces").page("convex pieces"), figure(&Figures::convex_pieces)},
+           {Column("border").page("border", ".4g"), figure(&Figures::border)},
+           {Column("bridges").page("bridging edges", ".4g"), figure(&Figures::bridges)},
+           {Column("cuts").page("cuts", ".4g"), figure(&Figures::cuts)},
+           {"areas_agree", figure(&Figures::areas_agree)},
+           {heading("areas"),
+            [](const Shape& s) { return s.figures.areas_agree ? "equal" : "different"; }}}};
+}
+
+Table random_table(const std::vector<RandomPolygons>& rows) {
+  using Row = RandomPolygons;
+  return {rows,
+          {{"corners", &Row::corners},
+           {Column("polygons").csv_only(), &Row::polygons},
+           {"in_pieces", &Row::in_pieces},
+           {Column("pieces").csv_only(), &Row::pieces},
+           {Column("convex_pieces").csv_only(), &Row::convex_pieces},
+           {"bridge_percent", &Row::bridge_percent},
+           {"cut_percent", &Row::cut_percent},
+           {"areas_agree", &Row::areas_agree}}};
+}
+
+Plot bridges_plot(const std::vector<RandomPolygons>& rows) {
+  using Row = RandomPolygons;
+  return {
+      .name = "bridges",
+      .title = "Edges that do not belong to the border",
+      .x_label = "corners of the polygon",
+      .y_label = "percent of the true border",
+      .series = {series_of("bridging edges of Sutherland-Hodgman", rows, &Row::corners,
+                           &Row::bridge_percent),
+                 series_of("cuts of the decomposition", rows, &Row::corners, &Row::cut_percent)}};
+}
+
+std::vector<RandomPolygons> clip_random(std::size_t polygons,
+                                        const std::function<void(double)>& tick) {
+  constexpr std::size_t corner_counts[] = {6, 8, 12, 16, 24, 32, 48, 64};
+  std::vector<RandomPolygons> rows;
+  for (const std::size_t corners : corner_counts) {
+    rows.push_back(clip_random_polygons(corners, polygons));
+    tick(0.9 * static_cast<double>(rows.size()) / std::size(corner_counts));
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<StudyFile> study_clipping(const StudyOptions& options,
+                                      const std::function<void(double)>& tick) {
+  if (options.near || options.far)
+    throw UsageError("the study clipping has no depths: --near and --far mean nothing to it");
+  const std::size_t polygons = options.samples.value_or(100);
+  if (polygons > 100000) throw UsageError("--samples is not from 2 to 100000");
+  require_gnuplot();
+  const std::vector<ClippedShape> shapes = clipped_shapes();
+  const std::vector<RandomPolygons> random = clip_random(polygons, tick);
+
+  Results results("clipping", page_texts::clipping);
+  results.figure("polygons", polygons);
+  results.table(shapes_table(shapes), {.csv = "shapes", .json = "shapes", .page = "shapes"});
+  results.table(random_table(random), {.csv = "random", .json = "random"});
+  for (const ClippedShape& shape : shapes) results.drawn_plot("shape-" + shape.name, draw(shape));
+  results.plot(bridges_plot(random));
+  tick(1);
+  return results.files();
+}
+
+}  // namespace fathom::studies

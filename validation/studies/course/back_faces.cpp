@@ -1,0 +1,101 @@
+#include "validation/studies/course/back_faces.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "fathom/pipeline/render_pipeline.h"
+#include "validation/studies/pipeline_scenes.h"
+
+namespace fathom::studies {
+namespace {
+
+using pipeline::PipelineOptions;
+
+/// Of radius 1 around (0, 0, z), its triangles counter-clockwise from outside; the poles lie on y.
+Scene ball(std::uint32_t rings, std::uint32_t sectors, double z) {
+  std::vector<MeshPoint> v{{0, -1, z}};
+  for (std::uint32_t i = 1; i < rings; ++i) {
+    for (std::uint32_t j = 0; j < sectors; ++j) {
+      // Rings of equal area (Archimedes), so that counts of triangles are shares of the surface.
+      const double a = std::acos(1 - 2.0 * i / rings);
+      const double b = 2 * std::numbers::pi * (j + 0.3) / sectors;
+      v.push_back({std::sin(a) * std::cos(b), -std::cos(a), z + std::sin(a) * std::sin(b)});
+    }
+  }
+  v.push_back({0, 1, z});
+  const auto at = [&](std::uint32_t ring, std::uint32_t sector) {
+    return 1 + (ring - 1) * sectors + sector % sectors;
+  };
+  const auto last = static_cast<std::uint32_t>(v.size() - 1);
+  std::vector<CornerIndices> t;
+  for (std::uint32_t j = 0; j < sectors; ++j) {
+    t.push_back({0, at(1, j), at(1, j + 1)});
+    for (std::uint32_t i = 1; i + 1 < rings; ++i) {
+      t.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      t.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+    t.push_back({at(rings - 1, j), last, at(rings - 1, j + 1)});
+  }
+  return scene_of(std::move(v), std::move(t));
+}
+
+FacingCount facings(double distance, pipeline::Precision precision) {
+  PipelineOptions options;
+  options.precision = precision;
+  options.shading = pipeline::Shading::none;
+  Camera camera = front_camera(320, 240, distance - 1.01, distance + 1.01);
+  // So narrow that the ball fills the picture and nothing of it is clipped.
+  camera.fx = camera.fy = 118 * std::sqrt(distance * distance - 1);
+  const auto s = render_frame(ball(90, 180, distance), camera, options, false).statistics;
+  return {distance,
+          precision,
+          s.facings.compared,
+          s.facings.front_in_world,
+          s.facings.front_in_ndc,
+          s.facings.front_in_window,
+          s.facings.disagreeing,
+          (1 - 1 / distance) / 2};
+}
+
+}  // namespace
+
+std::vector<FacingCount> count_facings() {
+  std::vector<FacingCount> counts;
+  for (const auto precision : {pipeline::Precision::binary32, pipeline::Precision::binary64})
+    for (const double distance : {1.5, 2.0, 4.0, 16.0, 256.0})
+      counts.push_back(facings(distance, precision));
+  return counts;
+}
+
+RgbImage open_box(pipeline::FrontFace front_face, pipeline::Culling culling) {
+  // Looked at from above: turned about x by 40 degrees and about the upright axis by 30.
+  std::vector<MeshPoint> v;
+  const double a = std::numbers::pi * 30 / 180, b = std::numbers::pi * 40 / 180;
+  for (int i = 0; i < 8; ++i) {
+    const double x = i & 1 ? 1 : -1, y = i & 2 ? 0.7 : -0.7, z = i & 4 ? 1 : -1;
+    const double x1 = std::cos(a) * x + std::sin(a) * z, z1 = std::cos(a) * z - std::sin(a) * x;
+    v.push_back({x1, std::cos(b) * y - std::sin(b) * z1, std::sin(b) * y + std::cos(b) * z1 + 5});
+  }
+  // y grows down: the lid, y = −0.7, is left out. Clockwise from outside, then turned.
+  Scene scene = scene_of(v, {{2, 3, 7},
+                             {2, 7, 6},
+                             {0, 1, 3},
+                             {0, 3, 2},
+                             {4, 6, 7},
+                             {4, 7, 5},
+                             {0, 2, 6},
+                             {0, 6, 4},
+                             {1, 5, 7},
+                             {1, 7, 3}});
+  for (CornerIndices& t : scene.meshes[0].triangles) std::swap(t[1], t[2]);
+  PipelineOptions options;
+  options.front_face = front_face;
+  options.culling = culling;
+  options.background = {0.1, 0.1, 0.15};
+  options.antialias = {pipeline::AntialiasMethod::msaa, 8};
+  Camera camera = front_camera(160, 160, 1, 20);
+  return to_rgb(render_frame(scene, camera, options, true).picture);
+}
+
+}  // namespace fathom::studies

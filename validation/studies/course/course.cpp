@@ -1,0 +1,231 @@
+#include "validation/studies/course/course.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "fathom/numeric/errors.h"
+#include "validation/studies/course/aliasing.h"
+#include "validation/studies/course/back_faces.h"
+#include "validation/studies/course/demo.h"
+#include "validation/studies/course/exercises.h"
+#include "validation/studies/course/shared_edges.h"
+#include "validation/studies/page_texts.h"
+#include "validation/studies/picture.h"
+#include "validation/studies/results.h"
+
+namespace fathom::studies {
+namespace {
+
+void show(Results& results, const std::string& name, const RgbImage& image, std::uint32_t scale) {
+  results.picture(picture_file(name, image, scale));
+}
+
+void exercises_1_and_2(Results& results) {
+  show(results, "exercise-1", eight_lines(), 6);
+  show(results, "exercise-2", edge_function_signs(), 2);
+}
+
+void exercise_3(Results& results) {
+  struct Row {
+    double distance;
+    Storage storage;
+    double wrong_share;
+  };
+  struct PageRow {
+    double distance;
+    std::vector<double> wrong_shares;
+  };
+  constexpr Storage storages[] = {Storage::unorm16, Storage::unorm32, Storage::float32};
+  std::vector<Row> rows;
+  std::vector<PageRow> page_rows;
+  for (const double distance : {0.5, 2.0, 10.0, 50.0}) {
+    page_rows.push_back({distance, {}});
+    for (const Storage storage : storages) {
+      const Fight f = fight(distance, storage);
+      rows.push_back({distance, storage, f.wrong_share});
+      page_rows.back().wrong_shares.push_back(f.wrong_share);
+      if (distance != 2.0 && distance != 10.0) continue;
+      show(results, "exercise-3-" + text_of(distance) + "-" + std::string(name_of(storage)),
+           f.picture, 2);
+    }
+  }
+  results.table({rows,
+                 {{"distance", &Row::distance},
+                  {"storage", [](const Row& r) { return name_of(r.storage); }},
+                  {"wrong_share", &Row::wrong_share}}},
+                {.json = "exercise_3"});
+  std::vector<ColumnOf<PageRow>> columns{{heading("distance"), &PageRow::distance}};
+  for (std::size_t k = 0; k < std::size(storages); ++k) {
+    columns.push_back({percent_heading(std::string(name_of(storages[k])), ".1f"),
+                       [k](const PageRow& r) { return r.wrong_shares[k]; }});
+  }
+  results.table({page_rows, columns}, {.page = "exercise_3"});
+}
+
+void exercise_4(Results& results) {
+  struct Row {
+    const char* interpolation;
+    Checkerboard board;
+  };
+  const std::vector<Row> rows{{"affine", checkerboard(pipeline::Interpolation::affine)},
+                              {"perspective", checkerboard(pipeline::Interpolation::perspective)}};
+  for (const Row& row : rows) {
+    show(results, std::string("exercise-4-") + row.interpolation, row.board.picture, 2);
+  }
+  results.table({rows,
+                 {{Column("interpolation").page("interpolation"), &Row::interpolation},
+                  {Column("mean_error").page("mean error", ".3g"),
+                   [](const Row& r) { return r.board.mean_error; }},
+                  {Column("greatest_error").page("greatest error", ".3g"),
+                   [](const Row& r) { return r.board.greatest_error; }}}},
+                {.json = "exercise_4", .page = "exercise_4"});
+}
+
+void exercise_5(Results& results) {
+  show(results, "exercise-5-wireframe", cube(pipeline::Shading::wireframe), 2);
+  show(results, "exercise-5-flat", cube(pipeline::Shading::flat), 2);
+}
+
+void exercise_6(Results& results) {
+  const PartialPixels partial = partial_pixels();
+  Table table(std::vector<std::size_t>{0, 1, 2, 3},
+              {{Column("samples").page("samples"), [](std::size_t i) { return 1 << i; }},
+               {Column("partial").page("partial pixels"),
+                [&](std::size_t i) { return partial.counted[i]; }},
+               {Column("mean_error").page("mean error of coverage", ".4f"),
+                [&](std::size_t i) { return partial.mean_error[i]; }}});
+  results.table(table, {.json = "exercise_6"});
+  results.figure("exercise_6_exact", partial.exact);
+  table.add({"exact area", partial.exact, 0});
+  results.table(table, {.page = "exercise_6"});
+}
+
+void back_faces(Results& results) {
+  using Row = FacingCount;
+  const auto culled_share = [](const Row& f) {
+    return 1 - static_cast<double>(f.front_in_window) / static_cast<double>(f.triangles);
+  };
+  results.table(
+      {count_facings(),
+       {{Column("precision").page("arithmetic"),
+         [](const Row& f) {
+           return f.precision == pipeline::Precision::binary32 ? "binary32" : "binary64";
+         }},
+        {Column("distance").page("distance"), &Row::distance},
+        {"triangles", &Row::triangles},
+        {percent_heading("culled", ".2f"), culled_share},
+        {percent_heading("unseen surface", ".2f"), [](const Row& f) { return 1 - f.seen_share; }},
+        {Column("front_in_world").page("front: world"), &Row::front_in_world},
+        {Column("front_in_ndc").page("front: NDC"), &Row::front_in_ndc},
+        {Column("front_in_window").page("front: window"), &Row::front_in_window},
+        {Column("disagreeing").page("the tests disagree"), &Row::disagreeing}}},
+      {.json = "facings", .page = "facings"});
+  using enum pipeline::FrontFace;
+  using pipeline::Culling;
+  show(results, "box-ccw-back", open_box(counter_clockwise, Culling::back), 1);
+  show(results, "box-ccw-front", open_box(counter_clockwise, Culling::front), 1);
+  show(results, "box-cw-back", open_box(clockwise, Culling::back), 1);
+  show(results, "box-none", open_box(counter_clockwise, Culling::none), 1);
+}
+
+void shared_edges(Results& results) {
+  using Row = SharedEdges;
+  std::vector<Row> rows;
+  for (const int bits : {0, 1, 2, 3, 4, 6, 8, 16}) {
+    const Row& row = rows.emplace_back(count_shared_edges(bits));
+    if (bits == 0 || bits == 2 || bits == 8) {
+      show(results, "shared-edges-" + std::to_string(bits), row.picture, 2);
+    }
+  }
+  results.table(
+      {rows,
+       {{Column("subpixel_bits").page("bits"), &Row::bits},
+        {"triangles", &Row::triangles},
+        {Column("turned_over").page("turned over"), &Row::turned_over},
+        {Column("without_area").page("without area"), &Row::without_area},
+        {"samples", &Row::samples},
+        {Column("signed_not_one").page("samples not covered once, signed"), &Row::signed_not_one},
+        {Column("unsigned_not_one").page("not once, unsigned"), &Row::unsigned_not_one},
+        {Column("unexplained").page("of these unexplained"), &Row::unexplained}}},
+      {.json = "shared_edges", .page = "shared_edges"});
+}
+
+void demo_of_section_6(Results& results) {
+  struct Row {
+    const char* what;
+    std::uint64_t count;
+  };
+  const Demo d = demo();
+  show(results, "demo", d.picture, 2);
+  const std::vector<Row> rows{
+      {"fragments of the near triangle", d.near_fragments},
+      {"fragments of the far triangle", d.far_fragments},
+      {"fragments together: what is shaded without a depth test",
+       d.near_fragments + d.far_fragments},
+      {"pixels covered: the union", d.union_of_both},
+      {"pixels in both: the overlap", d.overlap},
+      {"fragments that pass the depth test, far drawn first", d.passed_far_first},
+      {"fragments that pass the depth test, near drawn first", d.passed_near_first}};
+  for (const Row& row : rows) results.figure(std::string("demo.") + row.what, row.count);
+  results.table({rows, {{heading(""), &Row::what}, {heading("count"), &Row::count}}},
+                {.page = "demo"});
+}
+
+/// Rows of words, the words of a column below each other.
+std::string aligned(const std::vector<std::string>& rows) {
+  std::string text;
+  for (const std::string& row : rows) {
+    std::istringstream words(row);
+    for (std::string word; words >> word;) {
+      const bool is_colour = word >= "A";
+      word.resize(std::max<std::size_t>(word.size(), is_colour ? 2 : 5), ' ');
+      text += word;
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+void tables(Results& results) {
+  const Tables t = z_buffer_tables();
+  results.text("depths_before", aligned(t.depth_before));
+  results.text("colours_before", aligned(t.colour_before));
+  results.text("depths_after", aligned(t.depth_after));
+  results.text("colours_after", aligned(t.colour_after));
+}
+
+void curves_and_time(Results& results) {
+  const auto [enlarged, anew] = curve_twice();
+  show(results, "curve-enlarged", enlarged, 8);
+  show(results, "curve-anew", anew, 1);
+  show(results, "wheel", turning_wheel(false), 1);
+  show(results, "wheel-supersampled", turning_wheel(true), 1);
+}
+
+}  // namespace
+
+std::vector<StudyFile> study_course(const StudyOptions& options,
+                                    const std::function<void(double)>& tick) {
+  if (options.near || options.far || options.separation || options.samples)
+    throw UsageError("the study course takes no options");
+  Results results("course", page_texts::course);
+  exercises_1_and_2(results);
+  tick(0.1);
+  exercise_3(results);
+  tick(0.4);
+  exercise_4(results);
+  tick(0.6);
+  exercise_5(results);
+  exercise_6(results);
+  tick(0.8);
+  back_faces(results);
+  shared_edges(results);
+  tick(0.9);
+  demo_of_section_6(results);
+  tables(results);
+  curves_and_time(results);
+  tick(1);
+  return results.files();
+}
+
+}  // namespace fathom::studies

@@ -1,0 +1,115 @@
+#include "validation/studies/hidden_surface/comparison.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "fathom/render.h"
+#include "validation/studies/pipeline_scenes.h"
+
+namespace fathom::studies {
+namespace {
+
+using pipeline::HiddenSurface;
+using pipeline::PipelineFrame;
+using pipeline::PipelineOptions;
+
+struct Case {
+  const char* name;
+  Scene scene;
+};
+
+Scene pair(MeshPoint a, MeshPoint b, MeshPoint c, MeshPoint d, MeshPoint e, MeshPoint f) {
+  return scene_of({a, b, c, d, e, f}, {{0, 1, 2}, {3, 4, 5}});
+}
+
+std::vector<Case> cases() {
+  return {{"z-disjoint",
+           pair({-1, -1, 4}, {1, -1, 4}, {0, 1, 4}, {-1.8, -0.9, 6}, {2.2, -0.9, 6}, {0.2, 2, 6})},
+          {"nearer-zmin",
+           pair({-1, -1, 4}, {1, -1, 5}, {0, 1, 5}, {-1, -0.6, 4.5}, {1, -0.6, 6}, {0, 1.2, 6})},
+          {"farther-zmin", pair({-1, -1, 4}, {1, -1, 6}, {0.8, 1, 7}, {-1, -0.5, 4.6},
+                                {0.3, -0.6, 5.9}, {-0.2, 0.5, 6})},
+          {"x-disjoint", pair({-1.2, -1, 4}, {-0.1, -1, 6}, {-0.5, 1, 5}, {0.1, -1, 5},
+                              {1.2, -1, 4}, {0.5, 1, 6})},
+          {"equal-zmax",
+           pair({-1, -1, 4}, {1, -1, 6}, {0, 1, 5}, {-1, -0.6, 4.5}, {1, -0.6, 6}, {0, 1.2, 5.5})},
+          {"cycle", cyclic_overlap()},
+          {"penetration", penetration()}};
+}
+
+std::vector<std::uint32_t> exact_ids(const Scene& scene, const Camera& camera) {
+  RenderOptions options;
+  options.channels = {Channel::id};
+  const DepthMap map = render(scene, camera, options);
+  const auto& ids = *map.values<std::uint32_t>("id");
+  return {ids.begin(), ids.end()};
+}
+
+std::size_t different(const std::vector<std::uint32_t>& exact, const PipelineFrame& frame) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) count += exact[i] != frame.id[i];
+  return count;
+}
+
+PipelineOptions z_buffer_options(Storage storage) {
+  PipelineOptions options = precise_options();
+  options.depth_format.storage = storage;
+  return options;
+}
+
+HiddenSurfaceCase compare(const Case& c) {
+  Camera camera = front_camera(160, 160, 1, 20);
+  // No edge runs through a sample, where snapping would decide.
+  camera.cx += 0.1234567;
+  camera.cy += 0.7654321;
+  const auto exact = exact_ids(c.scene, camera);
+  HiddenSurfaceCase result{c.name};
+  for (const std::uint32_t id : exact) result.seen += id != no_surface;
+  Scene painted = c.scene;
+  paint_each_triangle(painted);
+  PipelineOptions options = z_buffer_options(Storage::float32);
+  result.buffer32 = different(exact, render_frame(painted, camera, options, false));
+  options = z_buffer_options(Storage::unorm16);
+  result.buffer16 = different(exact, render_frame(painted, camera, options, false));
+  options.hidden_surface = HiddenSurface::painter;
+  const PipelineFrame frame = render_frame(painted, camera, options, true);
+  result.painter = different(exact, frame);
+  result.order = frame.painter;
+  result.picture = pipeline::to_rgb(frame.picture);
+  return result;
+}
+
+/// The least time of a few frames, and the last of them.
+std::pair<double, PipelineFrame> timed_frame(const Scene& scene, const Camera& camera,
+                                             const PipelineOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  std::pair<double, PipelineFrame> result{std::numeric_limits<double>::infinity(), {}};
+  for (int frame = 0; frame < 5; ++frame) {
+    const Clock::time_point start = Clock::now();
+    result.second = render_frame(scene, camera, options, false);
+    const std::chrono::duration<double, std::milli> time = Clock::now() - start;
+    result.first = std::min(result.first, time.count());
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<HiddenSurfaceCase> compare_hidden_surfaces() {
+  std::vector<HiddenSurfaceCase> results;
+  for (const Case& c : cases()) results.push_back(compare(c));
+  return results;
+}
+
+HiddenSurfaceCost hidden_surface_cost(std::uint32_t triangles) {
+  const Camera camera = front_camera(320, 240, 1, 20);
+  const Scene scene = random_triangles(triangles, 9);
+  PipelineOptions options = z_buffer_options(Storage::float32);
+  const double buffer_ms = timed_frame(scene, camera, options).first;
+  options.hidden_surface = HiddenSurface::painter;
+  const auto [painter_ms, frame] = timed_frame(scene, camera, options);
+  return {triangles, buffer_ms, painter_ms, frame.painter.comparisons, frame.painter.splits};
+}
+
+}  // namespace fathom::studies

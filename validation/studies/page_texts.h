@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string_view>
+
+/// The pages' Markdown, from the .md files beside the studies (CMakeLists.txt).
+namespace fathom::studies::page_texts {
+
+extern const std::string_view antialiasing, clipping, course, depth_resolution, hidden_surface,
+    indistinguishable, lines, mitigation, scene_fights, subpixel, z_fighting;
+
+}  // namespace fathom::studies::page_texts

@@ -1,0 +1,62 @@
+#include "validation/studies/results.h"
+
+#include <iterator>
+
+namespace fathom::studies {
+
+Results::Results(const std::string& study, std::string_view page)
+    : summary_{{"study", Cell(study)}}, page_(page) {}
+
+void Results::figure(const std::string& key, const Cell& value, const char* page_format) {
+  summary_.emplace_back(key, value);
+  quote(key, value, page_format);
+}
+
+void Results::quote(const std::string& name, const Cell& value, const char* page_format) {
+  page_.add_value(name, text_of(value, page_format));
+}
+
+void Results::table(const Table& table, const Places& places) {
+  if (!places.csv.empty()) files_.push_back({places.csv + ".csv", csv_of(table)});
+  if (!places.json.empty()) summary_.emplace_back(places.json, table);
+  if (!places.page.empty()) page_.add_table(places.page, table);
+}
+
+void Results::plot(const Plot& plot) {
+  drawn_plot(plot.name, draw(plot));
+}
+
+void Results::plot(const BarChart& chart) {
+  drawn_plot(chart.name, draw(chart));
+}
+
+void Results::plot(const HeatMap& map) {
+  drawn_plot(map.name, draw(map));
+}
+
+void Results::drawn_plot(const std::string& name, std::vector<StudyFile> files) {
+  page_.add_plot(name, !files.empty());
+  std::move(files.begin(), files.end(), std::back_inserter(files_));
+}
+
+void Results::picture(StudyFile png) {
+  page_.add_picture(png.name.substr(0, png.name.rfind('.')));
+  files_.push_back(std::move(png));
+}
+
+void Results::pictures(std::vector<StudyFile> pngs) {
+  for (StudyFile& png : pngs) picture(std::move(png));
+}
+
+void Results::text(const std::string& name, const std::string& text) {
+  page_.add_text(name, text);
+}
+
+std::vector<StudyFile> Results::files() const {
+  std::vector<StudyFile> files = files_;
+  files.push_back({"summary.json", json_of(summary_)});
+  files.push_back({"index.html", page_.html()});
+  return files;
+}
+
+}  // namespace fathom::studies

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "validation/studies/page.h"
+#include "validation/studies/plot.h"
+#include "validation/studies/study.h"
+#include "validation/studies/summary.h"
+#include "validation/studies/table.h"
+
+namespace fathom::studies {
+
+/// What a study hands back, as it comes together: the figures of summary.json, tables, plots and
+/// pictures, and the page that shows them.
+class Results {
+ public:
+  /// `page` is the study's Markdown: see page.h.
+  Results(const std::string& study, std::string_view page);
+
+  /// A figure of summary.json, which the page may quote as {{key}}, formatted as text_of() does.
+  void figure(const std::string& key, const Cell& value, const char* page_format = "g");
+  /// A figure that the page alone quotes.
+  void quote(const std::string& name, const Cell& value, const char* page_format = "g");
+
+  /// Where a table goes: the file CSV.csv, the key `json` of summary.json, the page's
+  /// {{table:page}}. Empty: not there.
+  struct Places {
+    std::string csv, json, page;
+  };
+  void table(const Table& table, const Places& places);
+
+  /// Drawn, unless it has nothing to draw.
+  void plot(const Plot& plot);
+  void plot(const BarChart& chart);
+  void plot(const HeatMap& map);
+  /// NAME.png, which the page may show as {{picture:NAME}}.
+  void picture(StudyFile png);
+  void pictures(std::vector<StudyFile> pngs);
+  /// {{text:name}} of the page.
+  void text(const std::string& name, const std::string& text);
+  /// Plots that are drawn already: NAME.gp, NAME.png, NAME.svg.
+  void drawn_plot(const std::string& name, std::vector<StudyFile> files);
+
+  /// All files, summary.json and index.html among them.
+  [[nodiscard]] std::vector<StudyFile> files() const;
+
+ private:
+  std::vector<StudyFile> files_;
+  Summary summary_;
+  Page page_;
+};
+
+}  // namespace fathom::studies

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fathom/depth_buffer/depth_buffer.h"
+#include "validation/studies/study_scene.h"
+
+/// Z-fighting over the image of a scene, ideal model.
+namespace fathom::studies {
+
+struct SceneFights {
+  DepthFormat format;
+  std::uint64_t surface_pixels = 0, fighting = 0;
+  /// Greatest |decoded − exact| depth.
+  double greatest_error = 0;
+  [[nodiscard]] double share() const {
+    return surface_pixels == 0
+               ? 0
+               : static_cast<double>(fighting) / static_cast<double>(surface_pixels);
+  }
+};
+
+/// What a format makes of what is visible; `map` has Z and id.
+struct BufferedScene {
+  SceneFights fights;
+  /// With the channels of depth_buffer.h.
+  DepthMap map;
+};
+BufferedScene buffer_scene(const SceneView& view, const DepthMap& visible,
+                           const DepthFormat& format);
+
+/// Pictures: where it fights, and how far decoded depths are off.
+std::vector<StudyFile> pictures_of(const std::string& name, const BufferedScene& buffered);
+
+}  // namespace fathom::studies
