@@ -41,6 +41,16 @@ struct ValidateArguments {
   std::string against, scene_names, variants, render, output, size = "320x240", seconds = "300";
 };
 
+/// What `call` returns; its UsageError with the option to blame before it.
+template <class Call>
+auto blaming(const std::string& option, const Call& call) {
+  try {
+    return call();
+  } catch (const UsageError& error) {
+    throw UsageError(option + ": " + error.what());
+  }
+}
+
 Camera read_camera(const std::string& file) {
   if (file.empty()) throw UsageError("--camera FILE is missing");
   note_input(file);
@@ -142,16 +152,14 @@ std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Con
 
 std::vector<Peer> peers_of(const ValidateArguments& arguments) {
   std::vector<Peer> peers;
-  for (const std::string& renderer : split_list(arguments.against)) {
-    for (const Peer& peer : validation::peers_of(renderer, time_limit(arguments))) {
-      const std::vector<std::string> wanted = split_list(arguments.variants);
-      const bool chosen = arguments.variants.empty() ||
-                          std::find(wanted.begin(), wanted.end(), peer.variant) != wanted.end();
-      if (chosen) peers.push_back(peer);
-    }
+  for (const std::string& name : split_list(arguments.against)) {
+    const auto renderer = blaming("--against", [&] { return validation::renderer_named(name); });
+    const std::vector<Peer> more = validation::peers_of(renderer, time_limit(arguments));
+    peers.insert(peers.end(), more.begin(), more.end());
   }
-  if (peers.empty()) throw UsageError("--variants: none of the renderers has one of these");
-  return peers;
+  if (arguments.variants.empty()) return peers;
+  const std::vector<std::string> variants = split_list(arguments.variants);
+  return blaming("--variants", [&] { return validation::with_variants(peers, variants); });
 }
 
 /// Every scene drawn by every peer. Before any thread is started: see draw_in_child.
@@ -162,7 +170,9 @@ std::vector<ValidationCase> draw_all(const std::vector<SceneToMake>& scenes,
   const auto count = static_cast<double>(scenes.size() * peers.size());
   for (const SceneToMake& scene : scenes) {
     for (const Peer& peer : peers) {
-      ValidationCase made{.scene = scene.name, .renderer = peer.renderer, .variant = peer.variant};
+      ValidationCase made{.scene = scene.name,
+                          .renderer = name_of(validation::renderer_of(peer)),
+                          .variant = validation::variant_name(peer)};
       validation::Drawing drawing = validation::draw_in_child(peer, scene.make, seconds);
       made.failure = drawing.failure;
       if (drawing.drawn) {
@@ -203,6 +213,17 @@ int validate_against(const ValidateArguments& arguments, const Console& console)
   return report_cases(cases, places);
 }
 
+/// The renderer of --render in the variant that is asked for, else in its first.
+Peer peer_to_render(const ValidateArguments& arguments) {
+  const auto renderer =
+      blaming("--render", [&] { return validation::renderer_named(arguments.render); });
+  if (arguments.variants.empty()) {
+    return validation::peers_of(renderer, time_limit(arguments)).front();
+  }
+  return blaming("--variants",
+                 [&] { return validation::peer_named(renderer, arguments.variants); });
+}
+
 /// What the renderer drew, as a map of ours.
 int render_peer(const ValidateArguments& arguments, const Console& console) {
   if (arguments.output.empty()) throw UsageError("-o MAP is missing: where the map goes");
@@ -211,11 +232,9 @@ int render_peer(const ValidateArguments& arguments, const Console& console) {
     throw UsageError("-o: '" + arguments.output + "' does not end in .exr, .pfm or .npy");
   if (arguments.scenes.empty()) throw UsageError("SCENE is missing: what is rendered");
   const SceneToMake scene = scenes_of(arguments, console).front();
-  std::vector<Peer> peers = validation::peers_of(arguments.render, time_limit(arguments));
-  if (!arguments.variants.empty()) peers.front().variant = arguments.variants;
+  const Peer peer = peer_to_render(arguments);
   OutputFile output(arguments.output);
-  validation::Drawing drawing =
-      validation::draw_in_child(peers.front(), scene.make, time_limit(arguments));
+  validation::Drawing drawing = validation::draw_in_child(peer, scene.make, time_limit(arguments));
   if (!drawing.drawn) throw InputError(drawing.failure);
   DepthMap map = validation::as_depth_map(drawing.drawn->map);
   map.texts["fathom.camera"] = to_json(scene.make().camera);

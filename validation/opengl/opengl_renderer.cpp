@@ -121,20 +121,20 @@ void hand_over(const GlFunctions& gl, const WorldMesh& mesh, const RendererModel
 }
 
 void draw(const GlFunctions& gl, const WorldMesh& mesh, const Camera& camera,
-          const OpenGlDepth& depth) {
+          const OpenGlVariant& variant) {
   gl.Viewport(0, 0, static_cast<GLsizei>(camera.width), static_cast<GLsizei>(camera.height));
-  if (depth.reversed) gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  const GLfloat cleared = depth.reversed ? 0.0F : 1.0F;
+  if (variant.reversed) gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  const GLfloat cleared = variant.reversed ? 0.0F : 1.0F;
   const GLuint nothing = no_surface;
   gl.ClearBufferfv(GL_DEPTH, 0, &cleared);
   gl.ClearBufferuiv(GL_COLOR, 0, &nothing);
   gl.Enable(GL_DEPTH_TEST);
-  gl.DepthFunc(depth.reversed ? GL_GREATER : GL_LESS);
-  if (depth.offset_units == 0) {
+  gl.DepthFunc(variant.reversed ? GL_GREATER : GL_LESS);
+  if (variant.offset_units == 0) {
     gl.Disable(GL_POLYGON_OFFSET_FILL);
   } else {
     gl.Enable(GL_POLYGON_OFFSET_FILL);
-    gl.PolygonOffset(0, static_cast<GLfloat>(depth.offset_units));
+    gl.PolygonOffset(0, static_cast<GLfloat>(variant.offset_units));
   }
   gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * mesh.triangles.size()), GL_UNSIGNED_INT,
                   nullptr);
@@ -158,14 +158,14 @@ OtherMap read_back(const GlFunctions& gl, const Camera& camera, const RendererMo
 /// ([GL46] 14.6.5). The mesh is drawn without and with it; where most pixels agree on the
 /// difference, that is it.
 void measure_offset(const GlFunctions& gl, const WorldMesh& mesh, const Camera& camera,
-                    const OpenGlDepth& depth, RendererModel& model) {
+                    const OpenGlVariant& variant, RendererModel& model) {
   const auto windows = [&](int units) {
-    OpenGlDepth with = depth;
+    OpenGlVariant with = variant;
     with.offset_units = units;
     draw(gl, mesh, camera, with);
     return read_window_depths(gl, camera.width, camera.height, model.storage);
   };
-  const std::vector<double> without = windows(0), with = windows(depth.offset_units);
+  const std::vector<double> without = windows(0), with = windows(variant.offset_units);
   std::vector<double> differences;
   for (std::size_t i = 0; i < with.size(); ++i) {
     if (with[i] < 1 && without[i] < 1) differences.push_back(with[i] - without[i]);
@@ -214,19 +214,19 @@ bool interpolates_before_snapping(const std::string& version) {
   return version.find("llvmpipe") != std::string::npos;
 }
 
-DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlDepth& depth) {
+DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlVariant& variant) {
   const EglContext context;
   const GlFunctions gl;
   DrawnMap drawn;
   drawn.version = version_of(gl) + context.way();
   RendererModel& model = drawn.model;
   model.name = "OpenGL";
-  model.mapping = depth.reversed ? Mapping::reversed : Mapping::opengl;
+  model.mapping = variant.reversed ? Mapping::reversed : Mapping::opengl;
   model.shift = held_from(mesh, camera);
   model.matrix = clip_from_held(camera, model);
   model.first_of_equals = true;
 
-  const Framebuffer framebuffer(gl, camera, depth.storage, depth.samples);
+  const Framebuffer framebuffer(gl, camera, variant.storage, variant.samples);
   model.storage = depth_attachment_storage(gl, GL_FRAMEBUFFER);
   GLint subpixel_bits = 0;
   gl.GetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits);
@@ -234,16 +234,16 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlDe
   model.depth_before_snap = interpolates_before_snapping(drawn.version);
   use_program(gl, *model.matrix);
   hand_over(gl, mesh, model);
-  if (depth.offset_units != 0) {
-    measure_offset(gl, mesh, camera, depth, model);
+  if (variant.offset_units != 0) {
+    measure_offset(gl, mesh, camera, variant, model);
     drawn.version +=
-        fmt::format(", an offset of {} units is {:.6g}", depth.offset_units, model.bias);
+        fmt::format(", an offset of {} units is {:.6g}", variant.offset_units, model.bias);
   }
-  draw(gl, mesh, camera, depth);
-  if (depth.samples > 1) {
+  draw(gl, mesh, camera, variant);
+  if (variant.samples > 1) {
     drawn.version += ", " + std::to_string(framebuffer.granted_samples()) + " samples granted";
     set_sample(gl, model);
-    const Framebuffer resolved(gl, camera, depth.storage, 1);
+    const Framebuffer resolved(gl, camera, variant.storage, 1);
     framebuffer.bind(GL_READ_FRAMEBUFFER);
     resolved.bind(GL_DRAW_FRAMEBUFFER);
     const auto w = static_cast<GLint>(camera.width), h = static_cast<GLint>(camera.height);

@@ -30,51 +30,65 @@ std::vector<int> offered_samples(int seconds) {
   return counts;
 }
 
-void add_samples(std::vector<std::string>& variants, const std::string& storage,
-                 const std::vector<int>& counts) {
-  for (const int count : counts) {
-    variants.push_back(storage + " " + std::to_string(count) + " samples");
+std::vector<Peer> vtk_peers(int seconds) {
+  using Encoding = VtkVariant::Encoding;
+  std::vector<Peer> peers{
+      VtkVariant{},
+      VtkVariant{.attachment = Storage::unorm16},
+      VtkVariant{.attachment = Storage::unorm24},
+      VtkVariant{.attachment = Storage::unorm32},
+      VtkVariant{.attachment = Storage::float32},
+      VtkVariant{.attachment = Storage::float32, .encoding = Encoding::reversed},
+      VtkVariant{.attachment = Storage::float32, .encoding = Encoding::reversed_by_shader},
+      VtkVariant{.attachment = Storage::unorm24, .encoding = Encoding::logarithmic},
+      VtkVariant{.attachment = Storage::float32, .encoding = Encoding::logarithmic}};
+  std::vector<int> counts = offered_samples(seconds);
+  const int usual = 8;  // VTK's default, whatever is granted of it
+  if (std::find(counts.begin(), counts.end(), usual) == counts.end()) counts.push_back(usual);
+  for (const int count : counts) peers.emplace_back(VtkVariant{.samples = count});
+  return peers;
+}
+
+std::vector<Peer> opengl_peers(int seconds) {
+  std::vector<Peer> peers{OpenGlVariant{.storage = Storage::unorm16},
+                          OpenGlVariant{.storage = Storage::unorm24},
+                          OpenGlVariant{.storage = Storage::unorm32},
+                          OpenGlVariant{.storage = Storage::float32},
+                          OpenGlVariant{.storage = Storage::float32, .reversed = true},
+                          OpenGlVariant{.storage = Storage::unorm24, .offset_units = 16}};
+  for (const int count : offered_samples(seconds)) {
+    peers.emplace_back(OpenGlVariant{.storage = Storage::unorm24, .samples = count});
   }
+  return peers;
+}
+
+DrawnMap draw_variant(const BlenderVariant& /*variant*/, const ValidationScene& scene) {
+  return draw_blender(world_mesh(scene.scene), scene.camera);
+}
+
+template <class BuiltIn>
+DrawnMap draw_variant(const BuiltIn& variant, const ValidationScene& scene) {
+  return draw_built_in(variant, scene);
 }
 
 }  // namespace
 
-std::vector<Peer> peers_of(const std::string& renderer, int seconds) {
-  std::vector<std::string> variants;
-  if (renderer == "vtk") {
-    variants = {"own",
-                "unorm16",
-                "unorm24",
-                "unorm32",
-                "float32",
-                "float32 reversed",
-                "float32 reversed by shader",
-                "unorm24 logarithmic",
-                "float32 logarithmic"};
-    std::vector<int> counts = offered_samples(seconds);
-    const int usual = 8;  // VTK's default, whatever is granted of it
-    if (std::find(counts.begin(), counts.end(), usual) == counts.end()) counts.push_back(usual);
-    add_samples(variants, "own", counts);
-  } else if (renderer == "opengl") {
-    variants = {"unorm16", "unorm24",          "unorm32",
-                "float32", "float32 reversed", "unorm24 offset 16"};
-    add_samples(variants, "unorm24", offered_samples(seconds));
-  } else if (renderer == "embree") {
-    variants = {"default", "robust"};
-  } else if (renderer == "blender") {
-    variants = {"cycles"};
-  } else {
-    throw UsageError("--against: '" + renderer + "' is none of vtk, opengl, embree and blender");
+std::vector<Peer> peers_of(Renderer renderer, int seconds) {
+  switch (renderer) {
+    case Renderer::vtk:
+      return vtk_peers(seconds);
+    case Renderer::opengl:
+      return opengl_peers(seconds);
+    case Renderer::embree:
+      return {EmbreeVariant{}, EmbreeVariant{.robust = true}};
+    case Renderer::blender:
+      break;
   }
-  std::vector<Peer> peers;
-  peers.reserve(variants.size());
-  for (const std::string& variant : variants) peers.push_back({renderer, variant});
-  return peers;
+  return {BlenderVariant{}};
 }
 
 DrawnMap draw(const Peer& peer, const ValidationScene& scene) {
-  if (peer.renderer == "blender") return draw_blender(world_mesh(scene.scene), scene.camera);
-  return draw_built_in(peer, scene);
+  return std::visit([&](const auto& variant) { return draw_variant(variant, scene); }, peer);
 }
 
 Drawing draw_in_child(const Peer& peer, const std::function<ValidationScene()>& make, int seconds) {
@@ -89,7 +103,7 @@ Drawing draw_in_child(const Peer& peer, const std::function<ValidationScene()>& 
             return "f" + std::string(error.what());
           }
         },
-        seconds, peer.renderer);
+        seconds, name_of(renderer_of(peer)));
     if (bytes.front() == 'f') return {std::nullopt, bytes.substr(1)};
     return {drawn_from_bytes(bytes.substr(1)), {}};
   } catch (const bench::ChildFailure& failure) {

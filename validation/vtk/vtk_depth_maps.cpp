@@ -1,41 +1,37 @@
 #include "validation/vtk/vtk_depth_maps.h"
 
-#include <cstdlib>
 #include <limits>
 
-#include "fathom/numeric/errors.h"
 #include "validation/opengl/opengl_renderer.h"
 #include "validation/vtk/vtk_renderer.h"
 
 namespace fathom::validation {
-
 namespace {
 
-VtkOptions options_of(const std::string& variant, const Camera& camera) {
-  VtkOptions options;
-  const std::string first = variant.substr(0, variant.find(' ')),
-                    way = variant.substr(first.size());
-  if (first != "own") options.depth = storage_named(first);
+VtkOptions options_of(const VtkVariant& variant, const Camera& camera) {
+  VtkOptions options{.depth = variant.attachment, .samples = variant.samples};
   const auto write = [&](Mapping mapping) {
     options.written = written_depth(camera.projection, mapping, camera.near, camera.far);
   };
-  if (way == " reversed") {
-    options.reversed = true;
-  } else if (way == " reversed by shader") {
-    write(Mapping::reversed);
-  } else if (way == " logarithmic") {
-    write(Mapping::log_ulrich);
-  } else if (way.find(" samples") != std::string::npos) {
-    options.samples = std::atoi(way.c_str());
-  } else if (!way.empty()) {
-    throw UsageError("VTK is not asked for '" + variant + "'");
+  switch (variant.encoding) {
+    case VtkVariant::Encoding::interpolated:
+      break;
+    case VtkVariant::Encoding::reversed:
+      options.reversed = true;
+      break;
+    case VtkVariant::Encoding::reversed_by_shader:
+      write(Mapping::reversed);
+      break;
+    case VtkVariant::Encoding::logarithmic:
+      write(Mapping::log_ulrich);
+      break;
   }
   return options;
 }
 
 }  // namespace
 
-DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const std::string& variant) {
+DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const VtkVariant& variant) {
   const VtkOptions options = options_of(variant, camera);
   VtkRenderer renderer(mesh, camera, {camera.near, camera.far}, options);
   renderer.draw();
