@@ -2,15 +2,15 @@
 
 #include <string>
 
-#include "validation/attribution/other_map.h"
-#include "validation/attribution/renderer_model.h"
+#include "fathom/attribution/other_map.h"
+#include "fathom/attribution/renderer_model.h"
 
 namespace fathom::validation {
 
 /// What another renderer drew, and what is known of how it did.
 struct DrawnMap {
-  OtherMap map;
-  RendererModel model;
+  attribution::OtherMap map;
+  attribution::RendererModel model;
   /// Its version and what it runs on.
   std::string version;
 };

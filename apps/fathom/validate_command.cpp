@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/attribution/hypotheses.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/image/map_files.h"
@@ -23,15 +24,14 @@
 #include "program_main.h"
 #include "progress.h"
 #include "validate_report.h"
-#include "validation/attribution/hypotheses.h"
 #include "validation/peers/drawing.h"
 
 namespace fathom::app {
 namespace {
 
+using attribution::RendererModel;
+using attribution::Truth;
 using validation::Peer;
-using validation::RendererModel;
-using validation::Truth;
 using validation::ValidationCase;
 using validation::ValidationScene;
 
@@ -81,25 +81,25 @@ void require_clip_planes(const RendererModel& model, const Camera& camera) {
 
 ValidationCase validate_map(const ValidateArguments& arguments, const Console& console) {
   ValidationCase made{.renderer = "map", .variant = arguments.model, .version = arguments.map};
-  made.model = validation::model_named(arguments.model);
+  made.model = attribution::model_named(arguments.model);
   const Camera camera = read_camera(arguments.camera);
   require_clip_planes(made.model, camera);
   note_input(arguments.map);
-  made.other = validation::other_map(read_map(arguments.map), arguments.channel);
+  made.other = attribution::other_map(read_map(arguments.map), arguments.channel);
   if (made.other.width != camera.width || made.other.height != camera.height) {
     throw InputError(fmt::format("{}: has {}x{} pixels, the camera {}x{}", arguments.map,
                                  made.other.width, made.other.height, camera.width, camera.height));
   }
   const Scene scene = read_files(arguments.scenes, console);
   made.scene = std::filesystem::path(arguments.scenes.front()).stem();
-  const auto truth = std::make_shared<Truth>(validation::make_truth(scene, camera));
+  const auto truth = std::make_shared<Truth>(attribution::make_truth(scene, camera));
   for (const std::uint32_t triangle : made.other.triangles) {
     if (triangle != no_surface && triangle >= truth->mesh.triangles.size()) {
       throw InputError(fmt::format("{}: shows triangle {}, but the scene has {}", arguments.map,
                                    triangle, truth->mesh.triangles.size()));
     }
   }
-  made.attribution = validation::attribute_and_name(*truth, made.other, made.model);
+  made.attribution = attribution::attribute_and_name(*truth, made.other, made.model);
   made.truth = truth;
   return made;
 }
@@ -190,10 +190,10 @@ std::vector<ValidationCase> draw_all(const std::vector<SceneToMake>& scenes,
 void judge_all(std::vector<ValidationCase>& cases, const std::vector<SceneToMake>& scenes) {
   for (const SceneToMake& scene : scenes) {
     const ValidationScene made = scene.make();
-    const auto truth = std::make_shared<Truth>(validation::make_truth(made.scene, made.camera));
+    const auto truth = std::make_shared<Truth>(attribution::make_truth(made.scene, made.camera));
     for (ValidationCase& c : cases) {
       if (c.scene != scene.name || !c.is_done()) continue;
-      c.attribution = validation::attribute_and_name(*truth, c.other, c.model);
+      c.attribution = attribution::attribute_and_name(*truth, c.other, c.model);
       c.truth = truth;
     }
   }
@@ -236,7 +236,7 @@ int render_peer(const ValidateArguments& arguments, const Console& console) {
   OutputFile output(arguments.output);
   validation::Drawing drawing = validation::draw_in_child(peer, scene.make, time_limit(arguments));
   if (!drawing.drawn) throw InputError(drawing.failure);
-  DepthMap map = validation::as_depth_map(drawing.drawn->map);
+  DepthMap map = attribution::as_depth_map(drawing.drawn->map);
   map.texts["fathom.camera"] = to_json(scene.make().camera);
   map.texts["fathom.engine"] = drawing.drawn->version;
   output.write([&](const std::filesystem::path& path) {
@@ -256,7 +256,7 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
   if (!arguments.against.empty()) return validate_against(arguments, console);
   if (!arguments.render.empty()) return render_peer(arguments, console);
   if (arguments.model.empty()) {
-    throw UsageError("--model is missing: there are " + validation::model_names());
+    throw UsageError("--model is missing: there are " + attribution::model_names());
   }
   const ReportPlaces places{arguments.out, arguments.baseline};
   prepare(places);
@@ -274,7 +274,7 @@ void add_validate(Program& program) {
       "  fathom validate --render vtk spot.obj --camera camera.json -o vtk.exr\n"
       "\nScenes: " +
           fmt::format("{}", fmt::join(validation::scene_names(), ", ")) +
-          ".\nModels: " + validation::model_names() +
+          ".\nModels: " + attribution::model_names() +
           ".\nExit status 1 where a pixel is unexplained or a fault was found; see "
           "docs/validation.md.");
   const auto arguments = std::make_shared<ValidateArguments>();

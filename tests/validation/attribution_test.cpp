@@ -3,15 +3,15 @@
 
 #include <cmath>
 
+#include "fathom/attribution/clip_vertex.h"
+#include "fathom/attribution/hypotheses.h"
 #include "fathom/camera/camera_making.h"
 #include "tests/validation/float_rasterizer.h"
-#include "validation/attribution/clip_vertex.h"
-#include "validation/attribution/hypotheses.h"
 #include "validation/bench/shapes.h"
 
 /// A renderer that is what its model says has no unexplained pixel; one with a fault has, and the
 /// fault is named.
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 using test::draw_in_binary32;
@@ -295,4 +295,4 @@ TEST(RayModel, TheRotationOfBlendersCameraIsKnownUpToItsRoundings) {
 }
 
 }  // namespace
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

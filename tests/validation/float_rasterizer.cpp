@@ -4,15 +4,15 @@
 #include <cmath>
 #include <limits>
 
-#include "validation/camera_rays.h"
+#include "fathom/attribution/camera_rays.h"
 
 namespace fathom::test {
 namespace {
 
-using validation::OtherMap;
-using validation::RendererModel;
-using validation::WindowDepth;
-using validation::WorldMesh;
+using attribution::OtherMap;
+using attribution::RendererModel;
+using attribution::WindowDepth;
+using attribution::WorldMesh;
 
 struct Corner {
   float x, y, z, q;  // q: 1/w, of which a fragment shader makes its own depth (perspective)
@@ -37,7 +37,7 @@ Corner corner_of(const std::array<double, 3>& p, const Camera& camera, const Ren
 }
 
 /// What the fragment shader makes of q.
-float written(float q, const validation::WrittenDepth& shader) {
+float written(float q, const attribution::WrittenDepth& shader) {
   const float t = shader.term + shader.factor * q;
   return shader.mapping == Mapping::log_ulrich ? shader.scale * std::log2(t) : t;
 }
@@ -74,9 +74,9 @@ bool covers(const std::array<Corner, 3>& t, std::int64_t x, std::int64_t y) {
 OtherMap draw_in_binary32(const WorldMesh& mesh, const Camera& camera, const RendererModel& model,
                           const Fault& fault) {
   const WindowDepth window =
-      validation::window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far);
+      attribution::window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far);
   const WindowDepth cut =
-      validation::window_depth(camera.projection, model.mapping, camera.near, camera.far);
+      attribution::window_depth(camera.projection, model.mapping, camera.near, camera.far);
   const std::size_t count = std::size_t{camera.width} * camera.height;
   const double cleared = window.reversed() ? 0 : 1;
   OtherMap map{camera.width,
@@ -134,7 +134,7 @@ OtherMap draw_in_binary32(const WorldMesh& mesh, const Camera& camera, const Ren
 }
 
 OtherMap trace_in_binary32(const WorldMesh& mesh, const Camera& camera, const Fault& fault) {
-  const validation::CameraRays rays = validation::camera_rays(camera);
+  const attribution::CameraRays rays = attribution::camera_rays(camera);
   OtherMap map{camera.width, camera.height, {}, {}, {}};
   using V = std::array<float, 3>;
   const auto minus = [](const V& a, const V& b) {
@@ -154,7 +154,7 @@ OtherMap trace_in_binary32(const WorldMesh& mesh, const Camera& camera, const Fa
       const double x = column + 0.5 + fault.shift_x, y = row + 0.5 + fault.shift_y;
       V o{}, d{};
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = [&](const validation::CameraRays::Affine& f) {
+        const auto at = [&](const attribution::CameraRays::Affine& f) {
           return static_cast<float>(f.at_corner[k] + x * f.per_u[k] + y * f.per_v[k]);
         };
         o[k] = at(rays.origin);

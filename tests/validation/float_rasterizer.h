@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "validation/attribution/other_map.h"
-#include "validation/attribution/renderer_model.h"
-#include "validation/world_mesh.h"
+#include "fathom/attribution/other_map.h"
+#include "fathom/attribution/renderer_model.h"
+#include "fathom/attribution/world_mesh.h"
 
 namespace fathom::test {
 
@@ -20,12 +20,12 @@ struct Fault {
 /// A rasterizer in binary32 that is what a raster model with a known matrix describes, whole
 /// triangles only: for tests to make faulty. Corners to 2⁻⁸ pixel, window depth from a plane per
 /// triangle, unorm or binary32.
-validation::OtherMap draw_in_binary32(const validation::WorldMesh& mesh, const Camera& camera,
-                                      const validation::RendererModel& model,
-                                      const Fault& fault = {});
+attribution::OtherMap draw_in_binary32(const attribution::WorldMesh& mesh, const Camera& camera,
+                                       const attribution::RendererModel& model,
+                                       const Fault& fault = {});
 
 /// Möller and Trumbore's test in binary32, one ray a pixel, brute force.
-validation::OtherMap trace_in_binary32(const validation::WorldMesh& mesh, const Camera& camera,
-                                       const Fault& fault = {});
+attribution::OtherMap trace_in_binary32(const attribution::WorldMesh& mesh, const Camera& camera,
+                                        const Fault& fault = {});
 
 }  // namespace fathom::test

@@ -1,8 +1,8 @@
-#include "validation/world_mesh.h"
+#include "fathom/attribution/world_mesh.h"
 
 #include <gtest/gtest.h>
 
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 using Point = std::array<double, 3>;
@@ -37,4 +37,4 @@ TEST(WorldMesh, PlacedPointsAreRoundedOnce) {
 }
 
 }  // namespace
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

@@ -18,6 +18,11 @@
 namespace fathom::validation {
 namespace {
 
+using attribution::model_named;
+using attribution::other_map;
+using attribution::RendererModel;
+using attribution::WorldMesh;
+
 /// What a command prints, and its exit status as a shell gives it.
 struct Answer {
   std::string text;

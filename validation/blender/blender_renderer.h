@@ -1,7 +1,7 @@
 #pragma once
 
+#include "fathom/attribution/world_mesh.h"
 #include "validation/drawn_map.h"
-#include "validation/world_mesh.h"
 
 namespace fathom::validation {
 
@@ -9,6 +9,6 @@ namespace fathom::validation {
 /// multilayer EXR. A mesh far from the origin is moved there: Blender holds positions in binary32.
 /// Fails    InputError where there is no Blender, where it fails, or where it cannot express the
 ///          camera.
-DrawnMap draw_blender(const WorldMesh& mesh, const Camera& camera);
+DrawnMap draw_blender(const attribution::WorldMesh& mesh, const Camera& camera);
 
 }  // namespace fathom::validation

@@ -11,11 +11,15 @@
 #include <limits>
 #include <thread>
 
+#include "fathom/attribution/camera_rays.h"
 #include "fathom/numeric/errors.h"
-#include "validation/camera_rays.h"
 
 namespace fathom::validation {
 namespace {
+
+using attribution::camera_rays;
+using attribution::CameraRays;
+using attribution::WorldMesh;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 

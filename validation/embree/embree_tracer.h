@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"
-#include "validation/world_mesh.h"
 
 namespace fathom::validation {
 
@@ -30,7 +30,7 @@ struct EmbreeOptions {
 class EmbreeTracer {
  public:
   /// Copies the mesh; nothing is built yet.
-  EmbreeTracer(const WorldMesh& mesh, const EmbreeOptions& options);
+  EmbreeTracer(const attribution::WorldMesh& mesh, const EmbreeOptions& options);
   ~EmbreeTracer();
   EmbreeTracer(const EmbreeTracer&) = delete;
   EmbreeTracer& operator=(const EmbreeTracer&) = delete;

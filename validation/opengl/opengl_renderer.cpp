@@ -8,14 +8,23 @@
 #include <iterator>
 #include <limits>
 
+#include "fathom/attribution/camera_rays.h"
+#include "fathom/attribution/clip_vertex.h"
 #include "fathom/numeric/errors.h"
-#include "validation/attribution/clip_vertex.h"
-#include "validation/camera_rays.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/read_back.h"
 
 namespace fathom::validation {
 namespace {
+
+using attribution::camera_rays;
+using attribution::clip_from_held;
+using attribution::OtherMap;
+using attribution::RendererModel;
+using attribution::unit_roundoff;
+using attribution::window_depth;
+using attribution::WindowDepth;
+using attribution::WorldMesh;
 
 constexpr const char* vertex_shader = R"(#version 330
 layout(location = 0) in vec3 position;

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "fathom/attribution/world_mesh.h"
 #include "validation/drawn_map.h"
 #include "validation/variants/opengl_variant.h"
-#include "validation/world_mesh.h"
 
 namespace fathom::validation {
 
@@ -13,7 +13,8 @@ namespace fathom::validation {
 /// eye (orthographic: the middle of the mesh), one matrix rounded to binary32, the depth test
 /// GL_LESS (or GL_GREATER). Reads back window depths and the numbers of the triangles. `camera` has
 /// finite near and far. Fails    InputError where there is no OpenGL 4.5, or no such attachment.
-DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlVariant& variant);
+DrawnMap draw_opengl(const attribution::WorldMesh& mesh, const Camera& camera,
+                     const OpenGlVariant& variant);
 
 /// Whether a driver, told by its version, interpolates depth between corners as they were before
 /// they were snapped: Mesa's llvmpipe does. OpenGL leaves it open; of others the wider bound is

@@ -6,6 +6,9 @@
 
 namespace fathom::validation {
 
+using attribution::RendererModel;
+using attribution::world_mesh;
+
 DrawnMap draw_built_in(const VtkVariant& variant, const ValidationScene& scene) {
   return draw_vtk(world_mesh(scene.scene), scene.camera, variant);
 }

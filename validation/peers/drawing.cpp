@@ -10,6 +10,8 @@
 
 namespace fathom::validation {
 
+using attribution::world_mesh;
+
 namespace {
 
 /// None where there is no OpenGL: the variants without samples say so.

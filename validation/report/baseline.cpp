@@ -10,6 +10,10 @@
 namespace fathom::validation {
 namespace {
 
+using attribution::Attribution;
+using attribution::Finding;
+using attribution::PixelClass;
+
 using Json = nlohmann::json;
 
 std::string key_of(const std::string& scene, const std::string& renderer,

@@ -14,6 +14,9 @@
 namespace fathom::validation {
 namespace {
 
+using attribution::PixelClass;
+using attribution::Truth;
+
 using Bytes = std::vector<unsigned char>;
 
 std::string base64(const Bytes& bytes) {

@@ -8,6 +8,12 @@
 namespace fathom::validation {
 namespace {
 
+using attribution::RendererModel;
+using attribution::window_depth;
+using attribution::WindowDepth;
+using attribution::WorldMesh;
+using attribution::written_depth;
+
 VtkOptions options_of(const VtkVariant& variant, const Camera& camera) {
   VtkOptions options{.depth = variant.attachment, .samples = variant.samples};
   const auto write = [&](Mapping mapping) {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "fathom/attribution/opengl_matrices.h"
+#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/written_depth.h"
 #include "fathom/depth_format/depth_format.h"
-#include "validation/attribution/written_depth.h"
-#include "validation/opengl_matrices.h"
-#include "validation/world_mesh.h"
 
 namespace fathom::validation {
 
@@ -22,7 +22,7 @@ struct VtkOptions {
   bool reversed = false;
   /// VTK's fragment shader writes this depth in place of the interpolated one; a reversed one also
   /// is tested so that the greater wins.
-  std::optional<WrittenDepth> written;
+  std::optional<attribution::WrittenDepth> written;
 };
 
 /// What a frame was drawn with, and its depths.
@@ -49,8 +49,8 @@ struct VtkDrawing {
 /// Fails     InputError where there is no OpenGL (see EglContext).
 class VtkRenderer {
  public:
-  VtkRenderer(const WorldMesh& mesh, const Camera& camera, const ClipRange& range,
-              const VtkOptions& options = {});
+  VtkRenderer(const attribution::WorldMesh& mesh, const Camera& camera,
+              const attribution::ClipRange& range, const VtkOptions& options = {});
   ~VtkRenderer();
   VtkRenderer(const VtkRenderer&) = delete;
   VtkRenderer& operator=(const VtkRenderer&) = delete;

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "fathom/attribution/fragment_source.h"
+#include "fathom/attribution/other_map.h"
 #include "fathom/scene/scene.h"
-#include "validation/attribution/fragment_source.h"
-#include "validation/attribution/other_map.h"
 
 /// Every pixel of another renderer's map, attributed to a cause (docs/validation.md).
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// The first that applies.
 enum class PixelClass : std::uint8_t {
@@ -95,4 +95,4 @@ Attribution attribute(const Truth& truth, const OtherMap& other, const RendererM
 /// Steps of the model's storage at a window depth: one code, but not less than binary32 tells.
 double storage_step(const RendererModel& model, double window);
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

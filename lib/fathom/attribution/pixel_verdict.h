@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "validation/attribution/fragment.h"
-#include "validation/world_mesh.h"
+#include "fathom/attribution/fragment.h"
+#include "fathom/attribution/world_mesh.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// Corners by position: corners at the same place have the same number, so that triangles which
 /// share an edge are told whatever indices a file gives them.
@@ -29,4 +29,4 @@ PixelVerdict judge(std::span<const Fragment> fragments, bool watertight,
                    const std::vector<CornerIndices>& triangles,
                    const std::vector<std::uint32_t>& numbers);
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

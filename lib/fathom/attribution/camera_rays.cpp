@@ -1,6 +1,6 @@
-#include "validation/camera_rays.h"
+#include "fathom/attribution/camera_rays.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 using Vector3 = CameraRays::Vector3;
@@ -67,4 +67,4 @@ CameraRays camera_rays(const Camera& camera) {
   return rays;
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

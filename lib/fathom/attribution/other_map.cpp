@@ -1,4 +1,4 @@
-#include "validation/attribution/other_map.h"
+#include "fathom/attribution/other_map.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,7 +6,7 @@
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 const ImageChannel& depth_channel(const DepthMap& map, const std::string& name) {
@@ -59,4 +59,4 @@ DepthMap as_depth_map(const OtherMap& other) {
   return map;
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "validation/attribution/attribution.h"
+#include "fathom/attribution/attribution.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// attribute(), and where pixels stay unexplained or depths are off on the whole, a search for what
 /// would explain them all: each hypothesis is a model or a map with one thing put right, and holds
@@ -11,4 +11,4 @@ namespace fathom::validation {
 Attribution attribute_and_name(const Truth& truth, const OtherMap& other,
                                const RendererModel& model);
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

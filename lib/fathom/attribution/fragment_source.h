@@ -4,12 +4,12 @@
 #include <functional>
 #include <memory>
 
+#include "fathom/attribution/fragment.h"
+#include "fathom/attribution/renderer_model.h"
+#include "fathom/attribution/world_mesh.h"
 #include "fathom/triangle/projected_triangle.h"
-#include "validation/attribution/fragment.h"
-#include "validation/attribution/renderer_model.h"
-#include "validation/world_mesh.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 
 using TakeFragment =
     std::function<void(std::uint32_t column, std::uint32_t row, const Fragment& fragment)>;
@@ -44,4 +44,4 @@ std::unique_ptr<FragmentSource> fragments(const WorldMesh& mesh, const Camera& c
 /// that they bound, errs by less than 2⁻⁴⁶ of the same magnitudes.
 inline constexpr double own_roundings = 1 + 0x1p-20;
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

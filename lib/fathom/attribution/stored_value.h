@@ -1,10 +1,10 @@
 #pragma once
 
-#include "validation/attribution/fragment.h"
-#include "validation/attribution/other_map.h"
-#include "validation/attribution/renderer_model.h"
+#include "fathom/attribution/fragment.h"
+#include "fathom/attribution/other_map.h"
+#include "fathom/attribution/renderer_model.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// What fragments and the other map are compared by: window depths where the other's are known (the
 /// nearer the less), else depths.
@@ -43,4 +43,4 @@ class StoredValues {
   double sign_ = 1;
 };
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

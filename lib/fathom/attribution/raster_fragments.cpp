@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "validation/attribution/depth_plane.h"
-#include "validation/attribution/fragment_source.h"
+#include "fathom/attribution/depth_plane.h"
+#include "fathom/attribution/fragment_source.h"
 
 // docs/validation.md, "A rasterizer", derives what stands here, in the same order.
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 constexpr double u = unit_roundoff;
@@ -303,4 +303,4 @@ std::unique_ptr<FragmentSource> fragments(const WorldMesh& mesh, const Camera& c
                                                    : ray_fragments(mesh, camera, model);
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

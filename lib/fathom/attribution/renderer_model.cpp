@@ -1,4 +1,4 @@
-#include "validation/attribution/renderer_model.h"
+#include "fathom/attribution/renderer_model.h"
 
 #include <cmath>
 #include <limits>
@@ -6,7 +6,7 @@
 
 #include "fathom/numeric/errors.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 RendererModel raster(const std::string& name, Mapping mapping, Storage storage) {
@@ -95,4 +95,4 @@ RendererModel model_named(const std::string& name) {
   throw UsageError("--model: there is no model '" + name + "'; there are " + model_names());
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

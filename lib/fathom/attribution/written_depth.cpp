@@ -1,14 +1,14 @@
-#include "validation/attribution/written_depth.h"
+#include "fathom/attribution/written_depth.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "fathom/attribution/fragment_source.h"
 #include "fathom/numeric/errors.h"
-#include "validation/attribution/fragment_source.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 constexpr double u = unit_roundoff;
@@ -64,4 +64,4 @@ WrittenDepth written_depth(Projection projection, Mapping mapping, double near, 
   return written;
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

@@ -1,12 +1,12 @@
-#include "validation/attribution/depth_plane.h"
+#include "fathom/attribution/depth_plane.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "validation/attribution/fragment_source.h"
+#include "fathom/attribution/fragment_source.h"
 
 // docs/validation.md, "Window depth", derives what stands here.
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 constexpr double u = unit_roundoff;
@@ -118,4 +118,4 @@ DepthPlane depth_plane(const std::vector<WindowVertex>& corners, CornerValue val
   return plane;
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

@@ -2,12 +2,12 @@
 
 #include <array>
 
+#include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"
-#include "validation/world_mesh.h"
 
 /// Our camera in the words of OpenGL: eye space is x right, y up, z backward; clip space is that of
 /// [GL46], section 13.7, −w ≤ z ≤ w.
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// Row by row, for column vectors.
 using Matrix4 = std::array<double, 16>;
@@ -33,4 +33,4 @@ enum class ClipDepth { minus_one_to_one, one_to_zero };
 Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range,
                       ClipDepth depth = ClipDepth::minus_one_to_one);
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

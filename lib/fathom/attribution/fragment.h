@@ -5,7 +5,7 @@
 
 #include "fathom/numeric/interval.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// Whether a renderer of the model covers a sample with a triangle, whatever its roundings are.
 enum class Coverage : std::uint8_t { must_not, may, must };
@@ -29,4 +29,4 @@ struct Fragment {
   double exact = 0;
 };
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

@@ -1,4 +1,4 @@
-#include "validation/attribution/attribution.h"
+#include "fathom/attribution/attribution.h"
 
 #include <tbb/parallel_for.h>
 
@@ -7,13 +7,13 @@
 #include <optional>
 #include <utility>
 
+#include "fathom/attribution/pixel_verdict.h"
+#include "fathom/attribution/stored_value.h"
 #include "fathom/render.h"
-#include "validation/attribution/pixel_verdict.h"
-#include "validation/attribution/stored_value.h"
 
 // How to read this file: attribute() at the end. Bands of rows, each with the fragments of its
 // pixels; judge() says what may be stored, classify() what was.
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -345,4 +345,4 @@ Attribution attribute(const Truth& truth, const OtherMap& other, const RendererM
   return result;
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

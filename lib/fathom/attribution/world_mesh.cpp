@@ -1,11 +1,11 @@
-#include "validation/world_mesh.h"
+#include "fathom/attribution/world_mesh.h"
 
 #include <limits>
 
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 std::array<double, 3> place(const Object& object, const MeshPoint& p) {
@@ -37,4 +37,4 @@ WorldMesh world_mesh(const Scene& scene) {
   return world;
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

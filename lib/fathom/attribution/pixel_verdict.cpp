@@ -1,4 +1,4 @@
-#include "validation/attribution/pixel_verdict.h"
+#include "fathom/attribution/pixel_verdict.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <unordered_map>
 
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 /// An edge that the model leaves open, directed so that its triangle lies on its left.
@@ -135,4 +135,4 @@ PixelVerdict judge(std::span<const Fragment> fragments, bool watertight,
   return verdict;
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

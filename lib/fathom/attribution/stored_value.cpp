@@ -1,12 +1,12 @@
-#include "validation/attribution/stored_value.h"
+#include "fathom/attribution/stored_value.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "validation/attribution/attribution.h"
+#include "fathom/attribution/attribution.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -102,4 +102,4 @@ double StoredValues::bias_steps(std::size_t pixel, const Fragment& f) const {
   return (window_of(pixel) - expected) / storage_step(model_, expected);
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

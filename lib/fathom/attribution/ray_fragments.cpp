@@ -4,11 +4,11 @@
 #include <limits>
 #include <optional>
 
-#include "validation/attribution/fragment_source.h"
-#include "validation/camera_rays.h"
+#include "fathom/attribution/camera_rays.h"
+#include "fathom/attribution/fragment_source.h"
 
 // docs/validation.md, "A ray tracer", derives what stands here, in the same order.
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 constexpr double u = unit_roundoff;
@@ -271,4 +271,4 @@ std::unique_ptr<FragmentSource> ray_fragments(const WorldMesh& mesh, const Camer
   return std::make_unique<RayFragments>(mesh, camera, model);
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

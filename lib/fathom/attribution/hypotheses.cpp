@@ -1,4 +1,4 @@
-#include "validation/attribution/hypotheses.h"
+#include "fathom/attribution/hypotheses.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -343,4 +343,4 @@ Attribution attribute_and_name(const Truth& truth, const OtherMap& other,
   return found;
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

@@ -1,11 +1,11 @@
-#include "validation/attribution/clip_vertex.h"
+#include "fathom/attribution/clip_vertex.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "validation/attribution/fragment_source.h"
+#include "fathom/attribution/fragment_source.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
 
 constexpr double u = unit_roundoff;
@@ -245,4 +245,4 @@ WindowVertex to_window(const ClipVertex& v, const Camera& camera, const Renderer
   return window;
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

@@ -4,7 +4,7 @@
 #include "fathom/depth_format/depth_format.h"
 #include "fathom/numeric/interval.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// 2⁻²⁴, the greatest relative error of an operation in binary32.
 inline constexpr double unit_roundoff = 0x1p-24;
@@ -32,4 +32,4 @@ WrittenDepth written_depth(Projection projection, Mapping mapping, double near, 
 /// ([GLSL46] 4.7.1).
 double log2_error(double log2_x);
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

@@ -3,9 +3,9 @@
 #include <limits>
 #include <vector>
 
-#include "validation/attribution/clip_vertex.h"
+#include "fathom/attribution/clip_vertex.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// A value that is interpolated over a polygon in the image, z = value + g·(s − corner), and what
 /// bounds its errors (docs/validation.md, "Window depth").
@@ -38,4 +38,4 @@ DepthPlane depth_plane(const std::vector<WindowVertex>& corners, CornerValue val
 /// Twice the area of a triangle in the image, signed.
 double area_of(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c);
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

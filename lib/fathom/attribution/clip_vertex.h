@@ -3,10 +3,10 @@
 #include <array>
 #include <vector>
 
-#include "validation/attribution/renderer_model.h"
-#include "validation/world_mesh.h"
+#include "fathom/attribution/renderer_model.h"
+#include "fathom/attribution/world_mesh.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// The matrix from held positions, (position − shift)·scale, to clip coordinates as OpenGL has
 /// them, row by row; made in binary64, each entry rounded to binary32.
@@ -43,4 +43,4 @@ struct WindowVertex {
 
 WindowVertex to_window(const ClipVertex& vertex, const Camera& camera, const RendererModel& model);
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

@@ -4,13 +4,13 @@
 #include <optional>
 #include <string>
 
+#include "fathom/attribution/written_depth.h"
 #include "fathom/camera/camera.h"
 #include "fathom/depth_format/depth_format.h"
-#include "validation/attribution/written_depth.h"
 
 /// What is assumed of a renderer that is held against the truth. docs/validation.md derives the
 /// bounds that follow from it.
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// How a depth D becomes a window depth z: perspective z = a + b/D, orthographic z = a·D + b,
 /// logarithmic z = ln(D/near)/ln(far/near).
@@ -92,4 +92,4 @@ std::string model_names();
 /// Fails    UsageError where there is no such model.
 RendererModel model_named(const std::string& name);
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

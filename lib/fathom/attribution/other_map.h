@@ -5,7 +5,7 @@
 
 #include "fathom/image/depth_map.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// What another renderer drew: rows from the top.
 struct OtherMap {
@@ -25,4 +25,4 @@ OtherMap other_map(const DepthMap& map, const std::string& channel = "");
 /// As a map of ours: Z and, where known, id.
 DepthMap as_depth_map(const OtherMap& other);
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

@@ -1,10 +1,10 @@
-#include "validation/opengl_matrices.h"
+#include "fathom/attribution/opengl_matrices.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace fathom::validation {
+namespace fathom::attribution {
 
 ClipRange clip_range(const WorldMesh& mesh, const Camera& camera) {
   const bool perspective = camera.projection == Projection::perspective;
@@ -57,4 +57,4 @@ Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range, ClipDepth de
   // clang-format on
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

@@ -4,7 +4,7 @@
 
 #include "fathom/camera/camera.h"
 
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// The viewing rays of a camera, as affine functions of the image position: the point at depth D of
 /// what (u, v) shows is origin + D·direction, so that the parameter along the ray is the depth.
@@ -22,4 +22,4 @@ struct CameraRays {
 
 CameraRays camera_rays(const Camera& camera);
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

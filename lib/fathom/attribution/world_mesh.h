@@ -7,7 +7,7 @@
 #include "fathom/scene/scene.h"
 
 /// What renderers that are not ours are given.
-namespace fathom::validation {
+namespace fathom::attribution {
 
 /// All triangles of a scene as one mesh in the world, numbered as in the scene.
 struct WorldMesh {
@@ -19,4 +19,4 @@ struct WorldMesh {
 /// Fails    InputError where the scene has more than 2³² − 1 corners in all.
 WorldMesh world_mesh(const Scene& scene);
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution
