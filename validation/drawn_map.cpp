@@ -9,6 +9,8 @@
 namespace fathom::validation {
 namespace {
 
+using attribution::RayModel;
+
 class Writer {
  public:
   std::string bytes;
@@ -78,32 +80,17 @@ void each_part(Pass& pass, Drawn& drawn) {
   pass(map.depths);
   pass(map.windows);
   pass(map.triangles);
-  auto& [name, kind, shift, scale, sample, sample_error, subpixel_bits, mapping, storage, written,
-         premultiplied, matrix, depth_before_snap, border, decoded, bias, bias_error, roundings,
-         tilt, from_point, watertight, first, affine] = model;
+  auto& [name, sample, watertight, first, kind] = model;
   pass(name);
-  pass(kind);
-  pass(shift);
-  pass(scale);
   pass(sample);
-  pass(sample_error);
-  pass(subpixel_bits);
-  pass(mapping);
-  pass(storage);
-  pass(written);
-  pass(premultiplied);
-  pass(matrix);
-  pass(depth_before_snap);
-  pass(border);
-  pass(decoded);
-  pass(bias);
-  pass(bias_error);
-  pass(roundings);
-  pass(tilt);
-  pass(from_point);
   pass(watertight);
   pass(first);
-  pass(affine);
+  bool is_ray = std::holds_alternative<RayModel>(kind);
+  pass(is_ray);
+  if constexpr (!std::is_const_v<Drawn>) {
+    if (is_ray) kind = RayModel{};
+  }
+  std::visit([&](auto& of_kind) { pass(of_kind); }, kind);
 }
 
 }  // namespace

@@ -9,9 +9,11 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "fathom/attribution/hypotheses.h"
+#include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/named_models.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/image/map_files.h"
@@ -71,7 +73,7 @@ Scene read_files(const std::vector<std::string>& files, const Console& console) 
 }
 
 void require_clip_planes(const RendererModel& model, const Camera& camera) {
-  if (model.kind == RendererModel::Kind::ray) return;
+  if (std::holds_alternative<attribution::RayModel>(model.kind)) return;
   const bool perspective = camera.projection == Projection::perspective;
   if (camera.far < std::numeric_limits<double>::infinity() && (camera.near > 0 || !perspective))
     return;
@@ -81,7 +83,7 @@ void require_clip_planes(const RendererModel& model, const Camera& camera) {
 
 ValidationCase validate_map(const ValidateArguments& arguments, const Console& console) {
   ValidationCase made{.renderer = "map", .variant = arguments.model, .version = arguments.map};
-  made.model = attribution::model_named(arguments.model);
+  made.model = blaming("--model", [&] { return attribution::model_named(arguments.model); });
   const Camera camera = read_camera(arguments.camera);
   require_clip_planes(made.model, camera);
   note_input(arguments.map);

@@ -3,8 +3,10 @@
 
 #include <cmath>
 
-#include "fathom/attribution/clip_vertex.h"
-#include "fathom/attribution/hypotheses.h"
+#include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/clip_from_held.h"
+#include "fathom/attribution/named_models.h"
+#include "fathom/attribution/roundings.h"
 #include "fathom/camera/camera_making.h"
 #include "tests/validation/float_rasterizer.h"
 #include "validation/bench/shapes.h"
@@ -36,12 +38,10 @@ Scene sphere_and_sheets() {
 
 RendererModel model_of(Storage storage, Mapping mapping = Mapping::opengl,
                        std::optional<Mapping> written = {}) {
-  RendererModel model{.name = "test", .mapping = mapping, .storage = storage};
+  RasterModel model{.mapping = mapping, .storage = storage, .depth_before_snap = true};
   if (written) model.written = written_depth(Projection::perspective, *written, 0.5, 20);
-  model.depth_before_snap = true;
-  model.first_of_equals = true;
   model.matrix = clip_from_held(sphere_camera(), model);
-  return model;
+  return {.name = "test", .first_of_equals = true, .kind = model};
 }
 
 struct Case {
@@ -180,7 +180,7 @@ TEST_P(WrongFormula, IsNamed) {
   OtherMap map = draw_in_binary32(truth.mesh, truth.camera, model);
   map.windows.clear();
   map.triangles.clear();
-  model.decoded_in_binary32 = true;
+  std::get<RasterModel>(model.kind).decoded_in_binary32 = true;
   const Camera& camera = truth.camera;
   for (std::size_t i = 0; i < map.depths.size(); ++i) {
     if (std::isinf(map.depths[i])) continue;
@@ -258,8 +258,7 @@ TEST(RayModel, ExplainsMoellerTrumboreAndCatchesFaults) {
   camera.cx = 40;
   camera.cy = 30;
   const Truth truth = make_truth(sphere_and_sheets(), camera);
-  RendererModel model{.name = "rays", .kind = RendererModel::Kind::ray};
-  model.watertight = false;
+  const RendererModel model{.name = "rays", .watertight = false, .kind = RayModel{}};
   const auto judged = [&](const Fault& fault) {
     return attribute_and_name(truth, trace_in_binary32(truth.mesh, camera, fault), model);
   };
@@ -288,9 +287,9 @@ TEST(RayModel, TheRotationOfBlendersCameraIsKnownUpToItsRoundings) {
   turned.world_to_camera[0][2] = -1e-6;
   const OtherMap map = trace_in_binary32(truth.mesh, turned);
   RendererModel model = model_named("cycles");
-  model.sample_error = 1e-5;
+  model.sample.error = 1e-5;
   EXPECT_EQ(attribute(truth, map, model).count(PixelClass::unexplained), 0U);
-  model.rotation_error = 0;
+  std::get<RayModel>(model.kind).rotation_error = 0;
   EXPECT_GT(attribute(truth, map, model).count(PixelClass::unexplained), 900U);
 }
 

@@ -5,11 +5,13 @@
 #include <limits>
 
 #include "fathom/attribution/camera_rays.h"
+#include "fathom/attribution/window_depth.h"
 
 namespace fathom::test {
 namespace {
 
 using attribution::OtherMap;
+using attribution::RasterModel;
 using attribution::RendererModel;
 using attribution::WindowDepth;
 using attribution::WorldMesh;
@@ -19,7 +21,7 @@ struct Corner {
   std::int64_t snapped_x, snapped_y;  // in 2⁻⁸ pixel
 };
 
-Corner corner_of(const std::array<double, 3>& p, const Camera& camera, const RendererModel& model) {
+Corner corner_of(const std::array<double, 3>& p, const Camera& camera, const RasterModel& model) {
   std::array<float, 4> clip{};
   for (std::size_t r = 0; r < 4; ++r) {
     const float* row = model.matrix->data() + 4 * r;
@@ -42,7 +44,7 @@ float written(float q, const attribution::WrittenDepth& shader) {
   return shader.mapping == Mapping::log_ulrich ? shader.scale * std::log2(t) : t;
 }
 
-double in_storage(float z, const RendererModel& model, int bias_codes) {
+double in_storage(float z, const RasterModel& model, int bias_codes) {
   if (!is_unorm(model.storage)) return std::ldexp(double{z}, 0);
   const double codes = std::ldexp(1.0, bits_of(model.storage)) - 1;
   return std::clamp(std::nearbyint(double{z} * codes) + bias_codes, 0.0, codes) / codes;
@@ -71,8 +73,9 @@ bool covers(const std::array<Corner, 3>& t, std::int64_t x, std::int64_t y) {
 
 }  // namespace
 
-OtherMap draw_in_binary32(const WorldMesh& mesh, const Camera& camera, const RendererModel& model,
-                          const Fault& fault) {
+OtherMap draw_in_binary32(const WorldMesh& mesh, const Camera& camera,
+                          const RendererModel& renderer, const Fault& fault) {
+  const auto& model = std::get<RasterModel>(renderer.kind);
   const WindowDepth window =
       attribution::window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far);
   const WindowDepth cut =

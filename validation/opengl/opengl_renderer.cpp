@@ -9,7 +9,9 @@
 #include <limits>
 
 #include "fathom/attribution/camera_rays.h"
-#include "fathom/attribution/clip_vertex.h"
+#include "fathom/attribution/clip_from_held.h"
+#include "fathom/attribution/roundings.h"
+#include "fathom/attribution/window_depth.h"
 #include "fathom/numeric/errors.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/read_back.h"
@@ -20,7 +22,8 @@ namespace {
 using attribution::camera_rays;
 using attribution::clip_from_held;
 using attribution::OtherMap;
-using attribution::RendererModel;
+using attribution::RasterModel;
+using attribution::SamplePosition;
 using attribution::unit_roundoff;
 using attribution::window_depth;
 using attribution::WindowDepth;
@@ -105,7 +108,7 @@ void use_program(const GlFunctions& gl, const std::array<float, 16>& clip_from_h
                       clip_from_held.data());
 }
 
-void hand_over(const GlFunctions& gl, const WorldMesh& mesh, const RendererModel& model) {
+void hand_over(const GlFunctions& gl, const WorldMesh& mesh, const RasterModel& model) {
   std::vector<float> held;
   held.reserve(3 * mesh.points.size());
   for (const auto& p : mesh.points) {
@@ -149,7 +152,7 @@ void draw(const GlFunctions& gl, const WorldMesh& mesh, const Camera& camera,
                   nullptr);
 }
 
-OtherMap read_back(const GlFunctions& gl, const Camera& camera, const RendererModel& model) {
+OtherMap read_back(const GlFunctions& gl, const Camera& camera, const RasterModel& model) {
   OtherMap map{.width = camera.width, .height = camera.height};
   map.windows = read_window_depths(gl, camera.width, camera.height, model.storage);
   map.triangles = read_numbers(gl, camera.width, camera.height);
@@ -167,7 +170,7 @@ OtherMap read_back(const GlFunctions& gl, const Camera& camera, const RendererMo
 /// ([GL46] 14.6.5). The mesh is drawn without and with it; where most pixels agree on the
 /// difference, that is it.
 void measure_offset(const GlFunctions& gl, const WorldMesh& mesh, const Camera& camera,
-                    const OpenGlVariant& variant, RendererModel& model) {
+                    const OpenGlVariant& variant, RasterModel& model) {
   const auto windows = [&](int units) {
     OpenGlVariant with = variant;
     with.offset_units = units;
@@ -203,10 +206,10 @@ std::array<double, 3> held_from(const WorldMesh& mesh, const Camera& camera) {
 }
 
 /// Where in the pixel the sample lies that is read back; OpenGL's rows run from the bottom.
-void set_sample(const GlFunctions& gl, RendererModel& model) {
+SamplePosition sample_position(const GlFunctions& gl) {
   std::array<GLfloat, 2> position{};
   gl.GetMultisamplefv(GL_SAMPLE_POSITION, 0, position.data());
-  model.sample = {position[0], 1.0 - position[1]};
+  return {position[0], 1.0 - position[1]};
 }
 
 std::string version_of(const GlFunctions& gl) {
@@ -228,12 +231,10 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlVa
   const GlFunctions gl;
   DrawnMap drawn;
   drawn.version = version_of(gl) + context.way();
-  RendererModel& model = drawn.model;
-  model.name = "OpenGL";
+  RasterModel model;
   model.mapping = variant.reversed ? Mapping::reversed : Mapping::opengl;
   model.shift = held_from(mesh, camera);
   model.matrix = clip_from_held(camera, model);
-  model.first_of_equals = true;
 
   const Framebuffer framebuffer(gl, camera, variant.storage, variant.samples);
   model.storage = depth_attachment_storage(gl, GL_FRAMEBUFFER);
@@ -251,7 +252,7 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlVa
   draw(gl, mesh, camera, variant);
   if (variant.samples > 1) {
     drawn.version += ", " + std::to_string(framebuffer.granted_samples()) + " samples granted";
-    set_sample(gl, model);
+    drawn.model.sample = sample_position(gl);
     const Framebuffer resolved(gl, camera, variant.storage, 1);
     framebuffer.bind(GL_READ_FRAMEBUFFER);
     resolved.bind(GL_DRAW_FRAMEBUFFER);
@@ -261,6 +262,9 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlVa
     resolved.bind(GL_READ_FRAMEBUFFER);
   }
   drawn.map = read_back(gl, camera, model);
+  drawn.model.name = "OpenGL";
+  drawn.model.first_of_equals = true;
+  drawn.model.kind = model;
   if (gl.GetError() != GL_NO_ERROR) throw InputError("OpenGL: the driver reports an error");
   return drawn;
 }

@@ -6,7 +6,7 @@
 
 namespace fathom::validation {
 
-using attribution::RendererModel;
+using attribution::RayModel;
 using attribution::world_mesh;
 
 DrawnMap draw_built_in(const VtkVariant& variant, const ValidationScene& scene) {
@@ -26,9 +26,7 @@ DrawnMap draw_built_in(const EmbreeVariant& variant, const ValidationScene& scen
   drawn.map.width = scene.camera.width;
   drawn.map.height = scene.camera.height;
   drawn.map.depths.assign(depths.begin(), depths.end());
-  drawn.model.name = "ray in binary32";
-  drawn.model.kind = RendererModel::Kind::ray;
-  drawn.model.watertight = false;
+  drawn.model = {.name = "ray in binary32", .watertight = false, .kind = RayModel{}};
   return drawn;
 }
 

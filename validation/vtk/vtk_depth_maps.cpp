@@ -2,13 +2,14 @@
 
 #include <limits>
 
+#include "fathom/attribution/window_depth.h"
 #include "validation/opengl/opengl_renderer.h"
 #include "validation/vtk/vtk_renderer.h"
 
 namespace fathom::validation {
 namespace {
 
-using attribution::RendererModel;
+using attribution::RasterModel;
 using attribution::window_depth;
 using attribution::WindowDepth;
 using attribution::WorldMesh;
@@ -44,8 +45,8 @@ DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const VtkVariant&
   const VtkDrawing drawing = renderer.drawing();
 
   DrawnMap drawn{.version = renderer.description()};
-  RendererModel& model = drawn.model;
-  model.name = "VTK";
+  drawn.model.name = "VTK";
+  RasterModel model;
   model.mapping = options.reversed ? Mapping::reversed : Mapping::opengl;
   model.written = options.written;
   model.storage = drawing.storage;
@@ -56,8 +57,9 @@ DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const VtkVariant&
   model.depth_before_snap = interpolates_before_snapping(drawn.version);
   if (options.samples > 0) {
     drawn.version += ", " + std::to_string(drawing.samples) + " samples granted";
-    model.sample = drawing.sample;
+    drawn.model.sample = {drawing.sample[0], drawing.sample[1]};
   }
+  drawn.model.kind = model;
   drawn.map = {.width = camera.width, .height = camera.height, .windows = drawing.windows};
   const WindowDepth window =
       window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/attribution/fragment_source.h"
+#include "fathom/attribution/roundings.h"
 
 // docs/validation.md, "Window depth", derives what stands here.
 namespace fathom::attribution {

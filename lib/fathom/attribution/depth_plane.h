@@ -3,12 +3,14 @@
 #include <limits>
 #include <vector>
 
-#include "fathom/attribution/clip_vertex.h"
+#include "fathom/attribution/window_vertex.h"
 
 namespace fathom::attribution {
 
 /// A value that is interpolated over a polygon in the image, z = value + g·(s − corner), and what
 /// bounds its errors (docs/validation.md, "Window depth").
+///
+/// Frame    window, pixels from the top left corner; gradients g per pixel.
 struct DepthPlane {
   double x = 0, y = 0, value = 0;  ///< at a corner
   double g_x = 0, g_y = 0;

@@ -7,10 +7,12 @@
 #include "fathom/attribution/fragment.h"
 #include "fathom/attribution/renderer_model.h"
 #include "fathom/attribution/world_mesh.h"
+#include "fathom/camera/camera.h"
 #include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::attribution {
 
+/// Column and row of a pixel, from the top left, and a fragment there.
 using TakeFragment =
     std::function<void(std::uint32_t column, std::uint32_t row, const Fragment& fragment)>;
 
@@ -30,18 +32,14 @@ class FragmentSource {
                     const TakeFragment& take) const = 0;
 };
 
-/// `camera` has finite near and far where the model is a raster model with such a mapping; mesh and
-/// camera outlive the source.
-std::unique_ptr<FragmentSource> raster_fragments(const WorldMesh& mesh, const Camera& camera,
-                                                 const RendererModel& model);
-std::unique_ptr<FragmentSource> ray_fragments(const WorldMesh& mesh, const Camera& camera,
-                                              const RendererModel& model);
+/// `camera` has finite near and far where a raster model has such a mapping; the mesh outlives the
+/// source.
 std::unique_ptr<FragmentSource> fragments(const WorldMesh& mesh, const Camera& camera,
                                           const RendererModel& model);
-
-/// The factor by which bounds are enlarged for the binary64 roundings of their own evaluation: each
-/// bound is a sum of at least 2⁻²⁴ times magnitudes whose evaluation here, and that of the values
-/// that they bound, errs by less than 2⁻⁴⁶ of the same magnitudes.
-inline constexpr double own_roundings = 1 + 0x1p-20;
+std::unique_ptr<FragmentSource> raster_fragments(const WorldMesh& mesh, const Camera& camera,
+                                                 const SamplePosition& sample,
+                                                 const RasterModel& model);
+std::unique_ptr<FragmentSource> ray_fragments(const WorldMesh& mesh, const Camera& camera,
+                                              const SamplePosition& sample, const RayModel& model);
 
 }  // namespace fathom::attribution

@@ -88,34 +88,11 @@ double joint_cap(std::span<const Fragment> fragments, std::vector<OpenEdge> edge
   return cap;
 }
 
-struct PositionHash {
-  std::size_t operator()(const std::array<double, 3>& p) const {
-    std::size_t hash = 0;
-    for (const double x : p) {
-      std::uint64_t bits = 0;
-      const double value = x == 0 ? 0 : x;  // −0 is 0
-      std::memcpy(&bits, &value, sizeof bits);
-      hash = (hash ^ bits) * 0x9E3779B97F4A7C15U;
-      hash ^= hash >> 29;
-    }
-    return hash;
-  }
-};
-
 }  // namespace
 
-std::vector<std::uint32_t> corner_numbers(const WorldMesh& mesh) {
-  std::unordered_map<std::array<double, 3>, std::uint32_t, PositionHash> first;
-  std::vector<std::uint32_t> numbers(mesh.points.size());
-  for (std::uint32_t i = 0; i < numbers.size(); ++i) {
-    numbers[i] = first.emplace(mesh.points[i], i).first->second;
-  }
-  return numbers;
-}
-
-PixelVerdict judge(std::span<const Fragment> fragments, bool watertight,
-                   const std::vector<CornerIndices>& triangles,
-                   const std::vector<std::uint32_t>& numbers) {
+PixelVerdict verdict_of(std::span<const Fragment> fragments, bool watertight,
+                        const std::vector<CornerIndices>& triangles,
+                        const std::vector<std::uint32_t>& numbers) {
   PixelVerdict verdict;
   bool some_may = false;
   for (const Fragment& f : fragments) {

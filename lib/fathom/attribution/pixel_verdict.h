@@ -5,13 +5,9 @@
 #include <vector>
 
 #include "fathom/attribution/fragment.h"
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/mesh/mesh.h"
 
 namespace fathom::attribution {
-
-/// Corners by position: corners at the same place have the same number, so that triangles which
-/// share an edge are told whatever indices a file gives them.
-std::vector<std::uint32_t> corner_numbers(const WorldMesh& mesh);
 
 /// What a renderer may store at a sample that meets these fragments.
 struct PixelVerdict {
@@ -25,8 +21,8 @@ struct PixelVerdict {
 
 /// `triangles` and `numbers` of the mesh. Where a renderer is watertight, fragments that share all
 /// edges which the model leaves open count as one that is certain (docs/validation.md, "Together").
-PixelVerdict judge(std::span<const Fragment> fragments, bool watertight,
-                   const std::vector<CornerIndices>& triangles,
-                   const std::vector<std::uint32_t>& numbers);
+PixelVerdict verdict_of(std::span<const Fragment> fragments, bool watertight,
+                        const std::vector<CornerIndices>& triangles,
+                        const std::vector<std::uint32_t>& numbers);
 
 }  // namespace fathom::attribution

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/attribution/fragment_source.h"
+#include "fathom/attribution/roundings.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::attribution {

@@ -6,9 +6,6 @@
 
 namespace fathom::attribution {
 
-/// 2⁻²⁴, the greatest relative error of an operation in binary32.
-inline constexpr double unit_roundoff = 0x1p-24;
-
 /// A window depth z that a fragment shader computes in binary32 from q, which is 1/w as it is
 /// interpolated (perspective), or the interpolated window depth (orthographic):
 ///   t = term + factor·q;  reversed: z = t;  log_ulrich: z = scale·log2(t).
