@@ -15,8 +15,4 @@ struct DrawnMap {
   std::string version;
 };
 
-/// As bytes and back, for the way from one process to another.
-std::string to_bytes(const DrawnMap& drawn);
-DrawnMap drawn_from_bytes(const std::string& bytes);
-
 }  // namespace fathom::validation

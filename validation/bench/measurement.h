@@ -54,8 +54,4 @@ Frames time_frames(
     int repeat, const std::function<void()>& draw, const std::function<void()>& clear = [] {},
     std::chrono::milliseconds warm_up = std::chrono::milliseconds(300));
 
-/// Writes measurements as text and reads them back, for the way from one process to another.
-std::string to_text(const std::vector<Measurement>& measurements);
-std::vector<Measurement> measurements_from_text(const std::string& text);
-
 }  // namespace fathom::bench

@@ -17,10 +17,17 @@ namespace fathom::bench {
 ///   embree, embree-robust  making rays, tracing them, storing depths; the hierarchy was built
 ///                          before. With the first comes embree-build, the building
 ///
-/// Does     make the scene, then keep to the processors of the plan. In a process of its own
-///          (run_in_child), for its peak of memory and its threads to be its own.
+/// Does     make the scene, then keep to the processors of the plan.
 /// Fails    InputError as make_scene, or where a renderer does not start.
 std::vector<Measurement> measure(const std::string& renderer, const Plan& plan);
+
+/// measure() in a process of its own, for its peak of memory and its threads to be its own.
+/// Needs    a process that has started no threads.
+std::vector<Measurement> measure_in_child(const std::string& renderer, const Plan& plan);
+
+/// The triangles of a plan's scene, which is made in a process of its own.
+/// Needs    a process that has started no threads. Fails as make_scene.
+std::uint64_t count_triangles_in_child(const Plan& plan);
 
 /// Whether VTK and Embree are built in.
 bool peers_are_built();

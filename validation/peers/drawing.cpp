@@ -1,12 +1,12 @@
 #include "validation/peers/drawing.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "fathom/numeric/errors.h"
-#include "validation/bench/in_child.h"
 #include "validation/blender/blender_renderer.h"
+#include "validation/child/in_child.h"
 #include "validation/peers/built_in_peers.h"
+#include "validation/peers/drawing_fields.h"
 
 namespace fathom::validation {
 
@@ -16,20 +16,11 @@ namespace {
 
 /// None where there is no OpenGL: the variants without samples say so.
 std::vector<int> offered_samples(int seconds) {
-  std::vector<int> counts;
   try {
-    std::istringstream answer(bench::run_in_child(
-        [] {
-          std::string text;
-          for (const int count : built_in_samples()) text += std::to_string(count) + " ";
-          return text;
-        },
-        seconds, "opengl"));
-    for (int count = 0; answer >> count;) counts.push_back(count);
+    return in_child(built_in_samples, {.name = "opengl", .seconds = seconds});
   } catch (const InputError&) {
-    counts.clear();
+    return {};
   }
-  return counts;
 }
 
 std::vector<Peer> vtk_peers(int seconds) {
@@ -95,20 +86,17 @@ DrawnMap draw(const Peer& peer, const ValidationScene& scene) {
 
 Drawing draw_in_child(const Peer& peer, const std::function<ValidationScene()>& make, int seconds) {
   // What the scene is to blame for is told apart from what the renderer is.
+  const auto drawing = [&]() -> Drawing {
+    const ValidationScene scene = make();
+    try {
+      return {draw(peer, scene), ""};
+    } catch (const InputError& error) {
+      return {std::nullopt, error.what()};
+    }
+  };
   try {
-    const std::string bytes = bench::run_in_child(
-        [&] {
-          const ValidationScene scene = make();
-          try {
-            return "d" + to_bytes(draw(peer, scene));
-          } catch (const InputError& error) {
-            return "f" + std::string(error.what());
-          }
-        },
-        seconds, name_of(renderer_of(peer)));
-    if (bytes.front() == 'f') return {std::nullopt, bytes.substr(1)};
-    return {drawn_from_bytes(bytes.substr(1)), {}};
-  } catch (const bench::ChildFailure& failure) {
+    return in_child(drawing, {.name = name_of(renderer_of(peer)), .seconds = seconds});
+  } catch (const ChildFailure& failure) {
     return {std::nullopt, failure.what()};
   }
 }

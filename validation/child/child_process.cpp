@@ -1,4 +1,4 @@
-#include "validation/bench/in_child.h"
+#include "validation/child/child_process.h"
 
 #include <poll.h>
 #include <sys/prctl.h>
@@ -11,19 +11,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <exception>
-#include <new>
 #include <optional>
+#include <utility>
 
-#include "fathom/numeric/errors.h"
-
-namespace fathom::bench {
+namespace fathom::validation {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// What stands before the text that comes back: how the work ended.
-enum class Ending : char { done = 'd', usage = 'u', input = 'i' };
 
 void write_all(int file, const std::string& text) {
   for (std::size_t done = 0; done < text.size();) {
@@ -52,22 +46,6 @@ std::optional<std::string> read_all(int file, std::optional<Clock::time_point> d
   }
 }
 
-std::string labelled(Ending ending, const std::string& text) {
-  return static_cast<char>(ending) + text;
-}
-
-std::string outcome(const std::function<std::string()>& work) {
-  try {
-    return labelled(Ending::done, work());
-  } catch (const UsageError& error) {
-    return labelled(Ending::usage, error.what());
-  } catch (const std::bad_alloc&) {
-    return labelled(Ending::input, "out of memory");
-  } catch (const std::exception& error) {
-    return labelled(Ending::input, error.what());
-  }
-}
-
 /// An interrupted program takes its child with it.
 void end_with(pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -78,45 +56,54 @@ void end_with(pid_t parent) {
   throw ChildFailure(name + ": " + what);
 }
 
+/// The child's side: it never returns.
+[[noreturn]] void work_and_exit(const std::function<std::string()>& work, int pipe, pid_t parent,
+                                bool has_group) {
+  end_with(parent);
+  if (has_group) ::setpgid(0, 0);  // so that what it starts is ended with it
+  write_all(pipe, work());
+  ::_exit(0);  // what the work leaves behind goes with the process
+}
+
+/// Its status once it has ended.
+int status_of(pid_t child) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
 }  // namespace
 
-std::string run_in_child(const std::function<std::string()>& work, int seconds,
-                         const std::string& name) {
+std::string bytes_from_child(const std::function<std::string()>& work,
+                             const ChildOptions& options) {
+  const std::string& name = options.name;
   std::array<int, 2> ends{};
   if (::pipe(ends.data()) != 0) fail(name, std::strerror(errno));
   const pid_t parent = ::getpid(), child = ::fork();
   if (child < 0) fail(name, std::strerror(errno));
   if (child == 0) {
-    end_with(parent);
-    if (seconds > 0) ::setpgid(0, 0);  // so that what it starts is ended with it
     ::close(ends[0]);
-    write_all(ends[1], outcome(work));
-    ::_exit(0);  // what the work leaves behind goes with the process
+    work_and_exit(work, ends[1], parent, options.seconds > 0);
   }
 
   ::close(ends[1]);
   std::optional<Clock::time_point> deadline;
-  if (seconds > 0) deadline = Clock::now() + std::chrono::seconds(seconds);
-  std::optional<std::string> text = read_all(ends[0], deadline);
+  if (options.seconds > 0) deadline = Clock::now() + std::chrono::seconds(options.seconds);
+  std::optional<std::string> bytes = read_all(ends[0], deadline);
   ::close(ends[0]);
-  if (!text) {
+  if (!bytes) {
     ::kill(-child, SIGKILL);
     ::kill(child, SIGKILL);
   }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (!text) fail(name, "did not end within " + std::to_string(seconds) + " seconds");
+  const int status = status_of(child);
+  if (!bytes) fail(name, "did not end within " + std::to_string(options.seconds) + " seconds");
   if (WIFSIGNALED(status)) {
     fail(name, "ended by signal " + std::to_string(WTERMSIG(status)) + " (" +
                    ::strsignal(WTERMSIG(status)) + ")");
   }
-  if (text->empty()) fail(name, "ended without an answer");
-  const auto ending = static_cast<Ending>(text->front());
-  text->erase(0, 1);
-  if (ending == Ending::usage) throw UsageError(*text);
-  if (ending == Ending::input) throw InputError(*text);
-  return std::move(*text);
+  if (bytes->empty()) fail(name, "ended without an answer");
+  return std::move(*bytes);
 }
 
-}  // namespace fathom::bench
+}  // namespace fathom::validation
