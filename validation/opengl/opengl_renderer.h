@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "fathom/attribution/world_mesh.h"
 #include "validation/drawn_map.h"
@@ -20,10 +19,5 @@ DrawnMap draw_opengl(const attribution::WorldMesh& mesh, const Camera& camera,
 /// they were snapped: Mesa's llvmpipe does. OpenGL leaves it open; of others the wider bound is
 /// assumed.
 bool interpolates_before_snapping(const std::string& version);
-
-/// The numbers of samples a pixel, more than one, that the driver offers for 24 bits of depth and
-/// numbers of triangles beside them, in increasing order.
-/// Fails    InputError where there is no OpenGL 4.5.
-std::vector<int> offered_samples();
 
 }  // namespace fathom::validation

@@ -1,6 +1,7 @@
 #include "validation/peers/built_in_peers.h"
 
 #include "validation/embree/embree_tracer.h"
+#include "validation/opengl/offered_samples.h"
 #include "validation/opengl/opengl_renderer.h"
 #include "validation/vtk/vtk_depth_maps.h"
 
