@@ -20,7 +20,7 @@ const ImageChannel& depth_channel(const DepthMap& map, const std::string& name) 
     if (is_number && kind_of(channel) == ChannelKind::depth) return channel;
   }
   if (map.channels.size() == 1) return map.channels.front();
-  throw InputError("the map has no channel of depths: expected Z, or --channel NAME");
+  throw InputError("the map has no channel of depths: expected Z, or the name of its channel");
 }
 
 }  // namespace
