@@ -11,6 +11,8 @@
 #include "fathom/scene/read_scene.h"
 
 namespace fathom {
+using namespace area;
+
 namespace {
 
 using Matrix4 = std::array<double, 16>;

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-namespace fathom {
+namespace fathom::area {
 namespace {
 
 class DividedPolygons {
@@ -49,4 +49,4 @@ void for_each_simple_part(ImageCell& cell, std::vector<ConvexPolygon> polygons, 
   divide(std::move(all), [&](const DividedPolygons& part) { visit(part.polygons()); });
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

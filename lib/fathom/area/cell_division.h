@@ -14,7 +14,7 @@
 /// pixel would take forever. Areas of the parts add up, depths of the nearest are compared.
 /// Source   John E. Warnock, A hidden surface algorithm for computer generated halftone pictures,
 ///          University of Utah, 1969.
-namespace fathom {
+namespace fathom::area {
 
 struct DivisionLimits {
   /// So few pieces are not divided.
@@ -54,4 +54,4 @@ inline std::optional<ConvexPolygon> in_half(const ConvexPolygon& polygon,
 void for_each_simple_part(ImageCell& cell, std::vector<ConvexPolygon> polygons, TierCounts& counts,
                           const std::function<void(std::span<const ConvexPolygon>)>& visit);
 
-}  // namespace fathom
+}  // namespace fathom::area

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-namespace fathom {
+namespace fathom::area {
 namespace {
 
 /// A part of the line of an edge, between two crossings.
@@ -147,7 +147,7 @@ Boundary boundary_of_difference(const ConvexPolygon& subject,
 // Green's theorem: the area is ½·Σ p × q over the segments from p to q. On the line
 // e: e_u·u + e_v·v + e_w = 0, q = p + (τ(to) − τ(from))·(e_v, −e_u), so that
 // p × q = (τ(to) − τ(from))·e_w, with the τ of compare_crossings().
-Ratio area(const Boundary& boundary) {
+Ratio exact_area(const Boundary& boundary) {
   std::vector<Ratio> terms;
   for (const BoundarySegment& s : boundary) {
     const Dyadic& e_w = s.line->exact()[2];
@@ -160,18 +160,19 @@ Ratio area(const Boundary& boundary) {
   return sum(std::move(terms));
 }
 
-Bounded approximate_area(const Boundary& boundary) {
+Certified<double> approximate_area(const Boundary& boundary) {
   if (boundary.empty()) return {};
-  Bounded twice;
+  Certified<double> twice{0, 0};
   for (const BoundarySegment& s : boundary) {
     if (s.line->exact()[2].is_zero()) continue;
-    Bounded term = approximate_determinant(*s.line, *s.from, *s.to) /
-                   (approximate_turn(*s.line, *s.from) * approximate_turn(*s.line, *s.to)) *
-                   approximate_coefficient(*s.line, 2);
+    Certified<double> term =
+        approximate_determinant(*s.line, *s.from, *s.to) /
+        (approximate_turn(*s.line, *s.from) * approximate_turn(*s.line, *s.to)) *
+        approximate_coefficient(*s.line, 2);
     if (s.reversed) term.value = -term.value;
     twice = twice + term;
   }
-  return twice * Bounded{0.5, 0};
+  return twice * Certified<double>{0.5, 0};
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

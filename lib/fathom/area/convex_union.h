@@ -13,7 +13,7 @@
 /// are compared by one determinant of three lines; nothing is constructed, so that numbers do not
 /// grow. Edges that lie in one line count once where the polygons lie on one side of it, and
 /// nowhere where they lie on both.
-namespace fathom {
+namespace fathom::area {
 
 /// A part of the boundary: of `line`, from where it crosses `from` to where it crosses `to`. The
 /// result lies on the left, on the right where `reversed`.
@@ -33,9 +33,9 @@ Boundary boundary_of_difference(const ConvexPolygon& subject,
                                 std::span<const ConvexPolygon> polygons, TierCounts& counts);
 
 /// The area that a boundary encloses, exactly; 0 where it is empty.
-Ratio area(const Boundary& boundary);
+Ratio exact_area(const Boundary& boundary);
 
 /// The same in binary64; 0 without an error where it is empty.
-Bounded approximate_area(const Boundary& boundary);
+Certified<double> approximate_area(const Boundary& boundary);
 
-}  // namespace fathom
+}  // namespace fathom::area

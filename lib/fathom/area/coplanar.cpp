@@ -1,7 +1,5 @@
 #include "fathom/area/coplanar.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -9,12 +7,15 @@
 #include "fathom/area/scene_surfaces.h"
 #include "fathom/area/separation.h"
 #include "fathom/area/visible_fragments.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/threads/threads.h"
 
 // How to read this file: coplanar_pairs() at the end. For each triangle, within its box, each
 // triangle near it is asked whether it lies close behind where the first is visible; of the pairs
 // that do, each pixel is asked the same.
 namespace fathom {
+using namespace area;
+using namespace triangle;
+
 namespace {
 
 bool share_a_corner(const std::array<WorldPoint, 3>& a, const std::array<WorldPoint, 3>& b) {
@@ -202,7 +203,7 @@ std::vector<CoplanarPair> coplanar_pairs(const TriangleSource& triangles, const 
     constexpr std::uint32_t chunk = 64;
     const std::uint32_t chunks = finder.count() / chunk + 1;
     Progress progress(options.progress, chunks);
-    tbb::parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
+    parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
       const std::uint32_t end = std::min(finder.count(), (k + 1) * chunk);
       for (std::uint32_t t = k * chunk; t < end; ++t) found[t] = finder.pairs_of(t);
       progress.part_done();

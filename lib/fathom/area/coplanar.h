@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
+#include "fathom/geometry/pixel_box.h"
 #include "fathom/scene/triangle_source.h"
 #include "fathom/triangle/options.h"
-#include "fathom/triangle/projected_triangle.h"
 
 namespace fathom {
 

@@ -3,6 +3,9 @@
 #include "fathom/area/image_cell.h"
 
 namespace fathom {
+using namespace area;
+using namespace triangle;
+
 namespace {
 
 /// What the triangles cover of the pixel, until nothing is left to cover.

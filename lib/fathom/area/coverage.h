@@ -28,7 +28,7 @@ struct CoverageFrame {
 Ratio pixel_coverage(const CoverageFrame& frame, std::span<const std::uint32_t> triangles,
                      std::uint32_t column, std::uint32_t row);
 
-/// The same number rounded once to binary32; sooner, as a bound mostly settles it.
+/// That area rounded once to binary32; faster, for a bound mostly settles the rounding.
 float rounded_pixel_coverage(const CoverageFrame& frame, std::span<const std::uint32_t> triangles,
                              std::uint32_t column, std::uint32_t row);
 

@@ -1,13 +1,15 @@
 #include "fathom/area/coverage_image.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 
+#include "fathom/threads/threads.h"
 #include "fathom/triangle/triangle_boxes.h"
 
-namespace fathom {
+namespace fathom::area {
+using namespace triangle;
+
 namespace {
 
 constexpr std::uint32_t triangles_of_file = 1U << 19;
@@ -55,7 +57,7 @@ TriangleBands::TriangleBands(const CoverageFrame& frame)
     const std::size_t count = part.mesh.triangles.size();
     std::vector<std::vector<BoxedTriangle>> found((count + triangles_per_chunk - 1) /
                                                   triangles_per_chunk);
-    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
+    parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
       TriangleBoxes boxes(part.object, part.mesh, frame.camera);
       const std::size_t end = std::min(count, (k + 1) * triangles_per_chunk);
       for (std::size_t i = k * triangles_per_chunk; i < end; ++i) {
@@ -83,7 +85,7 @@ TriangleBands::Band TriangleBands::operator[](std::uint32_t band) const {
 void for_each_pixel(const CoverageFrame& frame, const VisitPixel& visit,
                     const std::function<void()>& part_done) {
   const TriangleBands bands(frame);
-  tbb::parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t k) {
+  parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t k) {
     const TriangleBands::Band band = bands[k];
     const std::vector<BoxedRegion> regions = regions_of(frame, band);
     for (std::uint32_t row = band.first_row; row < band.end_row; ++row) {
@@ -110,4 +112,4 @@ TierCounts write_coverage(const CoverageFrame& frame, float* values,
   return sum;
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

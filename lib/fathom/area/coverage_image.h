@@ -5,7 +5,7 @@
 #include "fathom/area/coverage.h"
 #include "fathom/area/image_cell.h"
 
-namespace fathom {
+namespace fathom::area {
 
 /// A triangle that may cover a part of the pixels of a box.
 struct BoxedTriangle {
@@ -49,4 +49,4 @@ void for_each_pixel(const CoverageFrame& frame, const VisitPixel& visit,
 TierCounts write_coverage(const CoverageFrame& frame, float* values,
                           const std::function<void()>& part_done = {});
 
-}  // namespace fathom
+}  // namespace fathom::area

@@ -7,16 +7,18 @@
 #include "fathom/area/coverage_image.h"
 #include "fathom/area/visible_fragments.h"
 #include "fathom/numeric/rounding.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/threads/threads.h"
 
-namespace fathom {
+namespace fathom::area {
+using namespace triangle;
+
 namespace {
 
 /// What of a triangle is visible in a pixel.
 struct Fragment {
   const SurfaceRegion* surface;
   Boundary boundary;
-  Bounded approximate_area;
+  Certified<double> approximate_area{0, 0};
 };
 
 /// The visible surfaces of one pixel, and what they leave of it.
@@ -59,14 +61,14 @@ PixelSurfaces look_into(ImageCell& pixel, std::span<const SurfaceRegion* const> 
   return result;
 }
 
-float rounded(const Bounded& approximate, const std::function<Ratio()>& exact) {
+float rounded(const Certified<double>& approximate, const std::function<Ratio()>& exact) {
   if (const auto settled = settled_binary32(approximate)) return *settled;
   return round_to_binary32(exact());
 }
 
 Ratio sum_of_areas(std::span<const Fragment> fragments) {
   Ratio sum;
-  for (const Fragment& f : fragments) sum = sum + area(f.boundary);
+  for (const Fragment& f : fragments) sum = sum + exact_area(f.boundary);
   return sum;
 }
 
@@ -76,12 +78,12 @@ float alpha(std::span<const Fragment> from_here, const Boundary& uncovered) {
   const Fragment& f = from_here.front();
   const auto behind = from_here.subspan(1);
   if (behind.empty() && uncovered.empty()) return 1;
-  Bounded rest = approximate_area(uncovered);
+  Certified<double> rest = approximate_area(uncovered);
   for (const Fragment& b : behind) rest = rest + b.approximate_area;
-  const Bounded one{1, 0};
+  const Certified<double> one{1, 0};
   return rounded(one / (one + rest / f.approximate_area), [&] {
-    const Ratio a = area(f.boundary);
-    const Ratio sum = sum_of_areas(from_here) + area(uncovered);
+    const Ratio a = exact_area(f.boundary);
+    const Ratio sum = sum_of_areas(from_here) + exact_area(uncovered);
     return Ratio(a.numerator * sum.denominator, a.denominator * sum.numerator);
   });
 }
@@ -103,7 +105,8 @@ std::vector<DeepSample> deep_samples(ImageCell& pixel, PixelSurfaces surfaces) {
   std::vector<DeepSample> samples;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     DeepSample sample = order[i].first;
-    sample.area = rounded(sorted[i].approximate_area, [&] { return area(sorted[i].boundary); });
+    sample.area =
+        rounded(sorted[i].approximate_area, [&] { return exact_area(sorted[i].boundary); });
     sample.A = alpha(std::span(sorted).subspan(i), surfaces.uncovered);
     samples.push_back(sample);
   }
@@ -122,7 +125,7 @@ std::vector<MatteShare> shares(const PixelSurfaces& surfaces,
   }
   std::vector<MatteShare> result;
   for (const auto& [id, fragments] : mattes) {
-    Bounded sum;
+    Certified<double> sum{0, 0};
     for (const Fragment& f : fragments) sum = sum + f.approximate_area;
     // One matte that leaves nothing of the pixel covers it.
     const bool all = mattes.size() == 1 && surfaces.uncovered.empty();
@@ -185,4 +188,4 @@ Mattes mattes_in_pixels(const TriangleSource& triangles, const Camera& camera,
   return mattes;
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

@@ -7,7 +7,7 @@
 #include "fathom/image/deep_map.h"
 
 /// The visible surfaces inside each pixel (specification, section 8), as files hold them.
-namespace fathom {
+namespace fathom::area {
 
 /// All visible fragments of all pixels; of the description, the size alone is filled in. Of the
 /// options culling, threads and progress count.
@@ -22,4 +22,4 @@ Mattes mattes_in_pixels(const TriangleSource& triangles, const Camera& camera,
                         const RenderOptions& options,
                         const std::function<std::uint32_t(std::uint32_t)>& matte_of);
 
-}  // namespace fathom
+}  // namespace fathom::area

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-namespace fathom {
+namespace fathom::area {
+using namespace triangle;
+
 namespace {
 
 bool are_same(const Interval& a, const Interval& b) {
@@ -40,4 +42,4 @@ bool are_disjoint(const SurfaceRegion& s, const SurfaceRegion& t) {
   return false;
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

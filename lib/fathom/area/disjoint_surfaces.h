@@ -2,7 +2,7 @@
 
 #include "fathom/area/image_cell.h"
 
-namespace fathom {
+namespace fathom::area {
 
 /// Whether an edge of one of two surfaces has the other outside: they have no area in common on the
 /// image. Exact; false does not tell where one of them reaches behind the camera.
@@ -12,4 +12,4 @@ namespace fathom {
 /// as in every mesh, lies on two edges of t, which no interval could tell.
 bool are_disjoint(const SurfaceRegion& s, const SurfaceRegion& t);
 
-}  // namespace fathom
+}  // namespace fathom::area

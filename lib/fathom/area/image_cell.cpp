@@ -7,7 +7,9 @@
 #include "fathom/area/cell_division.h"
 #include "fathom/numeric/rounding.h"
 
-namespace fathom {
+namespace fathom::area {
+using namespace triangle;
+
 namespace {
 
 /// n − limit·w
@@ -169,13 +171,13 @@ Boundary CellCoverage::boundary() {
 }
 
 Ratio CellCoverage::area() {
-  return fathom::area(boundary());
+  return exact_area(boundary());
 }
 
 float CellCoverage::rounded_area() {
   const Boundary found = boundary();
   if (const auto settled = settled_binary32(approximate_area(found))) return *settled;
-  return round_to_binary32(fathom::area(found));
+  return round_to_binary32(exact_area(found));
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

@@ -10,7 +10,7 @@
 #include "fathom/area/convex_union.h"
 #include "fathom/triangle/projected_triangle.h"
 
-namespace fathom {
+namespace fathom::area {
 
 /// Where on the image the points of a triangle with D > 0 and near ≤ D ≤ far project to: where no
 /// form is negative. It is a convex polygon, perhaps unbounded; empty if there is no triangle.
@@ -19,7 +19,7 @@ namespace fathom {
 /// The points of the triangle with W > 0 project to where no edge function is negative, with signs
 /// as in section 4 of the specification: s = Σ (eᵢ/Δ)·cornerᵢ has the weight 1. D = n/w with w > 0
 /// there, so D ≥ near ⇔ n − near·w ≥ 0.
-std::optional<std::vector<ImageForm>> covered_region(const ProjectedTriangle& t,
+std::optional<std::vector<ImageForm>> covered_region(const triangle::ProjectedTriangle& t,
                                                      const Camera& camera);
 
 /// The homogeneous image point of a corner, exactly, and an enclosure of it.
@@ -36,7 +36,8 @@ struct SurfaceRegion {
   ImageForm depth_numerator, weight;
   std::array<SurfaceCorner, 3> corners;
 };
-std::optional<SurfaceRegion> surface_region(const ProjectedTriangle& t, const Camera& camera);
+std::optional<SurfaceRegion> surface_region(const triangle::ProjectedTriangle& t,
+                                            const Camera& camera);
 
 /// A rectangle of the image in the coordinates of a cell: the cell or a part of it.
 struct CellPart {
@@ -134,4 +135,4 @@ class CellCoverage {
   TierCounts counts_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::area

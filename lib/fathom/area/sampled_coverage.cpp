@@ -1,30 +1,27 @@
 #include "fathom/area/sampled_coverage.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bitset>
 #include <limits>
 
 #include "fathom/area/coverage_image.h"
+#include "fathom/threads/threads.h"
 #include "fathom/triangle/certified_surfaces.h"
 #include "fathom/triangle/referee.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/triangle/sampling.h"
 
 // How to read this file: add_sampled_coverage() at the end is the whole story. Bands of rows are
 // filled one by one: each triangle is tried at the samples of its box that no other has covered.
 namespace fathom {
+using namespace area;
+using namespace triangle;
+
 namespace {
 
 constexpr std::size_t most_samples = 256;
 using Covered = std::bitset<most_samples>;
-
-bool in_range(const Ratio& depth, const Camera& camera) {
-  if (depth.sign() != Sign::positive || depth < Ratio(Dyadic(camera.near))) return false;
-  return camera.far == std::numeric_limits<double>::infinity() ||
-         !(Ratio(Dyadic(camera.far)) < depth);
-}
 
 /// Whether triangles count at samples, by exact numbers alone.
 class ExactSamples {
@@ -40,7 +37,7 @@ class ExactSamples {
   }
   bool counts_at(const ImagePoint& s) {
     TierCounts counts;
-    return covers(triangle_, s, counts) && in_range(depth_at(triangle_, s), camera_);
+    return covers(triangle_, s, counts) && is_in_range(depth_at(triangle_, s), camera_);
   }
 
  private:
@@ -123,7 +120,7 @@ void add_sampled_coverage(DepthMap& map, const TriangleSource& triangles, const 
     const SceneRays rays(triangles, camera);
     tbb::enumerable_thread_specific<CertifiedSamples> certified(
         [&] { return CertifiedSamples(triangles, camera, options.cull, rays); });
-    tbb::parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {
+    parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {
       if (options.engine == Engine::fast) {
         fill(bands[i], camera, pattern, certified.local(), shares.data());
       } else {

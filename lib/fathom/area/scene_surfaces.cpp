@@ -1,10 +1,12 @@
 #include "fathom/area/scene_surfaces.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
-namespace fathom {
+#include "fathom/threads/threads.h"
+
+namespace fathom::area {
+using namespace triangle;
+
 namespace {
 
 bool meet(const PixelBox& a, const PixelBox& b) {
@@ -19,7 +21,7 @@ SceneSurfaces::SceneSurfaces(const CoverageFrame& frame)
       boxes_(frame.triangles.count()),
       surfaces_(frame.triangles.count()),
       tiles_(std::size_t{columns_} * ((frame.camera.height - 1) / side_of_tile + 1)) {
-  tbb::parallel_for(std::uint32_t{0}, count(), [&](std::uint32_t number) {
+  parallel_for(std::uint32_t{0}, count(), [&](std::uint32_t number) {
     TierCounts counts;
     const ProjectedTriangle t =
         project(frame.triangles.world_corners(number), number, frame.camera, counts);
@@ -55,4 +57,4 @@ std::vector<std::uint32_t> SceneSurfaces::near(std::uint32_t number) const {
   return found;
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

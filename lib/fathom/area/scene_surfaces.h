@@ -5,7 +5,7 @@
 
 #include "fathom/area/coverage_image.h"
 
-namespace fathom {
+namespace fathom::area {
 
 /// All triangles of a scene as areas on the image need them, with an index by place.
 class SceneSurfaces {
@@ -36,4 +36,4 @@ inline ImageCell cell_of(const PixelBox& box) {
           box.last_row - box.first_row + 1};
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

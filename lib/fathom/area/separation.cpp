@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <limits>
 
-namespace fathom {
+namespace fathom::area {
+using namespace triangle;
+
 namespace {
 
 /// The point where two lines cross, homogeneous, with a positive weight.
@@ -118,4 +120,4 @@ double Separation::least(const Boundary& boundary) const {
   return from_place(tie && low % 2 == 0 ? low : high);
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

@@ -3,7 +3,7 @@
 #include "fathom/area/convex_union.h"
 #include "fathom/area/image_cell.h"
 
-namespace fathom {
+namespace fathom::area {
 
 /// How far one triangle lies behind another, D_behind − D_front, over a part of a cell in which
 /// both cover every point and that is not negative.
@@ -34,4 +34,4 @@ class Separation {
   Form front_numerator_, front_weight_, behind_numerator_, behind_weight_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::area

@@ -1,7 +1,6 @@
 #include "fathom/area/visible_areas.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <atomic>
 
@@ -10,9 +9,12 @@
 #include "fathom/area/visible_fragments.h"
 #include "fathom/numeric/enclosed_sum.h"
 #include "fathom/numeric/rounding.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom {
+using namespace area;
+using namespace triangle;
+
 namespace {
 
 /// Exact areas of a triangle.
@@ -76,7 +78,7 @@ class SceneAreas {
     ExactAreas areas;
     const ConvexPolygon polygons[] = {all.polygon(0)};
     TierCounts counts;
-    areas.unoccluded = area(boundary_of_union(polygons, counts));
+    areas.unoccluded = exact_area(boundary_of_union(polygons, counts));
     const bool others_hide = in_object.size() < all.size();
     areas.visible = visible_parts(std::move(all), areas.unoccluded);
     areas.in_object =
@@ -94,7 +96,7 @@ class SceneAreas {
       for (std::size_t piece = 0; piece < part.size(); ++piece) {
         if (&part.surface(piece) != &surface) continue;
         const Boundary boundary = part.visible(piece);
-        if (!boundary.empty()) parts.push_back(area(boundary));
+        if (!boundary.empty()) parts.push_back(exact_area(boundary));
       }
     });
     return parts;
@@ -158,7 +160,7 @@ VisibleAreas areas_in_arena(const CoverageFrame& frame, const RenderOptions& opt
   constexpr std::uint32_t chunk = 64;
   const std::uint32_t chunks = areas.count() / chunk + 1;
   Progress progress(options.progress, chunks);
-  tbb::parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
+  parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
     const std::uint32_t end = std::min(areas.count(), (k + 1) * chunk);
     for (std::uint32_t number = k * chunk; number < end; ++number) {
       const ExactAreas exact = areas.of(number);

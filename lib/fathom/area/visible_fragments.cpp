@@ -8,7 +8,7 @@
 #include "fathom/area/disjoint_surfaces.h"
 #include "fathom/numeric/rounding.h"
 
-namespace fathom {
+namespace fathom::area {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -77,7 +77,7 @@ CellVisibility::Order CellVisibility::quick_order(const CornerDepths& s, const C
 bool CellVisibility::is_in_front(const PieceOfSurface& s, const PieceOfSurface& t) const {
   const Order order = quick_order(s.depths, t.depths);
   if (order != Order::unknown) return order == Order::in_front;
-  const ImageForm form = fathom::in_front(*s.surface, *t.surface);
+  const ImageForm form = area::in_front(*s.surface, *t.surface);
   if (is_zero(form)) return s.surface->number < t.surface->number;
   return part_.sign_of(form) == Sign::positive;
 }
@@ -128,7 +128,7 @@ std::optional<ConvexPolygon> CellVisibility::hidden_part(const ConvexPolygon& po
     if (!part.clip(*edge, counts_)) return std::nullopt;
   }
   if (order == Order::in_front) return part;
-  const ImageForm form = fathom::in_front(*before.surface, *behind.surface);
+  const ImageForm form = area::in_front(*before.surface, *behind.surface);
   if (is_zero(form)) {
     if (before.surface->number < behind.surface->number) return part;
     return std::nullopt;
@@ -204,4 +204,4 @@ CellDepths::Extent CellDepths::extent(const Boundary& boundary) const {
   return {round_to_binary32(*least), round_to_binary32(*greatest)};
 }
 
-}  // namespace fathom
+}  // namespace fathom::area

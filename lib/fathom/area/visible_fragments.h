@@ -20,7 +20,7 @@
 /// D_t are the same all over, the triangle of the lower number hides the other.
 /// Source   Kevin Weiler and Peter Atherton, Hidden surface removal using polygon area sorting,
 ///          SIGGRAPH 1977.
-namespace fathom {
+namespace fathom::area {
 
 /// The form that is positive where s, of two triangles that both cover a point, is in front of t,
 /// and zero where they are equally deep.
@@ -110,4 +110,4 @@ class CellDepths {
   HalfPlane numerator_, weight_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::area

@@ -13,7 +13,7 @@ namespace fathom {
 enum class Projection { perspective, orthographic };
 
 /// A camera as the specification (section 2) defines it. Every number is the real number that it
-/// denotes. Valid once check() has accepted it.
+/// denotes. Valid if find_fault() finds nothing.
 struct Camera {
   std::uint32_t width = 0;
   std::uint32_t height = 0;

@@ -12,6 +12,9 @@
 #include "fathom/text/json_value.h"
 
 namespace fathom {
+using namespace camera;
+using namespace text;
+
 namespace {
 
 Projection read_projection(const JsonValue& value) {
@@ -70,7 +73,7 @@ std::string to_json(double number) {
 
 }  // namespace
 
-std::vector<Camera> parse_cameras(std::string_view text, const std::string& name) {
+std::vector<Camera> camera::parse_cameras(std::string_view text, const std::string& name) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   if (!root.is_list()) return {read_camera(root)};

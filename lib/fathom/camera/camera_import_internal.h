@@ -10,7 +10,7 @@
 
 /// The imports of camera_import.h on what has been opened already, for their files, tests and
 /// fuzzers. `name` is the file's name for messages.
-namespace fathom {
+namespace fathom::camera {
 
 /// A stream with its name.
 struct NamedStream {
@@ -28,4 +28,4 @@ std::vector<ImportedCamera> parse_bop(std::string_view text, const std::string& 
                                       std::uint32_t width, std::uint32_t height);
 std::vector<ImportedCamera> parse_opengl(std::string_view text, const std::string& name);
 
-}  // namespace fathom
+}  // namespace fathom::camera

@@ -8,7 +8,7 @@
 #include "fathom/numeric/errors.h"
 
 namespace fathom {
-namespace camera_making {
+namespace camera {
 namespace {
 
 /// A path is held in memory and written as one file.
@@ -100,9 +100,9 @@ View turned(View view, std::uint32_t step, std::uint32_t count) {
   return view;
 }
 
-}  // namespace camera_making
+}  // namespace camera
 
-using namespace camera_making;
+using namespace camera;
 
 namespace {
 

@@ -9,7 +9,7 @@
 /// What cameras made from a description have in common, whether they look at a point or are to see
 /// a whole scene (scene/framing.h).
 /// Fails    all of them: UsageError.
-namespace fathom::camera_making {
+namespace fathom::camera {
 
 void expect_finite(const Vector3& v, const std::string& name);
 
@@ -28,4 +28,4 @@ void expect_count(std::uint32_t count);
 /// The view of camera number `step` of `count` around the up axis.
 View turned(View view, std::uint32_t step, std::uint32_t count);
 
-}  // namespace fathom::camera_making
+}  // namespace fathom::camera

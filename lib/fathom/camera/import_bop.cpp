@@ -7,6 +7,9 @@
 #include "fathom/text/json_value.h"
 
 namespace fathom {
+using namespace camera;
+using namespace text;
+
 namespace {
 
 std::uint64_t image_id(const std::string& key, const JsonValue& value) {
@@ -41,8 +44,8 @@ void read_pose(const JsonValue& entry, Camera& camera) {
 
 }  // namespace
 
-std::vector<ImportedCamera> parse_bop(std::string_view text, const std::string& name,
-                                      std::uint32_t width, std::uint32_t height) {
+std::vector<ImportedCamera> camera::parse_bop(std::string_view text, const std::string& name,
+                                              std::uint32_t width, std::uint32_t height) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   std::vector<std::pair<std::uint64_t, ImportedCamera>> cameras;

@@ -15,6 +15,9 @@
 #include "fathom/text/decimal.h"
 
 namespace fathom {
+using namespace camera;
+using namespace text;
+
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "COLMAP's files are little endian");
@@ -313,14 +316,14 @@ std::vector<ImportedCamera> finished(std::vector<ImportedCamera> images, const s
 
 }  // namespace
 
-std::vector<ImportedCamera> parse_colmap_binary(NamedStream cameras, NamedStream images) {
+std::vector<ImportedCamera> camera::parse_colmap_binary(NamedStream cameras, NamedStream images) {
   const std::string name = images.name;
   return finished(read_binary_images(BinaryReader(std::move(images)),
                                      read_binary_cameras(BinaryReader(std::move(cameras)))),
                   name);
 }
 
-std::vector<ImportedCamera> parse_colmap_text(NamedStream cameras, NamedStream images) {
+std::vector<ImportedCamera> camera::parse_colmap_text(NamedStream cameras, NamedStream images) {
   const std::string name = images.name;
   return finished(read_text_images(std::move(images), read_text_cameras(std::move(cameras))), name);
 }

@@ -9,6 +9,9 @@
 #include "fathom/text/json_value.h"
 
 namespace fathom {
+using namespace camera;
+using namespace text;
+
 namespace {
 
 /// The keys of one frame, with those of the whole file behind them.
@@ -102,9 +105,9 @@ void warn_of_geometry(const JsonValue& root, const std::string& file, Warnings& 
 
 }  // namespace
 
-std::vector<ImportedCamera> parse_nerf(std::string_view text, const std::string& name,
-                                       std::uint32_t width, std::uint32_t height,
-                                       Warnings& warnings) {
+std::vector<ImportedCamera> camera::parse_nerf(std::string_view text, const std::string& name,
+                                               std::uint32_t width, std::uint32_t height,
+                                               Warnings& warnings) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   warn_of_geometry(root, name, warnings);

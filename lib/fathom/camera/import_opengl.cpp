@@ -9,6 +9,9 @@
 #include "fathom/text/json_value.h"
 
 namespace fathom {
+using namespace camera;
+using namespace text;
+
 namespace {
 
 using Matrix4 = std::array<std::array<double, 4>, 4>;
@@ -132,7 +135,7 @@ ImportedCamera read_camera(const JsonValue& entry, std::size_t index) {
 
 }  // namespace
 
-std::vector<ImportedCamera> parse_opengl(std::string_view text, const std::string& name) {
+std::vector<ImportedCamera> camera::parse_opengl(std::string_view text, const std::string& name) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   if (!root.is_list()) return {read_camera(root, 0)};

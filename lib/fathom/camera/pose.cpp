@@ -2,7 +2,7 @@
 
 #include "fathom/numeric/rounding.h"
 
-namespace fathom {
+namespace fathom::camera {
 
 std::array<double, 3> unit_vector(const ExactVector3& v) {
   const Dyadic squared_length = dot(v, v);
@@ -27,4 +27,4 @@ Matrix34 pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVec
   return pose;
 }
 
-}  // namespace fathom
+}  // namespace fathom::camera

@@ -6,7 +6,7 @@
 #include "fathom/numeric/ratio.h"
 
 /// Poses with entries that are rounded once. For this room's .cpp files only.
-namespace fathom {
+namespace fathom::camera {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 using Matrix34 = std::array<std::array<double, 4>, 3>;
@@ -21,4 +21,4 @@ ExactVector3 rotate(const Matrix3& R, const ExactVector3& X);
 /// translation is the exact one rounded once.
 Matrix34 pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVector3& target);
 
-}  // namespace fathom
+}  // namespace fathom::camera

@@ -7,7 +7,7 @@
 
 #include "fathom/numeric/binary16.h"
 
-namespace fathom {
+namespace fathom::depth_buffer {
 namespace {
 
 /// The binary32 number that a stored value of float16 or float32 is.
@@ -92,4 +92,4 @@ StoredDepth BufferChannels::stored(std::size_t pixel) const {
   return {codes_[pixel]};
 }
 
-}  // namespace fathom
+}  // namespace fathom::depth_buffer

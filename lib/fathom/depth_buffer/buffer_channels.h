@@ -5,7 +5,7 @@
 #include "fathom/depth_format/stored_depth.h"
 #include "fathom/image/depth_map.h"
 
-namespace fathom {
+namespace fathom::depth_buffer {
 
 /// The channels of depth_buffer.h in a map, with their background at first. A view: no channel may
 /// be added to the map or taken from it meanwhile.
@@ -28,4 +28,4 @@ class BufferChannels {
   float* values_ = nullptr;
 };
 
-}  // namespace fathom
+}  // namespace fathom::depth_buffer

@@ -8,7 +8,7 @@
 #include "fathom/depth_buffer/depth_buffer.h"
 
 /// The two ways to fill the channels; both in the arena of their caller.
-namespace fathom {
+namespace fathom::depth_buffer {
 
 struct BufferWork {
   BufferChannels& channels;
@@ -22,11 +22,11 @@ class BufferBands {
  public:
   explicit BufferBands(const BufferWork& work);
   [[nodiscard]] std::uint32_t count() const;
-  [[nodiscard]] TriangleBands::Band operator[](std::uint32_t band) const;
+  [[nodiscard]] area::TriangleBands::Band operator[](std::uint32_t band) const;
 
  private:
   std::uint32_t height_;
-  std::optional<TriangleBands> bands_;
+  std::optional<area::TriangleBands> bands_;
 };
 
 DepthBufferStatistics sum_of(const std::vector<DepthBufferStatistics>& parts);
@@ -34,4 +34,4 @@ DepthBufferStatistics sum_of(const std::vector<DepthBufferStatistics>& parts);
 DepthBufferStatistics fill_exactly(const BufferWork& work);
 DepthBufferStatistics fill_certified(const BufferWork& work);
 
-}  // namespace fathom
+}  // namespace fathom::depth_buffer

@@ -1,5 +1,4 @@
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,20 +10,21 @@
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/mapping.h"
 #include "fathom/numeric/certified_rounding.h"
+#include "fathom/threads/threads.h"
 #include "fathom/triangle/certified_surfaces.h"
 #include "fathom/triangle/referee.h"
+#include "fathom/triangle/sampling.h"
 
 // How to read this file: fill_certified() at the end is the whole story; exact_buffer.cpp says the
 // same without bounds. Each value is asked of binary64, then of double-words, then of exact
 // numbers.
-namespace fathom {
+namespace fathom::depth_buffer {
+using namespace area;
+using namespace triangle;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
-  return {column + 0.5, row + 0.5};
-}
 
 /// What a thread asks.
 struct Worker {
@@ -204,7 +204,7 @@ DepthBufferStatistics fill_certified(const BufferWork& work) {
       [&] { return Worker(work.triangles, work.camera, rays); });
   const BufferBands bands(work);
   std::vector<DepthBufferStatistics> parts(bands.count());
-  tbb::parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {
+  parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {
     CertifiedBand band(work, format, bands[i], workers.local(), parts[i]);
     band.store();
     if (work.options.against_exact) band.find_winners();
@@ -212,4 +212,4 @@ DepthBufferStatistics fill_certified(const BufferWork& work) {
   return sum_of(parts);
 }
 
-}  // namespace fathom
+}  // namespace fathom::depth_buffer

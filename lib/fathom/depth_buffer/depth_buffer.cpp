@@ -5,9 +5,12 @@
 
 #include "fathom/depth_buffer/buffer_work.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom {
+using namespace area;
+using namespace depth_buffer;
+using namespace triangle;
 
 DepthFormat depth_format_of(const Camera& camera, Mapping mapping, Storage storage, double c) {
   const DepthFormat format{mapping, storage, camera.near, camera.far, c};
@@ -35,7 +38,7 @@ TriangleBands::Band BufferBands::operator[](std::uint32_t band) const {
   return {first, std::min(first + TriangleBands::rows_per_band, height_), {}};
 }
 
-DepthBufferStatistics sum_of(const std::vector<DepthBufferStatistics>& parts) {
+DepthBufferStatistics depth_buffer::sum_of(const std::vector<DepthBufferStatistics>& parts) {
   DepthBufferStatistics sum;
   for (const DepthBufferStatistics& part : parts) {
     sum.by_binary64 += part.by_binary64;

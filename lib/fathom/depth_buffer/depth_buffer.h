@@ -31,13 +31,11 @@ struct DepthBufferStatistics {
   std::uint64_t fighting = 0;
 };
 
-/// Adds channels to a map; at pixels without a surface they hold what is said last.
+/// Adds channels to a map. The value behind the last semicolon is that of pixels without a surface.
 ///
-///   Zwindow    the stored depth. unorm: UINT, the code. float16, float32: FLOAT, the value.
-///   float64
-///              does not fit a channel: UINT `Zwindow.high` and `Zwindow.low`, the halves of the
-///              binary64 number's bits. Background: what a buffer is cleared to, the value of the
-///              farthest depth.
+///   Zwindow    the stored depth. unorm: UINT, the code. float16, float32: FLOAT, the value. A
+///              float64 does not fit a channel: UINT `Zwindow.high` and `Zwindow.low`, the halves of
+///              its bits. Background: what a buffer is cleared to, the value of the farthest depth.
 ///   Zdecoded   FLOAT: the depth that the stored value stands for, rounded once; +∞.
 /// against_exact:
 ///   Zerror     FLOAT: that depth minus the exact one, rounded once; 0.
@@ -45,9 +43,8 @@ struct DepthBufferStatistics {
 ///              in the order of the triangles' numbers; 4294967295.
 ///   Zfight     UINT: 1 where that is not the visible triangle, else 0; 0.
 ///
-/// Exact    each value from the exact depth of the visible triangle, rounded once. The same bits
-/// for
-///          both engines: the reference goes by exact numbers alone.
+/// Exact    each value follows from the exact depth of the visible triangle, rounded once. Both
+///          engines give the same bits; the reference goes by exact numbers alone.
 /// Needs    the map's channel `id`; the depths of visible surfaces between the format's near and
 ///          far, as they are if these are the camera's.
 DepthBufferStatistics add_depth_buffer(DepthMap& map, const TriangleSource& triangles,

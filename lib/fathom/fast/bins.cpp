@@ -1,15 +1,14 @@
 #include "fathom/fast/bins.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <optional>
 
 #include "fathom/fast/boxes.h"
 #include "fathom/fast/tile.h"
+#include "fathom/threads/threads.h"
 
-namespace fathom {
+namespace fathom::fast {
+using namespace triangle;
 
 ImageObject::ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
                          std::uint32_t first_triangle)
@@ -17,11 +16,13 @@ ImageObject::ImageObject(const Object& object, const Mesh& its_mesh, const Camer
       first_number(first_triangle),
       transform(object, camera),
       vertices(std::make_unique_for_overwrite<ImageVertex[]>(mesh.vertices.size())) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertices.size(), 4096),
-                    [&](const auto& range) {
-                      transform(std::span(mesh.vertices).subspan(range.begin(), range.size()),
-                                vertices.get() + range.begin());
-                    });
+  constexpr std::size_t part = 4096;
+  const std::size_t count = mesh.vertices.size();
+  in_parallel((count + part - 1) / part, [&](std::size_t i) {
+    const std::size_t first = i * part;
+    transform(std::span(mesh.vertices).subspan(first, std::min(part, count - first)),
+              vertices.get() + first);
+  });
 }
 
 const ImageObject& object_of(const ImageObjects& objects, std::uint32_t number) {
@@ -132,4 +133,4 @@ void Bins::sort(std::uint32_t tiles) {
   entries_ = {};
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -10,7 +10,7 @@
 #include "fathom/fast/vertex.h"
 #include "fathom/triangle/referee.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 /// One object with its vertices in the image.
 struct ImageObject {
@@ -58,7 +58,7 @@ class Bins {
     /// All tiles that a triangle meets, not only those in which it can cover a sample.
     bool by_area;
     const TileGrid& grid;
-    Referee& referee;
+    triangle::Referee& referee;
     RenderStatistics& statistics;
   };
   void fill(const Context& context);
@@ -80,4 +80,4 @@ class Bins {
   std::vector<std::size_t> starts_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::fast

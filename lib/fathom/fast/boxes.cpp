@@ -13,7 +13,7 @@
 #include "fathom/fast/tile.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace fathom::HWY_NAMESPACE {
+namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
 /// Whether the triangles certainly cover no sample of their boxes: an edge function is certainly
@@ -121,11 +121,12 @@ void sort_triangles(const BoxRequest& r, BoxBatch& out) {
 }
 
 }  // namespace
-}  // namespace fathom::HWY_NAMESPACE
+}  // namespace fathom::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace fathom {
+namespace fathom::fast {
+using namespace triangle;
 
 HWY_EXPORT(sort_triangles);
 
@@ -135,5 +136,5 @@ void box_triangles(const BoxRequest& request, BoxBatch& boxes) {
   HWY_DYNAMIC_DISPATCH(sort_triangles)(request, boxes);
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast
 #endif

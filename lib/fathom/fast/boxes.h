@@ -6,7 +6,7 @@
 #include "fathom/triangle/options.h"
 #include "fathom/triangle/projected_triangle.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 struct ImageVertex;
 
@@ -43,4 +43,4 @@ struct BoxBatch {
 
 void box_triangles(const BoxRequest& request, BoxBatch& boxes);
 
-}  // namespace fathom
+}  // namespace fathom::fast

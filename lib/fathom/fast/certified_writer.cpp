@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <bit>
 
-#include "fathom/fast/certified_writer_pixel.h"
-
 // How to read this file: CertifiedWriter::write() is the list of channels. What follows from q
-// alone is rounded for a whole row (fast_channel_rows); for the rest Pixel has a function for each
-// channel, which goes through the tiers (fast_channel_pixel). Values and their bounds come from
-// fast_surface.h and fast_wide.h, roundings from certified_rounding.h.
-namespace fathom {
-namespace {
+// alone is rounded for a whole row (channel_rows.h); for the rest PixelWriter has a function for each
+// channel, which goes through the tiers. Values and their bounds come from
+// triangle/certified_surface.h and double_word_surface.h, roundings from
+// numeric/certified_rounding.h.
+namespace fathom::fast {
+using namespace triangle;
 
-/// Triangles remembered, a power of two; neighbours in the image often are neighbours in number.
-constexpr std::size_t most_remembered = 512;
+namespace {
 
 template <class Visit>
 void for_each_bit(std::uint64_t bits, const Visit& visit) {
@@ -41,29 +39,9 @@ std::uint64_t copy(const VisibleRow& row, const RoundedValues<T>& rounded, T* ta
 CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays)
     : exact_(exact),
       values_(exact.values()),
-      rays_(rays),
-      wide_(wide_arithmetic()),
-      image_{rays.perspective(), rays.greatest_u(), rays.greatest_v()},
-      world_sizes_(rays.world().rays, image_),
-      each_pixel_(values_.barycentric[0] || values_.low),
-      remembered_(most_remembered) {}
+      frame_(rays),
+      each_pixel_(values_.barycentric[0] || values_.low) {}
 
-CertifiedWriter::Triangle& CertifiedWriter::remember(std::uint32_t number) {
-  Triangle& t = remembered_[number % most_remembered];
-  if (t.number == number) return t;
-  t.number = number;
-  t.has_weights = t.has_depth = t.has_normal = false;
-  t.constants_known = 0;
-  t.constant.fill(std::nullopt);
-  const TriangleSource::Triangle triangle = rays_.triangles().triangle(number);
-  t.origin = triangle.origin;
-  t.object = &rays_.object(t.origin.object);
-  t.corners = triangle.corners;
-  t.usable = t.object->usable && rays_.world().usable && is_safe(t.corners);
-  return t;
-}
-
-/// The samples of a row that a channel is still to be written at.
 struct CertifiedWriter::Open {
   std::uint64_t depth = 0, distance = 0;
   std::array<std::uint64_t, 3> position{};
@@ -78,11 +56,11 @@ std::uint64_t CertifiedWriter::write_encoded(const VisibleRow& row, const Encode
   if (!values.wanted() || values.binary64) return values.wanted() ? row.surface : 0;
   if (values.codes) {
     RoundedValues<std::uint16_t> codes;
-    round_to_codes(row.lanes, rays_, distance, exact_.scale(), codes);
+    round_to_codes(row.lanes, frame_.rays, distance, exact_.scale(), codes);
     return copy(row, codes, values.codes, statistics);
   }
   RoundedValues<float> rounded;
-  round_depths(row.lanes, rays_, distance, rounded);
+  round_depths(row.lanes, frame_.rays, distance, rounded);
   return copy(row, rounded, values.binary32, statistics);
 }
 
@@ -98,7 +76,7 @@ void CertifiedWriter::write_origins(const VisibleRow& row) const {
   TriangleOrigin origin;
   for_each_bit(row.surface, [&](std::size_t k) {
     const VisibleSurface surface = row.at(k);
-    if (surface.triangle != last) origin = rays_.triangles().origin(last = surface.triangle);
+    if (surface.triangle != last) origin = frame_.rays.triangles().origin(last = surface.triangle);
     if (values_.face) values_.face[surface.pixel] = origin.face;
     if (values_.object) values_.object[surface.pixel] = origin.object;
   });
@@ -106,12 +84,13 @@ void CertifiedWriter::write_origins(const VisibleRow& row) const {
 
 void CertifiedWriter::write_normals(const VisibleRow& row, Referee& referee,
                                     RenderStatistics& statistics) {
+  const WriterTarget target{values_, exact_, referee, statistics};
   std::uint32_t last = no_surface;
   std::array<float, 3> normal{};
   for_each_bit(row.surface, [&](std::size_t k) {
     const VisibleSurface surface = row.at(k);
     if (surface.triangle != last) {
-      normal = Pixel(*this, surface, referee, statistics).normal();
+      normal = PixelWriter(surface, facts(surface.triangle), frame_, target).normal();
       last = surface.triangle;
     }
     for (std::size_t i = 0; i < 3; ++i) values_.normal[i][surface.pixel] = normal[i];
@@ -126,9 +105,10 @@ CertifiedWriter::Open CertifiedWriter::write_settled(const VisibleRow& row,
   open.distance = write_encoded(row, values_.distance, true, statistics);
   if (!values_.position[0]) return open;
   open.position.fill(row.surface);
-  if (!rays_.world().usable) return open;
+  if (!frame_.rays.world().usable) return open;
   std::array<RoundedValues<float>, 3> rounded;
-  round_positions(row.lanes, rays_.world().rays, world_sizes_, image_.perspective, rounded);
+  round_positions(row.lanes, frame_.rays.world().rays, frame_.world_sizes, frame_.image.perspective,
+                  rounded);
   for (std::size_t k = 0; k < 3; ++k) {
     open.position[k] = copy(row, rounded[k], values_.position[k], statistics);
   }
@@ -139,11 +119,12 @@ std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Refer
                                                     RenderStatistics& statistics) {
   const Open open = write_settled(row, statistics);
   if (values_.normal[0]) write_normals(row, referee, statistics);
+  const WriterTarget target{values_, exact_, referee, statistics};
   for (std::uint64_t bits = each_pixel_ ? row.surface : open.any(); bits != 0; bits &= bits - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(bits));
     const auto is_open = [&](std::uint64_t samples) { return (samples >> k & 1) != 0; };
     const VisibleSurface surface = row.at(k);
-    Pixel pixel(*this, surface, referee, statistics);
+    PixelWriter pixel(surface, facts(surface.triangle), frame_, target);
     for (std::size_t i = 0; i < 3; ++i) {
       if (is_open(open.position[i])) pixel.write_position(i);
     }
@@ -159,4 +140,4 @@ std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Refer
   return std::nullopt;
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

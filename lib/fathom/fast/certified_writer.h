@@ -3,22 +3,16 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "fathom/fast/channel_rows.h"
+#include "fathom/fast/pixel_writer.h"
+#include "fathom/fast/surface_facts.h"
 #include "fathom/triangle/channels.h"
-#include "fathom/triangle/double_word_surface.h"
 #include "fathom/triangle/rays.h"
+#include "fathom/triangle/recent_triangles.h"
 #include "fathom/triangle/referee.h"
 
-namespace fathom {
-
-/// A visible surface at a pixel.
-struct VisibleSurface {
-  std::size_t pixel = 0;  // row · width + column
-  std::uint32_t triangle = 0;
-  ImagePoint sample;
-};
+namespace fathom::fast {
 
 /// A row of a tile, as far as surfaces are visible in it.
 struct VisibleRow {
@@ -46,52 +40,37 @@ struct VisibleRow {
 /// One for each thread: it remembers the triangles that it was asked about last.
 class CertifiedWriter {
  public:
-  CertifiedWriter(ChannelWriter& exact, const SceneRays& rays);
+  CertifiedWriter(triangle::ChannelWriter& exact, const triangle::SceneRays& rays);
 
   /// Returns what is wrong if the encoding cannot hold a depth, of the first such pixel.
   /// `statistics.rounding` counts values.
-  std::optional<EncodingFault> write(const VisibleRow& row, Referee& referee,
-                                     RenderStatistics& statistics);
+  std::optional<triangle::EncodingFault> write(const VisibleRow& row, triangle::Referee& referee,
+                                               RenderStatistics& statistics);
 
  private:
-  /// A triangle remembered, with what was computed of it so far.
-  struct Triangle {
-    std::uint32_t number = no_surface;
-    bool usable = false;
-    bool has_weights = false, has_depth = false, has_normal = false;
-    std::uint8_t constants_known = 0;  // bit k: constant[k] was looked for
-    TriangleOrigin origin;
-    const ObjectRays* object = nullptr;
-    MeshTriangle corners;
-    std::array<float, 3> normal;
-    /// World x, y, z and depth, where they are found to be the same at all three corners.
-    std::array<std::optional<WordPair>, 4> constant;
-    WeightForms<double> weights;
-    DepthForms<WordPair> depth;
-  };
-  class Pixel;
+  /// The samples of a row that channels are still to be written at.
   struct Open;
 
   /// id, face and object.
   void write_origins(const VisibleRow& row) const;
   /// The normal is the same at all pixels of a triangle.
-  void write_normals(const VisibleRow& row, Referee& referee, RenderStatistics& statistics);
+  void write_normals(const VisibleRow& row, triangle::Referee& referee,
+                     RenderStatistics& statistics);
   /// Writes what follows from number and q; returns what is left.
   Open write_settled(const VisibleRow& row, RenderStatistics& statistics) const;
-  std::uint64_t write_encoded(const VisibleRow& row, const EncodedValues& values, bool distance,
-                              RenderStatistics& statistics) const;
+  std::uint64_t write_encoded(const VisibleRow& row, const triangle::EncodedValues& values,
+                              bool distance, RenderStatistics& statistics) const;
 
-  Triangle& remember(std::uint32_t number);
+  SurfaceFacts& facts(std::uint32_t number) {
+    return remembered_.get(number, [&](SurfaceFacts& t) { t = surface_facts(number, frame_); });
+  }
 
-  ChannelWriter& exact_;
-  const ChannelValues values_;
-  const SceneRays& rays_;
-  const WideArithmetic& wide_;
-  ImageBounds image_;
-  RaySizes world_sizes_;
+  triangle::ChannelWriter& exact_;
+  const triangle::ChannelValues values_;
+  const ValueFrame frame_;
   /// Whether a channel was asked for that is not written by rows.
   bool each_pixel_;
-  std::vector<Triangle> remembered_;
+  triangle::RecentTriangles<SurfaceFacts, 512> remembered_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::fast

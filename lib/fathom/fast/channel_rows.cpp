@@ -10,7 +10,9 @@
 #include "fathom/fast/setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace fathom::HWY_NAMESPACE {
+namespace fathom::fast::HWY_NAMESPACE {
+using namespace triangle;
+
 namespace {
 
 constexpr double ulp = epsilon<double>;
@@ -79,7 +81,7 @@ struct AlongRow {
   [[nodiscard]] HWY_INLINE V at(V u) const { return hn::MulAdd(constant(b), u, constant(a)); }
 };
 
-/// As position() in fast_wide.h.
+/// As position() in triangle/double_word_surface.h.
 HWY_ATTR void round_lanes_of_positions(const SurfaceRow& row, const Rays& world,
                                        const RaySizes& sizes, bool perspective,
                                        std::array<RoundedValues<float>, 3>& rounded) {
@@ -103,7 +105,7 @@ HWY_ATTR void round_lanes_of_positions(const SurfaceRow& row, const Rays& world,
   }
 }
 
-/// As ray_length() and product() in fast_wide.h.
+/// As ray_length() and product() in triangle/double_word_surface.h.
 HWY_INLINE CertifiedLanes times_ray_length(const CertifiedLanes& depth, V u, const SurfaceRow& row,
                                            const SceneRays& rays) {
   const auto& [kx, ky] = rays.lens();
@@ -147,11 +149,12 @@ HWY_ATTR void round_lanes_to_codes(const SurfaceRow& row, const SceneRays& rays,
 }
 
 }  // namespace
-}  // namespace fathom::HWY_NAMESPACE
+}  // namespace fathom::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace fathom {
+namespace fathom::fast {
+using namespace triangle;
 
 HWY_EXPORT(round_lanes_of_positions);
 HWY_EXPORT(round_lanes_of_depths);
@@ -172,5 +175,5 @@ void round_to_codes(const SurfaceRow& row, const SceneRays& rays, bool distance,
   HWY_DYNAMIC_DISPATCH(round_lanes_to_codes)(row, rays, distance, scale, rounded);
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast
 #endif

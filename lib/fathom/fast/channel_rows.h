@@ -5,7 +5,7 @@
 
 #include "fathom/triangle/double_word_surface.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 /// Samples of a row of a tile.
 inline constexpr std::size_t samples_of_row = 64;
@@ -29,15 +29,16 @@ struct RoundedValues {
 };
 
 // The binary64 tier of what follows from q alone, several samples at once, by the instructions that
-// the processor has: fast_surface.h and certified_rounding.h say the same for one sample, and why.
+// the processor has: triangle/certified_surface.h and certified_rounding.h say the same for one sample, and why.
 
 /// World x, y, z of the visible points. The world's rays usable.
-void round_positions(const SurfaceRow& row, const Rays& world, const RaySizes& sizes,
-                     bool perspective, std::array<RoundedValues<float>, 3>& rounded);
+void round_positions(const SurfaceRow& row, const triangle::Rays& world,
+                     const triangle::RaySizes& sizes, bool perspective,
+                     std::array<RoundedValues<float>, 3>& rounded);
 /// Depth, or ray distance where `distance`; as binary32, or scaled as codes.
-void round_depths(const SurfaceRow& row, const SceneRays& rays, bool distance,
+void round_depths(const SurfaceRow& row, const triangle::SceneRays& rays, bool distance,
                   RoundedValues<float>& rounded);
-void round_to_codes(const SurfaceRow& row, const SceneRays& rays, bool distance, double scale,
-                    RoundedValues<std::uint16_t>& rounded);
+void round_to_codes(const SurfaceRow& row, const triangle::SceneRays& rays, bool distance,
+                    double scale, RoundedValues<std::uint16_t>& rounded);
 
-}  // namespace fathom
+}  // namespace fathom::fast

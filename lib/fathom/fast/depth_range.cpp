@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fathom {
+namespace fathom::fast {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -37,4 +37,4 @@ DepthRange depth_range(const Camera& camera) {
   return range;
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -2,7 +2,7 @@
 
 #include "fathom/camera/camera.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 /// The depths that count (specification, section 5: D > 0, near ≤ D ≤ far) as a range of q (see
 /// ImageVertex), with doubt at its ends: exact q in [inside_least, inside_greatest] certainly
@@ -21,4 +21,4 @@ struct DepthRange {
 
 DepthRange depth_range(const Camera& camera);
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -1,11 +1,12 @@
 #include "fathom/fast/frame.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <limits>
 
-namespace fathom {
+#include "fathom/threads/threads.h"
+
+namespace fathom::fast {
+using namespace triangle;
 
 FastFrame::FastFrame(const Camera& the_camera, const RenderOptions& the_options)
     : camera(the_camera),
@@ -24,7 +25,7 @@ std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t fir
     bins.emplace_back(static_cast<std::uint32_t>(next),
                       static_cast<std::uint32_t>(std::min<std::uint64_t>(next + length, end)));
   }
-  tbb::parallel_for(std::size_t{0}, bins.size(), [&](std::size_t i) {
+  parallel_for(std::size_t{0}, bins.size(), [&](std::size_t i) {
     FastWorker& worker = workers.local();
     bins[i].fill({objects, frame.camera, frame.options.cull, frame.by_area, frame.grid,
                   worker.referee, worker.statistics});
@@ -107,4 +108,4 @@ FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& ra
   if (auto* values = std::get_if<Samples<float>>(&depth->values)) depths_ = values->data();
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -12,16 +12,16 @@
 #include "fathom/fast/bins.h"
 #include "fathom/fast/certified_writer.h"
 #include "fathom/fast/tile.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/threads/threads.h"
 
 /// What the fast engine works with, whether its scene lies in memory or in files.
-namespace fathom {
+namespace fathom::fast {
 
 /// What a thread works with.
 struct FastWorker {
-  FastWorker(const TriangleSource& triangles, const Camera& camera, const SceneRays& rays)
+  FastWorker(const TriangleSource& triangles, const Camera& camera, const triangle::SceneRays& rays)
       : referee(triangles, camera, &rays) {}
-  Referee referee;
+  triangle::Referee referee;
   RenderStatistics statistics;
   std::vector<DoubtfulPixel> doubtful;
 };
@@ -65,28 +65,28 @@ void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bi
 /// The fault of the first pixel in row order, over all tiles.
 class FirstFault {
  public:
-  void add(std::optional<EncodingFault> fault) {
+  void add(std::optional<triangle::EncodingFault> fault) {
     if (!fault) return;
     const std::lock_guard lock(mutex_);
     if (!first_ || fault->pixel < first_->pixel) first_ = std::move(fault);
   }
-  [[nodiscard]] const std::optional<EncodingFault>& get() const { return first_; }
+  [[nodiscard]] const std::optional<triangle::EncodingFault>& get() const { return first_; }
 
  private:
-  std::optional<EncodingFault> first_;
+  std::optional<triangle::EncodingFault> first_;
   std::mutex mutex_;
 };
 
 /// Where the tiles write; any thread may.
 class FastOutput {
  public:
-  FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays);
+  FastOutput(DepthMap& map, triangle::ChannelWriter& writer, const triangle::SceneRays& rays);
   /// Whether tiles write all values of Z, so that the map need not be filled before.
   static bool writes_whole_tiles(const RenderOptions& options);
   /// Of a tile without any triangle.
   void write_background(const PixelBox& area, std::uint32_t image_width) const;
-  std::optional<EncodingFault> write(const Tile& tile, std::uint32_t image_width,
-                                     const Tile::Context& context) {
+  std::optional<triangle::EncodingFault> write(const Tile& tile, std::uint32_t image_width,
+                                               const Tile::Context& context) {
     return tile.resolve(certified_.local(), depths_, image_width, context);
   }
 
@@ -96,4 +96,4 @@ class FastOutput {
   float* depths_ = nullptr;
 };
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -1,18 +1,20 @@
 #include "fathom/fast/render_fast.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/frame.h"
+#include "fathom/threads/threads.h"
 
 // How to read this file: render_in_arena() is the whole story. Vertices are transformed to the
-// image with bounds of their errors (fast_vertex), triangles are sorted into tiles (fast_boxes,
-// fast_bins), each tile draws its triangles (fast_setup, fast_tile) and writes what is visible
-// (fast_resolve) and how much of its pixels is covered (fast_coverage). What the bounds do not
-// settle goes to the referee (fast_referee), who computes exactly.
+// image with bounds of their errors (vertex), triangles are sorted into tiles (boxes,
+// bins), each tile draws its triangles (setup, tile) and writes what is visible
+// (resolve) and how much of its pixels is covered (tile_coverage). What the bounds do not
+// settle goes to the referee (triangle/referee), who computes exactly.
 namespace fathom {
+using namespace fast;
+using namespace triangle;
+
 namespace {
 
 constexpr std::uint32_t parts_of_scene = 64;
@@ -51,7 +53,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   FastOutput output(map, writer, rays);
   FirstFault fault;
   Progress progress(options.progress, frame.grid.count());
-  tbb::parallel_for(std::uint32_t{0}, frame.grid.count(), [&](std::uint32_t number) {
+  parallel_for(std::uint32_t{0}, frame.grid.count(), [&](std::uint32_t number) {
     const auto is_empty = [&](const Bins& part) { return part.in_tile(number).empty(); };
     if (std::all_of(bins.begin(), bins.end(), is_empty)) {
       output.write_background(frame.grid.area(number), camera.width);

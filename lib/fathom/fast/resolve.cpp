@@ -13,7 +13,8 @@
 
 #ifndef FATHOM_FAST_RESOLVE_ROW
 #define FATHOM_FAST_RESOLVE_ROW
-namespace fathom {
+namespace fathom::fast {
+using namespace triangle;
 
 /// One row of a tile: depths rounded to binary32, +∞ where there is no surface. A bit for each
 /// column: whether it shows a surface, and whether its depth is not settled.
@@ -22,11 +23,11 @@ struct RoundedRow {
   std::uint64_t surface = 0, open = 0;
 };
 
-}  // namespace fathom
+}  // namespace fathom::fast
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace fathom::HWY_NAMESPACE {
+namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
 /// The least and the greatest D of an interval of q, where known.
@@ -79,11 +80,11 @@ void round_row(const double* q_at, const std::uint64_t* tags, bool perspective, 
 }
 
 }  // namespace
-}  // namespace fathom::HWY_NAMESPACE
+}  // namespace fathom::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace fathom {
+namespace fathom::fast {
 
 HWY_EXPORT(round_row);
 
@@ -120,5 +121,5 @@ std::optional<EncodingFault> Tile::resolve(CertifiedWriter& certified, float* de
   return std::nullopt;
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast
 #endif

@@ -11,7 +11,7 @@
 #include "fathom/fast/setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace fathom::HWY_NAMESPACE {
+namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
 void set_up_batch(const ImageVertex* vertices, const CornerIndices* triangles, std::size_t count,
@@ -50,11 +50,12 @@ const char* target_name() {
 }
 
 }  // namespace
-}  // namespace fathom::HWY_NAMESPACE
+}  // namespace fathom::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace fathom {
+namespace fathom::fast {
+using namespace triangle;
 
 HWY_EXPORT(set_up_batch);
 HWY_EXPORT(orient);
@@ -123,5 +124,5 @@ void SetupBatch::set(std::size_t lane, const TriangleSetup& setup, const PixelBo
   last_row[lane] = box.last_row;
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast
 #endif

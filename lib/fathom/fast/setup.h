@@ -9,7 +9,7 @@
 #include "fathom/fast/vertex.h"
 #include "fathom/triangle/projected_triangle.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 /// A triangle ready for sampling: affine functions on the image with bounds of their errors.
 ///
@@ -73,6 +73,7 @@ void certified_setups(const ImageVertex* vertices, const CornerIndices* triangle
                       SetupBatch& batch);
 
 /// From exact forms; works for every triangle with Δ ≠ 0, also one that reaches behind the camera.
-TriangleSetup exact_setup(const ProjectedTriangle& triangle, bool perspective, const PixelBox& box);
+TriangleSetup exact_setup(const triangle::ProjectedTriangle& triangle, bool perspective,
+                          const PixelBox& box);
 
-}  // namespace fathom
+}  // namespace fathom::fast

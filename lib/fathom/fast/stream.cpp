@@ -1,12 +1,11 @@
 #include "fathom/fast/stream.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <map>
 
 #include "fathom/area/coverage_image.h"
 #include "fathom/fast/frame.h"
+#include "fathom/threads/threads.h"
 
 // How to read this file: render_in_arena() is the whole story. The image is done in bands of rows
 // of tiles. For each band the files are read from beginning to end, some triangles at a time, which
@@ -15,6 +14,10 @@
 // tiles fit into the memory that is allowed. Bands after the first leave out what the first saw to
 // lie elsewhere.
 namespace fathom {
+using namespace area;
+using namespace fast;
+using namespace triangle;
+
 namespace {
 
 constexpr std::uint32_t parts_of_chunk = 8;
@@ -58,7 +61,7 @@ class Band {
 
   void draw(const std::vector<Bins>& bins, const ImageObjects& objects, const FastFrame& frame,
             FastWorkers& workers) {
-    tbb::parallel_for(first(), end(), [&](std::uint32_t number) {
+    parallel_for(first(), end(), [&](std::uint32_t number) {
       if (!is_met(number, bins)) return;
       auto& tile = at(number);
       if (!tile) {
@@ -71,7 +74,7 @@ class Band {
 
   void resolve(FastOutput& output, const FastFrame& frame, FastWorkers& workers,
                FirstFault& fault) {
-    tbb::parallel_for(first(), end(), [&](std::uint32_t number) {
+    parallel_for(first(), end(), [&](std::uint32_t number) {
       auto& tile = at(number);
       if (!tile) return;
       fault.add(output.write(*tile, grid_.width, frame.context(workers.local())));

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-namespace fathom {
-namespace {
+#include "fathom/triangle/sampling.h"
 
-ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
-  return {column + 0.5, row + 0.5};
-}
+namespace fathom::fast {
+using namespace triangle;
+
+namespace {
 
 double local(std::uint32_t position, std::uint32_t origin) {
   return static_cast<double>(static_cast<std::int32_t>(position - origin));
@@ -34,7 +34,7 @@ void Tile::set_up_exactly(std::uint32_t number, const PixelBox& box, const Conte
   batch.set(0, setup, box);
 }
 
-// The decisions of the vector code once more (fast_tile_lanes.cpp), each in its own tier. The
+// The decisions of the vector code once more (tile_lanes.cpp), each in its own tier. The
 // functions are summed in another order perhaps, within the same bounds.
 void Tile::settle(const TriangleSetup& setup, bool test_range, std::uint32_t column,
                   std::uint32_t row, const Context& context) {
@@ -72,4 +72,4 @@ void Tile::settle(const TriangleSetup& setup, bool test_range, std::uint32_t col
   tags_[i] = tag;
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

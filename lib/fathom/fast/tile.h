@@ -14,7 +14,7 @@
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/referee.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 /// Column and row of the image.
 struct DoubtfulPixel {
@@ -31,7 +31,7 @@ class Tile {
 
   /// What a tile works with, one for each thread.
   struct Context {
-    Referee& referee;
+    triangle::Referee& referee;
     RenderStatistics& statistics;
     const DepthRange& range;
     bool perspective;
@@ -55,8 +55,9 @@ class Tile {
 
   /// Writes the visible surfaces; the first fault in row order ends it. `depths`: where not null,
   /// the values of channel Z, the only channel, written here for the whole area.
-  std::optional<EncodingFault> resolve(CertifiedWriter& certified, float* depths,
-                                       std::uint32_t image_width, const Context& context) const;
+  std::optional<triangle::EncodingFault> resolve(CertifiedWriter& certified, float* depths,
+                                                 std::uint32_t image_width,
+                                                 const Context& context) const;
 
   // For the vector code.
   /// Index of a sample by its column and row within the tile.
@@ -80,7 +81,7 @@ class Tile {
                              SetupBatch& batch);
 
  private:
-  /// Rows and columns of the image, of the area.
+  /// Of the surface at a sample: the bound of the error of its q, and its number.
   [[nodiscard]] double error_at(std::size_t i) const { return std::bit_cast<double>(tags_[i]); }
   [[nodiscard]] std::uint32_t number_at(std::size_t i) const {
     return static_cast<std::uint32_t>(tags_[i]);
@@ -104,4 +105,4 @@ inline std::uint64_t surface_tag(std::uint32_t number, double q_error) {
 /// No surface: an error of next to nothing.
 inline constexpr std::uint64_t no_surface_tag = std::uint64_t{0x00100000} << 32 | no_surface;
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -13,7 +13,7 @@
 #include "fathom/fast/tile.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace fathom::HWY_NAMESPACE {
+namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
 constexpr int block = static_cast<int>(Tile::block);
@@ -412,11 +412,12 @@ void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::
 }
 
 }  // namespace
-}  // namespace fathom::HWY_NAMESPACE
+}  // namespace fathom::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace fathom {
+namespace fathom::fast {
+using namespace triangle;
 
 HWY_EXPORT(draw_triangles);
 
@@ -425,5 +426,5 @@ void Tile::draw(const ImageObject& object, std::span<const std::uint32_t> number
   HWY_DYNAMIC_DISPATCH(draw_triangles)(*this, object, numbers, context);
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast
 #endif

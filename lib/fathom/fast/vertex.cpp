@@ -17,7 +17,7 @@
 // S = |m₀x| + |m₁y| + |m₂z| + |m₃| and γ₅ = 5u/(1 − 5u). S is computed with a relative error of at
 // most γ₅ as well. 6u·S, computed, is therefore a bound; what 6 is more than 5 covers the second
 // order. A product that underflows adds at most 2⁻¹⁰⁷⁵ absolutely: each user says what covers it.
-namespace fathom {
+namespace fathom::fast {
 namespace {
 
 using vertex_bounds::affine_error;
@@ -161,4 +161,4 @@ bool VertexTransform::misses_image(const std::array<MeshPoint, 3>& corners) cons
   return behind || left || right || above || below;
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -6,15 +6,13 @@
 #include <span>
 
 #include "fathom/camera/camera.h"
+#include "fathom/numeric/unit_roundoff.h"
 #include "fathom/scene/scene.h"
 
-namespace fathom {
-
-/// Half the distance from 1 to the next binary64 number: the relative error of one rounding.
-inline constexpr double unit_roundoff = 0x1p-53;
+namespace fathom::fast {
 
 /// Vertices that lie exactly on the grid of this step (pixels) are known to, within this distance
-/// of the image's origin: then edge functions are computed without any error (fast_setup-inl.h).
+/// of the image's origin: then edge functions are computed without any error (setup-inl.h).
 inline constexpr double snap_step = 0x1p-8, snap_limit = 0x1p15;
 
 /// A mesh vertex in the image, with what is proved about it.
@@ -93,4 +91,4 @@ class VertexTransform {
   ImageRows rows_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -13,7 +13,7 @@
 #include "fathom/fast/vertex_bounds.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace fathom::HWY_NAMESPACE {
+namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -28,7 +28,7 @@ HWY_INLINE V constant(double x) {
   return hn::Set(D(), x);
 }
 
-/// m₀x + m₁y + m₂z + m₃, in an order for which the bound of fast_vertex.cpp holds.
+/// m₀x + m₁y + m₂z + m₃, in an order for which the bound of vertex.cpp holds.
 HWY_INLINE V apply(const ImageRows::Row& m, V x, V y, V z) {
   return hn::MulAdd(constant(m[0]), x,
                     hn::MulAdd(constant(m[1]), y, hn::MulAdd(constant(m[2]), z, constant(m[3]))));
@@ -57,11 +57,11 @@ HWY_INLINE Result perspective_vertex(const ImageRows& rows, V x, V y, V z) {
   r.u = hn::Mul(U, r.q);
   r.v = hn::Mul(Vv, r.q);
   const V size = hn::Max(hn::Abs(r.u), hn::Abs(r.v));
-  const V relative = hn::Mul(constant(3 * unit_roundoff), size);
+  const V relative = hn::Mul(constant(3 * unit_roundoff<double>), size);
   r.position_error = hn::MulAdd(hn::MulAdd(hn::MulAdd(size, w_error, uv_error), r.q, relative),
                                 constant(slack), constant(underflow_floor));
-  r.q_error =
-      hn::Mul(hn::MulAdd(w_error, r.q, constant(unit_roundoff)), hn::Mul(r.q, constant(slack)));
+  r.q_error = hn::Mul(hn::MulAdd(w_error, r.q, constant(unit_roundoff<double>)),
+                      hn::Mul(r.q, constant(slack)));
   r.usable = hn::And(hn::And(hn::And(hn::Ge(W, constant(least_W)), hn::Le(W, constant(greatest_W))),
                              hn::Le(w_error, hn::Mul(W, constant(0x1p-20)))),
                      hn::And(hn::Le(size, constant(greatest_coordinate)),
@@ -162,11 +162,11 @@ void transform_vertices(const VertexTransform& transform, const MeshPoint* point
 }
 
 }  // namespace
-}  // namespace fathom::HWY_NAMESPACE
+}  // namespace fathom::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace fathom {
+namespace fathom::fast {
 
 HWY_EXPORT(transform_vertices);
 
@@ -180,5 +180,5 @@ void VertexTransform::operator()(std::span<const MeshPoint> points, ImageVertex*
   HWY_DYNAMIC_DISPATCH(transform_vertices)(*this, points.data(), points.size(), image);
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast
 #endif

@@ -9,6 +9,8 @@
 #include "fathom/numeric/errors.h"
 
 namespace fathom {
+using namespace image;
+
 namespace {
 
 PixelPosition position_of(std::size_t k, std::uint32_t width) {
@@ -175,8 +177,8 @@ ChannelComparison compare_channel(const ChannelPair& pair, const CompareOptions&
 
 }  // namespace
 
-ChannelPair make_pair(const DepthMap& truth, const ImageChannel& a, const DepthMap& other,
-                      const ImageChannel& b, const CompareOptions& options) {
+ChannelPair image::make_pair(const DepthMap& truth, const ImageChannel& a, const DepthMap& other,
+                             const ImageChannel& b, const CompareOptions& options) {
   const bool integers_a = std::holds_alternative<Samples<std::uint32_t>>(a.values);
   const bool integers_b = std::holds_alternative<Samples<std::uint32_t>>(b.values);
   if (integers_a != integers_b)
@@ -206,8 +208,8 @@ ChannelPair make_pair(const DepthMap& truth, const ImageChannel& a, const DepthM
   return pair;
 }
 
-PairedNames paired_channels(const DepthMap& truth, const DepthMap& other,
-                            const CompareOptions& options) {
+PairedNames image::paired_channels(const DepthMap& truth, const DepthMap& other,
+                                   const CompareOptions& options) {
   if (truth.width != other.width || truth.height != other.height)
     throw InputError("the maps differ in size: " + std::to_string(truth.width) + "×" +
                      std::to_string(truth.height) + " and " + std::to_string(other.width) + "×" +
@@ -251,7 +253,7 @@ MapComparison compare_maps(const DepthMap& truth, const DepthMap& other,
   return result;
 }
 
-std::vector<PixelDifference> pixel_differences(const ChannelPair& pair) {
+std::vector<PixelDifference> image::pixel_differences(const ChannelPair& pair) {
   const Reading a(pair.truth, pair.truth_scale), b(pair.other, pair.other_scale);
   std::vector<PixelDifference> result(pair.truth_mask.size());
   for (std::size_t k = 0; k < result.size(); ++k) {

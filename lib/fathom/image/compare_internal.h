@@ -7,7 +7,7 @@
 #include "fathom/image/surface.h"
 
 /// What compare.cpp and difference_picture.cpp share.
-namespace fathom {
+namespace fathom::image {
 
 /// The values of a channel whatever its type: as binary64 (codes decoded where their scale is
 /// known), and as bits.
@@ -81,4 +81,4 @@ struct PixelDifference {
 
 std::vector<PixelDifference> pixel_differences(const ChannelPair& pair);
 
-}  // namespace fathom
+}  // namespace fathom::image

@@ -15,6 +15,9 @@
 #include "fathom/text/file_bytes.h"
 
 namespace fathom {
+using namespace image;
+using namespace text;
+
 namespace {
 
 Imf::Compression deep_compression(Compression compression) {

@@ -8,6 +8,8 @@
 #include "fathom/image/preview.h"
 
 namespace fathom {
+using namespace image;
+
 namespace {
 
 using Kind = PixelDifference::Kind;

@@ -12,7 +12,7 @@
 
 #include "fathom/image/map_codecs.h"
 
-namespace fathom {
+namespace fathom::image {
 namespace {
 
 constexpr const char* objects_attribute = "fathom.objects";
@@ -119,4 +119,4 @@ void get_attributes(const Imf::Header& header, DepthMap& map) {
   }
 }
 
-}  // namespace fathom
+}  // namespace fathom::image

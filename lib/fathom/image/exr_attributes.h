@@ -4,7 +4,7 @@
 
 #include "fathom/image/depth_map.h"
 
-namespace fathom {
+namespace fathom::image {
 
 /// Puts the map's camera matrices, texts, object names and window into an EXR header. Numbers that
 /// EXR cannot hold there (a mirrored screen window, a matrix beyond binary32) are left out or
@@ -14,4 +14,4 @@ void set_attributes(Imf::Header& header, const DepthMap& map);
 /// The reverse; every string attribute becomes a text.
 void get_attributes(const Imf::Header& header, DepthMap& map);
 
-}  // namespace fathom
+}  // namespace fathom::image

@@ -11,7 +11,9 @@
 
 /// What an OpenEXR header claims, checked against the size of the file before OpenEXR, which
 /// allocates by those claims, sees it. Layout: "OpenEXR File Layout" of the format's documentation.
-namespace fathom {
+namespace fathom::image {
+using namespace text;
+
 namespace {
 
 constexpr std::uint32_t flag_deep = 0x800, flag_multipart = 0x1000;
@@ -216,4 +218,4 @@ std::vector<std::size_t> check_exr_claims(ByteView bytes, const std::string& nam
   return Claims(bytes, name).check();
 }
 
-}  // namespace fathom
+}  // namespace fathom::image

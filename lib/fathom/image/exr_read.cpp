@@ -8,7 +8,9 @@
 #include "fathom/image/map_codecs.h"
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::image {
+using namespace text;
+
 namespace {
 
 std::string in_words(const Imath::Box2i& box) {
@@ -67,4 +69,4 @@ DepthMap decode_exr(ByteView bytes, const std::string& name) {
   }
 }
 
-}  // namespace fathom
+}  // namespace fathom::image

@@ -10,13 +10,13 @@
 
 #include "fathom/text/file_bytes.h"
 
-namespace fathom {
+namespace fathom::image {
 
 /// OpenEXR reading from bytes in memory. At the positions `defused` (see check_exr_claims) it sees
 /// the letter X, whatever stands there.
 class ByteInput : public Imf::IStream {
  public:
-  ByteInput(ByteView bytes, const std::string& name, std::vector<std::size_t> defused)
+  ByteInput(text::ByteView bytes, const std::string& name, std::vector<std::size_t> defused)
       : IStream(name.c_str()), bytes_(bytes), defused_(std::move(defused)) {}
 
   bool read(char to[], int count) override {
@@ -36,7 +36,7 @@ class ByteInput : public Imf::IStream {
   }
 
  private:
-  ByteView bytes_;
+  text::ByteView bytes_;
   std::vector<std::size_t> defused_;
   std::size_t position_ = 0;
 };
@@ -55,10 +55,10 @@ class ByteOutput : public Imf::OStream {
   std::uint64_t tellp() override { return position_; }
   void seekp(std::uint64_t position) override { position_ = position; }
 
-  [[nodiscard]] Bytes take() { return std::move(bytes_); }
+  [[nodiscard]] text::Bytes take() { return std::move(bytes_); }
 
  private:
-  Bytes bytes_;
+  text::Bytes bytes_;
   std::size_t position_ = 0;
 };
 
@@ -69,4 +69,4 @@ int reserve_exr_threads(int threads);
 /// What OpenEXR says of a failure, on one line.
 std::string exr_reason(const std::exception& failure);
 
-}  // namespace fathom
+}  // namespace fathom::image

@@ -11,7 +11,9 @@
 #include "fathom/image/map_codecs.h"
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::image {
+using namespace text;
+
 namespace {
 
 Imf::Compression compression_of(Compression compression) {
@@ -97,4 +99,4 @@ Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
   }
 }
 
-}  // namespace fathom
+}  // namespace fathom::image

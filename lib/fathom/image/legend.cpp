@@ -7,7 +7,7 @@
 
 #include "fathom/image/lettering.h"
 
-namespace fathom {
+namespace fathom::image {
 namespace {
 
 constexpr Rgb paper{255, 255, 255}, ink{33, 37, 41}, faint_ink{108, 117, 125}, frame{173, 181, 189};
@@ -141,4 +141,4 @@ RgbImage lay_out(const Sheet& sheet) {
   return image;
 }
 
-}  // namespace fathom
+}  // namespace fathom::image

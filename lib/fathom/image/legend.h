@@ -8,7 +8,7 @@
 #include "fathom/image/rgb_image.h"
 
 /// Puts a picture together with its title, colour bar and legend.
-namespace fathom {
+namespace fathom::image {
 
 struct ColourBar {
   /// The colour at t in [0, 1], from the low end to the high one.
@@ -46,4 +46,4 @@ struct FittedPicture {
 };
 FittedPicture fit_to_screen(RgbImage picture);
 
-}  // namespace fathom
+}  // namespace fathom::image

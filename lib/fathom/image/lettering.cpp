@@ -5,7 +5,7 @@
 
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::image {
 namespace {
 
 /// The characters of UTF-8 text; a byte that is not UTF-8 becomes U+FFFD.
@@ -99,4 +99,4 @@ void Lettering::draw(RgbImage& image, int x, int y, const std::string& text, int
   }
 }
 
-}  // namespace fathom
+}  // namespace fathom::image

@@ -5,7 +5,7 @@
 
 #include "fathom/image/rgb_image.h"
 
-namespace fathom {
+namespace fathom::image {
 
 /// Text on pictures, in the font of the build (DejaVu Sans), UTF-8, left to right.
 class Lettering {
@@ -26,4 +26,4 @@ class Lettering {
   std::unique_ptr<Font> font_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::image

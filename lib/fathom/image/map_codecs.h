@@ -10,28 +10,28 @@
 
 /// The formats as pure functions between maps and bytes, for map_files.cpp, tests and fuzzers.
 /// `name` is the file's name for messages. Decoders throw InputError, encoders OutputError.
-namespace fathom {
+namespace fathom::image {
 
-Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
-                 const std::string& name);
-DepthMap decode_exr(ByteView bytes, const std::string& name);
+text::Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
+                       const std::string& name);
+DepthMap decode_exr(text::ByteView bytes, const std::string& name);
 
-Bytes encode_pfm(const DepthMap& map, const ImageChannel& channel, const std::string& name);
-DepthMap decode_pfm(ByteView bytes, const std::string& name);
+text::Bytes encode_pfm(const DepthMap& map, const ImageChannel& channel, const std::string& name);
+DepthMap decode_pfm(text::ByteView bytes, const std::string& name);
 
-Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::string& name);
-DepthMap decode_png(ByteView bytes, const std::string& name);
+text::Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::string& name);
+DepthMap decode_png(text::ByteView bytes, const std::string& name);
 
-Bytes encode_npy(const DepthMap& map, const ImageChannel& channel, const std::string& name);
-DepthMap decode_npy(ByteView bytes, const std::string& name);
+text::Bytes encode_npy(const DepthMap& map, const ImageChannel& channel, const std::string& name);
+DepthMap decode_npy(text::ByteView bytes, const std::string& name);
 
 /// Recognises the format by the first bytes and decodes.
-DepthMap decode_map(ByteView bytes, const std::string& name);
+DepthMap decode_map(text::ByteView bytes, const std::string& name);
 
 /// Throws InputError if an OpenEXR file's header (its first part) claims more than the file can
 /// hold, is not a plain image, or cannot be followed. See exr_claims.cpp.
 /// Returns where the types of attributes stand that OpenEXR must not interpret (see ByteInput).
-std::vector<std::size_t> check_exr_claims(ByteView bytes, const std::string& name);
+std::vector<std::size_t> check_exr_claims(text::ByteView bytes, const std::string& name);
 
 /// Greatest ratio of image bytes to file bytes that DEFLATE reaches (1032:1, zlib's documentation),
 /// doubled so as not to depend on the last detail.
@@ -41,4 +41,4 @@ inline constexpr std::uint64_t greatest_deflate_ratio = 2064;
 std::string object_names_as_json(const std::vector<std::string>& names);
 std::vector<std::string> object_names_from_json(const std::string& text);
 
-}  // namespace fathom
+}  // namespace fathom::image

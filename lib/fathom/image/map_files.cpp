@@ -9,6 +9,9 @@
 #include "fathom/numeric/errors.h"
 
 namespace fathom {
+using namespace image;
+using namespace text;
+
 namespace {
 
 const ImageChannel& channel_to_write(const DepthMap& map, const std::string& asked) {
@@ -66,7 +69,7 @@ void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat
   }
 }
 
-DepthMap decode_map(ByteView bytes, const std::string& name) {
+DepthMap image::decode_map(ByteView bytes, const std::string& name) {
   if (starts_with(bytes, "\x76\x2f\x31\x01")) return decode_exr(bytes, name);
   if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return decode_png(bytes, name);
   if (starts_with(bytes, "\x93NUMPY")) return decode_npy(bytes, name);
@@ -78,11 +81,11 @@ DepthMap read_map(const std::filesystem::path& path) {
   return decode_map(read_file(path), path.string());
 }
 
-std::string object_names_as_json(const std::vector<std::string>& names) {
+std::string image::object_names_as_json(const std::vector<std::string>& names) {
   return nlohmann::json(names).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::vector<std::string> object_names_from_json(const std::string& text) {
+std::vector<std::string> image::object_names_from_json(const std::string& text) {
   const auto list = nlohmann::json::parse(text, nullptr, false);
   if (!list.is_array()) return {};
   std::vector<std::string> names;

@@ -9,7 +9,9 @@
 
 /// NPY (NumPy enhancement proposal 1): "\x93NUMPY", version, length of the header, a Python
 /// dictionary of descr, fortran_order and shape, then the values.
-namespace fathom {
+namespace fathom::image {
+using namespace text;
+
 namespace {
 
 /// A reader of the few Python literals that an NPY header may consist of.
@@ -218,4 +220,4 @@ DepthMap decode_npy(ByteView bytes, const std::string& name) {
   return map;
 }
 
-}  // namespace fathom
+}  // namespace fathom::image

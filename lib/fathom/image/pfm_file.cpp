@@ -10,7 +10,9 @@
 /// binary32 rows from the bottom up. A negative scale says little endian. The scale's magnitude is
 /// a unit that most readers ignore: it is not applied, so that the values keep their bits; where it
 /// is not 1 it is kept as the text `pfm.scale`.
-namespace fathom {
+namespace fathom::image {
+using namespace text;
+
 namespace {
 
 class Header {
@@ -108,4 +110,4 @@ DepthMap decode_pfm(ByteView bytes, const std::string& name) {
   return map;
 }
 
-}  // namespace fathom
+}  // namespace fathom::image

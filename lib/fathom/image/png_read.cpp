@@ -9,7 +9,8 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
 
-namespace fathom {
+namespace fathom::image {
+using namespace text;
 
 void png_fail(png_structp png, png_const_charp reason) {
   auto* failure = static_cast<PngFailure*>(png_get_error_ptr(png));
@@ -152,4 +153,4 @@ DepthMap decode_png(ByteView bytes, const std::string& name) {
   return map;
 }
 
-}  // namespace fathom
+}  // namespace fathom::image

@@ -6,7 +6,7 @@
 
 /// libpng without longjmp over C++ objects: whoever calls libpng keeps everything with a destructor
 /// in a struct outside the function that calls setjmp.
-namespace fathom {
+namespace fathom::image {
 
 /// libpng's message when it gives up; libpng then jumps back to setjmp.
 struct PngFailure {
@@ -15,4 +15,4 @@ struct PngFailure {
 [[noreturn]] void png_fail(png_structp png, png_const_charp reason);
 void png_ignore_warning(png_structp png, png_const_charp reason);
 
-}  // namespace fathom
+}  // namespace fathom::image

@@ -10,7 +10,9 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
 
-namespace fathom {
+namespace fathom::image {
+using namespace text;
+
 namespace {
 
 /// A PNG to be written: rows of bytes as PNG has them.
@@ -156,4 +158,4 @@ void write_png(const RgbImage& image, const std::filesystem::path& path) {
   write_file(path, encode(picture, path.string()));
 }
 
-}  // namespace fathom
+}  // namespace fathom::image

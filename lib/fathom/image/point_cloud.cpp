@@ -9,6 +9,8 @@
 #include "fathom/text/file_bytes.h"
 
 namespace fathom {
+using namespace text;
+
 namespace {
 
 using Vector = std::array<double, 3>;

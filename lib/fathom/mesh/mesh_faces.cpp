@@ -5,7 +5,7 @@
 #include "fathom/mesh/triangulate_face.h"
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::mesh {
 namespace {
 
 /// One face in the list of triangles: [first, end), a fan.
@@ -91,4 +91,4 @@ void cut_polygons(Mesh& mesh, std::uint64_t skipped_faces, const std::string& fi
   warn_of_faces(skipped_faces, odd_shapes, file, warnings);
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh

@@ -8,7 +8,7 @@
 #include "fathom/text/warnings.h"
 
 /// From the faces of a file to the triangles of a mesh.
-namespace fathom {
+namespace fathom::mesh {
 
 /// Neither triangles nor vertices nor faces may be more: the number above means "none".
 inline constexpr std::uint64_t most_elements = 0xFFFFFFFE;
@@ -57,4 +57,4 @@ class FaceCollector {
 void cut_polygons(Mesh& mesh, std::uint64_t skipped_faces, const std::string& file,
                   Warnings& warnings);
 
-}  // namespace fathom
+}  // namespace fathom::mesh

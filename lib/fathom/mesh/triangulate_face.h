@@ -7,7 +7,7 @@
 
 #include "fathom/geometry/frames.h"
 
-namespace fathom {
+namespace fathom::mesh {
 
 /// How a face was cut into triangles.
 enum class Triangulation {
@@ -32,4 +32,4 @@ Triangulation triangulate_face(std::span<const MeshPoint> ring,
 /// normal in magnitude, the first among equals; −1 if the normal is zero. Exact.
 int projection_axis(std::span<const MeshPoint> ring);
 
-}  // namespace fathom
+}  // namespace fathom::mesh

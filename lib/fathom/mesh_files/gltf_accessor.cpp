@@ -8,7 +8,9 @@
 
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace text;
+
 namespace {
 
 constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
@@ -181,4 +183,4 @@ double GltfAccessor::value(std::uint64_t i, unsigned k) const {
   }
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

@@ -9,7 +9,7 @@
 
 /// The numbers of a glTF asset. For this room's .cpp files only.
 /// Source: Khronos Group, glTF 2.0 specification, sections 3.6.2 (accessors) and 3.6.2.3 (sparse).
-namespace fathom {
+namespace fathom::mesh_files {
 
 /// The numeric types of accessors, with glTF's codes.
 enum class GltfComponent {
@@ -27,7 +27,7 @@ class GltfAccessor {
  public:
   /// Fails with InputError if it is malformed or reaches out of its buffer. An accessor without a
   /// bufferView is all zeros; it may have `most_zeros` elements at most.
-  GltfAccessor(const JsonValue& root, GltfBuffers& buffers, const JsonValue& reference,
+  GltfAccessor(const text::JsonValue& root, GltfBuffers& buffers, const text::JsonValue& reference,
                std::uint64_t most_zeros);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
@@ -35,7 +35,7 @@ class GltfAccessor {
   [[nodiscard]] bool normalized() const { return normalized_; }
   /// Numbers per element: matrices, which nothing that is read here has, are refused.
   [[nodiscard]] unsigned width() const { return width_; }
-  [[nodiscard]] const JsonValue& description() const { return description_; }
+  [[nodiscard]] const text::JsonValue& description() const { return description_; }
 
   /// Number `k` of element `i` as it is stored; exact.
   [[nodiscard]] double stored(std::uint64_t i, unsigned k) const;
@@ -51,12 +51,13 @@ class GltfAccessor {
     Bytes bytes;
     std::uint64_t stride = 0;
   };
-  Layout lay_out(const JsonValue& root, GltfBuffers& buffers, const JsonValue& holder,
+  Layout lay_out(const text::JsonValue& root, GltfBuffers& buffers, const text::JsonValue& holder,
                  std::uint64_t count, std::uint64_t element_size, bool strided) const;
-  void read_sparse(const JsonValue& root, GltfBuffers& buffers, const JsonValue& sparse);
+  void read_sparse(const text::JsonValue& root, GltfBuffers& buffers,
+                   const text::JsonValue& sparse);
   [[nodiscard]] const std::byte* find(std::uint64_t i) const;
 
-  JsonValue description_;
+  text::JsonValue description_;
   std::uint64_t count_ = 0;
   GltfComponent component_ = GltfComponent::float32;
   unsigned width_ = 1;
@@ -67,4 +68,4 @@ class GltfAccessor {
   Layout replacements_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

@@ -8,7 +8,9 @@
 
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace text;
+
 namespace {
 
 constexpr std::uint32_t glb_magic = 0x46546C67;   // "glTF"
@@ -163,4 +165,4 @@ Bytes GltfBuffers::load(const JsonValue& buffer, bool may_be_binary_chunk) {
   return cut(files_.back()->bytes());
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

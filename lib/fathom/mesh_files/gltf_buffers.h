@@ -15,7 +15,7 @@
 
 /// Where the bytes of a glTF asset come from. For this room's .cpp files only.
 /// Source: Khronos Group, glTF 2.0 specification, sections 3.6.1 (buffers) and 4 (GLB).
-namespace fathom {
+namespace fathom::mesh_files {
 
 using Bytes = std::span<const std::byte>;
 
@@ -36,11 +36,12 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
 class GltfBuffers {
  public:
   /// `container` must outlive this; relative URIs start from the folder of `path`.
-  GltfBuffers(const GltfContainer& container, const JsonValue& root, std::filesystem::path path);
+  GltfBuffers(const GltfContainer& container, const text::JsonValue& root,
+              std::filesystem::path path);
 
   /// Buffer `index`, exactly as long as the asset says; memory is taken only for bytes that are
   /// there. `reference` is blamed if there is no such buffer.
-  Bytes at(std::uint64_t index, const JsonValue& reference);
+  Bytes at(std::uint64_t index, const text::JsonValue& reference);
 
   struct ExternalFile {
     std::filesystem::path path;
@@ -50,15 +51,15 @@ class GltfBuffers {
   [[nodiscard]] const std::vector<ExternalFile>& external_files() const { return external_files_; }
 
  private:
-  Bytes load(const JsonValue& buffer, bool may_be_binary_chunk);
+  Bytes load(const text::JsonValue& buffer, bool may_be_binary_chunk);
 
   std::optional<Bytes> binary_;
-  std::vector<JsonValue> descriptions_;
+  std::vector<text::JsonValue> descriptions_;
   std::filesystem::path path_;
   std::map<std::uint64_t, Bytes> loaded_;
   std::vector<std::vector<std::byte>> storage_;
-  std::vector<std::unique_ptr<InputFile>> files_;
+  std::vector<std::unique_ptr<text::InputFile>> files_;
   std::vector<ExternalFile> external_files_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

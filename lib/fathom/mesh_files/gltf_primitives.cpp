@@ -7,7 +7,9 @@
 
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace text;
+
 namespace {
 
 constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
@@ -225,4 +227,4 @@ void GltfPrimitives::report(const std::string& file, Warnings& warnings) const {
   warn(leftover_corners_, " indices are left over after the last whole triangle");
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

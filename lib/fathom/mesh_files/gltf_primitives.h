@@ -13,18 +13,18 @@
 
 /// Triangles of glTF meshes. For this room's .cpp files only.
 /// Source: Khronos Group, glTF 2.0 specification, section 3.7.2 (geometry).
-namespace fathom {
+namespace fathom::mesh_files {
 
 class GltfPrimitives {
  public:
   /// `root` and `buffers` must outlive this.
-  GltfPrimitives(const JsonValue& root, GltfBuffers& buffers, bool attributes,
+  GltfPrimitives(const text::JsonValue& root, GltfBuffers& buffers, bool attributes,
                  std::uint64_t file_size)
       : root_(root), buffers_(buffers), attributes_(attributes), file_size_(file_size) {}
 
   /// All primitives of a glTF mesh in order. Primitives that name the same attributes share their
   /// vertices.
-  Mesh read(const JsonValue& mesh);
+  Mesh read(const text::JsonValue& mesh);
 
   /// Warns of what has been skipped.
   void report(const std::string& file, Warnings& warnings) const;
@@ -35,14 +35,17 @@ class GltfPrimitives {
     std::uint32_t count = 0;
     bool has_texture = false, has_normals = false;
   };
-  void read_primitive(const JsonValue& primitive, Mesh& mesh);
-  const Vertices& vertices_of(const JsonValue& attributes, Mesh& mesh);
+  void read_primitive(const text::JsonValue& primitive, Mesh& mesh);
+  const Vertices& vertices_of(const text::JsonValue& attributes, Mesh& mesh);
   void read_positions(const GltfAccessor& positions, Mesh& mesh) const;
-  void read_attributes(const JsonValue& attributes, Vertices& vertices, Mesh& mesh);
-  std::vector<std::uint32_t> read_indices(const JsonValue& primitive, const Vertices& vertices);
-  GltfAccessor open(const JsonValue& reference) { return {root_, buffers_, reference, file_size_}; }
+  void read_attributes(const text::JsonValue& attributes, Vertices& vertices, Mesh& mesh);
+  std::vector<std::uint32_t> read_indices(const text::JsonValue& primitive,
+                                          const Vertices& vertices);
+  GltfAccessor open(const text::JsonValue& reference) {
+    return {root_, buffers_, reference, file_size_};
+  }
 
-  JsonValue root_;
+  text::JsonValue root_;
   GltfBuffers& buffers_;
   bool attributes_;
   std::uint64_t file_size_;
@@ -59,4 +62,4 @@ class GltfPrimitives {
   std::uint64_t not_triangles_ = 0, without_positions_ = 0, leftover_corners_ = 0;
 };
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

@@ -9,7 +9,7 @@
 #include "fathom/mesh_files/ply_rows.h"
 #include "fathom/text/warnings.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
 
 /// What the properties of a vertex are for us.
 enum PlySlot : int {
@@ -77,7 +77,7 @@ class PlyBody {
 
   /// The rows that the header claims must be able to stand in what is left of the file.
   void expect_room(const PlyElement& element) {
-    expect_countable(element.count, ("rows of element " + element.name).c_str(), file_);
+    mesh::expect_countable(element.count, ("rows of element " + element.name).c_str(), file_);
     const std::uint64_t size = Rows::least_row_size(element);
     if (element.count > rows().rest() / size)
       throw InputError(file_ + ": " + std::to_string(element.count) + " rows of element " +
@@ -166,4 +166,4 @@ class PlyBody {
   std::vector<std::uint32_t> ring_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

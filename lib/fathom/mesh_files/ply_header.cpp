@@ -5,7 +5,9 @@
 
 #include "fathom/text/text_cursor.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace text;
+
 namespace {
 
 std::optional<PlyType> type_named(std::string_view name) {
@@ -145,4 +147,4 @@ PlyHeader read_ply_header(std::string_view text, const std::string& file) {
   return header;
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

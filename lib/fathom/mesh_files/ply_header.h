@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fathom {
+namespace fathom::mesh_files {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
@@ -55,4 +55,4 @@ inline constexpr std::size_t longest_ply_header = std::size_t{128} << 10;
 /// Fails    InputError "FILE: line N: …".
 PlyHeader read_ply_header(std::string_view text, const std::string& file);
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

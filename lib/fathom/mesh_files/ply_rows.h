@@ -19,13 +19,13 @@
 static_assert(std::endian::native == std::endian::little, "little endian PLY is read as it lies");
 
 /// The values of the rows of a PLY file, one after the other, whatever its encoding.
-namespace fathom {
+namespace fathom::mesh_files {
 
 /// The values of a body that is text. Every row stands on a line of its own.
 class AsciiRows {
  public:
   AsciiRows(std::string_view body, const std::string& file, const PlyHeader& header)
-      : cursor_(body, file, {}, TextCursor::line_end_of(body), header.lines + 1) {}
+      : cursor_(body, file, {}, text::TextCursor::line_end_of(body), header.lines + 1) {}
 
   static std::uint64_t least_row_size(const PlyElement& element) {
     return 2 * element.properties.size();  // a digit and what divides it from the next
@@ -81,7 +81,7 @@ class AsciiRows {
   [[noreturn]] void fail(const std::string& message) const { cursor_.fail(message); }
 
  private:
-  TextCursor cursor_;
+  text::TextCursor cursor_;
 };
 
 /// The values of a binary body, one after the other.
@@ -89,8 +89,9 @@ template <bool big_endian>
 class BinaryRows {
  public:
   BinaryRows(std::string_view body, const std::string& file, const PlyHeader& header)
-      : BinaryRows(ByteWindow(body, header.size), file) {}
-  BinaryRows(ByteWindow bytes, const std::string& file) : bytes_(std::move(bytes)), file_(file) {}
+      : BinaryRows(text::ByteWindow(body, header.size), file) {}
+  BinaryRows(text::ByteWindow bytes, const std::string& file)
+      : bytes_(std::move(bytes)), file_(file) {}
 
   static std::uint64_t least_row_size(const PlyElement& element) {
     return element.least_row_size();
@@ -157,7 +158,7 @@ class BinaryRows {
     return std::bit_cast<T>(bytes);
   }
 
-  ByteWindow bytes_;
+  text::ByteWindow bytes_;
   const std::string& file_;
 };
 
@@ -222,4 +223,4 @@ class PlyRowReader {
   std::uint64_t vertex_count_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

@@ -9,7 +9,10 @@
 
 // The file is read through once by the rows and checks of the ordinary reader; what is kept is
 // where things are. Faces are read again, from the file, whenever triangles are asked for.
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace mesh;
+using namespace text;
+
 namespace {
 
 constexpr std::size_t window_size = std::size_t{1} << 20;
@@ -330,4 +333,4 @@ std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<RandomAccessFile
   return std::make_unique<PlyStream>(std::move(file), std::move(scan), vertices, warnings);
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

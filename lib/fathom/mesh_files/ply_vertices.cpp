@@ -11,7 +11,9 @@
 
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace text;
+
 namespace {
 
 template <class T>
@@ -91,4 +93,4 @@ MeshPoint PlyVertices::operator[](std::uint32_t vertex) const {
   return {coordinate(0), coordinate(1), coordinate(2)};
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

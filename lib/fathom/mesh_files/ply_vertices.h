@@ -9,7 +9,7 @@
 #include "fathom/mesh_files/ply_header.h"
 #include "fathom/text/random_access_file.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
 
 /// Where the coordinates of the vertices of a binary PLY file lie: rows of equal length.
 struct PlyVertexLayout {
@@ -32,7 +32,7 @@ PlyVertexLayout layout_of_vertices(const PlyElement& element, std::uint64_t offs
 class PlyVertices {
  public:
   /// Fails    InputError if the block cannot be mapped, for want of addresses for instance.
-  PlyVertices(const RandomAccessFile& file, const PlyVertexLayout& layout);
+  PlyVertices(const text::RandomAccessFile& file, const PlyVertexLayout& layout);
   explicit PlyVertices(std::vector<MeshPoint> list) : list_(std::move(list)) {}
   PlyVertices(const PlyVertices&) = delete;
   PlyVertices& operator=(const PlyVertices&) = delete;
@@ -48,4 +48,4 @@ class PlyVertices {
   const char* rows_ = nullptr;
 };
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

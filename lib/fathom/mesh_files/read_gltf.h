@@ -10,7 +10,7 @@
 #include "fathom/mesh_files/read_options.h"
 #include "fathom/text/source.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
 
 /// The placed meshes of a glTF asset.
 struct GltfAsset {
@@ -35,4 +35,4 @@ struct GltfAsset {
 GltfAsset read_gltf(std::span<const std::byte> bytes, const std::filesystem::path& path,
                     const ReadOptions& options, Warnings& warnings);
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

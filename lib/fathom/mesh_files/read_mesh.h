@@ -11,7 +11,7 @@
 /// The readers of mesh files, one a format. Each takes the whole file, checks everything that Mesh
 /// promises, and allocates no more than the bytes that are there can fill. `file` is the name in
 /// messages. All fail with InputError: "FILE: line N: …" (text) or "FILE: byte N: …" (binary).
-namespace fathom {
+namespace fathom::mesh_files {
 
 /// Wavefront OBJ: v, vt, vn and f lines; o, g, s, usemtl, mtllib and the like are ignored, other
 /// keywords are ignored with a warning. Indices count from 1, negative ones backwards from the last
@@ -39,4 +39,4 @@ Mesh read_stl(std::span<const std::byte> bytes, const std::string& file, const R
 Mesh read_off(std::string_view text, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

@@ -10,7 +10,10 @@
 
 /// Read in two passes over pieces of the file, each in parallel: count what each piece holds, so
 /// that the place of everything is known; then read every piece into its place.
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace mesh;
+using namespace text;
+
 namespace {
 
 constexpr TextCursor::Syntax obj_syntax{.comments = true, .continuation = true};
@@ -344,4 +347,4 @@ Mesh read_obj(std::string_view text, const std::string& file, const ReadOptions&
   return mesh;
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

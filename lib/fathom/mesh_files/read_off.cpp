@@ -5,7 +5,10 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/text/text_cursor.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace mesh;
+using namespace text;
+
 namespace {
 
 /// What the first word and the counts say.
@@ -180,4 +183,4 @@ Mesh read_off(std::string_view text, const std::string& file, const ReadOptions&
   return OffReader(text, file, options).read(warnings);
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

@@ -1,7 +1,9 @@
 #include "fathom/mesh_files/ply_body.h"
 #include "fathom/mesh_files/read_mesh.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace mesh;
+
 namespace {
 
 /// Takes vertices and faces into a mesh.
@@ -79,4 +81,4 @@ Mesh read_ply(std::span<const std::byte> bytes, const std::string& file, const R
   }
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

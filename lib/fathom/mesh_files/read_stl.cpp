@@ -8,7 +8,10 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/text/text_cursor.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace mesh;
+using namespace text;
+
 namespace {
 
 Mesh read_binary(std::span<const std::byte> bytes, const std::string& file, bool attributes,
@@ -145,4 +148,4 @@ Mesh read_stl(std::span<const std::byte> bytes, const std::string& file, const R
   return AsciiStlReader(text, file, options).read();
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

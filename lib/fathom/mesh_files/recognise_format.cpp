@@ -9,7 +9,9 @@
 
 #include "fathom/text/text_cursor.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace text;
+
 namespace {
 
 std::string in_small_letters(std::string_view text) {
@@ -85,4 +87,4 @@ std::optional<FileKind> recognise_format(std::span<const std::byte> bytes, std::
   return kind_by_suffix(path);
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

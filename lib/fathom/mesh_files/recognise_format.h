@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-namespace fathom {
+namespace fathom::mesh_files {
 
 enum class FileKind { obj, ply, stl, off, gltf, scene_json };
 
@@ -21,4 +21,4 @@ inline std::optional<FileKind> recognise_format(std::span<const std::byte> bytes
   return recognise_format(bytes, bytes.size(), path);
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

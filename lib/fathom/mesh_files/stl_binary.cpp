@@ -12,7 +12,9 @@
 
 static_assert(std::endian::native == std::endian::little, "binary STL is read as it lies");
 
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace text;
+
 namespace {
 
 std::uint32_t claimed_triangles(std::span<const std::byte> head) {
@@ -67,4 +69,4 @@ bool is_binary_stl(std::span<const std::byte> head, std::uint64_t size) {
   return word != "solid" || text.find('\0') != text.npos;
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

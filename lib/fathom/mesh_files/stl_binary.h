@@ -10,7 +10,7 @@
 #include "fathom/text/warnings.h"
 
 /// Binary STL: a header of 84 bytes that ends with the number of triangles, then 50 bytes for each.
-namespace fathom {
+namespace fathom::mesh_files {
 
 inline constexpr std::size_t stl_header_size = 84, stl_triangle_size = 50;
 
@@ -29,4 +29,4 @@ std::array<float, 12> read_stl_triangle(const std::byte* record, std::uint64_t n
 /// followed by text. `head` has the first 512 bytes or all.
 bool is_binary_stl(std::span<const std::byte> head, std::uint64_t size);
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

@@ -6,7 +6,10 @@
 #include "fathom/mesh_files/streams.h"
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::mesh_files {
+using namespace mesh;
+using namespace text;
+
 namespace {
 
 constexpr std::uint32_t triangles_at_once = 1U << 14;
@@ -104,4 +107,4 @@ std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<RandomAccessFile
   return std::make_unique<StlStream>(std::move(file), static_cast<std::uint32_t>(count));
 }
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

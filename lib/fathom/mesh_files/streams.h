@@ -7,13 +7,13 @@
 #include "fathom/text/random_access_file.h"
 
 /// The streams of the two formats; open_triangle_stream() chooses.
-namespace fathom {
+namespace fathom::mesh_files {
 
-std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<RandomAccessFile> file,
+std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<text::RandomAccessFile> file,
                                                 Warnings& warnings);
 
 /// `header` is that of the file, and binary.
-std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<RandomAccessFile> file,
+std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<text::RandomAccessFile> file,
                                                 const PlyHeader& header, Warnings& warnings);
 
-}  // namespace fathom
+}  // namespace fathom::mesh_files

@@ -10,6 +10,9 @@
 #include "fathom/text/sha256.h"
 
 namespace fathom {
+using namespace mesh_files;
+using namespace text;
+
 namespace {
 
 [[noreturn]] void fail_format(const std::string& file) {

@@ -5,14 +5,14 @@
 
 namespace fathom::pipeline {
 
-/// Area sampling: each pixel's colour is the mean over its square of the surfaces seen there, each
-/// weighted with the exact area that is seen of it. In a pixel, the parts of triangles are taken
-/// from the nearest on and cut out of what is left of the square, exactly, on the subpixel grid;
-/// the order is that of the depths at the parts' centroids, so surfaces that the order is that of
-/// the depths at the parts' centroids, so surfaces that penetrate each other inside a pixel are
-/// weighted wrongly there. Each part is shaded at its centroid. Source   K. Weiler and P. Atherton,
-/// Hidden surface removal using polygon area sorting, SIGGRAPH
-///          1977; E. Catmull, A hidden-surface algorithm with anti-aliasing, SIGGRAPH 1978.
+/// Area sampling: each pixel's colour is the mean of the surfaces that are seen in its square, each
+/// weighted by the area that is seen of it and shaded at its centroid. The parts of triangles in a
+/// pixel are taken from the nearest to the farthest and cut out of what is left of the square.
+///
+/// Exact    the areas, of triangles on the subpixel grid.
+/// Rounded  the order: it is that of the depths at the parts' centroids, so that surfaces that
+///          penetrate each other inside a pixel are weighted wrongly there.
+/// Source   [WA77], [Cat78]
 template <class Real>
 ColourImage area_sampled(const std::vector<WindowTriangle<Real>>& triangles,
                          const PipelineOptions& options, const PixelWindow& window,

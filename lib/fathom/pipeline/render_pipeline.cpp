@@ -7,6 +7,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/area_sampling.h"
 #include "fathom/pipeline/fxaa.h"
+#include "fathom/pipeline/geometry_stages.h"
 #include "fathom/pipeline/rasterizer.h"
 
 namespace fathom::pipeline {

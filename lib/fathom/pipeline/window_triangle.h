@@ -42,12 +42,6 @@ struct WindowPrimitives {
   std::vector<WindowPoint<Real>> points;
 };
 
-/// The stages up to the window: transform, clip, divide, cull, viewport, in that order. Parts of a
-/// clipped triangle follow one another.
-template <class Real>
-WindowPrimitives<Real> to_window(const Scene& scene, const Camera& camera,
-                                 const PipelineOptions& options, PipelineStatistics& statistics);
-
 /// The corners on the subpixel grid.
 template <class Real>
 std::array<GridPoint, 3> snapped(const WindowTriangle<Real>& triangle, int bits);

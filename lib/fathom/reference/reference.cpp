@@ -1,21 +1,23 @@
 #include "fathom/reference/reference.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
 
 #include "fathom/area/coverage_image.h"
+#include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/projected_triangle.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/triangle/sampling.h"
 
 // How to read this file: render_reference() at the end is the whole story. The image is cut into
 // bands of rows. For each band, every triangle whose box meets it is tested at every sample of its
 // box, in the order of the triangles' numbers, and the nearest is kept.
 namespace fathom {
+using namespace area;
+using namespace triangle;
+
 namespace {
 
 constexpr std::uint32_t rows_per_band = 16;
@@ -34,15 +36,11 @@ struct Nearest {
   Interval depth;  // contains D(s)
 };
 
-ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
-  return {column + 0.5, row + 0.5};
-}
-
 ProjectedTriangle project(const Scene& scene, const Camera& camera, const Candidate& c,
                           TierCounts& counts) {
   const Object& object = scene.objects[c.object];
-  return project(world_corners(object, scene.meshes[object.mesh], c.triangle), c.number, camera,
-                 counts);
+  return triangle::project(world_corners(object, scene.meshes[object.mesh], c.triangle), c.number,
+                           camera, counts);
 }
 
 /// D > 0 and near ≤ D ≤ far (specification, section 5) as signs of forms on the image, for one
@@ -162,7 +160,7 @@ std::vector<Candidate> find_candidates(const Scene& scene, const Camera& camera,
   const std::uint32_t chunks = count / chunk + (count % chunk != 0);
   std::vector<std::vector<Candidate>> found(chunks);
   std::vector<RenderStatistics> parts(chunks);
-  tbb::parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
+  parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
     const std::uint32_t end = count - k * chunk < chunk ? count : (k + 1) * chunk;
     for (std::uint32_t i = k * chunk; i < end; ++i) {
       Candidate c{first_number + i, object, i, {}};
@@ -226,7 +224,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   std::vector<RenderStatistics> parts(bands);
   std::vector<std::optional<EncodingFault>> faults(bands);
   Progress progress(options.progress, bands);
-  tbb::parallel_for(std::uint32_t{0}, bands, [&](std::uint32_t band) {
+  parallel_for(std::uint32_t{0}, bands, [&](std::uint32_t band) {
     faults[band] =
         render_band(scene, camera, candidates, band * rows_per_band, writer, parts[band]);
     progress.part_done();

@@ -1,7 +1,5 @@
 #include "fathom/reference/verify.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -12,9 +10,10 @@
 
 #include "fathom/area/coverage.h"
 #include "fathom/reference/verify_samples.h"
+#include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/projected_triangle.h"
-#include "fathom/triangle/threads.h"
+#include "fathom/triangle/sampling.h"
 #include "fathom/triangle/triangle_boxes.h"
 
 // How to read this file: verify() at the end is the whole story. The chosen pixels are taken in
@@ -23,6 +22,9 @@
 // reference's writer, to a map of one row that has a pixel for each chosen one; and that row is
 // compared with the map.
 namespace fathom {
+using namespace reference;
+using namespace triangle;
+
 namespace {
 
 constexpr std::size_t pixels_per_group = std::size_t{1} << 22;
@@ -50,20 +52,9 @@ struct Frame {
   const RenderOptions& options;
 };
 
-ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
-  return {column + 0.5, row + 0.5};
-}
-
 ProjectedTriangle project(const Frame& frame, const Candidate& c) {
   TierCounts counts;
-  return project(frame.triangles.world_corners(c.number), c.number, frame.camera, counts);
-}
-
-/// D > 0 and near ≤ D ≤ far.
-bool in_range(const Ratio& depth, const Camera& camera) {
-  if (depth.sign() != Sign::positive || depth < Ratio(Dyadic(camera.near))) return false;
-  return camera.far == std::numeric_limits<double>::infinity() ||
-         !(Ratio(Dyadic(camera.far)) < depth);
+  return triangle::project(frame.triangles.world_corners(c.number), c.number, frame.camera, counts);
 }
 
 /// Adds the candidates of a part of the scene, in the order of their numbers.
@@ -72,7 +63,7 @@ void find_candidates(const TriangleSource::Part& part, const Camera& camera,
   const std::size_t count = part.mesh.triangles.size();
   std::vector<std::vector<Candidate>> found((count + triangles_per_chunk - 1) /
                                             triangles_per_chunk);
-  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
+  parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
     TriangleBoxes boxes(part.object, part.mesh, camera);
     const std::size_t end = std::min(count, (k + 1) * triangles_per_chunk);
     for (std::size_t i = k * triangles_per_chunk; i < end; ++i) {
@@ -159,7 +150,7 @@ class ExactRow {
         const ImagePoint s = centre_of_pixel(chosen_.column(k), row);
         if (!covers(*projected, s, tiers)) continue;
         Ratio depth = depth_at(*projected, s);
-        if (!in_range(depth, frame_.camera)) continue;
+        if (!is_in_range(depth, frame_.camera)) continue;
         // Triangles come in the order of their numbers: among equals the lowest stays.
         Visible& nearest = visible[k - first];
         if (!nearest.triangle || depth < nearest.depth) nearest = {&c, std::move(depth)};
@@ -285,7 +276,7 @@ Verification verify_in_arena(const Frame& frame, const PixelChoice& chosen) {
     const std::vector<Candidate> candidates = find_candidates(frame, rows);
     const std::vector<Band> bands = cut_into_bands(rows, candidates);
     ExactRow exact(frame, rows);
-    tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t band) {
+    parallel_for(std::size_t{0}, bands.size(), [&](std::size_t band) {
       exact.compute(bands[band]);
       progress.part_done();
     });

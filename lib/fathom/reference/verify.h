@@ -44,9 +44,9 @@ struct Verification {
 ///
 /// Exact    as the reference engine: the visible surface is that of the least exact depth among all
 ///          triangles that cover the sample, each value is rounded once from exact numbers.
-/// Cost     the corners of every triangle are looked at once (per 4 million chosen pixels) for a
-/// box
-///          that certainly contains it; exactly, only triangles whose box contains a chosen pixel.
+/// Cost     the corners of every triangle are looked at once (per 4 million chosen pixels) for a box
+///          that certainly contains it; only triangles whose box contains a chosen pixel are looked
+///          at exactly.
 /// Needs    `options` (channels, culling, encoding) as the map was rendered with; threads and
 ///          progress are this call's own.
 Verification verify(const DepthMap& map, const TriangleSource& triangles, const Camera& camera,

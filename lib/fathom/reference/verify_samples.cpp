@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-namespace fathom {
+namespace fathom::reference {
+using namespace triangle;
 
 ChosenRows::ChosenRows(const PixelChoice& chosen, std::uint32_t width, std::uint32_t height,
                        std::uint32_t first_row, std::size_t enough)
@@ -37,4 +38,4 @@ bool ChosenRows::meet(const PixelBox& box) const {
   return false;
 }
 
-}  // namespace fathom
+}  // namespace fathom::reference

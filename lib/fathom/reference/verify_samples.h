@@ -6,7 +6,7 @@
 #include "fathom/reference/verify.h"
 #include "fathom/triangle/projected_triangle.h"
 
-namespace fathom {
+namespace fathom::reference {
 
 /// The chosen pixels of consecutive rows of an image, numbered from 0 in row order.
 class ChosenRows {
@@ -39,4 +39,4 @@ class ChosenRows {
   std::vector<std::uint32_t> columns_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::reference

@@ -8,8 +8,9 @@
 #include "fathom/numeric/rounding.h"
 
 namespace fathom {
+using namespace camera;
 
-using namespace camera_making;
+using namespace camera;
 
 namespace {
 

@@ -16,6 +16,11 @@
 #include "fathom/text/sha256.h"
 
 namespace fathom {
+using namespace mesh;
+using namespace mesh_files;
+using namespace scene;
+using namespace text;
+
 namespace {
 
 FileKind kind_of(MeshFormat format) {
@@ -45,19 +50,6 @@ Mesh read_mesh(FileKind kind, const InputFile& input, const std::string& file,
     default:
       return read_off(input.text(), file, options, warnings);
   }
-}
-
-/// outer ∘ inner, exactly.
-WorldFromMesh composed(const WorldFromMesh& outer, const WorldFromMesh& inner) {
-  WorldFromMesh result;
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 4; ++k) {
-      Dyadic sum = k == 3 ? outer.rows[i][3] : Dyadic();
-      for (int j = 0; j < 3; ++j) sum += outer.rows[i][j] * inner.rows[j][k];
-      result.rows[i][k] = std::move(sum);
-    }
-  }
-  return result;
 }
 
 /// Reads files one after the other into one scene.
@@ -159,7 +151,7 @@ class SceneReader {
       Object& object = scene_.objects[i];
       if (placed.name) object.name = single ? *placed.name : *placed.name + "/" + object.name;
       if (!placed.transform) continue;
-      object.world_from_mesh = composed(*placed.transform, object.world_from_mesh);
+      object.world_from_mesh = compose(*placed.transform, object.world_from_mesh);
       object.placed_as_is = false;
     }
   }

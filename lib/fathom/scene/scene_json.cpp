@@ -2,7 +2,9 @@
 
 #include "fathom/text/json_value.h"
 
-namespace fathom {
+namespace fathom::scene {
+using namespace text;
+
 namespace {
 
 WorldFromMesh read_transform(const JsonValue& value) {
@@ -45,4 +47,4 @@ std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesy
   return result;
 }
 
-}  // namespace fathom
+}  // namespace fathom::scene

@@ -8,7 +8,7 @@
 
 #include "fathom/scene/scene.h"
 
-namespace fathom {
+namespace fathom::scene {
 
 /// One mesh of a scene file.
 struct PlacedFile {
@@ -23,4 +23,4 @@ struct PlacedFile {
 /// Fails    InputError, naming the key; unknown keys are errors.
 std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesystem::path& path);
 
-}  // namespace fathom
+}  // namespace fathom::scene

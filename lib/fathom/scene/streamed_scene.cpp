@@ -5,6 +5,7 @@
 #include "fathom/mesh/mesh_faces.h"
 
 namespace fathom {
+using namespace mesh;
 
 StreamedScene stream_scene(const std::vector<std::filesystem::path>& files,
                            const ReadOptions& options, Warnings& warnings) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace fathom {
+namespace fathom::text {
 
 bool ByteWindow::read_on(std::size_t count) {
   const auto kept = static_cast<std::size_t>(end_ - at_);
@@ -26,4 +26,4 @@ void ByteWindow::skip(std::uint64_t count) {
   end_offset_ += count - here;
 }
 
-}  // namespace fathom
+}  // namespace fathom::text

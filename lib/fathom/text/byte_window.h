@@ -8,7 +8,7 @@
 
 #include "fathom/text/random_access_file.h"
 
-namespace fathom {
+namespace fathom::text {
 
 /// Walks over bytes from first to last, which lie in memory or are read from a file piece by piece.
 class ByteWindow {
@@ -60,4 +60,4 @@ class ByteWindow {
   std::vector<char> buffer_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::text

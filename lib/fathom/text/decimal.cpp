@@ -4,7 +4,7 @@
 #include <cmath>
 #include <system_error>
 
-namespace fathom {
+namespace fathom::text {
 namespace {
 
 bool is_digit(char c) {
@@ -73,4 +73,4 @@ DecimalResult<Real> parse_decimal(const char* first, const char* last) {
 template DecimalResult<float> parse_decimal<float>(const char*, const char*);
 template DecimalResult<double> parse_decimal<double>(const char*, const char*);
 
-}  // namespace fathom
+}  // namespace fathom::text

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Decimal text to binary floating point, rounded once (specification, section 1).
-namespace fathom {
+namespace fathom::text {
 
 enum class DecimalFault {
   none,
@@ -31,4 +31,4 @@ DecimalResult<Real> parse_decimal(const char* first, const char* last);
 extern template DecimalResult<float> parse_decimal<float>(const char*, const char*);
 extern template DecimalResult<double> parse_decimal<double>(const char*, const char*);
 
-}  // namespace fathom
+}  // namespace fathom::text

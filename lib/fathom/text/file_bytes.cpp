@@ -7,7 +7,7 @@
 
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::text {
 namespace {
 
 struct CloseFile {
@@ -57,4 +57,4 @@ void append(Bytes& bytes, const std::string& text) {
   append(bytes, std::as_bytes(std::span(text)));
 }
 
-}  // namespace fathom
+}  // namespace fathom::text

@@ -8,7 +8,7 @@
 
 /// Whole files in memory: every format here is coded to bytes and decoded from bytes, so that a
 /// full disk, a pipe and a truncated file are each dealt with in one place.
-namespace fathom {
+namespace fathom::text {
 
 using Bytes = std::vector<std::byte>;
 using ByteView = std::span<const std::byte>;
@@ -23,4 +23,4 @@ void write_file(const std::filesystem::path& path, ByteView bytes);
 void append(Bytes& bytes, ByteView more);
 void append(Bytes& bytes, const std::string& text);
 
-}  // namespace fathom
+}  // namespace fathom::text

@@ -11,7 +11,7 @@
 
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::text {
 namespace {
 
 /// Files up to this size are read rather than mapped: another program that cuts a mapped file
@@ -74,4 +74,4 @@ InputFile::~InputFile() {
   if (mapping_) ::munmap(mapping_, bytes_.size());
 }
 
-}  // namespace fathom
+}  // namespace fathom::text

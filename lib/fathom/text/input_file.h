@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace fathom {
+namespace fathom::text {
 
 /// The bytes of an input file, or of standard input where the path is "-".
 ///
@@ -34,4 +34,4 @@ class InputFile {
   void* mapping_ = nullptr;
 };
 
-}  // namespace fathom
+}  // namespace fathom::text

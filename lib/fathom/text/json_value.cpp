@@ -7,7 +7,7 @@
 
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::text {
 namespace {
 
 using nlohmann::json;
@@ -197,4 +197,4 @@ bool JsonValue::boolean() const {
   return value_->get<bool>();
 }
 
-}  // namespace fathom
+}  // namespace fathom::text

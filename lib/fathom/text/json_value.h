@@ -10,7 +10,7 @@
 
 /// Reading JSON strictly, with errors that name the file and the key. For this room's .cpp files
 /// only: no public header includes it.
-namespace fathom {
+namespace fathom::text {
 
 /// A value in a JSON document that knows its place in it.
 class JsonValue {
@@ -73,4 +73,4 @@ class JsonDocument {
   std::string file_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::text

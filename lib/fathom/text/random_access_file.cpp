@@ -9,7 +9,7 @@
 
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::text {
 namespace {
 
 [[noreturn]] void fail(const std::string& name, const char* what) {
@@ -50,4 +50,4 @@ void RandomAccessFile::read(std::uint64_t offset, std::span<std::byte> bytes) co
   }
 }
 
-}  // namespace fathom
+}  // namespace fathom::text

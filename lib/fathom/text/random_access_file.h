@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace fathom {
+namespace fathom::text {
 
 /// A regular file that is read here and there, however large it is; nothing of it stays in memory.
 /// Different threads may read at the same time.
@@ -33,4 +33,4 @@ class RandomAccessFile {
   std::uint64_t size_ = 0;
 };
 
-}  // namespace fathom
+}  // namespace fathom::text

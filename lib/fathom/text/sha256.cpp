@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace fathom {
+namespace fathom::text {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::string sha256(const RandomAccessFile& file) {
   return in_hexadecimal(digest);
 }
 
-}  // namespace fathom
+}  // namespace fathom::text

@@ -6,7 +6,7 @@
 
 #include "fathom/text/random_access_file.h"
 
-namespace fathom {
+namespace fathom::text {
 
 /// SHA-256 (FIPS 180-4) of `bytes`, as 64 hexadecimal digits.
 std::string sha256(std::span<const std::byte> bytes);
@@ -15,4 +15,4 @@ std::string sha256(std::span<const std::byte> bytes);
 /// Fails    InputError if it cannot be read.
 std::string sha256(const RandomAccessFile& file);
 
-}  // namespace fathom
+}  // namespace fathom::text

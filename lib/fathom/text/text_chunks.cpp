@@ -1,12 +1,11 @@
 #include "fathom/text/text_chunks.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <exception>
 
-namespace fathom {
+#include "fathom/threads/threads.h"
+
+namespace fathom::text {
 
 std::vector<std::string_view> cut_into_chunks(std::string_view text, char line_end,
                                               std::size_t size) {
@@ -37,11 +36,10 @@ void for_each_chunk(std::size_t n, int threads, const std::function<void(std::si
   if (n == 1) {
     guarded(0);
   } else if (n > 1) {
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, n, guarded); });
+    run_with_threads(threads, [&] { in_parallel(n, guarded); });
   }
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace fathom
+}  // namespace fathom::text

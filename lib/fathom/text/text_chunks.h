@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fathom {
+namespace fathom::text {
 
 /// Cuts text behind line ends into pieces of about `size` bytes; a line that a '\' joins to the
 /// next is not cut from it. Where the cuts are does not depend on the number of threads.
@@ -16,4 +16,4 @@ std::vector<std::string_view> cut_into_chunks(std::string_view text, char line_e
 /// the lowest number is heard: the first error in the file.
 void for_each_chunk(std::size_t n, int threads, const std::function<void(std::size_t)>& body);
 
-}  // namespace fathom
+}  // namespace fathom::text

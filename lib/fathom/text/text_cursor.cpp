@@ -5,7 +5,7 @@
 
 #include "fathom/numeric/errors.h"
 
-namespace fathom {
+namespace fathom::text {
 
 const char* TextCursor::parse_integer(const char* first, const char* last, std::int64_t& value) {
   if (first != last && *first == '+') {
@@ -78,4 +78,4 @@ void TextCursor::fail_integer(const char* what) {
   fail_here(std::string("expected ") + what);
 }
 
-}  // namespace fathom
+}  // namespace fathom::text

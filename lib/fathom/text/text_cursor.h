@@ -7,7 +7,7 @@
 
 #include "fathom/text/decimal.h"
 
-namespace fathom {
+namespace fathom::text {
 
 /// Walks over text, line by line and word by word, and knows the number of its line.
 ///
@@ -163,4 +163,4 @@ class TextCursor {
   std::uint64_t line_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::text

@@ -15,7 +15,7 @@
 // double-words. One derivation serves both (docs/error-analysis.md, "Channels").
 //
 // Method (Möller, Trumbore 1997). p = B − A, r = C − A, n = p × r, t = A − (origin of the ray), d
-// the direction of the ray (fast_rays.h), all in the frame of the mesh. The point of depth D on the
+// the direction of the ray (rays.h), all in the frame of the mesh. The point of depth D on the
 // ray lies in the plane of the triangle where D·(n·d) = n·t, and there its weights of B and C are
 // d·(r × t)/(n·d) and d·(t × p)/(n·d). No corner needs to lie in front of the camera.
 //
@@ -41,7 +41,7 @@
 // coordinates are multiples of 2⁻¹⁵², entries, whose second words are not below 2⁻²¹⁰, of 2⁻²⁶²,
 // and rounding a multiple of a power of two leaves it one: every intermediate result above, and
 // every error of one, is a multiple of 2⁻⁶⁷⁶. Nor does anything overflow: (2¹⁰¹)⁴·2⁴⁰ < 2⁵⁰⁰.
-namespace fathom {
+namespace fathom::triangle {
 
 /// c + b·v + a·u; computed and exact value differ by at most `error` at every sample of the image.
 template <class Real>
@@ -49,7 +49,7 @@ struct Form {
   Real a{}, b{}, c{};
   double error = 0;
 
-  [[nodiscard]] Certified<Real> at(const Sample& s) const {
+  [[nodiscard]] Certified<Real> at(const ImagePoint& s) const {
     return {(c + b * s.v) + a * s.u, error};
   }
 };
@@ -89,7 +89,7 @@ Vector<double> size_of(const Vector<Real>& a) {
 }
 
 template <class Real>
-Vector<Real> difference(const MeshPoint& a, const MeshPoint& b) {
+Vector<Real> displacement(const MeshPoint& a, const MeshPoint& b) {
   return {difference<Real>(a.x, b.x), difference<Real>(a.y, b.y), difference<Real>(a.z, b.z)};
 }
 
@@ -105,8 +105,8 @@ struct Edges {
   Vector<double> p_size, r_size, n_size;
 
   explicit Edges(const MeshTriangle& corners)
-      : p(difference<Real>(corners[1], corners[0])),
-        r(difference<Real>(corners[2], corners[0])),
+      : p(displacement<Real>(corners[1], corners[0])),
+        r(displacement<Real>(corners[2], corners[0])),
         n(cross(p, r)),
         p_size(size_of(p)),
         r_size(size_of(r)),
@@ -120,7 +120,7 @@ struct DepthForms {
   Form<Real> varying;
   Certified<Real> constant;
 
-  [[nodiscard]] Certified<Real> at(const Sample& s, bool perspective) const {
+  [[nodiscard]] Certified<Real> at(const ImagePoint& s, bool perspective) const {
     const Certified<Real> value = varying.at(s);
     return perspective ? quotient(constant, value) : quotient(value, constant);
   }
@@ -170,7 +170,7 @@ struct WeightForms {
   std::array<Form<Real>, 2> weights;
   Form<Real> divisor;  // constant under an orthographic camera
 
-  [[nodiscard]] Certified<Real> at(std::size_t k, const Sample& s) const {
+  [[nodiscard]] Certified<Real> at(std::size_t k, const ImagePoint& s) const {
     return quotient(weights[k].at(s), divisor.at(s));
   }
 };
@@ -231,7 +231,7 @@ struct Ray {
   Vector<Real> origin, direction;
 };
 template <class Real>
-Ray<Real> ray_at(const Rays& rays, bool perspective, const Sample& s) {
+Ray<Real> ray_at(const Rays& rays, bool perspective, const ImagePoint& s) {
   const auto &m0 = rays.columns[0], &m1 = rays.columns[1], &m2 = rays.columns[2],
              &O = rays.columns[3];
   const auto varying = [&](const std::array<WordPair, 3>& constant) {
@@ -324,7 +324,7 @@ WorldNormal<Real> world_normal(const MeshTriangle& corners, const ObjectRays& ob
 template <class Real>
 Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRays& object,
                                     const ObjectRays& world, const ImageBounds& image,
-                                    const Sample& s) {
+                                    const ImagePoint& s) {
   constexpr double e = epsilon<Real> * slack;
   Vector<Certified<Real>> result;
   WorldNormal<Real> normal = world_normal<Real>(corners, object);
@@ -347,4 +347,4 @@ Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRay
   return result;
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

@@ -2,12 +2,12 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "fathom/triangle/double_word_surface.h"
 #include "fathom/triangle/projected_triangle.h"
+#include "fathom/triangle/recent_triangles.h"
 
-namespace fathom {
+namespace fathom::triangle {
 
 /// Depths of numbered triangles at samples, with bounds. One for each thread: it remembers the
 /// triangles that it was asked about last.
@@ -25,8 +25,7 @@ class CertifiedSurfaces {
 
  private:
   struct Triangle {
-    std::uint32_t number;
-    bool known = false, usable = false, has_wide = false, has_weights = false;
+    bool usable = false, has_wide = false, has_weights = false;
     const ObjectRays* object = nullptr;
     MeshTriangle corners;
     DepthForms<double> depth;
@@ -40,7 +39,7 @@ class CertifiedSurfaces {
   const SceneRays& rays_;
   const WideArithmetic& arithmetic_;
   ImageBounds image_;
-  std::vector<Triangle> remembered_;
+  RecentTriangles<Triangle, 256> remembered_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::triangle

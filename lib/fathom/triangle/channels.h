@@ -10,7 +10,7 @@
 #include "fathom/triangle/options.h"
 #include "fathom/triangle/projected_triangle.h"
 
-namespace fathom {
+namespace fathom::triangle {
 
 /// A depth that the encoding cannot hold.
 struct EncodingFault {
@@ -88,4 +88,4 @@ class ChannelWriter {
   ChannelValues values_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::triangle

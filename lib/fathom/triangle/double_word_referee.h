@@ -2,13 +2,13 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "fathom/triangle/double_word_surface.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/rays.h"
+#include "fathom/triangle/recent_triangles.h"
 
-namespace fathom {
+namespace fathom::triangle {
 
 /// Settles by double-words what binary64 did not: the tier before exact numbers. nullopt: not
 /// known. One for each thread: it remembers the triangles that it was asked about last.
@@ -27,8 +27,7 @@ class WideReferee {
 
  private:
   struct Triangle {
-    std::uint32_t number;
-    bool known = false, usable = false, has_depth = false;
+    bool usable = false, has_depth = false;
     std::uint32_t object_number = 0;
     const ObjectRays* object = nullptr;
     MeshTriangle corners;
@@ -40,11 +39,11 @@ class WideReferee {
   const SceneRays& rays_;
   const WideArithmetic& wide_;
   ImageBounds image_;
-  std::vector<Triangle> remembered_;
+  RecentTriangles<Triangle, 256> remembered_;
 };
 
 /// True only if the six points certainly lie in one plane: all points of one triangle are points of
 /// the other, or the coordinates have few bits and say so. Not: nothing is known.
 bool certainly_coplanar(const MeshTriangle& a, const MeshTriangle& b);
 
-}  // namespace fathom
+}  // namespace fathom::triangle

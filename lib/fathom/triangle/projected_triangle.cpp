@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fathom {
+namespace fathom::triangle {
 namespace {
 
 ExactVector3 operator*(Sign sign, ExactVector3 v) {
@@ -140,4 +140,4 @@ PixelBox bounding_box(const ProjectedTriangle& triangle, const Camera& camera) {
   return box;
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

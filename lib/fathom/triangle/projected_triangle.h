@@ -5,11 +5,12 @@
 #include <optional>
 
 #include "fathom/camera/camera.h"
+#include "fathom/geometry/pixel_box.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/scene/scene.h"
 #include "fathom/triangle/options.h"
 
-namespace fathom {
+namespace fathom::triangle {
 
 /// A triangle of the scene seen by a camera, all exact (specification, sections 4 and 5, same
 /// symbols). It holds what coverage and depth at a sample need.
@@ -52,19 +53,8 @@ Ratio interpolate(const ProjectedTriangle& triangle, const ImagePoint& s,
 /// D(s) at a covered sample, exactly.
 Ratio depth_at(const ProjectedTriangle& triangle, const ImagePoint& s);
 
-/// Rows and columns of the image outside which a triangle covers no sample that counts;
-/// first > last where there is none.
-struct PixelBox {
-  std::uint32_t first_column = 1, last_column = 0;
-  std::uint32_t first_row = 1, last_row = 0;
-  [[nodiscard]] bool contains(std::uint32_t column, std::uint32_t row) const {
-    return first_column <= column && column <= last_column && first_row <= row && row <= last_row;
-  }
-  [[nodiscard]] bool is_empty() const { return first_column > last_column || first_row > last_row; }
-};
-
 /// A certified box: from the corners' images where all lie in front of the camera; empty where
 /// none does (every point of the triangle then has D ≤ 0); otherwise the whole image.
 PixelBox bounding_box(const ProjectedTriangle& triangle, const Camera& camera);
 
-}  // namespace fathom
+}  // namespace fathom::triangle

@@ -6,6 +6,7 @@
 
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/certified_rounding.h"
+#include "fathom/numeric/last_bit.h"
 #include "fathom/numeric/rounding.h"
 
 // Over a mesh the image is affine: (U, V, D) = H·X + h, exactly. A sample (u, v) of a perspective
@@ -13,10 +14,8 @@
 // H·X + h = (u, v, D), as W = 1. So with m_j the columns of H⁻¹ and O = −H⁻¹h the point is the one
 // that the header names. The columns of H⁻¹ are the cross products of H's rows over det H: exact
 // quotients, rounded once.
-namespace fathom {
+namespace fathom::triangle {
 namespace {
-
-constexpr long no_bits = std::numeric_limits<long>::max() / 4;
 
 using ExactMatrix = std::array<ExactVector3, 3>;
 
@@ -39,11 +38,6 @@ bool set(const Ratio& exact, WordPair& entry, double& size) {
   entry = rounded(exact);
   size = std::abs(entry.hi);
   return is_safe(entry.hi);
-}
-
-long last_bit(const Dyadic& x) {
-  if (x.is_zero()) return no_bits;
-  return static_cast<long>(mpz_scan1(x.significand(), 0)) + x.exponent();
 }
 
 /// The world as a mesh.
@@ -193,4 +187,4 @@ const ObjectRays& SceneRays::object(std::uint32_t number) const {
   return *slot.rays;
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

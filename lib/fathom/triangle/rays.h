@@ -11,7 +11,7 @@
 #include "fathom/scene/scene.h"
 #include "fathom/scene/triangle_source.h"
 
-namespace fathom {
+namespace fathom::triangle {
 
 /// The points that a sample sees, in the frame of a mesh or in the world. The point of depth D on
 /// the ray of the sample (u, v) is
@@ -63,11 +63,6 @@ struct ObjectRays {
   double determinant = 0;
 };
 
-/// A multiple of ½ at every sample.
-struct Sample {
-  double u = 0, v = 0;
-};
-
 /// What the channels need of camera and scene; objects are prepared when first asked for, by any
 /// thread.
 class SceneRays {
@@ -104,4 +99,4 @@ class SceneRays {
   mutable std::deque<Slot> objects_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::triangle

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace fathom {
+namespace fathom::triangle {
 namespace {
 
 /// About 5 kB each.
@@ -56,7 +56,7 @@ bool Referee::covers(std::uint32_t number, const ImagePoint& s, RenderStatistics
     }
   }
   TierCounts within;
-  return fathom::covers(projected(number), s, within);
+  return triangle::covers(projected(number), s, within);
 }
 
 std::optional<bool> Referee::is_in_range_by_double_words(std::uint32_t number,
@@ -122,4 +122,4 @@ bool Referee::hides(std::uint32_t a, std::uint32_t b, const ImagePoint& s,
   return order < 0 || (order == 0 && a < b);
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

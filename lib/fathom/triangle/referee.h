@@ -10,7 +10,7 @@
 #include "fathom/triangle/options.h"
 #include "fathom/triangle/projected_triangle.h"
 
-namespace fathom {
+namespace fathom::triangle {
 
 /// Settles by exact numbers what a bound did not settle. One for each thread: it remembers the
 /// triangles that it was asked about last.
@@ -48,4 +48,4 @@ class Referee {
   bool same_plane_ = false;
 };
 
-}  // namespace fathom
+}  // namespace fathom::triangle

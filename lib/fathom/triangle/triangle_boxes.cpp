@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fathom {
+namespace fathom::triangle {
 namespace {
 
 constexpr std::size_t remembered_corners = 4096;
@@ -89,4 +89,4 @@ PixelBox TriangleBoxes::box(std::uint32_t triangle) {
           static_cast<std::uint32_t>(first_row), static_cast<std::uint32_t>(last_row)};
 }
 
-}  // namespace fathom
+}  // namespace fathom::triangle

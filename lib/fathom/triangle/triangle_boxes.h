@@ -7,7 +7,7 @@
 #include "fathom/geometry/approximate_row.h"
 #include "fathom/triangle/projected_triangle.h"
 
-namespace fathom {
+namespace fathom::triangle {
 
 /// Boxes of the triangles of one object: the pixels outside which a triangle covers no sample that
 /// counts, as bounding_box() has them or a little larger. Corners are projected in binary64 with a
@@ -40,4 +40,4 @@ class TriangleBoxes {
   std::vector<Corner> recent_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::triangle

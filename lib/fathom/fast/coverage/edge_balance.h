@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace fathom {
+namespace fathom::fast {
 
 /// Directed edges of which opposite ones cancel.
 ///
@@ -85,4 +85,4 @@ inline void EdgeBalance::grow() {
   }
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

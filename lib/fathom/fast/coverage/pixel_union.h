@@ -8,7 +8,7 @@
 #include "fathom/fast/coverage/square_edges.h"
 #include "fathom/numeric/interval.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 /// The area of the union of convex polygons within the unit square, by binary64 with a bound
 /// (square_edges.h). No predicate has to be right: contacts of any kind, common edges and slivers
@@ -60,4 +60,4 @@ class ClippedSquare {
   double area_error_ = 0;
 };
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -14,7 +14,7 @@
 //
 // The length of the points with a positive winding number changes by no more than a crossing is
 // moved, and crossings at the same place may stand in any order: square_edges.h.
-namespace fathom {
+namespace fathom::fast {
 
 void PixelWinding::clear() {
   edges_.clear();
@@ -67,4 +67,4 @@ Interval PixelWinding::enclose(double sum) const {
   return {std::max(sum - bound, 0.0), std::min(sum + bound, 1.0)};
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

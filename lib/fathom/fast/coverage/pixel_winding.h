@@ -5,7 +5,7 @@
 #include "fathom/fast/coverage/square_edges.h"
 #include "fathom/numeric/interval.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 /// The area within the unit square of the points that at least one triangle covers, from the edges
 /// across which the number of covering triangles changes (EdgeBalance) and that number at a point
@@ -65,4 +65,4 @@ Interval PixelWinding::area(const Count& count) {
   return known ? enclose(sum) : Interval{0, 1};
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -5,7 +5,7 @@
 
 #include "fathom/fast/vertex.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 void SquareEdges::clear() {
   edges_.clear();
@@ -67,9 +67,9 @@ void SquareEdges::cut(bool tags_apart) {
 }
 
 double SquareEdges::error_of(std::size_t crossings) const {
-  const double xi = 16 * unit_roundoff * extent_;
+  const double xi = 16 * unit_roundoff<double> * extent_;
   return 10 * static_cast<double>(crossings + 2) * xi +
-         32 * unit_roundoff * static_cast<double>(breaks_.size());
+         32 * unit_roundoff<double> * static_cast<double>(breaks_.size());
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

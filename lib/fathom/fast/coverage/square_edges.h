@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace fathom {
+namespace fathom::fast {
 
 struct SquarePoint {
   double x, y;
@@ -77,4 +77,4 @@ class SquareEdges {
   double extent_ = 1;
 };
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -12,7 +12,7 @@
 #include "fathom/fast/coverage/pixel_winding.h"
 #include "fathom/fast/tile.h"
 
-namespace fathom {
+namespace fathom::fast {
 
 /// What is certain of a triangle whose area counts for channel A.
 enum class CoverageClass : std::uint8_t {
@@ -106,7 +106,7 @@ class TileCoverage {
     const ImageObject* object;
   };
 
-  // fast_coverage_open.cpp: which pixels are open.
+  // tile_coverage_open.cpp: which pixels are open.
   void collect_triangles(std::uint32_t tile_number);
   /// visit(object, first, end): indices into numbers_.
   template <class Visit>
@@ -120,7 +120,7 @@ class TileCoverage {
   void meet_edges();
   [[nodiscard]] TileBox box_of(const UnbalancedEdge& edge, double margin) const;
 
-  // fast_coverage_full.cpp: which pixels one triangle covers wholly.
+  // tile_coverage_full.cpp: which pixels one triangle covers wholly.
   [[nodiscard]] TileBox whole() const {
     return {0, static_cast<std::int16_t>(area_.last_column - area_.first_column), 0,
             static_cast<std::int16_t>(area_.last_row - area_.first_row)};
@@ -130,7 +130,7 @@ class TileCoverage {
   void fill_large();
   void fill(const Shape& shape, const TileBox& box);
 
-  // fast_coverage.cpp: settling them.
+  // tile_coverage.cpp: settling them.
   void write_closed(const Tile& tile, float* values, std::uint32_t image_width) const;
   void meet_triangles();
   void meet(const TileBox& box, const Shape& shape);
@@ -172,4 +172,4 @@ class TileCoverage {
   PixelWinding winding_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::fast

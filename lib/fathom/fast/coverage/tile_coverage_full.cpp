@@ -4,7 +4,7 @@
 #include "fathom/fast/coverage/tile_coverage.h"
 
 // Which pixels of a tile one triangle covers wholly: large triangles, row by row.
-namespace fathom {
+namespace fathom::fast {
 
 bool TileCoverage::is_full(const TileBox& box) const {
   if (box.is_empty()) return true;
@@ -78,4 +78,4 @@ void TileCoverage::fill_large() {
   }
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

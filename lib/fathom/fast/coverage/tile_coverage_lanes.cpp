@@ -11,7 +11,7 @@
 #include "fathom/fast/setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace fathom::HWY_NAMESPACE {
+namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
 /// Whether no depth of the triangles counts: q of a point lies between those of the corners.
@@ -85,11 +85,12 @@ void classify(const ImageObject& object, std::span<const std::uint32_t> numbers,
 }
 
 }  // namespace
-}  // namespace fathom::HWY_NAMESPACE
+}  // namespace fathom::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace fathom {
+namespace fathom::fast {
+using namespace triangle;
 
 HWY_EXPORT(classify);
 
@@ -99,5 +100,5 @@ void classify_for_coverage(const ImageObject& object, std::span<const std::uint3
   HWY_DYNAMIC_DISPATCH(classify)(object, numbers, range, tile, classes);
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast
 #endif

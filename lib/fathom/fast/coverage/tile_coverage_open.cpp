@@ -6,7 +6,7 @@
 
 // Which pixels of a tile may be covered in part: those that an unbalanced edge meets, and those of
 // triangles of which nothing simple is certain.
-namespace fathom {
+namespace fathom::fast {
 namespace {
 
 /// Room for roundings in coordinates of a magnitude of at most `far`.
@@ -215,4 +215,4 @@ void TileCoverage::meet_edges() {
   edges_at_.sort();
 }
 
-}  // namespace fathom
+}  // namespace fathom::fast

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+/// Threads, and how far they have come. oneTBB does the work, in one .cpp: its headers take seconds to
+/// compile.
+namespace fathom {
+
+/// work(0), …, work(count − 1), different ones at the same time, in the threads of with_threads() or
+/// all that there are. An exception ends it and is passed on.
+void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work);
+
+/// The same from `first` to `end` − 1, first ≤ end.
+template <class Index, class Work>
+void parallel_for(Index first, Index end, const Work& work) {
+  in_parallel(static_cast<std::size_t>(end - first),
+              [&](std::size_t i) { work(static_cast<Index>(first + static_cast<Index>(i))); });
+}
+
+/// Runs `work` with as many threads as asked for; 0: all. More threads than the machine has are
+/// allowed: TBB's own limit is lifted meanwhile.
+void run_with_threads(int threads, const std::function<void()>& work);
+
+template <class Work>
+auto with_threads(int threads, const Work& work) {
+  if constexpr (std::is_void_v<decltype(work())>) {
+    run_with_threads(threads, work);
+  } else {
+    std::optional<decltype(work())> result;
+    run_with_threads(threads, [&] { result.emplace(work()); });
+    return std::move(*result);
+  }
+}
+
+/// Reports the share of equal parts that are done, from one thread at a time.
+class Progress {
+ public:
+  Progress(const std::function<void(double)>& report, std::uint64_t parts)
+      : report_(report), parts_(parts) {}
+  void part_done() {
+    if (!report_) return;
+    const std::lock_guard lock(mutex_);
+    report_(static_cast<double>(++done_) / static_cast<double>(parts_));
+  }
+
+ private:
+  const std::function<void(double)>& report_;
+  std::uint64_t parts_;
+  std::uint64_t done_ = 0;
+  std::mutex mutex_;
+};
+
+}  // namespace fathom
