@@ -7,11 +7,11 @@
 
 namespace fathom::validation {
 
-/// What another renderer drew, and what is known of how it did.
+/// What another renderer drew, and what is known about how it did so.
 struct DrawnMap {
   attribution::OtherMap map;
   attribution::RendererModel model;
-  /// Its version and what it runs on.
+  /// Its version and the driver or machine it runs on.
   std::string version;
 };
 

@@ -6,8 +6,8 @@
 #include "fathom/attribution/attribute_and_name.h"
 #include "fathom/attribution/clip_from_held.h"
 #include "fathom/attribution/named_models.h"
-#include "fathom/attribution/roundings.h"
 #include "fathom/camera/camera_making.h"
+#include "fathom/numeric/unit_roundoff.h"
 #include "tests/validation/float_rasterizer.h"
 #include "validation/bench/shapes.h"
 
@@ -233,7 +233,7 @@ TEST(WrongConvention, MirroredImageIsNamed) {
 // Near, in the middle and far of 0.5 to 20. Beside log2: a product and a sum, u/ln 2 each in the
 // logarithm, and a product, u of the depth.
 TEST(WrittenDepths, AllowWhatTheShadingLanguageAllowsToLog2AndLittleMore) {
-  constexpr double u = unit_roundoff<double>;
+  constexpr double u = unit_roundoff<float>;
   EXPECT_EQ(log2_error(0.25), 0x1p-21);
   EXPECT_EQ(log2_error(-10), 60 * u);
   const WrittenDepth shader = written_depth(Projection::perspective, Mapping::log_ulrich, 0.5, 20);

@@ -81,7 +81,7 @@ TEST_F(ValidateProgram, RefusesInOneLine) {
   };
   expect_refused(validate("none.exr"), 3, "none.exr");
   folder.write("report.json", "{}");
-  expect_refused(validate("map.exr", {"--baseline", "report.json"}), 3, "no report.json");
+  expect_refused(validate("map.exr", {"--baseline", "report.json"}), 3, "not a report.json");
   folder.write("file", "");
   expect_refused(validate("map.exr", {"--out", "file"}), 4, "file: cannot make this folder");
   const auto run = [&](std::vector<std::string> arguments) {

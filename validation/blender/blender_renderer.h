@@ -5,10 +5,10 @@
 
 namespace fathom::validation {
 
-/// The mesh rendered by Blender's Cycles on the processor: one sample a pixel, the Depth pass of a
-/// multilayer EXR. A mesh far from the origin is moved there: Blender holds positions in binary32.
-/// Fails    InputError where there is no Blender, where it fails, or where it cannot express the
-///          camera.
+/// The mesh rendered by Blender's Cycles on the processor: one sample per pixel, the Depth pass of a
+/// multilayer EXR. A mesh far from the origin is moved there, because Blender holds positions in
+/// binary32.
+/// Fails    InputError if there is no Blender, if it fails, or if it cannot express the camera.
 DrawnMap draw_blender(const attribution::WorldMesh& mesh, const Camera& camera);
 
 }  // namespace fathom::validation

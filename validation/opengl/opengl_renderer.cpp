@@ -8,9 +8,9 @@
 
 #include "fathom/attribution/camera_rays.h"
 #include "fathom/attribution/clip_from_held.h"
-#include "fathom/attribution/roundings.h"
 #include "fathom/attribution/window_depth.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/unit_roundoff.h"
 #include "validation/opengl/drawn_mesh.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/framebuffer.h"
@@ -24,7 +24,6 @@ using attribution::clip_from_held;
 using attribution::OtherMap;
 using attribution::RasterModel;
 using attribution::SamplePosition;
-using attribution::unit_roundoff;
 using attribution::window_depth;
 using attribution::WindowDepth;
 using attribution::WorldMesh;
@@ -63,7 +62,7 @@ void measure_offset(const GlFunctions& gl, const DrawnMesh& mesh, const Camera& 
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
   std::nth_element(differences.begin(), middle, differences.end());
   model.bias = *middle;
-  model.bias_error = 2 * unit_roundoff;  // added in binary32, and stored
+  model.bias_error = 2 * unit_roundoff<float>;  // added in binary32, and stored
 }
 
 /// Where positions are held from: the eye, so that nothing is lost near it, or where there is none,

@@ -8,16 +8,18 @@
 
 namespace fathom::validation {
 
-/// The mesh drawn by OpenGL into a framebuffer without a display: positions in binary32 about the
-/// eye (orthographic: the middle of the mesh), one matrix rounded to binary32, the depth test
-/// GL_LESS (or GL_GREATER). Reads back window depths and the numbers of the triangles. `camera` has
-/// finite near and far. Fails    InputError where there is no OpenGL 4.5, or no such attachment.
+/// The mesh drawn by OpenGL into a framebuffer without a display: positions in binary32 relative to
+/// the eye (orthographic: to the middle of the mesh), one matrix rounded to binary32, the depth test
+/// GL_LESS (or GL_GREATER). Window depths and triangle numbers are read back.
+///
+/// Needs    finite near and far.
+/// Fails    InputError if there is no OpenGL 4.5 or no such attachment.
 DrawnMap draw_opengl(const attribution::WorldMesh& mesh, const Camera& camera,
                      const OpenGlVariant& variant);
 
-/// Whether a driver, told by its version, interpolates depth between corners as they were before
-/// they were snapped: Mesa's llvmpipe does. OpenGL leaves it open; of others the wider bound is
-/// assumed.
+/// Whether a driver, recognised by its version, interpolates depth between the corners as they were
+/// before they were snapped. OpenGL leaves this open. Mesa's llvmpipe does; of other drivers it is
+/// not assumed, which gives the wider bound.
 bool interpolates_before_snapping(const std::string& version);
 
 }  // namespace fathom::validation

@@ -7,10 +7,10 @@
 
 namespace fathom::validation {
 
-/// One renderer, in one of its ways to store depth, on one scene.
+/// One renderer in one of its variants, on one scene.
 struct ValidationCase {
   std::string scene;
-  /// vtk, opengl, blender, embree or map; and what is particular: "unorm24", "robust", …
+  /// vtk, opengl, blender, embree or map; and its variant or model: "unorm24", "robust", …
   std::string renderer, variant;
   /// Its version and what it runs on.
   std::string version;

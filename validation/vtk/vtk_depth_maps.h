@@ -6,8 +6,10 @@
 
 namespace fathom::validation {
 
-/// The mesh drawn by VTK. `camera` has finite near and far.
-/// Fails    InputError where there is no OpenGL.
+/// The mesh drawn by VTK.
+/// Needs    finite near and far.
+/// Fails    InputError if there is no OpenGL, or for a logarithmic depth if near is not in front of
+///          the eye.
 DrawnMap draw_vtk(const attribution::WorldMesh& mesh, const Camera& camera,
                   const VtkVariant& variant);
 

@@ -1,12 +1,11 @@
 #include "fathom/attribution/attribution.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "fathom/attribution/fragment_source.h"
 #include "fathom/attribution/pixel_judge.h"
 #include "fathom/attribution/statistics.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom::attribution {
 namespace {
@@ -37,13 +36,13 @@ Attribution attribute(const Truth& truth, const OtherMap& other, const RendererM
   const std::uint32_t width = truth.camera.width, height = truth.camera.height;
   const auto source = fragments(truth.mesh, truth.camera, model);
   std::vector<PixelBox> boxes(truth.mesh.triangles.size());
-  tbb::parallel_for(std::size_t{0}, boxes.size(),
-                    [&](std::size_t t) { boxes[t] = source->box(static_cast<std::uint32_t>(t)); });
+  parallel_for(std::size_t{0}, boxes.size(),
+               [&](std::size_t t) { boxes[t] = source->box(static_cast<std::uint32_t>(t)); });
 
   const PixelJudge judge(truth, other, model);
   std::vector<PixelResult> pixels(std::size_t{width} * height);
   const std::uint32_t bands = (height + rows_per_band - 1) / rows_per_band;
-  tbb::parallel_for(std::uint32_t{0}, bands, [&](std::uint32_t band) {
+  parallel_for(std::uint32_t{0}, bands, [&](std::uint32_t band) {
     const std::uint32_t first = band * rows_per_band;
     const std::uint32_t last = std::min(first + rows_per_band, height) - 1;
     const auto found = fragments_in(*source, boxes, width, first, last);

@@ -6,11 +6,11 @@
 
 namespace fathom::attribution {
 
-/// The viewing rays of a camera, as affine functions of the image position: the point at depth D of
-/// what (u, v) shows is origin + D·direction, so that the parameter along the ray is the depth.
+/// The viewing rays of a camera as affine functions of the image position: (u, v) shows the points
+/// origin + D·direction, so that the parameter along the ray is the depth D.
 ///
-/// Frame    world; (u, v) in pixels, (0, 0) the top left corner of the image.
-/// Exact    rounded to binary64 several times: for renderers that compute in binary32.
+/// Frame    world, scene units; (u, v) in pixels, (0, 0) the top left corner of the image.
+/// Exact    rounded to binary64 several times: good enough for renderers that compute in binary32.
 struct CameraRays {
   using Vector3 = std::array<double, 3>;
   /// f(u, v) = at_corner + u·per_u + v·per_v

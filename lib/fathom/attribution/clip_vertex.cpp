@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "fathom/attribution/clip_rows.h"
-#include "fathom/attribution/roundings.h"
+#include "fathom/attribution/own_roundings.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 // docs/validation.md, "A rasterizer", "Corners", derives what stands here.
 namespace fathom::attribution {
@@ -13,7 +14,7 @@ namespace {
 /// matrix and one to spare; where they are not known, an entry and the position itself.
 double gamma_of(const RasterModel& model) {
   const double roundings = model.matrix ? 5 : model.premultiplied ? 7 : 13;
-  const double n = roundings * unit_roundoff;
+  const double n = roundings * unit_roundoff<float>;
   return n / (1 - n);
 }
 

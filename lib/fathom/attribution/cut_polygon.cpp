@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/attribution/roundings.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {
 namespace {
 
-constexpr double u = unit_roundoff;
+constexpr double u = unit_roundoff<float>;
 
 /// The borders of the view volume, in the order in which they cut. Every renderer cuts at the
 /// first.

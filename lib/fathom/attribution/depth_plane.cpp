@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/attribution/roundings.h"
+#include "fathom/attribution/own_roundings.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 // docs/validation.md, "Window depth", derives what stands here.
 namespace fathom::attribution {
 namespace {
 
-constexpr double u = unit_roundoff;
+constexpr double u = unit_roundoff<float>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Twice the area by which displaced corners can change that of a triangle.

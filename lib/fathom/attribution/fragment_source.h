@@ -8,7 +8,7 @@
 #include "fathom/attribution/renderer_model.h"
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"
-#include "fathom/triangle/projected_triangle.h"
+#include "fathom/geometry/pixel_box.h"
 
 namespace fathom::attribution {
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "fathom/camera/camera.h"
-#include "fathom/triangle/projected_triangle.h"
+#include "fathom/geometry/pixel_box.h"
 
 namespace fathom::attribution {
 

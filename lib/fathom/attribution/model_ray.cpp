@@ -1,12 +1,12 @@
 #include "fathom/attribution/model_ray.h"
 
-#include "fathom/attribution/roundings.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 // docs/validation.md, "A ray tracer", derives what stands here.
 namespace fathom::attribution {
 namespace {
 
-constexpr double u = unit_roundoff;
+constexpr double u = unit_roundoff<float>;
 
 /// The camera in a world whose origin is `shift`.
 Camera moved(Camera camera, const Vector3& shift) {

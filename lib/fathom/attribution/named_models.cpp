@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "fathom/attribution/roundings.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {
 namespace {
@@ -26,7 +26,7 @@ RendererModel ray(const std::string& name, double sample_error, double rotation_
 
 /// Blender keeps a camera's rotation as three angles: each is up to 6u off (atan2 of rounded
 /// numbers, up to π), and their sines and products are six roundings more.
-constexpr double cycles_rotation_error = 24 * unit_roundoff;
+constexpr double cycles_rotation_error = 24 * unit_roundoff<float>;
 
 std::vector<RendererModel> models() {
   return {raster("gl-unorm16", Mapping::opengl, Storage::unorm16),

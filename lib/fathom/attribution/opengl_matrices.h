@@ -5,31 +5,31 @@
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"
 
-/// Our camera in the words of OpenGL: eye space is x right, y up, z backward; clip space is that of
-/// [GL46], section 13.7, −w ≤ z ≤ w.
+/// Our camera in OpenGL's terms: eye space has x to the right, y up, z backward; clip space is that
+/// of [GL46] 13.7, −w ≤ z ≤ w.
 namespace fathom::attribution {
 
 /// Row by row, for column vectors.
 using Matrix4 = std::array<double, 16>;
 
-/// The clip planes, as depths.
+/// The clip planes, as depths in scene units.
 struct ClipRange {
   double near = 0, far = 0;
 };
 
-/// The camera's own near and far where it has both; else planes just outside the corners that lie
-/// in front of the camera, near not below far/10⁴ (perspective).
+/// The camera's own near and far if it has both; otherwise planes just outside the corners that lie
+/// in front of the camera, with near at least far/10⁴ (perspective).
 ClipRange clip_range(const WorldMesh& mesh, const Camera& camera);
 
-/// Exact: signs only are changed.
+/// Exact    only signs are changed.
 Matrix4 eye_from_world(const Camera& camera);
 
-/// Where near and far go: z = −w and z = w, as OpenGL has it, or z = w and z = 0, which needs
-/// glClipControl.
+/// Where near and far go: to z = −w and z = w, as is usual in OpenGL, or to z = w and z = 0, which
+/// needs glClipControl.
 enum class ClipDepth { minus_one_to_one, one_to_zero };
 
-/// Rounded to binary64, entry by entry: the image point (u, v) goes to x = 2u/width − 1,
-/// y = 1 − 2v/height.
+/// Takes the image point (u, v) in pixels to x = 2u/width − 1, y = 1 − 2v/height.
+/// Exact    each entry is rounded to binary64 a few times.
 Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range,
                       ClipDepth depth = ClipDepth::minus_one_to_one);
 

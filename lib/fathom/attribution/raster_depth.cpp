@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/attribution/roundings.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {
 namespace {
 
-constexpr double u = unit_roundoff;
+constexpr double u = unit_roundoff<float>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace

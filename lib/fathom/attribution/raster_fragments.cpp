@@ -6,9 +6,9 @@
 
 #include "fathom/attribution/fragment_source.h"
 #include "fathom/attribution/image_box.h"
+#include "fathom/attribution/own_roundings.h"
 #include "fathom/attribution/raster_depth.h"
 #include "fathom/attribution/raster_polygon.h"
-#include "fathom/attribution/roundings.h"
 
 // docs/validation.md, "A rasterizer", "Coverage", derives what stands here.
 namespace fathom::attribution {

@@ -1,10 +1,10 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/attribution/roundings.h"
 #include "fathom/attribution/storage_step.h"
 #include "fathom/attribution/stored_values.h"
 #include "fathom/attribution/window_depth.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {
 namespace {
@@ -67,7 +67,7 @@ double RasterValues::depth_of(double value) const {
 double RasterValues::limit(double value) const {
   if (has_windows()) return value;
   const double depth = depth_of(value);
-  return depth == infinity ? depth : depth + 2 * unit_roundoff * std::abs(depth);
+  return depth == infinity ? depth : depth + 2 * unit_roundoff<float> * std::abs(depth);
 }
 
 bool RasterValues::is_nearest(std::size_t pixel, double depth) const {

@@ -6,13 +6,13 @@
 #include "fathom/attribution/image_box.h"
 #include "fathom/attribution/model_ray.h"
 #include "fathom/attribution/ray_triangle.h"
-#include "fathom/attribution/roundings.h"
 #include "fathom/attribution/vector3.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {
 namespace {
 
-constexpr double u = unit_roundoff;
+constexpr double u = unit_roundoff<float>;
 
 /// A corner in the camera frame, and the greatest of the terms that its coordinates are sums of.
 struct CameraCorner {

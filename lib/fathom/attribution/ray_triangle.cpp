@@ -4,13 +4,14 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/attribution/roundings.h"
+#include "fathom/attribution/own_roundings.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 // docs/validation.md, "A ray tracer", derives what stands here, in the same order.
 namespace fathom::attribution {
 namespace {
 
-constexpr double u = unit_roundoff;
+constexpr double u = unit_roundoff<float>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A triangle seen from the ray's origin.

@@ -4,7 +4,7 @@
 #include <limits>
 #include <variant>
 
-#include "fathom/attribution/roundings.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {
 namespace {
@@ -30,10 +30,10 @@ std::unique_ptr<StoredValues> stored_values(const Camera& camera, const OtherMap
 
 Interval rounded_to_binary32(const Interval& depths) {
   const auto [lower, upper] = depths;
-  return {lower - 2 * unit_roundoff * std::abs(lower),
+  return {lower - 2 * unit_roundoff<float> * std::abs(lower),
           upper == std::numeric_limits<double>::infinity()
               ? upper
-              : upper + 2 * unit_roundoff * std::abs(upper)};
+              : upper + 2 * unit_roundoff<float> * std::abs(upper)};
 }
 
 }  // namespace fathom::attribution

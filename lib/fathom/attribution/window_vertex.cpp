@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/attribution/roundings.h"
+#include "fathom/attribution/own_roundings.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {
 
 WindowVertex to_window(const ClipVertex& v, const Camera& camera, const RasterModel& model) {
-  constexpr double u = unit_roundoff;
+  constexpr double u = unit_roundoff<float>;
   const double w = v.value[3], rest = std::max(w - v.error[3], 0x1p-1000);
   // A quotient by w: errors of both, a reciprocal of two roundings and a product.
   const auto divided_error = [&](double quotient, double error) {

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/attribution/roundings.h"
+#include "fathom/attribution/own_roundings.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {
 namespace {
 
-constexpr double u = unit_roundoff;
+constexpr double u = unit_roundoff<float>;
 
 }  // namespace
 

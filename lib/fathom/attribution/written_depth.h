@@ -16,17 +16,18 @@ struct WrittenDepth {
 
   /// Without the roundings of the shader.
   [[nodiscard]] double value(double q) const;
-  /// All values that the shader may compute where its q is at most `q_error` from `q`, with
-  /// log2 as exact as the shading language demands ([GLSL46] 4.7.1).
+  /// All values that the shader may compute if its q is at most `q_error` from `q`, with log2 as
+  /// exact as the shading language demands ([GLSL46] 4.7.1).
   [[nodiscard]] Interval values(double q, double q_error) const;
 };
 
-/// The constants for a mapping, `reversed` or `log_ulrich`, of window depths that are OpenGL's.
-/// Fails    InputError for a logarithm of a near plane that is not in front of the eye.
+/// The constants for a mapping, `reversed` or `log_ulrich`, from OpenGL's window depths. `near` and
+/// `far` are depths in scene units.
+/// Fails    InputError for a logarithmic depth whose near plane is not in front of the eye.
 WrittenDepth written_depth(Projection projection, Mapping mapping, double near, double far);
 
-/// The greatest error of log2 in binary32 at a value `log2_x`: 3 ulp, but 2⁻²¹ for x from ½ to 2
-/// ([GLSL46] 4.7.1).
+/// The greatest error that a shader's log2 may have in binary32 where its exact value is `log2_x`:
+/// 3 ulp, but 2⁻²¹ for x from ½ to 2 ([GLSL46] 4.7.1).
 double log2_error(double log2_x);
 
 }  // namespace fathom::attribution

@@ -2,9 +2,6 @@
 
 namespace fathom::attribution {
 
-/// 2⁻²⁴, the greatest relative error of an operation in binary32: what renderers compute in.
-inline constexpr double unit_roundoff = 0x1p-24;
-
 /// The factor by which bounds are enlarged for the binary64 roundings of their own evaluation: each
 /// bound is a sum of at least 2⁻²⁴ times magnitudes whose evaluation here, and that of the values
 /// that they bound, errs by less than 2⁻⁴⁶ of the same magnitudes.
