@@ -8,6 +8,7 @@
 #include "run_program.h"
 #include "sample_files.h"
 #include "test_folder.h"
+#include "tests/places.h"
 
 namespace fathom::test {
 namespace {
@@ -187,7 +188,7 @@ TEST_F(CameraCommands, ImportRefusesDistortion) {
 }
 
 TEST_F(CameraCommands, WhatLooksThroughOneCameraRefusesAPath) {
-  const std::string cube = FATHOM_SOURCE_DIR "/data/meshes/cube.obj";
+  const std::string cube = source_dir() / "data/meshes/cube.obj";
   fathom({"camera", "orbit", cube, "--views", "3", "-o", "path.json"});
   const std::vector<std::vector<std::string>> commands{
       {"probe", "--pixel", "1,1"}, {"coplanar"}, {"visible"}, {"pipeline", "trace"}};

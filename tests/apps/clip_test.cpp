@@ -9,6 +9,7 @@
 
 #include "run_program.h"
 #include "test_folder.h"
+#include "tests/places.h"
 
 namespace fathom::test {
 namespace {
@@ -40,7 +41,7 @@ Json answer(const std::string& algorithm, const std::string& object,
 }
 
 TEST(Clip, NamedDegenerateCasesAnswerTheFileOfAnswers) {
-  const std::string folder = FATHOM_SOURCE_DIR "/data/clipping/";
+  const std::string folder = source_dir() / "data/clipping/";
   const Outcome outcome = run_fathom(
       {"clip", "--algorithm", "weiler-atherton", "--exact", folder + "degenerate.jsonl"});
   std::ifstream stream(folder + "degenerate.answers.jsonl");

@@ -11,6 +11,7 @@
 
 #include "run_program.h"
 #include "test_folder.h"
+#include "tests/places.h"
 
 namespace fathom::test {
 namespace {
@@ -151,7 +152,7 @@ Outcome render(const std::vector<std::string>& arguments, const TestFolder& fold
   RunOptions options;
   options.folder = folder.path();
   return run_fathom(
-      with({"render", FATHOM_SOURCE_DIR "/data/meshes/cube.obj", "--size", "32x24"}, arguments),
+      with({"render", source_dir() / "data/meshes/cube.obj", "--size", "32x24"}, arguments),
       options);
 }
 

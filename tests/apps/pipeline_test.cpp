@@ -7,6 +7,7 @@
 
 #include "run_program.h"
 #include "test_folder.h"
+#include "tests/places.h"
 
 namespace fathom::test {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 using ::testing::HasSubstr;
 
-const std::string cube = FATHOM_SOURCE_DIR "/data/meshes/cube.obj";
+const std::string cube = source_dir() / "data/meshes/cube.obj";
 
 Outcome render(const TestFolder& folder, std::vector<std::string> more) {
   std::vector<std::string> arguments{"render", cube, "--engine", "pipeline", "--size", "64x48"};

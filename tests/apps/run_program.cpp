@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "test_folder.h"
+#include "tests/places.h"
 
 namespace fathom::test {
 namespace {
@@ -58,7 +59,7 @@ std::vector<std::string> with_program(const std::vector<std::string>& arguments)
 }  // namespace
 
 std::string program_path() {
-  return FATHOM_BINARY_DIR "/bin/fathom";
+  return program("fathom");
 }
 
 Outcome run(const std::vector<std::string>& command, const RunOptions& options) {

@@ -10,6 +10,7 @@
 #include "run_program.h"
 #include "sample_files.h"
 #include "test_folder.h"
+#include "tests/places.h"
 
 namespace fathom::test {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-const std::string meshes = FATHOM_SOURCE_DIR "/data/meshes/";
+const std::string meshes = source_dir() / "data/meshes/";
 
 class Streaming : public ::testing::Test {
  protected:

@@ -7,6 +7,7 @@
 
 #include "run_program.h"
 #include "test_folder.h"
+#include "tests/places.h"
 
 namespace fathom::test {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-const std::string meshes = std::string(FATHOM_SOURCE_DIR) + "/data/meshes/";
+const std::string meshes = source_dir() / "data/meshes/";
 
 class Surfaces : public ::testing::Test {
  protected:

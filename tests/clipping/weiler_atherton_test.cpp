@@ -17,6 +17,7 @@
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
 #include "tests/effort.h"
+#include "tests/places.h"
 
 namespace fathom::clipping::test {
 namespace {
@@ -96,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Grids, WeilerAthertonRandom,
 using Json = nlohmann::json;
 
 std::vector<Json> lines_of(const std::string& file) {
-  std::ifstream stream(std::string(FATHOM_SOURCE_DIR "/data/clipping/") + file);
+  std::ifstream stream(fathom::test::source_dir() / "data/clipping" / file);
   std::vector<Json> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(Json::parse(line));
   return lines;

@@ -12,9 +12,9 @@
 #include "fathom/reference/probe.h"
 #include "fathom/render.h"
 #include "tests/effort.h"
-#include "tests/exact/expect_same_map.h"
-#include "tests/exact/random_scenes.h"
-#include "tests/exact/soup.h"
+#include "tests/engines/expect_same_map.h"
+#include "tests/inputs/random_scenes.h"
+#include "tests/inputs/soup.h"
 
 namespace fathom {
 namespace {

@@ -14,6 +14,7 @@
 namespace {
 
 using namespace fathom;
+using namespace fathom::camera;
 
 /// The first byte says which format the rest is in.
 std::vector<ImportedCamera> parse(char format, const std::string& text) {

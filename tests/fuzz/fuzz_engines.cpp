@@ -9,7 +9,7 @@
 
 #include "fathom/fast/render_fast.h"
 #include "fathom/reference/reference.h"
-#include "tests/exact/scene_building.h"
+#include "tests/inputs/scene_building.h"
 
 namespace fathom {
 namespace {

@@ -13,6 +13,7 @@
 /// Any bytes as a glTF asset: an InputError of one line, or a scene that keeps its promises.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace fathom;
+  using namespace fathom::mesh_files;
   Scene scene;
   Warnings warnings;
   ReadOptions options;

@@ -8,7 +8,8 @@
 /// as many values as pixels.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const fathom::DepthMap map = fathom::decode_map(std::as_bytes(std::span(data, size)), "input");
+    const fathom::DepthMap map =
+        fathom::image::decode_map(std::as_bytes(std::span(data, size)), "input");
     for (const fathom::ImageChannel& channel : map.channels)
       std::visit(
           [&](const auto& values) {

@@ -14,6 +14,9 @@
 
 namespace fathom::fuzz {
 
+using namespace mesh;
+using namespace mesh_files;
+
 /// Ends the program unless the mesh keeps what Mesh promises.
 inline void check(const Mesh& mesh) {
   const auto require = [](bool kept) {

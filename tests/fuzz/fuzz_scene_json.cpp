@@ -8,9 +8,9 @@
 #include "fathom/scene/scene_json.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fathom::recognise_format(std::as_bytes(std::span(data, size)), "input");
+  fathom::mesh_files::recognise_format(std::as_bytes(std::span(data, size)), "input");
   try {
-    fathom::read_scene_json({reinterpret_cast<const char*>(data), size}, "input");
+    fathom::scene::read_scene_json({reinterpret_cast<const char*>(data), size}, "input");
   } catch (const fathom::InputError&) {
   }
   return 0;

@@ -17,10 +17,13 @@
 #include "fathom/image/rgb_image.h"
 #include "fathom/numeric/errors.h"
 #include "tests/image/map_samples.h"
+#include "tests/places.h"
 
 namespace fathom {
 namespace {
 
+using namespace image;
+using namespace text;
 using ::testing::HasSubstr;
 using namespace fathom::testing;
 
@@ -322,7 +325,7 @@ TEST(Paths, ThatCannotBeUsedAreNamed) {
 // here, and a length was read where there is none: an allocation of 1.6 GB.
 TEST(BadFiles, AnIdManifestDoesNotMakeTheReaderLoseStep) {
   try {
-    read_map(FATHOM_SOURCE_DIR "/tests/fuzz/corpus/map/lost_step.exr");
+    read_map(test::source_dir() / "tests/fuzz/corpus/map/lost_step.exr");
     FAIL() << "expected an InputError";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("Unexpected data block"));

@@ -11,6 +11,8 @@
 namespace fathom {
 namespace {
 
+using namespace image;
+using namespace text;
 using ::testing::HasSubstr;
 using namespace fathom::testing;
 

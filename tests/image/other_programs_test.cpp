@@ -11,6 +11,7 @@
 #include "fathom/image/map_files.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"
+#include "tests/places.h"
 
 /// Our files in other programs: OpenImageIO, OpenEXR's exrheader, NumPy.
 namespace fathom {
@@ -204,7 +205,7 @@ std::string code_in(const std::string& page, const std::string& language) {
 TEST(ReadingMaps, PythonOfThePageRuns) {
   const Folder folder;
   write_all(folder);
-  const std::string page = contents_of(FATHOM_SOURCE_DIR "/docs/reading-maps.md");
+  const std::string page = contents_of(test::source_dir() / "docs/reading-maps.md");
   std::ofstream(folder / "page.py") << code_in(page, "python");
   const Outcome outcome = in_folder(folder, "/usr/bin/python3 page.py");
   EXPECT_EQ(outcome.status, 0) << outcome.output;
@@ -238,13 +239,14 @@ TEST(ReadingMaps, PythonOfThePageRuns) {
 }
 
 TEST(ReadingMaps, CppOfThePageIsTheProgramThatRuns) {
-  const std::string page = contents_of(FATHOM_SOURCE_DIR "/docs/reading-maps.md");
+  const std::string page = contents_of(test::source_dir() / "docs/reading-maps.md");
   EXPECT_EQ(code_in(page, "cpp"),
-            contents_of(FATHOM_SOURCE_DIR "/tests/image/read_map_example.cpp"));
+            contents_of(test::source_dir() / "tests/image/read_map_example.cpp"));
   const Folder folder;
   write_all(folder);
   for (const char* file : {"map.exr", "map.pfm", "map.npy"}) {
-    const Outcome outcome = in_folder(folder, std::string(READ_MAP_EXAMPLE " ") + file);
+    const Outcome outcome =
+        in_folder(folder, test::program("read_map_example").string() + " " + file);
     EXPECT_THAT(outcome.output, HasSubstr("0 0 1.5\n1 0 2\n"));
     EXPECT_THAT(outcome.output, HasSubstr("2 2 6.5\n"));
   }

@@ -14,6 +14,7 @@
 namespace fathom {
 namespace {
 
+using namespace image;
 using namespace fathom::testing;
 
 constexpr float inf = std::numeric_limits<float>::infinity();

@@ -12,13 +12,7 @@ namespace {
 
 using testing::any_double;
 using testing::few_bits;
-
-class Rational {
- public:
-  Rational() { mpq_init(q); }
-  ~Rational() { mpq_clear(q); }
-  mpq_t q;
-};
+using testing::Rational;
 
 TEST(Dyadic, HoldsEveryFiniteDouble) {
   std::mt19937_64 random(1);

@@ -14,18 +14,7 @@ namespace {
 
 using testing::any_double;
 using testing::few_bits;
-
-class Rational {
- public:
-  explicit Rational(const Ratio& x) {
-    mpq_init(q);
-    testing::set(q, x);
-  }
-  ~Rational() { mpq_clear(q); }
-  Rational(const Rational&) = delete;
-  Rational& operator=(const Rational&) = delete;
-  mpq_t q;
-};
+using testing::Rational;
 
 double value_of(Binary16 x) {
   const int exponent = x.bits >> 10 & 31;

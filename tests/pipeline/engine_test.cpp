@@ -12,9 +12,12 @@
 #include "fathom/render.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "tests/effort.h"
+#include "tests/places.h"
 
 namespace fathom::pipeline {
 namespace {
+
+using namespace triangle;
 
 Scene scene_of(std::vector<MeshPoint> vertices, std::vector<CornerIndices> triangles) {
   Scene scene;
@@ -359,7 +362,7 @@ TEST(Options, WhatDoesNotExistIsRefused) {
 
 TEST(Texture, MissingOrBrokenOnesAreRefused) {
   EXPECT_THROW(read_rgb_png("/nonexistent/texture.png"), InputError);
-  EXPECT_THROW(read_rgb_png(FATHOM_SOURCE_DIR "/README.md"), InputError);
+  EXPECT_THROW(read_rgb_png(test::source_dir() / "README.md"), InputError);
   PipelineOptions options;
   options.texture = "checker";
   EXPECT_THROW(render_frame(quadrangle(), camera_of(8, 8), options, true), InputError);

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "fathom/numeric/errors.h"
-#include "tests/scene/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace fathom {
 namespace {

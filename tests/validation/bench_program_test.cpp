@@ -8,6 +8,7 @@
 
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"
+#include "tests/places.h"
 
 /// `fathom bench`, which starts fathom-bench, as users run it.
 namespace fathom::test {
@@ -50,7 +51,7 @@ TEST(BenchProgram, JsonAloneOnStandardOutput) {
 }
 
 TEST(BenchProgram, TimesAMeshFileAndEverySizeAndNumberOfThreads) {
-  const std::string mesh = FATHOM_SOURCE_DIR "/data/meshes/cube.obj";
+  const std::string mesh = source_dir() / "data/meshes/cube.obj";
   const Outcome outcome = run_fathom({"bench", "--scene", mesh, "--size", "16x16,8x8", "--threads",
                                       "1,1", "--peers", "none", "--repeat", "1", "--json", "-"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;

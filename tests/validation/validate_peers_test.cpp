@@ -8,6 +8,7 @@
 
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"
+#include "tests/places.h"
 
 /// `fathom validate --against …` with renderers that are really there (FATHOM_PEERS), small.
 namespace fathom::test {
@@ -222,7 +223,7 @@ TEST(ValidatePeers, WhatCannotBeWrittenIsSaidBeforeAnythingIsDrawn) {
 
 TEST(ValidatePeers, WhatTheOtherDrewIsAMapOfOurs) {
   const TestFolder folder;
-  const std::string cube = FATHOM_SOURCE_DIR "/data/meshes/cube.obj";
+  const std::string cube = source_dir() / "data/meshes/cube.obj";
   const Outcome outcome =
       run_fathom({"validate", "--render", "vtk", cube, "--size", "40x30", "-o", "vtk.exr"},
                  {.folder = folder.path()});

@@ -8,6 +8,7 @@
 
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"
+#include "tests/places.h"
 
 /// `fathom validate --map`, which starts fathom-validate, as users run it.
 namespace fathom::test {
@@ -15,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string cube = FATHOM_SOURCE_DIR "/data/meshes/cube.obj";
+const std::string cube = source_dir() / "data/meshes/cube.obj";
 
 /// A folder with an exact map of the cube, its camera, and the same camera half a pixel aside.
 class ValidateProgram : public testing::Test {

@@ -61,7 +61,7 @@ HWY_EXPORT(set_up_batch);
 HWY_EXPORT(orient);
 HWY_EXPORT(target_name);
 
-const char* vector_instructions() {
+static const char* target_name_here() {
   return HWY_DYNAMIC_DISPATCH(target_name)();
 }
 
@@ -125,4 +125,12 @@ void SetupBatch::set(std::size_t lane, const TriangleSetup& setup, const PixelBo
 }
 
 }  // namespace fathom::fast
+
+namespace fathom {
+
+const char* vector_instructions() {
+  return fast::target_name_here();
+}
+
+}  // namespace fathom
 #endif

@@ -150,12 +150,16 @@ Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::st
   return encode(picture, name);
 }
 
+}  // namespace fathom::image
+
+namespace fathom {
+
 void write_png(const RgbImage& image, const std::filesystem::path& path) {
-  Picture picture{image.width, image.height, 8, PNG_COLOR_TYPE_RGB, {}, {}};
+  image::Picture picture{image.width, image.height, 8, PNG_COLOR_TYPE_RGB, {}, {}};
   const auto bytes = std::as_bytes(std::span(image.pixels));
   picture.pixels.assign(bytes.begin(), bytes.end());
   picture.texts = {{"Software", "Fathom " FATHOM_VERSION}};
-  write_file(path, encode(picture, path.string()));
+  text::write_file(path, image::encode(picture, path.string()));
 }
 
-}  // namespace fathom::image
+}  // namespace fathom

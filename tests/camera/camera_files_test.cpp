@@ -1,0 +1,225 @@
+#include "fathom/camera/camera_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <clocale>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "fathom/numeric/errors.h"
+#include "tests/scratch_folder.h"
+
+namespace fathom {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr const char* plain =
+    R"("width": 640, "height": 480, "fx": 525, "fy": 525.5, "cx": 320, "cy": 240)";
+constexpr const char* pose = R"("world_to_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,0]])";
+
+std::vector<Camera> read(const std::string& text) {
+  const ScratchFolder folder;
+  return read_cameras(folder.write("camera.json", text));
+}
+
+Camera with(const std::string& more) {
+  return read(std::string("{") + plain + "," + pose + (more.empty() ? "" : "," + more) + "}").at(0);
+}
+
+/// Bit for bit: also the sign of a zero counts.
+bool same_bits(const Camera& a, const Camera& b) {
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  const auto numbers = [](const Camera& c) {
+    std::vector<double> list{c.fx, c.fy, c.cx, c.cy, c.skew, c.pixel_centre, c.near, c.far};
+    for (const auto& row : c.world_to_camera) list.insert(list.end(), row.begin(), row.end());
+    return list;
+  };
+  const auto x = numbers(a), y = numbers(b);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (bits(x[i]) != bits(y[i])) return false;
+  return a.width == b.width && a.height == b.height && a.projection == b.projection;
+}
+
+TEST(CameraJson, DefaultsAreThoseOfTheInterface) {
+  const Camera camera = with("");
+  EXPECT_EQ(camera.width, 640U);
+  EXPECT_EQ(camera.height, 480U);
+  EXPECT_EQ(camera.projection, Projection::perspective);
+  EXPECT_EQ(camera.fx, 525);
+  EXPECT_EQ(camera.fy, 525.5);
+  EXPECT_EQ(camera.cx, 320);
+  EXPECT_EQ(camera.cy, 240);
+  EXPECT_EQ(camera.skew, 0);
+  EXPECT_EQ(camera.pixel_centre, 0.5);
+  EXPECT_EQ(camera.near, 0);
+  EXPECT_EQ(camera.far, std::numeric_limits<double>::infinity());
+}
+
+TEST(CameraJson, ReadsEveryKey) {
+  const Camera camera = with(
+      R"("projection": "orthographic", "skew": -1.5, "pixel_centre": 0, "near": 0.1, "far": 100)");
+  EXPECT_EQ(camera.projection, Projection::orthographic);
+  EXPECT_EQ(camera.skew, -1.5);
+  EXPECT_EQ(camera.pixel_centre, 0);
+  EXPECT_EQ(camera.near, 0.1);
+  EXPECT_EQ(camera.far, 100);
+  EXPECT_EQ(with(R"("far": null)").far, std::numeric_limits<double>::infinity());
+}
+
+TEST(CameraJson, TakesA4x4WithTheLastRow0001) {
+  const std::string rows = R"("world_to_camera": [[1,2,0,4],[0,1,0,5],[0,0,1,6])";
+  const Camera camera = read(std::string("{") + plain + "," + rows + ",[0,0.0,-0.0,1e0]]}").at(0);
+  EXPECT_EQ(camera.world_to_camera[0], (std::array<double, 4>{1, 2, 0, 4}));
+  EXPECT_EQ(camera.world_to_camera[2], (std::array<double, 4>{0, 0, 1, 6}));
+  EXPECT_THAT(
+      message_of<InputError>([&] { read(std::string("{") + plain + "," + rows + ",[0,0,0,2]]}"); }),
+      HasSubstr("world_to_camera[3]: expected the last row"));
+}
+
+TEST(CameraJson, NumbersAreRoundedCorrectly) {
+  // 2⁵³ + 1 is a tie (to even, downwards); a digit behind it decides otherwise.
+  EXPECT_EQ(with(R"("skew": 9007199254740993)").skew, 9007199254740992.0);
+  EXPECT_EQ(with(R"("skew": 9007199254740993.0)").skew, 9007199254740992.0);
+  EXPECT_EQ(with(R"("skew": 9007199254740993.00000000000000000000000000000000000001)").skew,
+            9007199254740994.0);
+  // Beyond 64 bits.
+  EXPECT_EQ(with(R"("skew": 340282366920938463463374607431768211456)").skew, 0x1p128);
+  EXPECT_EQ(with(R"("skew": 18446744073709551617)").skew, 0x1p64);
+  EXPECT_EQ(with(R"("skew": -18446744073709551617)").skew, -0x1p64);
+  EXPECT_EQ(with(R"("skew": 18446744073709550591)").skew, 0x1.fffffffffffffp63);
+  // The half of the least subnormal is a tie and becomes 0, more becomes the least subnormal.
+  EXPECT_EQ(with(R"("skew": 2.4703282292062327e-324)").skew, 0.0);
+  EXPECT_EQ(with(R"("skew": 2.4703282292062328e-324)").skew, 0x1p-1074);
+  EXPECT_EQ(with(R"("skew": 1e-400)").skew, 0.0);
+}
+
+TEST(CameraJson, ReadsAPath) {
+  const std::string camera = std::string("{") + plain + "," + pose + "}";
+  EXPECT_EQ(read(std::string("[") + camera + ",\r\n" + camera + "]").size(), 2U);
+  EXPECT_THAT(message_of<InputError>([&] {
+                read(std::string("[") + camera + "," + camera + "," + "{" + plain + ",\"fz\": 1," +
+                     pose + "}]");
+              }),
+              AllOf(HasSubstr("camera.json: [2]: "), HasSubstr("\"fz\"")));
+  EXPECT_THAT(message_of<InputError>([&] { read("[]"); }), HasSubstr("empty"));
+}
+
+TEST(CameraJson, NamesFileKeyAndReason) {
+  struct Case {
+    std::string text;
+    const char* expected;
+  };
+  const std::string start = std::string("{") + plain + ",";
+  const std::string all = start + pose + ",";
+  const Case cases[] = {
+      {"", "line 1: not JSON"},
+      {"{\n\"width\": 3,\n\"height\" 4}", "line 3: not JSON"},
+      {all + "}", "line 1: not JSON"},
+      {all + "\"far\": 1} x", "not JSON"},
+      {all + "\"near\": NaN}", "not JSON"},
+      {all + "\"near\": Infinity}", "not JSON"},
+      {all + "\"near\": .5}", "not JSON"},
+      {all + "\"near\": 0x10}", "not JSON"},
+      {all + "\"skew\": 1e400}", "skew"},
+      {all + "\"skew\": \"1\"}", "skew: is a string, expected a number"},
+      {all + "\"skew\": null}", "skew: is null, expected a number"},
+      {all + "\"skew\": [1]}", "skew: is a list, expected a number"},
+      {all + "\"skew\": true}", "skew: is true or false, expected a number"},
+      {all + "\"projection\": \"fisheye\"}", "projection: expected \"perspective\" or"},
+      {all + "\"projection\": 1}", "projection: is a number, expected a string"},
+      {all + "\"fx\": 2}", "\"fx\" stands twice"},
+      {all + "\"focal\": 2}", "unknown key \"focal\""},
+      {all + "\"a\\nb\": 2}", "unknown key"},
+      {all + "\"near\": -1}", "near is negative"},
+      {all + "\"near\": 3, \"far\": 3}", "far is not greater"},
+      {start + "\"world_to_camera\": 3}", "world_to_camera: is a number, expected a list"},
+      {start + "\"world_to_camera\": [[1,0,0,0],[0,1,0,0]]}", "world_to_camera: expected 3 rows"},
+      {start + "\"world_to_camera\": [[1,0,0,0],[0,1,0],[0,0,1,0]]}",
+       "world_to_camera[1]: expected a list of 4, found one of 3"},
+      {start + "\"world_to_camera\": [[1,0,0,0],[0,1,0,\"0\"],[0,0,1,0]]}",
+       "world_to_camera[1][3]: is a string"},
+      {start + "\"world_to_camera\": [[1,2,3,0],[2,4,6,0],[0,0,1,0]]}", "singular"},
+      {"3", "is a number, expected an object"},
+      {"[[]]", "[0]: is a list, expected an object"},
+      {"\"\xff\"", "not JSON"},
+      {std::string(200, '['), "nested"},
+      {std::string(1000000, '['), "nested"},
+  };
+  for (const auto& [text, expected] : cases)
+    EXPECT_THAT(message_of<InputError>([&, &t = text] { read(t); }),
+                AllOf(HasSubstr("camera.json: "), HasSubstr(expected)))
+        << text.substr(0, 200);
+  for (const char* missing : {"width", "height", "fx", "fy", "cx", "cy", "world_to_camera"}) {
+    std::string text = start + pose + "}";
+    text.replace(text.find(std::string("\"") + missing + "\""), std::strlen(missing) + 2,
+                 "\"near\"");
+    EXPECT_THAT(message_of<InputError>([&] { read(text); }),
+                HasSubstr(std::string("the key \"") + missing + "\" is missing"));
+  }
+  EXPECT_THAT(message_of<InputError>([&] { read(std::string("{") + plain + "}"); }),
+              HasSubstr("the key \"world_to_camera\" is missing"));
+  for (const char* size : {"0", "-1", "1.5", "4294967296", "1e300", "\"640\"", "null"}) {
+    std::string text = start + pose + "}";
+    text.replace(text.find("640"), 3, size);
+    EXPECT_THAT(message_of<InputError>([&] { read(text); }), HasSubstr("width: ")) << text;
+  }
+}
+
+TEST(CameraJson, NamesFilesThatCannotBeRead) {
+  const ScratchFolder folder;
+  EXPECT_THAT(message_of<InputError>([&] { read_cameras(folder.path()); }),
+              HasSubstr(folder.path().string()));
+  EXPECT_THAT(message_of<InputError>([&] { read_cameras(folder.path() / "none.json"); }),
+              HasSubstr("none.json"));
+}
+
+TEST(CameraJson, RoundTripsBitForBit) {
+  std::mt19937_64 random(2);
+  const auto any_finite = [&] {
+    for (;;) {
+      const auto x = std::bit_cast<double>(random());
+      if (std::isfinite(x)) return x;
+    }
+  };
+  const auto subnormal = [&] { return std::bit_cast<double>(random() & 0x800FFFFFFFFFFFFFULL); };
+  std::vector<Camera> cameras;
+  for (int i = 0; i < 20000; ++i) {
+    const auto number = [&] { return random() % 4 == 0 ? subnormal() : any_finite(); };
+    Camera camera;
+    camera.width = 1 + static_cast<std::uint32_t>(random() % 0xFFFFFFFF);
+    camera.height = 1 + static_cast<std::uint32_t>(random() % 0xFFFFFFFF);
+    camera.projection = random() % 2 == 0 ? Projection::perspective : Projection::orthographic;
+    camera.fx = number(), camera.fy = number(), camera.cx = number(), camera.cy = number();
+    camera.skew = number(), camera.pixel_centre = number();
+    for (auto& row : camera.world_to_camera)
+      for (double& entry : row) entry = number();
+    camera.near = std::abs(number());
+    if (random() % 2 == 0) camera.far = std::abs(number());
+    if (!find_fault(camera)) cameras.push_back(camera);
+  }
+  ASSERT_GT(cameras.size(), 10000U);
+  cameras[0].skew = -0.0;
+  cameras[1].cx = 0.0;
+  const auto again = read(to_json(cameras));
+  ASSERT_EQ(again.size(), cameras.size());
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    ASSERT_TRUE(same_bits(again[i], cameras[i])) << to_json(cameras[i]);
+}
+
+TEST(CameraJson, ASingleCameraIsWrittenAsAnObject) {
+  const Camera camera = with("");
+  const std::string text = to_json(std::vector{camera});
+  EXPECT_EQ(text, to_json(camera));
+  EXPECT_EQ(text.front(), '{');
+  EXPECT_EQ(text.back(), '}');
+  EXPECT_TRUE(same_bits(read(text).at(0), camera));
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,103 @@
+// Z and distance are rounded once from the exact number, whatever the type asked for.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fathom/numeric/errors.h"
+#include "tests/engines/tested_engine.h"
+#include "tests/inputs/scene_building.h"
+
+namespace fathom {
+namespace {
+
+/// A wall across the view at depth z.
+Scene wall(double z) {
+  const double r = 100 * z;
+  return testing::scene_of({{-r, -r, z}, {r, -r, z}, {0, 2 * r, z}}, {{0, 1, 2}});
+}
+
+RenderOptions scaled(double scale) {
+  RenderOptions options;
+  options.depth_encoding = {DepthEncoding::Type::scaled_unorm16, scale};
+  return options;
+}
+
+std::uint16_t code(double z, double scale) {
+  const DepthMap map = testing::render_tested(wall(z), testing::camera_of(1, 1, 1), scaled(scale));
+  EXPECT_EQ(map.png_scale, scale);
+  return map.values<std::uint16_t>("Z")->at(0);
+}
+
+TEST(Encoding, CodesRoundHalfToEven) {
+  EXPECT_EQ(code(2.5, 1), 2);
+  EXPECT_EQ(code(3.5, 1), 4);
+  EXPECT_EQ(code(std::nextafter(2.5, 3), 1), 3);
+  EXPECT_EQ(code(1.25, 1000), 1250);
+  EXPECT_EQ(code(65535.49, 1), 65535);
+}
+
+TEST(Encoding, ADepthThatDoesNotFitIsAnErrorThatNamesThePixel) {
+  const auto message = [](double z, double scale) -> std::string {
+    try {
+      testing::render_tested(wall(z), testing::camera_of(3, 2, 1), scaled(scale));
+    } catch (const OutputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(message(65535.5, 1), ::testing::HasSubstr("pixel (0, 0)"));
+  EXPECT_THAT(message(65535.5, 1), ::testing::HasSubstr("above 65535"));
+  EXPECT_THAT(message(0.5, 1), ::testing::HasSubstr("no surface"));
+  EXPECT_EQ(message(1, 1), "no error");
+}
+
+TEST(Encoding, Binary64IsRoundedFromTheExactDepth) {
+  // z = 1 / (1/3-like slope): a plane whose depth at the only sample is 1/3 exactly.
+  Scene scene = testing::scene_of({{-9, -9, 3}, {9, -9, 3}, {0, 18, 3}}, {{0, 1, 2}});
+  Camera camera = testing::camera_of(1, 1, 1);
+  camera.projection = Projection::perspective;
+  camera.cx = 0.5 - 3;                                                  // the ray (3, 0, 1)
+  scene.meshes[0].vertices = {{-9, -1, 10}, {9, -1, -8}, {9, 30, -8}};  // x + z = 1
+  scene.meshes[0].vertices[0] = {-9, -30, 10};
+  RenderOptions options;
+  options.depth_encoding.type = DepthEncoding::Type::binary64;
+  options.channels = {Channel::Z, Channel::distance};
+  const DepthMap map = testing::render_tested(scene, camera, options);
+  // (3z) + z = 1: z = 1/4; the ray distance is √10 / 4.
+  EXPECT_EQ(map.values<double>("Z")->at(0), 0.25);
+  EXPECT_EQ(map.values<double>("distance")->at(0), std::sqrt(10.0) / 4);
+}
+
+TEST(Encoding, DepthsBeyondBinary32OverflowAndUnderflow) {
+  RenderOptions options;
+  options.channels = {Channel::Z, Channel::Zlow, Channel::id};
+  const DepthMap far = testing::render_tested(wall(1e100), testing::camera_of(1, 1, 1), options);
+  EXPECT_EQ(far.values<float>("Z")->at(0), std::numeric_limits<float>::infinity());
+  EXPECT_EQ(far.values<float>("Zlow")->at(0), 0.0F);
+  EXPECT_EQ(far.values<std::uint32_t>("id")->at(0), 0U);
+  const DepthMap near = testing::render_tested(wall(1e-42), testing::camera_of(1, 1, 1), options);
+  EXPECT_EQ(near.values<float>("Z")->at(0), 1e-42F);  // a subnormal is kept
+  const DepthMap nearest =
+      testing::render_tested(wall(1e-60), testing::camera_of(1, 1, 1), options);
+  EXPECT_EQ(nearest.values<float>("Z")->at(0), 0.0F);
+  EXPECT_EQ(nearest.values<std::uint32_t>("id")->at(0), 0U);
+}
+
+TEST(Encoding, ChannelsAskedForTwiceAreWrittenOnce) {
+  RenderOptions options;
+  options.channels = {Channel::Z, Channel::id, Channel::Z};
+  EXPECT_EQ(testing::render_tested(wall(2), testing::camera_of(1, 1, 1), options).channels.size(),
+            2U);
+}
+
+TEST(Encoding, TheMapSaysHowItWasMade) {
+  const DepthMap map = testing::render_tested(wall(2), testing::camera_of(4, 3, 1));
+  const bool fast = testing::tested_engine() == Engine::fast;
+  EXPECT_EQ(map.texts.at("fathom.engine"), fast ? "fast" : "reference");
+  EXPECT_THAT(map.texts.at("fathom.camera"), ::testing::HasSubstr("world_to_camera"));
+  EXPECT_EQ(map.object_names, std::vector<std::string>{"object"});
+}
+
+}  // namespace
+}  // namespace fathom

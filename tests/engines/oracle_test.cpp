@@ -1,0 +1,82 @@
+// The reference engine against rays cast in rational numbers, every channel, over random scenes.
+#include <gtest/gtest.h>
+
+#include "fathom/reference/probe.h"
+#include "fathom/threads/threads.h"
+#include "tests/effort.h"
+#include "tests/engines/tested_engine.h"
+#include "tests/inputs/random_scenes.h"
+#include "tests/oracle/against_oracle.h"
+
+namespace fathom {
+namespace {
+
+using namespace triangle;
+using testing::Case;
+using testing::CaseMaker;
+using testing::Kind;
+
+struct Tally {
+  int hits = 0, ties = 0, on_edges = 0;
+  RenderStatistics statistics;
+};
+
+void add_ties(const Case& c, int x, int y, Tally& tally) {
+  const auto seen =
+      probe(c.scene, c.camera, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+  if (seen.empty()) return;
+  for (const Sign side : seen[0].edge_signs) tally.on_edges += side == Sign::zero;
+  tally.ties += seen.size() > 1 && seen[1].counts && seen[0].depth == seen[1].depth;
+}
+
+void check(const Case& c, Tally& tally) {
+  RenderOptions options;
+  options.channels = testing::all_channels();
+  options.threads = 1;
+  RenderStatistics statistics;
+  options.statistics = &statistics;
+  const DepthMap map = testing::render_tested(c.scene, c.camera, options);
+  add(tally.statistics, statistics);
+  const oracle::RayCaster rays = testing::cast_at(c.scene, c.camera);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 6; ++x) {
+      const auto hit = rays.cast(x, y);
+      testing::expect_pixel(map, x, y, hit, c.scene);
+      if (!hit) continue;
+      ++tally.hits;
+      add_ties(c, x, y, tally);
+    }
+  }
+}
+
+class Oracle : public ::testing::TestWithParam<std::tuple<Kind, int>> {};
+
+TEST_P(Oracle, EveryChannelOfEveryPixelAgrees) {
+  const auto [kind, part] = GetParam();
+  CaseMaker maker(static_cast<std::uint64_t>(1000 * static_cast<int>(kind) + part), kind);
+  Tally tally;
+  for (int i = 0; i < 1200 / testing::effort && !HasFailure(); ++i) {
+    SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
+    check(maker.make(), tally);
+  }
+  // The scenes are worth their time: the hard cases are among them, and every tier was reached
+  // (samples on edges of few bits are settled by the filter: its interval is the point 0).
+  if (testing::effort > 1) return;
+  EXPECT_GT(tally.hits, 5000);
+  EXPECT_GT(tally.on_edges, 400);
+  EXPECT_GT(tally.ties, 500);
+  EXPECT_GT(tally.statistics.visibility.exact, 500U);
+  EXPECT_GT(tally.statistics.edges.interval, kind == Kind::huge ? 0U : 10000U);
+  if (kind == Kind::neighbours || kind == Kind::huge) {
+    EXPECT_GT(tally.statistics.edges.exact, 1000U);
+    EXPECT_GT(tally.statistics.facing.exact, 1000U);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(RandomScenes, Oracle,
+                         ::testing::Combine(::testing::Values(Kind::few_bits, Kind::neighbours,
+                                                              Kind::huge, Kind::tiny),
+                                            ::testing::Range(0, 3)));
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,332 @@
+// The fast engine against the reference engine, bit for bit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+
+#include "fathom/camera/camera_making.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/threads/threads.h"
+#include "tests/effort.h"
+#include "tests/engines/expect_same_map.h"
+#include "tests/inputs/random_scenes.h"
+#include "tests/inputs/soup.h"
+
+namespace fathom {
+namespace {
+
+using namespace triangle;
+using testing::CaseMaker;
+using testing::every_channel;
+using testing::expect_same;
+using testing::Kind;
+using testing::quick_channels;
+using testing::soup;
+
+class RandomScenes : public ::testing::TestWithParam<std::tuple<Kind, int>> {};
+
+TEST_P(RandomScenes, AreTheSame) {
+  const auto [kind, part] = GetParam();
+  CaseMaker maker(static_cast<std::uint64_t>(777000 + 10 * static_cast<int>(kind) + part), kind);
+  RenderStatistics sum;
+  for (int i = 0; i < 2500 / testing::effort && !HasFailure(); ++i) {
+    SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
+    const testing::Case c = maker.make();
+    RenderOptions options;
+    options.threads = 1;
+    options.channels = i % 10 == 0 ? every_channel : quick_channels;
+    options.cull = i % 7 == 0 ? Cull::back : i % 7 == 1 ? Cull::front : Cull::none;
+    add(sum, expect_same(c.scene, c.camera, options));
+  }
+  if (testing::effort > 1) return;
+  // Every tier was reached.
+  EXPECT_GT(sum.exact_setups, 100U / testing::effort);
+  EXPECT_GT(sum.edges.exact, 100U / testing::effort);
+  if (kind == Kind::neighbours) {
+    EXPECT_GT(sum.double_words, 100U / testing::effort);
+  }
+  if (kind == Kind::few_bits) {
+    EXPECT_GT(sum.grid_setups, 100U / testing::effort);
+  }
+  EXPECT_GT(sum.visibility.exact, 100U / testing::effort);
+  EXPECT_GT(sum.facing.exact, 100U / testing::effort);
+  EXPECT_GT(sum.same_plane, 100U / testing::effort);
+  EXPECT_GT(sum.range.exact, 10U / testing::effort);
+  EXPECT_GT(sum.coverage_rounding.interval, 1000U / testing::effort);
+  EXPECT_GT(sum.coverage_rounding.exact, 100U / testing::effort);
+  if (kind == Kind::few_bits || kind == Kind::neighbours) {
+    EXPECT_GT(sum.facing.interval, 100U / testing::effort);
+    EXPECT_GT(sum.rounding.interval, 100U / testing::effort);
+    EXPECT_GT(sum.double_word_roundings, 100U / testing::effort);
+  } else {
+    EXPECT_GT(sum.rounding.exact, 100U / testing::effort);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fast, RandomScenes,
+                         ::testing::Combine(::testing::Values(Kind::few_bits, Kind::neighbours,
+                                                              Kind::huge, Kind::tiny),
+                                            ::testing::Range(0, 3)));
+
+TEST(Fast, TrianglesAcrossTilesOfAnyNumberOfThreads) {
+  std::mt19937_64 random(4711);
+  RenderStatistics sum;
+  for (int i = 0; i < 24 && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    const Scene scene = soup(random, 60, i % 2 == 0);
+    const Camera camera = testing::camera_of(160, 140, 64);
+    RenderOptions options;
+    options.channels = quick_channels;
+    options.threads = i % 3 == 0 ? 1 : i % 3 == 1 ? 2 : 5;
+    add(sum, expect_same(scene, camera, options));
+  }
+  EXPECT_GT(sum.grid_setups, 500U / testing::effort);
+  EXPECT_GT(sum.visibility.exact, 5U);
+  EXPECT_GT(sum.rounding.interval, 100000U / testing::effort);
+}
+
+/// Wider bounds leave the map as it is and more pixels to exact numbers, those from before
+/// included.
+TEST(Fast, WiderBoundsGiveTheSameMapAndMoreDoubt) {
+  std::mt19937_64 random(4713);
+  for (int i = 0; i < 6 && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    const Scene scene = soup(random, 60, i % 2 == 0);
+    const Camera camera = testing::camera_of(160, 140, 64);
+    std::set<std::uint64_t> before;
+    for (const double widening : {1.0, 0x1p10, 0x1p24}) {
+      SCOPED_TRACE(widening);
+      std::vector<std::uint64_t> doubtful;
+      RenderOptions options;
+      options.channels = quick_channels;
+      options.fast.widening = widening;
+      options.fast.doubtful = &doubtful;
+      if (widening == 0x1p10) expect_same(scene, camera, options);
+      doubtful.clear();
+      render_fast(scene, camera, options);
+      const std::set<std::uint64_t> now(doubtful.begin(), doubtful.end());
+      EXPECT_TRUE(std::includes(now.begin(), now.end(), before.begin(), before.end()));
+      EXPECT_TRUE(widening == 1 || now.size() > before.size());
+      before = now;
+    }
+    EXPECT_LT(*before.rbegin(), 160U * 140U);
+  }
+}
+
+TEST(Fast, TheCameraInsideASoup) {
+  std::mt19937_64 random(4712);
+  RenderStatistics sum;
+  for (int i = 0; i < 12 && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    const Scene scene = soup(random, 150, i % 2 == 0);
+    Camera camera = testing::camera_of(90, 70, 40);
+    camera.cx += 0.125;
+    camera.world_to_camera[2][3] = -3.5 - 0.25 * i;
+    camera.world_to_camera[0][2] = 0.25;
+    if (i % 3 == 1) camera.near = 0.5;
+    if (i % 3 == 2) camera.far = 2;
+    RenderOptions options;
+    options.channels = quick_channels;
+    options.cull = i % 4 == 3 ? Cull::back : Cull::none;
+    add(sum, expect_same(scene, camera, options));
+  }
+  EXPECT_GT(sum.exact_setups, 20U);
+  EXPECT_GT(sum.rounding.interval, 10000U / testing::effort);
+}
+
+TEST(Fast, OrthographicWithDepthsOnTheLimits) {
+  std::mt19937_64 random(4713);
+  RenderStatistics sum;
+  for (int i = 0; i < 12 && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    const Scene scene = soup(random, 50, i % 2 == 0);
+    Camera camera = testing::camera_of(100, 70, 8);
+    camera.projection = Projection::orthographic;
+    camera.cx = 50.5;
+    camera.world_to_camera[2][3] = i % 2 == 0 ? -3 : 0;  // faces at depth 0 count nothing
+    if (i % 3 == 1) camera.near = 1;
+    if (i % 3 == 2) camera.far = 4;
+    if (i % 4 == 0) camera.world_to_camera[0][0] = -1;
+    RenderOptions options;
+    options.channels = quick_channels;
+    add(sum, expect_same(scene, camera, options));
+  }
+  EXPECT_GT(sum.range.exact, 100U / testing::effort);
+}
+
+/// Copies of one triangle and others in its plane, in an order of numbers that is not theirs.
+TEST(Fast, CoplanarStacks) {
+  std::mt19937_64 random(4714);
+  RenderStatistics sum;
+  for (int i = 0; i < 20 && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    std::vector<MeshPoint> vertices;
+    std::vector<CornerIndices> triangles;
+    const auto number = [&](int n) {
+      return static_cast<double>(random() % static_cast<unsigned>(n));
+    };
+    const double a = (number(9) - 4) / 16, b = (number(9) - 4) / 16;
+    for (int k = 0; k < 12; ++k) {
+      const double x = number(33) / 8 - 2, y = number(33) / 8 - 2;
+      vertices.push_back({x, y, 4 + a * x + b * y});  // exact: all lie in one plane
+    }
+    for (int t = 0; t < 10; ++t) {
+      CornerIndices corners;
+      for (std::uint32_t& c : corners) c = static_cast<std::uint32_t>(random() % 12);
+      triangles.push_back(corners);
+      if (t % 3 == 0) triangles.push_back({corners[1], corners[2], corners[0]});
+      if (t % 3 == 1) triangles.push_back({corners[1], corners[0], corners[2]});
+    }
+    RenderOptions options;
+    options.channels = quick_channels;
+    add(sum, expect_same(testing::scene_of(vertices, triangles), testing::camera_of(64, 48, 41),
+                         options));
+  }
+  EXPECT_GT(sum.same_plane, 1000U / testing::effort);
+}
+
+/// Needles: two corners next to each other, one ulp apart, and a third far away.
+TEST(Fast, SliversOneUlpWide) {
+  std::mt19937_64 random(4715);
+  RenderStatistics sum;
+  for (int i = 0; i < 200 / testing::effort && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    std::vector<MeshPoint> vertices;
+    std::vector<CornerIndices> triangles;
+    const auto sample = [&](int n) {
+      return (static_cast<double>(random() % static_cast<unsigned>(n)) - n / 2 + 0.5) / 16;
+    };
+    for (std::uint32_t t = 0; t < 12; ++t) {
+      const MeshPoint A{sample(16), sample(16), 1};
+      MeshPoint B = A;
+      for (double* c : {&B.x, &B.y, &B.z}) {
+        if (random() % 2) *c = std::nextafter(*c, random() % 2 ? 9 : -9);
+      }
+      vertices.insert(vertices.end(), {A, B, {sample(16), sample(16), 1}});
+      triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+    RenderOptions options;
+    options.channels = quick_channels;
+    add(sum, expect_same(testing::scene_of(vertices, triangles), testing::camera_of(16, 16, 16),
+                         options));
+  }
+  EXPECT_GT(sum.exact_setups, 100U / testing::effort);
+  EXPECT_GT(sum.edges.exact, 100U / testing::effort);
+}
+
+/// A grid of squares whose corners are samples, with shared vertices: every edge is on samples.
+TEST(Fast, AGridOnTheSamples) {
+  std::vector<MeshPoint> vertices;
+  std::vector<CornerIndices> triangles;
+  for (std::uint32_t y = 0; y <= 40; ++y) {
+    for (std::uint32_t x = 0; x <= 40; ++x) {
+      vertices.push_back({x * 2.0 + 0.5, y * 2.0 + 0.5, 5.0 + (x * y) % 3});
+      if (x < 40 && y < 40) {
+        const std::uint32_t at = y * 41 + x;
+        triangles.push_back({at, at + 1, at + 41});
+        triangles.push_back({at + 1, at + 42, at + 41});
+      }
+    }
+  }
+  Camera camera = testing::camera_of(84, 84, 1);
+  camera.projection = Projection::orthographic;
+  camera.cx = camera.cy = 0;
+  RenderOptions options;
+  options.channels = quick_channels;
+  const RenderStatistics statistics =
+      expect_same(testing::scene_of(vertices, triangles), camera, options);
+  EXPECT_EQ(statistics.pixels_with_surface, 80U * 80U);
+}
+
+/// A sphere of `rings` × 2·rings quads.
+Mesh sphere(std::uint32_t rings) {
+  Mesh mesh;
+  const std::uint32_t columns = 2 * rings;
+  for (std::uint32_t i = 0; i <= rings; ++i) {
+    for (std::uint32_t k = 0; k < columns; ++k) {
+      const double a = std::numbers::pi * i / rings, b = 2 * std::numbers::pi * k / columns;
+      mesh.vertices.push_back({std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b)});
+    }
+  }
+  for (std::uint32_t i = 0; i < rings; ++i) {
+    for (std::uint32_t k = 0; k < columns; ++k) {
+      const std::uint32_t next = (k + 1) % columns;
+      const std::uint32_t a = i * columns + k, b = i * columns + next;
+      mesh.triangles.push_back({a, b, a + columns});
+      mesh.triangles.push_back({b, b + columns, a + columns});
+    }
+  }
+  mesh.face_count = mesh.triangles.size();
+  return mesh;
+}
+
+Scene two_spheres() {
+  Scene scene;
+  scene.meshes.push_back(sphere(24));
+  scene.objects.push_back({.name = "one"});
+  Object moved{.name = "two", .first_face = 0};
+  moved.placed_as_is = false;
+  moved.world_from_mesh.rows[0] = {0.5, 0.1, 0.0, 0.75};
+  moved.world_from_mesh.rows[1] = {0.1, -0.7, 0.3, 0.1};
+  moved.world_from_mesh.rows[2] = {0.0, 0.3, 0.6, 0.3};
+  scene.objects.push_back(std::move(moved));
+  return scene;
+}
+
+TEST(Fast, PlacedObjectsFromOutsideAndInside) {
+  const Scene scene = two_spheres();
+  RenderOptions options;
+  options.channels = quick_channels;
+  for (const Vector3& eye : {Vector3{3, 1, 2}, Vector3{0.1, 0.2, 0.3}, Vector3{0.9, 0.1, 0.35}}) {
+    const Camera camera = look_at(eye, {0.4, 0, 0.1}, {0, 1, 0}, {.width = 150, .height = 130});
+    const RenderStatistics statistics = expect_same(scene, camera, options);
+    EXPECT_GT(statistics.pixels_with_surface, 1000U);
+    EXPECT_LT(statistics.rounding.exact, 20U);  // the bounds settle nearly everything
+  }
+}
+
+TEST(Fast, EveryChannelAndEncodingOfTwoSpheres) {
+  const Scene scene = two_spheres();
+  const Camera camera = look_at({3, 1, 2}, {0.4, 0, 0.1}, {0, 1, 0}, {.width = 70, .height = 66});
+  RenderOptions options;
+  options.channels = every_channel;
+  expect_same(scene, camera, options);
+  options.channels = {Channel::Z, Channel::distance};
+  options.depth_encoding.type = DepthEncoding::Type::binary64;
+  expect_same(scene, camera, options);
+  options.depth_encoding = {DepthEncoding::Type::scaled_unorm16, 7000};
+  expect_same(scene, camera, options);
+  options.channels = {Channel::id};
+  expect_same(scene, camera, options);
+}
+
+TEST(Fast, TheSamePixelIsNamedWhereAnEncodingCannotHoldADepth) {
+  const Scene scene = two_spheres();
+  const Camera camera = look_at({3, 1, 2}, {0.4, 0, 0.1}, {0, 1, 0}, {.width = 150, .height = 130});
+  RenderOptions options;
+  options.threads = 3;
+  options.depth_encoding = {DepthEncoding::Type::scaled_unorm16, 20000};
+  std::string messages[2];
+  for (const bool fast : {false, true}) {
+    try {
+      fast ? render_fast(scene, camera, options) : render_reference(scene, camera, options);
+    } catch (const OutputError& error) {
+      messages[fast] = error.what();
+    }
+  }
+  EXPECT_NE(messages[0], "");
+  EXPECT_EQ(messages[1], messages[0]);
+}
+
+TEST(Fast, AnEmptySceneAndAnImageOfOnePixel) {
+  RenderOptions options;
+  options.channels = every_channel;
+  expect_same({}, testing::camera_of(3, 2, 1), options);
+  expect_same(testing::scene_of({}, {}), testing::camera_of(3, 2, 1), options);
+  const Scene one = testing::scene_of({{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}}, {{0, 1, 2}});
+  EXPECT_EQ(expect_same(one, testing::camera_of(1, 1, 1), options).pixels_with_surface, 1U);
+}
+
+}  // namespace
+}  // namespace fathom

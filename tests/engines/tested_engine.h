@@ -1,0 +1,17 @@
+#pragma once
+
+#include "fathom/render.h"
+
+namespace fathom::testing {
+
+/// The engine that is held to the laws: the program is run once for each, with
+/// --engine=reference (the default) or --engine=fast.
+Engine tested_engine();
+
+inline DepthMap render_tested(const Scene& scene, const Camera& camera,
+                              RenderOptions options = {}) {
+  options.engine = tested_engine();
+  return render(scene, camera, options);
+}
+
+}  // namespace fathom::testing

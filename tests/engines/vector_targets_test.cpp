@@ -1,0 +1,132 @@
+// The fast engine's map with every kind of vector instructions that this machine has, with any
+// number of threads, and with each of its short cuts left out: always the reference engine's.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <set>
+#include <string>
+
+#include "tests/effort.h"
+#include "tests/engines/expect_same_map.h"
+#include "tests/inputs/random_scenes.h"
+#include "tests/inputs/soup.h"
+
+namespace fathom {
+namespace {
+
+using testing::expect_same;
+using testing::quick_channels;
+
+/// Restricts the engine to one kind of vector instructions for as long as it lives.
+class OnlyTarget {
+ public:
+  explicit OnlyTarget(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().DeInit();
+  }
+  ~OnlyTarget() {
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().DeInit();
+  }
+  OnlyTarget(const OnlyTarget&) = delete;
+  OnlyTarget& operator=(const OnlyTarget&) = delete;
+};
+
+/// All kinds of this machine, one bit each, and the emulation for machines without any.
+/// What was not compiled is emulated.
+std::vector<std::int64_t> targets() {
+  std::vector<std::int64_t> all;
+  for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
+    all.push_back(rest & -rest);
+  }
+  return all;
+}
+
+/// Scenes of several tiles with the reference engine's maps of them.
+class Soups {
+ public:
+  Soups(std::uint64_t seed, int count, std::vector<Channel> channels)
+      : channels_(std::move(channels)) {
+    std::mt19937_64 random(seed);
+    RenderOptions options;
+    options.channels = channels_;
+    for (int i = 0; i < count; ++i) {
+      Camera camera = testing::camera_of(160, 140, 64);
+      if (i % 4 == 3) camera.world_to_camera[2][3] = -3.25;  // the camera among the triangles
+      if (i % 4 == 2) camera.near = 4;
+      Scene scene = testing::soup(random, 60, i % 2 == 0);
+      DepthMap truth = render_reference(scene, camera, options);
+      cases_.push_back({std::move(scene), camera, std::move(truth)});
+    }
+  }
+
+  /// Renders them by the fast engine, with the same channels.
+  void expect_same(RenderOptions options) const {
+    options.channels = channels_;
+    for (std::size_t i = 0; i < cases_.size() && !::testing::Test::HasFailure(); ++i) {
+      SCOPED_TRACE("soup " + std::to_string(i));
+      testing::expect_same_map(render_fast(cases_[i].scene, cases_[i].camera, options),
+                               cases_[i].truth);
+    }
+  }
+
+ private:
+  struct Case {
+    Scene scene;
+    Camera camera;
+    DepthMap truth;
+  };
+  std::vector<Channel> channels_;
+  std::vector<Case> cases_;
+};
+
+TEST(FastTargets, EveryKindOfVectorInstructions) {
+  const Soups soups(99, testing::effort > 1 ? 4 : 12, quick_channels);
+  const Soups rows(98, 4, {Channel::Z});  // Z alone is written by whole rows
+  std::set<std::string> names;
+  for (const std::int64_t target : targets()) {
+    const OnlyTarget only(target);
+    names.insert(vector_instructions());
+    SCOPED_TRACE(vector_instructions());
+    RenderOptions options;
+    options.channels = quick_channels;
+    options.threads = 2;
+    soups.expect_same(options);
+    rows.expect_same(options);
+    for (const auto kind : {testing::Kind::few_bits, testing::Kind::neighbours}) {
+      testing::CaseMaker maker(31, kind);
+      for (int i = 0; i < 400 / testing::effort && !HasFailure(); ++i) {
+        const testing::Case c = maker.make();
+        expect_same(c.scene, c.camera, options);
+      }
+    }
+  }
+  // The kinds were really chosen between, where the machine has several.
+  if (targets().size() > 2) {
+    EXPECT_GT(names.size(), 1U);
+  }
+}
+
+TEST(FastTargets, OneToEightThreads) {
+  const Soups soups(100, 4, quick_channels);
+  for (int threads = 1; threads <= 8; ++threads) {
+    SCOPED_TRACE(threads);
+    RenderOptions options;
+    options.threads = threads;
+    soups.expect_same(options);
+  }
+}
+
+TEST(FastTargets, WithoutShortCuts) {
+  const Soups soups(101, 8, quick_channels);
+  for (int switched_off = 0; switched_off < 4; ++switched_off) {
+    SCOPED_TRACE(switched_off);
+    RenderOptions options;
+    options.fast.hierarchy = !(switched_off & 1);
+    options.fast.early_rejection = !(switched_off & 2);
+    soups.expect_same(options);
+  }
+}
+
+}  // namespace
+}  // namespace fathom

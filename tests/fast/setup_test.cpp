@@ -1,0 +1,226 @@
+// The bounds of set-ups from both sides: never violated against exact values, and not looser than a
+// stated factor.
+#include "fathom/fast/setup.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fathom/fast/vertex.h"
+#include "tests/inputs/scene_building.h"
+#include "tests/numeric/error_shares.h"
+#include "tests/numeric/random_numbers.h"
+
+namespace fathom {
+namespace {
+
+using namespace fast;
+using namespace triangle;
+using testing::Numbers;
+using testing::Share;
+
+/// Triangles near the image: of all sizes, many of them thin.
+std::array<MeshPoint, 3> triangle_from(Numbers& n) {
+  const MeshPoint A{n.unit() * 2, n.unit() * 2, 1 + n.unit() / 2};
+  const double size = std::ldexp(1, -n.below(12));
+  const auto near = [&](const MeshPoint& p, double s) {
+    return MeshPoint{p.x + n.unit() * s, p.y + n.unit() * s, p.z + n.unit() * s / 4};
+  };
+  MeshPoint B = near(A, size), C = near(A, size);
+  if (n.below(3) == 0) {  // thin: C near the line AB
+    const double t = n.unit() * 2;
+    const double off = size * std::ldexp(1, -n.below(40));
+    C = near({A.x + t * (B.x - A.x), A.y + t * (B.y - A.y), A.z + t * (B.z - A.z)}, off);
+  }
+  return {A, B, C};
+}
+
+struct Triangle {
+  ProjectedTriangle exact;
+  std::array<ImageVertex, 3> vertices;
+};
+
+Triangle project_both(const std::array<MeshPoint, 3>& corners, const Camera& camera) {
+  Triangle t;
+  std::array<WorldPoint, 3> world;
+  const VertexTransform transform(Object{}, camera);
+  for (std::size_t i = 0; i < 3; ++i) {
+    world[i] = WorldFromMesh{}(corners[i]);
+    t.vertices[i] = transform(corners[i]);
+  }
+  TierCounts counts;
+  t.exact = project(world, 0, camera, counts);
+  return t;
+}
+
+Camera plain_camera(bool perspective) {
+  Camera camera = testing::camera_of(640, 480, 301.7);
+  camera.cx = 320.3;
+  camera.skew = 0.3;
+  if (!perspective) camera.projection = Projection::orthographic;
+  camera.world_to_camera = {{{0.9, 0.1, -0.2, 0.03}, {0.05, 1.1, 0.3, -0.1}, {0.2, -0.3, 0.8, 3}}};
+  return camera;
+}
+
+double edge_at(const TriangleSetup& s, std::size_t i, double x, double y) {
+  return (s.edge_c[i] + s.edge_b[i] * y) + s.edge_a[i] * x;
+}
+double q_at(const TriangleSetup& s, double x, double y) {
+  return (s.q_c + s.q_b * y) + s.q_a * x;
+}
+
+Ratio exact_q(const ProjectedTriangle& t, const ImagePoint& s, bool perspective) {
+  const Ratio D = depth_at(t, s);
+  return perspective ? Ratio(D.denominator, D.numerator) : Ratio(-D.numerator, D.denominator);
+}
+
+/// A sample of the box: a corner of it, or any.
+ImagePoint sample_of(Numbers& n, const PixelBox& box) {
+  const auto pick = [&](std::uint32_t first, std::uint32_t last) {
+    const int choice = n.below(4);
+    if (choice == 0) return first;
+    if (choice == 1) return last;
+    return first + static_cast<std::uint32_t>(n.below(static_cast<int>(last - first + 1)));
+  };
+  return {pick(box.first_column, box.last_column) + 0.5, pick(box.first_row, box.last_row) + 0.5};
+}
+
+struct SetupShares {
+  Share edges, q;
+  int setups = 0, refused = 0;
+};
+
+void check_certified(const Triangle& t, const Camera& camera, Numbers& n, SetupShares& shares) {
+  const bool perspective = camera.projection == Projection::perspective;
+  constexpr CornerIndices corners{0, 1, 2};
+  const auto orientation = certified_orientation(t.vertices.data(), corners);
+  if (orientation) {
+    EXPECT_EQ(*orientation, t.exact.orientation);
+  }
+  const PixelBox image{0, camera.width - 1, 0, camera.height - 1};
+  SetupBatch batch;
+  certified_setups(t.vertices.data(), &corners, 1, image, depth_range(camera), batch);
+  if ((batch.empty & 1) || !orientation || *orientation == Sign::zero) return;
+  if (batch.refused & 1) {
+    ++shares.refused;
+    return;
+  }
+  const PixelBox box = batch.box(0);
+  const TriangleSetup setup = batch.get(0);
+  ++shares.setups;
+  // The setup turns the triangle so that its inside is positive, by exchanging B and C.
+  const bool turned = t.exact.orientation == Sign::negative;
+  const std::size_t order[] = {0, turned ? 2U : 1U, turned ? 1U : 2U};
+  std::array<Dyadic, 3> W;
+  for (std::size_t i = 0; i < 3; ++i) W[i] = to_image(camera, t.exact.camera[i]).W;
+  for (int k = 0; k < 6; ++k) {
+    const ImagePoint s = sample_of(n, box);
+    const double x = s.u - 0.5 - setup.column, y = s.v - 0.5 - setup.row;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t corner = order[i];
+      const Ratio exact(t.exact.edges[corner].at(s.u, s.v),
+                        W[(corner + 1) % 3] * W[(corner + 2) % 3]);
+      shares.edges.add(edge_at(setup, i, x, y), exact, setup.edge_error);
+    }
+    TierCounts counts;
+    if (covers(t.exact, s, counts)) {
+      shares.q.add(q_at(setup, x, y), exact_q(t.exact, s, perspective),
+                   setup.q_error * (1 - 0x1p-20));
+    }
+  }
+}
+
+class Setups : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Setups, FromVerticesBoundsHoldAndAreTight) {
+  const Camera camera = plain_camera(GetParam());
+  Numbers n(21);
+  SetupShares shares;
+  for (int i = 0; i < 20000; ++i) {
+    check_certified(project_both(triangle_from(n), camera), camera, n, shares);
+  }
+  EXPECT_GT(shares.setups, 3000);
+  EXPECT_GT(shares.refused, 20);
+  EXPECT_GT(shares.edges.count(), 20000);
+  EXPECT_GT(shares.q.count(), 2500);
+  EXPECT_GT(shares.edges.greatest(), 0.02);
+  EXPECT_GT(shares.q.greatest(), 0.02);
+}
+
+/// Corners given directly, their errors as large as their bounds allow: the exact corners are the
+/// computed ones moved by the bound in the worst direction.
+TEST_P(Setups, FromVerticesBoundsHoldForTheWorstErrorsOfCorners) {
+  Camera camera = testing::camera_of(64, 64, 1);  // u = x/z or x
+  camera.cx = camera.cy = 0;
+  const bool perspective = GetParam();
+  if (!perspective) camera.projection = Projection::orthographic;
+  Numbers n(22);
+  SetupShares shares;
+  for (int i = 0; i < 20000; ++i) {
+    const double e = std::ldexp(1, -13 - n.below(12));
+    Triangle t;
+    std::array<WorldPoint, 3> world;
+    const int size = 1 << n.below(7);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double q = perspective ? std::ldexp(1, -n.below(4)) : n.below(9) - 4.0;
+      const double u = n.below(size + 1) + n.below(2) * 0.5, v = n.below(size + 1);
+      t.vertices[k] = {u, v, q, upper_half(e) << 32 | upper_half(e * 0x1p-10)};
+      const Dyadic exact_u = Dyadic(u) + Dyadic((n.below(2) * 2 - 1) * e);
+      const Dyadic exact_v = Dyadic(v) + Dyadic((n.below(2) * 2 - 1) * e);
+      const Dyadic D = perspective ? Dyadic(1 / q) : Dyadic(-q);
+      world[k] =
+          perspective ? WorldPoint{exact_u * D, exact_v * D, D} : WorldPoint{exact_u, exact_v, D};
+    }
+    TierCounts counts;
+    t.exact = project(world, 0, camera, counts);
+    check_certified(t, camera, n, shares);
+  }
+  EXPECT_GT(shares.setups, 3000);
+  EXPECT_GT(shares.q.count(), 3000);
+  EXPECT_GT(shares.edges.greatest(), 0.2);
+  EXPECT_GT(shares.q.greatest(), 0.03);
+}
+
+TEST_P(Setups, FromExactFormsBoundsHoldAndAreTight) {
+  const bool perspective = GetParam();
+  const Camera camera = plain_camera(perspective);
+  Numbers n(23);
+  Share edges, q;
+  for (int i = 0; i < 6000; ++i) {
+    auto corners = triangle_from(n);
+    if (n.below(2)) corners[0].z -= 5;  // reaches behind the camera
+    const Triangle t = project_both(corners, camera);
+    if (t.exact.orientation == Sign::zero) continue;
+    const auto column = static_cast<std::uint32_t>(n.below(576));
+    const auto row = static_cast<std::uint32_t>(n.below(416));
+    const PixelBox box{column, column + 63, row, row + 63};
+    const TriangleSetup setup = exact_setup(t.exact, perspective, box);
+    for (int k = 0; k < 4; ++k) {
+      const ImagePoint s = sample_of(n, box);
+      const double x = s.u - 0.5 - column, y = s.v - 0.5 - row;
+      for (std::size_t j = 0; j < 3; ++j) {
+        // The scale is a power of two: that between a coefficient and its exact value.
+        const ExactVector3& l = t.exact.edges[j].coefficients();
+        const bool use_a = !l[0].is_zero();
+        const double exact_size = round_to_binary64(Ratio(use_a ? l[0] : l[1]));
+        const double size = use_a ? setup.edge_a[j] : setup.edge_b[j];
+        const long scale = std::ilogb(size) - std::ilogb(exact_size);
+        edges.add(edge_at(setup, j, x, y), Ratio(t.exact.edges[j].at(s.u, s.v).scaled(scale)),
+                  setup.edge_error);
+      }
+      const Ratio w(t.exact.weight.at(s.u, s.v));
+      if (perspective && w.sign() != Sign::positive) continue;
+      const Ratio exact = perspective ? Ratio(w.numerator, t.exact.depth_numerator.at(s.u, s.v))
+                                      : exact_q(t.exact, s, perspective);
+      q.add(q_at(setup, x, y), exact, setup.q_error * (1 - 0x1p-20));
+    }
+  }
+  EXPECT_GT(q.count(), 5000);
+  EXPECT_GT(edges.greatest(), 0.1);
+  EXPECT_GT(q.greatest(), 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fast, Setups, ::testing::Bool());
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "tests/inputs/scene_building.h"
+
+namespace fathom::testing {
+
+/// A scene of triangles that span an image of several tiles, of all sizes, with ties.
+inline Scene soup(std::mt19937_64& random, int triangles, bool on_samples) {
+  std::vector<MeshPoint> vertices;
+  std::vector<CornerIndices> indices;
+  const auto number = [&](int from, int to) {
+    return static_cast<double>(from +
+                               static_cast<int>(random() % static_cast<unsigned>(to - from)));
+  };
+  for (int t = 0; t < triangles; ++t) {
+    const double span = std::ldexp(1, static_cast<int>(random() % 9));
+    const double u = number(-20, 180), v = number(-20, 160), depth = number(1, 9);
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    for (int k = 0; k < 3; ++k) {
+      double du = number(-8, 9) / 8 * span, dv = number(-8, 9) / 8 * span;
+      double z = depth + number(0, 3) / 2;
+      if (on_samples) {
+        du = std::round(du) + 0.5;
+        dv = std::round(dv) + 0.5;
+      } else {
+        z += number(0, 1000) / 8192;
+      }
+      // camera_of(width 160, height 140, focal length 64): u = 64·x/z + 80, v = 64·y/z + 70
+      vertices.push_back({(u + du - 80) / 64 * z, (v + dv - 70) / 64 * z, z});
+    }
+    indices.push_back({first, first + 1, first + 2});
+  }
+  return scene_of(std::move(vertices), std::move(indices));
+}
+
+}  // namespace fathom::testing

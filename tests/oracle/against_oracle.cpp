@@ -1,0 +1,148 @@
+#include "tests/oracle/against_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "tests/oracle/mpfr_rounding.h"
+
+namespace fathom::testing {
+namespace {
+
+using oracle::Q;
+
+oracle::RayCamera ray_camera(const Camera& c) {
+  oracle::RayCamera r{.perspective = c.projection == Projection::perspective,
+                      .fx = c.fx,
+                      .fy = c.fy,
+                      .cx = c.cx,
+                      .cy = c.cy,
+                      .skew = c.skew,
+                      .pixel_centre = c.pixel_centre};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 4; ++k) r.world_to_camera[i][k] = c.world_to_camera[i][k];
+  }
+  r.near = c.near;
+  if (std::isfinite(c.far)) r.far = Q(c.far);
+  return r;
+}
+
+Q rational(const Dyadic& x) {
+  Q q;
+  mpq_set_z(q.get_mpq_t(), x.significand());
+  if (x.exponent() >= 0) {
+    mpq_mul_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<mp_bitcnt_t>(x.exponent()));
+  } else {
+    mpq_div_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<mp_bitcnt_t>(-x.exponent()));
+  }
+  return q;
+}
+
+oracle::Vector world_point(const Object& object, const MeshPoint& p) {
+  const Q local[] = {Q(p.x), Q(p.y), Q(p.z), Q(1)};
+  oracle::Vector world;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      world[i] += rational(object.world_from_mesh.rows[i][k]) * local[k];
+    }
+  }
+  return world;
+}
+
+std::vector<oracle::Triangle> triangles_of(const Scene& scene) {
+  std::vector<oracle::Triangle> all;
+  for (const Object& object : scene.objects) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    for (const CornerIndices& corners : mesh.triangles) {
+      oracle::Triangle t;
+      for (std::size_t i = 0; i < 3; ++i) t[i] = world_point(object, mesh.vertices[corners[i]]);
+      all.push_back(t);
+    }
+  }
+  return all;
+}
+
+float nearest_root(const Q& q) {
+  return static_cast<float>(oracle::root(oracle::binary32, q.get_mpq_t()));
+}
+
+/// Ours and the oracle's value, bit for bit; any NaN is a NaN.
+void expect_bits(float ours, float expected, const char* channel) {
+  if (std::isnan(ours) && std::isnan(expected)) return;
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(ours), std::bit_cast<std::uint32_t>(expected))
+      << channel << ": " << std::hexfloat << ours << ", expected " << expected;
+}
+
+void expect_hit(const DepthMap& map, std::size_t pixel, const oracle::Hit& hit,
+                const Scene& scene) {
+  const auto value = [&](const char* name) { return (*map.values<float>(name))[pixel]; };
+  EXPECT_EQ((*map.values<std::uint32_t>("id"))[pixel], hit.triangle);
+  const TriangleOrigin origin = origin_of(scene, hit.triangle);
+  EXPECT_EQ((*map.values<std::uint32_t>("face"))[pixel], origin.face);
+  EXPECT_EQ((*map.values<std::uint32_t>("object"))[pixel], origin.object);
+  const float Z = nearest_float(hit.depth);
+  expect_bits(value("Z"), Z, "Z");
+  expect_bits(value("Zlow"), std::isinf(Z) ? 0 : nearest_float(hit.depth - Q(Z)), "Zlow");
+  expect_bits(value("distance"), nearest_root(hit.squared_distance), "distance");
+  expect_bits(value("bary.U"), nearest_float(hit.weight_b), "bary.U");
+  expect_bits(value("bary.V"), nearest_float(hit.weight_c), "bary.V");
+  const char* axes[] = {"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z"};
+  Q length = 0;
+  for (const Q& n : hit.normal) length += n * n;
+  for (int i = 0; i < 3; ++i) {
+    expect_bits(value(axes[i]), nearest_float(hit.position[i]), axes[i]);
+    const float magnitude = nearest_root(hit.normal[i] * hit.normal[i] / length);
+    expect_bits(value(axes[3 + i]), sgn(hit.normal[i]) < 0 ? -magnitude : magnitude, axes[3 + i]);
+  }
+}
+
+void expect_background(const DepthMap& map, std::size_t pixel) {
+  const auto value = [&](const char* name) { return (*map.values<float>(name))[pixel]; };
+  for (const char* name : {"Z", "distance"}) {
+    EXPECT_EQ(value(name), std::numeric_limits<float>::infinity()) << name;
+  }
+  for (const char* name : {"Zlow", "N.X", "N.Y", "N.Z"}) EXPECT_EQ(value(name), 0.0F) << name;
+  for (const char* name : {"P.X", "P.Y", "P.Z", "bary.U", "bary.V"}) {
+    EXPECT_TRUE(std::isnan(value(name))) << name;
+  }
+  for (const char* name : {"id", "face", "object"}) {
+    EXPECT_EQ((*map.values<std::uint32_t>(name))[pixel], no_surface) << name;
+  }
+}
+
+}  // namespace
+
+float nearest_float(const Q& q) {
+  return static_cast<float>(oracle::quotient(oracle::binary32, q.get_mpq_t()));
+}
+
+Q rational(const Ratio& x) {
+  return rational(x.numerator) / rational(x.denominator);
+}
+
+oracle::Areas areas_at(const Scene& scene, const Camera& camera) {
+  return {ray_camera(camera), triangles_of(scene)};
+}
+
+oracle::RayCaster cast_at(const Scene& scene, const Camera& camera) {
+  return {ray_camera(camera), triangles_of(scene)};
+}
+
+std::vector<Channel> all_channels() {
+  return {Channel::Z,      Channel::Zlow, Channel::distance, Channel::id,  Channel::face,
+          Channel::object, Channel::N,    Channel::P,        Channel::bary};
+}
+
+void expect_pixel(const DepthMap& map, int x, int y, const std::optional<oracle::Hit>& hit,
+                  const Scene& scene) {
+  SCOPED_TRACE("pixel " + std::to_string(x) + ", " + std::to_string(y));
+  const std::size_t pixel = static_cast<std::size_t>(y) * map.width + static_cast<std::size_t>(x);
+  if (hit) {
+    expect_hit(map, pixel, *hit, scene);
+  } else {
+    expect_background(map, pixel);
+  }
+}
+
+}  // namespace fathom::testing

@@ -1,0 +1,59 @@
+#include "fathom/text/random_access_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <string>
+
+#include "fathom/numeric/errors.h"
+#include "tests/scratch_folder.h"
+
+namespace fathom {
+namespace {
+
+using namespace text;
+using ::testing::HasSubstr;
+
+std::string read(const RandomAccessFile& file, std::uint64_t offset, std::size_t size) {
+  std::string bytes(size, '?');
+  file.read(offset, std::as_writable_bytes(std::span(bytes)));
+  return bytes;
+}
+
+TEST(RandomAccessFile, ReadsHereAndThere) {
+  const ScratchFolder folder;
+  const RandomAccessFile file(folder.write("ten", "0123456789"));
+  EXPECT_EQ(file.size(), 10U);
+  EXPECT_EQ(file.name(), folder.path() / "ten");
+  EXPECT_EQ(read(file, 7, 3), "789");
+  EXPECT_EQ(read(file, 0, 10), "0123456789");
+  EXPECT_EQ(read(file, 4, 1), "4");
+  EXPECT_EQ(read(file, 10, 0), "");
+}
+
+TEST(RandomAccessFile, NamesTheByteAtWhichAFileEndsMeanwhile) {
+  const ScratchFolder folder;
+  const RandomAccessFile file(folder.write("ten", "0123456789"));
+  std::filesystem::resize_file(folder.path() / "ten", 6);
+  EXPECT_EQ(file.size(), 10U);
+  EXPECT_EQ(read(file, 2, 4), "2345");
+  EXPECT_THAT(message_of<InputError>([&] { read(file, 4, 5); }),
+              AllOf(HasSubstr("ten: byte 6: the file ends"), HasSubstr("10 bytes")));
+}
+
+TEST(RandomAccessFile, RefusesWhatCannotBeReadInParts) {
+  const ScratchFolder folder;
+  const auto fault = [&](const std::string& name) {
+    return message_of<InputError>([&] { RandomAccessFile file(folder.path() / name); });
+  };
+  EXPECT_THAT(fault("none"), HasSubstr("none: cannot be opened: No such file"));
+  std::filesystem::create_directory(folder.path() / "folder");
+  EXPECT_THAT(fault("folder"), HasSubstr("is a directory"));
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(fault("pipe"), HasSubstr("not a regular file"));
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,257 @@
+// The bounds of the channels' values from both sides: never violated against exact values, and not
+// looser than a stated factor. In binary64 and in double-words, with and without fused
+// multiply-add.
+#include "fathom/triangle/double_word_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fathom/triangle/projected_triangle.h"
+#include "tests/effort.h"
+#include "tests/inputs/scene_building.h"
+#include "tests/numeric/error_shares.h"
+#include "tests/numeric/random_numbers.h"
+
+namespace fathom {
+namespace {
+
+using namespace triangle;
+using testing::Numbers;
+using testing::root;
+using testing::Share;
+
+Camera camera_from(Numbers& n, bool perspective) {
+  Camera c = testing::camera_of(200, 150, 0);
+  c.projection = perspective ? Projection::perspective : Projection::orthographic;
+  do {
+    const double size = perspective ? 140 : 60;
+    c.fx = (n.below(2) ? 1 : -1) * size * (1 + n.unit() / 2);
+    c.fy = (n.below(2) ? 1 : -1) * size * (1 + n.unit() / 2);
+    c.skew = n.below(2) ? n.unit() * 20 : 0;
+    c.cx = 100 + n.unit();
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        c.world_to_camera[i][k] = (i == k) + n.unit() * (n.below(2) ? 0.3 : 0);
+      }
+      c.world_to_camera[i][3] = n.unit() * 0.3 + (i == 2 ? 3 : 0);
+    }
+  } while (find_fault(c));
+  return c;
+}
+
+Object object_from(Numbers& n) {
+  Object object;
+  if (n.below(2)) return object;
+  object.placed_as_is = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      object.world_from_mesh.rows[i][k] = Dyadic((i == k) + 0.2 * n.unit());
+    }
+  }
+  return object;
+}
+
+/// Triangles of all sizes, some thin, some of few bits.
+MeshTriangle corners_from(Numbers& n) {
+  MeshTriangle t;
+  for (MeshPoint& X : t) X = {n.unit(), n.unit(), n.unit()};
+  if (n.below(3) == 0) {
+    const double s = std::ldexp(1, -n.below(14)), k = n.unit();
+    t[2] = {t[0].x + k * (t[1].x - t[0].x) + s * n.unit(),
+            t[0].y + k * (t[1].y - t[0].y) + s * n.unit(), t[2].z};
+  }
+  if (n.below(3) == 0) {
+    for (MeshPoint& X : t) X = {std::round(X.x * 8) / 8, std::round(X.y * 8) / 8, X.z};
+  }
+  return t;
+}
+
+/// A triangle seen at a sample that it covers.
+struct Seen {
+  MeshTriangle corners;
+  const ObjectRays& object;
+  const SceneRays& rays;
+  ImageBounds image;
+  ImagePoint s;
+};
+
+struct Binary64 {
+  using Real = double;
+  static DepthForms<double> forms(const Seen& x) {
+    return depth_forms<double>(x.corners, x.object.rays, x.image);
+  }
+  static Certified<double> depth(const Seen& x) {
+    return depth_forms<double>(x.corners, x.object.rays, x.image).at(x.s, x.image.perspective);
+  }
+  static Certified<double> distance(const Seen& x) {
+    return product(depth(x), ray_length<double>(x.rays, x.s));
+  }
+  static auto position(const Seen& x) {
+    const Rays& world = x.rays.world().rays;
+    return fathom::position(world, RaySizes(world, x.image), x.image.perspective, x.s, depth(x));
+  }
+  static auto weights(const Seen& x) {
+    const auto forms = weight_forms<double>(x.corners, x.object.rays, x.image);
+    return std::array{forms.at(0, x.s), forms.at(1, x.s)};
+  }
+  static auto normal(const Seen& x) {
+    return unit_normal<double>(x.corners, x.object, x.rays.world(), x.image, x.s);
+  }
+};
+
+template <const WideArithmetic& wide>
+struct Wide {
+  using Real = DoubleWord<false>;
+  static DepthForms<Real> forms(const Seen& x) {
+    const auto f = wide.depth_forms(x.corners, x.object.rays, x.image);
+    return {{f.varying.a, f.varying.b, f.varying.c, f.varying.error},
+            {f.constant.value, f.constant.error}};
+  }
+  static Certified<WordPair> depth(const Seen& x) {
+    return wide.depth(wide.depth_forms(x.corners, x.object.rays, x.image), x.s,
+                      x.image.perspective);
+  }
+  static auto distance(const Seen& x) { return wide.distance(depth(x), x.rays, x.s); }
+  static auto position(const Seen& x) {
+    const Rays& world = x.rays.world().rays;
+    return wide.position(world, RaySizes(world, x.image), x.image.perspective, x.s, depth(x));
+  }
+  static auto weights(const Seen& x) {
+    return wide.weights(x.corners, x.object.rays, x.image, x.s);
+  }
+  static auto normal(const Seen& x) {
+    return wide.normal(x.corners, x.object, x.rays.world(), x.image, x.s);
+  }
+};
+
+struct Shares {
+  Share varying, constant, edges, depth, distance, position, weights, normal;
+};
+
+/// The parts of depth and weights, before quotients and differences cover their errors: n·d is
+/// Σe/det H, n·t is Δ/det H, d·(r × t) and d·(t × p) are e_B/det H and e_C/det H.
+template <class Arithmetic>
+void add_shares_of_parts(const Seen& x, const ProjectedTriangle& t, Shares& shares) {
+  using Real = typename Arithmetic::Real;
+  std::array<ExactVector3, 3> H;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) H[i][k] = x.object.image_rows[i].coefficients[k];
+  }
+  Dyadic det = determinant(H[0], H[1], H[2]);
+  if (t.orientation == Sign::negative) det = -det;
+  const auto over_det = [&](const ImageForm& form) { return Ratio(form.at(x.s.u, x.s.v), det); };
+  const DepthForms<Real> forms = Arithmetic::forms(x);
+  const auto& [varying, constant] = x.image.perspective ? std::pair{t.weight, t.depth_numerator}
+                                                        : std::pair{t.depth_numerator, t.weight};
+  shares.varying.add(forms.varying.at(x.s), over_det(varying));
+  shares.constant.add(forms.constant, over_det(constant));
+  const WeightForms<Real> weights = weight_forms<Real>(x.corners, x.object.rays, x.image);
+  shares.varying.add(weights.divisor.at(x.s), over_det(t.weight));
+  shares.edges.add(weights.weights[0].at(x.s), over_det(t.edges[1]));
+  shares.edges.add(weights.weights[1].at(x.s), over_det(t.edges[2]));
+}
+
+template <class Arithmetic>
+void add_shares(const Seen& x, const ProjectedTriangle& t, Sign handedness, Shares& shares) {
+  const ImagePoint s{x.s.u, x.s.v};
+  add_shares_of_parts<Arithmetic>(x, t, shares);
+  shares.depth.add(Arithmetic::depth(x), depth_at(t, s));
+  const auto weights = Arithmetic::weights(x);
+  shares.weights.add(weights[0], interpolate(t, s, {0.0, 1.0, 0.0}));
+  shares.weights.add(weights[1], interpolate(t, s, {0.0, 0.0, 1.0}));
+  const auto& [A, B, C] = t.world;
+  const auto position = Arithmetic::position(x);
+  shares.position.add(position[0], interpolate(t, s, {A.x, B.x, C.x}));
+  shares.position.add(position[1], interpolate(t, s, {A.y, B.y, C.y}));
+  shares.position.add(position[2], interpolate(t, s, {A.z, B.z, C.z}));
+  if (x.image.perspective) {
+    const auto& [a, b, c] = t.camera;
+    const Ratio X = interpolate(t, s, {a.x, b.x, c.x}), Y = interpolate(t, s, {a.y, b.y, c.y});
+    const Ratio Z = depth_at(t, s);
+    shares.distance.add(Arithmetic::distance(x), root(X * X + Y * Y + Z * Z));
+  }
+  const ExactVector3 n = cross(ExactVector3{B.x - A.x, B.y - A.y, B.z - A.z},
+                               ExactVector3{C.x - A.x, C.y - A.y, C.z - A.z});
+  const auto normal = Arithmetic::normal(x);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Ratio size = root(Ratio(n[i] * n[i], dot(n, n)));
+    const bool negative = n[i].sign() * -t.orientation * handedness == Sign::negative;
+    shares.normal.add(normal[i], negative ? Ratio() - size : size);
+  }
+}
+
+template <class Arithmetic>
+Shares shares_of(bool perspective, std::uint64_t seed) {
+  Numbers n(seed);
+  Shares shares;
+  for (int i = 0; i < 120 / testing::effort + 10; ++i) {
+    const Camera camera = camera_from(n, perspective);
+    Scene scene = testing::scene_of({}, {});
+    scene.objects[0] = object_from(n);
+    const SceneRays rays(scene, camera);
+    const ObjectRays& object = rays.object(0);
+    EXPECT_TRUE(object.usable && rays.world().usable);
+    const Sign handedness =
+        Dyadic(camera.fx * camera.fy).sign() * determinant_of_rotation(camera).sign();
+    for (int k = 0; k < 12; ++k) {
+      const MeshTriangle corners = corners_from(n);
+      Mesh mesh;
+      mesh.vertices.assign(corners.begin(), corners.end());
+      mesh.triangles = {{0, 1, 2}};
+      TierCounts counts;
+      const ProjectedTriangle t =
+          project(world_corners(scene.objects[0], mesh, 0), 0, camera, counts);
+      for (int j = 0; j < 12; ++j) {
+        const ImagePoint s{n.below(200) + 0.5, n.below(150) + 0.5};
+        const ImagePoint point{s.u, s.v};
+        if (!covers(t, point, counts) || depth_at(t, point).sign() != Sign::positive) continue;
+        add_shares<Arithmetic>({corners, object, rays, {perspective, 200, 150}, s}, t, handedness,
+                               shares);
+      }
+    }
+  }
+  EXPECT_GT(shares.depth.count(), 300 / testing::effort);
+  return shares;
+}
+
+/// No error exceeds its bound; the greatest reaches these shares of it.
+struct Tightness {
+  double varying, constant, edges, depth, distance, position, weights, normal;
+};
+
+void expect_tight(const Shares& shares, const Tightness& least, bool perspective) {
+  if (testing::effort > 1) return;
+  EXPECT_GT(shares.varying.greatest(), least.varying);
+  EXPECT_GT(shares.constant.greatest(), least.constant);
+  EXPECT_GT(shares.edges.greatest(), least.edges);
+  EXPECT_GT(shares.depth.greatest(), least.depth);
+  if (perspective) {
+    EXPECT_GT(shares.distance.greatest(), least.distance);
+  }
+  EXPECT_GT(shares.position.greatest(), least.position);
+  EXPECT_GT(shares.weights.greatest(), least.weights);
+  EXPECT_GT(shares.normal.greatest(), least.normal);
+}
+
+/// ε is 16u², while an operation mostly errs by less than u²: the bounds are loose by design here,
+/// eight bits of the forty that are to spare.
+constexpr Tightness double_words{0.0018, 0.004, 0.002, 0.002, 0.001, 0.0015, 0.0018, 0.006};
+
+class ChannelBounds : public ::testing::TestWithParam<bool> {};
+
+TEST_P(ChannelBounds, HoldInBinary64) {
+  const Tightness least{0.06, 0.12, 0.035, 0.04, 0.03, 0.03, 0.03, 0.08};
+  expect_tight(shares_of<Binary64>(GetParam(), 41), least, GetParam());
+}
+TEST_P(ChannelBounds, HoldInDoubleWordsWithFma) {
+  expect_tight(shares_of<Wide<wide_with_fma>>(GetParam(), 42), double_words, GetParam());
+}
+TEST_P(ChannelBounds, HoldInDoubleWordsWithoutFma) {
+  expect_tight(shares_of<Wide<wide_without_fma>>(GetParam(), 43), double_words, GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Fast, ChannelBounds, ::testing::Bool());
+
+}  // namespace
+}  // namespace fathom
