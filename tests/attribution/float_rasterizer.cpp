@@ -1,4 +1,4 @@
-#include "tests/validation/float_rasterizer.h"
+#include "tests/attribution/float_rasterizer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
+#include "fathom/attribution/attribute_and_name.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "fathom/attribution/attribute_and_name.h"
 #include "fathom/attribution/clip_from_held.h"
 #include "fathom/attribution/named_models.h"
 #include "fathom/camera/camera_making.h"
-#include "fathom/numeric/unit_roundoff.h"
-#include "tests/validation/float_rasterizer.h"
+#include "tests/attribution/float_rasterizer.h"
 #include "validation/bench/shapes.h"
 
 /// A renderer that is what its model says has no unexplained pixel; one with a fault has, and the
@@ -228,26 +228,6 @@ TEST(WrongConvention, MirroredImageIsNamed) {
   const Attribution found = attribute_and_name(truth, map, model);
   expect_named(found, "mirrored");
   EXPECT_THAT(found.findings[0].text, testing::HasSubstr("the vertical axis is flipped"));
-}
-
-// Near, in the middle and far of 0.5 to 20. Beside log2: a product and a sum, u/ln 2 each in the
-// logarithm, and a product, u of the depth.
-TEST(WrittenDepths, AllowWhatTheShadingLanguageAllowsToLog2AndLittleMore) {
-  constexpr double u = unit_roundoff<float>;
-  EXPECT_EQ(log2_error(0.25), 0x1p-21);
-  EXPECT_EQ(log2_error(-10), 60 * u);
-  const WrittenDepth shader = written_depth(Projection::perspective, Mapping::log_ulrich, 0.5, 20);
-  for (const double depth : {0.6, 3.0, 19.0}) {
-    const double q = 1 / depth, z = shader.value(q), logarithm = z / shader.scale;
-    EXPECT_NEAR(z, std::log(depth / 0.5) / std::log(40), 1e-7);  // its constants are binary32
-    const double least = std::abs(shader.scale) * log2_error(logarithm);
-    const double most = std::abs(shader.scale) * (log2_error(logarithm) + 3 * u) + 1.01 * u * z;
-    const Interval allowed = shader.values(q, 0);
-    for (const double width : {z - allowed.lower, allowed.upper - z}) {
-      EXPECT_GE(width, least);
-      EXPECT_LE(width, most);
-    }
-  }
 }
 
 TEST(RayModel, ExplainsMoellerTrumboreAndCatchesFaults) {
