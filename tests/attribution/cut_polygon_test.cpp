@@ -32,11 +32,11 @@ TEST(CutPolygon, InsideNothingIsCut) {
 }
 
 TEST(CutPolygon, OneCornerBeforeTheNearPlaneMakesFour) {
-  const Triangle t{at(0, 0, -0.5), at(0.5, 0, 0.5), at(0, 0.5, 0.5)};
+  const Triangle t{at(0, 0, -0.25), at(0.5, 0, 0.75), at(0, 0.5, 0.75)};
   const std::vector<ClipVertex> part = cut(corners(t), false);
   ASSERT_EQ(part.size(), 4U);
-  EXPECT_EQ(part[0].value, (std::array<double, 4>{0.25, 0, 0, 1}));
-  EXPECT_EQ(part[3].value, (std::array<double, 4>{0, 0.25, 0, 1}));
+  EXPECT_EQ(part[0].value, (std::array<double, 4>{0.125, 0, 0, 1}));
+  EXPECT_EQ(part[3].value, (std::array<double, 4>{0, 0.125, 0, 1}));
   // Both lie on the cut: the edge between them is the border's, not the triangle's.
   EXPECT_NE(part[0].borders & part[3].borders, 0U);
   EXPECT_GT(part[0].error[0], 0);
