@@ -2,21 +2,17 @@
 
 #include <string>
 
-#include "validation/attribution/other_map.h"
-#include "validation/attribution/renderer_model.h"
+#include "fathom/attribution/other_map.h"
+#include "fathom/attribution/renderer_model.h"
 
 namespace fathom::validation {
 
-/// What another renderer drew, and what is known of how it did.
+/// What another renderer drew, and what is known about how it did so.
 struct DrawnMap {
-  OtherMap map;
-  RendererModel model;
-  /// Its version and what it runs on.
+  attribution::OtherMap map;
+  attribution::RendererModel model;
+  /// Its version and the driver or machine it runs on.
   std::string version;
 };
-
-/// As bytes and back, for the way from one process to another.
-std::string to_bytes(const DrawnMap& drawn);
-DrawnMap drawn_from_bytes(const std::string& bytes);
 
 }  // namespace fathom::validation

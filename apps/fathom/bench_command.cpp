@@ -12,7 +12,6 @@
 #include "program_main.h"
 #include "progress.h"
 #include "render_options.h"
-#include "validation/bench/in_child.h"
 #include "validation/bench/processors.h"
 #include "validation/bench/renderers.h"
 #include "validation/bench/report.h"
@@ -111,13 +110,6 @@ std::vector<Plan> plans_of(const BenchArguments& arguments) {
   return plans;
 }
 
-std::uint64_t count_triangles(const Plan& plan) {
-  return std::stoull(bench::run_in_child([&] {
-    return std::to_string(
-        triangle_count(bench::make_scene(plan.scene, plan.width, plan.height).scene));
-  }));
-}
-
 std::vector<std::string> renderers_for(const Peers& peers, std::uint64_t triangles) {
   std::vector<std::string> renderers{"fast"};
   if (peers.vtk) renderers.emplace_back("vtk");
@@ -144,13 +136,11 @@ void warn_of_other_pictures(const Comparison& comparison, const Console& console
 
 Comparison compare(const Plan& plan, const Peers& peers, const Console& console,
                    const std::function<void(double)>& progress) {
-  Comparison comparison{plan, count_triangles(plan), {}};
+  Comparison comparison{plan, bench::count_triangles_in_child(plan), {}};
   const std::vector<std::string> renderers = renderers_for(peers, comparison.triangles);
   for (std::size_t i = 0; i < renderers.size(); ++i) {
     if (progress) progress(static_cast<double>(i) / static_cast<double>(renderers.size()));
-    const std::string text =
-        bench::run_in_child([&] { return to_text(bench::measure(renderers[i], plan)); });
-    for (Measurement& m : bench::measurements_from_text(text)) {
+    for (Measurement& m : bench::measure_in_child(renderers[i], plan)) {
       comparison.measurements.push_back(std::move(m));
     }
   }

@@ -9,8 +9,11 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/named_models.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/image/map_files.h"
@@ -23,15 +26,14 @@
 #include "program_main.h"
 #include "progress.h"
 #include "validate_report.h"
-#include "validation/attribution/hypotheses.h"
 #include "validation/peers/drawing.h"
 
 namespace fathom::app {
 namespace {
 
+using attribution::RendererModel;
+using attribution::Truth;
 using validation::Peer;
-using validation::RendererModel;
-using validation::Truth;
 using validation::ValidationCase;
 using validation::ValidationScene;
 
@@ -40,6 +42,16 @@ struct ValidateArguments {
   std::string map, camera, model, channel, out, baseline;
   std::string against, scene_names, variants, render, output, size = "320x240", seconds = "300";
 };
+
+/// What `call` returns; its UsageError with the option to blame before it.
+template <class Call>
+auto blaming(const std::string& option, const Call& call) {
+  try {
+    return call();
+  } catch (const UsageError& error) {
+    throw UsageError(option + ": " + error.what());
+  }
+}
 
 Camera read_camera(const std::string& file) {
   if (file.empty()) throw UsageError("--camera FILE is missing");
@@ -61,7 +73,7 @@ Scene read_files(const std::vector<std::string>& files, const Console& console) 
 }
 
 void require_clip_planes(const RendererModel& model, const Camera& camera) {
-  if (model.kind == RendererModel::Kind::ray) return;
+  if (std::holds_alternative<attribution::RayModel>(model.kind)) return;
   const bool perspective = camera.projection == Projection::perspective;
   if (camera.far < std::numeric_limits<double>::infinity() && (camera.near > 0 || !perspective))
     return;
@@ -71,25 +83,25 @@ void require_clip_planes(const RendererModel& model, const Camera& camera) {
 
 ValidationCase validate_map(const ValidateArguments& arguments, const Console& console) {
   ValidationCase made{.renderer = "map", .variant = arguments.model, .version = arguments.map};
-  made.model = validation::model_named(arguments.model);
+  made.model = blaming("--model", [&] { return attribution::model_named(arguments.model); });
   const Camera camera = read_camera(arguments.camera);
   require_clip_planes(made.model, camera);
   note_input(arguments.map);
-  made.other = validation::other_map(read_map(arguments.map), arguments.channel);
+  made.other = attribution::other_map(read_map(arguments.map), arguments.channel);
   if (made.other.width != camera.width || made.other.height != camera.height) {
     throw InputError(fmt::format("{}: has {}x{} pixels, the camera {}x{}", arguments.map,
                                  made.other.width, made.other.height, camera.width, camera.height));
   }
   const Scene scene = read_files(arguments.scenes, console);
   made.scene = std::filesystem::path(arguments.scenes.front()).stem();
-  const auto truth = std::make_shared<Truth>(validation::make_truth(scene, camera));
+  const auto truth = std::make_shared<Truth>(attribution::make_truth(scene, camera));
   for (const std::uint32_t triangle : made.other.triangles) {
     if (triangle != no_surface && triangle >= truth->mesh.triangles.size()) {
       throw InputError(fmt::format("{}: shows triangle {}, but the scene has {}", arguments.map,
                                    triangle, truth->mesh.triangles.size()));
     }
   }
-  made.attribution = validation::attribute_and_name(*truth, made.other, made.model);
+  made.attribution = attribution::attribute_and_name(*truth, made.other, made.model);
   made.truth = truth;
   return made;
 }
@@ -142,16 +154,14 @@ std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Con
 
 std::vector<Peer> peers_of(const ValidateArguments& arguments) {
   std::vector<Peer> peers;
-  for (const std::string& renderer : split_list(arguments.against)) {
-    for (const Peer& peer : validation::peers_of(renderer, time_limit(arguments))) {
-      const std::vector<std::string> wanted = split_list(arguments.variants);
-      const bool chosen = arguments.variants.empty() ||
-                          std::find(wanted.begin(), wanted.end(), peer.variant) != wanted.end();
-      if (chosen) peers.push_back(peer);
-    }
+  for (const std::string& name : split_list(arguments.against)) {
+    const auto renderer = blaming("--against", [&] { return validation::renderer_named(name); });
+    const std::vector<Peer> more = validation::peers_of(renderer, time_limit(arguments));
+    peers.insert(peers.end(), more.begin(), more.end());
   }
-  if (peers.empty()) throw UsageError("--variants: none of the renderers has one of these");
-  return peers;
+  if (arguments.variants.empty()) return peers;
+  const std::vector<std::string> variants = split_list(arguments.variants);
+  return blaming("--variants", [&] { return validation::with_variants(peers, variants); });
 }
 
 /// Every scene drawn by every peer. Before any thread is started: see draw_in_child.
@@ -162,7 +172,9 @@ std::vector<ValidationCase> draw_all(const std::vector<SceneToMake>& scenes,
   const auto count = static_cast<double>(scenes.size() * peers.size());
   for (const SceneToMake& scene : scenes) {
     for (const Peer& peer : peers) {
-      ValidationCase made{.scene = scene.name, .renderer = peer.renderer, .variant = peer.variant};
+      ValidationCase made{.scene = scene.name,
+                          .renderer = name_of(validation::renderer_of(peer)),
+                          .variant = validation::variant_name(peer)};
       validation::Drawing drawing = validation::draw_in_child(peer, scene.make, seconds);
       made.failure = drawing.failure;
       if (drawing.drawn) {
@@ -180,10 +192,10 @@ std::vector<ValidationCase> draw_all(const std::vector<SceneToMake>& scenes,
 void judge_all(std::vector<ValidationCase>& cases, const std::vector<SceneToMake>& scenes) {
   for (const SceneToMake& scene : scenes) {
     const ValidationScene made = scene.make();
-    const auto truth = std::make_shared<Truth>(validation::make_truth(made.scene, made.camera));
+    const auto truth = std::make_shared<Truth>(attribution::make_truth(made.scene, made.camera));
     for (ValidationCase& c : cases) {
       if (c.scene != scene.name || !c.is_done()) continue;
-      c.attribution = validation::attribute_and_name(*truth, c.other, c.model);
+      c.attribution = attribution::attribute_and_name(*truth, c.other, c.model);
       c.truth = truth;
     }
   }
@@ -203,6 +215,17 @@ int validate_against(const ValidateArguments& arguments, const Console& console)
   return report_cases(cases, places);
 }
 
+/// The renderer of --render in the variant that is asked for, else in its first.
+Peer peer_to_render(const ValidateArguments& arguments) {
+  const auto renderer =
+      blaming("--render", [&] { return validation::renderer_named(arguments.render); });
+  if (arguments.variants.empty()) {
+    return validation::peers_of(renderer, time_limit(arguments)).front();
+  }
+  return blaming("--variants",
+                 [&] { return validation::peer_named(renderer, arguments.variants); });
+}
+
 /// What the renderer drew, as a map of ours.
 int render_peer(const ValidateArguments& arguments, const Console& console) {
   if (arguments.output.empty()) throw UsageError("-o MAP is missing: where the map goes");
@@ -211,13 +234,11 @@ int render_peer(const ValidateArguments& arguments, const Console& console) {
     throw UsageError("-o: '" + arguments.output + "' does not end in .exr, .pfm or .npy");
   if (arguments.scenes.empty()) throw UsageError("SCENE is missing: what is rendered");
   const SceneToMake scene = scenes_of(arguments, console).front();
-  std::vector<Peer> peers = validation::peers_of(arguments.render, time_limit(arguments));
-  if (!arguments.variants.empty()) peers.front().variant = arguments.variants;
+  const Peer peer = peer_to_render(arguments);
   OutputFile output(arguments.output);
-  validation::Drawing drawing =
-      validation::draw_in_child(peers.front(), scene.make, time_limit(arguments));
+  validation::Drawing drawing = validation::draw_in_child(peer, scene.make, time_limit(arguments));
   if (!drawing.drawn) throw InputError(drawing.failure);
-  DepthMap map = validation::as_depth_map(drawing.drawn->map);
+  DepthMap map = attribution::as_depth_map(drawing.drawn->map);
   map.texts["fathom.camera"] = to_json(scene.make().camera);
   map.texts["fathom.engine"] = drawing.drawn->version;
   output.write([&](const std::filesystem::path& path) {
@@ -237,7 +258,7 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
   if (!arguments.against.empty()) return validate_against(arguments, console);
   if (!arguments.render.empty()) return render_peer(arguments, console);
   if (arguments.model.empty()) {
-    throw UsageError("--model is missing: there are " + validation::model_names());
+    throw UsageError("--model is missing: there are " + attribution::model_names());
   }
   const ReportPlaces places{arguments.out, arguments.baseline};
   prepare(places);
@@ -255,7 +276,7 @@ void add_validate(Program& program) {
       "  fathom validate --render vtk spot.obj --camera camera.json -o vtk.exr\n"
       "\nScenes: " +
           fmt::format("{}", fmt::join(validation::scene_names(), ", ")) +
-          ".\nModels: " + validation::model_names() +
+          ".\nModels: " + attribution::model_names() +
           ".\nExit status 1 where a pixel is unexplained or a fault was found; see "
           "docs/validation.md.");
   const auto arguments = std::make_shared<ValidateArguments>();

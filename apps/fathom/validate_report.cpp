@@ -19,8 +19,8 @@
 namespace fathom::app {
 namespace {
 
-using validation::Attribution;
-using validation::PixelClass;
+using attribution::Attribution;
+using attribution::PixelClass;
 using validation::ValidationCase;
 
 std::string title_of(const ValidationCase& c) {
@@ -32,14 +32,14 @@ std::string line_of(const ValidationCase& c) {
   if (!c.is_done()) return fmt::format("{}: {}\n", title_of(c), c.failure);
   const Attribution& a = c.attribution;
   std::string counts;
-  for (std::size_t k = 0; k < validation::pixel_class_count; ++k) {
+  for (std::size_t k = 0; k < attribution::pixel_class_count; ++k) {
     if (a.counts[k] == 0) continue;
     counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", a.counts[k],
                           name_of(static_cast<PixelClass>(k)));
   }
   std::string text = fmt::format("{}: {}; median bound {:.2g} of the depth, {:.2g} may\n",
                                  title_of(c), counts, a.median_relative_width, a.may_share);
-  for (const validation::Finding& f : a.findings) {
+  for (const attribution::Finding& f : a.findings) {
     text += fmt::format("  {}: {} ({} pixels)\n", f.kind, f.text, f.pixels);
   }
   return text;

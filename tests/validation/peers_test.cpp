@@ -3,16 +3,21 @@
 #include <cmath>
 #include <vector>
 
+#include "fathom/attribution/world_mesh.h"
 #include "fathom/render.h"
 #include "validation/bench/shapes.h"
 #include "validation/embree/embree_tracer.h"
 #include "validation/vtk/vtk_renderer.h"
-#include "validation/world_mesh.h"
 
 /// VTK and Embree see what we see, through a camera with everything that a camera has. Built where
 /// they are (FATHOM_PEERS).
 namespace fathom::validation {
 namespace {
+
+using attribution::clip_range;
+using attribution::ClipRange;
+using attribution::world_mesh;
+using attribution::WorldMesh;
 
 Camera odd_camera(Projection projection) {
   Camera camera{.width = 160, .height = 90, .projection = projection};

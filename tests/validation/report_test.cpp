@@ -5,6 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "validation/bench/measurement_fields.h"
+#include "validation/child/read_fields.h"
+#include "validation/child/write_fields.h"
+
 namespace fathom::bench {
 namespace {
 
@@ -66,9 +70,11 @@ TEST(BenchReport, TableIsAligned) {
       "\n");
 }
 
-TEST(BenchReport, MeasurementsComeThroughAsText) {
+TEST(BenchReport, MeasurementsComeFromAnotherProcessFieldByField) {
   const auto given = comparison().measurements;
-  const auto read = measurements_from_text(to_text(given));
+  const std::string bytes = validation::to_bytes(given);
+  EXPECT_THAT(bytes, HasSubstr("covered_pixels"));
+  const auto read = validation::from_bytes<std::vector<Measurement>>(bytes);
   ASSERT_EQ(read.size(), given.size());
   EXPECT_EQ(read[1].renderer, "vtk");
   EXPECT_EQ(read[1].description, "VTK 9.1.0");

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include "validation/attribution/written_depth.h"
+#include "fathom/attribution/written_depth.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/gl_functions.h"
 
@@ -15,6 +15,8 @@
 /// binades, held against the bound that the shading language gives ([GLSL46] 4.7.1).
 namespace fathom::validation {
 namespace {
+
+using attribution::log2_error;
 
 constexpr int width = 4096, height = 2048;
 

@@ -82,7 +82,7 @@ TEST_F(ValidateProgram, RefusesInOneLine) {
   };
   expect_refused(validate("none.exr"), 3, "none.exr");
   folder.write("report.json", "{}");
-  expect_refused(validate("map.exr", {"--baseline", "report.json"}), 3, "no report.json");
+  expect_refused(validate("map.exr", {"--baseline", "report.json"}), 3, "not a report.json");
   folder.write("file", "");
   expect_refused(validate("map.exr", {"--out", "file"}), 4, "file: cannot make this folder");
   const auto run = [&](std::vector<std::string> arguments) {
@@ -90,13 +90,50 @@ TEST_F(ValidateProgram, RefusesInOneLine) {
     return run_fathom(arguments, {.folder = folder.path()});
   };
   expect_refused(run({"--map", "map.exr", "--camera", "camera.json", "--model", "voxel", cube}), 2,
-                 "there is no model 'voxel'");
+                 "--model: there is no model 'voxel'");
   expect_refused(run({"--map", "map.exr", "--model", "cycles", cube}), 2,
                  "--camera FILE is missing");
   expect_refused(run({"--map", "map.exr", "--camera", "camera.json", cube}), 2,
                  "--model is missing");
   expect_refused(run({"--map", "map.exr", "--camera", "camera.json", "--model", "cycles"}), 2,
                  "SCENE is missing");
+}
+
+TEST_F(ValidateProgram, RefusesVariantsThatItDoesNotUnderstand) {
+  const auto expect_refused = [&](const std::vector<std::string>& arguments,
+                                  const std::string& message) {
+    std::vector<std::string> all{"validate"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = run_fathom(all, {.folder = folder.path()});
+    EXPECT_EQ(outcome.status, 2) << outcome.out;
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  const auto render = [&](const std::string& renderer, const std::string& variant) {
+    return std::vector<std::string>{"--render", renderer, "--variants", variant,    cube,
+                                    "--size",   "8x6",    "-o",         "drawn.exr"};
+  };
+  for (const char* variant : {"unorm24 offset", "unorm24 offset 4x", "unorm24 x samples",
+                              "unorm24 samples", "unorm24 reversed reversed", "float16"}) {
+    expect_refused(render("opengl", variant), "--variants: opengl has no variant '" +
+                                                  std::string(variant) + "', only unorm16, ");
+  }
+  for (const char* variant : {"own x samples", "own -8 samples", "float16"}) {
+    expect_refused(render("vtk", variant),
+                   "--variants: vtk has no variant '" + std::string(variant) + "', only own, ");
+  }
+  expect_refused(render("embree", "robbust"),
+                 "--variants: embree has no variant 'robbust', only default and robust");
+  expect_refused(render("blender", "eevee"),
+                 "--variants: blender has no variant 'eevee', only cycles");
+  expect_refused(render("pbrt", "default"),
+                 "--render: 'pbrt' is none of vtk, opengl, embree and blender");
+  expect_refused({"--against", "embree,pbrt", "--scene", "sphere"},
+                 "--against: 'pbrt' is none of vtk, opengl, embree and blender");
+  // One that is understood does not excuse one that is not.
+  expect_refused({"--against", "embree", "--scene", "sphere", "--variants", "robust,defualt"},
+                 "--variants: none of the renderers has a variant 'defualt'; there are default, "
+                 "robust");
 }
 
 }  // namespace

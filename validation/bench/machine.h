@@ -5,9 +5,9 @@
 
 namespace fathom::bench {
 
-/// What measurements were made on.
+/// The machine on which measurements were made.
 struct Machine {
-  /// "AMD EPYC 9R14", "unknown" where the system does not tell.
+  /// "AMD EPYC 9R14"; "unknown" if the system does not say.
   std::string processor;
   int processors = 0;
   std::uint64_t memory_bytes = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 
 namespace fathom::bench {
 namespace {
@@ -35,23 +34,6 @@ Frames time_frames(int repeat, const std::function<void()>& draw,
   if (frames.milliseconds.empty()) frames.milliseconds.push_back(frames.first_ms);
   std::sort(frames.milliseconds.begin(), frames.milliseconds.end());
   return frames;
-}
-
-std::string to_text(const std::vector<Measurement>& measurements) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const Measurement& m : measurements) {
-    list.push_back(
-        {m.renderer, m.description, m.first_ms, m.milliseconds, m.peak_bytes, m.covered_pixels});
-  }
-  return list.dump();
-}
-
-std::vector<Measurement> measurements_from_text(const std::string& text) {
-  std::vector<Measurement> measurements;
-  for (const nlohmann::json& m : nlohmann::json::parse(text)) {
-    measurements.push_back({m[0], m[1], m[2], m[3], m[4], m[5]});
-  }
-  return measurements;
 }
 
 }  // namespace fathom::bench

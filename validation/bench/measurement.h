@@ -17,7 +17,7 @@ struct Plan {
   std::uint32_t width = 1920, height = 1080;
   int threads = 1;
   int repeat = 9;
-  /// What our engines write; the others write depths.
+  /// What our engines write; the others always write depths.
   std::vector<Channel> channels{Channel::Z};
 };
 
@@ -26,14 +26,14 @@ struct Measurement {
   /// fast, reference, vtk, embree, embree-robust, or embree-build: building the hierarchy that
   /// embree then traces.
   std::string renderer;
-  /// Its version and what it runs on, "" for ours.
+  /// Its version and what it runs on; "" for our engines.
   std::string description;
-  /// Of the first frame, which also fills caches and compiles shaders.
+  /// Time of the first frame, which also fills caches and compiles shaders.
   double first_ms = 0;
-  /// Of the frames after it, in increasing order; not empty.
+  /// Times of the frames after it, in increasing order; not empty.
   std::vector<double> milliseconds;
-  /// The most memory that its process had in RAM while it rendered, above what the process had
-  /// before it made the scene: the scene as this renderer holds it, what it builds, the image.
+  /// The most memory that its process had in RAM while it rendered, less what it had before it made
+  /// the scene: the scene as this renderer holds it, what the renderer builds, the image.
   std::uint64_t peak_bytes = 0;
   /// Pixels that show a surface; 0 for embree-build.
   std::uint64_t covered_pixels = 0;
@@ -43,19 +43,15 @@ struct Measurement {
 
 struct Frames {
   double first_ms = 0;
-  /// In increasing order; the first frame's time where that alone took all of the time there is.
+  /// In increasing order; only the first frame's time if that took all the time there is.
   std::vector<double> milliseconds;
 };
 
-/// Times `draw` once, draws on until `warm_up` has passed, since threads first have to find their
-/// processors and allocators their sizes, and then times it `repeat` times more, but begins no
-/// further frame after 20 seconds. `clear` is called before each and not timed.
+/// Times `draw` once, keeps drawing until `warm_up` has passed (threads first have to find their
+/// processors, and allocators their sizes), then times it `repeat` times more. Starts no frame after
+/// 20 seconds. `clear` is called before each frame and not timed.
 Frames time_frames(
     int repeat, const std::function<void()>& draw, const std::function<void()>& clear = [] {},
     std::chrono::milliseconds warm_up = std::chrono::milliseconds(300));
-
-/// Writes measurements as text and reads them back, for the way from one process to another.
-std::string to_text(const std::vector<Measurement>& measurements);
-std::vector<Measurement> measurements_from_text(const std::string& text);
 
 }  // namespace fathom::bench

@@ -5,23 +5,23 @@
 #include <cstdlib>
 #include <string>
 
+#include "fathom/attribution/world_mesh.h"
 #include "validation/bench/renderers.h"
 #include "validation/bench/resident_memory.h"
 #include "validation/embree/embree_tracer.h"
 #include "validation/vtk/vtk_renderer.h"
-#include "validation/world_mesh.h"
 
 namespace fathom::bench {
 namespace {
 
+using attribution::WorldMesh;
 using validation::EmbreeTracer;
 using validation::RayStream;
 using validation::VtkRenderer;
-using validation::WorldMesh;
 
 /// The scene as peers take it; it itself goes.
 WorldMesh handed_over(Scene& scene) {
-  WorldMesh mesh = validation::world_mesh(scene);
+  WorldMesh mesh = attribution::world_mesh(scene);
   scene = {};
   return mesh;
 }
@@ -46,7 +46,7 @@ std::vector<Measurement> measure_vtk(BenchScene bench, const Plan& plan, std::ui
   // Read by Mesa's software renderer when the context is made; 16 is the most it takes.
   ::setenv("LP_NUM_THREADS", std::to_string(std::min(plan.threads, 16)).c_str(), 1);
   WorldMesh mesh = handed_over(bench.scene);
-  VtkRenderer renderer(mesh, bench.camera, validation::clip_range(mesh, bench.camera));
+  VtkRenderer renderer(mesh, bench.camera, attribution::clip_range(mesh, bench.camera));
   mesh = {};
   forget_peak();
 

@@ -7,7 +7,7 @@
 #include "validation/bench/scenes.h"
 
 /// VTK and Embree on a bench scene; see renderers.h. `idle_bytes` is the memory that the process
-/// had before it made the scene.
+/// used before it made the scene.
 namespace fathom::bench {
 
 std::vector<Measurement> measure_vtk(BenchScene bench, const Plan& plan, std::uint64_t idle_bytes);

@@ -6,10 +6,12 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
+#include "validation/bench/measurement_fields.h"
 #include "validation/bench/peers.h"
 #include "validation/bench/processors.h"
 #include "validation/bench/resident_memory.h"
 #include "validation/bench/scenes.h"
+#include "validation/child/in_child.h"
 
 namespace fathom::bench {
 namespace {
@@ -45,6 +47,15 @@ std::vector<Measurement> measure(const std::string& renderer, const Plan& plan) 
   if (renderer == "embree") return measure_embree(std::move(bench), plan, false, idle_bytes);
   if (renderer == "embree-robust") return measure_embree(std::move(bench), plan, true, idle_bytes);
   throw UsageError("'" + renderer + "' is no renderer");
+}
+
+std::vector<Measurement> measure_in_child(const std::string& renderer, const Plan& plan) {
+  return validation::in_child([&] { return measure(renderer, plan); });
+}
+
+std::uint64_t count_triangles_in_child(const Plan& plan) {
+  return validation::in_child(
+      [&] { return triangle_count(make_scene(plan.scene, plan.width, plan.height).scene); });
 }
 
 }  // namespace fathom::bench

@@ -7,20 +7,28 @@
 
 namespace fathom::bench {
 
-/// The renderers that are timed apart: fast, reference and, where they are built in, vtk, embree
-/// and embree-robust.
+/// Times one renderer: fast, reference and, if they are built in, vtk, embree or embree-robust.
 ///
-///   fast, reference        from mesh and camera in memory to the complete map in memory, nothing
-///                          kept from an earlier frame
+///   fast, reference        from mesh and camera in memory to the complete map in memory; nothing
+///                          is kept from an earlier frame
 ///   vtk                    drawing and waiting until it is done; depths are not read back, and the
-///                          mesh was handed to OpenGL with the first frame
-///   embree, embree-robust  making rays, tracing them, storing depths; the hierarchy was built
-///                          before. With the first comes embree-build, the building
+///                          mesh was passed to OpenGL with the first frame
+///   embree, embree-robust  making rays, tracing them, storing depths; the hierarchy has already
+///                          been built. embree-build, returned with embree, is building it
 ///
-/// Does     make the scene, then keep to the processors of the plan. In a process of its own
-///          (run_in_child), for its peak of memory and its threads to be its own.
-/// Fails    InputError as make_scene, or where a renderer does not start.
+/// Does     make the scene and restrict this process to the processors of the plan.
+/// Fails    InputError as make_scene(), or if the renderer does not start; UsageError if there is no
+///          such renderer.
 std::vector<Measurement> measure(const std::string& renderer, const Plan& plan);
+
+/// measure() in a process of its own, so that its peak memory and its threads are its own.
+/// Needs    a process that has started no threads.
+std::vector<Measurement> measure_in_child(const std::string& renderer, const Plan& plan);
+
+/// The number of triangles of a plan's scene, which is made in a process of its own.
+/// Needs    a process that has started no threads.
+/// Fails    as make_scene().
+std::uint64_t count_triangles_in_child(const Plan& plan);
 
 /// Whether VTK and Embree are built in.
 bool peers_are_built();

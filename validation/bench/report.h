@@ -16,12 +16,12 @@ struct Comparison {
   std::vector<Measurement> measurements;
 };
 
-/// A line that says what is compared and a table, a row a renderer: times in milliseconds, their
-/// median also as a multiple of fast's, peak memory, and what they come to in triangles and pixels
-/// of the image per second. Ends with an empty line.
+/// A line that says what is compared, then a table with a row for each renderer: times in
+/// milliseconds, the median also as a multiple of fast's, peak memory in MiB, and the resulting
+/// triangles and pixels of the image per second. Ends with an empty line.
 std::string table(const Comparison& comparison);
 
-/// {"machine": …, "results": [ … ]} as docs/performance.md explains it. Ends without a newline.
+/// {"machine": …, "results": [ … ]}, explained in docs/performance.md. Ends without a newline.
 std::string to_json(const Machine& machine, const std::vector<Comparison>& comparisons);
 
 }  // namespace fathom::bench

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-/// Memory of this process that is in RAM, in bytes; 0 where the system does not tell.
+/// The memory of this process that is in RAM, in bytes; 0 if the system does not say.
 namespace fathom::bench {
 
 std::uint64_t resident_bytes();
@@ -10,7 +10,7 @@ std::uint64_t resident_bytes();
 /// The greatest resident_bytes() since the process started or forget_peak() was called.
 std::uint64_t peak_resident_bytes();
 
-/// Gives what was freed back to the system and starts the peak anew.
+/// Returns freed memory to the system and starts measuring the peak again.
 void forget_peak();
 
 }  // namespace fathom::bench

@@ -7,29 +7,29 @@
 #include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
-/// The meshes that engines and peers are timed on. All are made from fixed seeds; coordinates are
-/// binary64 numbers that need not be binary32 ones.
+/// The meshes that engines and peers are timed on, in the world, scene units. All are made from
+/// fixed seeds; coordinates are binary64 numbers, not necessarily representable in binary32.
 namespace fathom::bench {
 
 /// A scene of one object per mesh, placed as it is.
 Scene as_scene(std::vector<Mesh> meshes, const std::string& name);
 
-/// The unit sphere about `centre`, scaled by `radius`: an octahedron subdivided into rings, 8·n²
-/// triangles with n chosen so that their number is nearest to `triangles` (at least 8), all of
-/// about the same size, counter-clockwise from outside.
+/// A sphere about `centre`: an octahedron subdivided into rings, 8·n² triangles of about the same
+/// size, counter-clockwise from outside, with n >= 1 chosen so that their number is nearest to
+/// `triangles`.
 Mesh sphere(std::uint64_t triangles, const std::array<double, 3>& centre = {0, 0, 0},
             double radius = 1);
 
-/// `count` triangles at random in front of `camera` (perspective), between depths 2 and 6, so large
-/// that on average `depth_complexity` of them lie over each pixel.
+/// `count` random triangles in front of `camera` (perspective), between depths 2 and 6, so large
+/// that on average `depth_complexity` of them cover each pixel.
 Mesh soup(std::uint32_t count, double depth_complexity, const Camera& camera);
 
-/// `count` triangles each of which covers the whole image of `camera` (perspective) and reaches far
-/// beyond it, tilted, so that each is nearest somewhere.
+/// `count` triangles, each of which covers the whole image of `camera` (perspective) and reaches far
+/// beyond it, tilted so that each is nearest somewhere.
 Mesh few_large(std::uint32_t count, const Camera& camera);
 
-/// columns × rows quads of two triangles, the corners of the first at (left, top), one `step`
-/// apart in x and y; z is a smooth wave about 4.
+/// columns × rows quads of two triangles each. The first quad's first corner is at (left, top);
+/// corners are one `step` apart in x and y; z is a smooth wave about 4.
 Mesh grid(std::uint32_t columns, std::uint32_t rows, double left, double top, double step);
 
 /// A closed room, the box [−4, 4] × [−1.5, 1.5] × [−3, 3] (y up): walls of `cells` × `cells` quads

@@ -6,19 +6,21 @@
 
 namespace fathom::validation {
 
-/// A camera in Blender's words (docs/conventions.md). Blender keeps all of it in binary32.
+/// A camera in Blender's terms (docs/conventions.md). Blender keeps all of it in binary32.
 struct BlenderCamera {
   bool perspective = true;
-  /// Sensor fitted to the image's width, which is 36 mm; or the width in scene units.
+  /// Perspective: the focal length in millimetres, for a sensor 36 mm wide, fitted to the image's
+  /// width. Orthographic: the width of the image in scene units.
   double lens = 0, ortho_scale = 0;
+  /// In widths of the image.
   double shift_x = 0, shift_y = 0;
   double aspect_x = 1, aspect_y = 1;
-  /// Camera to world with Blender's axes, x right, y up, −z forward, row by row.
+  /// Camera to world, row by row; the camera's axes are Blender's: x right, y up, −z forward.
   std::array<double, 16> world_from_camera{};
 };
 
-/// Fails    InputError where Blender cannot express the camera: skew, R that is no rotation (up to
-///          10⁻⁶), mirrored axes, pixels more than twice as wide as high or the reverse.
+/// Fails    InputError if Blender cannot express the camera: skew, an R that is not a rotation (up
+///          to 10⁻⁶), mirrored axes, pixels more than twice as wide as high or the reverse.
 BlenderCamera blender_camera(const Camera& camera);
 
 }  // namespace fathom::validation

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 
+#include "fathom/attribution/named_models.h"
 #include "fathom/image/map_files.h"
 #include "fathom/numeric/errors.h"
 #include "validation/blender/blender_camera.h"
@@ -17,6 +18,11 @@
 
 namespace fathom::validation {
 namespace {
+
+using attribution::model_named;
+using attribution::other_map;
+using attribution::RayModel;
+using attribution::WorldMesh;
 
 /// What a command prints, and its exit status as a shell gives it.
 struct Answer {
@@ -118,10 +124,11 @@ std::string complaint(const std::string& text) {
 DrawnMap draw_blender(const WorldMesh& mesh, const Camera& camera) {
   DrawnMap drawn{.version = version()};
   const Workplace place;
-  RendererModel& model = drawn.model;
-  model = model_named("cycles");
-  model.name = "Cycles";
-  model.sample_error = 1e-5;  // ½/1024 of the filter's width, and as much for its table's roundings
+  drawn.model = model_named("cycles");
+  drawn.model.name = "Cycles";
+  // ½/1024 of the filter's width, and as much for its table's roundings
+  drawn.model.sample.error = 1e-5;
+  auto& model = std::get<RayModel>(drawn.model.kind);
   model.shift = middle_of(mesh);
   hand_over(place, mesh, model.shift, camera);
   // Whoever ends this process ends Blender with it.

@@ -1,14 +1,14 @@
 #pragma once
 
+#include "fathom/attribution/world_mesh.h"
 #include "validation/drawn_map.h"
-#include "validation/world_mesh.h"
 
 namespace fathom::validation {
 
-/// The mesh rendered by Blender's Cycles on the processor: one sample a pixel, the Depth pass of a
-/// multilayer EXR. A mesh far from the origin is moved there: Blender holds positions in binary32.
-/// Fails    InputError where there is no Blender, where it fails, or where it cannot express the
-///          camera.
-DrawnMap draw_blender(const WorldMesh& mesh, const Camera& camera);
+/// The mesh rendered by Blender's Cycles on the processor: one sample per pixel, the Depth pass of a
+/// multilayer EXR. A mesh far from the origin is moved there, because Blender holds positions in
+/// binary32.
+/// Fails    InputError if there is no Blender, if it fails, or if it cannot express the camera.
+DrawnMap draw_blender(const attribution::WorldMesh& mesh, const Camera& camera);
 
 }  // namespace fathom::validation

@@ -8,11 +8,11 @@
 
 namespace fathom::validation {
 
-/// A folder for files of another program. It is removed at the end, also where this process is
-/// killed: a second one waits for its end.
+/// A folder for the files of another program. It is removed at the end, even if this process is
+/// killed: a second process waits for that.
 class Workplace {
  public:
-  /// Fails    InputError where no folder can be made.
+  /// Fails    InputError if no folder can be made.
   Workplace();
   ~Workplace();
   Workplace(const Workplace&) = delete;
@@ -21,7 +21,7 @@ class Workplace {
   [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
     return path_ / name;
   }
-  /// Fails    InputError where it cannot be written.
+  /// Fails    InputError if the file cannot be written.
   void write(const std::string& name, const std::string& bytes) const;
   template <class T>
   void write(const std::string& name, const std::vector<T>& values) const {

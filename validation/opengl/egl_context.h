@@ -7,12 +7,12 @@ namespace fathom::validation {
 
 class VirtualDisplay;
 
-/// An OpenGL context without a window or a screen: what is drawn goes to framebuffer objects.
-/// Without any display (EGL_MESA_platform_surfaceless) where the driver can, else on an Xvfb of its
-/// own. Current on the thread that made it until it is destroyed.
+/// An OpenGL context without a window or a screen: drawing goes to framebuffer objects. It needs no
+/// display (EGL_MESA_platform_surfaceless) if the driver supports that, and starts an Xvfb of its own
+/// otherwise. Current on the thread that made it until it is destroyed.
 ///
 /// Environment  Mesa's software renderer reads LP_NUM_THREADS when the context is made.
-///              FATHOM_OPENGL_DISPLAY=xvfb: on an Xvfb in any case.
+///              FATHOM_OPENGL_DISPLAY=xvfb forces an Xvfb.
 /// Needs        a process that has started no threads, for Xvfb.
 /// Fails        InputError: one line that says which step failed and what to install.
 class EglContext {
@@ -25,7 +25,7 @@ class EglContext {
   /// GL_RENDERER and GL_VERSION, "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 …" for instance, and
   /// way().
   [[nodiscard]] std::string description() const;
-  /// ", on Xvfb" or nothing.
+  /// ", on Xvfb" or "".
   [[nodiscard]] std::string way() const;
   [[nodiscard]] bool is_current() const;
   void make_current() const;

@@ -5,8 +5,9 @@
 
 namespace fathom::validation {
 
-/// The functions of OpenGL 4.5 that are called here, found by EGL: no OpenGL library is linked.
-/// Fails    InputError naming a function that the driver does not have.
+/// The functions of OpenGL 4.5 that are called here, looked up through EGL: no OpenGL library is
+/// linked.
+/// Fails    InputError, naming a function that the driver does not have.
 struct GlFunctions {
   GlFunctions();
 

@@ -1,39 +1,25 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
+#include "fathom/attribution/world_mesh.h"
 #include "validation/drawn_map.h"
-#include "validation/world_mesh.h"
+#include "validation/variants/opengl_variant.h"
 
 namespace fathom::validation {
 
-/// A depth attachment and how it is used.
-struct OpenGlDepth {
-  /// unorm16, unorm24, unorm32 or float32; what the driver grants stands in the model.
-  Storage storage = Storage::unorm24;
-  /// glClipControl(…, GL_ZERO_TO_ONE), near and far exchanged, the greater depth wins.
-  bool reversed = false;
-  /// glPolygonOffset(0, units) where not 0.
-  int offset_units = 0;
-  /// Samples a pixel, 1: no multisampling. What is read back is what glBlitFramebuffer resolves to.
-  int samples = 1;
-};
+/// The mesh drawn by OpenGL into a framebuffer without a display: positions in binary32 relative to
+/// the eye (orthographic: to the middle of the mesh), one matrix rounded to binary32, the depth test
+/// GL_LESS (or GL_GREATER). Window depths and triangle numbers are read back.
+///
+/// Needs    finite near and far.
+/// Fails    InputError if there is no OpenGL 4.5 or no such attachment.
+DrawnMap draw_opengl(const attribution::WorldMesh& mesh, const Camera& camera,
+                     const OpenGlVariant& variant);
 
-/// The mesh drawn by OpenGL into a framebuffer without a display: positions in binary32 about the
-/// eye (orthographic: the middle of the mesh), one matrix rounded to binary32, the depth test
-/// GL_LESS (or GL_GREATER). Reads back window depths and the numbers of the triangles. `camera` has
-/// finite near and far. Fails    InputError where there is no OpenGL 4.5, or no such attachment.
-DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlDepth& depth);
-
-/// Whether a driver, told by its version, interpolates depth between corners as they were before
-/// they were snapped: Mesa's llvmpipe does. OpenGL leaves it open; of others the wider bound is
-/// assumed.
+/// Whether a driver, recognised by its version, interpolates depth between the corners as they were
+/// before they were snapped. OpenGL leaves this open. Mesa's llvmpipe does; of other drivers it is
+/// not assumed, which gives the wider bound.
 bool interpolates_before_snapping(const std::string& version);
-
-/// The numbers of samples a pixel, more than one, that the driver offers for 24 bits of depth and
-/// numbers of triangles beside them, in increasing order.
-/// Fails    InputError where there is no OpenGL 4.5.
-std::vector<int> offered_samples();
 
 }  // namespace fathom::validation

@@ -6,13 +6,13 @@
 
 namespace fathom::validation {
 
-/// An X display of one's own with nothing to look at: Xvfb, started here. While this lives, DISPLAY
-/// names it. It ends with this object, and with the thread that made this, however that ends.
+/// A private X display that nobody looks at: an Xvfb started here. While this object lives, DISPLAY
+/// names it. It ends with this object, and with the thread that made it, however that ends.
 ///
 /// Needs  a process that has started no threads.
 class VirtualDisplay {
  public:
-  /// Fails    InputError where Xvfb is not installed or does not start.
+  /// Fails    InputError if Xvfb is not installed or does not start.
   VirtualDisplay();
   ~VirtualDisplay();
   VirtualDisplay(const VirtualDisplay&) = delete;

@@ -2,16 +2,20 @@
 
 #include <vector>
 
-#include "validation/peers/drawing.h"
+#include "validation/drawn_map.h"
+#include "validation/scenes/validation_scenes.h"
+#include "validation/variants/peer.h"
 
 namespace fathom::validation {
 
-/// vtk, opengl and embree, which this program may be built without.
+/// VTK, OpenGL and Embree, which this program may be built without.
 /// Fails    InputError where it is, or where the renderer does not start.
-DrawnMap draw_built_in(const Peer& peer, const ValidationScene& scene);
+DrawnMap draw_built_in(const VtkVariant& variant, const ValidationScene& scene);
+DrawnMap draw_built_in(const OpenGlVariant& variant, const ValidationScene& scene);
+DrawnMap draw_built_in(const EmbreeVariant& variant, const ValidationScene& scene);
 
-/// The numbers of samples a pixel, more than one, that OpenGL's driver offers; none where this
-/// program is built without.
+/// The numbers of samples per pixel, more than one, that OpenGL's driver offers; none where this
+/// program is built without OpenGL.
 /// Fails    InputError where OpenGL does not start.
 std::vector<int> built_in_samples();
 

@@ -2,12 +2,27 @@
 #include "validation/peers/built_in_peers.h"
 
 namespace fathom::validation {
+namespace {
 
-DrawnMap draw_built_in(const Peer& peer, const ValidationScene&) {
+[[noreturn]] void refuse(Renderer renderer) {
   throw InputError(
-      peer.renderer +
+      name_of(renderer) +
       " is not built in: 'scripts/fathom validate' installs it (scripts/install-dependencies "
       "peers) and builds with it (-DFATHOM_PEERS=ON)");
+}
+
+}  // namespace
+
+DrawnMap draw_built_in(const VtkVariant& /*variant*/, const ValidationScene& /*scene*/) {
+  refuse(Renderer::vtk);
+}
+
+DrawnMap draw_built_in(const OpenGlVariant& /*variant*/, const ValidationScene& /*scene*/) {
+  refuse(Renderer::opengl);
+}
+
+DrawnMap draw_built_in(const EmbreeVariant& /*variant*/, const ValidationScene& /*scene*/) {
+  refuse(Renderer::embree);
 }
 
 std::vector<int> built_in_samples() {

@@ -1,98 +1,102 @@
 #include "validation/peers/drawing.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "fathom/numeric/errors.h"
-#include "validation/bench/in_child.h"
 #include "validation/blender/blender_renderer.h"
+#include "validation/child/in_child.h"
 #include "validation/peers/built_in_peers.h"
+#include "validation/peers/drawing_fields.h"
 
 namespace fathom::validation {
+
+using attribution::world_mesh;
 
 namespace {
 
 /// None where there is no OpenGL: the variants without samples say so.
 std::vector<int> offered_samples(int seconds) {
-  std::vector<int> counts;
   try {
-    std::istringstream answer(bench::run_in_child(
-        [] {
-          std::string text;
-          for (const int count : built_in_samples()) text += std::to_string(count) + " ";
-          return text;
-        },
-        seconds, "opengl"));
-    for (int count = 0; answer >> count;) counts.push_back(count);
+    return in_child(built_in_samples, {.name = "opengl", .seconds = seconds});
   } catch (const InputError&) {
-    counts.clear();
+    return {};
   }
-  return counts;
 }
 
-void add_samples(std::vector<std::string>& variants, const std::string& storage,
-                 const std::vector<int>& counts) {
-  for (const int count : counts) {
-    variants.push_back(storage + " " + std::to_string(count) + " samples");
+std::vector<Peer> vtk_peers(int seconds) {
+  using Encoding = VtkVariant::Encoding;
+  std::vector<Peer> peers{
+      VtkVariant{},
+      VtkVariant{.attachment = Storage::unorm16},
+      VtkVariant{.attachment = Storage::unorm24},
+      VtkVariant{.attachment = Storage::unorm32},
+      VtkVariant{.attachment = Storage::float32},
+      VtkVariant{.attachment = Storage::float32, .encoding = Encoding::reversed},
+      VtkVariant{.attachment = Storage::float32, .encoding = Encoding::reversed_by_shader},
+      VtkVariant{.attachment = Storage::unorm24, .encoding = Encoding::logarithmic},
+      VtkVariant{.attachment = Storage::float32, .encoding = Encoding::logarithmic}};
+  std::vector<int> counts = offered_samples(seconds);
+  const int usual = 8;  // VTK's default, whatever is granted of it
+  if (std::find(counts.begin(), counts.end(), usual) == counts.end()) counts.push_back(usual);
+  for (const int count : counts) peers.emplace_back(VtkVariant{.samples = count});
+  return peers;
+}
+
+std::vector<Peer> opengl_peers(int seconds) {
+  std::vector<Peer> peers{OpenGlVariant{.storage = Storage::unorm16},
+                          OpenGlVariant{.storage = Storage::unorm24},
+                          OpenGlVariant{.storage = Storage::unorm32},
+                          OpenGlVariant{.storage = Storage::float32},
+                          OpenGlVariant{.storage = Storage::float32, .reversed = true},
+                          OpenGlVariant{.storage = Storage::unorm24, .offset_units = 16}};
+  for (const int count : offered_samples(seconds)) {
+    peers.emplace_back(OpenGlVariant{.storage = Storage::unorm24, .samples = count});
   }
+  return peers;
+}
+
+DrawnMap draw_variant(const BlenderVariant& /*variant*/, const ValidationScene& scene) {
+  return draw_blender(world_mesh(scene.scene), scene.camera);
+}
+
+template <class BuiltIn>
+DrawnMap draw_variant(const BuiltIn& variant, const ValidationScene& scene) {
+  return draw_built_in(variant, scene);
 }
 
 }  // namespace
 
-std::vector<Peer> peers_of(const std::string& renderer, int seconds) {
-  std::vector<std::string> variants;
-  if (renderer == "vtk") {
-    variants = {"own",
-                "unorm16",
-                "unorm24",
-                "unorm32",
-                "float32",
-                "float32 reversed",
-                "float32 reversed by shader",
-                "unorm24 logarithmic",
-                "float32 logarithmic"};
-    std::vector<int> counts = offered_samples(seconds);
-    const int usual = 8;  // VTK's default, whatever is granted of it
-    if (std::find(counts.begin(), counts.end(), usual) == counts.end()) counts.push_back(usual);
-    add_samples(variants, "own", counts);
-  } else if (renderer == "opengl") {
-    variants = {"unorm16", "unorm24",          "unorm32",
-                "float32", "float32 reversed", "unorm24 offset 16"};
-    add_samples(variants, "unorm24", offered_samples(seconds));
-  } else if (renderer == "embree") {
-    variants = {"default", "robust"};
-  } else if (renderer == "blender") {
-    variants = {"cycles"};
-  } else {
-    throw UsageError("--against: '" + renderer + "' is none of vtk, opengl, embree and blender");
+std::vector<Peer> peers_of(Renderer renderer, int seconds) {
+  switch (renderer) {
+    case Renderer::vtk:
+      return vtk_peers(seconds);
+    case Renderer::opengl:
+      return opengl_peers(seconds);
+    case Renderer::embree:
+      return {EmbreeVariant{}, EmbreeVariant{.robust = true}};
+    case Renderer::blender:
+      break;
   }
-  std::vector<Peer> peers;
-  peers.reserve(variants.size());
-  for (const std::string& variant : variants) peers.push_back({renderer, variant});
-  return peers;
+  return {BlenderVariant{}};
 }
 
 DrawnMap draw(const Peer& peer, const ValidationScene& scene) {
-  if (peer.renderer == "blender") return draw_blender(world_mesh(scene.scene), scene.camera);
-  return draw_built_in(peer, scene);
+  return std::visit([&](const auto& variant) { return draw_variant(variant, scene); }, peer);
 }
 
 Drawing draw_in_child(const Peer& peer, const std::function<ValidationScene()>& make, int seconds) {
   // What the scene is to blame for is told apart from what the renderer is.
+  const auto drawing = [&]() -> Drawing {
+    const ValidationScene scene = make();
+    try {
+      return {draw(peer, scene), ""};
+    } catch (const InputError& error) {
+      return {std::nullopt, error.what()};
+    }
+  };
   try {
-    const std::string bytes = bench::run_in_child(
-        [&] {
-          const ValidationScene scene = make();
-          try {
-            return "d" + to_bytes(draw(peer, scene));
-          } catch (const InputError& error) {
-            return "f" + std::string(error.what());
-          }
-        },
-        seconds, peer.renderer);
-    if (bytes.front() == 'f') return {std::nullopt, bytes.substr(1)};
-    return {drawn_from_bytes(bytes.substr(1)), {}};
-  } catch (const bench::ChildFailure& failure) {
+    return in_child(drawing, {.name = name_of(renderer_of(peer)), .seconds = seconds});
+  } catch (const ChildFailure& failure) {
     return {std::nullopt, failure.what()};
   }
 }

@@ -7,19 +7,14 @@
 
 #include "validation/drawn_map.h"
 #include "validation/scenes/validation_scenes.h"
+#include "validation/variants/peer.h"
 
 namespace fathom::validation {
 
-/// A renderer in one of its ways: vtk, opengl, embree or blender, and what is particular about it.
-struct Peer {
-  std::string renderer, variant;
-};
-
-/// The ways of a renderer: depth formats of vtk and opengl, robust or not of embree, … In each of
-/// them a scene is validated. Numbers of samples are those that OpenGL's driver offers, which is
-/// asked in a process of its own that is ended after `seconds`. Fails with UsageError where there
-/// is no such renderer. Needs    a process that has started no threads.
-std::vector<Peer> peers_of(const std::string& renderer, int seconds);
+/// The variants of a renderer in which each scene is validated. Numbers of samples are those that
+/// OpenGL's driver offers, which is asked in a process of its own that is ended after `seconds`.
+/// Needs    a process that has started no threads.
+std::vector<Peer> peers_of(Renderer renderer, int seconds);
 
 /// A map, or why there is none, in one line.
 struct Drawing {

@@ -10,6 +10,10 @@
 namespace fathom::validation {
 namespace {
 
+using attribution::Attribution;
+using attribution::Finding;
+using attribution::PixelClass;
+
 using Json = nlohmann::json;
 
 std::string key_of(const std::string& scene, const std::string& renderer,
@@ -29,7 +33,7 @@ void compare(const ValidationCase& now, const Json& then, const std::string& key
              std::vector<std::string>& lines) {
   if (then.contains("failure")) return;
   if (!now.is_done()) {
-    lines.push_back(fmt::format("{}: was drawn then; now: {}", key, now.failure));
+    lines.push_back(fmt::format("{}: was drawn in the baseline; now: {}", key, now.failure));
     return;
   }
   const Attribution& a = now.attribution;
@@ -38,7 +42,7 @@ void compare(const ValidationCase& now, const Json& then, const std::string& key
     const bool worse = c == PixelClass::equal ? a.count(c) < before : a.count(c) > before;
     if (worse) {
       lines.push_back(
-          fmt::format("{}: {} {} pixels, {} then", key, a.count(c), name_of(c), before));
+          fmt::format("{}: {} {} pixels, {} in the baseline", key, a.count(c), name_of(c), before));
     }
   }
   for (const Finding& finding : a.findings) {
@@ -62,7 +66,8 @@ std::vector<std::string> regressions(const std::vector<ValidationCase>& cases,
       if (const Json* then = find(results, key)) compare(now, *then, key, lines);
     }
   } catch (const Json::exception& error) {
-    throw InputError(baseline.string() + ": is no report.json of fathom validate: " + error.what());
+    throw InputError(baseline.string() +
+                     ": is not a report.json of fathom validate: " + error.what());
   }
   return lines;
 }

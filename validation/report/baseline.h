@@ -8,10 +8,10 @@
 
 namespace fathom::validation {
 
-/// What got worse since an earlier report.json: a line for each case that has more unexplained or
-/// missed pixels or fewer equal ones, that found something new, or that was drawn then and not now.
-/// What got better is no regression.
-/// Fails    InputError where the file is no such report.
+/// What got worse since an earlier report.json: lines for each case that has more unexplained or
+/// missed pixels or fewer equal ones, that has a new finding, or that was drawn then and is not now.
+/// Improvements are not regressions.
+/// Fails    InputError if the file is not such a report.
 std::vector<std::string> regressions(const std::vector<ValidationCase>& cases,
                                      const std::filesystem::path& baseline);
 

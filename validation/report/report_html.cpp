@@ -14,6 +14,9 @@
 namespace fathom::validation {
 namespace {
 
+using attribution::PixelClass;
+using attribution::Truth;
+
 using Bytes = std::vector<unsigned char>;
 
 std::string base64(const Bytes& bytes) {
@@ -97,9 +100,16 @@ std::string to_html(const std::vector<ValidationCase>& cases) {
     }
     data["maps"].push_back(case_data(c));
   }
-  return std::string(page_head) + "<script id=\"report\" type=\"application/json\">" +
-         in_script(to_json(cases)) + "</script>\n<script id=\"maps\" type=\"application/json\">" +
-         in_script(data.dump()) + "</script>\n" + page_script + "</body></html>\n";
+  std::string html;
+  for (const std::string_view part : {page::head, page::style, page::body}) html += part;
+  html += "<script id=\"report\" type=\"application/json\">" + in_script(to_json(cases)) +
+          "</script>\n<script id=\"maps\" type=\"application/json\">" + in_script(data.dump()) +
+          "</script>\n<script>\n";
+  for (const std::string_view part :
+       {page::names, page::maps, page::colours, page::result, page::plots, page::start}) {
+    html += part;
+  }
+  return html + "</script>\n</body></html>\n";
 }
 
 }  // namespace fathom::validation

@@ -8,6 +8,12 @@
 namespace fathom::validation {
 namespace {
 
+using attribution::Attribution;
+using attribution::Finding;
+using attribution::pixel_class_count;
+using attribution::PixelClass;
+using attribution::Truth;
+
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t listed_pixels = 8;

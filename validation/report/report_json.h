@@ -7,8 +7,8 @@
 
 namespace fathom::validation {
 
-/// report.json, as docs/validation.md explains it: {"fathom": version, "results": [ … ]}, a result
-/// a case. Ends with a newline.
+/// report.json, explained in docs/validation.md: {"fathom": version, "results": [ … ]}, one result
+/// for each case. Ends with a newline.
 std::string to_json(const std::vector<ValidationCase>& cases);
 
 }  // namespace fathom::validation

@@ -3,28 +3,28 @@
 #include <memory>
 #include <string>
 
-#include "validation/attribution/attribution.h"
+#include "fathom/attribution/attribution.h"
 
 namespace fathom::validation {
 
-/// One renderer, in one of its ways to store depth, on one scene.
+/// One renderer in one of its variants, on one scene.
 struct ValidationCase {
   std::string scene;
-  /// vtk, opengl, blender, embree or map; and what is particular: "unorm24", "robust", …
+  /// vtk, opengl, blender, embree or map; and its variant or model: "unorm24", "robust", …
   std::string renderer, variant;
   /// Its version and what it runs on.
   std::string version;
   /// Why there is no map, in one line; empty where there is one.
   std::string failure;
-  RendererModel model;
-  std::shared_ptr<const Truth> truth;
-  OtherMap other;
-  Attribution attribution;
+  attribution::RendererModel model;
+  std::shared_ptr<const attribution::Truth> truth;
+  attribution::OtherMap other;
+  attribution::Attribution attribution;
 
   [[nodiscard]] bool is_done() const { return failure.empty(); }
   /// Nothing is unexplained and nothing was found to be wrong.
   [[nodiscard]] bool is_good() const {
-    return is_done() && attribution.count(PixelClass::unexplained) == 0 &&
+    return is_done() && attribution.count(attribution::PixelClass::unexplained) == 0 &&
            attribution.findings.empty();
   }
 };

@@ -7,6 +7,8 @@
 namespace fathom::validation {
 namespace {
 
+using attribution::PixelClass;
+
 /// Classes in the order in which they are looked at; 0: not at all.
 int urgency(PixelClass c) {
   switch (c) {

@@ -3,17 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/attribution/opengl_matrices.h"
+#include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "validation/bench/scenes.h"
 #include "validation/bench/shapes.h"
-#include "validation/opengl_matrices.h"
-#include "validation/world_mesh.h"
 
 namespace fathom::validation {
 namespace {
+
+using attribution::clip_range;
+using attribution::ClipRange;
+using attribution::world_mesh;
+using attribution::WorldMesh;
 
 struct Size {
   std::uint32_t width, height;

@@ -7,20 +7,20 @@
 #include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
-/// What other renderers are validated on:
+/// The scenes on which other renderers are validated:
 /// - sphere: 5 thousand triangles
 /// - spot, teapot: real meshes
 /// - dense: 200 thousand triangles, most of them smaller than a pixel
-/// - slivers: a fan of 200 triangles a few hundredths of a pixel wide at its hub, before a wall
-/// - coplanar: sheets in one plane that overlap, some of them twice
+/// - slivers: a fan of 200 triangles, a few hundredths of a pixel wide at its hub, before a wall
+/// - coplanar: overlapping sheets in one plane, some of them present twice
 /// - sheets: pairs of sheets 10⁻⁴ of their distance apart, at distances 1 to 300
 /// - grid: orthographic, every corner on a pixel centre
 /// - vertices: every ray exactly through a corner
 /// - room: a closed room seen from inside; floor and ceiling reach behind the camera
-/// - utm: terrain whose coordinates have 6 and 7 digits before the point
+/// - utm: terrain whose coordinates have 6 and 7 digits before the decimal point
 /// - range: far is 10⁷ times near
 /// - orthographic: the teapot
-/// - calibrated: a camera with skew, off-centre principal point, pixels that are not square
+/// - calibrated: a camera with skew, an off-centre principal point and pixels that are not square
 /// - soup: 5 thousand overlapping triangles, about 20 over each pixel
 namespace fathom::validation {
 
@@ -34,11 +34,13 @@ struct ValidationScene {
 std::vector<std::string> scene_names();
 bool is_scene_name(const std::string& name);
 
-/// Fails    UsageError where there is no such scene.
+/// For an image of width × height pixels.
+/// Fails    UsageError if there is no such scene.
 ValidationScene make_validation_scene(const std::string& name, std::uint32_t width,
                                       std::uint32_t height);
 
-/// The camera with near and far where it has none: just outside what lies in front of it.
+/// The camera with near and far, as clip_range() chooses them where it has none: just outside what
+/// lies in front of it.
 Camera with_clip_planes(const Scene& scene, Camera camera);
 
 }  // namespace fathom::validation

@@ -2,8 +2,8 @@
 
 namespace fathom::validation {
 
-/// While it lives, what this process writes on standard error is lost. For libraries that talk
-/// there and cannot be asked not to.
+/// Discards what this process writes to standard error while it lives. For libraries that write
+/// there and cannot be told not to.
 class QuietStderr {
  public:
   QuietStderr();

@@ -6,8 +6,8 @@
 
 namespace fathom::validation {
 
-/// VTK's mapper for polygons, which also remembers with what its last frame was drawn, and can draw
-/// with reversed depths.
+/// VTK's mapper for polygons, which also records what its last frame was drawn with and can draw with
+/// reversed depths.
 class RecordingMapper : public vtkOpenGLPolyDataMapper {
  public:
   static RecordingMapper* New();
@@ -19,13 +19,13 @@ class RecordingMapper : public vtkOpenGLPolyDataMapper {
       [[nodiscard]] const std::array<float, 16>& clip_from_held() const {
     return clip_from_held_;
   }
-  /// From now on the greater window depth is the nearer; where `zero_to_one`, the near and far
+  /// From now on the greater window depth is the nearer one. If `zero_to_one`, the near and far
   /// planes lie at z = w and z = 0 in clip coordinates.
   void reverse(bool zero_to_one) {
     greater_is_nearer_ = true;
     zero_to_one_ = zero_to_one;
   }
-  /// Positions are held as (position − shift)·scale.
+  /// Positions are held as (position − shift)·scale; world frame, scene units.
   [[nodiscard]] const std::array<double, 3>& shift() const { return shift_; }
   [[nodiscard]] const std::array<double, 3>& scale() const { return scale_; }
 

@@ -4,12 +4,12 @@
 
 namespace fathom::validation {
 
-/// A VTK window that draws into framebuffer objects of the context that is current, one without a
-/// display (EglContext).
+/// A VTK window that draws into framebuffer objects of the current context, which has no display
+/// (EglContext).
 ///
-/// VTK prepares OpenGL through GLEW, and Debian's GLEW looks for an X display: it loads all that is
-/// needed, then fails, and VTK would try again, and hand the meshes to OpenGL again, in every
-/// frame. Here it is done once, and quietly.
+/// VTK prepares OpenGL through GLEW, and Debian's GLEW looks for an X display: it loads everything
+/// that is needed and then fails, so VTK would try again, and pass the meshes to OpenGL again, in
+/// every frame. Here this is done once, and quietly.
 class SurfacelessWindow : public vtkGenericOpenGLRenderWindow {
  public:
   static SurfacelessWindow* New();

@@ -1,49 +1,52 @@
 #include "validation/vtk/vtk_depth_maps.h"
 
-#include <cstdlib>
 #include <limits>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/attribution/window_depth.h"
 #include "validation/opengl/opengl_renderer.h"
 #include "validation/vtk/vtk_renderer.h"
 
 namespace fathom::validation {
-
 namespace {
 
-VtkOptions options_of(const std::string& variant, const Camera& camera) {
-  VtkOptions options;
-  const std::string first = variant.substr(0, variant.find(' ')),
-                    way = variant.substr(first.size());
-  if (first != "own") options.depth = storage_named(first);
+using attribution::RasterModel;
+using attribution::window_depth;
+using attribution::WindowDepth;
+using attribution::WorldMesh;
+using attribution::written_depth;
+
+VtkOptions options_of(const VtkVariant& variant, const Camera& camera) {
+  VtkOptions options{.depth = variant.attachment, .samples = variant.samples};
   const auto write = [&](Mapping mapping) {
     options.written = written_depth(camera.projection, mapping, camera.near, camera.far);
   };
-  if (way == " reversed") {
-    options.reversed = true;
-  } else if (way == " reversed by shader") {
-    write(Mapping::reversed);
-  } else if (way == " logarithmic") {
-    write(Mapping::log_ulrich);
-  } else if (way.find(" samples") != std::string::npos) {
-    options.samples = std::atoi(way.c_str());
-  } else if (!way.empty()) {
-    throw UsageError("VTK is not asked for '" + variant + "'");
+  switch (variant.encoding) {
+    case VtkVariant::Encoding::interpolated:
+      break;
+    case VtkVariant::Encoding::reversed:
+      options.reversed = true;
+      break;
+    case VtkVariant::Encoding::reversed_by_shader:
+      write(Mapping::reversed);
+      break;
+    case VtkVariant::Encoding::logarithmic:
+      write(Mapping::log_ulrich);
+      break;
   }
   return options;
 }
 
 }  // namespace
 
-DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const std::string& variant) {
+DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const VtkVariant& variant) {
   const VtkOptions options = options_of(variant, camera);
   VtkRenderer renderer(mesh, camera, {camera.near, camera.far}, options);
   renderer.draw();
   const VtkDrawing drawing = renderer.drawing();
 
   DrawnMap drawn{.version = renderer.description()};
-  RendererModel& model = drawn.model;
-  model.name = "VTK";
+  drawn.model.name = "VTK";
+  RasterModel model;
   model.mapping = options.reversed ? Mapping::reversed : Mapping::opengl;
   model.written = options.written;
   model.storage = drawing.storage;
@@ -54,8 +57,9 @@ DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const std::string
   model.depth_before_snap = interpolates_before_snapping(drawn.version);
   if (options.samples > 0) {
     drawn.version += ", " + std::to_string(drawing.samples) + " samples granted";
-    model.sample = drawing.sample;
+    drawn.model.sample = {drawing.sample[0], drawing.sample[1]};
   }
+  drawn.model.kind = model;
   drawn.map = {.width = camera.width, .height = camera.height, .windows = drawing.windows};
   const WindowDepth window =
       window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far);

@@ -1,18 +1,16 @@
 #pragma once
 
-#include <string>
-
+#include "fathom/attribution/world_mesh.h"
 #include "validation/drawn_map.h"
-#include "validation/world_mesh.h"
+#include "validation/variants/vtk_variant.h"
 
 namespace fathom::validation {
 
-/// The mesh drawn by VTK with a depth attachment of `variant`: "own" (the one that VTK makes),
-/// "own 8 samples" (multisampled; 8 is its default), unorm16, unorm24, unorm32 or float32, the
-/// latter four also as "… reversed" (glClipControl), "… reversed by shader" and
-/// "… logarithmic" (by shader).
-/// `camera` has finite near and far.
-/// Fails    InputError where there is no OpenGL; UsageError where there is no such variant.
-DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const std::string& variant);
+/// The mesh drawn by VTK.
+/// Needs    finite near and far.
+/// Fails    InputError if there is no OpenGL, or for a logarithmic depth if near is not in front of
+///          the eye.
+DrawnMap draw_vtk(const attribution::WorldMesh& mesh, const Camera& camera,
+                  const VtkVariant& variant);
 
 }  // namespace fathom::validation

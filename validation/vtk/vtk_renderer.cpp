@@ -30,6 +30,13 @@ VTK_MODULE_INIT(vtkRenderingOpenGL2)
 namespace fathom::validation {
 namespace {
 
+using attribution::clip_from_eye;
+using attribution::ClipDepth;
+using attribution::ClipRange;
+using attribution::eye_from_world;
+using attribution::WorldMesh;
+using attribution::WrittenDepth;
+
 vtkSmartPointer<vtkPolyData> polygons_of(const WorldMesh& mesh) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();

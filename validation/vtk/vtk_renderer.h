@@ -6,56 +6,57 @@
 #include <string>
 #include <vector>
 
+#include "fathom/attribution/opengl_matrices.h"
+#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/written_depth.h"
 #include "fathom/depth_format/depth_format.h"
-#include "validation/attribution/written_depth.h"
-#include "validation/opengl_matrices.h"
-#include "validation/world_mesh.h"
 
 namespace fathom::validation {
 
 struct VtkOptions {
-  /// The type of the depth attachment; VTK's own choice where not given.
+  /// The type of the depth attachment; VTK's own choice if not given.
   std::optional<Storage> depth;
-  /// Samples a pixel that VTK is asked for; 0: no multisampling.
+  /// Samples per pixel that VTK is asked for; 0: no multisampling.
   int samples = 0;
-  /// Near and far at 1 and 0, the greater depth wins: glClipControl, which VTK knows nothing of.
+  /// Near and far at 1 and 0, the greater depth wins: glClipControl, which VTK does not use.
   bool reversed = false;
-  /// VTK's fragment shader writes this depth in place of the interpolated one; a reversed one also
-  /// is tested so that the greater wins.
-  std::optional<WrittenDepth> written;
+  /// VTK's fragment shader writes this depth in place of the interpolated one; with a reversed one,
+  /// the depth test also lets the greater win.
+  std::optional<attribution::WrittenDepth> written;
 };
 
 /// What a frame was drawn with, and its depths.
 struct VtkDrawing {
-  /// Exactly as stored, width × height, rows from the top; 1 (reversed: 0) where nothing was
-  /// drawn.
+  /// Window depths exactly as stored, width × height, rows from the top; 1 (reversed: 0) where
+  /// nothing was drawn.
   std::vector<double> windows;
   Storage storage = Storage::unorm24;
   int subpixel_bits = 8, samples = 0;
-  /// Where in the pixel the sample lies, from its top left corner; of several, the first one.
+  /// Where in the pixel the sample lies, in pixels from its top left corner; of several, the first.
   std::array<double, 2> sample{0.5, 0.5};
-  /// Positions are held as (position − shift)·scale; the matrix takes them to clip coordinates.
+  /// Positions are held as (position − shift)·scale, in the world; the matrix, row by row, takes
+  /// them to clip coordinates.
   std::array<double, 3> shift{}, scale{};
   std::array<float, 16> clip_from_held{};
 };
 
 /// A mesh drawn by VTK into a framebuffer without a display: points in binary64, our camera as
-/// explicit model-view and projection matrices, one sample per pixel, no lighting, no culling, no
-/// coordinate written but the depth and a constant colour.
+/// explicit model-view and projection matrices, one sample per pixel unless options say otherwise,
+/// no lighting, no culling, nothing written but the depth and a constant colour.
 ///
-/// Does not  read the mesh again: it may go once this is made.
-/// Threads   all calls from the thread that made it. Mesa's software renderer takes as many
-///           threads as LP_NUM_THREADS says when this is made.
-/// Fails     InputError where there is no OpenGL (see EglContext).
+/// Does not  read the mesh after construction.
+/// Threads   all calls from the thread that made it. Mesa's software renderer uses as many threads
+///           as LP_NUM_THREADS says at construction.
+/// Fails     InputError if there is no OpenGL (see EglContext).
 class VtkRenderer {
  public:
-  VtkRenderer(const WorldMesh& mesh, const Camera& camera, const ClipRange& range,
-              const VtkOptions& options = {});
+  VtkRenderer(const attribution::WorldMesh& mesh, const Camera& camera,
+              const attribution::ClipRange& range, const VtkOptions& options = {});
   ~VtkRenderer();
   VtkRenderer(const VtkRenderer&) = delete;
   VtkRenderer& operator=(const VtkRenderer&) = delete;
 
-  /// Draws a frame and waits until it is done. The first one also compiles shaders and hands the
+  /// Draws a frame and waits until it is done. The first one also compiles shaders and passes the
   /// mesh to OpenGL.
   void draw();
 
@@ -63,7 +64,7 @@ class VtkRenderer {
   /// was drawn.
   [[nodiscard]] std::vector<float> window_depths();
 
-  /// The last frame; with samples, what OpenGL resolves them to.
+  /// The last frame; with several samples, what OpenGL resolves them to.
   [[nodiscard]] VtkDrawing drawing();
 
   /// "VTK 9.1.0 on llvmpipe (…)".

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fathom/attribution/other_map.h"
+#include "fathom/attribution/pixel_class.h"
+#include "fathom/attribution/renderer_model.h"
+#include "fathom/attribution/truth.h"
+
+/// Every pixel of another renderer's map, attributed to a cause (docs/validation.md).
+namespace fathom::attribution {
+
+/// Something that is wrong with the whole image or a whole triangle.
+struct Finding {
+  /// shift, mirrored, ray-distance, scale, decoding, affine, missing-triangle, ties or bias.
+  std::string kind;
+  /// A clause that says what is wrong.
+  std::string text;
+  /// How many it explains.
+  std::uint64_t pixels = 0;
+};
+
+/// Errors of depth over the pixels where both see the same surface: in scene units, and relative to
+/// the exact depth.
+struct DepthErrors {
+  std::uint64_t pixels = 0;
+  double greatest = 0, mean = 0, greatest_relative = 0, median_relative = 0;
+};
+
+/// Images are rows from the top, as the maps.
+struct Attribution {
+  std::vector<PixelClass> classes;
+  /// The values that the model allows for the visible triangle, as depths in scene units; NaN where
+  /// none is seen.
+  std::vector<float> least, greatest;
+  /// Pixels of each class.
+  std::array<std::uint64_t, pixel_class_count> counts{};
+
+  /// How sharp the bounds are: median width of the depth intervals, relative to the depth and in
+  /// steps of the storage; share of the pixels that triangles touch where one of them may be seen
+  /// or not.
+  double median_relative_width = 0, median_steps_width = 0, may_share = 0;
+  DepthErrors errors;
+  /// Mean over triangles of stored minus expected, in steps of the storage, weighted by the inverse
+  /// squares of the widths of their intervals, and the standard deviation of that mean; of pixels
+  /// where nothing else is near. Raster models only.
+  double bias_steps = 0, bias_deviation = 0;
+  std::uint64_t bias_pixels = 0, bias_triangles = 0;
+
+  /// For each pixel, if it is unexplained and the absence of the visible triangle explains it: that
+  /// triangle, else no_surface.
+  std::vector<std::uint32_t> absent;
+  /// For each triangle, the pixels where it is certain to be visible.
+  std::vector<std::uint32_t> certain_pixels;
+  /// Unexplained pixels that show another than the first of equal triangles.
+  std::uint64_t wrong_ties = 0;
+  std::vector<Finding> findings;
+
+  [[nodiscard]] std::uint64_t count(PixelClass c) const {
+    return counts[static_cast<std::size_t>(c)];
+  }
+  /// A constant seems to be added to all window depths: the mean is three quarters of a step or
+  /// more, and four times its deviation.
+  [[nodiscard]] bool is_biased() const {
+    const double mean = bias_steps < 0 ? -bias_steps : bias_steps;
+    return bias_triangles >= 64 && mean >= 0.75 && mean >= 4 * bias_deviation;
+  }
+};
+
+/// Compares `other` with the truth, pixel by pixel, as `model` allows. Looks for no findings.
+/// Needs    maps of the same size; near and far of the truth's camera as the model's mapping does.
+Attribution attribute(const Truth& truth, const OtherMap& other, const RendererModel& model);
+
+}  // namespace fathom::attribution

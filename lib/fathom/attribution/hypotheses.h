@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fathom/attribution/attribution.h"
+
+namespace fathom::attribution {
+
+/// What may be wrong with a whole image: a model and a map with that one thing put right.
+struct Hypothesis {
+  /// As of a Finding.
+  std::string kind, text;
+  RendererModel model;
+  OtherMap map;
+};
+
+/// Makes it when it is to be tried; nothing where it does not apply.
+using MakeHypothesis = std::function<std::optional<Hypothesis>()>;
+
+/// All that are tried, in this order. The arguments outlive them. `found` is what attribute() says
+/// of them.
+std::vector<MakeHypothesis> hypotheses(const Truth& truth, const OtherMap& other,
+                                       const RendererModel& model, const Attribution& found);
+
+}  // namespace fathom::attribution

@@ -1,0 +1,31 @@
+#include "fathom/attribution/image_box.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::attribution {
+
+void ImageBox::add(double x, double y, double margin_x, double margin_y) {
+  least_x = std::min(least_x, x - margin_x);
+  greatest_x = std::max(greatest_x, x + margin_x);
+  least_y = std::min(least_y, y - margin_y);
+  greatest_y = std::max(greatest_y, y + margin_y);
+}
+
+PixelBox whole_image(const Camera& camera) {
+  return {0, camera.width - 1, 0, camera.height - 1};
+}
+
+PixelBox pixels_of(const ImageBox& box, const Camera& camera, double more) {
+  const double last_x = camera.width - 1.0, last_y = camera.height - 1.0;
+  const bool meets = box.least_x - more <= last_x && box.least_y - more <= last_y &&
+                     !(box.greatest_x < 0) && !(box.greatest_y < 0);
+  if (!meets) return {};
+  const auto clamped = [](double x, double last) {
+    return static_cast<std::uint32_t>(std::clamp(std::floor(x), 0.0, last));
+  };
+  return {clamped(box.least_x - more, last_x), clamped(box.greatest_x + more, last_x),
+          clamped(box.least_y - more, last_y), clamped(box.greatest_y + more, last_y)};
+}
+
+}  // namespace fathom::attribution

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+
+#include "fathom/attribution/world_mesh.h"
+#include "fathom/camera/camera.h"
+
+/// Our camera in OpenGL's terms: eye space has x to the right, y up, z backward; clip space is that
+/// of [GL46] 13.7, −w ≤ z ≤ w.
+namespace fathom::attribution {
+
+/// Row by row, for column vectors.
+using Matrix4 = std::array<double, 16>;
+
+/// The clip planes, as depths in scene units.
+struct ClipRange {
+  double near = 0, far = 0;
+};
+
+/// The camera's own near and far if it has both; otherwise planes just outside the corners that lie
+/// in front of the camera, with near at least far/10⁴ (perspective).
+ClipRange clip_range(const WorldMesh& mesh, const Camera& camera);
+
+/// Exact    only signs are changed.
+Matrix4 eye_from_world(const Camera& camera);
+
+/// Where near and far go: to z = −w and z = w, as is usual in OpenGL, or to z = w and z = 0, which
+/// needs glClipControl.
+enum class ClipDepth { minus_one_to_one, one_to_zero };
+
+/// Takes the image point (u, v) in pixels to x = 2u/width − 1, y = 1 − 2v/height.
+/// Exact    each entry is rounded to binary64 a few times.
+Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range,
+                      ClipDepth depth = ClipDepth::minus_one_to_one);
+
+}  // namespace fathom::attribution

@@ -1,0 +1,62 @@
+#include "fathom/attribution/other_map.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "fathom/image/surface.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::attribution {
+namespace {
+
+const ImageChannel& depth_channel(const DepthMap& map, const std::string& name) {
+  if (!name.empty()) {
+    if (const ImageChannel* channel = map.find(name)) return *channel;
+    throw InputError("the map has no channel '" + name + "'");
+  }
+  if (const ImageChannel* channel = map.find("Z")) return *channel;
+  for (const ImageChannel& channel : map.channels) {
+    const bool is_number = !std::holds_alternative<Samples<std::uint32_t>>(channel.values);
+    if (is_number && kind_of(channel) == ChannelKind::depth) return channel;
+  }
+  if (map.channels.size() == 1) return map.channels.front();
+  throw InputError("the map has no channel of depths: expected Z, or the name of its channel");
+}
+
+}  // namespace
+
+OtherMap other_map(const DepthMap& map, const std::string& name) {
+  const ImageChannel& channel = depth_channel(map, name);
+  OtherMap other{.width = map.width, .height = map.height};
+  const std::vector<std::uint8_t> seen = surface_mask(map, channel, detect_background(channel));
+  const double scale = map.png_scale.value_or(1);
+  std::visit(
+      [&](const auto& values) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          const double depth = static_cast<double>(values[i]);
+          const bool is_code = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
+          other.depths.push_back(seen[i] == 0 ? std::numeric_limits<double>::infinity()
+                                 : is_code    ? depth / scale
+                                              : depth);
+        }
+      },
+      channel.values);
+  if (const auto* id = map.values<std::uint32_t>("id")) {
+    other.triangles.assign(id->begin(), id->end());
+  }
+  return other;
+}
+
+DepthMap as_depth_map(const OtherMap& other) {
+  DepthMap map{.width = other.width, .height = other.height};
+  Samples<float> depths(other.depths.size());
+  std::transform(other.depths.begin(), other.depths.end(), depths.begin(),
+                 [](double depth) { return static_cast<float>(depth); });
+  map.channels.push_back({"Z", std::move(depths)});
+  if (!other.triangles.empty()) {
+    map.channels.push_back({"id", Samples<std::uint32_t>(other.triangles)});
+  }
+  return map;
+}
+
+}  // namespace fathom::attribution

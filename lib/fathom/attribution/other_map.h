@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fathom/image/depth_map.h"
+
+namespace fathom::attribution {
+
+/// What another renderer drew: images of width × height pixels, rows from the top.
+struct OtherMap {
+  std::uint32_t width = 0, height = 0;
+  /// Depths in scene units, infinite where nothing was drawn.
+  std::vector<double> depths;
+  /// The window depths that were stored, exactly; empty if only depths are known.
+  std::vector<double> windows;
+  /// Numbers of the visible triangles, no_surface where there is none; may be empty.
+  std::vector<std::uint32_t> triangles;
+};
+
+/// The channel `channel` of a map, or the one that holds depths; also `id` if there is one.
+/// Fails    InputError if there is no such channel.
+OtherMap other_map(const DepthMap& map, const std::string& channel = "");
+
+/// As a map of ours: Z, rounded to binary32, and, if known, id.
+DepthMap as_depth_map(const OtherMap& other);
+
+}  // namespace fathom::attribution

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "fathom/attribution/fragment.h"
+#include "fathom/mesh/mesh.h"
+
+namespace fathom::attribution {
+
+/// What a renderer may store at a sample that meets these fragments.
+struct PixelVerdict {
+  /// Nothing farther than this can be stored; infinite where nothing need be covered.
+  double cap = std::numeric_limits<double>::infinity();
+  /// Some surface is certain to be seen.
+  bool must = false;
+  /// Some surface would be seen if no sample between two triangles were missed.
+  bool must_if_watertight = false;
+};
+
+/// `triangles` and `numbers` of the mesh. Where a renderer is watertight, fragments that share all
+/// edges which the model leaves open count as one that is certain (docs/validation.md, "Together").
+PixelVerdict verdict_of(std::span<const Fragment> fragments, bool watertight,
+                        const std::vector<CornerIndices>& triangles,
+                        const std::vector<std::uint32_t>& numbers);
+
+}  // namespace fathom::attribution

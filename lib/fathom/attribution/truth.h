@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fathom/attribution/world_mesh.h"
+#include "fathom/camera/camera.h"
+#include "fathom/scene/scene.h"
+
+namespace fathom::attribution {
+
+/// The exact map that another is compared with, and what is needed again and again to do so.
+struct Truth {
+  WorldMesh mesh;
+  /// With the near and far that both renderers cut at.
+  Camera camera;
+  /// For each point of the mesh: see corner_numbers().
+  std::vector<std::uint32_t> corner_numbers;
+  /// Rows from the top: depths in scene units, exact to 48 bits, infinite in the background; the
+  /// visible triangles, no_surface there.
+  std::vector<double> depths;
+  std::vector<std::uint32_t> triangles;
+};
+
+/// Renders it. Fails as render() and world_mesh() do.
+Truth make_truth(const Scene& scene, const Camera& camera);
+
+}  // namespace fathom::attribution

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fathom/mesh/mesh.h"
+#include "fathom/scene/scene.h"
+
+/// The scene as other renderers are given it.
+namespace fathom::attribution {
+
+/// All triangles of a scene as one mesh, numbered as in the scene.
+///
+/// Frame    world, scene units.
+/// Exact    points of objects that are placed as they are; the others are rounded once, to binary64.
+struct WorldMesh {
+  std::vector<std::array<double, 3>> points;
+  std::vector<CornerIndices> triangles;
+};
+
+/// Fails    InputError if the scene has more than 2³² − 1 corners in all.
+WorldMesh world_mesh(const Scene& scene);
+
+}  // namespace fathom::attribution

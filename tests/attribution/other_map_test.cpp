@@ -1,0 +1,56 @@
+#include "fathom/attribution/other_map.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "fathom/numeric/errors.h"
+
+namespace fathom::attribution {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+DepthMap two_pixels() {
+  DepthMap map{.width = 2, .height = 1};
+  map.channels.push_back({"Z", Samples<float>{1.5F, infinity}});
+  map.channels.push_back({"id", Samples<std::uint32_t>{7, no_surface}});
+  map.channels.push_back({"far.Z", Samples<float>{3, infinity}});
+  return map;
+}
+
+std::string refusal_of(const DepthMap& map, const std::string& channel) {
+  try {
+    other_map(map, channel);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(OtherMaps, AreReadAndWritten) {
+  const OtherMap other = other_map(two_pixels());
+  EXPECT_EQ(other.width, 2U);
+  EXPECT_EQ(other.height, 1U);
+  EXPECT_EQ(other.depths, (std::vector<double>{1.5, infinity}));
+  EXPECT_EQ(other.triangles, (std::vector<std::uint32_t>{7, no_surface}));
+  EXPECT_TRUE(other.windows.empty());
+  const DepthMap map = as_depth_map(other);
+  EXPECT_EQ(*map.values<float>("Z"), *two_pixels().values<float>("Z"));
+  EXPECT_EQ(*map.values<std::uint32_t>("id"), *two_pixels().values<std::uint32_t>("id"));
+}
+
+TEST(OtherMaps, HoldTheChannelThatIsNamed) {
+  EXPECT_EQ(other_map(two_pixels(), "far.Z").depths[0], 3);
+  EXPECT_EQ(refusal_of(two_pixels(), "none"), "the map has no channel 'none'");
+  DepthMap without{.width = 1, .height = 1};
+  without.channels.push_back({"id", Samples<std::uint32_t>{1}});
+  without.channels.push_back({"face", Samples<std::uint32_t>{1}});
+  EXPECT_EQ(refusal_of(without, ""),
+            "the map has no channel of depths: expected Z, or the name of its channel");
+}
+
+}  // namespace
+}  // namespace fathom::attribution

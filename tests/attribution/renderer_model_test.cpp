@@ -1,0 +1,63 @@
+#include "fathom/attribution/renderer_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "fathom/attribution/named_models.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::attribution {
+namespace {
+
+template <class Model>
+concept StoresWindowDepths = requires(Model model) {
+  model.storage;
+};
+template <class Model>
+concept HasMatrix = requires(Model model) {
+  model.matrix;
+};
+template <class Model>
+concept CountsRoundings = requires(Model model) {
+  model.roundings;
+};
+
+// What only one kind has can be asked of neither the other nor of what they have in common.
+static_assert(StoresWindowDepths<RasterModel> && !StoresWindowDepths<RayModel> &&
+              !StoresWindowDepths<RendererModel>);
+static_assert(HasMatrix<RasterModel> && !HasMatrix<RayModel> && !HasMatrix<RendererModel>);
+static_assert(CountsRoundings<RayModel> && !CountsRoundings<RasterModel>);
+
+TEST(NamedModels, AreOfTheirKind) {
+  const RendererModel raster = model_named("gl-float32-reversed");
+  EXPECT_EQ(raster.name, "gl-float32-reversed");
+  EXPECT_TRUE(raster.watertight);
+  EXPECT_EQ(std::get<RasterModel>(raster.kind).storage, Storage::float32);
+  EXPECT_EQ(std::get<RasterModel>(raster.kind).stored_mapping(), Mapping::reversed);
+  const RendererModel rays = model_named("cycles");
+  EXPECT_FALSE(rays.watertight);
+  EXPECT_GT(rays.sample.error, 0);
+  EXPECT_GT(std::get<RayModel>(rays.kind).rotation_error, 0);
+}
+
+TEST(NamedModels, OthersAreRefusedWithTheNamesThatThereAre) {
+  try {
+    model_named("voxel");
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_EQ(error.what(), "there is no model 'voxel'; there are " + model_names());
+  }
+  EXPECT_THAT(model_names(), testing::HasSubstr("gl-unorm24, gl-unorm32"));
+}
+
+TEST(RasterModels, StoreWhatAShaderWrites) {
+  RasterModel model{.mapping = Mapping::opengl};
+  EXPECT_EQ(model.stored_mapping(), Mapping::opengl);
+  model.written = WrittenDepth{.mapping = Mapping::log_ulrich};
+  EXPECT_EQ(model.stored_mapping(), Mapping::log_ulrich);
+}
+
+}  // namespace
+}  // namespace fathom::attribution

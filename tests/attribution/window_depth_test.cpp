@@ -1,0 +1,64 @@
+#include "fathom/attribution/window_depth.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace fathom::attribution {
+namespace {
+
+constexpr double near = 0.5, far = 20, infinity = std::numeric_limits<double>::infinity();
+
+/// What a mapping makes of near and far.
+struct Ends {
+  std::string name;
+  Projection projection;
+  Mapping mapping;
+  double at_near, at_far;
+};
+
+void PrintTo(const Ends& ends, std::ostream* stream) {
+  *stream << ends.name;
+}
+
+class WindowDepths : public testing::TestWithParam<Ends> {};
+
+TEST_P(WindowDepths, GoFromNearToFarAndBack) {
+  const Ends& ends = GetParam();
+  const WindowDepth window = window_depth(ends.projection, ends.mapping, near, far);
+  EXPECT_NEAR(window.of_depth(near), ends.at_near, 1e-15);
+  EXPECT_NEAR(window.of_depth(far), ends.at_far, 1e-15);
+  EXPECT_EQ(window.reversed(), ends.at_near > ends.at_far);
+  for (const double depth : {0.5, 0.75, 3.0, 19.5}) {
+    EXPECT_NEAR(window.to_depth(window.of_depth(depth)), depth, 1e-13 * depth);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WindowDepths,
+    testing::Values(Ends{"OpenGl", Projection::perspective, Mapping::opengl, 0, 1},
+                    Ends{"Standard", Projection::perspective, Mapping::standard, 0, 1},
+                    Ends{"Reversed", Projection::perspective, Mapping::reversed, 1, 0},
+                    Ends{"Infinite", Projection::perspective, Mapping::infinite, 0, 1 - near / far},
+                    Ends{"ReversedInfinite", Projection::perspective, Mapping::reversed_infinite, 1,
+                         near / far},
+                    Ends{"Logarithmic", Projection::perspective, Mapping::log_ulrich, 0, 1},
+                    Ends{"OrthographicOpenGl", Projection::orthographic, Mapping::opengl, 0, 1},
+                    Ends{"OrthographicReversed", Projection::orthographic, Mapping::reversed, 1, 0},
+                    Ends{"OrthographicLogarithmic", Projection::orthographic, Mapping::log_ulrich,
+                         0, 1}),
+    [](const auto& ends) { return ends.param.name; });
+
+TEST(WindowDepth, BeyondInfinityThereIsNothing) {
+  const WindowDepth window = window_depth(Projection::perspective, Mapping::standard, near, far);
+  EXPECT_EQ(window.to_depth(far / (far - near)), infinity);
+  EXPECT_EQ(window.to_depth(2), infinity);
+  EXPECT_EQ(
+      window_depth(Projection::perspective, Mapping::reversed_infinite, near, infinity).to_depth(0),
+      infinity);
+}
+
+}  // namespace
+}  // namespace fathom::attribution

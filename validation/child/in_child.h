@@ -1,0 +1,87 @@
+#pragma once
+
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "validation/child/child_process.h"
+#include "validation/child/fields.h"
+#include "validation/child/read_fields.h"
+#include "validation/child/write_fields.h"
+
+namespace fathom::validation {
+
+/// How work in another process ended.
+enum class Ending { done, wrong_usage, unusable_input };
+
+template <>
+struct Enumerators<Ending> {
+  static constexpr Ending all[] = {Ending::done, Ending::wrong_usage, Ending::unusable_input};
+  static std::string name(Ending ending) {
+    constexpr const char* names[] = {"done", "wrong usage", "unusable input"};
+    return names[static_cast<std::size_t>(ending)];
+  }
+};
+
+/// What comes back: a result where the work is done, else why it is not.
+template <class Result>
+struct Answer {
+  Ending ending = Ending::done;
+  std::string message;
+  std::optional<Result> result;
+};
+
+template <class Result>
+struct Fields<Answer<Result>> {
+  template <class Visit, class S>
+  static void each(Visit&& visit, S& s) {
+    auto& [ending, message, result] = s;
+    visit("ending", ending);
+    visit("message", message);
+    visit("result", result);
+  }
+};
+
+/// What `work` returns or throws, as an answer.
+template <class Work, class Result = std::invoke_result_t<Work>>
+Answer<Result> answer_of(const Work& work) {
+  try {
+    return {Ending::done, "", work()};
+  } catch (const UsageError& error) {
+    return {Ending::wrong_usage, error.what(), {}};
+  } catch (const std::bad_alloc&) {
+    return {Ending::unusable_input, "out of memory", {}};
+  } catch (const std::exception& error) {
+    return {Ending::unusable_input, error.what(), {}};
+  }
+}
+
+/// What the bytes of an answer say, as the work did: returned or thrown. `name` is who it is from.
+/// Fails    ChildFailure where they are not those of such an answer.
+template <class Result>
+Result result_from(const std::string& bytes, const std::string& name) {
+  Answer<Result> answer;
+  try {
+    answer = from_bytes<Answer<Result>>(bytes);
+    if (answer.ending == Ending::done && !answer.result) throw ForeignAnswer("it has no result");
+  } catch (const ForeignAnswer& error) {
+    throw ChildFailure(name + ": its answer is not understood: " + error.what());
+  }
+  if (answer.ending == Ending::wrong_usage) throw UsageError(answer.message);
+  if (answer.ending == Ending::unusable_input) throw InputError(answer.message);
+  return std::move(*answer.result);
+}
+
+/// Runs `work` in a process of its own and returns what it does: anything that write_fields.h
+/// takes.
+///
+/// Needs    a process that has started no threads.
+/// Fails    as `work` does, with the same kind of error and message; else ChildFailure.
+template <class Work>
+std::invoke_result_t<Work> in_child(const Work& work, const ChildOptions& options = {}) {
+  return result_from<std::invoke_result_t<Work>>(
+      bytes_from_child([&] { return to_bytes(answer_of(work)); }, options), options.name);
+}
+
+}  // namespace fathom::validation

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <string>
+
+#include "validation/child/fields.h"
+#include "validation/peers/drawing.h"
+
+/// The names under which what a renderer drew comes from its process.
+namespace fathom::validation {
+
+template <>
+struct Enumerators<Storage> {
+  static constexpr auto& all = all_storages;
+  static std::string name(Storage storage) { return std::string(name_of(storage)); }
+};
+
+template <>
+struct Enumerators<Mapping> {
+  static constexpr auto& all = all_mappings;
+  static std::string name(Mapping mapping) { return std::string(name_of(mapping)); }
+};
+
+template <>
+struct Enumerators<attribution::RasterModel::Cut> {
+  using Cut = attribution::RasterModel::Cut;
+  static constexpr Cut all[] = {Cut::always, Cut::unknown, Cut::never};
+  static std::string name(Cut cut) {
+    constexpr const char* names[] = {"always", "unknown", "never"};
+    return names[static_cast<std::size_t>(cut)];
+  }
+};
+
+template <>
+struct Alternatives<std::variant<attribution::RasterModel, attribution::RayModel>> {
+  static constexpr const char* names[] = {"raster", "ray"};
+};
+
+template <>
+struct Fields<attribution::OtherMap> {
+  template <class Visit, class S>
+  static void each(Visit&& visit, S& s) {
+    auto& [width, height, depths, windows, triangles] = s;
+    visit("width", width);
+    visit("height", height);
+    visit("depths", depths);
+    visit("windows", windows);
+    visit("triangles", triangles);
+  }
+};
+
+template <>
+struct Fields<attribution::WrittenDepth> {
+  template <class Visit, class S>
+  static void each(Visit&& visit, S& s) {
+    auto& [mapping, of_w, term, factor, scale] = s;
+    visit("mapping", mapping);
+    visit("of_w", of_w);
+    visit("term", term);
+    visit("factor", factor);
+    visit("scale", scale);
+  }
+};
+
+template <>
+struct Fields<attribution::RasterModel> {
+  template <class Visit, class S>
+  static void each(Visit&& visit, S& s) {
+    auto& [shift, scale, matrix, premultiplied, subpixel_bits, border, mapping, storage, written,
+           depth_before_snap, decoded_in_binary32, bias, bias_error, affine] = s;
+    visit("shift", shift);
+    visit("scale", scale);
+    visit("matrix", matrix);
+    visit("premultiplied", premultiplied);
+    visit("subpixel_bits", subpixel_bits);
+    visit("border", border);
+    visit("mapping", mapping);
+    visit("storage", storage);
+    visit("written", written);
+    visit("depth_before_snap", depth_before_snap);
+    visit("decoded_in_binary32", decoded_in_binary32);
+    visit("bias", bias);
+    visit("bias_error", bias_error);
+    visit("affine", affine);
+  }
+};
+
+template <>
+struct Fields<attribution::RayModel> {
+  template <class Visit, class S>
+  static void each(Visit&& visit, S& s) {
+    auto& [shift, roundings, rotation_error, depth_from_point] = s;
+    visit("shift", shift);
+    visit("roundings", roundings);
+    visit("rotation_error", rotation_error);
+    visit("depth_from_point", depth_from_point);
+  }
+};
+
+template <>
+struct Fields<attribution::SamplePosition> {
+  template <class Visit, class S>
+  static void each(Visit&& visit, S& s) {
+    auto& [x, y, error] = s;
+    visit("x", x);
+    visit("y", y);
+    visit("error", error);
+  }
+};
+
+template <>
+struct Fields<attribution::RendererModel> {
+  template <class Visit, class S>
+  static void each(Visit&& visit, S& s) {
+    auto& [name, sample, watertight, first_of_equals, kind] = s;
+    visit("name", name);
+    visit("sample", sample);
+    visit("watertight", watertight);
+    visit("first_of_equals", first_of_equals);
+    visit("kind", kind);
+  }
+};
+
+template <>
+struct Fields<DrawnMap> {
+  template <class Visit, class S>
+  static void each(Visit&& visit, S& s) {
+    auto& [map, model, version] = s;
+    visit("map", map);
+    visit("model", model);
+    visit("version", version);
+  }
+};
+
+template <>
+struct Fields<Drawing> {
+  template <class Visit, class S>
+  static void each(Visit&& visit, S& s) {
+    auto& [drawn, failure] = s;
+    visit("drawn", drawn);
+    visit("failure", failure);
+  }
+};
+
+}  // namespace fathom::validation

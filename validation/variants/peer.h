@@ -1,0 +1,50 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "validation/variants/opengl_variant.h"
+#include "validation/variants/vtk_variant.h"
+
+/// Renderers and the ways in which each of them is asked to draw. Names are read here, once;
+/// everything behind works on the types.
+namespace fathom::validation {
+
+/// How Embree traces.
+struct EmbreeVariant {
+  /// RTC_SCENE_FLAG_ROBUST: no ray slips through between two triangles.
+  bool robust = false;
+
+  friend bool operator==(const EmbreeVariant&, const EmbreeVariant&) = default;
+};
+
+/// Blender renders with Cycles.
+struct BlenderVariant {
+  friend bool operator==(const BlenderVariant&, const BlenderVariant&) = default;
+};
+
+/// A renderer in one of its variants.
+using Peer = std::variant<VtkVariant, OpenGlVariant, EmbreeVariant, BlenderVariant>;
+
+enum class Renderer { vtk, opengl, embree, blender };
+
+/// "vtk", "opengl", "embree", "blender".
+std::string name_of(Renderer renderer);
+/// Fails    UsageError where there is no such renderer, naming those that there are.
+Renderer renderer_named(std::string_view name);
+
+Renderer renderer_of(const Peer& peer);
+/// The variant alone: "float32 reversed", "robust", "cycles".
+std::string variant_name(const Peer& peer);
+
+/// Fails    UsageError where `variant` is not one of the renderer's, saying which there are.
+Peer peer_named(Renderer renderer, std::string_view variant);
+
+/// Those of `peers` whose variant is among `variants`, in the order of `peers`.
+/// Fails    UsageError for a variant that none of them has, naming those that there are.
+std::vector<Peer> with_variants(std::span<const Peer> peers, std::span<const std::string> variants);
+
+}  // namespace fathom::validation
