@@ -1,0 +1,291 @@
+// fathom validate: another renderer's map held against the exact one, every difference attributed.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/shell/known_files.h"
+#include "apps/shell/numbers.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/program_main.h"
+#include "apps/shell/progress.h"
+#include "apps/validate/validate_report.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/camera/camera_making.h"
+#include "fathom/image/map_files.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/framing.h"
+#include "fathom/scene/read_scene.h"
+#include "validation/attribution/hypotheses.h"
+#include "validation/peers/drawing.h"
+
+namespace fathom::app {
+namespace {
+
+using validation::Peer;
+using validation::RendererModel;
+using validation::Truth;
+using validation::ValidationCase;
+using validation::ValidationScene;
+
+struct ValidateArguments {
+  std::vector<std::string> scenes;
+  std::string map, camera, model, channel, out, baseline;
+  std::string against, scene_names, variants, render, output, size = "320x240", seconds = "300";
+};
+
+Camera read_camera(const std::string& file) {
+  if (file.empty()) throw UsageError("--camera FILE is missing");
+  note_input(file);
+  const std::vector<Camera> cameras = read_cameras(file);
+  if (cameras.size() != 1) {
+    throw UsageError(file + ": is a camera path; expected a single camera");
+  }
+  return cameras.front();
+}
+
+Scene read_files(const std::vector<std::string>& files, const Console& console) {
+  if (files.empty()) throw UsageError("SCENE is missing: what the map shows");
+  for (const std::string& file : files) note_input(file);
+  Warnings warnings;
+  Scene scene = read_scene({files.begin(), files.end()}, {.hash = false}, warnings);
+  console.warn(warnings);
+  return scene;
+}
+
+void require_clip_planes(const RendererModel& model, const Camera& camera) {
+  if (model.kind == RendererModel::Kind::ray) return;
+  const bool perspective = camera.projection == Projection::perspective;
+  if (camera.far < std::numeric_limits<double>::infinity() && (camera.near > 0 || !perspective))
+    return;
+  throw UsageError("--model " + model.name +
+                   ": the camera file has no near and far, between which its depths are stored");
+}
+
+ValidationCase validate_map(const ValidateArguments& arguments, const Console& console) {
+  ValidationCase made{.renderer = "map", .variant = arguments.model, .version = arguments.map};
+  made.model = validation::model_named(arguments.model);
+  const Camera camera = read_camera(arguments.camera);
+  require_clip_planes(made.model, camera);
+  note_input(arguments.map);
+  made.other = validation::other_map(read_map(arguments.map), arguments.channel);
+  if (made.other.width != camera.width || made.other.height != camera.height) {
+    throw InputError(fmt::format("{}: has {}x{} pixels, the camera {}x{}", arguments.map,
+                                 made.other.width, made.other.height, camera.width, camera.height));
+  }
+  const Scene scene = read_files(arguments.scenes, console);
+  made.scene = std::filesystem::path(arguments.scenes.front()).stem();
+  const auto truth = std::make_shared<Truth>(validation::make_truth(scene, camera));
+  for (const std::uint32_t triangle : made.other.triangles) {
+    if (triangle != no_surface && triangle >= truth->mesh.triangles.size()) {
+      throw InputError(fmt::format("{}: shows triangle {}, but the scene has {}", arguments.map,
+                                   triangle, truth->mesh.triangles.size()));
+    }
+  }
+  made.attribution = validation::attribute_and_name(*truth, made.other, made.model);
+  made.truth = truth;
+  return made;
+}
+
+int time_limit(const ValidateArguments& arguments) {
+  return static_cast<int>(std::min(parse_count("--time-limit", arguments.seconds, 1), 86400U));
+}
+
+/// The scene of the command line, with near and far.
+ValidationScene named_by_files(const ValidateArguments& arguments, const Console& console) {
+  Scene scene = read_files(arguments.scenes, console);
+  Camera camera;
+  if (arguments.camera.empty()) {
+    const auto [width, height] = parse_size("--size", arguments.size);
+    camera = frame_scene(scene, {}, {.width = width, .height = height});
+  } else {
+    camera = read_camera(arguments.camera);
+  }
+  camera = validation::with_clip_planes(scene, camera);
+  return {std::filesystem::path(arguments.scenes.front()).stem(), std::move(scene), camera};
+}
+
+/// How each scene is made: anew in every process that draws it.
+struct SceneToMake {
+  std::string name;
+  std::function<ValidationScene()> make;
+};
+
+std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Console& console) {
+  if (!arguments.scenes.empty()) {
+    for (const std::string& file : arguments.scenes) note_input(file);
+    const std::string name = std::filesystem::path(arguments.scenes.front()).stem();
+    return {{name, [&arguments, &console] { return named_by_files(arguments, console); }}};
+  }
+  const auto [width, height] = parse_size("--size", arguments.size);
+  std::vector<SceneToMake> scenes;
+  const std::vector<std::string> names =
+      arguments.scene_names.empty() ? validation::scene_names() : split_list(arguments.scene_names);
+  for (const std::string& name : names) {
+    if (!validation::is_scene_name(name)) {
+      throw UsageError(fmt::format("--scene: there is no scene '{}'; there are {}", name,
+                                   fmt::join(validation::scene_names(), ", ")));
+    }
+    scenes.push_back({name, [name, w = width, h = height] {
+                        return validation::make_validation_scene(name, w, h);
+                      }});
+  }
+  return scenes;
+}
+
+std::vector<Peer> peers_of(const ValidateArguments& arguments) {
+  std::vector<Peer> peers;
+  for (const std::string& renderer : split_list(arguments.against)) {
+    for (const Peer& peer : validation::peers_of(renderer, time_limit(arguments))) {
+      const std::vector<std::string> wanted = split_list(arguments.variants);
+      const bool chosen = arguments.variants.empty() ||
+                          std::find(wanted.begin(), wanted.end(), peer.variant) != wanted.end();
+      if (chosen) peers.push_back(peer);
+    }
+  }
+  if (peers.empty()) throw UsageError("--variants: none of the renderers has one of these");
+  return peers;
+}
+
+/// Every scene drawn by every peer. Before any thread is started: see draw_in_child.
+std::vector<ValidationCase> draw_all(const std::vector<SceneToMake>& scenes,
+                                     const std::vector<Peer>& peers, int seconds,
+                                     const std::function<void(double)>& progress) {
+  std::vector<ValidationCase> cases;
+  const auto count = static_cast<double>(scenes.size() * peers.size());
+  for (const SceneToMake& scene : scenes) {
+    for (const Peer& peer : peers) {
+      ValidationCase made{.scene = scene.name, .renderer = peer.renderer, .variant = peer.variant};
+      validation::Drawing drawing = validation::draw_in_child(peer, scene.make, seconds);
+      made.failure = drawing.failure;
+      if (drawing.drawn) {
+        made.other = std::move(drawing.drawn->map);
+        made.model = std::move(drawing.drawn->model);
+        made.version = std::move(drawing.drawn->version);
+      }
+      cases.push_back(std::move(made));
+      if (progress) progress(static_cast<double>(cases.size()) / count);
+    }
+  }
+  return cases;
+}
+
+void judge_all(std::vector<ValidationCase>& cases, const std::vector<SceneToMake>& scenes) {
+  for (const SceneToMake& scene : scenes) {
+    const ValidationScene made = scene.make();
+    const auto truth = std::make_shared<Truth>(validation::make_truth(made.scene, made.camera));
+    for (ValidationCase& c : cases) {
+      if (c.scene != scene.name || !c.is_done()) continue;
+      c.attribution = validation::attribute_and_name(*truth, c.other, c.model);
+      c.truth = truth;
+    }
+  }
+}
+
+int validate_against(const ValidateArguments& arguments, const Console& console) {
+  const std::vector<SceneToMake> scenes = scenes_of(arguments, console);
+  const std::vector<Peer> peers = peers_of(arguments);
+  const ReportPlaces places{arguments.out, arguments.baseline};
+  prepare(places);
+  std::vector<ValidationCase> cases;
+  {
+    Progress progress(console, "drawing");
+    cases = draw_all(scenes, peers, time_limit(arguments), progress.reporter());
+  }
+  judge_all(cases, scenes);
+  return report_cases(cases, places);
+}
+
+/// What the renderer drew, as a map of ours.
+int render_peer(const ValidateArguments& arguments, const Console& console) {
+  if (arguments.output.empty()) throw UsageError("-o MAP is missing: where the map goes");
+  const auto format = map_format_of(arguments.output);
+  if (!format)
+    throw UsageError("-o: '" + arguments.output + "' does not end in .exr, .pfm or .npy");
+  if (arguments.scenes.empty()) throw UsageError("SCENE is missing: what is rendered");
+  const SceneToMake scene = scenes_of(arguments, console).front();
+  std::vector<Peer> peers = validation::peers_of(arguments.render, time_limit(arguments));
+  if (!arguments.variants.empty()) peers.front().variant = arguments.variants;
+  OutputFile output(arguments.output);
+  validation::Drawing drawing =
+      validation::draw_in_child(peers.front(), scene.make, time_limit(arguments));
+  if (!drawing.drawn) throw InputError(drawing.failure);
+  DepthMap map = validation::as_depth_map(drawing.drawn->map);
+  map.texts["fathom.camera"] = to_json(scene.make().camera);
+  map.texts["fathom.engine"] = drawing.drawn->version;
+  output.write([&](const std::filesystem::path& path) {
+    write_map(map, path, *format, {.channel = *format == MapFormat::exr ? "" : "Z"});
+  });
+  output.commit();
+  return done;
+}
+
+int run_validate(const ValidateArguments& arguments, const Console& console) {
+  const int modes = static_cast<int>(!arguments.map.empty()) +
+                    static_cast<int>(!arguments.against.empty()) +
+                    static_cast<int>(!arguments.render.empty());
+  if (modes != 1) {
+    throw UsageError("one of --against RENDERERS, --map MAP and --render RENDERER is expected");
+  }
+  if (!arguments.against.empty()) return validate_against(arguments, console);
+  if (!arguments.render.empty()) return render_peer(arguments, console);
+  if (arguments.model.empty()) {
+    throw UsageError("--model is missing: there are " + validation::model_names());
+  }
+  const ReportPlaces places{arguments.out, arguments.baseline};
+  prepare(places);
+  const std::vector<ValidationCase> cases{validate_map(arguments, console)};
+  return report_cases(cases, places);
+}
+
+void add_validate(Program& program) {
+  CLI::App* command = program.add_command(
+      "validate", "Hold another renderer's maps against the truth, every difference explained",
+      "  fathom validate --against vtk,opengl,embree,blender --out report\n"
+      "  fathom validate --against opengl --scene sheets,room --variants unorm16,float32\n"
+      "  fathom validate --against vtk spot.obj --camera camera.json\n"
+      "  fathom validate --map other.exr --camera camera.json --model gl-unorm24 spot.obj\n"
+      "  fathom validate --render vtk spot.obj --camera camera.json -o vtk.exr\n"
+      "\nScenes: " +
+          fmt::format("{}", fmt::join(validation::scene_names(), ", ")) +
+          ".\nModels: " + validation::model_names() +
+          ".\nExit status 1 where a pixel is unexplained or a fault was found; see "
+          "docs/validation.md.");
+  const auto arguments = std::make_shared<ValidateArguments>();
+  command->add_option("SCENE", arguments->scenes, "Meshes and scene files");
+  command->add_option("--against", arguments->against,
+                      "Renderers to draw the same: vtk, opengl, embree, blender");
+  command->add_option("--scene", arguments->scene_names,
+                      "Scenes of ours instead of SCENE (default: all, see below)");
+  command->add_option("--variants", arguments->variants,
+                      "Only these ways of the renderers: unorm24, robust, … (default: all)");
+  command->add_option("--size", arguments->size, "Image size without --camera (default 320x240)");
+  command->add_option("--time-limit", arguments->seconds,
+                      "Seconds after which a renderer is ended (default 300)");
+  command->add_option("--render", arguments->render, "Only draw, with this renderer");
+  command->add_option("-o", arguments->output, "Where --render puts its map");
+  command->add_option("--map", arguments->map, "The map of another renderer (EXR, PFM, PNG, NPY)");
+  command->add_option("--channel", arguments->channel, "Its channel of depths (default: detected)");
+  command->add_option("--camera", arguments->camera, "Camera file");
+  command->add_option("--model", arguments->model, "What is assumed of the renderer");
+  command->add_option("--out", arguments->out, "Folder for report.json and report.html");
+  command->add_option("--baseline", arguments->baseline,
+                      "An earlier report.json: exit status 1 if something got worse");
+  command->callback([&program, arguments] {
+    program.run = [&program, arguments] { return run_validate(*arguments, program.console); };
+  });
+}
+
+}  // namespace
+}  // namespace fathom::app
+
+int main(int argc, char** argv) {
+  return fathom::app::companion_main(argc, argv, "validate", fathom::app::add_validate);
+}
