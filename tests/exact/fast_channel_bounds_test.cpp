@@ -298,7 +298,7 @@ struct Seen {
   const ObjectRays& object;
   const SceneRays& rays;
   ImageBounds image;
-  Sample s;
+  ImagePoint s;
 };
 
 struct Binary64 {
@@ -428,7 +428,7 @@ Shares shares_of(bool perspective, std::uint64_t seed) {
       const ProjectedTriangle t =
           project(world_corners(scene.objects[0], mesh, 0), 0, camera, counts);
       for (int j = 0; j < 12; ++j) {
-        const Sample s{n.below(200) + 0.5, n.below(150) + 0.5};
+        const ImagePoint s{n.below(200) + 0.5, n.below(150) + 0.5};
         const ImagePoint point{s.u, s.v};
         if (!covers(t, point, counts) || depth_at(t, point).sign() != Sign::positive) continue;
         add_shares<Arithmetic>({corners, object, rays, {perspective, 200, 150}, s}, t, handedness,

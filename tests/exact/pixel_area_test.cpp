@@ -158,7 +158,7 @@ TEST(PixelArea, ASquareIsClippedByLinesWithinItsBound) {
     for (int k = 0; k < 1 + i % 5; ++k) {
       const double a = number(random), b = number(random), c = number(random) / 2 + 0.2;
       // Two products and two sums of numbers below 2.7.
-      square.clip({a, b, c, 8 * unit_roundoff * 2.7});
+      square.clip({a, b, c, 8 * unit_roundoff<double> * 2.7});
       exact = clipped(exact, Q(a), Q(b), Q(c));
     }
     PixelUnion pixel;

@@ -233,7 +233,7 @@ TEST(WrongConvention, MirroredImageIsNamed) {
 // Near, in the middle and far of 0.5 to 20. Beside log2: a product and a sum, u/ln 2 each in the
 // logarithm, and a product, u of the depth.
 TEST(WrittenDepths, AllowWhatTheShadingLanguageAllowsToLog2AndLittleMore) {
-  constexpr double u = unit_roundoff;
+  constexpr double u = unit_roundoff<double>;
   EXPECT_EQ(log2_error(0.25), 0x1p-21);
   EXPECT_EQ(log2_error(-10), 60 * u);
   const WrittenDepth shader = written_depth(Projection::perspective, Mapping::log_ulrich, 0.5, 20);

@@ -7,13 +7,13 @@ namespace fathom {
 namespace {
 
 /// x_i·y_j − x_j·y_i
-Bounded minor(const HalfPlane& x, const HalfPlane& y, std::size_t i, std::size_t j) {
-  Bounded q = approximate_coefficient(x, j) * approximate_coefficient(y, i);
+Certified<double> minor(const HalfPlane& x, const HalfPlane& y, std::size_t i, std::size_t j) {
+  Certified<double> q = approximate_coefficient(x, j) * approximate_coefficient(y, i);
   q.value = -q.value;
   return approximate_coefficient(x, i) * approximate_coefficient(y, j) + q;
 }
 
-void widen(Interval& range, const Bounded& x) {
+void widen(Interval& range, const Certified<double>& x) {
   const Interval around = enclose(x);
   range.lower = std::min(range.lower, around.lower);
   range.upper = std::max(range.upper, around.upper);
@@ -21,8 +21,8 @@ void widen(Interval& range, const Bounded& x) {
 
 }  // namespace
 
-BoundedPoint approximate_crossing(const HalfPlane& a, const HalfPlane& b) {
-  const Bounded weight = approximate_turn(a, b);
+CertifiedPoint approximate_crossing(const HalfPlane& a, const HalfPlane& b) {
+  const Certified<double> weight = approximate_turn(a, b);
   return {minor(a, b, 1, 2) / weight, minor(a, b, 2, 0) / weight};
 }
 
@@ -30,7 +30,7 @@ void ConvexPolygon::find_bounds() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   bounds_.u = bounds_.v = {infinity, -infinity};
   for (std::size_t k = 0; k < edges_.size(); ++k) {
-    const BoundedPoint vertex = approximate_crossing(*edges_[k], after(k));
+    const CertifiedPoint vertex = approximate_crossing(*edges_[k], after(k));
     widen(bounds_.u, vertex.u);
     widen(bounds_.v, vertex.v);
   }

@@ -53,9 +53,9 @@ class ConvexPolygon {
 };
 
 /// The coordinates of the point in which two lines cross.
-struct BoundedPoint {
-  Bounded u, v;
+struct CertifiedPoint {
+  Certified<double> u, v;
 };
-BoundedPoint approximate_crossing(const HalfPlane& a, const HalfPlane& b);
+CertifiedPoint approximate_crossing(const HalfPlane& a, const HalfPlane& b);
 
 }  // namespace fathom

@@ -160,18 +160,19 @@ Ratio area(const Boundary& boundary) {
   return sum(std::move(terms));
 }
 
-Bounded approximate_area(const Boundary& boundary) {
+Certified<double> approximate_area(const Boundary& boundary) {
   if (boundary.empty()) return {};
-  Bounded twice;
+  Certified<double> twice{0, 0};
   for (const BoundarySegment& s : boundary) {
     if (s.line->exact()[2].is_zero()) continue;
-    Bounded term = approximate_determinant(*s.line, *s.from, *s.to) /
-                   (approximate_turn(*s.line, *s.from) * approximate_turn(*s.line, *s.to)) *
-                   approximate_coefficient(*s.line, 2);
+    Certified<double> term =
+        approximate_determinant(*s.line, *s.from, *s.to) /
+        (approximate_turn(*s.line, *s.from) * approximate_turn(*s.line, *s.to)) *
+        approximate_coefficient(*s.line, 2);
     if (s.reversed) term.value = -term.value;
     twice = twice + term;
   }
-  return twice * Bounded{0.5, 0};
+  return twice * Certified<double>{0.5, 0};
 }
 
 }  // namespace fathom

@@ -36,6 +36,6 @@ Boundary boundary_of_difference(const ConvexPolygon& subject,
 Ratio area(const Boundary& boundary);
 
 /// The same in binary64; 0 without an error where it is empty.
-Bounded approximate_area(const Boundary& boundary);
+Certified<double> approximate_area(const Boundary& boundary);
 
 }  // namespace fathom

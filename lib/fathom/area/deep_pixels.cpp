@@ -16,7 +16,7 @@ namespace {
 struct Fragment {
   const SurfaceRegion* surface;
   Boundary boundary;
-  Bounded approximate_area;
+  Certified<double> approximate_area{0, 0};
 };
 
 /// The visible surfaces of one pixel, and what they leave of it.
@@ -59,7 +59,7 @@ PixelSurfaces look_into(ImageCell& pixel, std::span<const SurfaceRegion* const> 
   return result;
 }
 
-float rounded(const Bounded& approximate, const std::function<Ratio()>& exact) {
+float rounded(const Certified<double>& approximate, const std::function<Ratio()>& exact) {
   if (const auto settled = settled_binary32(approximate)) return *settled;
   return round_to_binary32(exact());
 }
@@ -76,9 +76,9 @@ float alpha(std::span<const Fragment> from_here, const Boundary& uncovered) {
   const Fragment& f = from_here.front();
   const auto behind = from_here.subspan(1);
   if (behind.empty() && uncovered.empty()) return 1;
-  Bounded rest = approximate_area(uncovered);
+  Certified<double> rest = approximate_area(uncovered);
   for (const Fragment& b : behind) rest = rest + b.approximate_area;
-  const Bounded one{1, 0};
+  const Certified<double> one{1, 0};
   return rounded(one / (one + rest / f.approximate_area), [&] {
     const Ratio a = area(f.boundary);
     const Ratio sum = sum_of_areas(from_here) + area(uncovered);
@@ -122,7 +122,7 @@ std::vector<MatteShare> shares(const PixelSurfaces& surfaces,
   }
   std::vector<MatteShare> result;
   for (const auto& [id, fragments] : mattes) {
-    Bounded sum;
+    Certified<double> sum{0, 0};
     for (const Fragment& f : fragments) sum = sum + f.approximate_area;
     // One matte that leaves nothing of the pixel covers it.
     const bool all = mattes.size() == 1 && surfaces.uncovered.empty();

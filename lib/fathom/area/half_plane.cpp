@@ -8,10 +8,7 @@
 namespace fathom {
 namespace {
 
-constexpr double u = 0x1p-53;  // unit roundoff
-/// More than what underflow can do to a sum of products of numbers below 1: each of fewer than 2⁶
-/// operations loses at most 2⁻¹⁰⁷⁴, and so does each coefficient.
-constexpr double underflow = 0x1p-1000;
+constexpr double u = unit_roundoff<double>;
 
 long top_bit(const Dyadic& x) {
   return static_cast<long>(mpz_sizeinbase(x.significand(), 2)) + x.exponent();
@@ -54,53 +51,9 @@ HalfPlane::HalfPlane(ExactVector3 l) : exact_(std::move(l)), exponent_(greatest_
   }
 }
 
-// Bounded numbers. With x = fl(…) the rounded result, |x − exact| ≤ u·|x| + 2⁻¹⁰⁷⁴ for each
-// operation of IEEE 754; the errors of the operands are carried to first order and beyond without
-// being dropped. The bound itself is computed with at most 6 roundings of non-negative numbers,
-// each of which may make it too small by a factor 1 − u: the factor `up` makes good for them.
-namespace {
-constexpr double up = 1 + 0x1p-48;
-}
-
-Bounded operator+(const Bounded& a, const Bounded& b) {
-  const double value = a.value + b.value;
-  return {value, (a.error + b.error + u * std::abs(value) + underflow) * up};
-}
-
-Bounded operator*(const Bounded& a, const Bounded& b) {
-  const double value = a.value * b.value;
-  return {value, (std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error +
-                  u * std::abs(value) + underflow) *
-                     up};
-}
-
-// (A / B) − (a / b) = ((A − a) − (a / b)·(B − b)) / B, and |B| ≥ |b| − error of b. For q = fl(a /
-// b) the quotient a / b lies within u·|q| + 2⁻¹⁰⁷⁴ of it.
-Bounded operator/(const Bounded& a, const Bounded& b) {
-  const double least = std::abs(b.value) * (1 - 4 * u) - b.error;
-  if (!(least > 0)) return {0, std::numeric_limits<double>::infinity()};
-  const double q = a.value / b.value;
-  const double size = std::abs(q) * (1 + 4 * u) + underflow;
-  return {q, ((a.error + size * b.error) / least + u * size + underflow) * up};
-}
-
-Interval enclose(const Bounded& x) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (!(x.error < infinity)) return {-infinity, infinity};
-  return {std::nextafter(x.value - x.error, -infinity),
-          std::nextafter(x.value + x.error, infinity)};
-}
-
-std::optional<float> settled_binary32(const Bounded& not_negative) {
-  const Interval around = enclose(not_negative);
-  const auto low = static_cast<float>(std::max(0.0, around.lower));
-  const auto high = static_cast<float>(around.upper);
-  if (low != high) return std::nullopt;
-  return low;
-}
-
-Bounded approximate_coefficient(const HalfPlane& l, std::size_t k) {
-  return {l.approximate()[k], (2 * u * std::abs(l.approximate()[k]) + underflow) * up};
+Certified<double> approximate_coefficient(const HalfPlane& l, std::size_t k) {
+  return {l.approximate()[k],
+          (2 * u * std::abs(l.approximate()[k]) + most_underflow) * bound_rounding};
 }
 
 // Coefficients are read with a relative error of at most 2u. Then a product of two has been
@@ -108,14 +61,15 @@ Bounded approximate_coefficient(const HalfPlane& l, std::size_t k) {
 // most 6 + 2, two sums and the inner difference by three more. Hence the errors 6u and 11u times
 // the sum of the products' absolute values, which is itself computed with a relative error below
 // 10u: 8 and 16 are enough.
-Bounded approximate_turn(const HalfPlane& a, const HalfPlane& b) {
+Certified<double> approximate_turn(const HalfPlane& a, const HalfPlane& b) {
   const auto& x = a.approximate();
   const auto& y = b.approximate();
   const double p = x[0] * y[1], q = x[1] * y[0];
-  return {p - q, 8 * u * (std::abs(p) + std::abs(q)) + underflow};
+  return {p - q, 8 * u * (std::abs(p) + std::abs(q)) + most_underflow};
 }
 
-Bounded approximate_determinant(const HalfPlane& a, const HalfPlane& b, const HalfPlane& c) {
+Certified<double> approximate_determinant(const HalfPlane& a, const HalfPlane& b,
+                                          const HalfPlane& c) {
   const auto& x = a.approximate();
   const auto& y = b.approximate();
   const auto& z = c.approximate();
@@ -126,7 +80,7 @@ Bounded approximate_determinant(const HalfPlane& a, const HalfPlane& b, const Ha
     value += x[k] * (p - q);
     size += std::abs(x[k]) * (std::abs(p) + std::abs(q));
   }
-  return {value, 16 * u * size + underflow};
+  return {value, 16 * u * size + most_underflow};
 }
 
 Dyadic turn(const HalfPlane& a, const HalfPlane& b) {
@@ -138,7 +92,7 @@ Dyadic determinant(const HalfPlane& a, const HalfPlane& b, const HalfPlane& c) {
 }
 
 Sign sign_of_turn(const HalfPlane& a, const HalfPlane& b, TierCounts& counts) {
-  const Bounded t = approximate_turn(a, b);
+  const Certified<double> t = approximate_turn(a, b);
   if (std::abs(t.value) > t.error) {
     ++counts.interval;
     return t.value > 0 ? Sign::positive : Sign::negative;
@@ -150,7 +104,7 @@ Sign sign_of_turn(const HalfPlane& a, const HalfPlane& b, TierCounts& counts) {
 
 Sign sign_of_determinant(const HalfPlane& a, const HalfPlane& b, const HalfPlane& c,
                          TierCounts& counts) {
-  const Bounded d = approximate_determinant(a, b, c);
+  const Certified<double> d = approximate_determinant(a, b, c);
   if (std::abs(d.value) > d.error) {
     ++counts.interval;
     return d.value > 0 ? Sign::positive : Sign::negative;

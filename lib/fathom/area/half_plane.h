@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "fathom/numeric/certified.h"
+#include "fathom/numeric/certified_arithmetic.h"
 
 namespace fathom {
 
@@ -31,33 +32,19 @@ class HalfPlane {
   std::array<double, 3> approximate_;
 };
 
-/// A product or sum in binary64 and a bound of its distance from the exact one.
-struct Bounded {
-  double value = 0;
-  double error = 0;
-};
-Bounded operator+(const Bounded& a, const Bounded& b);
-Bounded operator*(const Bounded& a, const Bounded& b);
-/// The bound is +∞ where b may be 0.
-Bounded operator/(const Bounded& a, const Bounded& b);
-/// Contains the exact number; [−∞, ∞] where the bound is +∞ or not known.
-Interval enclose(const Bounded& x);
-/// The exact number rounded to binary32, where the bound settles that. A number that is not
-/// negative: then neither is what is returned.
-std::optional<float> settled_binary32(const Bounded& not_negative);
-
 /// l_u, l_v or l_w for k = 0, 1, 2.
-Bounded approximate_coefficient(const HalfPlane& l, std::size_t k);
+Certified<double> approximate_coefficient(const HalfPlane& l, std::size_t k);
 
 /// a_u·b_v − a_v·b_u: positive where the line of b turns left from the line of a, 0 where they are
 /// parallel.
-Bounded approximate_turn(const HalfPlane& a, const HalfPlane& b);
+Certified<double> approximate_turn(const HalfPlane& a, const HalfPlane& b);
 Dyadic turn(const HalfPlane& a, const HalfPlane& b);
 Sign sign_of_turn(const HalfPlane& a, const HalfPlane& b, TierCounts& counts);
 
 /// det(a, b, c): 0 where the three lines meet in one point, or two of them are parallel to the
 /// third.
-Bounded approximate_determinant(const HalfPlane& a, const HalfPlane& b, const HalfPlane& c);
+Certified<double> approximate_determinant(const HalfPlane& a, const HalfPlane& b,
+                                          const HalfPlane& c);
 Dyadic determinant(const HalfPlane& a, const HalfPlane& b, const HalfPlane& c);
 Sign sign_of_determinant(const HalfPlane& a, const HalfPlane& b, const HalfPlane& c,
                          TierCounts& counts);

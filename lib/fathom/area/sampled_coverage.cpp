@@ -10,6 +10,7 @@
 #include "fathom/area/coverage_image.h"
 #include "fathom/triangle/certified_surfaces.h"
 #include "fathom/triangle/referee.h"
+#include "fathom/triangle/sampling.h"
 #include "fathom/triangle/threads.h"
 
 // How to read this file: add_sampled_coverage() at the end is the whole story. Bands of rows are
@@ -19,12 +20,6 @@ namespace {
 
 constexpr std::size_t most_samples = 256;
 using Covered = std::bitset<most_samples>;
-
-bool in_range(const Ratio& depth, const Camera& camera) {
-  if (depth.sign() != Sign::positive || depth < Ratio(Dyadic(camera.near))) return false;
-  return camera.far == std::numeric_limits<double>::infinity() ||
-         !(Ratio(Dyadic(camera.far)) < depth);
-}
 
 /// Whether triangles count at samples, by exact numbers alone.
 class ExactSamples {
@@ -40,7 +35,7 @@ class ExactSamples {
   }
   bool counts_at(const ImagePoint& s) {
     TierCounts counts;
-    return covers(triangle_, s, counts) && in_range(depth_at(triangle_, s), camera_);
+    return covers(triangle_, s, counts) && is_in_range(depth_at(triangle_, s), camera_);
   }
 
  private:

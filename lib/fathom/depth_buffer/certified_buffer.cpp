@@ -13,6 +13,7 @@
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/triangle/certified_surfaces.h"
 #include "fathom/triangle/referee.h"
+#include "fathom/triangle/sampling.h"
 
 // How to read this file: fill_certified() at the end is the whole story; exact_buffer.cpp says the
 // same without bounds. Each value is asked of binary64, then of double-words, then of exact
@@ -21,10 +22,6 @@ namespace fathom {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
-  return {column + 0.5, row + 0.5};
-}
 
 /// What a thread asks.
 struct Worker {

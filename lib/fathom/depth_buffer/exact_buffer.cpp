@@ -7,6 +7,7 @@
 #include "fathom/depth_buffer/buffer_work.h"
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/mapping.h"
+#include "fathom/triangle/sampling.h"
 
 // How to read this file: fill_exactly() at the end is the whole story. Every number is exact and
 // rounded once.
@@ -15,20 +16,9 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
-  return {column + 0.5, row + 0.5};
-}
-
 ProjectedTriangle projected(const BufferWork& work, std::uint32_t number) {
   TierCounts counts;
   return project(work.triangles.world_corners(number), number, work.camera, counts);
-}
-
-/// D > 0 and near ≤ D ≤ far.
-bool in_range(const Ratio& depth, const Camera& camera) {
-  if (depth.sign() != Sign::positive || depth < Ratio(Dyadic(camera.near))) return false;
-  return camera.far == std::numeric_limits<double>::infinity() ||
-         !(Ratio(Dyadic(camera.far)) < depth);
 }
 
 class ExactBand {
@@ -92,7 +82,7 @@ class ExactBand {
                      TierCounts counts;
                      if (!covers(t, s, counts)) return;
                      const Ratio depth = depth_at(t, s);
-                     if (!in_range(depth, work_.camera)) return;
+                     if (!is_in_range(depth, work_.camera)) return;
                      if (encode(format_, depth) != work_.channels.stored(pixel)) return;
                      work_.channels.winner[pixel] = boxed.number;
                    });

@@ -7,6 +7,7 @@
 
 #include "fathom/numeric/certified_logarithm.h"
 #include "fathom/numeric/certified_rounding.h"
+#include "fathom/numeric/fused_multiply_add.h"
 #include "fathom/numeric/logarithm.h"
 
 // Constants are exact numbers rounded to double-words, which errs by less than ε = epsilon<T>, of
@@ -265,13 +266,6 @@ struct Wide {
   }
 };
 
-// As in exact/fast_wide.cpp.
-#if defined(__x86_64__)
-#define FATHOM_WITH_FMA [[gnu::target("fma"), gnu::flatten]]
-#else
-#define FATHOM_WITH_FMA [[gnu::flatten]]
-#endif
-
 FATHOM_WITH_FMA std::optional<StoredDepth> encode_with_fma(const Constants& constants,
                                                            const Certified<WordPair>& depth) {
   return Wide<true>::encode(constants, depth);
@@ -280,17 +274,9 @@ FATHOM_WITH_FMA Certified<WordPair> decode_with_fma(const Constants& constants, 
                                                     const Certified<WordPair>& t, double scale) {
   return Wide<true>::decode(constants, s, t, scale);
 }
-#undef FATHOM_WITH_FMA
-
 const CertifiedFormat::Arithmetic& arithmetic_of_processor() {
-#if defined(__x86_64__)
-  static const bool has_fma = __builtin_cpu_supports("fma") != 0;
+  static const bool has_fma = processor_has_fma();
   return has_fma ? CertifiedFormat::with_fma : CertifiedFormat::without_fma;
-#elif defined(__FP_FAST_FMA)
-  return CertifiedFormat::with_fma;
-#else
-  return CertifiedFormat::without_fma;
-#endif
 }
 
 }  // namespace

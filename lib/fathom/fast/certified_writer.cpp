@@ -12,9 +12,6 @@
 namespace fathom {
 namespace {
 
-/// Triangles remembered, a power of two; neighbours in the image often are neighbours in number.
-constexpr std::size_t most_remembered = 512;
-
 template <class Visit>
 void for_each_bit(std::uint64_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
@@ -45,22 +42,19 @@ CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays)
       wide_(wide_arithmetic()),
       image_{rays.perspective(), rays.greatest_u(), rays.greatest_v()},
       world_sizes_(rays.world().rays, image_),
-      each_pixel_(values_.barycentric[0] || values_.low),
-      remembered_(most_remembered) {}
+      each_pixel_(values_.barycentric[0] || values_.low) {}
 
 CertifiedWriter::Triangle& CertifiedWriter::remember(std::uint32_t number) {
-  Triangle& t = remembered_[number % most_remembered];
-  if (t.number == number) return t;
-  t.number = number;
-  t.has_weights = t.has_depth = t.has_normal = false;
-  t.constants_known = 0;
-  t.constant.fill(std::nullopt);
-  const TriangleSource::Triangle triangle = rays_.triangles().triangle(number);
-  t.origin = triangle.origin;
-  t.object = &rays_.object(t.origin.object);
-  t.corners = triangle.corners;
-  t.usable = t.object->usable && rays_.world().usable && is_safe(t.corners);
-  return t;
+  return remembered_.get(number, [&](Triangle& t) {
+    t.has_weights = t.has_depth = t.has_normal = false;
+    t.constants_known = 0;
+    t.constant.fill(std::nullopt);
+    const TriangleSource::Triangle triangle = rays_.triangles().triangle(number);
+    t.origin = triangle.origin;
+    t.object = &rays_.object(t.origin.object);
+    t.corners = triangle.corners;
+    t.usable = t.object->usable && rays_.world().usable && is_safe(t.corners);
+  });
 }
 
 /// The samples of a row that a channel is still to be written at.

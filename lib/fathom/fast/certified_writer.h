@@ -3,12 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "fathom/fast/channel_rows.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/double_word_surface.h"
 #include "fathom/triangle/rays.h"
+#include "fathom/triangle/recent_triangles.h"
 #include "fathom/triangle/referee.h"
 
 namespace fathom {
@@ -56,7 +56,6 @@ class CertifiedWriter {
  private:
   /// A triangle remembered, with what was computed of it so far.
   struct Triangle {
-    std::uint32_t number = no_surface;
     bool usable = false;
     bool has_weights = false, has_depth = false, has_normal = false;
     std::uint8_t constants_known = 0;  // bit k: constant[k] was looked for
@@ -91,7 +90,7 @@ class CertifiedWriter {
   RaySizes world_sizes_;
   /// Whether a channel was asked for that is not written by rows.
   bool each_pixel_;
-  std::vector<Triangle> remembered_;
+  RecentTriangles<Triangle, 512> remembered_;
 };
 
 }  // namespace fathom

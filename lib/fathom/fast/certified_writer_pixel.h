@@ -5,18 +5,10 @@
 #include <cmath>
 
 #include "fathom/fast/certified_writer.h"
+#include "fathom/numeric/last_bit.h"
 
 // For fast_channels.cpp alone.
 namespace fathom {
-
-/// n such that x is 0 or a multiple of 2ⁿ.
-inline long last_bit(double x) {
-  if (x == 0) return 1L << 40;
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  const long biased = static_cast<long>(bits >> 52 & 0x7FF);
-  const std::uint64_t significand = (bits & 0xFFFFFFFFFFFFF) | std::uint64_t{biased != 0} << 52;
-  return std::max(biased, 1L) - 1075 + std::countr_zero(significand);
-}
 
 /// A double-word that is exact and of one word makes a product with `scale` that is exact.
 inline bool store(const EncodedValues& values, std::size_t pixel, const Certified<WordPair>& x,
@@ -41,7 +33,8 @@ inline bool store(const EncodedValues& values, std::size_t pixel, const Certifie
 }
 
 /// At least |n·d| at a sample: from the leading words, whose own errors are 3u of the terms.
-inline double divisor_size(const DepthForms<WordPair>& depth, const Sample& s, bool perspective) {
+inline double divisor_size(const DepthForms<WordPair>& depth, const ImagePoint& s,
+                           bool perspective) {
   if (!perspective) return std::abs(depth.constant.value.hi) * slack + depth.constant.error;
   const auto& [a, b, c, error] = depth.varying;
   const double terms = std::abs(c.hi) + std::abs(b.hi) * s.v + std::abs(a.hi) * s.u;
@@ -326,7 +319,7 @@ class CertifiedWriter::Pixel {
   const VisibleSurface& surface_;
   Referee& referee_;
   RenderStatistics& statistics_;
-  Sample s_;
+  ImagePoint s_;
   Triangle* triangle_ = nullptr;
   std::optional<Certified<WordPair>> wide_depth_;
   std::optional<Vector<Certified<WordPair>>> wide_position_;

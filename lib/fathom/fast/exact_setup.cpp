@@ -49,7 +49,7 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
     setup.edge_b[i] = rounded(l[1].scaled(-scale));
     setup.edge_c[i] = rounded(c.scaled(-scale));
   }
-  setup.edge_error = 12 * unit_roundoff;
+  setup.edge_error = 12 * unit_roundoff<double>;
 
   const ImageForm& numerator = perspective ? t.weight : t.depth_numerator;
   const ImageForm& denominator = perspective ? t.depth_numerator : t.weight;
@@ -63,7 +63,7 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
   setup.q_c = coefficient(numerator.at(origin_u, origin_v));
   const double S = std::abs(setup.q_c) + (std::abs(setup.q_a) + std::abs(setup.q_b)) * extent;
   if (S < 0x1p100) {
-    setup.q_error = (5 * unit_roundoff * S + 0x1p-100) * (1 + 0x1p-19);
+    setup.q_error = (5 * unit_roundoff<double> * S + 0x1p-100) * (1 + 0x1p-19);
   } else {
     setup.q_a = setup.q_b = setup.q_c = 0;
     setup.q_error = std::numeric_limits<double>::infinity();

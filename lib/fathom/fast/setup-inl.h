@@ -156,10 +156,10 @@ HWY_INLINE Orientation certified_orientation(const Corners& t) {
   const V bu = hn::Sub(t.B.u, t.A.u), bv = hn::Sub(t.B.v, t.A.v);
   const V cu = hn::Sub(t.C.u, t.A.u), cv = hn::Sub(t.C.v, t.A.v);
   const V size = hn::Max(hn::Max(hn::Abs(bu), hn::Abs(bv)), hn::Max(hn::Abs(cu), hn::Abs(cv)));
-  const V d =
-      hn::MulAdd(constant(unit_roundoff), size, hn::Add(t.position_error, t.position_error));
+  const V d = hn::MulAdd(constant(unit_roundoff<double>), size,
+                         hn::Add(t.position_error, t.position_error));
   const V bound = hn::MulAdd(hn::MulAdd(constant(4), size, hn::Add(d, d)), d,
-                             hn::Mul(constant(5 * unit_roundoff), hn::Mul(size, size)));
+                             hn::Mul(constant(5 * unit_roundoff<double>), hn::Mul(size, size)));
   const M snapped = are_snapped(t);
   const V limit = hn::IfThenZeroElse(snapped, bound);
   const V doubled_area = hn::Sub(hn::Mul(bu, cv), hn::Mul(bv, cu));
@@ -247,7 +247,7 @@ HWY_INLINE LocalTriangles localise(const Corners& t, const Boxes& box) {
       constant(8));
   l.L = hn::Max(
       extent, hn::Max(greatest_magnitude(l.Au, l.Bu, l.Cu), greatest_magnitude(l.Av, l.Bv, l.Cv)));
-  l.delta = hn::MulAdd(constant(unit_roundoff), l.L, t.position_error);
+  l.delta = hn::MulAdd(constant(unit_roundoff<double>), l.L, t.position_error);
   return l;
 }
 
@@ -275,8 +275,8 @@ HWY_INLINE Edges certified_edges(const LocalTriangles& t) {
   e.c[0] = hn::Sub(hn::Mul(t.Bu, t.Cv), hn::Mul(t.Bv, t.Cu));
   e.c[1] = hn::Sub(hn::Mul(t.Cu, t.Av), hn::Mul(t.Cv, t.Au));
   e.c[2] = hn::Sub(hn::Mul(t.Au, t.Bv), hn::Mul(t.Av, t.Bu));
-  e.error =
-      hn::Mul(hn::MulAdd(constant(8.25), t.delta, hn::Mul(constant(24 * unit_roundoff), t.L)), t.L);
+  e.error = hn::Mul(
+      hn::MulAdd(constant(8.25), t.delta, hn::Mul(constant(24 * unit_roundoff<double>), t.L)), t.L);
   return e;
 }
 
@@ -321,9 +321,9 @@ HWY_INLINE Depths certified_depths(const Corners& t, const LocalTriangles& l, co
   q.b = hn::Mul(hn::MulAdd(e.b[1], dB, hn::Mul(e.b[2], dC)), inverse);
   q.c = hn::NegMulAdd(q.b, l.Av, hn::NegMulAdd(q.a, l.Au, l.qA));
   const V dq = hn::Max(hn::Abs(dB), hn::Abs(dC));
-  const V corners = hn::MulAdd(constant(4.1 * unit_roundoff), hn::Abs(l.qA), t.q_error);
-  const V slope =
-      hn::Mul(hn::MulAdd(constant(72), l.delta, hn::Mul(constant(230 * unit_roundoff), l.L)), l.L);
+  const V corners = hn::MulAdd(constant(4.1 * unit_roundoff<double>), hn::Abs(l.qA), t.q_error);
+  const V slope = hn::Mul(
+      hn::MulAdd(constant(72), l.delta, hn::Mul(constant(230 * unit_roundoff<double>), l.L)), l.L);
   // 2⁻¹⁹: the room promised, and the roundings of this bound.
   q.error = hn::Mul(hn::MulAdd(hn::Mul(slope, dq), inverse, corners), constant(1 + 0x1p-19));
   return q;

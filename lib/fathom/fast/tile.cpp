@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/triangle/sampling.h"
+
 namespace fathom {
 namespace {
-
-ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
-  return {column + 0.5, row + 0.5};
-}
 
 double local(std::uint32_t position, std::uint32_t origin) {
   return static_cast<double>(static_cast<std::int32_t>(position - origin));

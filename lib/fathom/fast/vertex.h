@@ -6,12 +6,10 @@
 #include <span>
 
 #include "fathom/camera/camera.h"
+#include "fathom/numeric/unit_roundoff.h"
 #include "fathom/scene/scene.h"
 
 namespace fathom {
-
-/// Half the distance from 1 to the next binary64 number: the relative error of one rounding.
-inline constexpr double unit_roundoff = 0x1p-53;
 
 /// Vertices that lie exactly on the grid of this step (pixels) are known to, within this distance
 /// of the image's origin: then edge functions are computed without any error (fast_setup-inl.h).

@@ -6,7 +6,7 @@
 // fast_vertex_lanes.cpp).
 namespace fathom::vertex_bounds {
 
-inline constexpr double affine_error = 6 * unit_roundoff;
+inline constexpr double affine_error = 6 * unit_roundoff<double>;
 /// Relative slack of a bound: covers the roundings in its own evaluation (fewer than 2⁵ of them,
 /// 2⁻⁴⁸) and the terms of second order named there (2⁻¹⁸).
 inline constexpr double slack = 1 + 0x1p-15;

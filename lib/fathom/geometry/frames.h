@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <utility>
 
 #include "fathom/numeric/dyadic.h"
 
@@ -50,6 +52,21 @@ struct ExactAffine {
   }
   Target operator()(const Source& p) const { return apply(p); }
 };
+
+/// The map that applies `second`, then `first`: their product, exactly.
+template <class Target, class Source>
+ExactAffine<Target, Source> compose(const ExactAffine<Target, Source>& first,
+                                    const ExactAffine<Target, Source>& second) {
+  ExactAffine<Target, Source> result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      Dyadic sum = k == 3 ? first.rows[i][3] : Dyadic();
+      for (std::size_t j = 0; j < 3; ++j) sum += first.rows[i][j] * second.rows[j][k];
+      result.rows[i][k] = std::move(sum);
+    }
+  }
+  return result;
+}
 
 using WorldFromMesh = ExactAffine<WorldPoint, MeshPoint>;
 

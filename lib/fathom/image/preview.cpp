@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <set>
 
 #include "fathom/image/compare_internal.h"
@@ -23,19 +22,14 @@ Rgb background_colour(ColourMap colours) {
   return colours == ColourMap::grey ? Rgb{74, 92, 122} : Rgb{206, 210, 216};
 }
 
-std::string description_of(const DepthMap& map, const ImageChannel& channel) {
-  static const std::map<std::string, std::string> words{{"Z", "planar depth"},
-                                                        {"Zlow", "exact depth minus Z"},
-                                                        {"distance", "ray distance"},
-                                                        {"disparity", "disparity"},
-                                                        {"A", "coverage"},
-                                                        {"id", "triangle"},
-                                                        {"face", "face"},
-                                                        {"object", "object"},
-                                                        {"N", "normal in the world"}};
+/// What stands above the picture of a channel.
+std::string title_of(const DepthMap& map, const ImageChannel& channel) {
   std::string text = channel.name;
-  if (const auto found = words.find(channel.name); found != words.end())
-    text += " – " + found->second;
+  if (const auto ours = channel_named(channel.name)) {
+    text += " – " + std::string(description_of(*ours).meaning);
+  } else if (channel.name == "disparity") {
+    text += " – disparity";
+  }
   const bool codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
   if (codes && !map.png_scale) text += " (codes of unknown scale)";
   return text;
@@ -193,14 +187,14 @@ RgbImage draw_preview(const DepthMap& map, const PreviewOptions& options) {
   Sheet sheet;
   sheet.picture = RgbImage(map.width, map.height);
   if (options.channel == "N") {
-    sheet.title = description_of(map, {"N", Samples<float>{}});
+    sheet.title = title_of(map, {"N", Samples<float>{}});
     draw_normals(sheet, map, options);
   } else {
     const ImageChannel* channel = options.channel.empty() && !map.find("Z") && !map.channels.empty()
                                       ? &map.channels.front()
                                       : map.find(options.channel.empty() ? "Z" : options.channel);
     if (!channel) throw UsageError("the map has no channel '" + options.channel + "'");
-    sheet.title = description_of(map, *channel);
+    sheet.title = title_of(map, *channel);
     if (!options.unit.empty()) sheet.title += " [" + options.unit + "]";
     if (kind_of(*channel) == ChannelKind::identifier)
       draw_identifiers(sheet, map, *channel, options);

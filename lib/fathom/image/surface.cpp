@@ -76,10 +76,17 @@ ChannelKind kind_of(const ImageChannel& channel) {
   }
   const auto [group, last] = tail_of(channel.name);
   if (std::holds_alternative<Samples<std::uint16_t>>(channel.values)) return ChannelKind::depth;
-  if (group == "N" || group == "Normal") return ChannelKind::direction;
-  if (group == "P" || group == "Position" || group == "bary") return ChannelKind::position;
-  static constexpr std::array<std::string_view, 8> depths{
-      "Z", "ZBack", "distance", "disparity", "Zdecoded", "depth", "Depth", "V"};
+  if (const auto ours = channel_named(group); ours && !description_of(*ours).parts.empty()) {
+    return description_of(*ours).kind;
+  }
+  if (const auto ours = channel_named(last);
+      ours && description_of(*ours).kind == ChannelKind::depth) {
+    return ChannelKind::depth;
+  }
+  if (group == "Normal") return ChannelKind::direction;
+  if (group == "Position") return ChannelKind::position;
+  static constexpr std::array<std::string_view, 6> depths{"ZBack", "disparity", "Zdecoded",
+                                                          "depth", "Depth",     "V"};
   const bool depth = std::find(depths.begin(), depths.end(), last) != depths.end();
   if (last == "V" && group != "Depth" && group != "depth") return ChannelKind::quantity;
   return depth ? ChannelKind::depth : ChannelKind::quantity;

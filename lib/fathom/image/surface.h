@@ -5,19 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "fathom/image/channel_table.h"
 #include "fathom/image/depth_map.h"
 
 /// Which pixels of a map show a surface and which are background.
 namespace fathom {
-
-/// What a channel's values mean.
-enum class ChannelKind {
-  depth,       ///< Z, distance, disparity, Zdecoded: background +∞
-  identifier,  ///< id, face, object and every other 32-bit integer: background no_surface
-  direction,   ///< N.X, N.Y, N.Z: background 0 in all three
-  position,    ///< P.*, bary.*: background NaN
-  quantity     ///< everything else (A, Zlow, other programs' channels): no background of its own
-};
 
 /// Told by the name (the last two parts of a layered one count: `ViewLayer.Depth.Z` is a depth,
 /// `N.Z` a direction) and by the type.

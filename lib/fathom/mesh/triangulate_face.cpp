@@ -7,6 +7,7 @@
 
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/dyadic.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom {
 namespace {
@@ -69,7 +70,7 @@ int filtered_projection_axis(std::span<const MeshPoint> ring) {
     }
     a = b;
   }
-  const double u = 0x1p-53 * static_cast<double>(2 * ring.size() + 4);
+  const double u = unit_roundoff<double> * static_cast<double>(2 * ring.size() + 4);
   int best = 0;
   for (int axis = 1; axis < 3; ++axis)
     if (std::abs(sum[axis]) > std::abs(sum[best])) best = axis;

@@ -42,18 +42,6 @@ void check_required_extensions(const JsonValue& root) {
 
 using Transform = WorldFromMesh;
 
-/// first·second: the map that applies `second`, then `first`. Exact.
-Transform compose(const Transform& first, const Transform& second) {
-  Transform result;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < 4; ++k) {
-      Dyadic sum = k == 3 ? first.rows[i][3] : Dyadic();
-      for (std::size_t j = 0; j < 3; ++j) sum += first.rows[i][j] * second.rows[j][k];
-      result.rows[i][k] = sum;
-    }
-  return result;
-}
-
 bool is_identity(const Transform& transform) {
   const Transform identity;
   return transform.rows == identity.rows;

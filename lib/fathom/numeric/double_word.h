@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "fathom/numeric/unit_roundoff.h"
+
 /// Double-word ("double-double") arithmetic: a number is kept as the unevaluated sum of two
 /// binary64 numbers, hi the one nearest to the sum.
 ///
@@ -121,7 +123,7 @@ inline double square_root(double x) {
 template <class Real>
 inline constexpr double epsilon = 0x1p-102;
 template <>
-inline constexpr double epsilon<double> = 0x1p-53;
+inline constexpr double epsilon<double> = unit_roundoff<double>;
 
 /// a − b: rounded in binary64, exact in double-words.
 template <class Real>

@@ -4,15 +4,10 @@
 #include <limits>
 
 #include "fathom/triangle/projected_triangle.h"
+#include "fathom/triangle/sampling.h"
 
 namespace fathom {
 namespace {
-
-bool in_range(const Ratio& depth, const Camera& camera) {
-  if (depth.sign() != Sign::positive || depth < Ratio(Dyadic(camera.near))) return false;
-  return camera.far == std::numeric_limits<double>::infinity() ||
-         !(Ratio(Dyadic(camera.far)) < depth);
-}
 
 /// Exact arithmetic only, without any filter, so that it can be held against the engines.
 std::array<Sign, 3> edge_signs(const ProjectedTriangle& t, const ImagePoint& s) {
@@ -32,7 +27,7 @@ bool covers(const std::array<Sign, 3>& signs, const std::array<bool, 3>& left_or
 
 std::vector<CoveringTriangle> probe(const Scene& scene, const Camera& camera, std::uint32_t x,
                                     std::uint32_t y, Cull cull) {
-  const ImagePoint s{x + 0.5, y + 0.5};
+  const ImagePoint s = centre_of_pixel(x, y);
   std::vector<CoveringTriangle> covering;
   TierCounts counts;
   std::uint32_t number = 0;
@@ -49,7 +44,7 @@ std::vector<CoveringTriangle> probe(const Scene& scene, const Camera& camera, st
                          .left_or_top = t.left_or_top,
                          .front_facing = t.front_facing(),
                          .depth = depth_at(t, s)};
-      c.counts = in_range(c.depth, camera) && is_kept(t, cull);
+      c.counts = is_in_range(c.depth, camera) && is_kept(t, cull);
       covering.push_back(std::move(c));
     }
   }

@@ -10,6 +10,7 @@
 #include "fathom/area/coverage_image.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/projected_triangle.h"
+#include "fathom/triangle/sampling.h"
 #include "fathom/triangle/threads.h"
 
 // How to read this file: render_reference() at the end is the whole story. The image is cut into
@@ -33,10 +34,6 @@ struct Nearest {
   const ProjectedTriangle* triangle = nullptr;
   Interval depth;  // contains D(s)
 };
-
-ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
-  return {column + 0.5, row + 0.5};
-}
 
 ProjectedTriangle project(const Scene& scene, const Camera& camera, const Candidate& c,
                           TierCounts& counts) {

@@ -14,6 +14,7 @@
 #include "fathom/reference/verify_samples.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/projected_triangle.h"
+#include "fathom/triangle/sampling.h"
 #include "fathom/triangle/threads.h"
 #include "fathom/triangle/triangle_boxes.h"
 
@@ -50,20 +51,9 @@ struct Frame {
   const RenderOptions& options;
 };
 
-ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
-  return {column + 0.5, row + 0.5};
-}
-
 ProjectedTriangle project(const Frame& frame, const Candidate& c) {
   TierCounts counts;
   return project(frame.triangles.world_corners(c.number), c.number, frame.camera, counts);
-}
-
-/// D > 0 and near ≤ D ≤ far.
-bool in_range(const Ratio& depth, const Camera& camera) {
-  if (depth.sign() != Sign::positive || depth < Ratio(Dyadic(camera.near))) return false;
-  return camera.far == std::numeric_limits<double>::infinity() ||
-         !(Ratio(Dyadic(camera.far)) < depth);
 }
 
 /// Adds the candidates of a part of the scene, in the order of their numbers.
@@ -159,7 +149,7 @@ class ExactRow {
         const ImagePoint s = centre_of_pixel(chosen_.column(k), row);
         if (!covers(*projected, s, tiers)) continue;
         Ratio depth = depth_at(*projected, s);
-        if (!in_range(depth, frame_.camera)) continue;
+        if (!is_in_range(depth, frame_.camera)) continue;
         // Triangles come in the order of their numbers: among equals the lowest stays.
         Visible& nearest = visible[k - first];
         if (!nearest.triangle || depth < nearest.depth) nearest = {&c, std::move(depth)};

@@ -47,19 +47,6 @@ Mesh read_mesh(FileKind kind, const InputFile& input, const std::string& file,
   }
 }
 
-/// outer ∘ inner, exactly.
-WorldFromMesh composed(const WorldFromMesh& outer, const WorldFromMesh& inner) {
-  WorldFromMesh result;
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 4; ++k) {
-      Dyadic sum = k == 3 ? outer.rows[i][3] : Dyadic();
-      for (int j = 0; j < 3; ++j) sum += outer.rows[i][j] * inner.rows[j][k];
-      result.rows[i][k] = std::move(sum);
-    }
-  }
-  return result;
-}
-
 /// Reads files one after the other into one scene.
 class SceneReader {
  public:
@@ -159,7 +146,7 @@ class SceneReader {
       Object& object = scene_.objects[i];
       if (placed.name) object.name = single ? *placed.name : *placed.name + "/" + object.name;
       if (!placed.transform) continue;
-      object.world_from_mesh = composed(*placed.transform, object.world_from_mesh);
+      object.world_from_mesh = compose(*placed.transform, object.world_from_mesh);
       object.placed_as_is = false;
     }
   }

@@ -49,7 +49,7 @@ struct Form {
   Real a{}, b{}, c{};
   double error = 0;
 
-  [[nodiscard]] Certified<Real> at(const Sample& s) const {
+  [[nodiscard]] Certified<Real> at(const ImagePoint& s) const {
     return {(c + b * s.v) + a * s.u, error};
   }
 };
@@ -120,7 +120,7 @@ struct DepthForms {
   Form<Real> varying;
   Certified<Real> constant;
 
-  [[nodiscard]] Certified<Real> at(const Sample& s, bool perspective) const {
+  [[nodiscard]] Certified<Real> at(const ImagePoint& s, bool perspective) const {
     const Certified<Real> value = varying.at(s);
     return perspective ? quotient(constant, value) : quotient(value, constant);
   }
@@ -170,7 +170,7 @@ struct WeightForms {
   std::array<Form<Real>, 2> weights;
   Form<Real> divisor;  // constant under an orthographic camera
 
-  [[nodiscard]] Certified<Real> at(std::size_t k, const Sample& s) const {
+  [[nodiscard]] Certified<Real> at(std::size_t k, const ImagePoint& s) const {
     return quotient(weights[k].at(s), divisor.at(s));
   }
 };
@@ -231,7 +231,7 @@ struct Ray {
   Vector<Real> origin, direction;
 };
 template <class Real>
-Ray<Real> ray_at(const Rays& rays, bool perspective, const Sample& s) {
+Ray<Real> ray_at(const Rays& rays, bool perspective, const ImagePoint& s) {
   const auto &m0 = rays.columns[0], &m1 = rays.columns[1], &m2 = rays.columns[2],
              &O = rays.columns[3];
   const auto varying = [&](const std::array<WordPair, 3>& constant) {
@@ -324,7 +324,7 @@ WorldNormal<Real> world_normal(const MeshTriangle& corners, const ObjectRays& ob
 template <class Real>
 Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRays& object,
                                     const ObjectRays& world, const ImageBounds& image,
-                                    const Sample& s) {
+                                    const ImagePoint& s) {
   constexpr double e = epsilon<Real> * slack;
   Vector<Certified<Real>> result;
   WorldNormal<Real> normal = world_normal<Real>(corners, object);

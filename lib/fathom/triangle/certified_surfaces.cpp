@@ -3,12 +3,6 @@
 #include <cmath>
 
 namespace fathom {
-namespace {
-
-/// Triangles remembered, a power of two.
-constexpr std::size_t most_remembered = 256;
-
-}  // namespace
 
 CertifiedSurfaces::CertifiedSurfaces(const SceneRays& rays)
     : rays_(rays),
@@ -16,24 +10,20 @@ CertifiedSurfaces::CertifiedSurfaces(const SceneRays& rays)
       image_{rays.perspective(), rays.greatest_u(), rays.greatest_v()} {}
 
 CertifiedSurfaces::Triangle& CertifiedSurfaces::remember(std::uint32_t number) {
-  if (remembered_.empty()) remembered_.resize(most_remembered);
-  Triangle& t = remembered_[number % most_remembered];
-  if (t.known && t.number == number) return t;
-  const TriangleSource::Triangle triangle = rays_.triangles().triangle(number);
-  t.number = number;
-  t.known = true;
-  t.has_wide = t.has_weights = false;
-  t.object = &rays_.object(triangle.origin.object);
-  t.corners = triangle.corners;
-  t.usable = t.object->usable && is_safe(t.corners);
-  if (t.usable) t.depth = depth_forms<double>(t.corners, t.object->rays, image_);
-  return t;
+  return remembered_.get(number, [&](Triangle& t) {
+    const TriangleSource::Triangle triangle = rays_.triangles().triangle(number);
+    t.has_wide = t.has_weights = false;
+    t.object = &rays_.object(triangle.origin.object);
+    t.corners = triangle.corners;
+    t.usable = t.object->usable && is_safe(t.corners);
+    if (t.usable) t.depth = depth_forms<double>(t.corners, t.object->rays, image_);
+  });
 }
 
 Certified<double> CertifiedSurfaces::depth(std::uint32_t number, const ImagePoint& s) {
   const Triangle& t = remember(number);
   if (!t.usable) return {};
-  return t.depth.at({s.u, s.v}, image_.perspective);
+  return t.depth.at(s, image_.perspective);
 }
 
 Certified<WordPair> CertifiedSurfaces::wide_depth(std::uint32_t number, const ImagePoint& s) {
@@ -43,7 +33,7 @@ Certified<WordPair> CertifiedSurfaces::wide_depth(std::uint32_t number, const Im
     t.wide = arithmetic_.depth_forms(t.corners, t.object->rays, image_);
     t.has_wide = true;
   }
-  return arithmetic_.depth(t.wide, {s.u, s.v}, image_.perspective);
+  return arithmetic_.depth(t.wide, s, image_.perspective);
 }
 
 std::array<Certified<double>, 3> CertifiedSurfaces::weights(std::uint32_t number,
@@ -54,7 +44,7 @@ std::array<Certified<double>, 3> CertifiedSurfaces::weights(std::uint32_t number
     t.weights = weight_forms<double>(t.corners, t.object->rays, image_);
     t.has_weights = true;
   }
-  const Certified<double> b = t.weights.at(0, {s.u, s.v}), c = t.weights.at(1, {s.u, s.v});
+  const Certified<double> b = t.weights.at(0, s), c = t.weights.at(1, s);
   // 1 − b − c, two roundings.
   const double error = b.error + c.error + 0x1p-50 * (1 + std::abs(b.value) + std::abs(c.value));
   return {Certified<double>{1 - (b.value + c.value), error * (1 + 0x1p-40)}, b, c};

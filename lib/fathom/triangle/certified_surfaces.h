@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "fathom/triangle/double_word_surface.h"
 #include "fathom/triangle/projected_triangle.h"
+#include "fathom/triangle/recent_triangles.h"
 
 namespace fathom {
 
@@ -25,8 +25,7 @@ class CertifiedSurfaces {
 
  private:
   struct Triangle {
-    std::uint32_t number;
-    bool known = false, usable = false, has_wide = false, has_weights = false;
+    bool usable = false, has_wide = false, has_weights = false;
     const ObjectRays* object = nullptr;
     MeshTriangle corners;
     DepthForms<double> depth;
@@ -40,7 +39,7 @@ class CertifiedSurfaces {
   const SceneRays& rays_;
   const WideArithmetic& arithmetic_;
   ImageBounds image_;
-  std::vector<Triangle> remembered_;
+  RecentTriangles<Triangle, 256> remembered_;
 };
 
 }  // namespace fathom

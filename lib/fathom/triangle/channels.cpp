@@ -29,43 +29,20 @@ ImageChannel filled(const std::string& name, std::size_t pixels, T background) {
   return {name, std::move(values)};
 }
 
-ImageChannel depth_channel(const std::string& name, std::size_t pixels, DepthEncoding::Type type) {
-  switch (type) {
-    case DepthEncoding::Type::binary64:
-      return filled<double>(name, pixels, infinity);
-    case DepthEncoding::Type::scaled_unorm16:
-      return filled<std::uint16_t>(name, pixels, 0);
-    case DepthEncoding::Type::binary32:
-      break;
+/// A channel without a surface. Its kind says what stands for that.
+ImageChannel background_of(const std::string& name, const ChannelDescription& d, std::size_t pixels,
+                           DepthEncoding::Type encoding) {
+  if (d.type == ChannelType::identifier) return filled<std::uint32_t>(name, pixels, no_surface);
+  if (d.type == ChannelType::encoded && encoding == DepthEncoding::Type::scaled_unorm16) {
+    return filled<std::uint16_t>(name, pixels, 0);
   }
-  return filled<float>(name, pixels, infinity);
-}
-
-std::vector<ImageChannel> channels_for(Channel channel, std::size_t n, DepthEncoding::Type type) {
-  switch (channel) {
-    case Channel::Z:
-      return {depth_channel("Z", n, type)};
-    case Channel::A:
-      return {filled<float>("A", n, 0)};
-    case Channel::Zlow:
-      return {filled<float>("Zlow", n, 0)};
-    case Channel::distance:
-      return {depth_channel("distance", n, type)};
-    case Channel::id:
-      return {filled<std::uint32_t>("id", n, no_surface)};
-    case Channel::face:
-      return {filled<std::uint32_t>("face", n, no_surface)};
-    case Channel::object:
-      return {filled<std::uint32_t>("object", n, no_surface)};
-    case Channel::N:
-      return {filled<float>("N.X", n, 0), filled<float>("N.Y", n, 0), filled<float>("N.Z", n, 0)};
-    case Channel::P:
-      return {filled<float>("P.X", n, nan), filled<float>("P.Y", n, nan),
-              filled<float>("P.Z", n, nan)};
-    case Channel::bary:
-      return {filled<float>("bary.U", n, nan), filled<float>("bary.V", n, nan)};
+  const float value = d.kind == ChannelKind::depth      ? infinity
+                      : d.kind == ChannelKind::position ? nan
+                                                        : 0;
+  if (d.type == ChannelType::encoded && encoding == DepthEncoding::Type::binary64) {
+    return filled<double>(name, pixels, value);
   }
-  return {};
+  return filled<float>(name, pixels, value);
 }
 
 /// Stores a non-negative quantity x, or √x where `root`, in the channel's type.
@@ -131,8 +108,9 @@ DepthMap make_map(const Camera& camera, const RenderOptions& options, bool fill_
       map.channels.push_back({"Z", Samples<float>(pixels)});
       continue;
     }
-    for (ImageChannel& c : channels_for(channel, pixels, options.depth_encoding.type)) {
-      map.channels.push_back(std::move(c));
+    for (const std::string& name : part_names(channel)) {
+      map.channels.push_back(
+          background_of(name, description_of(channel), pixels, options.depth_encoding.type));
     }
   }
   if (options.depth_encoding.type == DepthEncoding::Type::scaled_unorm16) {

@@ -4,11 +4,10 @@
 #include <bit>
 #include <cmath>
 
+#include "fathom/numeric/last_bit.h"
+
 namespace fathom {
 namespace {
-
-/// Triangles remembered, a power of two.
-constexpr std::size_t most_remembered = 256;
 
 /// The sign of the exact number if the bound settles it: |value − exact| ≤ error, and hi + lo is
 /// rounded once.
@@ -40,18 +39,14 @@ WideReferee::WideReferee(const SceneRays& rays)
       image_{rays.perspective(), rays.greatest_u(), rays.greatest_v()} {}
 
 WideReferee::Triangle& WideReferee::remember(std::uint32_t number) {
-  if (remembered_.empty()) remembered_.resize(most_remembered);
-  Triangle& t = remembered_[number % most_remembered];
-  if (t.known && t.number == number) return t;
-  const TriangleSource::Triangle triangle = rays_.triangles().triangle(number);
-  t.number = number;
-  t.known = true;
-  t.has_depth = false;
-  t.object_number = triangle.origin.object;
-  t.object = &rays_.object(t.object_number);
-  t.corners = triangle.corners;
-  t.usable = t.object->usable && is_safe(t.corners);
-  return t;
+  return remembered_.get(number, [&](Triangle& t) {
+    const TriangleSource::Triangle triangle = rays_.triangles().triangle(number);
+    t.has_depth = false;
+    t.object_number = triangle.origin.object;
+    t.object = &rays_.object(t.object_number);
+    t.corners = triangle.corners;
+    t.usable = t.object->usable && is_safe(t.corners);
+  });
 }
 
 Certified<WordPair> WideReferee::depth_at(std::uint32_t number, const ImagePoint& s) {
@@ -61,7 +56,7 @@ Certified<WordPair> WideReferee::depth_at(std::uint32_t number, const ImagePoint
     t.depth = wide_.depth_forms(t.corners, t.object->rays, image_);
     t.has_depth = true;
   }
-  return wide_.depth(t.depth, {s.u, s.v}, image_.perspective);
+  return wide_.depth(t.depth, s, image_.perspective);
 }
 
 // The weights are β = e_B/S, γ = e_C/S, α = 1 − β − γ with S = e_A + e_B + e_C, and the sample is
@@ -72,7 +67,7 @@ Certified<WordPair> WideReferee::depth_at(std::uint32_t number, const ImagePoint
 std::optional<bool> WideReferee::covers(std::uint32_t number, const ImagePoint& s) {
   const Triangle& t = remember(number);
   if (!t.usable) return std::nullopt;
-  const auto weights = wide_.weights(t.corners, t.object->rays, image_, {s.u, s.v});
+  const auto weights = wide_.weights(t.corners, t.object->rays, image_, s);
   const Certified<WordPair> alpha = difference(difference(exactly(1), weights[0]), weights[1]);
   bool all_positive = true;
   for (const Certified<WordPair>& weight : {weights[0], weights[1], alpha}) {
@@ -116,14 +111,6 @@ bool is_one_of(const MeshPoint& X, const MeshTriangle& t) {
                      [&](const MeshPoint& Y) { return X.x == Y.x && X.y == Y.y && X.z == Y.z; });
 }
 
-/// The exponent of the last bit of x; x ≠ 0, finite.
-int last_bit(double x) {
-  int exponent = 0;
-  const double fraction = std::frexp(x, &exponent);
-  const auto digits = static_cast<std::uint64_t>(std::ldexp(std::abs(fraction), 53));
-  return exponent - 53 + std::countr_zero(digits);
-}
-
 }  // namespace
 
 // Six points as whole numbers of a common unit, less than 2³⁹ in magnitude: differences are below
@@ -137,7 +124,7 @@ bool certainly_coplanar(const MeshTriangle& a, const MeshTriangle& b) {
   double greatest = 0;
   for (const MeshPoint& X : points) {
     for (const double x : {X.x, X.y, X.z}) {
-      if (x != 0) unit = std::min(unit, last_bit(x));
+      unit = static_cast<int>(std::min<long>(unit, last_bit(x)));
       greatest = std::max(greatest, std::abs(x));
     }
   }

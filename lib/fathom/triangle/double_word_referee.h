@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "fathom/triangle/double_word_surface.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/rays.h"
+#include "fathom/triangle/recent_triangles.h"
 
 namespace fathom {
 
@@ -27,8 +27,7 @@ class WideReferee {
 
  private:
   struct Triangle {
-    std::uint32_t number;
-    bool known = false, usable = false, has_depth = false;
+    bool usable = false, has_depth = false;
     std::uint32_t object_number = 0;
     const ObjectRays* object = nullptr;
     MeshTriangle corners;
@@ -40,7 +39,7 @@ class WideReferee {
   const SceneRays& rays_;
   const WideArithmetic& wide_;
   ImageBounds image_;
-  std::vector<Triangle> remembered_;
+  RecentTriangles<Triangle, 256> remembered_;
 };
 
 /// True only if the six points certainly lie in one plane: all points of one triangle are points of

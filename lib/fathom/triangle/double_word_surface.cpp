@@ -1,5 +1,7 @@
 #include "fathom/triangle/double_word_surface.h"
 
+#include "fathom/numeric/fused_multiply_add.h"
+
 namespace fathom {
 namespace {
 
@@ -31,38 +33,30 @@ struct Wide {
                                           const ImageBounds& image) {
     return as<WordPair>(fathom::depth_forms<Real>(corners, rays, image));
   }
-  static Certified<WordPair> depth(const DepthForms<WordPair>& forms, const Sample& s,
+  static Certified<WordPair> depth(const DepthForms<WordPair>& forms, const ImagePoint& s,
                                    bool perspective) {
     return as<WordPair>(as<Real>(forms).at(s, perspective));
   }
   static Certified<WordPair> distance(const Certified<WordPair>& depth, const SceneRays& rays,
-                                      const Sample& s) {
+                                      const ImagePoint& s) {
     return as<WordPair>(product(as<Real>(depth), ray_length<Real>(rays, s)));
   }
   static Vector<Certified<WordPair>> position(const Rays& rays, const RaySizes& sizes,
-                                              bool perspective, const Sample& s,
+                                              bool perspective, const ImagePoint& s,
                                               const Certified<WordPair>& depth) {
     return as<WordPair>(fathom::position(rays, sizes, perspective, s, as<Real>(depth)));
   }
   static std::array<Certified<WordPair>, 2> weights(const MeshTriangle& corners, const Rays& rays,
-                                                    const ImageBounds& image, const Sample& s) {
+                                                    const ImageBounds& image, const ImagePoint& s) {
     const auto forms = weight_forms<Real>(corners, rays, image);
     return {as<WordPair>(forms.at(0, s)), as<WordPair>(forms.at(1, s))};
   }
   static Vector<Certified<WordPair>> normal(const MeshTriangle& corners, const ObjectRays& object,
                                             const ObjectRays& world, const ImageBounds& image,
-                                            const Sample& s) {
+                                            const ImagePoint& s) {
     return as<WordPair>(unit_normal<Real>(corners, object, world, image, s));
   }
 };
-
-// Where the instruction exists but the build may not use it everywhere, it is allowed function by
-// function; everything called is compiled into each.
-#if defined(__x86_64__)
-#define FATHOM_WITH_FMA [[gnu::target("fma"), gnu::flatten]]
-#else
-#define FATHOM_WITH_FMA [[gnu::flatten]]
-#endif
 
 FATHOM_WITH_FMA DepthForms<WordPair> depth_forms_with_fma(const MeshTriangle& corners,
                                                           const Rays& rays,
@@ -70,44 +64,32 @@ FATHOM_WITH_FMA DepthForms<WordPair> depth_forms_with_fma(const MeshTriangle& co
   return Wide<true>::depth_forms(corners, rays, image);
 }
 FATHOM_WITH_FMA Certified<WordPair> depth_with_fma(const DepthForms<WordPair>& forms,
-                                                   const Sample& s, bool perspective) {
+                                                   const ImagePoint& s, bool perspective) {
   return Wide<true>::depth(forms, s, perspective);
 }
 FATHOM_WITH_FMA Certified<WordPair> distance_with_fma(const Certified<WordPair>& depth,
-                                                      const SceneRays& rays, const Sample& s) {
+                                                      const SceneRays& rays, const ImagePoint& s) {
   return Wide<true>::distance(depth, rays, s);
 }
 FATHOM_WITH_FMA Vector<Certified<WordPair>> position_with_fma(const Rays& rays,
                                                               const RaySizes& sizes,
-                                                              bool perspective, const Sample& s,
+                                                              bool perspective, const ImagePoint& s,
                                                               const Certified<WordPair>& depth) {
   return Wide<true>::position(rays, sizes, perspective, s, depth);
 }
 FATHOM_WITH_FMA std::array<Certified<WordPair>, 2> weights_with_fma(const MeshTriangle& corners,
                                                                     const Rays& rays,
                                                                     const ImageBounds& image,
-                                                                    const Sample& s) {
+                                                                    const ImagePoint& s) {
   return Wide<true>::weights(corners, rays, image, s);
 }
 FATHOM_WITH_FMA Vector<Certified<WordPair>> normal_with_fma(const MeshTriangle& corners,
                                                             const ObjectRays& object,
                                                             const ObjectRays& world,
                                                             const ImageBounds& image,
-                                                            const Sample& s) {
+                                                            const ImagePoint& s) {
   return Wide<true>::normal(corners, object, world, image, s);
 }
-#undef FATHOM_WITH_FMA
-
-bool processor_has_fma() {
-#if defined(__x86_64__)
-  return __builtin_cpu_supports("fma") != 0;
-#elif defined(__FP_FAST_FMA)
-  return true;
-#else
-  return false;
-#endif
-}
-
 }  // namespace
 
 const WideArithmetic wide_without_fma{Wide<false>::depth_forms, Wide<false>::depth,

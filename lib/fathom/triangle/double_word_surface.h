@@ -8,7 +8,7 @@ namespace fathom {
 /// of the magnitudes of their terms, their squares by 9ε, the sum by 11ε(X² + Y² + 1); it is at
 /// least 1, so that the root halves that, and rounds once.
 template <class Real>
-Certified<Real> ray_length(const SceneRays& rays, const Sample& s) {
+Certified<Real> ray_length(const SceneRays& rays, const ImagePoint& s) {
   const auto coordinate = [&](const std::array<WordPair, 3>& k) {
     return (entry<Real>(k[2]) + entry<Real>(k[1]) * s.v) + entry<Real>(k[0]) * s.u;
   };
@@ -21,7 +21,7 @@ Certified<Real> ray_length(const SceneRays& rays, const Sample& s) {
 /// so that the point errs by 5ε·d̄·|D̂| + d̄·E_D + 4ε·ō for its terms and by ε for the sum.
 template <class Real>
 Vector<Certified<Real>> position(const Rays& rays, const RaySizes& sizes, bool perspective,
-                                 const Sample& s, const Certified<Real>& depth) {
+                                 const ImagePoint& s, const Certified<Real>& depth) {
   const Ray<Real> ray = ray_at<Real>(rays, perspective, s);
   const double D_size = std::abs(nearest(depth.value));
   Vector<Certified<Real>> point;
@@ -37,15 +37,16 @@ Vector<Certified<Real>> position(const Rays& rays, const RaySizes& sizes, bool p
 /// of it the processor runs: results may differ in their last bits, bounds hold for both.
 struct WideArithmetic {
   DepthForms<WordPair> (*depth_forms)(const MeshTriangle&, const Rays&, const ImageBounds&);
-  Certified<WordPair> (*depth)(const DepthForms<WordPair>&, const Sample&, bool perspective);
+  Certified<WordPair> (*depth)(const DepthForms<WordPair>&, const ImagePoint&, bool perspective);
   Certified<WordPair> (*distance)(const Certified<WordPair>& depth, const SceneRays&,
-                                  const Sample&);
+                                  const ImagePoint&);
   Vector<Certified<WordPair>> (*position)(const Rays&, const RaySizes&, bool perspective,
-                                          const Sample&, const Certified<WordPair>& depth);
+                                          const ImagePoint&, const Certified<WordPair>& depth);
   std::array<Certified<WordPair>, 2> (*weights)(const MeshTriangle&, const Rays&,
-                                                const ImageBounds&, const Sample&);
+                                                const ImageBounds&, const ImagePoint&);
   Vector<Certified<WordPair>> (*normal)(const MeshTriangle&, const ObjectRays& object,
-                                        const ObjectRays& world, const ImageBounds&, const Sample&);
+                                        const ObjectRays& world, const ImageBounds&,
+                                        const ImagePoint&);
 };
 
 extern const WideArithmetic wide_without_fma;

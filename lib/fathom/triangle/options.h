@@ -6,19 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "fathom/image/channel_table.h"
 #include "fathom/numeric/certified.h"
 
 namespace fathom {
 
 enum class Engine { reference, fast };
 enum class Cull { none, back, front };
-
-/// The channels of the specification, section 6, by the names that files have:
-/// Z A Zlow distance id face object N (three) P (three) bary (two).
-enum class Channel { Z, A, Zlow, distance, id, face, object, N, P, bary };
-
-/// "Z" → Channel::Z, …; nullopt if there is no such channel.
-std::optional<Channel> channel_named(const std::string& name);
 
 /// How Z and distance are rounded: once from the exact number, whatever the file.
 struct DepthEncoding {

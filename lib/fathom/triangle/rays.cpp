@@ -6,6 +6,7 @@
 
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/certified_rounding.h"
+#include "fathom/numeric/last_bit.h"
 #include "fathom/numeric/rounding.h"
 
 // Over a mesh the image is affine: (U, V, D) = H·X + h, exactly. A sample (u, v) of a perspective
@@ -15,8 +16,6 @@
 // quotients, rounded once.
 namespace fathom {
 namespace {
-
-constexpr long no_bits = std::numeric_limits<long>::max() / 4;
 
 using ExactMatrix = std::array<ExactVector3, 3>;
 
@@ -39,11 +38,6 @@ bool set(const Ratio& exact, WordPair& entry, double& size) {
   entry = rounded(exact);
   size = std::abs(entry.hi);
   return is_safe(entry.hi);
-}
-
-long last_bit(const Dyadic& x) {
-  if (x.is_zero()) return no_bits;
-  return static_cast<long>(mpz_scan1(x.significand(), 0)) + x.exponent();
 }
 
 /// The world as a mesh.

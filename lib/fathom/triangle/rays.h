@@ -63,11 +63,6 @@ struct ObjectRays {
   double determinant = 0;
 };
 
-/// A multiple of ½ at every sample.
-struct Sample {
-  double u = 0, v = 0;
-};
-
 /// What the channels need of camera and scene; objects are prepared when first asked for, by any
 /// thread.
 class SceneRays {

@@ -67,9 +67,9 @@ void SquareEdges::cut(bool tags_apart) {
 }
 
 double SquareEdges::error_of(std::size_t crossings) const {
-  const double xi = 16 * unit_roundoff * extent_;
+  const double xi = 16 * unit_roundoff<double> * extent_;
   return 10 * static_cast<double>(crossings + 2) * xi +
-         32 * unit_roundoff * static_cast<double>(breaks_.size());
+         32 * unit_roundoff<double> * static_cast<double>(breaks_.size());
 }
 
 }  // namespace fathom

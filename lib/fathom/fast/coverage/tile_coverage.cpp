@@ -59,7 +59,8 @@ TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_
     L = std::max({L, std::abs(p[k].x), std::abs(p[k].y)});
     e = std::max(e, vertex.position_error());
   }
-  const double error = (8.25 * (e + unit_roundoff * L) + 34 * unit_roundoff * L) * L;
+  const double error =
+      (8.25 * (e + unit_roundoff<double> * L) + 34 * unit_roundoff<double> * L) * L;
   const double doubled_area =
       (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
   if (doubled_area < 0) std::swap(p[1], p[2]);
@@ -88,12 +89,12 @@ TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context
   if (range.inside_greatest < infinity) {
     const double doubt = std::abs(range.outside_greatest - range.inside_greatest);
     add(-s.q_a, -s.q_b, range.inside_greatest - s.q_c,
-        2 * s.q_error + 2 * doubt + 2 * unit_roundoff * std::abs(range.inside_greatest));
+        2 * s.q_error + 2 * doubt + 2 * unit_roundoff<double> * std::abs(range.inside_greatest));
   }
   if (range.inside_least > -infinity) {
     const double doubt = std::abs(range.inside_least - range.outside_least);
     add(s.q_a, s.q_b, s.q_c - range.inside_least,
-        2 * s.q_error + 2 * doubt + 2 * unit_roundoff * std::abs(range.inside_least));
+        2 * s.q_error + 2 * doubt + 2 * unit_roundoff<double> * std::abs(range.inside_least));
   }
   return shape;
 }
@@ -201,7 +202,7 @@ Interval TileCoverage::area_between_edges(std::uint32_t pixel, Corners corners) 
     }
     const double extent =
         std::max({std::abs(p.x), std::abs(p.y), std::abs(q.x), std::abs(q.y), 1.0});
-    winding_.add(p, q, error + unit_roundoff * extent);
+    winding_.add(p, q, error + unit_roundoff<double> * extent);
   }
   return winding_.area([&](const SquarePoint& point) {
     int number = 0;
@@ -254,7 +255,7 @@ void TileCoverage::add_to_union(const Shape& shape, std::uint32_t x, std::uint32
     extent = std::max({extent, std::abs(p[k].x), std::abs(p[k].y)});
     e = std::max(e, vertex.position_error());
   }
-  union_.add(p, 16 * (e + unit_roundoff * extent));
+  union_.add(p, 16 * (e + unit_roundoff<double> * extent));
 }
 
 float TileCoverage::settle(std::uint32_t pixel, const Tile::Context& context) {

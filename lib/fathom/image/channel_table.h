@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The channels that an exact map can have (specification, section 6): the one place that says what
+/// each is called, holds and means.
+namespace fathom {
+
+enum class Channel { Z, A, Zlow, distance, id, face, object, N, P, bary };
+
+/// What a channel's values mean, and with it which value says "no surface".
+enum class ChannelKind {
+  depth,       ///< Z, distance, disparity, Zdecoded: background +∞, of codes 0
+  identifier,  ///< id, face, object and every other 32-bit integer: background no_surface
+  direction,   ///< N.X, N.Y, N.Z: background 0 in all three
+  position,    ///< P.*, bary.*: background NaN
+  quantity     ///< everything else (A, Zlow, other programs' channels): 0, which is no background
+};
+
+/// What a channel is stored as.
+enum class ChannelType {
+  encoded,    ///< binary32, binary64 or codes of 16 bits, as is asked for (DepthEncoding)
+  binary32,   ///< binary32
+  identifier  ///< an integer of 32 bits
+};
+
+struct ChannelDescription {
+  Channel channel;
+  /// In files and options, without its part.
+  std::string_view name;
+  /// A letter for each part: `N` has the channels N.X, N.Y and N.Z. Empty: a single channel.
+  std::string_view parts;
+  ChannelType type;
+  ChannelKind kind;
+  /// In a word or two, for people.
+  std::string_view meaning;
+};
+
+/// In the order of Channel.
+inline constexpr std::array<ChannelDescription, 10> channel_table{{
+    {Channel::Z, "Z", "", ChannelType::encoded, ChannelKind::depth, "planar depth"},
+    {Channel::A, "A", "", ChannelType::binary32, ChannelKind::quantity, "coverage"},
+    {Channel::Zlow, "Zlow", "", ChannelType::binary32, ChannelKind::quantity,
+     "exact depth minus Z"},
+    {Channel::distance, "distance", "", ChannelType::encoded, ChannelKind::depth, "ray distance"},
+    {Channel::id, "id", "", ChannelType::identifier, ChannelKind::identifier, "triangle"},
+    {Channel::face, "face", "", ChannelType::identifier, ChannelKind::identifier, "face"},
+    {Channel::object, "object", "", ChannelType::identifier, ChannelKind::identifier, "object"},
+    {Channel::N, "N", "XYZ", ChannelType::binary32, ChannelKind::direction, "normal in the world"},
+    {Channel::P, "P", "XYZ", ChannelType::binary32, ChannelKind::position, "position in the world"},
+    {Channel::bary, "bary", "UV", ChannelType::binary32, ChannelKind::position,
+     "barycentric weights of B and C"},
+}};
+
+inline const ChannelDescription& description_of(Channel channel) {
+  return channel_table[static_cast<std::size_t>(channel)];
+}
+
+/// "Z" → Channel::Z, …; nullopt if there is no such channel.
+std::optional<Channel> channel_named(std::string_view name);
+
+/// The names of its parts, "N.X", "N.Y" and "N.Z"; of a single channel, its own.
+std::vector<std::string> part_names(Channel channel);
+
+/// "Z, A, Zlow, … and bary"
+std::string channel_names();
+
+}  // namespace fathom
