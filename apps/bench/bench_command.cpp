@@ -1,22 +1,19 @@
-#include <fmt/format.h>
+// fathom bench
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "apps/options/render_options.h"
-#include "apps/shell/numbers.h"
+#include "apps/bench/bench_arguments.h"
+#include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/program_main.h"
+#include "apps/shell/program.h"
 #include "apps/shell/progress.h"
-#include "fathom/numeric/errors.h"
 #include "validation/bench/in_child.h"
-#include "validation/bench/processors.h"
-#include "validation/bench/renderers.h"
 #include "validation/bench/report.h"
-#include "validation/bench/scenes.h"
 
 namespace fathom::app {
 namespace {
@@ -28,83 +25,13 @@ using bench::Plan;
 /// Above this many triangles the reference engine is timed only where --peers asks for it.
 constexpr std::uint64_t bearable_triangles = 20'000;
 
-struct BenchArguments {
-  std::string scenes, sizes = "1920x1080", threads, peers, channels = "Z", repeat = "9", json;
-};
-
-/// What --peers names, or what there is.
-struct Peers {
-  bool vtk = false, embree = false, reference = false;
-  /// No --peers: the reference engine where it is bearable.
-  bool by_default = false;
-};
-
-Peers parse_peers(const std::string& list) {
-  if (list.empty()) {
-    const bool built = bench::peers_are_built();
-    return {.vtk = built, .embree = built, .reference = true, .by_default = true};
-  }
-  Peers peers;
-  for (const std::string& name : split_list(list)) {
-    if (name == "vtk") {
-      peers.vtk = true;
-    } else if (name == "embree") {
-      peers.embree = true;
-    } else if (name == "reference") {
-      peers.reference = true;
-    } else if (name != "none") {
-      throw UsageError("--peers: '" + name + "' is none of vtk, embree, reference and none");
-    }
-  }
-  if ((peers.vtk || peers.embree) && !bench::peers_are_built()) {
-    throw UsageError(
-        "--peers: VTK and Embree are not built in: 'scripts/fathom bench' installs "
-        "them and builds with them (-DFATHOM_PEERS=ON)");
-  }
-  return peers;
-}
-
-std::vector<std::string> parse_scenes(const std::string& list) {
-  if (list.empty()) return bench::default_scene_names();
-  std::vector<std::string> names = split_list(list);
-  for (const std::string& name : names) {
-    const bool is_file = name.find_first_of("./") != std::string::npos;
-    if (!bench::is_made_scene(name) && !is_file) {
-      throw UsageError(
-          fmt::format("--scene: there is no scene '{}'; there are {}, room-outside, "
-                      "sphere-N and mesh files",
-                      name, fmt::join(bench::default_scene_names(), ", ")));
-    }
-  }
-  return names;
-}
-
-std::vector<int> parse_threads(const std::string& list) {
-  const int all = bench::processor_count();
-  if (list.empty()) return {all};
-  std::vector<int> counts;
-  for (const std::string& text : split_list(list)) {
-    const std::uint32_t count = parse_count("--threads", text);
-    if (count > static_cast<std::uint32_t>(all)) {
-      throw UsageError(
-          fmt::format("--threads: {} is more than the {} processors that there are", count, all));
-    }
-    counts.push_back(count == 0 ? all : static_cast<int>(count));
-  }
-  return counts;
-}
-
 /// Every scene at every size with every number of threads.
-std::vector<Plan> plans_of(const BenchArguments& arguments) {
+std::vector<Plan> plans_of(const BenchArguments& a) {
   std::vector<Plan> plans;
-  const auto channels = parse_channels(arguments.channels);
-  const auto repeat = static_cast<int>(
-      std::min(parse_count("--repeat", arguments.repeat, 1), std::uint32_t{1'000'000}));
-  for (const std::string& size : split_list(arguments.sizes)) {
-    const auto [width, height] = parse_size("--size", size);
-    for (const int threads : parse_threads(arguments.threads)) {
-      for (const std::string& scene : parse_scenes(arguments.scenes)) {
-        plans.push_back({scene, width, height, threads, repeat, channels});
+  for (const auto& [width, height] : a.sizes) {
+    for (const int threads : a.threads) {
+      for (const std::string& scene : a.scenes) {
+        plans.push_back({scene, width, height, threads, a.repeat, a.channels});
       }
     }
   }
@@ -175,11 +102,11 @@ std::string version_lines(const std::vector<Comparison>& comparisons) {
   }
   std::sort(lines.begin(), lines.end());
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
-  return fmt::format("{}", fmt::join(lines, ""));
+  return std::accumulate(lines.begin(), lines.end(), std::string());
 }
 
 int run_bench(const BenchArguments& arguments, const Console& console) {
-  const Peers peers = parse_peers(arguments.peers);
+  const Peers& peers = arguments.peers;
   const std::vector<Plan> plans = plans_of(arguments);
   std::optional<OutputFile> json;
   if (!arguments.json.empty() && arguments.json != "-") json.emplace(arguments.json);
@@ -210,8 +137,8 @@ int run_bench(const BenchArguments& arguments, const Console& console) {
   return done;
 }
 
-void add_bench(Program& program) {
-  CLI::App* command = program.add_command(
+void add_bench(Command& program) {
+  Command& command = program.command(
       "bench", "Time and memory beside VTK, Embree and the reference engine",
       "  fathom bench\n"
       "  fathom bench --scene sphere-200k,soup --threads 1,2 --json times.json\n"
@@ -222,21 +149,8 @@ void add_bench(Program& program) {
       "its first frame is not counted. Times of vtk are without read-back, those of embree\n"
       "without embree-build.");
   const auto arguments = std::make_shared<BenchArguments>();
-  command->add_option("--scene", arguments->scenes, "Scenes to render (default: see below)");
-  command->add_option("--size", arguments->sizes, "Image sizes (default 1920x1080)");
-  command->add_option("--threads", arguments->threads,
-                      "Numbers of threads (default: all processors)");
-  command->add_option("--peers", arguments->peers,
-                      "Renderers beside fast: vtk, embree, reference or none (default: all, the "
-                      "reference engine up to 20000 triangles)");
-  command->add_option("--channels", arguments->channels,
-                      "Channels that our engines compute (default Z)");
-  command->add_option("--repeat", arguments->repeat,
-                      "Frames to time, within 20 seconds (default 9)");
-  command->add_option("--json", arguments->json, "Also write the figures as JSON; - for only them");
-  command->callback([&program, arguments] {
-    program.run = [&program, arguments] { return run_bench(*arguments, program.console); };
-  });
+  arguments->add_to(command);
+  command.runs([arguments](const Console& console) { return run_bench(*arguments, console); });
 }
 
 }  // namespace

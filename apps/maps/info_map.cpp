@@ -1,11 +1,11 @@
-#include "apps/maps/info_map.h"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "apps/maps/info.h"
+#include "apps/shell/values.h"
 #include "fathom/image/surface.h"
 
 namespace fathom::app {
@@ -71,9 +71,7 @@ std::string figure(const ChannelSummary& summary, double value) {
                                    : fmt::format("{}", value);
 }
 
-}  // namespace
-
-Json describe(const DepthMap& map) {
+Json describe(const DepthMap& map, const std::string& file) {
   Json channels = Json::object();
   for (const ImageChannel& channel : map.channels) {
     const ChannelSummary summary = summarise(map, channel);
@@ -85,7 +83,8 @@ Json describe(const DepthMap& map) {
                {"nan", summary.nan}};
     channels[channel.name] = std::move(entry);
   }
-  Json answer{{"kind", "map"},
+  Json answer{{"file", file},
+              {"kind", "map"},
               {"width", map.width},
               {"height", map.height},
               {"channels", std::move(channels)}};
@@ -115,10 +114,17 @@ std::string describe_as_text(const DepthMap& map, const std::string& file) {
   }
   if (map.png_scale) text += fmt::format("  scale      {} codes per unit\n", *map.png_scale);
   if (!map.object_names.empty()) {
-    text += fmt::format("  objects    {}\n", fmt::join(map.object_names, ", "));
+    text += fmt::format("  objects    {}\n", joined(map.object_names, ", "));
   }
   for (const auto& [name, value] : map.texts) text += fmt::format("  {}: {}\n", name, value);
   return text;
+}
+
+}  // namespace
+
+std::string info_of_map(const DepthMap& map, const std::string& file, AnswerForm form) {
+  if (form == AnswerForm::text) return describe_as_text(map, file);
+  return describe(map, file).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace fathom::app

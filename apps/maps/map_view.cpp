@@ -1,14 +1,14 @@
 #include "apps/maps/map_view.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <string>
+#include <optional>
 
+#include "apps/shell/known_files.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/scene/read_scene.h"
 
 namespace fathom::app {
 namespace {
@@ -31,9 +31,8 @@ class MemoryFile {
   int descriptor_;
 };
 
-}  // namespace
-
-std::optional<Camera> camera_of(const DepthMap& map, const std::filesystem::path& file) {
+/// The camera that a map carries; nullopt if it carries none.
+std::optional<Camera> camera_of(const DepthMap& map, const std::string& file) {
   const auto text = map.texts.find("fathom.camera");
   if (text == map.texts.end()) return std::nullopt;
   const MemoryFile memory(text->second);
@@ -43,11 +42,27 @@ std::optional<Camera> camera_of(const DepthMap& map, const std::filesystem::path
   } catch (const InputError& error) {
     std::string message = error.what();
     if (message.starts_with(memory.path())) message.erase(0, memory.path().size());
-    throw InputError(file.string() + ": fathom.camera" + message);
+    throw InputError(file + ": fathom.camera" + message);
   }
-  if (cameras.size() != 1) throw InputError(file.string() + ": fathom.camera holds no one camera");
+  if (cameras.size() != 1) throw InputError(file + ": fathom.camera does not hold one camera");
   return cameras[0];
 }
+
+/// The one camera of a file, of the size of the map.
+Camera camera_for(const DepthMap& map, const std::string& file) {
+  note_input(file);
+  const std::vector<Camera> cameras = read_cameras(file);
+  if (cameras.size() != 1) {
+    throw UsageError(fmt::format("--camera: a path of {} cameras; a map has one", cameras.size()));
+  }
+  if (cameras[0].width != map.width || cameras[0].height != map.height) {
+    throw InputError(fmt::format("{}: a camera of {}x{} pixels, but the map has {}x{}", file,
+                                 cameras[0].width, cameras[0].height, map.width, map.height));
+  }
+  return cameras[0];
+}
+
+}  // namespace
 
 MapView view_of(const Camera& camera) {
   MapView view;
@@ -60,6 +75,13 @@ MapView view_of(const Camera& camera) {
   view.pixel_centre = camera.pixel_centre;
   view.world_to_camera = camera.world_to_camera;
   return view;
+}
+
+MapView view_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file) {
+  if (!camera_file.empty()) return view_of(camera_for(map, camera_file));
+  const std::optional<Camera> camera = camera_of(map, map_file);
+  if (!camera) throw InputError(map_file + ": carries no camera; expected --camera FILE");
+  return view_of(*camera);
 }
 
 }  // namespace fathom::app

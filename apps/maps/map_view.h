@@ -1,7 +1,6 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
+#include <string>
 
 #include "fathom/camera/camera.h"
 #include "fathom/image/convert.h"
@@ -9,11 +8,12 @@
 
 namespace fathom::app {
 
-/// The camera that a map carries in `fathom.camera`; nullopt if it carries none. `file` is named in
-/// messages. Fails with InputError where what it carries is no camera.
-std::optional<Camera> camera_of(const DepthMap& map, const std::filesystem::path& file);
-
 /// What conversions need to know of a camera.
 MapView view_of(const Camera& camera);
+
+/// The view of a map: that of the camera file where one is named, else of the camera that the map
+/// carries in `fathom.camera`. `map_file` is named in messages.
+/// Fails    InputError where there is no camera, or none for this map; UsageError for a path.
+MapView view_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file);
 
 }  // namespace fathom::app

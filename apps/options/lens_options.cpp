@@ -1,37 +1,75 @@
 #include "apps/options/lens_options.h"
 
-#include "apps/shell/numbers.h"
+#include "apps/shell/values.h"
+#include "fathom/numeric/errors.h"
 
 namespace fathom::app {
+namespace {
 
-void LensOptions::add_to(CLI::App& command) {
-  command.add_option("--size", size, "WIDTHxHEIGHT in pixels (default 1280x720)");
-  CLI::Option* angle =
-      command.add_option("--fov", fov, "Vertical field of view in degrees (default 40)");
-  CLI::Option* length =
-      command.add_option("--focal", focal, "fx = fy in pixels, in place of --fov");
-  CLI::Option* parallel = command.add_option(
-      "--orthographic", orthographic, "Parallel projection; scene units that the height spans");
-  angle->excludes(length)->excludes(parallel);
-  length->excludes(parallel);
-  command.add_option("--near", near, "Nearest depth that counts (default 0)");
-  command.add_option("--far", far, "Farthest depth that counts (default: infinity)");
+double parse_angle(const std::string& text) {
+  const double degrees = parse_number(text);
+  if (degrees > 0 && degrees < 180) return degrees;
+  throw UsageError("'" + text + "' is not an angle between 0 and 180 degrees");
 }
 
-Lens LensOptions::get() const {
-  Lens lens;
-  const auto [width, height] = parse_size("--size", size);
-  lens.width = width;
-  lens.height = height;
-  if (!fov.empty()) lens.vertical_fov = parse_number("--fov", fov);
-  if (!focal.empty()) lens.focal = parse_number("--focal", focal);
-  if (!orthographic.empty()) {
-    lens.projection = Projection::orthographic;
-    lens.vertical_extent = parse_number("--orthographic", orthographic);
-  }
-  if (!near.empty()) lens.near = parse_number("--near", near);
-  if (!far.empty()) lens.far = parse_number("--far", far);
-  return lens;
+UpAxis parse_up(const std::string& text) {
+  return parse_word<UpAxis>(text, {{"y", UpAxis::y}, {"z", UpAxis::z}});
+}
+
+}  // namespace
+
+std::array<Option, 2> add_view_options(Command& command, View& view) {
+  const Option direction = command.option(
+      "--view", "AZ,EL",
+      [&view](const std::string& text) {
+        const auto [azimuth, elevation] = parse_pair(text);
+        view.azimuth = azimuth;
+        view.elevation = elevation;
+      },
+      "AZIMUTH,ELEVATION of the eye in degrees (default 35,25); azimuth 90 is the +x side, "
+      "elevation 90 is above");
+  return {direction, command.option("--up", "NAME", into(view.up, parse_up),
+                                    "The axis that points up: y (default) or z")};
+}
+
+Option add_size_option(Command& command, Lens& lens) {
+  return command.option(
+      "--size", "WxH",
+      [&lens](const std::string& text) {
+        const auto [width, height] = parse_size(text);
+        lens.width = width;
+        lens.height = height;
+      },
+      "WIDTHxHEIGHT in pixels (default 1280x720)");
+}
+
+Option add_fov_option(Command& command, Lens& lens) {
+  return command.option("--fov", "DEG", into(lens.vertical_fov, parse_angle),
+                        "Vertical field of view in degrees (default 40)");
+}
+
+std::array<Option, 2> add_range_options(Command& command, Lens& lens) {
+  return {command.option("--near", "D", into(lens.near, parse_number),
+                         "Nearest depth that counts (default 0)"),
+          command.option("--far", "D", into(lens.far, parse_number),
+                         "Farthest depth that counts (default: infinity)")};
+}
+
+void add_lens_options(Command& command, Lens& lens) {
+  add_size_option(command, lens);
+  Option angle = add_fov_option(command, lens);
+  Option length = command.option("--focal", "PIXELS", into(lens.focal, parse_number),
+                                 "fx = fy in pixels, in place of --fov");
+  const Option parallel = command.option(
+      "--orthographic", "HEIGHT",
+      [&lens](const std::string& text) {
+        lens.projection = Projection::orthographic;
+        lens.vertical_extent = parse_number(text);
+      },
+      "Parallel projection; scene units that the height spans");
+  angle.excludes(length).excludes(parallel);
+  length.excludes(parallel);
+  add_range_options(command, lens);
 }
 
 }  // namespace fathom::app

@@ -1,32 +1,36 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
-#include "apps/shell/console.h"
-#include "fathom/scene/read_scene.h"
+#include "apps/shell/command.h"
+#include "fathom/mesh_files/read_options.h"
 #include "fathom/scene/scene.h"
-#include "fathom/scene/streamed_scene.h"
 
 namespace fathom::app {
 
-/// `SCENE… --mesh-format --threads`: what every command that looks at a scene takes.
+/// "obj", "ply", … ; fails with UsageError.
+MeshFormat parse_mesh_format(const std::string& text);
+
+/// `SCENE… --mesh-format --threads`: what every command that reads a scene takes.
 struct SceneOptions {
   std::vector<std::string> files;
-  std::string mesh_format;
-  std::string threads = "0";
+  std::optional<MeshFormat> mesh_format;
+  int threads = 0;
 
-  void add_to(CLI::App& command);
-  [[nodiscard]] int thread_count() const;
-  /// Reads the scene, says the warnings. `hash` computes the sources' SHA-256; `attributes` keeps
-  /// colours, normals and texture coordinates.
-  [[nodiscard]] Scene read(const Console& console, bool hash, bool attributes = false) const;
-  /// Opens the scene, which stays in its files, says the warnings.
-  [[nodiscard]] StreamedScene stream(const Console& console) const;
+  void add_to(Command& command);
 
- private:
-  [[nodiscard]] ReadOptions read_options(bool hash) const;
+  /// What else a reader may keep of a scene.
+  struct Extras {
+    bool hash = false;        ///< SHA-256 of the sources
+    bool attributes = false;  ///< colours, normals and texture coordinates
+  };
+  /// Reads the scene and passes on the reader's warnings.
+  [[nodiscard]] Scene read(const Console& console, const Extras& extras) const;
+  [[nodiscard]] Scene read(const Console& console) const { return read(console, Extras()); }
+
+  /// With the format and the threads that were asked for.
+  [[nodiscard]] ReadOptions read_options() const;
 };
 
 }  // namespace fathom::app

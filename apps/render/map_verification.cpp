@@ -1,6 +1,6 @@
 #include "apps/render/map_verification.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <vector>
 
@@ -11,9 +11,7 @@ namespace fathom::app {
 namespace {
 
 /// Adds them to the choice; how many of them there are.
-std::uint64_t choose_nearly_unsettled(const VerificationRequest& request,
-                                      const std::function<void(const RenderOptions&)>& render,
-                                      PixelChoice& chosen) {
+std::uint64_t choose_nearly_unsettled(const VerificationRequest& request, PixelChoice& chosen) {
   if (request.options.engine != Engine::fast) return 0;
   std::vector<std::uint64_t> doubtful;
   RenderOptions options = request.options;
@@ -21,7 +19,7 @@ std::uint64_t choose_nearly_unsettled(const VerificationRequest& request,
   options.progress = {};
   options.fast.widening = 16;
   options.fast.doubtful = &doubtful;
-  render(options);
+  request.render(options);
   PixelChoice near(chosen.size(), false);
   std::uint64_t count = 0;
   for (const std::uint64_t pixel : doubtful) {
@@ -31,34 +29,42 @@ std::uint64_t choose_nearly_unsettled(const VerificationRequest& request,
   return count;
 }
 
+std::string agreement(const MapVerification& v, std::size_t pixels) {
+  const std::string nearly =
+      v.nearly_unsettled == 0
+          ? ""
+          : fmt::format(" ({} of them at which a bound hardly settles something)",
+                        v.nearly_unsettled);
+  return fmt::format("{} of {} pixels verified by exact arithmetic{}, all agree", v.verified,
+                     pixels, nearly);
+}
+
+std::string disagreement(const MapVerification& v, const Disagreement& first) {
+  return fmt::format(
+      "pixel ({}, {}): {} is {}, exact arithmetic gives {}; {} of {} verified pixels differ",
+      first.x, first.y, first.channel, first.found, first.expected, v.differing, v.verified);
+}
+
 }  // namespace
 
-bool verify_map(const DepthMap& map, const std::string& name, const VerificationRequest& request,
-                const std::function<void(const RenderOptions&)>& render, const Console& console,
-                nlohmann::ordered_json& report) {
+MapVerification verify_map(const DepthMap& map, const std::string& name,
+                           const VerificationRequest& request, const Console& console) {
   const Camera& camera = request.camera;
   PixelChoice chosen = choose_pixels(camera.width, camera.height, request.pixels);
-  const std::uint64_t near = choose_nearly_unsettled(request, render, chosen);
+  MapVerification result;
+  result.nearly_unsettled = choose_nearly_unsettled(request, chosen);
   Progress progress(console, "verifying");
   RenderOptions options = request.options;
   options.progress = progress.reporter();
-  const Verification v = verify(map, request.triangles, camera, options, chosen);
-  report["verified"] = v.verified;
-  report["nearly_unsettled"] = near;
-  report["differing"] = v.differing;
-  if (!v.first) {
-    const std::string of_which =
-        near == 0 ? ""
-                  : fmt::format(" ({} of them at which a bound hardly settles something)", near);
-    console.note(fmt::format("{}: {} of {} pixels verified by exact arithmetic{}, all agree", name,
-                             v.verified, chosen.size(), of_which));
-    return true;
+  const Verification seen = verify(map, request.triangles, camera, options, chosen);
+  result.verified = seen.verified;
+  result.differing = seen.differing;
+  if (seen.first) {
+    Console::error(name + ": " + disagreement(result, *seen.first));
+  } else {
+    console.note(name + ": " + agreement(result, chosen.size()));
   }
-  Console::error(fmt::format(
-      "{}: pixel ({}, {}): {} is {}, exact arithmetic gives {}; {} of {} verified pixels differ",
-      name, v.first->x, v.first->y, v.first->channel, v.first->found, v.first->expected,
-      v.differing, v.verified));
-  return false;
+  return result;
 }
 
 }  // namespace fathom::app

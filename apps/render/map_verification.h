@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "apps/shell/console.h"
@@ -19,14 +18,24 @@ struct VerificationRequest {
   const Camera& camera;
   const RenderOptions& options;
   std::uint64_t pixels;
+  /// Renders the same map with other options.
+  std::function<void(const RenderOptions&)> render;
+};
+
+struct MapVerification {
+  /// Pixels that were computed again, and how many of them differ.
+  std::uint64_t verified = 0, differing = 0;
+  /// Of the verified ones, those at which a bound of the fast engine nearly failed to settle a
+  /// decision.
+  std::uint64_t nearly_unsettled = 0;
+
+  [[nodiscard]] bool agrees() const { return differing == 0; }
 };
 
 /// `render --verify`: computes pixels of the map again by exact arithmetic, chosen at random and,
 /// of the fast engine's map, all at which one of its bounds nearly failed to settle a decision: it
-/// would have, had it been 16 times as wide. `render` renders the same map with other options. Says
-/// how the map fares and notes it in the report; false where it is not exact.
-bool verify_map(const DepthMap& map, const std::string& name, const VerificationRequest& request,
-                const std::function<void(const RenderOptions&)>& render, const Console& console,
-                nlohmann::ordered_json& report);
+/// would have, had it been 16 times as wide. Says how the map, called `name`, fares.
+MapVerification verify_map(const DepthMap& map, const std::string& name,
+                           const VerificationRequest& request, const Console& console);
 
 }  // namespace fathom::app

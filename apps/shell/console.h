@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "fathom/mesh/mesh.h"
 #include "fathom/text/warnings.h"
 
 namespace fathom::app {

@@ -1,6 +1,6 @@
 #include "apps/shell/progress.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdio>
 

@@ -1,17 +1,18 @@
 // fathom coplanar SCENE… --camera FILE [--within DISTANCE]
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/options/camera_options.h"
-#include "apps/options/render_options.h"
+#include "apps/options/cull_option.h"
 #include "apps/options/scene_options.h"
-#include "apps/shell/numbers.h"
+#include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/program.h"
 #include "apps/shell/progress.h"
+#include "apps/shell/values.h"
+#include "apps/surfaces/surface_commands.h"
 #include "fathom/area/coplanar.h"
 #include "fathom/numeric/errors.h"
 
@@ -23,7 +24,8 @@ using Json = nlohmann::ordered_json;
 struct CoplanarArguments {
   SceneOptions scene;
   CameraOptions camera;
-  std::string within = "0", cull = "none";
+  double within = 0;
+  Cull cull = Cull::none;
   bool json = false;
 };
 
@@ -69,43 +71,45 @@ std::string as_json(const Scene& scene, const std::vector<CoplanarPair>& pairs, 
   return answer.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+double parse_distance(const std::string& text) {
+  const double distance = parse_number(text);
+  if (distance < 0) throw UsageError("'" + text + "' is negative");
+  return distance;
+}
+
 int run_coplanar(const CoplanarArguments& arguments, const Console& console) {
-  const double within = parse_number("--within", arguments.within);
-  if (within < 0) throw UsageError("--within: '" + arguments.within + "' is negative");
   RenderOptions options;
-  options.cull = cull_named(arguments.cull);
-  options.threads = arguments.scene.thread_count();
-  arguments.camera.check();
-  const Scene scene = arguments.scene.read(console, false);
+  options.cull = arguments.cull;
+  options.threads = arguments.scene.threads;
+  const Scene scene = arguments.scene.read(console);
   const Camera camera = arguments.camera.get_one(scene, "coplanar");
   std::vector<CoplanarPair> pairs;
   {
     Progress progress(console, "comparing");
     options.progress = progress.reporter();
-    pairs = coplanar_pairs(scene, camera, within, options);
+    pairs = coplanar_pairs(scene, camera, arguments.within, options);
   }
-  print(arguments.json ? as_json(scene, pairs, within) : as_text(scene, pairs, within));
+  print(arguments.json ? as_json(scene, pairs, arguments.within)
+                       : as_text(scene, pairs, arguments.within));
   return done;
 }
 
 }  // namespace
 
-void add_coplanar(Program& program) {
+void add_coplanar(Command& program) {
   const auto arguments = std::make_shared<CoplanarArguments>();
-  CLI::App* command = program.add_command(
+  Command& command = program.command(
       "coplanar", "Find visible surfaces that coincide or nearly do, where z-buffers fight",
       "  fathom coplanar data/scenes/hard/coplanar-overlaps.obj\n"
       "  fathom coplanar room.json --camera camera.json --within 0.001 --json");
-  arguments->scene.add_to(*command);
-  arguments->camera.add_to(*command);
-  command->add_option("--within", arguments->within,
-                      "The greatest distance along the view between two surfaces that are told "
-                      "(default 0: only such as coincide)");
-  add_cull_option(*command, arguments->cull);
-  command->add_flag("--json", arguments->json, "Answer in JSON");
-  command->callback([arguments, &program] {
-    program.run = [arguments, &program] { return run_coplanar(*arguments, program.console); };
-  });
+  arguments->scene.add_to(command);
+  arguments->camera.add_to(command);
+  command.option("--within", "D", into(arguments->within, parse_distance),
+                 "The greatest distance along the view between the two surfaces of a pair (default "
+                 "0: only surfaces that coincide)");
+  add_cull_option(command, arguments->cull);
+  command.flag("--json", arguments->json, "Answer in JSON");
+  command.runs([arguments](const Console& console) { return run_coplanar(*arguments, console); });
 }
 
 }  // namespace fathom::app

@@ -1,16 +1,17 @@
 // fathom visible SCENE… --camera FILE
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/options/camera_options.h"
-#include "apps/options/render_options.h"
+#include "apps/options/cull_option.h"
 #include "apps/options/scene_options.h"
+#include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/program.h"
 #include "apps/shell/progress.h"
+#include "apps/surfaces/surface_commands.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/numeric/errors.h"
 
@@ -22,7 +23,8 @@ using Json = nlohmann::ordered_json;
 struct VisibleArguments {
   SceneOptions scene;
   CameraOptions camera;
-  std::string cull = "none", output = "-";
+  Cull cull = Cull::none;
+  std::string output = "-";
   bool json = false, csv = false;
 };
 
@@ -114,10 +116,9 @@ std::string as_text(const Answer& answer) {
 int run_visible(const VisibleArguments& arguments, const Console& console) {
   if (arguments.json && arguments.csv) throw UsageError("--json and --csv exclude each other");
   RenderOptions options;
-  options.cull = cull_named(arguments.cull);
-  options.threads = arguments.scene.thread_count();
-  arguments.camera.check();
-  const Scene scene = arguments.scene.read(console, false);
+  options.cull = arguments.cull;
+  options.threads = arguments.scene.threads;
+  const Scene scene = arguments.scene.read(console);
   const Camera camera = arguments.camera.get_one(scene, "visible");
   VisibleAreas areas;
   {
@@ -134,24 +135,22 @@ int run_visible(const VisibleArguments& arguments, const Console& console) {
 
 }  // namespace
 
-void add_visible(Program& program) {
+void add_visible(Command& program) {
   const auto arguments = std::make_shared<VisibleArguments>();
-  CLI::App* command = program.add_command(
-      "visible", "Measure how much of each triangle and object is visible, exactly",
-      "  fathom visible data/meshes/spot.obj\n"
-      "  fathom visible room.json --camera camera.json --json\n"
-      "  fathom visible room.json --camera camera.json --csv -o visible.csv");
-  arguments->scene.add_to(*command);
-  arguments->camera.add_to(*command);
-  add_cull_option(*command, arguments->cull);
-  command->add_flag("--json", arguments->json,
-                    "Every object and every triangle in JSON: areas in pixels, their ratio");
-  command->add_flag("--csv", arguments->csv, "The same in CSV");
-  command->add_option("-o,--output", arguments->output,
-                      "Write the answer to this file (default -, standard output)");
-  command->callback([arguments, &program] {
-    program.run = [arguments, &program] { return run_visible(*arguments, program.console); };
-  });
+  Command& command =
+      program.command("visible", "Measure how much of each triangle and object is visible, exactly",
+                      "  fathom visible data/meshes/spot.obj\n"
+                      "  fathom visible room.json --camera camera.json --json\n"
+                      "  fathom visible room.json --camera camera.json --csv -o visible.csv");
+  arguments->scene.add_to(command);
+  arguments->camera.add_to(command);
+  add_cull_option(command, arguments->cull);
+  command.flag("--json", arguments->json,
+               "Every object and every triangle in JSON: areas in pixels, their ratio");
+  command.flag("--csv", arguments->csv, "Every object and every triangle in CSV");
+  command.option("-o,--output", "FILE", arguments->output,
+                 "Write the answer to this file (default -, standard output)");
+  command.runs([arguments](const Console& console) { return run_visible(*arguments, console); });
 }
 
 }  // namespace fathom::app

@@ -11,11 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/shell/exit_status.h"
 #include "apps/shell/known_files.h"
-#include "apps/shell/numbers.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/program_main.h"
+#include "apps/shell/program.h"
 #include "apps/shell/progress.h"
+#include "apps/shell/values.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
@@ -38,7 +39,9 @@ using validation::ValidationScene;
 struct ValidateArguments {
   std::vector<std::string> scenes;
   std::string map, camera, model, channel, out, baseline;
-  std::string against, scene_names, variants, render, output, size = "320x240", seconds = "300";
+  std::string against, scene_names, variants, render, output;
+  Size size{320, 240};
+  std::uint32_t seconds = 300;
 };
 
 Camera read_camera(const std::string& file) {
@@ -95,7 +98,7 @@ ValidationCase validate_map(const ValidateArguments& arguments, const Console& c
 }
 
 int time_limit(const ValidateArguments& arguments) {
-  return static_cast<int>(std::min(parse_count("--time-limit", arguments.seconds, 1), 86400U));
+  return static_cast<int>(std::min(arguments.seconds, 86400U));
 }
 
 /// The scene of the command line, with near and far.
@@ -103,7 +106,7 @@ ValidationScene named_by_files(const ValidateArguments& arguments, const Console
   Scene scene = read_files(arguments.scenes, console);
   Camera camera;
   if (arguments.camera.empty()) {
-    const auto [width, height] = parse_size("--size", arguments.size);
+    const auto [width, height] = arguments.size;
     camera = frame_scene(scene, {}, {.width = width, .height = height});
   } else {
     camera = read_camera(arguments.camera);
@@ -124,10 +127,10 @@ std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Con
     const std::string name = std::filesystem::path(arguments.scenes.front()).stem();
     return {{name, [&arguments, &console] { return named_by_files(arguments, console); }}};
   }
-  const auto [width, height] = parse_size("--size", arguments.size);
+  const auto [width, height] = arguments.size;
   std::vector<SceneToMake> scenes;
   const std::vector<std::string> names =
-      arguments.scene_names.empty() ? validation::scene_names() : split_list(arguments.scene_names);
+      arguments.scene_names.empty() ? validation::scene_names() : parse_list(arguments.scene_names);
   for (const std::string& name : names) {
     if (!validation::is_scene_name(name)) {
       throw UsageError(fmt::format("--scene: there is no scene '{}'; there are {}", name,
@@ -142,9 +145,9 @@ std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Con
 
 std::vector<Peer> peers_of(const ValidateArguments& arguments) {
   std::vector<Peer> peers;
-  for (const std::string& renderer : split_list(arguments.against)) {
+  for (const std::string& renderer : parse_list(arguments.against)) {
     for (const Peer& peer : validation::peers_of(renderer, time_limit(arguments))) {
-      const std::vector<std::string> wanted = split_list(arguments.variants);
+      const std::vector<std::string> wanted = parse_list(arguments.variants);
       const bool chosen = arguments.variants.empty() ||
                           std::find(wanted.begin(), wanted.end(), peer.variant) != wanted.end();
       if (chosen) peers.push_back(peer);
@@ -245,8 +248,8 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
   return report_cases(cases, places);
 }
 
-void add_validate(Program& program) {
-  CLI::App* command = program.add_command(
+void add_validate(Command& program) {
+  Command& command = program.command(
       "validate", "Hold another renderer's maps against the truth, every difference explained",
       "  fathom validate --against vtk,opengl,embree,blender --out report\n"
       "  fathom validate --against opengl --scene sheets,room --variants unorm16,float32\n"
@@ -259,28 +262,29 @@ void add_validate(Program& program) {
           ".\nExit status 1 where a pixel is unexplained or a fault was found; see "
           "docs/validation.md.");
   const auto arguments = std::make_shared<ValidateArguments>();
-  command->add_option("SCENE", arguments->scenes, "Meshes and scene files");
-  command->add_option("--against", arguments->against,
-                      "Renderers to draw the same: vtk, opengl, embree, blender");
-  command->add_option("--scene", arguments->scene_names,
-                      "Scenes of ours instead of SCENE (default: all, see below)");
-  command->add_option("--variants", arguments->variants,
-                      "Only these ways of the renderers: unorm24, robust, … (default: all)");
-  command->add_option("--size", arguments->size, "Image size without --camera (default 320x240)");
-  command->add_option("--time-limit", arguments->seconds,
-                      "Seconds after which a renderer is ended (default 300)");
-  command->add_option("--render", arguments->render, "Only draw, with this renderer");
-  command->add_option("-o", arguments->output, "Where --render puts its map");
-  command->add_option("--map", arguments->map, "The map of another renderer (EXR, PFM, PNG, NPY)");
-  command->add_option("--channel", arguments->channel, "Its channel of depths (default: detected)");
-  command->add_option("--camera", arguments->camera, "Camera file");
-  command->add_option("--model", arguments->model, "What is assumed of the renderer");
-  command->add_option("--out", arguments->out, "Folder for report.json and report.html");
-  command->add_option("--baseline", arguments->baseline,
-                      "An earlier report.json: exit status 1 if something got worse");
-  command->callback([&program, arguments] {
-    program.run = [&program, arguments] { return run_validate(*arguments, program.console); };
-  });
+  command.arguments("SCENE", arguments->scenes, "Meshes and scene files");
+  command.option("--against", "NAME", arguments->against,
+                 "Renderers that draw the scenes: vtk, opengl, embree, blender");
+  command.option("--scene", "NAME", arguments->scene_names,
+                 "Scenes of ours instead of SCENE (default: all, see below)");
+  command.option("--variants", "NAME", arguments->variants,
+                 "Only these variants of the renderers: unorm24, robust, … (default: all)");
+  command.option("--size", "WxH", into(arguments->size, parse_size),
+                 "Image size without --camera (default 320x240)");
+  command.option("--time-limit", "SECONDS", into(arguments->seconds, parse_positive),
+                 "Seconds after which a renderer is ended (default 300)");
+  command.option("--render", "NAME", arguments->render, "Only draw, with this renderer");
+  command.option("-o", "MAP", arguments->output, "Where --render puts its map");
+  command.option("--map", "MAP", arguments->map,
+                 "The map of another renderer (EXR, PFM, PNG, NPY)");
+  command.option("--channel", "NAME", arguments->channel,
+                 "Its channel of depths (default: detected)");
+  command.option("--camera", "FILE", arguments->camera, "Camera file");
+  command.option("--model", "NAME", arguments->model, "What is assumed of the renderer");
+  command.option("--out", "DIR", arguments->out, "Folder for report.json and report.html");
+  command.option("--baseline", "REPORT", arguments->baseline,
+                 "An earlier report.json: exit status 1 if something got worse");
+  command.runs([arguments](const Console& console) { return run_validate(*arguments, console); });
 }
 
 }  // namespace

@@ -8,9 +8,10 @@
 #include <cstring>
 #include <filesystem>
 
+#include "apps/shell/exit_status.h"
+#include "apps/shell/folder.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/program.h"
 #include "fathom/numeric/errors.h"
 #include "validation/report/baseline.h"
 #include "validation/report/report_html.h"
@@ -43,15 +44,6 @@ std::string line_of(const ValidationCase& c) {
     text += fmt::format("  {}: {} ({} pixels)\n", f.kind, f.text, f.pixels);
   }
   return text;
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw OutputError(fmt::format("{}: cannot make this folder: {}", folder.string(),
-                                  error ? error.message() : "it is a file"));
-  }
 }
 
 }  // namespace

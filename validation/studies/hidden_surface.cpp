@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/pipeline/render_pipeline.h"
 #include "fathom/render.h"
 #include "validation/studies/page.h"
 #include "validation/studies/picture.h"

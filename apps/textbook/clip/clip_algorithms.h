@@ -1,12 +1,14 @@
 #pragma once
 
-#include "apps/textbook/clip/clip_reading.h"
-#include "apps/textbook/clip/clip_writing.h"
+#include "apps/textbook/cases/case_reading.h"
+#include "apps/textbook/cases/case_writing.h"
 
 /// What `fathom clip` does with one case: a case in, the answer without its name out.
 /// Number is the kernel's: double or clipping::Rational.
 /// Fails    InputError: the case cannot be done.
 namespace fathom::app::clip {
+
+using namespace cases;
 
 /// {"segment", "window"}
 template <class Number>

@@ -1,13 +1,11 @@
 // fathom clip --algorithm NAME [FILE]
 
-#include <fmt/format.h>
-
 #include <memory>
 
-#include "apps/shell/program.h"
+#include "apps/shell/values.h"
+#include "apps/textbook/cases/json_lines.h"
 #include "apps/textbook/clip/clip_algorithms.h"
-#include "apps/textbook/json_lines.h"
-#include "fathom/numeric/errors.h"
+#include "apps/textbook/textbook_commands.h"
 
 namespace fathom::app {
 namespace {
@@ -16,49 +14,50 @@ using clip::Form;
 using clip::Json;
 using Algorithm = Json (*)(const Json&, Form);
 
-struct NamedAlgorithm {
-  const char* name;
+/// An algorithm over either kernel.
+struct Kernels {
   Algorithm exact, binary64;
 };
 
-constexpr NamedAlgorithm algorithms[] = {
-    {"weiler-atherton", clip::weiler_atherton<clipping::Rational>, clip::weiler_atherton<double>},
-    {"sutherland-hodgman", clip::sutherland_hodgman<clipping::Rational>,
-     clip::sutherland_hodgman<double>},
-    {"cohen-sutherland", clip::cohen_sutherland<clipping::Rational>,
-     clip::cohen_sutherland<double>},
-    {"liang-barsky", clip::liang_barsky<clipping::Rational>, clip::liang_barsky<double>},
-    {"homogeneous", clip::homogeneous<clipping::Rational>, clip::homogeneous<double>},
-    {"plane", clip::plane<clipping::Rational>, clip::plane<double>},
-};
-
-struct ClipArguments {
-  std::string algorithm, kernel = "exact", file = "-";
-  Form form;
-};
-
-Algorithm algorithm_named(const std::string& name, const std::string& kernel) {
-  if (kernel != "exact" && kernel != "double")
-    throw UsageError(fmt::format("--kernel: '{}' is unknown; there are exact and double", kernel));
-  std::string names;
-  for (const NamedAlgorithm& algorithm : algorithms) {
-    if (algorithm.name == name) return kernel == "exact" ? algorithm.exact : algorithm.binary64;
-    names += (names.empty() ? "" : ", ") + std::string(algorithm.name);
+#define FATHOM_CLIP(name)                              \
+  Kernels {                                            \
+    clip::name<clipping::Rational>, clip::name<double> \
   }
-  throw UsageError(fmt::format("--algorithm: '{}' is unknown; there are {}", name, names));
+Kernels parse_algorithm(const std::string& text) {
+  return parse_word<Kernels>(text, {{"weiler-atherton", FATHOM_CLIP(weiler_atherton)},
+                                    {"sutherland-hodgman", FATHOM_CLIP(sutherland_hodgman)},
+                                    {"cohen-sutherland", FATHOM_CLIP(cohen_sutherland)},
+                                    {"liang-barsky", FATHOM_CLIP(liang_barsky)},
+                                    {"homogeneous", FATHOM_CLIP(homogeneous)},
+                                    {"plane", FATHOM_CLIP(plane)}});
+}
+#undef FATHOM_CLIP
+
+enum class Kernel { exact, binary64 };
+
+Kernel parse_kernel(const std::string& text) {
+  return parse_word<Kernel>(text, {{"exact", Kernel::exact}, {"double", Kernel::binary64}});
 }
 
+struct ClipArguments {
+  Kernels algorithm{};
+  Kernel kernel = Kernel::exact;
+  Form form;
+  std::string file = "-";
+};
+
 int run_clip(const ClipArguments& arguments) {
-  const Algorithm algorithm = algorithm_named(arguments.algorithm, arguments.kernel);
-  return answer_lines(arguments.file,
-                      [&](const Json& object) { return algorithm(object, arguments.form); });
+  const Algorithm clip_case =
+      arguments.kernel == Kernel::exact ? arguments.algorithm.exact : arguments.algorithm.binary64;
+  return cases::answer_lines(arguments.file,
+                             [&](const Json& object) { return clip_case(object, arguments.form); });
 }
 
 }  // namespace
 
-void add_clip(Program& program) {
+void add_clip(Command& program) {
   const auto arguments = std::make_shared<ClipArguments>();
-  CLI::App* command = program.add_command(
+  Command& command = program.command(
       "clip", "Clip polygons and segments given as JSON lines",
       "  echo '{\"subject\": [[[0,0],[4,0],[4,4],[0,4]]], \"clip\": [[[2,1],[6,1],[2,3]]]}' |\n"
       "    fathom clip --algorithm weiler-atherton --exact\n"
@@ -66,17 +65,17 @@ void add_clip(Program& program) {
       "    fathom clip --algorithm cohen-sutherland --trace\n"
       "  fathom clip --algorithm weiler-atherton data/clipping/degenerate.jsonl");
   command
-      ->add_option("--algorithm", arguments->algorithm,
-                   "weiler-atherton, sutherland-hodgman, cohen-sutherland, liang-barsky, "
-                   "homogeneous or plane")
-      ->required();
-  command->add_option("--kernel", arguments->kernel,
-                      "exact (default) or double: the arithmetic to clip with");
-  command->add_flag("--exact", arguments->form.exact, "Write numbers as \"p/q\"");
-  command->add_flag("--trace", arguments->form.trace, "Add how the answer came about");
-  command->add_option("FILE", arguments->file, "Cases, one a line; - or none: standard input");
-  command->callback(
-      [arguments, &program] { program.run = [arguments] { return run_clip(*arguments); }; });
+      .option("--algorithm", "NAME", into(arguments->algorithm, parse_algorithm),
+              "weiler-atherton, sutherland-hodgman, cohen-sutherland, liang-barsky, homogeneous or "
+              "plane")
+      .required();
+  command.option("--kernel", "NAME", into(arguments->kernel, parse_kernel),
+                 "exact (default) or double: the arithmetic to clip with");
+  command.flag("--exact", arguments->form.exact, "Write numbers as \"p/q\"");
+  command.flag("--trace", arguments->form.trace, "Add the steps that led to the answer");
+  command.argument("FILE", arguments->file,
+                   "Cases, one a line; standard input where it is - or missing");
+  command.runs([arguments](const Console&) { return run_clip(*arguments); });
 }
 
 }  // namespace fathom::app

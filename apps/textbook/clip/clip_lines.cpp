@@ -30,7 +30,7 @@ LineCase<Number> line_case(const Json& object) {
 
 template <class Number>
 Json to_json(const clipping::Segment2<Number>& s, Form form) {
-  return Json::array({clip::to_json(s.start, form), clip::to_json(s.end, form)});
+  return Json::array({cases::to_json(s.start, form), cases::to_json(s.end, form)});
 }
 
 template <class Number>

@@ -27,7 +27,7 @@ Rings<Number> over_kernel(const Rings<double>& rings) {
 }
 
 void put_area(Json& result, double area, Form form) {
-  clip::to_json(area, form);  // refuses what is not finite
+  cases::to_json(area, form);  // refuses what is not finite
   result["area"] = to_decimal(Ratio(Dyadic(area)), 17);
 }
 
@@ -59,14 +59,14 @@ Json to_json(const clipping::WeilerAthertonTrace<Number>& trace, Form form) {
   Json contacts = Json::array(), walks = Json::array();
   for (const auto& contact : trace.contacts)
     contacts.push_back({{"ring", contact.ring},
-                        {"point", clip::to_json(contact.point, form)},
+                        {"point", cases::to_json(contact.point, form)},
                         {"before", name_of(contact.before)},
                         {"after", name_of(contact.after)},
                         {"kind", name_of(contact.kind)}});
   for (const auto& walk : trace.walks) {
     Json steps = Json::array();
     for (const auto& step : walk)
-      steps.push_back({{"from", clip::to_json(step.from, form)}, {"along", name_of(step.along)}});
+      steps.push_back({{"from", cases::to_json(step.from, form)}, {"along", name_of(step.along)}});
     walks.push_back(steps);
   }
   return {{"contacts", contacts}, {"walks", walks}};
@@ -110,16 +110,16 @@ Json sutherland_hodgman_2(const Json& object, Form form) {
     for (std::size_t i = 0; i < stages.size(); ++i)
       trace.push_back({{decompose ? "piece" : "ring", r},
                        {"edge",
-                        {clip::to_json(clip[0][i], form),
-                         clip::to_json(clip[0][(i + 1) % clip[0].size()], form)}},
-                       {"polygon", clip::to_json(clipping::ring_of(stages[i]), form)}});
+                        {cases::to_json(clip[0][i], form),
+                         cases::to_json(clip[0][(i + 1) % clip[0].size()], form)}},
+                       {"polygon", cases::to_json(clipping::ring_of(stages[i]), form)}});
   }
   Json result{{"polygons", Json::array()}};
   if (decompose)
     for (const Ring<Number>& ring : clipped)
-      result["polygons"].push_back(Json::array({clip::to_json(ring, form)}));
+      result["polygons"].push_back(Json::array({cases::to_json(ring, form)}));
   else if (!clipped.empty())
-    result["polygons"].push_back(clip::to_json(clipped, form));
+    result["polygons"].push_back(cases::to_json(clipped, form));
   put_area(result, clipping::signed_area(clipped), form);
   if (form.trace) result["trace"] = trace;
   return result;
@@ -139,8 +139,8 @@ Json weiler_atherton(const Json& object, Form form) {
                                 over_kernel<Number>(rings(object, "clip")), operation, &trace);
   Json result{{"polygons", Json::array()}};
   for (const clipping::Polygon<Number>& polygon : polygons) {
-    Json all = Json::array({clip::to_json(polygon.outline, form)});
-    for (const Ring<Number>& hole : polygon.holes) all.push_back(clip::to_json(hole, form));
+    Json all = Json::array({cases::to_json(polygon.outline, form)});
+    for (const Ring<Number>& hole : polygon.holes) all.push_back(cases::to_json(hole, form));
     result["polygons"].push_back(all);
   }
   put_area(result, clipping::area_of(polygons), form);

@@ -1,140 +1,98 @@
 // fathom pipeline trace SCENE…
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <fmt/core.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "apps/options/camera_options.h"
-#include "apps/options/render_options.h"
+#include "apps/options/cull_option.h"
+#include "apps/options/pipeline_options.h"
 #include "apps/options/scene_options.h"
-#include "apps/render/pipeline_options.h"
-#include "apps/shell/numbers.h"
+#include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/program.h"
+#include "apps/shell/values.h"
+#include "apps/textbook/pipeline/trace_report.h"
+#include "apps/textbook/textbook_commands.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/pipeline/trace.h"
 
 namespace fathom::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
-using pipeline::TriangleTrace;
 
 struct TraceArguments {
   SceneOptions scene;
   CameraOptions camera;
   PipelineArguments pipeline;
-  std::string triangle = "0", pixel, cull = "none";
+  DepthFormat depth_format = pipeline::PipelineOptions().depth_format;
+  std::uint32_t triangle = 0;
+  std::optional<pipeline::Pixel> pixel;
+  Cull cull = Cull::none;
   bool json = false;
 };
 
-const char* name_of(pipeline::Facing facing) {
-  constexpr const char* names[] = {"front", "back", "edge on"};
-  return names[static_cast<std::size_t>(facing)];
-}
-
-Json as_json(const TriangleTrace& t) {
-  Json corners = Json::array(), polygon = Json::array();
-  for (const auto& c : t.corners)
-    corners.push_back({{"mesh", c.mesh}, {"world", c.world}, {"eye", c.eye}, {"clip", c.clip}});
-  for (const auto& c : t.polygon)
-    polygon.push_back(
-        {{"clip", c.clip}, {"ndc", c.ndc}, {"window", c.window}, {"snapped", c.snapped}});
-  Json answer{
-      {"near", t.near}, {"far", t.far}, {"vertex_transform", corners}, {"clipping", polygon}};
-  answer["facing"] = {{"world", name_of(t.in_world)}};
-  if (!t.polygon.empty()) {
-    answer["facing"]["ndc"] = name_of(t.in_ndc);
-    answer["facing"]["window"] = name_of(t.in_window);
-    answer["culled"] = t.culled;
-  }
-  answer["fragments"] = t.fragments;
-  if (t.sample) {
-    answer["sample"] = {
-        {"edges", t.sample->edges},       {"covered", t.sample->covered},
-        {"weights", t.sample->weights},   {"attribute_weights", t.sample->attribute_weights},
-        {"window_z", t.sample->window_z}, {"depth", t.sample->depth},
-        {"stored", t.sample->stored.bits}};
-  }
-  return answer;
-}
-
-std::string as_text(const TriangleTrace& t) {
-  constexpr const char* names = "ABC";
-  std::string text =
-      fmt::format("clip range: near {}, far {}\n\nvertex transform\n", t.near, t.far);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto& c = t.corners[k];
-    text += fmt::format("  {}  mesh   ({})\n     world  ({})\n     eye    ({})\n     clip   ({})\n",
-                        names[k], fmt::join(c.mesh, ", "), fmt::join(c.world, ", "),
-                        fmt::join(c.eye, ", "), fmt::join(c.clip, ", "));
-  }
-  if (t.polygon.empty()) return text + "\nclipping: nothing is left in the view volume\n";
-  text += fmt::format("\nclipping, division, viewport: {} corners\n", t.polygon.size());
-  for (const auto& c : t.polygon)
-    text += fmt::format("  clip     ({})\n  NDC      ({})\n  window   ({})\n  snapped  ({})\n\n",
-                        fmt::join(c.clip, ", "), fmt::join(c.ndc, ", "), fmt::join(c.window, ", "),
-                        fmt::join(c.snapped, ", "));
-  text += fmt::format(
-      "facing: {} by N.V in the world, {} by n_z in NDC, {} by the determinant in the window{}\n",
-      name_of(t.in_world), name_of(t.in_ndc), name_of(t.in_window), t.culled ? ": culled" : "");
-  text += fmt::format("scan conversion: {} fragments\n", t.fragments);
-  if (!t.sample) return text;
-  const auto& s = *t.sample;
-  text += fmt::format("\nsample: {}\n  edge functions       {}\n  weights              {}\n",
-                      s.covered ? "covered" : "not covered", fmt::join(s.edges, ", "),
-                      fmt::join(s.weights, ", "));
-  text += fmt::format(
-      "  attribute weights    {}\n  window depth         {}\n  depth along the view {}\n"
-      "  stored               {:#x}\n",
-      fmt::join(s.attribute_weights, ", "), s.window_z, s.depth, s.stored.bits);
-  return text;
+void add_depth_format(Command& command, DepthFormat& format, const std::string& heading) {
+  command
+      .option("--depth-format", "NAME", into(format.storage, storage_named),
+              "Of the z-buffer: unorm16, unorm24, unorm32, float16, float32 (default) or float64")
+      .below(heading);
+  command
+      .option("--mapping", "NAME", into(format.mapping, mapping_named),
+              "Of the z-buffer: standard (default), reversed, infinite, reversed-infinite, opengl, "
+              "linear, w, log or log-ulrich")
+      .below(heading);
+  command
+      .option("--c", "C", into(format.c, parse_number),
+              "With --mapping log: the constant C (default 1)")
+      .below(heading);
 }
 
 int run_trace(const TraceArguments& arguments, const Console& console) {
-  const auto options = arguments.pipeline.get(arguments.cull);
-  const std::uint32_t number = parse_count("--triangle", arguments.triangle);
-  std::optional<pipeline::Pixel> pixel;
-  if (!arguments.pixel.empty()) {
-    const auto [x, y] = parse_pixel("--pixel", arguments.pixel);
-    pixel = pipeline::Pixel{x, y};
-  }
-  arguments.camera.check();
-  const Scene scene = arguments.scene.read(console, false, true);
+  pipeline::PipelineOptions stages = arguments.pipeline.options(arguments.cull);
+  stages.depth_format = arguments.depth_format;
+  pipeline::require_meaningful(stages);
+  const Scene scene = arguments.scene.read(console, {.attributes = true});
   const Camera camera = arguments.camera.get_one(scene, "trace");
-  if (pixel && (pixel->x >= camera.width || pixel->y >= camera.height))
+  const auto& pixel = arguments.pixel;
+  if (pixel && (pixel->x >= camera.width || pixel->y >= camera.height)) {
     throw UsageError(fmt::format("--pixel: {},{} is outside the image of {}x{} pixels", pixel->x,
                                  pixel->y, camera.width, camera.height));
-  const TriangleTrace trace = pipeline::trace_triangle(scene, camera, options, number, pixel);
-  print(arguments.json ? as_json(trace).dump(2) + "\n" : as_text(trace));
+  }
+  const pipeline::TriangleTrace trace =
+      pipeline::trace_triangle(scene, camera, stages, arguments.triangle, pixel);
+  print(arguments.json ? as_json(trace) : as_text(trace));
   return done;
+}
+
+void add_trace(Command& family) {
+  const auto arguments = std::make_shared<TraceArguments>();
+  Command& command =
+      family.command("trace", "Follow a triangle through the stages of the pipeline",
+                     "  fathom pipeline trace data/meshes/spot.obj --triangle 238 --pixel 640,360\n"
+                     "  fathom pipeline trace cube.obj --triangle 3 --precision binary64 --json");
+  arguments->scene.add_to(command);
+  arguments->camera.add_to(command);
+  command.option("--triangle", "N", into(arguments->triangle, parse_count),
+                 "Its number in the scene (default 0)");
+  command.option(
+      "--pixel", "X,Y",
+      [&pixel = arguments->pixel](const std::string& text) {
+        const auto [x, y] = parse_pixel(text);
+        pixel = pipeline::Pixel{x, y};
+      },
+      "X,Y: also what becomes of the sample at this pixel's centre");
+  command.flag("--json", arguments->json, "Answer in JSON");
+  add_cull_option(command, arguments->cull);
+  arguments->pipeline.add_to(command, "Pipeline");
+  add_depth_format(command, arguments->depth_format, "Pipeline");
+  command.runs([arguments](const Console& console) { return run_trace(*arguments, console); });
 }
 
 }  // namespace
 
-void add_pipeline(Program& program) {
-  CLI::App* family = program.add_command("pipeline", "Look into the graphics pipeline",
-                                         "  fathom pipeline trace spot.obj --triangle 238");
-  family->require_subcommand(1);
-  const auto arguments = std::make_shared<TraceArguments>();
-  CLI::App* command = program.add_command(
-      "trace", "Follow a triangle through the stages of the pipeline",
-      "  fathom pipeline trace data/meshes/spot.obj --triangle 238 --pixel 640,360\n"
-      "  fathom pipeline trace cube.obj --triangle 3 --precision binary64 --json",
-      family);
-  arguments->scene.add_to(*command);
-  arguments->camera.add_to(*command);
-  command->add_option("--triangle", arguments->triangle, "Its number in the scene (default 0)");
-  command->add_option("--pixel", arguments->pixel,
-                      "X,Y: also what becomes of the sample at this pixel's centre");
-  command->add_flag("--json", arguments->json, "Answer in JSON");
-  add_cull_option(*command, arguments->cull);
-  arguments->pipeline.add_stages_to(*command);
-  command->callback([arguments, &program] {
-    program.run = [arguments, &program] { return run_trace(*arguments, program.console); };
-  });
+void add_pipeline(Command& program) {
+  Command& family = program.command("pipeline", "Look into the graphics pipeline",
+                                    "  fathom pipeline trace spot.obj --triangle 238");
+  family.requires_command();
+  add_trace(family);
 }
 
 }  // namespace fathom::app

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "apps/textbook/clip/clip_reading.h"
-#include "apps/textbook/clip/clip_writing.h"
+#include "apps/textbook/cases/case_reading.h"
+#include "apps/textbook/cases/case_writing.h"
 #include "fathom/pipeline/scan/arithmetic.h"
 #include "fathom/pipeline/scan/pixels.h"
 
@@ -12,10 +12,10 @@
 /// Fails    InputError: the case cannot be done.
 namespace fathom::app::scan {
 
-using clip::Json;
+using cases::Json;
 
 struct Form {
-  clip::Form numbers;
+  cases::Form numbers;
   /// Runs of pixels instead of pixels.
   bool runs = false;
   std::optional<int> subpixel_bits;
@@ -59,9 +59,9 @@ Json tessellate(const Json& object, const Form& form);
 template <class Number>
 Json number_to_json(const Number& x, const Form& form) {
   if constexpr (std::is_same_v<Number, pipeline::Exact>)
-    return clip::to_json(x, form.numbers);
+    return cases::to_json(x, form.numbers);
   else
-    return clip::to_json(static_cast<double>(x), form.numbers);
+    return cases::to_json(static_cast<double>(x), form.numbers);
 }
 
 template <class Number>

@@ -81,7 +81,7 @@ Json fill(const Json& object, const clipping::Rings<double>& rings, FillRule rul
 
 template <class Number>
 Json fill_polygon(const Json& object, FillRule rule, const Form& form) {
-  clip::expect_only(object, {"polygon", "width", "height", "attributes", "w"});
+  cases::expect_only(object, {"polygon", "width", "height", "attributes", "w"});
   return fill<Number>(object, polygon_of(object), rule, form);
 }
 
@@ -99,7 +99,7 @@ Json non_zero(const Json& object, const Form& form) {
 
 template <class Number>
 Json scan_line(const Json& object, const Form& form) {
-  clip::expect_only(object, {"triangle", "width", "height", "attributes", "w"});
+  cases::expect_only(object, {"triangle", "width", "height", "attributes", "w"});
   return fill<Number>(object, {triangle_of(object, form)}, FillRule::even_odd, form);
 }
 

@@ -1,13 +1,13 @@
 // fathom scan --algorithm NAME [FILE]
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <memory>
 
-#include "apps/shell/numbers.h"
-#include "apps/shell/program.h"
-#include "apps/textbook/json_lines.h"
+#include "apps/shell/values.h"
+#include "apps/textbook/cases/json_lines.h"
 #include "apps/textbook/scan/scan_algorithms.h"
+#include "apps/textbook/textbook_commands.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/subpixel_grid.h"
 
@@ -19,79 +19,81 @@ using scan::Form;
 using scan::Json;
 using Algorithm = Json (*)(const Json&, const Form&);
 
-struct NamedAlgorithm {
-  const char* name;
+/// An algorithm over each arithmetic.
+struct ScanAlgorithm {
   Algorithm exact, float64, float32;
+  /// Whether corners can be snapped to the subpixel grid.
   bool snaps = false;
 };
 
-#define FATHOM_SCAN(name, function) \
-  { name, scan::function<Exact>, scan::function<double>, scan::function<float> }
-constexpr NamedAlgorithm algorithms[] = {
-    FATHOM_SCAN("explicit", explicit_line),
-    FATHOM_SCAN("dda", dda),
-    FATHOM_SCAN("bresenham", bresenham),
-    FATHOM_SCAN("midpoint", midpoint),
-    FATHOM_SCAN("diamond-exit", diamond_exit),
-    FATHOM_SCAN("even-odd", even_odd),
-    FATHOM_SCAN("non-zero", non_zero),
-    {"flood", scan::flood, scan::flood, scan::flood},
-    {"edge-function", scan::edge_function<Exact>, scan::edge_function<double>,
-     scan::edge_function<float>, true},
-    {"scan-line", scan::scan_line<Exact>, scan::scan_line<double>, scan::scan_line<float>, true},
-    FATHOM_SCAN("inside", inside),
-    FATHOM_SCAN("convexity", convexity),
-    {"tessellate", scan::tessellate, scan::tessellate, scan::tessellate},
-    FATHOM_SCAN("convex-hull", convex_hull),
-};
+#define FATHOM_SCAN(name) scan::name<Exact>, scan::name<double>, scan::name<float>
+ScanAlgorithm parse_algorithm(const std::string& text) {
+  return parse_word<ScanAlgorithm>(
+      text, {{"explicit", {FATHOM_SCAN(explicit_line)}},
+             {"dda", {FATHOM_SCAN(dda)}},
+             {"bresenham", {FATHOM_SCAN(bresenham)}},
+             {"midpoint", {FATHOM_SCAN(midpoint)}},
+             {"diamond-exit", {FATHOM_SCAN(diamond_exit)}},
+             {"even-odd", {FATHOM_SCAN(even_odd)}},
+             {"non-zero", {FATHOM_SCAN(non_zero)}},
+             {"flood", {scan::flood, scan::flood, scan::flood}},
+             {"edge-function", {FATHOM_SCAN(edge_function), true}},
+             {"scan-line", {FATHOM_SCAN(scan_line), true}},
+             {"inside", {FATHOM_SCAN(inside)}},
+             {"convexity", {FATHOM_SCAN(convexity)}},
+             {"tessellate", {scan::tessellate, scan::tessellate, scan::tessellate}},
+             {"convex-hull", {FATHOM_SCAN(convex_hull)}}});
+}
 #undef FATHOM_SCAN
 
-struct ScanArguments {
-  std::string algorithm, arithmetic = "exact", file = "-", subpixel_bits;
-  Form form;
-};
+enum class Arithmetic { exact, float64, float32 };
 
-const NamedAlgorithm& algorithm_named(const std::string& name) {
-  std::string names;
-  for (const NamedAlgorithm& algorithm : algorithms) {
-    if (algorithm.name == name) return algorithm;
-    names += (names.empty() ? "" : ", ") + std::string(algorithm.name);
-  }
-  throw UsageError(fmt::format("--algorithm: '{}' is unknown; there are {}", name, names));
-}
-
-Algorithm in_arithmetic(const NamedAlgorithm& algorithm, const std::string& arithmetic) {
-  if (arithmetic == "exact") return algorithm.exact;
-  if (arithmetic == "float64") return algorithm.float64;
-  if (arithmetic == "float32") return algorithm.float32;
-  throw UsageError(fmt::format(
-      "--arithmetic: '{}' is unknown; there are exact, float64 and float32", arithmetic));
+Arithmetic parse_arithmetic(const std::string& text) {
+  return parse_word<Arithmetic>(text, {{"exact", Arithmetic::exact},
+                                       {"float64", Arithmetic::float64},
+                                       {"float32", Arithmetic::float32}});
 }
 
 int parse_subpixel_bits(const std::string& text) {
-  const std::uint32_t bits = parse_count("--subpixel-bits", text);
-  if (bits > pipeline::most_subpixel_bits)
-    throw UsageError(fmt::format("--subpixel-bits: {} is not between 0 and 16", bits));
+  const std::uint32_t bits = parse_count(text);
+  if (bits > pipeline::most_subpixel_bits) {
+    throw UsageError(fmt::format("{} is not between 0 and 16", bits));
+  }
   return static_cast<int>(bits);
 }
 
-int run_scan(const ScanArguments& arguments) {
-  const NamedAlgorithm& named = algorithm_named(arguments.algorithm);
-  const Algorithm algorithm = in_arithmetic(named, arguments.arithmetic);
-  Form form = arguments.form;
-  if (!arguments.subpixel_bits.empty()) {
-    if (!named.snaps)
-      throw UsageError("--subpixel-bits is for triangles: edge-function and scan-line");
-    form.subpixel_bits = parse_subpixel_bits(arguments.subpixel_bits);
+struct ScanArguments {
+  ScanAlgorithm algorithm{};
+  Arithmetic arithmetic = Arithmetic::exact;
+  Form form;
+  std::string file = "-";
+};
+
+Algorithm in_arithmetic(const ScanAlgorithm& algorithm, Arithmetic arithmetic) {
+  switch (arithmetic) {
+    case Arithmetic::float64:
+      return algorithm.float64;
+    case Arithmetic::float32:
+      return algorithm.float32;
+    default:
+      return algorithm.exact;
   }
-  return answer_lines(arguments.file, [&](const Json& object) { return algorithm(object, form); });
+}
+
+int run_scan(const ScanArguments& arguments) {
+  if (arguments.form.subpixel_bits && !arguments.algorithm.snaps) {
+    throw UsageError("--subpixel-bits is for triangles: edge-function and scan-line");
+  }
+  const Algorithm scan_case = in_arithmetic(arguments.algorithm, arguments.arithmetic);
+  return cases::answer_lines(arguments.file,
+                             [&](const Json& object) { return scan_case(object, arguments.form); });
 }
 
 }  // namespace
 
-void add_scan(Program& program) {
+void add_scan(Command& program) {
   const auto arguments = std::make_shared<ScanArguments>();
-  CLI::App* command = program.add_command(
+  Command& command = program.command(
       "scan", "Rasterize lines, polygons and triangles given as JSON lines",
       "  echo '{\"line\": [0,0,8,3]}' | fathom scan --algorithm midpoint --trace\n"
       "  echo '{\"line\": [0,0,2147483648,7], \"width\": 9, \"height\": 9}' |\n"
@@ -101,24 +103,24 @@ void add_scan(Program& program) {
       "  echo '{\"triangle\": [[1,1],[8,2],[4,7]], \"attributes\": [[0],[1],[2]]}' |\n"
       "    fathom scan --algorithm edge-function --subpixel-bits 8");
   command
-      ->add_option("--algorithm", arguments->algorithm,
-                   "Lines: explicit, dda, bresenham, midpoint, diamond-exit; polygons: even-odd, "
-                   "non-zero, inside, convexity, tessellate; points: convex-hull; triangles: "
-                   "edge-function, scan-line; grids: flood")
-      ->required();
-  command->add_option("--arithmetic", arguments->arithmetic,
-                      "exact (default), float64 or float32; bresenham, midpoint and flood are "
-                      "integers in each");
-  command->add_option("--subpixel-bits", arguments->subpixel_bits,
-                      "Snap triangles to 2^N positions a pixel, 0 to 16 (default: not at all)");
-  command->add_flag("--runs", arguments->form.runs,
-                    "Write runs [y, x_begin, x_end] instead of pixels, x_end exclusive");
-  command->add_flag("--exact", arguments->form.numbers.exact, "Write numbers as \"p/q\"");
-  command->add_flag("--trace", arguments->form.numbers.trace,
-                    "Add decision variables, crossings, slopes and ends of spans");
-  command->add_option("FILE", arguments->file, "Cases, one a line; - or none: standard input");
-  command->callback(
-      [arguments, &program] { program.run = [arguments] { return run_scan(*arguments); }; });
+      .option("--algorithm", "NAME", into(arguments->algorithm, parse_algorithm),
+              "Lines: explicit, dda, bresenham, midpoint, diamond-exit; polygons: even-odd, "
+              "non-zero, inside, convexity, tessellate; points: convex-hull; triangles: "
+              "edge-function, scan-line; grids: flood")
+      .required();
+  command.option("--arithmetic", "NAME", into(arguments->arithmetic, parse_arithmetic),
+                 "exact (default), float64 or float32; bresenham, midpoint and flood compute in "
+                 "integers with each of them");
+  command.option("--subpixel-bits", "N", into(arguments->form.subpixel_bits, parse_subpixel_bits),
+                 "Snap triangles to 2^N positions a pixel, 0 to 16 (default: no snapping)");
+  command.flag("--runs", arguments->form.runs,
+               "Write runs [y, x_begin, x_end] instead of pixels, x_end exclusive");
+  command.flag("--exact", arguments->form.numbers.exact, "Write numbers as \"p/q\"");
+  command.flag("--trace", arguments->form.numbers.trace,
+               "Add decision variables, crossings, slopes and ends of spans");
+  command.argument("FILE", arguments->file,
+                   "Cases, one a line; standard input where it is - or missing");
+  command.runs([arguments](const Console&) { return run_scan(*arguments); });
 }
 
 }  // namespace fathom::app

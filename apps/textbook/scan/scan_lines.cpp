@@ -16,8 +16,8 @@ using pipeline::Pixel;
 using pipeline::PixelWindow;
 
 std::vector<double> ends_of(const Json& object) {
-  clip::expect_only(object, {"line", "width", "height"});
-  std::vector<double> ends = clip::numbers(clip::member(object, "line"), "line", 4, 4);
+  cases::expect_only(object, {"line", "width", "height"});
+  std::vector<double> ends = cases::numbers(cases::member(object, "line"), "line", 4, 4);
   for (const double x : ends) checked_coordinate(x, "line");
   return ends;
 }

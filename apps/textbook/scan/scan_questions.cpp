@@ -28,7 +28,7 @@ pipeline::Rings<Number> over(const clipping::Rings<double>& rings) {
 template <class Number>
 std::vector<pipeline::Point<Number>> points_of(const Json& object) {
   std::vector<pipeline::Point<Number>> points;
-  for (const auto& p : clip::points(object, "points", 2, 2))
+  for (const auto& p : cases::points(object, "points", 2, 2))
     points.push_back({pipeline::number_from<Number>(checked_coordinate(p[0], "points")),
                       pipeline::number_from<Number>(checked_coordinate(p[1], "points"))});
   return points;
@@ -43,7 +43,7 @@ Json ring_to_json(const pipeline::Ring<Number>& ring, const Form& form) {
 
 pipeline::CharacterGrid grid_of(const Json& object) {
   pipeline::CharacterGrid grid;
-  for (const Json& row : clip::list(clip::member(object, "grid"), "grid")) {
+  for (const Json& row : cases::list(cases::member(object, "grid"), "grid")) {
     if (!row.is_string()) throw InputError(fmt::format("grid[{}]: expected a string", grid.size()));
     grid.push_back(row.get<std::string>());
     if (grid.back().size() != grid[0].size())
@@ -57,9 +57,9 @@ pipeline::CharacterGrid grid_of(const Json& object) {
 }  // namespace
 
 Json flood(const Json& object, const Form& form) {
-  clip::expect_only(object, {"grid", "seed", "connectivity"});
+  cases::expect_only(object, {"grid", "seed", "connectivity"});
   const pipeline::CharacterGrid grid = grid_of(object);
-  const auto seed = clip::numbers(clip::member(object, "seed"), "seed", 2, 2);
+  const auto seed = cases::numbers(cases::member(object, "seed"), "seed", 2, 2);
   const Json connectivity = object.value("connectivity", Json(4));
   if (connectivity != 4 && connectivity != 8)
     throw InputError("\"connectivity\" is " + connectivity.dump() + "; expected 4 or 8");
@@ -78,7 +78,7 @@ Json flood(const Json& object, const Form& form) {
 
 template <class Number>
 Json inside(const Json& object, const Form& form) {
-  clip::expect_only(object, {"polygon", "points", "width", "height"});
+  cases::expect_only(object, {"polygon", "points", "width", "height"});
   (void)form;
   const pipeline::Rings<Number> rings = over<Number>(polygon_of(object));
   Json even_odd = Json::array(), non_zero = Json::array(), crossings = Json::array(),
@@ -106,7 +106,7 @@ Json inside(const Json& object, const Form& form) {
 
 template <class Number>
 Json convexity(const Json& object, const Form& form) {
-  clip::expect_only(object, {"polygon", "width", "height"});
+  cases::expect_only(object, {"polygon", "width", "height"});
   (void)form;
   const pipeline::Rings<Number> rings = over<Number>(polygon_of(object));
   if (rings.size() != 1)
@@ -122,14 +122,14 @@ Json convexity(const Json& object, const Form& form) {
 
 template <class Number>
 Json convex_hull(const Json& object, const Form& form) {
-  clip::expect_only(object, {"points", "width", "height"});
+  cases::expect_only(object, {"points", "width", "height"});
   const auto points = points_of<Number>(object);
   if (points.empty()) throw InputError("points: expected at least one");
   return {{"hull", ring_to_json(pipeline::convex_hull(points), form)}};
 }
 
 Json tessellate(const Json& object, const Form& form) {
-  clip::expect_only(object, {"polygon", "width", "height"});
+  cases::expect_only(object, {"polygon", "width", "height"});
   Json triangles = Json::array();
   for (const auto& t : pipeline::tessellate(over<pipeline::Exact>(polygon_of(object))))
     triangles.push_back(ring_to_json<pipeline::Exact>({t[0], t[1], t[2]}, form));

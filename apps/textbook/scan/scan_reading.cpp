@@ -11,7 +11,7 @@ namespace fathom::app::scan {
 namespace {
 
 std::int64_t size_of(const Json& object, const char* key) {
-  const Json& value = clip::member(object, key);
+  const Json& value = cases::member(object, key);
   if (!value.is_number()) throw InputError(fmt::format("\"{}\": expected a number", key));
   const double size = value.get<double>();
   if (!(size >= 1 && size <= pipeline::greatest_coordinate) || size != std::floor(size))
@@ -34,7 +34,7 @@ double checked_coordinate(double x, const std::string& where) {
 }
 
 clipping::Rings<double> polygon_of(const Json& object) {
-  clipping::Rings<double> rings = clip::rings(object, "polygon");
+  clipping::Rings<double> rings = cases::rings(object, "polygon");
   if (rings.empty()) throw InputError("polygon: expected at least one ring");
   for (std::size_t r = 0; r < rings.size(); ++r) {
     if (rings[r].size() < 3)
@@ -49,7 +49,7 @@ clipping::Rings<double> polygon_of(const Json& object) {
 }
 
 clipping::Ring<double> triangle_of(const Json& object, const Form& form) {
-  const auto corners = clip::points(object, "triangle", 2, 2);
+  const auto corners = cases::points(object, "triangle", 2, 2);
   if (corners.size() != 3)
     throw InputError(fmt::format("triangle: {} corners; expected 3", corners.size()));
   clipping::Ring<double> triangle;
@@ -67,9 +67,9 @@ clipping::Ring<double> triangle_of(const Json& object, const Form& form) {
 }
 
 CarriedAlong carried_along(const Json& object, std::size_t corners) {
-  CarriedAlong carried{clip::attributes(object, corners), {}};
+  CarriedAlong carried{cases::attributes(object, corners), {}};
   if (!object.contains("w")) return carried;
-  carried.w = clip::numbers(object["w"], "w", corners, corners);
+  carried.w = cases::numbers(object["w"], "w", corners, corners);
   for (std::size_t i = 0; i < corners; ++i)
     if (carried.w[i] == 0)
       throw InputError(fmt::format("w[{}] is 0: the corner lies at infinity", i));

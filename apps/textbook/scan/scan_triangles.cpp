@@ -64,7 +64,7 @@ void check_effort(const clipping::Ring<double>& t, const pipeline::PixelWindow& 
 
 template <class Number>
 Json edge_function(const Json& object, const Form& form) {
-  clip::expect_only(object, {"triangle", "width", "height", "attributes", "w"});
+  cases::expect_only(object, {"triangle", "width", "height", "attributes", "w"});
   const clipping::Ring<double> ring = triangle_of(object, form);
   const CarriedAlong carried = carried_along(object, 3);
   const pipeline::PixelWindow window = window_of(object);
