@@ -4,13 +4,12 @@
 #include "fathom/fast/stream.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/image/rgb_image.h"
-#include "fathom/pipeline/render_pipeline.h"
 #include "fathom/scene/scene.h"
 #include "fathom/scene/streamed_scene.h"
 #include "fathom/triangle/options.h"
 
-/// The front door.
+/// The front door to the exact engines. What a graphics pipeline computes instead is behind
+/// render_by_pipeline.h.
 namespace fathom {
 
 /// Renders `scene` as `camera` sees it. The map carries what is needed to recompute it: camera,
@@ -35,22 +34,5 @@ DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOption
 /// scene and camera; of the options culling, threads and progress count.
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
                      const RenderOptions& options = {});
-
-/// What a graphics pipeline computes of the scene, as a map and a picture.
-struct PipelineRendering {
-  /// Channels Z, id, face and object, those that are asked for. Its camera has the near and far
-  /// that the pipeline clipped with, so that an exact map can be made for it.
-  DepthMap map;
-  RgbImage picture;  ///< empty where it is not asked for
-  pipeline::PipelineStatistics statistics;
-  pipeline::PainterStatistics painter;
-  Camera camera;
-};
-
-/// Rounded   every value, as the options say (pipeline/); nothing here is exact.
-/// Fails     as render; UsageError for other channels.
-PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
-                                     const pipeline::PipelineOptions& options,
-                                     const std::vector<Channel>& channels, bool with_picture);
 
 }  // namespace fathom

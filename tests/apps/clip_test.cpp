@@ -204,9 +204,9 @@ TEST(Clip, PlaneSidesDistancesAndLine) {
 TEST(Clip, WrongUsage) {
   EXPECT_EQ(run_fathom({"clip"}).status, 2);
   EXPECT_THAT(run_fathom({"clip", "--algorithm", "greiner-hormann"}).err,
-              HasSubstr("there are weiler-atherton, sutherland-hodgman"));
+              HasSubstr("one of weiler-atherton, sutherland-hodgman"));
   EXPECT_THAT(run_fathom({"clip", "--algorithm", "plane", "--kernel", "single"}).err,
-              HasSubstr("there are exact and double"));
+              HasSubstr("neither exact nor double"));
   EXPECT_EQ(run_fathom({"clip", "--algorithm", "plane", "no-such-file"}).status, 3);
   const Outcome help = run_fathom({"clip", "--help"});
   EXPECT_EQ(help.status, 0);

@@ -50,7 +50,7 @@ std::vector<Usage> wrong_usages() {
       {"PipelineChannel", render({"--engine", "pipeline", "--channels", "N"}),
        "the pipeline gives Z, id, face and object"},
       {"PipelineImage", render({"--engine", "pipeline", "--image", "a.jpg"}), ".png"},
-      {"EngineUnknown", render({"--engine", "warp"}), "there are fast, reference and pipeline"},
+      {"EngineUnknown", render({"--engine", "warp"}), "fast, reference and pipeline"},
       {"AreaForPng",
        {"render", "square.obj", "-o", "map.png", "--channels", "A"},
        "a PNG holds depths or numbers, not A"},
@@ -173,11 +173,8 @@ TEST(Help, OfEveryCommandShowsAnExample) {
 TEST(Help, OfTheProgramNamesEveryCommand) {
   const std::string help = run_fathom({"--help"}).out;
   for (const char* name : {"render", "probe", "info", "preview", "compare", "convert", "camera",
-                           "clip", "scan", "pipeline", "visible", "coplanar", "depth", "study"}) {
+                           "visible", "coplanar", "depth"}) {
     EXPECT_THAT(help, HasSubstr(std::string("\n  ") + name));
-  }
-  for (const char* companion : {"bench", "validate"}) {
-    EXPECT_THAT(help, HasSubstr(std::string("'scripts/fathom ") + companion + "'"));
   }
 }
 
@@ -185,16 +182,6 @@ TEST(Help, ThatCannotBeWrittenIsAnError) {
   const Outcome outcome = run({"sh", "-c", "exec \"$0\" --help > /dev/full", program_path()});
   EXPECT_EQ(outcome.status, 4);
   EXPECT_THAT(outcome.err, StartsWith("fathom: error: standard output: "));
-}
-
-TEST(Companion, IsStartedInPlaceOfTheProgram) {
-  const TestFolder folder;
-  std::filesystem::copy_file(program_path(), folder / "fathom");
-  folder.write("fathom-greet", "#!/bin/sh\necho \"greeting $1 and $2\"\nexit 7\n");
-  std::filesystem::permissions(folder / "fathom-greet", std::filesystem::perms::owner_all);
-  const Outcome outcome = run({folder / "fathom", "greet", "--one", "two words"});
-  EXPECT_EQ(outcome.status, 7);
-  EXPECT_EQ(outcome.out, "greeting --one and two words\n");
 }
 
 }  // namespace

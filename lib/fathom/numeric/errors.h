@@ -9,9 +9,24 @@
 /// Our own broken invariants are assertions, "nothing there" is an optional; neither is an Error.
 namespace fathom {
 
+/// A setting that an error is about, by the name of its field: "subpixel_bits".
+struct Setting {
+  std::string name;
+};
+
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+  /// The message begins with the setting: "subpixel_bits: expected 0 to 16".
+  Error(const Setting& setting, const std::string& message)
+      : std::runtime_error(setting.name + ": " + message), setting_(setting.name) {}
+
+  /// The name of the setting; empty where the error is about no setting. A program whose users know
+  /// it by another name puts that in its place at the beginning of the message.
+  [[nodiscard]] const std::string& setting() const { return setting_; }
+
+ private:
+  std::string setting_;
 };
 
 /// The request makes no sense: options that contradict each other (exit status 2).

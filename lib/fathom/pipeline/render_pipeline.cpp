@@ -35,7 +35,7 @@ std::optional<Texture> texture_of(const Scene& scene, const PipelineOptions& opt
   Texture texture =
       options.texture == "checker" ? Texture::checker() : Texture(read_rgb_png(options.texture));
   if (!has_texture_coordinates(scene))
-    throw InputError("--texture: the scene has no texture coordinates at some corners");
+    throw InputError(Setting{"texture"}, "the scene has no texture coordinates at some corners");
   return texture;
 }
 

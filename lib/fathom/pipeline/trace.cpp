@@ -16,8 +16,8 @@ InputTriangle triangle_numbered(const Scene& scene, std::uint32_t number) {
     if (number - first < count) return assemble_triangles(scene, object, first)[number - first];
     first += count;
   }
-  throw UsageError("--triangle: there is no triangle " + std::to_string(number) +
-                   "; the scene has " + std::to_string(first));
+  throw UsageError(Setting{"triangle"}, "there is no triangle " + std::to_string(number) +
+                                            "; the scene has " + std::to_string(first));
 }
 
 template <class Vertex>

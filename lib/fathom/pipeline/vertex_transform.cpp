@@ -159,8 +159,8 @@ bool is_per_fragment(Mapping mapping) {
 
 void fill_in_range(const Scene& scene, const Camera& camera, DepthFormat& format) {
   if (camera.projection == Projection::orthographic && takes_infinite_far(format.mapping))
-    throw UsageError("--mapping: " + std::string(name_of(format.mapping)) +
-                     " needs a perspective camera");
+    throw UsageError(Setting{"mapping"},
+                     std::string(name_of(format.mapping)) + " needs a perspective camera");
   format.near = camera.near;
   format.far = camera.far;
   const bool needs_far = std::isinf(format.far) && !takes_infinite_far(format.mapping);

@@ -1,0 +1,88 @@
+#include "apps/bench/bench_arguments.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "apps/options/channel_list.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+Peers parse_peers(const std::string& list) {
+  Peers peers{false, false, false, false};
+  for (const std::string& name : parse_list(list)) {
+    if (name == "vtk") {
+      peers.vtk = true;
+    } else if (name == "embree") {
+      peers.embree = true;
+    } else if (name == "reference") {
+      peers.reference = true;
+    } else if (name != "none") {
+      throw UsageError("'" + name + "' is not one of vtk, embree, reference and none");
+    }
+  }
+  if ((peers.vtk || peers.embree) && !bench::peers_are_built()) {
+    throw UsageError(
+        "VTK and Embree are not built in: 'scripts/fathom bench' installs "
+        "them and builds with them (-DFATHOM_PEERS=ON)");
+  }
+  return peers;
+}
+
+std::vector<std::string> parse_scenes(const std::string& list) {
+  std::vector<std::string> names = parse_list(list);
+  for (const std::string& name : names) {
+    const bool is_file = name.find_first_of("./") != std::string::npos;
+    if (!bench::is_made_scene(name) && !is_file) {
+      throw UsageError(
+          fmt::format("there is no scene '{}'; there are {}, room-outside, sphere-N and mesh files",
+                      name, joined(bench::default_scene_names(), ", ")));
+    }
+  }
+  return names;
+}
+
+std::vector<int> parse_threads(const std::string& list) {
+  const int all = bench::processor_count();
+  std::vector<int> counts;
+  for (const std::string& text : parse_list(list)) {
+    const std::uint32_t count = parse_count(text);
+    if (count > static_cast<std::uint32_t>(all)) {
+      throw UsageError(fmt::format("{} is more than the {} processors that there are", count, all));
+    }
+    counts.push_back(count == 0 ? all : static_cast<int>(count));
+  }
+  return counts;
+}
+
+std::vector<Size> parse_sizes(const std::string& list) {
+  std::vector<Size> sizes;
+  for (const std::string& text : parse_list(list)) sizes.push_back(parse_size(text));
+  return sizes;
+}
+
+int parse_repeat(const std::string& text) {
+  return static_cast<int>(std::min(parse_positive(text), 1'000'000U));
+}
+
+}  // namespace
+
+void BenchArguments::add_to(Command& command) {
+  command.option("--scene", "NAME", into(scenes, parse_scenes),
+                 "Scenes to render (default: see below)");
+  command.option("--size", "WxH", into(sizes, parse_sizes), "Image sizes (default 1920x1080)");
+  command.option("--threads", "N", into(threads, parse_threads),
+                 "Numbers of threads (default: all processors)");
+  command.option("--peers", "NAME", into(peers, parse_peers),
+                 "Renderers beside fast: vtk, embree, reference or none (default: all, the "
+                 "reference engine up to 20000 triangles)");
+  command.option("--channels", "LIST", into(channels, parse_channels),
+                 "Channels that our engines compute (default Z)");
+  command.option("--repeat", "N", into(repeat, parse_repeat),
+                 "Frames to time, within 20 seconds (default 9)");
+  command.option("--json", "NAME", json, "Also write the figures as JSON; - for only them");
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,152 @@
+// fathom bench
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <optional>
+
+#include "apps/bench/bench_arguments.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/program.h"
+#include "apps/shell/progress.h"
+#include "validation/bench/renderers.h"
+#include "validation/bench/report.h"
+
+namespace fathom::app {
+namespace {
+
+using bench::Comparison;
+using bench::Measurement;
+using bench::Plan;
+
+/// Above this many triangles the reference engine is timed only where --peers asks for it.
+constexpr std::uint64_t bearable_triangles = 20'000;
+
+/// Every scene at every size with every number of threads.
+std::vector<Plan> plans_of(const BenchArguments& a) {
+  std::vector<Plan> plans;
+  for (const auto& [width, height] : a.sizes) {
+    for (const int threads : a.threads) {
+      for (const std::string& scene : a.scenes) {
+        plans.push_back({scene, width, height, threads, a.repeat, a.channels});
+      }
+    }
+  }
+  return plans;
+}
+
+std::vector<std::string> renderers_for(const Peers& peers, std::uint64_t triangles) {
+  std::vector<std::string> renderers{"fast"};
+  if (peers.vtk) renderers.emplace_back("vtk");
+  if (peers.embree) renderers.insert(renderers.end(), {"embree", "embree-robust"});
+  if (peers.reference && !(peers.by_default && triangles > bearable_triangles)) {
+    renderers.emplace_back("reference");
+  }
+  return renderers;
+}
+
+/// A renderer that covers other pixels than fast by more than a hundredth draws something else.
+void warn_of_other_pictures(const Comparison& comparison, const Console& console) {
+  const auto fast = static_cast<double>(comparison.measurements.front().covered_pixels);
+  for (const Measurement& m : comparison.measurements) {
+    const auto covered = static_cast<double>(m.covered_pixels);
+    if (fast == 0 || m.renderer == "embree-build") continue;
+    if (covered < 0.99 * fast || covered > 1.01 * fast) {
+      console.warn(fmt::format("{}: {} covers {} pixels, fast {}", comparison.plan.scene,
+                               m.renderer, m.covered_pixels,
+                               comparison.measurements.front().covered_pixels));
+    }
+  }
+}
+
+Comparison compare(const Plan& plan, const Peers& peers, const Console& console,
+                   const std::function<void(double)>& progress) {
+  Comparison comparison{plan, bench::count_triangles_in_child(plan), {}};
+  const std::vector<std::string> renderers = renderers_for(peers, comparison.triangles);
+  for (std::size_t i = 0; i < renderers.size(); ++i) {
+    if (progress) progress(static_cast<double>(i) / static_cast<double>(renderers.size()));
+    for (Measurement& m : bench::measure_in_child(renderers[i], plan)) {
+      comparison.measurements.push_back(std::move(m));
+    }
+  }
+  warn_of_other_pictures(comparison, console);
+  return comparison;
+}
+
+std::string machine_line(const bench::Machine& machine) {
+  return fmt::format("{}, {} processor{}, {:.1f} GiB; {}; {}\n\n", machine.processor,
+                     machine.processors, machine.processors == 1 ? "" : "s",
+                     static_cast<double>(machine.memory_bytes) / (1 << 30), machine.system,
+                     machine.compiler);
+}
+
+/// "vtk: VTK 9.1.0 on llvmpipe", a line for each renderer that says what it is.
+std::string version_lines(const std::vector<Comparison>& comparisons) {
+  std::vector<std::string> lines;
+  for (const Comparison& comparison : comparisons) {
+    for (const Measurement& m : comparison.measurements) {
+      if (!m.description.empty()) lines.push_back(m.renderer + ": " + m.description + "\n");
+    }
+  }
+  std::sort(lines.begin(), lines.end());
+  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+  return std::accumulate(lines.begin(), lines.end(), std::string());
+}
+
+int run_bench(const BenchArguments& arguments, const Console& console) {
+  const Peers& peers = arguments.peers;
+  const std::vector<Plan> plans = plans_of(arguments);
+  std::optional<OutputFile> json;
+  if (!arguments.json.empty() && arguments.json != "-") json.emplace(arguments.json);
+  if (peers.by_default && !bench::peers_are_built()) {
+    console.warn(
+        "VTK and Embree are not built in: 'scripts/fathom bench' installs them and builds "
+        "with them");
+  }
+
+  const bool shows_table = arguments.json != "-";
+  const bench::Machine machine = bench::this_machine();
+  if (shows_table) print(machine_line(machine));
+  std::vector<Comparison> comparisons;
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    {
+      Progress progress(console, plans[i].scene);
+      comparisons.push_back(compare(plans[i], peers, console, progress.reporter(i, plans.size())));
+    }
+    if (shows_table) print(bench::table(comparisons.back()));
+  }
+  if (shows_table) print(version_lines(comparisons));
+  const std::string report = bench::to_json(machine, comparisons) + "\n";
+  if (!shows_table) print(report);
+  if (json) {
+    json->write(report);
+    json->commit();
+  }
+  return done;
+}
+
+void add_bench(Command& program) {
+  Command& command = program.command(
+      "bench", "Time and memory beside VTK, Embree and the reference engine",
+      "  fathom bench\n"
+      "  fathom bench --scene sphere-200k,soup --threads 1,2 --json times.json\n"
+      "  fathom bench --scene sphere-5k --peers reference --size 640x360\n"
+      "\nScenes: sphere-20k, sphere-200k, sphere-2m, mesh, soup, few-large, grid-aligned,\n"
+      "grid-shifted and room (default: these), room-outside, sphere-N for any N, mesh files.\n"
+      "Each renderer runs in a process of its own on as many processors as there are threads;\n"
+      "its first frame is not counted. Times of vtk are without read-back, those of embree\n"
+      "without embree-build.");
+  const auto arguments = std::make_shared<BenchArguments>();
+  arguments->add_to(command);
+  command.runs([arguments](const Console& console) { return run_bench(*arguments, console); });
+}
+
+}  // namespace
+}  // namespace fathom::app
+
+int main(int argc, char** argv) {
+  return fathom::app::companion_main(argc, argv, "bench", fathom::app::add_bench);
+}

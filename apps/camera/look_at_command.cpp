@@ -1,0 +1,47 @@
+// fathom camera look-at
+
+#include <memory>
+
+#include "apps/camera/camera_command.h"
+#include "apps/options/lens_options.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/values.h"
+#include "fathom/camera/camera_files.h"
+
+namespace fathom::app {
+namespace {
+
+struct LookAtArguments {
+  Vector3 eye{}, target{}, up{0, 1, 0};
+  Lens lens;
+  std::string output = "-";
+};
+
+int run_look_at(const LookAtArguments& arguments) {
+  const Camera camera = look_at(arguments.eye, arguments.target, arguments.up, arguments.lens);
+  write_text(arguments.output, to_json(camera) + "\n");
+  return done;
+}
+
+}  // namespace
+
+void add_look_at(Command& camera) {
+  const auto arguments = std::make_shared<LookAtArguments>();
+  Command& command =
+      camera.command("look-at", "The camera at a point that looks at another",
+                     "  fathom camera look-at --eye 2,1,3 --target 0,0,0 -o camera.json\n"
+                     "  fathom camera look-at --eye 0,0,5 --orthographic 2 --size 512x512");
+  command.option("--eye", "X,Y,Z", into(arguments->eye, parse_vector), "X,Y,Z of the camera")
+      .required();
+  command.option("--target", "X,Y,Z", into(arguments->target, parse_vector),
+                 "X,Y,Z of the point it looks at (default 0,0,0)");
+  command.option("--up", "X,Y,Z", into(arguments->up, parse_vector),
+                 "X,Y,Z: upwards in the image (default 0,1,0)");
+  add_lens_options(command, arguments->lens);
+  command.option("-o,--output", "FILE", arguments->output,
+                 "Camera file (default: standard output)");
+  command.runs([arguments](const Console&) { return run_look_at(*arguments); });
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,72 @@
+// fathom camera orbit
+
+#include <memory>
+#include <optional>
+
+#include "apps/camera/camera_command.h"
+#include "apps/options/lens_options.h"
+#include "apps/options/scene_options.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/values.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/framing.h"
+
+namespace fathom::app {
+namespace {
+
+struct OrbitArguments {
+  SceneOptions scene;
+  std::uint32_t views = 0;
+  View first;
+  std::optional<Vector3> centre;
+  std::optional<double> distance;
+  Lens lens;
+  std::string output = "-";
+};
+
+std::vector<Camera> orbit_cameras(const OrbitArguments& a, const Console& console) {
+  if (a.scene.files.empty()) {
+    if (!a.distance) throw UsageError("orbit needs a SCENE to frame, or --distance");
+    return orbit(a.first, a.views, a.centre.value_or(Vector3{}), *a.distance, a.lens);
+  }
+  if (a.distance || a.centre) {
+    throw UsageError("--centre and --distance do not go with a SCENE, which decides them");
+  }
+  const std::optional<WorldBounds> bounds = world_bounds(a.scene.read(console));
+  if (!bounds) {
+    throw InputError(a.scene.files[0] + ": no triangle; expected something to frame");
+  }
+  return orbit(a.first, a.views, *bounds, a.lens);
+}
+
+int run_orbit(const OrbitArguments& arguments, const Console& console) {
+  write_text(arguments.output, to_json(orbit_cameras(arguments, console)) + "\n");
+  return done;
+}
+
+}  // namespace
+
+void add_orbit(Command& camera) {
+  const auto arguments = std::make_shared<OrbitArguments>();
+  Command& command = camera.command(
+      "orbit", "A camera path around a scene or a point",
+      "  fathom camera orbit data/meshes/spot.obj --views 12 -o path.json\n"
+      "  fathom render data/meshes/spot.obj --camera path.json -o 'maps/{index:04}.exr'\n"
+      "  fathom camera orbit --views 36 --centre 0,0,1 --distance 4 --view 0,30 --up z");
+  command.arguments("SCENE", arguments->scene.files, "Meshes and scene files to frame");
+  command.option("--views", "N", into(arguments->views, parse_positive), "Number of cameras")
+      .required();
+  add_view_options(command, arguments->first);
+  command.option("--centre", "X,Y,Z", into(arguments->centre, parse_vector),
+                 "X,Y,Z of the point they look at (default 0,0,0)");
+  command.option("--distance", "D", into(arguments->distance, parse_number),
+                 "Of the eye from the centre");
+  add_lens_options(command, arguments->lens);
+  command.option("-o,--output", "FILE", arguments->output,
+                 "Camera file (default: standard output)");
+  command.runs([arguments](const Console& console) { return run_orbit(*arguments, console); });
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,82 @@
+// fathom compare TRUTH OTHER
+
+#include <memory>
+
+#include "apps/maps/comparison_report.h"
+#include "apps/maps/map_commands.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/known_files.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/values.h"
+#include "fathom/image/compare.h"
+#include "fathom/image/map_files.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+struct CompareArguments {
+  std::string truth, other;
+  CompareOptions options;
+  std::string json, heatmap;
+};
+
+double parse_tolerance(const std::string& text) {
+  const double ulp = parse_number(text);
+  if (ulp < 0) throw UsageError("'" + text + "' is negative");
+  return ulp;
+}
+
+int run_compare(const CompareArguments& arguments) {
+  const CompareOptions& options = arguments.options;
+  note_input(arguments.truth);
+  note_input(arguments.other);
+  const DepthMap truth = read_map(arguments.truth);
+  const DepthMap other = read_map(arguments.other);
+  const Comparison comparison{arguments.truth, arguments.other, options.tolerance_ulp,
+                              compare_maps(truth, other, options)};
+
+  std::vector<OutputFile> outputs;
+  outputs.reserve(2);
+  const bool writes_json = !arguments.json.empty() && arguments.json != "-";
+  if (writes_json) outputs.emplace_back(arguments.json).write(as_json(comparison));
+  if (!arguments.heatmap.empty()) {
+    const RgbImage picture = draw_differences(truth, other, options);
+    outputs.emplace_back(arguments.heatmap).write([&](const std::filesystem::path& path) {
+      write_png(picture, path);
+    });
+  }
+  for (OutputFile& output : outputs) output.commit();
+  print(arguments.json == "-" ? as_json(comparison) : as_text(comparison));
+  return comparison.maps.within_tolerance() ? done : answer_is_no;
+}
+
+}  // namespace
+
+void add_compare(Command& program) {
+  const auto arguments = std::make_shared<CompareArguments>();
+  CompareOptions& options = arguments->options;
+  Command& command =
+      program.command("compare", "Compare two maps pixel by pixel; exit status 1 if they differ",
+                      "  fathom compare spot.exr other.exr\n"
+                      "  fathom compare spot.exr other.pfm --tolerance-ulp 2 --json report.json\n"
+                      "  fathom compare spot.exr blender.exr --heatmap differences.png");
+  command.argument("TRUTH", arguments->truth, "The map that is right").required();
+  command.argument("OTHER", arguments->other, "The map to check").required();
+  command.option("--tolerance-ulp", "N", into(options.tolerance_ulp, parse_tolerance),
+                 "Accept differences of up to N units in the last place (default 0)");
+  command.option("--json", "NAME", arguments->json,
+                 "Write the figures to this file (- is standard output, without the text)");
+  command.option("--heatmap", "PNG", into(arguments->heatmap, parse_png_name),
+                 "Draw the differences (PNG)");
+  command.option("--channel", "NAME", options.channel, "Compare this channel only");
+  command.option("--other-channel", "NAME", options.other_channel,
+                 "Its name in OTHER, where that differs");
+  command.option("--truth-background", "D", into(options.truth_background, parse_number),
+                 "The depth that means background in TRUTH (default: detected)");
+  command.option("--other-background", "D", into(options.other_background, parse_number),
+                 "The depth that means background in OTHER (default: detected)");
+  command.runs([arguments](const Console&) { return run_compare(*arguments); });
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,173 @@
+// fathom convert MAP -o OTHER
+
+#include <cctype>
+#include <filesystem>
+#include <memory>
+
+#include "apps/maps/map_commands.h"
+#include "apps/maps/map_view.h"
+#include "apps/options/storage_options.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/known_files.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/values.h"
+#include "fathom/image/convert.h"
+#include "fathom/image/map_files.h"
+#include "fathom/image/point_cloud.h"
+#include "fathom/image/surface.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+struct ConvertArguments {
+  std::string map, output, camera, channel;
+  std::optional<DepthQuantity> from, to;
+  std::optional<double> baseline, doffs;
+  PointFrame frame = PointFrame::world;
+  StorageOptions storage;
+};
+
+DepthQuantity parse_quantity(const std::string& text) {
+  if (text == "Z") return DepthQuantity::planar_depth;
+  if (text == "distance") return DepthQuantity::ray_distance;
+  if (text == "disparity") return DepthQuantity::disparity;
+  throw UsageError("'" + text +
+                   "' is not one of Z (planar depth), distance (along the ray) and disparity");
+}
+
+PointFrame parse_frame(const std::string& text) {
+  return parse_word<PointFrame>(text,
+                                {{"world", PointFrame::world}, {"camera", PointFrame::camera}});
+}
+
+bool ends_with_ply(const std::string& name) {
+  std::string suffix = std::filesystem::path(name).extension();
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return suffix == ".ply";
+}
+
+std::optional<StereoRig> rig_of(const ConvertArguments& arguments) {
+  if (arguments.baseline) return StereoRig{*arguments.baseline, arguments.doffs.value_or(0)};
+  if (arguments.doffs) throw UsageError("--doffs needs --baseline");
+  return std::nullopt;
+}
+
+int write_points(const DepthMap& map, const ConvertArguments& arguments) {
+  if (arguments.to || !arguments.channel.empty()) {
+    throw UsageError("--to and --channel do not go with a point cloud");
+  }
+  if (arguments.storage.compression || arguments.storage.png_scale) {
+    throw UsageError("--compression and --png-scale do not go with a point cloud");
+  }
+  const PointCloudOptions options{
+      .frame = arguments.frame,
+      .binary64 = arguments.storage.dtype != StorageOptions::Float::binary32};
+  const MapView view = view_for(map, arguments.map, arguments.camera);
+  OutputFile output(arguments.output);
+  output.write([&](const auto& path) { write_point_cloud(map, view, path, options); });
+  output.commit();
+  return done;
+}
+
+DepthMap converted(DepthMap map, const ConvertArguments& arguments) {
+  if (!arguments.to) {
+    if (arguments.from) throw UsageError("--from needs --to");
+    return map;
+  }
+  const DepthQuantity from = arguments.from.value_or(DepthQuantity::planar_depth);
+  // PFM, PNG and NPY do not name their channel: it is what the user says it is.
+  if (map.channels.size() == 1 && map.texts.empty()) map.channels[0].name = channel_of(from);
+  return convert_quantity(map, from, *arguments.to, view_for(map, arguments.map, arguments.camera),
+                          rig_of(arguments));
+}
+
+/// The map with this channel only.
+DepthMap only(DepthMap map, const ImageChannel& channel) {
+  map.channels = std::vector<ImageChannel>{channel};
+  return map;
+}
+
+/// The channel that was asked for, Z, or the only one.
+const ImageChannel* chosen_channel(const DepthMap& map, const std::string& name) {
+  const ImageChannel* channel = map.find(name.empty() ? "Z" : name);
+  const bool is_only_one = channel == nullptr && name.empty() && map.channels.size() == 1;
+  return is_only_one ? &map.channels[0] : channel;
+}
+
+/// The map in the type that the format asks for; an EXR keeps all channels as they are.
+DepthMap stored(DepthMap map, const ConvertArguments& arguments, MapFormat format) {
+  const bool codes = map.png_scale.has_value();
+  if (format == MapFormat::exr && arguments.channel.empty() && !codes && map.channels.size() > 1) {
+    return map;
+  }
+  const ImageChannel* channel = chosen_channel(map, arguments.channel);
+  // Identifiers, normals and so on are not depths: they keep their type.
+  if (channel != nullptr && kind_of(*channel) != ChannelKind::depth) return only(map, *channel);
+
+  const DepthEncoding encoding = arguments.storage.encoding_for(format);
+  switch (encoding.type) {
+    case DepthEncoding::Type::binary32:
+      return with_storage(map, arguments.channel, StoredType::binary32);
+    case DepthEncoding::Type::binary64:
+      return with_storage(map, arguments.channel, StoredType::binary64);
+    case DepthEncoding::Type::scaled_unorm16:
+      break;
+  }
+  // A PNG that is written again as it was keeps its scale.
+  const bool keeps_scale = codes && !arguments.storage.png_scale;
+  return with_storage(map, arguments.channel, StoredType::scaled_unorm16,
+                      keeps_scale ? map.png_scale : encoding.scale);
+}
+
+int run_convert(const ConvertArguments& arguments) {
+  note_input(arguments.map);
+  if (ends_with_ply(arguments.output)) {
+    return write_points(read_map(arguments.map), arguments);
+  }
+  const MapFormat format = arguments.storage.format_of(arguments.output);
+  const DepthMap map = stored(converted(read_map(arguments.map), arguments), arguments, format);
+  OutputFile output(arguments.output);
+  output.write(
+      [&](const auto& path) { write_map(map, path, format, arguments.storage.write_options(0)); });
+  output.commit();
+  return done;
+}
+
+}  // namespace
+
+void add_convert(Command& program) {
+  const auto arguments = std::make_shared<ConvertArguments>();
+  Command& command = program.command(
+      "convert", "Convert a map to another format or quantity, or to a point cloud",
+      "  fathom convert spot.exr -o spot.npy --dtype float32\n"
+      "  fathom convert spot.exr --to distance -o distance.pfm\n"
+      "  fathom convert spot.exr --to disparity --baseline 0.2 -o disparity.pfm\n"
+      "  fathom convert spot.exr -o points.ply\n"
+      "\nConversions start from the stored values, which are rounded already; 'fathom render "
+      "--channels\ndistance' gives the exact ray distance, and render to .png or .npy rounds "
+      "once.");
+  command.argument("MAP", arguments->map, "The map: EXR, PFM, PNG or NPY").required();
+  command
+      .option("-o,--output", "FILE", arguments->output,
+              "A map (.exr, .pfm, .png, .npy) or a point cloud (.ply)")
+      .required();
+  command.option("--channel", "NAME", arguments->channel,
+                 "The channel to convert (default Z, or the only one)");
+  command.option("--to", "NAME", into(arguments->to, parse_quantity),
+                 "Z (planar depth), distance (along the ray) or disparity");
+  command.option("--from", "NAME", into(arguments->from, parse_quantity),
+                 "What the map holds (default Z)");
+  command.option("--camera", "FILE", arguments->camera,
+                 "Camera file, where the map does not carry its camera");
+  command.option("--baseline", "B", into(arguments->baseline, parse_number),
+                 "Of the stereo pair, for disparity");
+  command.option("--doffs", "D", into(arguments->doffs, parse_number),
+                 "Difference of the principal points of the stereo pair (default 0)");
+  command.option("--frame", "NAME", into(arguments->frame, parse_frame),
+                 "Of the point cloud: world (default) or camera");
+  arguments->storage.add_to(command);
+  command.runs([arguments](const Console&) { return run_convert(*arguments); });
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "apps/maps/file_kind.h"
+#include "fathom/image/depth_map.h"
+#include "fathom/scene/scene.h"
+
+/// What `fathom info` says of a file.
+namespace fathom::app {
+
+enum class AnswerForm { text, json };
+
+/// Size, and per channel its type, how many pixels show a surface and the range of its finite
+/// values there; object names; the texts of the header.
+std::string info_of_map(const DepthMap& map, const std::string& file, AnswerForm form);
+
+/// Vertices, faces, triangles, bounds, the objects and the sources of a mesh or a scene file.
+std::string info_of_scene(const Scene& scene, FileKind kind, const std::string& file,
+                          AnswerForm form);
+
+/// Where each camera of the file stands and looks, and its numbers.
+std::string info_of_cameras(const std::string& file, AnswerForm form);
+
+}  // namespace fathom::app

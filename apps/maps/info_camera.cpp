@@ -1,0 +1,84 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/maps/info.h"
+#include "apps/maps/map_view.h"
+#include "fathom/camera/camera_files.h"
+
+namespace fathom::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The eye and the line of sight in the world, rounded from the exact inverse.
+struct Pose {
+  std::array<double, 3> eye{}, forward{};
+};
+
+Pose pose_of(const Camera& camera) {
+  const auto world_from_camera = camera_to_world(view_of(camera));
+  Pose pose;
+  for (int i = 0; i < 3; ++i) {
+    pose.eye[i] = world_from_camera[i][3];
+    pose.forward[i] = world_from_camera[i][2];
+  }
+  return pose;
+}
+
+double degrees_of(double extent, double focal) {
+  return 2 * std::atan(extent / (2 * std::abs(focal))) * 180 / std::acos(-1.0);
+}
+
+Json describe(const Camera& camera) {
+  Json answer = Json::parse(fathom::to_json(camera));
+  const Pose pose = pose_of(camera);
+  answer["eye"] = pose.eye;
+  answer["forward"] = pose.forward;
+  if (camera.projection == Projection::perspective) {
+    answer["fov_degrees"] = {degrees_of(camera.width, camera.fx),
+                             degrees_of(camera.height, camera.fy)};
+  }
+  return answer;
+}
+
+std::string describe_as_text(const Camera& camera) {
+  const Pose pose = pose_of(camera);
+  const bool perspective = camera.projection == Projection::perspective;
+  std::string text = fmt::format(
+      "  {} camera of {}x{} pixels\n"
+      "    fx, fy        {}, {}\n    cx, cy        {}, {}   (the centre of the top left pixel is "
+      "{})\n"
+      "    skew          {}\n",
+      perspective ? "perspective" : "orthographic", camera.width, camera.height, camera.fx,
+      camera.fy, camera.cx, camera.cy, camera.pixel_centre, camera.skew);
+  if (perspective) {
+    text += fmt::format("    field of view {:.4f} x {:.4f} degrees\n",
+                        degrees_of(camera.width, camera.fx), degrees_of(camera.height, camera.fy));
+  }
+  const auto vector = [](const std::array<double, 3>& v) {
+    return fmt::format("({}, {}, {})", v[0], v[1], v[2]);
+  };
+  return text +
+         fmt::format("    eye           {}\n    looks along   {}\n    near, far     {}, {}\n",
+                     vector(pose.eye), vector(pose.forward), camera.near, camera.far);
+}
+
+}  // namespace
+
+std::string info_of_cameras(const std::string& file, AnswerForm form) {
+  const std::vector<Camera> cameras = read_cameras(file);
+  if (form == AnswerForm::json) {
+    Json list = Json::array();
+    for (const Camera& camera : cameras) list.push_back(describe(camera));
+    return Json{{"kind", "camera"}, {"file", file}, {"cameras", list}}.dump(2) + "\n";
+  }
+  std::string text = fmt::format(
+      "{}: {}\n", file,
+      cameras.size() == 1 ? "a camera" : fmt::format("a path of {} cameras", cameras.size()));
+  for (const Camera& camera : cameras) text += describe_as_text(camera);
+  return text;
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,130 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/maps/info.h"
+#include "apps/shell/values.h"
+#include "fathom/image/surface.h"
+
+namespace fathom::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ChannelSummary {
+  std::string type;
+  std::uint64_t surface = 0, infinite = 0, nan = 0, finite = 0;
+  double least = 0, greatest = 0;
+  double scale = 1;
+
+  void add(double value) {
+    if (std::isnan(value)) {
+      ++nan;
+    } else if (std::isinf(value)) {
+      ++infinite;
+    } else {
+      least = finite == 0 ? value : std::min(least, value);
+      greatest = finite == 0 ? value : std::max(greatest, value);
+      ++finite;
+    }
+  }
+};
+
+const char* type_name(float) {
+  return "float32";
+}
+const char* type_name(double) {
+  return "float64";
+}
+const char* type_name(std::uint16_t) {
+  return "uint16";
+}
+const char* type_name(std::uint32_t) {
+  return "uint32";
+}
+
+/// The values where the channel shows a surface; codes are shown as the depths they stand for.
+ChannelSummary summarise(const DepthMap& map, const ImageChannel& channel) {
+  ChannelSummary summary;
+  const std::vector<std::uint8_t> surface = surface_mask(map, channel);
+  const bool codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
+  if (codes && map.png_scale) summary.scale = *map.png_scale;
+  std::visit(
+      [&](const auto& values) {
+        summary.type = type_name(typename std::decay_t<decltype(values)>::value_type{});
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          if (surface[i] == 0) continue;
+          ++summary.surface;
+          summary.add(static_cast<double>(values[i]) / summary.scale);
+        }
+      },
+      channel.values);
+  return summary;
+}
+
+/// The shortest text that denotes the value in the channel's type; "-" where there is none.
+std::string figure(const ChannelSummary& summary, double value) {
+  if (summary.finite == 0) return "-";
+  return summary.type == "float32" ? fmt::format("{}", static_cast<float>(value))
+                                   : fmt::format("{}", value);
+}
+
+Json describe(const DepthMap& map, const std::string& file) {
+  Json channels = Json::object();
+  for (const ImageChannel& channel : map.channels) {
+    const ChannelSummary summary = summarise(map, channel);
+    Json entry{{"type", summary.type},
+               {"surface_pixels", summary.surface},
+               {"min", summary.finite > 0 ? Json(summary.least) : Json(nullptr)},
+               {"max", summary.finite > 0 ? Json(summary.greatest) : Json(nullptr)},
+               {"infinite", summary.infinite},
+               {"nan", summary.nan}};
+    channels[channel.name] = std::move(entry);
+  }
+  Json answer{{"file", file},
+              {"kind", "map"},
+              {"width", map.width},
+              {"height", map.height},
+              {"channels", std::move(channels)}};
+  if (map.png_scale) answer["png_scale"] = *map.png_scale;
+  if (!map.object_names.empty()) answer["objects"] = map.object_names;
+  Json attributes = Json::object();
+  for (const auto& [name, text] : map.texts) {
+    // Camera and sources are JSON themselves.
+    Json parsed = Json::parse(text, nullptr, false);
+    attributes[name] = parsed.is_structured() ? std::move(parsed) : Json(text);
+  }
+  if (!attributes.empty()) answer["attributes"] = std::move(attributes);
+  return answer;
+}
+
+std::string describe_as_text(const DepthMap& map, const std::string& file) {
+  std::string text = fmt::format("{}: a map of {}x{} pixels\n", file, map.width, map.height);
+  text += fmt::format("  {:<10} {:<8} {:>14} {:>24} {:>24}\n", "channel", "type", "surface pixels",
+                      "least", "greatest");
+  for (const ImageChannel& channel : map.channels) {
+    const ChannelSummary s = summarise(map, channel);
+    text += fmt::format("  {:<10} {:<8} {:>14} ", channel.name, s.type, s.surface);
+    text += fmt::format("{:>24} {:>24}", figure(s, s.least), figure(s, s.greatest));
+    if (s.infinite > 0) text += fmt::format("  {} infinite", s.infinite);
+    if (s.nan > 0) text += fmt::format("  {} NaN", s.nan);
+    text += "\n";
+  }
+  if (map.png_scale) text += fmt::format("  scale      {} codes per unit\n", *map.png_scale);
+  if (!map.object_names.empty()) {
+    text += fmt::format("  objects    {}\n", joined(map.object_names, ", "));
+  }
+  for (const auto& [name, value] : map.texts) text += fmt::format("  {}: {}\n", name, value);
+  return text;
+}
+
+}  // namespace
+
+std::string info_of_map(const DepthMap& map, const std::string& file, AnswerForm form) {
+  if (form == AnswerForm::text) return describe_as_text(map, file);
+  return describe(map, file).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace fathom::app

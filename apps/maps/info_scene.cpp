@@ -1,0 +1,99 @@
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "apps/maps/info.h"
+#include "fathom/scene/bounds.h"
+
+namespace fathom::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const std::optional<WorldBounds>& bounds) {
+  return bounds ? Json{bounds->lower, bounds->upper} : Json(nullptr);
+}
+
+/// The part of a scene that one of its objects is, to ask for its bounds.
+std::optional<WorldBounds> bounds_of(const Scene& scene, const Object& object) {
+  Scene part;
+  part.meshes.push_back(scene.meshes[object.mesh]);
+  part.objects.push_back(object);
+  part.objects[0].mesh = 0;
+  return world_bounds(part);
+}
+
+struct SceneTotals {
+  std::uint64_t vertices = 0, faces = 0, triangles = 0;
+};
+
+SceneTotals totals_of(const Scene& scene) {
+  SceneTotals totals;
+  for (const Mesh& mesh : scene.meshes) {
+    totals.vertices += mesh.vertices.size();
+    totals.faces += mesh.face_count;
+  }
+  totals.triangles = triangle_count(scene);
+  return totals;
+}
+
+const char* name_of(FileKind kind) {
+  return kind == FileKind::scene ? "scene" : "mesh";
+}
+
+Json describe(const Scene& scene, FileKind kind, const std::string& file) {
+  const SceneTotals totals = totals_of(scene);
+  Json answer{{"kind", name_of(kind)},         {"file", file},
+              {"vertices", totals.vertices},   {"faces", totals.faces},
+              {"triangles", totals.triangles}, {"bounds", to_json(world_bounds(scene))}};
+  Json objects = Json::array();
+  for (const Object& object : scene.objects) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    objects.push_back({{"name", object.name},
+                       {"vertices", mesh.vertices.size()},
+                       {"triangles", mesh.triangles.size()},
+                       {"bounds", to_json(bounds_of(scene, object))}});
+  }
+  answer["objects"] = std::move(objects);
+  Json sources = Json::array();
+  for (const Source& source : scene.sources) {
+    sources.push_back({{"path", source.path}, {"sha256", source.sha256}});
+  }
+  answer["sources"] = std::move(sources);
+  return answer;
+}
+
+std::string to_text(const std::optional<WorldBounds>& bounds) {
+  if (!bounds) return "none";
+  return fmt::format("({}, {}, {}) to ({}, {}, {})", bounds->lower[0], bounds->lower[1],
+                     bounds->lower[2], bounds->upper[0], bounds->upper[1], bounds->upper[2]);
+}
+
+std::string describe_as_text(const Scene& scene, FileKind kind, const std::string& file) {
+  const SceneTotals totals = totals_of(scene);
+  std::string text = fmt::format(
+      "{}: a {}\n  vertices   {}\n  faces      {}\n  triangles  {}\n  bounds     {}\n", file,
+      name_of(kind), totals.vertices, totals.faces, totals.triangles, to_text(world_bounds(scene)));
+  if (scene.objects.size() > 1 || kind == FileKind::scene) {
+    for (const Object& object : scene.objects) {
+      text += fmt::format("  object     {}: {} triangles, {}\n", object.name,
+                          scene.meshes[object.mesh].triangles.size(),
+                          to_text(bounds_of(scene, object)));
+    }
+  }
+  for (const Source& source : scene.sources) {
+    text += fmt::format("  source     {} (SHA-256 {})\n", source.path, source.sha256);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string info_of_scene(const Scene& scene, FileKind kind, const std::string& file,
+                          AnswerForm form) {
+  if (form == AnswerForm::text) return describe_as_text(scene, kind, file);
+  return describe(scene, kind, file).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,87 @@
+#include "apps/maps/map_view.h"
+
+#include <fmt/core.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <optional>
+
+#include "apps/shell/known_files.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+/// A file in memory, for readers that take a path.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const std::string& text) : descriptor_(::memfd_create("text", MFD_CLOEXEC)) {
+    const auto size = static_cast<ssize_t>(text.size());
+    if (descriptor_ < 0 || ::write(descriptor_, text.data(), text.size()) != size) {
+      throw OutputError("no room for a file in memory");
+    }
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  ~MemoryFile() { ::close(descriptor_); }
+  [[nodiscard]] std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+/// The camera that a map carries; nullopt if it carries none.
+std::optional<Camera> camera_of(const DepthMap& map, const std::string& file) {
+  const auto text = map.texts.find("fathom.camera");
+  if (text == map.texts.end()) return std::nullopt;
+  const MemoryFile memory(text->second);
+  std::vector<Camera> cameras;
+  try {
+    cameras = read_cameras(memory.path());
+  } catch (const InputError& error) {
+    std::string message = error.what();
+    if (message.starts_with(memory.path())) message.erase(0, memory.path().size());
+    throw InputError(file + ": fathom.camera" + message);
+  }
+  if (cameras.size() != 1) throw InputError(file + ": fathom.camera does not hold one camera");
+  return cameras[0];
+}
+
+/// The one camera of a file, of the size of the map.
+Camera camera_for(const DepthMap& map, const std::string& file) {
+  note_input(file);
+  const std::vector<Camera> cameras = read_cameras(file);
+  if (cameras.size() != 1) {
+    throw UsageError(fmt::format("--camera: a path of {} cameras; a map has one", cameras.size()));
+  }
+  if (cameras[0].width != map.width || cameras[0].height != map.height) {
+    throw InputError(fmt::format("{}: a camera of {}x{} pixels, but the map has {}x{}", file,
+                                 cameras[0].width, cameras[0].height, map.width, map.height));
+  }
+  return cameras[0];
+}
+
+}  // namespace
+
+MapView view_of(const Camera& camera) {
+  MapView view;
+  view.orthographic = camera.projection == Projection::orthographic;
+  view.fx = camera.fx;
+  view.fy = camera.fy;
+  view.cx = camera.cx;
+  view.cy = camera.cy;
+  view.skew = camera.skew;
+  view.pixel_centre = camera.pixel_centre;
+  view.world_to_camera = camera.world_to_camera;
+  return view;
+}
+
+MapView view_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file) {
+  if (!camera_file.empty()) return view_of(camera_for(map, camera_file));
+  const std::optional<Camera> camera = camera_of(map, map_file);
+  if (!camera) throw InputError(map_file + ": carries no camera; expected --camera FILE");
+  return view_of(*camera);
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "fathom/camera/camera.h"
+#include "fathom/image/convert.h"
+#include "fathom/image/depth_map.h"
+
+namespace fathom::app {
+
+/// What conversions need to know of a camera.
+MapView view_of(const Camera& camera);
+
+/// The view of a map: that of the camera file where one is named, else of the camera that the map
+/// carries in `fathom.camera`. `map_file` is named in messages.
+/// Fails    InputError where there is no camera, or none for this map; UsageError for a path.
+MapView view_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file);
+
+}  // namespace fathom::app

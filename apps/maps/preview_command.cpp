@@ -1,0 +1,67 @@
+// fathom preview MAP -o PNG
+
+#include <memory>
+
+#include "apps/maps/map_commands.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/known_files.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/values.h"
+#include "fathom/image/map_files.h"
+#include "fathom/image/preview.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+struct PreviewArguments {
+  std::string map, output;
+  PreviewOptions options;
+};
+
+ColourMap parse_colour_map(const std::string& text) {
+  if (const std::optional<ColourMap> colours = colour_map_named(text)) return *colours;
+  throw UsageError("'" + text + "' is not one of viridis, magma, turbo and grey");
+}
+
+int run_preview(const PreviewArguments& arguments) {
+  note_input(arguments.map);
+  const DepthMap map = read_map(arguments.map);
+  const RgbImage picture = draw_preview(map, arguments.options);
+  OutputFile output(arguments.output);
+  output.write([&](const auto& path) { write_png(picture, path); });
+  output.commit();
+  return done;
+}
+
+}  // namespace
+
+void add_preview(Command& program) {
+  const auto arguments = std::make_shared<PreviewArguments>();
+  PreviewOptions& options = arguments->options;
+  Command& command = program.command(
+      "preview", "Draw a channel of a map with a colour bar",
+      "  fathom preview spot.exr -o spot.png\n"
+      "  fathom preview spot.exr --channel id -o triangles.png\n"
+      "  fathom preview spot.exr --colormap magma --range 2,5 --unit m -o spot.png");
+  command.argument("MAP", arguments->map, "The map: EXR, PFM, PNG or NPY").required();
+  command
+      .option("-o,--output", "FILE", into(arguments->output, parse_png_name),
+              "The picture (PNG, 8 bit)")
+      .required();
+  command.option("--channel", "NAME", options.channel, "The channel to draw (default Z)");
+  command.option("--colormap", "NAME", into(options.colours, parse_colour_map),
+                 "viridis (default), magma, turbo or grey");
+  command.option(
+      "--range", "LOW,HIGH",
+      [&options](const std::string& text) {
+        const auto [low, high] = parse_pair(text);
+        options.low = low;
+        options.high = high;
+      },
+      "LOW,HIGH: ends of the colour bar (default: those of the map)");
+  command.option("--unit", "NAME", options.unit, "Shown after the channel's name");
+  command.runs([arguments](const Console&) { return run_preview(*arguments); });
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,64 @@
+#include "apps/options/camera_options.h"
+
+#include <fmt/core.h>
+
+#include "apps/shell/known_files.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/framing.h"
+
+namespace fathom::app {
+namespace {
+
+/// The camera that frames the scene.
+Camera framing_camera(const Scene& scene, const View& view, const Lens& lens) {
+  const std::string file = scene.sources.empty() ? "scene" : scene.sources.back().path;
+  if (triangle_count(scene) == 0) {
+    throw InputError(file + ": the scene has no triangle; expected one to frame, or --camera");
+  }
+  try {
+    return frame_scene(scene, view, lens);
+  } catch (const InputError& error) {
+    throw InputError(file + ": " + error.what() + "; give --camera");
+  }
+}
+
+}  // namespace
+
+void CameraOptions::add_to(Command& command) {
+  const Option camera = command.option(
+      "--camera", "FILE", file_, "Camera file (JSON); without it, a camera that frames the scene");
+  for (Option& framing : add_view_options(command, view_)) framing.excludes(camera);
+  add_size_option(command, lens_).excludes(camera);
+  add_fov_option(command, lens_).excludes(camera);
+  for (Option& range : add_range_options(command, lens_)) range.excludes(camera);
+}
+
+std::vector<Camera> CameraOptions::get(const Scene& scene) const {
+  if (from_file()) return read_camera_file(file_);
+  return {framing_camera(scene, view_, lens_)};
+}
+
+Camera CameraOptions::get_one(const Scene& scene, const char* command) const {
+  std::vector<Camera> cameras = get(scene);
+  if (cameras.size() != 1) {
+    throw UsageError(fmt::format("--camera: a path of {} cameras; {} takes a single one",
+                                 cameras.size(), command));
+  }
+  return cameras.front();
+}
+
+std::vector<Camera> read_camera_file(const std::string& file) {
+  note_input(file);
+  std::vector<Camera> cameras = read_cameras(file);
+  if (cameras.empty()) throw InputError(file + ": an empty list; expected at least one camera");
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (const auto fault = find_fault(cameras[i])) {
+      throw InputError(cameras.size() == 1 ? fmt::format("{}: {}", file, *fault)
+                                           : fmt::format("{}: camera {}: {}", file, i, *fault));
+    }
+  }
+  return cameras;
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,54 @@
+#include "apps/options/depth_format_options.h"
+
+#include <limits>
+
+#include "apps/shell/values.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+/// A number or "inf".
+double parse_far(const std::string& text) {
+  if (text == "inf" || text == "infinity" || text == "+inf") {
+    return std::numeric_limits<double>::infinity();
+  }
+  return parse_number(text);
+}
+
+}  // namespace
+
+void DepthFormatOptions::add_to(Command& command) {
+  command.option("--mapping", "NAME", into(mapping, mapping_named),
+                 "standard (default), reversed, infinite, reversed-infinite, opengl, linear, w, "
+                 "log or log-ulrich");
+  command.option("--storage", "NAME", into(storage, storage_named),
+                 "unorm16, unorm24, unorm32, float16, float32 (default) or float64");
+  command.option("--near", "D", into(near, parse_number), "Least depth").required();
+  command.option("--far", "D", into(far, parse_far),
+                 "Greatest depth; inf, the default of infinite and reversed-infinite");
+  command.option("--c", "C", into(c, parse_number), "The constant C of log (default 1)");
+}
+
+DepthFormat DepthFormatOptions::format() const {
+  DepthFormat format{.mapping = mapping, .storage = storage, .near = near};
+  if (far) {
+    format.far = *far;
+  } else if (takes_infinite_far(mapping)) {
+    format.far = std::numeric_limits<double>::infinity();
+  } else {
+    throw UsageError("--far is needed by mapping " + std::string(name_of(mapping)));
+  }
+  require_constant_of(mapping, c);
+  format.c = c.value_or(format.c);
+  require_meaningful(format);
+  return format;
+}
+
+void require_constant_of(Mapping mapping, const std::optional<double>& c) {
+  if (!c || mapping == Mapping::log) return;
+  throw UsageError("--c: mapping " + std::string(name_of(mapping)) +
+                   " has no constant C; log alone has one");
+}
+
+}  // namespace fathom::app

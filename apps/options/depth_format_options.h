@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "apps/shell/command.h"
+#include "fathom/depth_format/depth_format.h"
+
+namespace fathom::app {
+
+/// The options that describe a depth format: `--mapping --storage --near --far --c`.
+struct DepthFormatOptions {
+  Mapping mapping = Mapping::standard;
+  Storage storage = Storage::float32;
+  double near = 0;
+  std::optional<double> far, c;
+
+  void add_to(Command& command);
+  /// Fails    UsageError, naming what exists.
+  [[nodiscard]] DepthFormat format() const;
+};
+
+/// `--mapping` and `--c` beside options of another command's own. Fails with UsageError where the
+/// mapping has no constant C.
+void require_constant_of(Mapping mapping, const std::optional<double>& c);
+
+}  // namespace fathom::app

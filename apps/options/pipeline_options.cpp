@@ -1,0 +1,113 @@
+#include "apps/options/pipeline_options.h"
+
+#include <algorithm>
+
+#include "apps/options/pipeline_words.h"
+#include "apps/shell/values.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+pipeline::Culling culling_of(Cull cull) {
+  return cull == Cull::none   ? pipeline::Culling::none
+         : cull == Cull::back ? pipeline::Culling::back
+                              : pipeline::Culling::front;
+}
+
+/// What is too large for an int is refused by the pipeline all the same.
+int parse_bits(const std::string& text) {
+  return static_cast<int>(std::min(99U, parse_count(text)));
+}
+
+DepthBias parse_offset(const std::string& text) {
+  const auto [factor, units] = parse_pair(text);
+  return {factor, units, 0};
+}
+
+}  // namespace
+
+void PipelineArguments::add_to(Command& command, const std::string& heading) {
+  const std::size_t before = declared_.size();
+  add_picture_options(command);
+  add_scan_options(command);
+  add_window_options(command);
+  add_merging_options(command);
+  for (std::size_t i = before; i < declared_.size(); ++i) declared_[i].below(heading);
+}
+
+void PipelineArguments::add_picture_options(Command& command) {
+  declared_.push_back(command.option("--background", "R,G,B",
+                                     into(stages_.background, parse_colour),
+                                     "R,G,B from 0 to 1 (default 0,0,0)"));
+  declared_.push_back(command.option("--shading", "NAME", into(stages_.shading, parse_shading),
+                                     "none, points, wireframe, flat (default), gouraud or phong"));
+  declared_.push_back(
+      command.option("--texture", "NAME", stages_.texture, "checker, or a PNG file"));
+  declared_.push_back(
+      command.option("--filter", "NAME", into(stages_.filter, parse_filter),
+                     "Of the texture: nearest, bilinear, trilinear (default) or anisotropic"));
+  declared_.push_back(command.option("--interpolation", "NAME",
+                                     into(stages_.interpolation, parse_interpolation),
+                                     "perspective (default) or affine"));
+  declared_.push_back(command.option(
+      "--line", "NAME", into(stages_.wire_line, parse_line),
+      "Of a wireframe: explicit, dda, bresenham (default), midpoint or diamond-exit"));
+}
+
+void PipelineArguments::add_scan_options(Command& command) {
+  declared_.push_back(command.option("--scan", "NAME", into(stages_.scan, parse_scan),
+                                     "edge-function (default) or scan-line"));
+  declared_.push_back(command.option("--hidden-surface", "NAME",
+                                     into(stages_.hidden_surface, parse_hidden_surface),
+                                     "z-buffer (default) or painter"));
+  declared_.push_back(
+      command.option("--antialias", "NAME", into(stages_.antialias, parse_antialias),
+                     "none (default), ssaa:N (N times N), msaa:N, msaa:rotated-grid, jitter:N, "
+                     "area, fxaa or taa:N"));
+  declared_.push_back(
+      command.option("--subpixel-bits", "N", into(stages_.subpixel_bits, parse_bits),
+                     "Corners are snapped to 2^N positions a pixel, 0 to 16 (default 8)"));
+  declared_.push_back(command.option("--precision", "NAME",
+                                     into(stages_.precision, parse_precision),
+                                     "binary32 (default) or binary64"));
+}
+
+void PipelineArguments::add_window_options(Command& command) {
+  declared_.push_back(
+      command.option("--viewport", "X,Y,W,H", into(stages_.viewport, parse_rectangle),
+                     "X,Y,W,H in pixels, from the lower left corner (default: the image)"));
+  declared_.push_back(command.option("--depth-range", "A,B", into(stages_.depth_range, parse_pair),
+                                     "A,B: window depths of near and far (default 0,1)"));
+  declared_.push_back(command.option("--scissor", "X,Y,W,H", into(stages_.scissor, parse_rectangle),
+                                     "X,Y,W,H in pixels, from the lower left corner"));
+  declared_.push_back(command.option(
+      "--front-face", "NAME", into(stages_.front_face, parse_front_face), "ccw (default) or cw"));
+  declared_.push_back(command.option("--polygon-offset", "FACTOR,UNITS",
+                                     into(stages_.polygon_offset, parse_offset),
+                                     "FACTOR,UNITS (default 0,0)"));
+}
+
+void PipelineArguments::add_merging_options(Command& command) {
+  declared_.push_back(command.option("--opacity", "ALPHA", into(opacity_, parse_number),
+                                     "Of --blend: 0 to 1 (default 0.5)"));
+  declared_.push_back(command.flag(
+      "--blend", blend_, "Blend every fragment over the picture, in the order of the triangles"));
+  declared_.push_back(
+      command.flag("--no-blocks", no_blocks_, "Test every sample; the picture does not change"));
+  declared_.push_back(command.flag("--no-early-depth", no_early_depth_,
+                                   "Shade before the depth test; the picture does not change"));
+}
+
+pipeline::PipelineOptions PipelineArguments::options(Cull cull) const {
+  pipeline::PipelineOptions options = stages_;
+  options.culling = culling_of(cull);
+  options.blocks = !no_blocks_;
+  options.early_depth = !no_early_depth_;
+  if (!blend_) return options;
+  if (!(opacity_ >= 0 && opacity_ <= 1)) throw UsageError("--opacity: expected 0 to 1");
+  options.blend_alpha = opacity_;
+  return options;
+}
+
+}  // namespace fathom::app

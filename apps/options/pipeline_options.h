@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/shell/command.h"
+#include "fathom/pipeline/options.h"
+#include "fathom/triangle/options.h"
+
+namespace fathom::app {
+
+/// The options of the pipeline's stages, of `render --engine pipeline` and `pipeline trace`: all
+/// but those that other commands have too (culling, the depth format). Of the pipeline itself
+/// nothing is needed here but the types of its options.
+class PipelineArguments {
+ public:
+  /// Declares the options below a heading of the help.
+  void add_to(Command& command, const std::string& heading);
+
+  /// The stages as they were asked for; the depth format is still the default.
+  [[nodiscard]] pipeline::PipelineOptions options(Cull cull) const;
+
+  /// All that add_to() declared.
+  [[nodiscard]] const std::vector<Option>& declared() const { return declared_; }
+
+ private:
+  void add_picture_options(Command& command);
+  void add_scan_options(Command& command);
+  void add_window_options(Command& command);
+  void add_merging_options(Command& command);
+
+  pipeline::PipelineOptions stages_;
+  double opacity_ = 0.5;
+  bool blend_ = false, no_blocks_ = false, no_early_depth_ = false;
+  std::vector<Option> declared_;
+};
+
+}  // namespace fathom::app

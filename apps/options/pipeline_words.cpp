@@ -1,0 +1,108 @@
+#include "apps/options/pipeline_words.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "apps/shell/values.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+
+using namespace pipeline;
+
+Shading parse_shading(const std::string& text) {
+  return parse_word<Shading>(text, {{"none", Shading::none},
+                                    {"points", Shading::points},
+                                    {"wireframe", Shading::wireframe},
+                                    {"flat", Shading::flat},
+                                    {"gouraud", Shading::gouraud},
+                                    {"phong", Shading::phong}});
+}
+
+TextureFilter parse_filter(const std::string& text) {
+  return parse_word<TextureFilter>(text, {{"nearest", TextureFilter::nearest},
+                                          {"bilinear", TextureFilter::bilinear},
+                                          {"trilinear", TextureFilter::trilinear},
+                                          {"anisotropic", TextureFilter::anisotropic}});
+}
+
+Interpolation parse_interpolation(const std::string& text) {
+  return parse_word<Interpolation>(
+      text, {{"affine", Interpolation::affine}, {"perspective", Interpolation::perspective}});
+}
+
+WireLine parse_line(const std::string& text) {
+  return parse_word<WireLine>(text, {{"explicit", WireLine::explicit_equation},
+                                     {"dda", WireLine::dda},
+                                     {"bresenham", WireLine::bresenham},
+                                     {"midpoint", WireLine::midpoint},
+                                     {"diamond-exit", WireLine::diamond_exit}});
+}
+
+ScanConversion parse_scan(const std::string& text) {
+  return parse_word<ScanConversion>(text, {{"edge-function", ScanConversion::edge_function},
+                                           {"scan-line", ScanConversion::scan_line}});
+}
+
+HiddenSurface parse_hidden_surface(const std::string& text) {
+  return parse_word<HiddenSurface>(
+      text, {{"z-buffer", HiddenSurface::z_buffer}, {"painter", HiddenSurface::painter}});
+}
+
+Precision parse_precision(const std::string& text) {
+  return parse_word<Precision>(
+      text, {{"binary32", Precision::binary32}, {"binary64", Precision::binary64}});
+}
+
+FrontFace parse_front_face(const std::string& text) {
+  return parse_word<FrontFace>(
+      text, {{"ccw", FrontFace::counter_clockwise}, {"cw", FrontFace::clockwise}});
+}
+
+Antialias parse_antialias(const std::string& text) {
+  const auto colon = text.find(':');
+  Antialias antialias;
+  antialias.method =
+      parse_word<AntialiasMethod>(text.substr(0, colon), {{"none", AntialiasMethod::none},
+                                                          {"ssaa", AntialiasMethod::ssaa},
+                                                          {"msaa", AntialiasMethod::msaa},
+                                                          {"jitter", AntialiasMethod::jitter},
+                                                          {"area", AntialiasMethod::area},
+                                                          {"fxaa", AntialiasMethod::fxaa},
+                                                          {"taa", AntialiasMethod::taa}});
+  const bool counts =
+      antialias.method == AntialiasMethod::ssaa || antialias.method == AntialiasMethod::msaa ||
+      antialias.method == AntialiasMethod::jitter || antialias.method == AntialiasMethod::taa;
+  if (counts != (colon != std::string::npos)) {
+    throw UsageError(
+        fmt::format("'{}' {}", text, counts ? "needs a number, as in msaa:4" : "takes no number"));
+  }
+  if (text == "msaa:rotated-grid") {
+    antialias.count = 4;
+    antialias.rotated_grid = true;
+  } else if (counts) {
+    antialias.count = static_cast<int>(std::min(1000U, parse_count(text.substr(colon + 1))));
+  }
+  return antialias;
+}
+
+std::optional<WindowRectangle> parse_rectangle(const std::string& text) {
+  const std::vector<std::string> parts = parse_list(text);
+  if (parts.size() != 4) {
+    throw UsageError(
+        fmt::format("'{}' is not X,Y,W,H in whole pixels from the lower left corner", text));
+  }
+  return WindowRectangle{parse_whole(parts[0]), parse_whole(parts[1]), parse_whole(parts[2]),
+                         parse_whole(parts[3])};
+}
+
+Colour parse_colour(const std::string& text) {
+  const Colour colour = parse_vector(text);
+  for (const double c : colour) {
+    if (!(c >= 0 && c <= 1)) throw UsageError("expected R,G,B from 0 to 1, as in 0.2,0.3,0.5");
+  }
+  return colour;
+}
+
+}  // namespace fathom::app

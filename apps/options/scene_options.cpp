@@ -1,0 +1,66 @@
+#include "apps/options/scene_options.h"
+
+#include <algorithm>
+
+#include "apps/shell/known_files.h"
+#include "apps/shell/values.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/read_scene.h"
+
+namespace fathom::app {
+namespace {
+
+int parse_threads(const std::string& text) {
+  const std::uint32_t count = parse_count(text);
+  if (count > 1024) throw UsageError("'" + text + "' is more than 1024");
+  return static_cast<int>(count);
+}
+
+}  // namespace
+
+MeshFormat parse_mesh_format(const std::string& text) {
+  return parse_word<MeshFormat>(text, {{"obj", MeshFormat::obj},
+                                       {"ply", MeshFormat::ply},
+                                       {"stl", MeshFormat::stl},
+                                       {"off", MeshFormat::off},
+                                       {"gltf", MeshFormat::gltf},
+                                       {"glb", MeshFormat::gltf}});
+}
+
+void SceneOptions::add_to(Command& command) {
+  command
+      .arguments("SCENE", files,
+                 "Meshes (OBJ, PLY, STL, OFF, glTF/GLB) and scene files (JSON); - is a mesh on "
+                 "standard input")
+      .required();
+  command.option("--mesh-format", "NAME", into(mesh_format, parse_mesh_format),
+                 "Format of the meshes: obj, ply, stl, off, gltf or glb (default: by content; "
+                 "needed for -)");
+  command.option("--threads", "N", into(threads, parse_threads), "Threads to use (default 0: all)");
+}
+
+ReadOptions SceneOptions::read_options() const {
+  ReadOptions options;
+  options.format = mesh_format;
+  options.threads = threads;
+  return options;
+}
+
+Scene SceneOptions::read(const Console& console, const Extras& extras) const {
+  const auto standard_inputs = std::count(files.begin(), files.end(), "-");
+  if (standard_inputs > 1) throw UsageError("SCENE: '-', standard input, can be read only once");
+  if (standard_inputs == 1 && !mesh_format) {
+    throw UsageError("SCENE: '-', standard input, needs --mesh-format");
+  }
+  ReadOptions options = read_options();
+  options.hash = extras.hash;
+  options.attributes = extras.attributes;
+  Warnings warnings;
+  Scene scene = read_scene({files.begin(), files.end()}, options, warnings);
+  console.warn(warnings);
+  for (const std::string& file : files) note_input(file);
+  for (const Source& source : scene.sources) note_input(source.path);
+  return scene;
+}
+
+}  // namespace fathom::app

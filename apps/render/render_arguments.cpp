@@ -1,0 +1,90 @@
+#include "apps/render/render_arguments.h"
+
+#include <limits>
+
+#include "apps/options/channel_list.h"
+#include "apps/options/cull_option.h"
+#include "apps/shell/values.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+EngineName parse_engine(const std::string& text) {
+  return parse_word<EngineName>(text, {{"fast", EngineName::fast},
+                                       {"reference", EngineName::reference},
+                                       {"pipeline", EngineName::pipeline}});
+}
+
+/// "1000" or "all", the greatest number.
+std::uint64_t parse_pixels(const std::string& text) {
+  if (text == "all") return std::numeric_limits<std::uint64_t>::max();
+  return parse_positive(text);
+}
+
+void add_outputs(Command& command, RenderArguments& arguments) {
+  command
+      .option("-o,--output", "FILE", arguments.output,
+              "The map; its suffix decides the format: .exr, .pfm, .png (16 bit) or .npy")
+      .required();
+  arguments.camera.add_to(command);
+  command.option("--save-camera", "FILE", arguments.save_camera,
+                 "Write the camera to this file (JSON; - is standard output)");
+}
+
+void add_contents(Command& command, RenderArguments& arguments) {
+  command.option(
+      "--channels", "LIST", into(arguments.channels, parse_channels),
+      "Of Z, A, Zlow, distance, id, face, object, N, P, bary (default Z,A in EXR, otherwise Z)");
+  command.flag("--deep", arguments.deep,
+               "Write a deep EXR: for each pixel the visible fragments, sorted, with their depths "
+               "Z and ZBack, triangle id, exact area and alpha A");
+  command.flag("--cryptomatte", arguments.cryptomatte,
+               "Add Cryptomatte channels by object with exact coverage to the EXR");
+  command.option("--engine", "NAME", into(arguments.engine, parse_engine),
+                 "fast (default), reference: the same map bit for bit, slowly; or pipeline: what a "
+                 "graphics pipeline computes");
+  add_cull_option(command, arguments.cull);
+}
+
+void add_checks(Command& command, RenderArguments& arguments) {
+  command.option("--samples", "N", into(arguments.samples, sample_pattern),
+                 "Add coverage by samples, channel Asampled: the share of the samples of a pixel "
+                 "at which a surface counts. 1, 2, 4, 8, 16 (the standard positions of Direct3D "
+                 "and Vulkan), rotated-grid, regular:N, jittered:N or jittered:N:SEED (N by N "
+                 "samples)");
+  command.flag("--stream", arguments.stream,
+               "Leave the meshes, binary STL or PLY, in their files, which may be larger than "
+               "memory; implies --engine fast");
+  command.option("--stats", "FILE", arguments.statistics,
+                 "Write how the decisions were made to this file (JSON; - is standard output)");
+  command.option("--verify", "N", into(arguments.verified_pixels, parse_pixels),
+                 "Compute this many pixels, or all, again by exact arithmetic and compare every "
+                 "channel bit for bit; exit status 1 if one differs");
+}
+
+}  // namespace
+
+void RenderArguments::add_to(Command& command) {
+  scene.add_to(command);
+  add_outputs(command, *this);
+  add_contents(command, *this);
+  storage.add_to(command);
+  depth_buffer.add_to(command);
+  add_checks(command, *this);
+  const std::string heading = "With --engine pipeline";
+  of_pipeline_.push_back(command
+                             .option("--image", "NAME", into(image, parse_png_name),
+                                     "Write the colour picture to this PNG")
+                             .below(heading));
+  pipeline.add_to(command, heading);
+  of_pipeline_.insert(of_pipeline_.end(), pipeline.declared().begin(), pipeline.declared().end());
+}
+
+void RenderArguments::refuse_pipeline_options() const {
+  for (const Option& option : of_pipeline_) {
+    if (option.is_given()) throw UsageError(option.name() + " is for --engine pipeline");
+  }
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/options/camera_options.h"
+#include "apps/options/pipeline_options.h"
+#include "apps/options/scene_options.h"
+#include "apps/options/storage_options.h"
+#include "apps/render/depth_buffer_options.h"
+#include "fathom/image/sample_pattern.h"
+
+namespace fathom::app {
+
+enum class EngineName { fast, reference, pipeline };
+
+/// The arguments of `fathom render`, each by itself as it was given: what they mean together is
+/// decided where a plan is made of them.
+struct RenderArguments {
+  SceneOptions scene;
+  CameraOptions camera;
+  StorageOptions storage;
+  DepthBufferArguments depth_buffer;
+  PipelineArguments pipeline;
+  EngineName engine = EngineName::fast;
+  Cull cull = Cull::none;
+  std::optional<std::vector<Channel>> channels;
+  std::optional<SamplePattern> samples;
+  std::optional<std::uint64_t> verified_pixels;
+  bool stream = false, deep = false, cryptomatte = false;
+  /// Names of files; empty: not asked for. "-" is standard output for the second line.
+  std::string output, image;
+  std::string save_camera, statistics;
+
+  void add_to(Command& command);
+  /// For the exact engines. Fails with UsageError where an option of the pipeline is given.
+  void refuse_pipeline_options() const;
+
+ private:
+  std::vector<Option> of_pipeline_;
+};
+
+}  // namespace fathom::app

@@ -1,0 +1,46 @@
+#include "apps/render/render_input.h"
+
+#include <algorithm>
+
+#include "apps/render/render_memory.h"
+#include "apps/shell/known_files.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/render.h"
+
+namespace fathom::app {
+namespace {
+
+StreamedScene stream(const SceneOptions& options, const Console& console) {
+  const std::vector<std::string>& files = options.files;
+  if (std::count(files.begin(), files.end(), "-") > 0) {
+    throw UsageError("--stream: '-', standard input, cannot be read in parts; expected files");
+  }
+  Warnings warnings;
+  StreamedScene scene =
+      stream_scene({files.begin(), files.end()}, options.read_options(), warnings);
+  console.warn(warnings);
+  for (const std::string& file : files) note_input(file);
+  return scene;
+}
+
+}  // namespace
+
+RenderInput::RenderInput(const SceneOptions& options, Place place, const Console& console) {
+  if (place == Place::files) {
+    streamed_ = stream(options, console);
+    scene_ = outline_of(*streamed_);
+  } else {
+    scene_ = options.read(console, {.hash = true});
+  }
+}
+
+TriangleSource RenderInput::triangles() const {
+  return streamed_ ? TriangleSource(*streamed_) : TriangleSource(scene_);
+}
+
+DepthMap RenderInput::render(const Camera& camera, const RenderOptions& options) const {
+  return streamed_ ? fathom::render(*streamed_, camera, options, stream_limits(camera, options))
+                   : fathom::render(scene_, camera, options);
+}
+
+}  // namespace fathom::app

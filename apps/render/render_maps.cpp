@@ -1,0 +1,156 @@
+#include "apps/render/render_maps.h"
+
+#include <fmt/core.h>
+
+#include "apps/render/depth_buffer_channels.h"
+#include "apps/render/map_verification.h"
+#include "apps/render/render_input.h"
+#include "apps/render/render_memory.h"
+#include "apps/render/render_outputs.h"
+#include "apps/render/render_plan.h"
+#include "apps/render/render_report.h"
+#include "apps/render/stopwatch.h"
+#include "apps/render/thread_limit.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/progress.h"
+#include "fathom/area/sampled_coverage.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/image/deep_map.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/render.h"
+
+namespace fathom::app {
+namespace {
+
+void warn_of(const RenderStatistics& statistics, const Console& console) {
+  if (statistics.triangles == 0) {
+    console.warn("the scene has no triangle: the map is background");
+  } else if (statistics.degenerate_triangles > 0) {
+    console.warn(fmt::format("{} of {} triangles are degenerate or seen edge on and cover nothing",
+                             statistics.degenerate_triangles, statistics.triangles));
+  }
+}
+
+/// Refuses cameras that the plan has no room or no depth format for.
+void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan) {
+  const std::size_t more =
+      (plan.depth_buffer ? plan.depth_buffer->most_channels() : 0) + (plan.samples ? 1 : 0);
+  for (const Camera& camera : cameras) {
+    check_size(camera, plan.rendering, more);
+    if (plan.depth_buffer) (void)format_for(*plan.depth_buffer, camera);
+  }
+}
+
+/// A depth that the file cannot hold is told with the name of its map.
+DepthMap render_named(const std::string& name, const RenderInput& scene, const Camera& camera,
+                      const RenderOptions& options) {
+  try {
+    return scene.render(camera, options);
+  } catch (const OutputError& error) {
+    throw OutputError(name + ": " + error.what());
+  }
+}
+
+/// The map with everything in it that the plan asks for but the depth buffer.
+DepthMap render_map(const std::string& name, const MapPlan& plan, const RenderInput& scene,
+                    const Camera& camera, const RenderOptions& options) {
+  DepthMap map = render_named(name, scene, camera, options);
+  if (plan.cryptomatte) add_cryptomatte(map, scene.outline(), camera, options);
+  if (plan.samples) {
+    add_sampled_coverage(map, scene.triangles(), camera, *plan.samples, options);
+    map.texts["fathom.samples"] = plan.samples->name;
+  }
+  return map;
+}
+
+/// Makes the map of a camera, checks it where that is asked for, and writes it.
+MapReport make_map(const MapPlan& plan, const RenderInput& scene, const Camera& camera,
+                   const std::string& name, const OutputFile& output,
+                   const std::function<void(double)>& progress, const Console& console) {
+  MapReport report{.map = name, .engine = plan.rendering.engine};
+  RenderOptions options = plan.rendering;
+  options.statistics = &report.statistics;
+  options.progress = progress;
+
+  Stopwatch stopwatch;
+  DepthMap map = render_map(name, plan, scene, camera, options);
+  report.width = map.width;
+  report.height = map.height;
+  report.seconds.render = stopwatch.lap();
+  if (plan.depth_buffer) {
+    report.depth_buffer =
+        add_depth_buffer_channels(map, *plan.depth_buffer, scene.triangles(), camera, options);
+  }
+  report.seconds.depth_format = stopwatch.lap();
+  if (plan.verified_pixels) {
+    const auto render_again = [&](const RenderOptions& o) { (void)scene.render(camera, o); };
+    report.verification = verify_map(
+        map, name, {scene.triangles(), camera, options, *plan.verified_pixels, render_again},
+        console);
+  }
+  report.seconds.verify = stopwatch.lap();
+  if (plan.depth_buffer) drop_helpers(map, *plan.depth_buffer);
+  output.write([&](const auto& path) { write_map(map, path, plan.format, plan.writing); });
+  report.seconds.write = stopwatch.lap();
+  return report;
+}
+
+int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Console& console) {
+  const ThreadLimit limit(plan.rendering.threads);
+  Stopwatch stopwatch;
+  const auto place = arguments.stream ? RenderInput::Place::files : RenderInput::Place::memory;
+  const RenderInput scene(arguments.scene, place, console);
+  const double seconds_reading = stopwatch.lap();
+  const std::vector<Camera> cameras = arguments.camera.get(scene.outline());
+  check_cameras(cameras, plan);
+  RenderOutputs outputs(arguments, cameras.size());
+  outputs.write_cameras(to_json(cameras) + "\n");
+
+  std::vector<MapReport> reports;
+  bool all_agree = true;
+  {
+    Progress progress(console, "rendering");
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      reports.push_back(make_map(plan, scene, cameras[i], outputs.map_name(i), outputs.map(i),
+                                 progress.reporter(i, cameras.size()), console));
+      MapReport& report = reports.back();
+      report.seconds.read = seconds_reading;
+      if (i == 0) warn_of(report.statistics, console);
+      all_agree = all_agree && (!report.verification || report.verification->agrees());
+    }
+  }
+  outputs.write_statistics(as_json(reports));
+  outputs.commit();
+  return all_agree ? done : answer_is_no;
+}
+
+int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
+                     const Console& console) {
+  RenderOptions options = plan.rendering;
+  const ThreadLimit limit(options.threads);
+  const Scene scene = arguments.scene.read(console, {.hash = true});
+  const std::vector<Camera> cameras = arguments.camera.get(scene);
+  for (const Camera& camera : cameras) check_size(camera, options, 0);
+  RenderOutputs outputs(arguments, cameras.size());
+  outputs.write_cameras(to_json(cameras) + "\n");
+  {
+    Progress progress(console, "rendering");
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      options.progress = progress.reporter(i, cameras.size());
+      const DeepMap map = render_deep(scene, cameras[i], options);
+      outputs.map(i).write(
+          [&](const auto& path) { write_deep_map(map, path, plan.compression, options.threads); });
+    }
+  }
+  outputs.commit();
+  return done;
+}
+
+}  // namespace
+
+int render_exactly(const RenderArguments& arguments, const Console& console) {
+  return arguments.deep ? render_deep_maps(arguments, plan_deep_maps(arguments), console)
+                        : render_maps(arguments, plan_maps(arguments), console);
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/render/render_arguments.h"
+#include "apps/shell/output_file.h"
+
+namespace fathom::app {
+
+/// The outputs of `render`: for each camera a map and, where one is asked for, a picture; the
+/// cameras; the statistics. All are opened before the work and put in their places together, when
+/// every one of them is written.
+class RenderOutputs {
+ public:
+  /// Fails    UsageError where the names do not fit the number of cameras; as OutputFile.
+  RenderOutputs(const RenderArguments& arguments, std::size_t cameras);
+
+  [[nodiscard]] const std::string& map_name(std::size_t camera) const { return names_[camera]; }
+  [[nodiscard]] const OutputFile& map(std::size_t camera) const { return maps_[camera]; }
+  [[nodiscard]] const OutputFile& picture(std::size_t camera) const { return pictures_[camera]; }
+
+  void write_cameras(const std::string& json) { cameras_.write(json); }
+  void write_statistics(const std::string& json) { statistics_.write(json); }
+
+  /// Puts all of them in their places, then prints what goes to standard output.
+  void commit();
+
+ private:
+  /// A text for a file, for standard output, or for nothing.
+  class Note {
+   public:
+    explicit Note(const std::string& name);
+    void write(const std::string& text);
+    void commit();
+    void print() const;
+
+   private:
+    std::optional<OutputFile> file_;
+    bool printed_ = false;
+    std::string text_;
+  };
+
+  std::vector<std::string> names_;
+  std::vector<OutputFile> maps_, pictures_;
+  Note cameras_, statistics_;
+};
+
+}  // namespace fathom::app

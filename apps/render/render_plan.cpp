@@ -1,0 +1,139 @@
+#include "apps/render/render_plan.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "apps/options/channel_list.h"
+#include "apps/options/depth_format_options.h"
+#include "apps/shell/about_option.h"
+#include "fathom/image/deep_map.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+bool contains(const std::vector<Channel>& channels, Channel channel) {
+  return std::find(channels.begin(), channels.end(), channel) != channels.end();
+}
+
+/// The channels that are asked for, or depth and coverage; depth alone where coverage cannot be
+/// written, or triangles do not stay in memory for it.
+std::vector<Channel> channels_of(const RenderArguments& a, MapFormat format) {
+  if (a.channels) return *a.channels;
+  if (format == MapFormat::exr && !a.stream) return {Channel::Z, Channel::A};
+  return {Channel::Z};
+}
+
+RenderOptions rendering_of(const RenderArguments& a) {
+  RenderOptions options;
+  options.engine = a.engine == EngineName::reference ? Engine::reference : Engine::fast;
+  options.cull = a.cull;
+  options.threads = a.scene.threads;
+  return options;
+}
+
+/// Refuses what a scene that stays in its files cannot be asked for.
+void check_stream(const RenderArguments& a, const std::vector<Channel>& channels) {
+  if (!a.stream) return;
+  if (a.engine != EngineName::fast) {
+    throw UsageError("--stream is for the fast engine, not for reference");
+  }
+  if (contains(channels, Channel::A)) {
+    throw UsageError("--stream does not keep the triangles that channel A needs: leave out A");
+  }
+  if (a.cryptomatte) throw UsageError("--cryptomatte is not for --stream");
+}
+
+/// Refuses what a file with a single channel cannot hold.
+void check_single_channel(const RenderArguments& a, MapFormat format,
+                          const std::vector<Channel>& channels) {
+  if (format == MapFormat::exr) return;
+  if (a.cryptomatte) throw UsageError("--cryptomatte is for .exr, not for " + a.output);
+  if (a.samples) throw UsageError(a.output + " holds one channel; --samples needs an .exr");
+  if (a.depth_buffer.storage) {
+    throw UsageError(a.output + " holds one channel; --depth-format needs an .exr");
+  }
+  if (count_parts(channels) != 1) {
+    throw UsageError(fmt::format("{} holds one channel, not '{}'; .exr holds them all", a.output,
+                                 text_of(channels)));
+  }
+  const Channel only = channels.front();
+  if (format == MapFormat::png && (only == Channel::A || only == Channel::Zlow)) {
+    throw UsageError(fmt::format("{}: a PNG holds depths or numbers, not {}; there is .exr",
+                                 a.output, text_of(channels)));
+  }
+}
+
+std::optional<DepthBufferPlan> depth_buffer_of(const DepthBufferArguments& a,
+                                               const std::vector<Channel>& channels) {
+  if (!a.storage) {
+    if (!a.mapping && !a.c && !a.against_exact) return std::nullopt;
+    throw UsageError("--mapping, --c and --against-exact belong to --depth-format");
+  }
+  DepthBufferPlan plan;
+  plan.storage = *a.storage;
+  plan.mapping = a.mapping.value_or(plan.mapping);
+  require_constant_of(plan.mapping, a.c);
+  plan.c = a.c.value_or(plan.c);
+  plan.against_exact = a.against_exact;
+  plan.drops_id = !contains(channels, Channel::id);
+  return plan;
+}
+
+/// Refuses what a deep map has no place for.
+void check_deep(const RenderArguments& a) {
+  if (a.storage.format_of(a.output) != MapFormat::exr) {
+    throw UsageError("--deep is for .exr, not for " + a.output);
+  }
+  if (a.stream) throw UsageError("--deep is not for --stream");
+  const char* other = a.channels               ? "--channels"
+                      : a.cryptomatte          ? "--cryptomatte"
+                      : a.samples              ? "--samples"
+                      : a.depth_buffer.storage ? "--depth-format"
+                                               : nullptr;
+  if (other != nullptr) {
+    throw UsageError(fmt::format(
+        "--deep has channels of its own, A, Z, ZBack, area and id: {} goes into another map",
+        other));
+  }
+  if (a.verified_pixels || !a.statistics.empty()) {
+    throw UsageError("--verify and --stats are not for --deep");
+  }
+}
+
+}  // namespace
+
+MapPlan plan_maps(const RenderArguments& a) {
+  a.refuse_pipeline_options();
+  MapPlan plan;
+  plan.format = a.storage.format_of(a.output);
+  std::vector<Channel> channels = channels_of(a, plan.format);
+  check_stream(a, channels);
+  check_single_channel(a, plan.format, channels);
+  plan.depth_buffer = depth_buffer_of(a.depth_buffer, channels);
+  if (plan.depth_buffer && plan.depth_buffer->drops_id) channels.push_back(Channel::id);
+
+  plan.writing = a.storage.write_options(a.scene.threads);
+  plan.rendering = rendering_of(a);
+  plan.rendering.channels = channels;
+  plan.rendering.depth_encoding = a.storage.encoding_for(plan.format);
+  plan.cryptomatte = a.cryptomatte;
+  plan.samples = a.samples;
+  plan.verified_pixels = a.verified_pixels;
+  return plan;
+}
+
+DeepMapPlan plan_deep_maps(const RenderArguments& a) {
+  a.refuse_pipeline_options();
+  check_deep(a);
+  (void)depth_buffer_of(a.depth_buffer, {});
+  DeepMapPlan plan;
+  plan.compression = a.storage.compression.value_or(plan.compression);
+  about_option("--compression", [&] { check_deep_compression(plan.compression); });
+  plan.rendering = rendering_of(a);
+  plan.rendering.channels = {Channel::Z, Channel::A};
+  return plan;
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "apps/render/render_arguments.h"
+#include "fathom/triangle/options.h"
+
+namespace fathom::app {
+
+/// The channels of a depth buffer that are added to a map.
+struct DepthBufferPlan {
+  Mapping mapping = Mapping::standard;
+  Storage storage = Storage::float32;
+  double c = 1;
+  bool against_exact = false;
+  /// The map has the channel id for the depth buffer alone: it is not written.
+  bool drops_id = false;
+
+  /// How many channels it adds, at most.
+  [[nodiscard]] std::size_t most_channels() const { return against_exact ? 6 : 3; }
+};
+
+/// How an exact engine makes maps: what the arguments mean together.
+struct MapPlan {
+  MapFormat format = MapFormat::exr;
+  WriteOptions writing;
+  RenderOptions rendering;
+  bool cryptomatte = false;
+  std::optional<SamplePattern> samples;
+  std::optional<DepthBufferPlan> depth_buffer;
+  std::optional<std::uint64_t> verified_pixels;
+};
+
+/// How deep maps are made.
+struct DeepMapPlan {
+  Compression compression = Compression::zips;
+  RenderOptions rendering;
+};
+
+/// Both fail with UsageError where the arguments contradict each other, before any work.
+MapPlan plan_maps(const RenderArguments& arguments);
+DeepMapPlan plan_deep_maps(const RenderArguments& arguments);
+
+}  // namespace fathom::app

@@ -1,0 +1,87 @@
+#include "apps/render/render_report.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace fathom::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const TierCounts& counts) {
+  return {{"interval", counts.interval}, {"exact", counts.exact}};
+}
+
+Json to_json(const RenderStatistics& statistics) {
+  return {{"triangles", statistics.triangles},
+          {"degenerate_triangles", statistics.degenerate_triangles},
+          {"culled_triangles", statistics.culled_triangles},
+          {"samples_tested", statistics.samples_tested},
+          {"samples_covered", statistics.samples_covered},
+          {"pixels_with_surface", statistics.pixels_with_surface},
+          {"exact_setups", statistics.exact_setups},
+          {"same_plane", statistics.same_plane},
+          {"double_words", statistics.double_words},
+          {"grid_setups", statistics.grid_setups},
+          {"decisions",
+           {{"facing", to_json(statistics.facing)},
+            {"edges", to_json(statistics.edges)},
+            {"visibility", to_json(statistics.visibility)},
+            {"range", to_json(statistics.range)},
+            {"coverage", to_json(statistics.coverage)},
+            {"coverage_rounding", to_json(statistics.coverage_rounding)},
+            {"rounding", to_json(statistics.rounding)}}}};
+}
+
+Json to_json(const DepthFormat& format) {
+  Json json{{"mapping", name_of(format.mapping)},
+            {"storage", name_of(format.storage)},
+            {"near", format.near},
+            {"far", std::isfinite(format.far) ? Json(format.far) : Json(nullptr)}};
+  if (format.mapping == Mapping::log) json["c"] = format.c;
+  return json;
+}
+
+Json to_json(const DepthBufferReport& report) {
+  Json json = to_json(report.format);
+  json["encoded"] = {{"binary64", report.seen.by_binary64},
+                     {"double_words", report.seen.by_double_words},
+                     {"exact", report.seen.by_exact_numbers}};
+  if (report.against_exact) json["fighting_pixels"] = report.seen.fighting;
+  return json;
+}
+
+Json to_json(const MapReport& report) {
+  Json json{{"map", report.map},
+            {"engine", report.engine == Engine::fast ? "fast" : "reference"},
+            {"width", report.width},
+            {"height", report.height}};
+  json.update(to_json(report.statistics));
+  Json seconds{{"read", report.seconds.read},
+               {"render", report.seconds.render},
+               {"write", report.seconds.write}};
+  if (report.verification) {
+    json["verified"] = report.verification->verified;
+    json["nearly_unsettled"] = report.verification->nearly_unsettled;
+    json["differing"] = report.verification->differing;
+    seconds["verify"] = report.seconds.verify;
+  }
+  if (report.depth_buffer) seconds["depth_format"] = report.seconds.depth_format;
+  json["seconds"] = std::move(seconds);
+  if (report.depth_buffer) json["depth_format"] = to_json(*report.depth_buffer);
+  return json;
+}
+
+}  // namespace
+
+std::string as_json(const std::vector<MapReport>& maps) {
+  Json list = Json::array();
+  for (const MapReport& map : maps) list.push_back(to_json(map));
+  return (list.size() == 1 ? list[0] : list).dump(2) + "\n";
+}
+
+std::string as_json(const DepthFormat& format) {
+  return to_json(format).dump();
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,105 @@
+#include "apps/shell/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "apps/shell/exit_status.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/unknown_command.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+constexpr const char* examples =
+    "  fathom render data/meshes/spot.obj -o spot.exr\n"
+    "  fathom preview spot.exr -o spot.png\n"
+    "  fathom probe data/meshes/spot.obj --pixel 640,360\n"
+    "\n'fathom COMMAND --help' explains a command.";
+
+constexpr const char* companion_heading =
+    "Programs of their own, which 'scripts/fathom COMMAND' builds when they are first asked for";
+
+/// The innermost command that the arguments name.
+const CLI::App& chosen_command(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  return *command;
+}
+
+/// "fathom camera " for `fathom camera orbit`.
+std::string names_above(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return parent == nullptr ? "" : names_above(*parent) + parent->get_name() + " ";
+}
+
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& command = chosen_command(app);
+  return std::string(error.what()) + "; see '" + names_above(command) + command.get_name() +
+         " --help'";
+}
+
+std::string help_of(const CLI::App& command) {
+  std::string above = names_above(command);
+  if (!above.empty()) above.pop_back();
+  return command.help(above);
+}
+
+/// Where the arguments name a command that this program does not have itself, starts the program
+/// that has it: a companion, or any that lies beside this one under the name fathom-COMMAND.
+void start_other_program(const CLI::App& app, const std::vector<std::string>& arguments,
+                         const std::vector<Companion>& companions) {
+  const auto name = std::find_if(arguments.begin(), arguments.end(),
+                                 [](const std::string& text) { return !text.starts_with('-'); });
+  if (name == arguments.end()) return;
+  const auto companion = std::find_if(companions.begin(), companions.end(),
+                                      [&](const Companion& c) { return c.command == *name; });
+  if (companion != companions.end() && companion->takes_name()) {
+    start_companion(companion->program, arguments);
+    throw UsageError(not_built("'" + *name + "'", companion->program, *name));
+  }
+  std::vector<std::string> existing;
+  for (const CLI::App* command : app.get_subcommands({})) existing.push_back(command->get_name());
+  const bool is_own = companion == companions.end() &&
+                      std::find(existing.begin(), existing.end(), *name) != existing.end();
+  if (is_own) return;
+  std::vector<std::string> without_name(arguments.begin(), name);
+  without_name.insert(without_name.end(), name + 1, arguments.end());
+  start_companion("fathom-" + *name, without_name);
+  throw UsageError(companion == companions.end()
+                       ? unknown_command(*name, existing)
+                       : not_built("'" + *name + "'", companion->program, *name));
+}
+
+}  // namespace
+
+int run_arguments(const std::vector<std::string>& arguments,
+                  const std::vector<AddCommand>& commands,
+                  const std::vector<Companion>& companions) {
+  CLI::App app("Exact depth maps of triangle meshes.", "fathom");
+  Console console;
+  Command program(app, console, examples);
+  program.requires_command();
+  app.get_formatter()->column_width(34);
+  for (const AddCommand& add : commands) add(program);
+  for (const Companion& companion : companions) {
+    app.add_subcommand(companion.command, companion.description)->group(companion_heading);
+  }
+
+  start_other_program(app, arguments, companions);
+  std::vector<std::string> last_first(arguments.rbegin(), arguments.rend());
+  try {
+    app.parse(std::move(last_first));
+  } catch (const CLI::CallForHelp&) {
+    print(help_of(chosen_command(app)));
+    return done;
+  } catch (const CLI::CallForVersion& version) {
+    print(std::string(version.what()) + "\n");
+    return done;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(usage_message(app, error));
+  }
+  return program.run_named(console);
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/shell/console.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace fathom::app {
+
+/// Makes something of the text that an option was given.
+/// Fails    UsageError: what is wrong with the text. The option's name is put before it.
+using TakeText = std::function<void(const std::string& text)>;
+
+/// Stores in `value` what `parse` makes of the text (see values.h).
+template <class Value, class Parse>
+TakeText into(Value& value, Parse parse) {
+  return [&value, parse](const std::string& text) { value = parse(text); };
+}
+
+/// An option that a command has declared.
+class Option {
+ public:
+  explicit Option(CLI::Option& option) : option_(&option) {}
+  /// The command fails without it.
+  Option& required();
+  /// The two are not given together.
+  Option& excludes(const Option& other);
+  /// The help shows it below this heading.
+  Option& below(const std::string& heading);
+  [[nodiscard]] bool is_given() const;
+  /// "--near"
+  [[nodiscard]] std::string name() const;
+
+ private:
+  CLI::Option* option_;
+};
+
+/// A command, as it is declared: its options and what runs it. This is all that commands see of
+/// the library that reads arguments. The places that options write to have to outlive the command;
+/// they are written when all arguments have been read and this command is the one they name.
+class Command {
+ public:
+  /// Returns the exit status. Fails with the errors of fathom/numeric/errors.h.
+  using Run = std::function<int(const Console&)>;
+
+  /// `console` gets --quiet.
+  Command(CLI::App& app, Console& console, const std::string& examples);
+  Command(const Command&) = delete;
+  Command& operator=(const Command&) = delete;
+  ~Command();
+
+  /// A command below this one; `examples` end its help.
+  Command& command(const std::string& name, const std::string& description,
+                   const std::string& examples);
+  /// For a family: one of the commands below has to be named.
+  void requires_command();
+
+  /// An option with one value, "-o,--output"; the help shows it as "-o,--output MAP".
+  Option option(const std::string& names, const std::string& value_name, std::string& value,
+                const std::string& help);
+  Option option(const std::string& names, const std::string& value_name, TakeText take,
+                const std::string& help);
+  Option option_with_values(const std::string& names, const std::string& value_name,
+                            std::vector<std::string>& values, const std::string& help);
+  Option flag(const std::string& name, bool& value, const std::string& help);
+  /// What is given without a name before it.
+  Option argument(const std::string& name, std::string& value, const std::string& help);
+  Option arguments(const std::string& name, std::vector<std::string>& values,
+                   const std::string& help);
+
+  void runs(Run run) { run_ = std::move(run); }
+
+  /// Writes what was given to its places, then runs the innermost command that was named.
+  int run_named(const Console& console) const;
+
+ private:
+  Option taken_by(CLI::Option& option, std::function<void(const std::vector<std::string>&)> take);
+
+  struct Taken {
+    CLI::Option* option;
+    std::function<void(const std::vector<std::string>&)> take;
+  };
+  CLI::App& app_;
+  Console& console_;
+  std::vector<Taken> taken_;
+  std::vector<std::unique_ptr<Command>> commands_;
+  Run run_;
+};
+
+}  // namespace fathom::app

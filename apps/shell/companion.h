@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fathom::app {
+
+/// A command that is a program of its own, because of what it is built from. scripts/fathom builds
+/// it when it is first asked for.
+struct Companion {
+  std::string command;      ///< "clip"
+  std::string program;      ///< "fathom-textbook"
+  std::string description;  ///< as `fathom --help` shows it
+
+  /// A program with a single command does not take that command's name: its own name says it.
+  [[nodiscard]] bool takes_name() const { return program != "fathom-" + command; }
+};
+
+/// Starts the program of this name that lies beside this one, in place of this process. Returns
+/// where there is no such program.
+/// Fails    UsageError where it is there but cannot be started.
+void start_companion(const std::string& program, const std::vector<std::string>& arguments);
+
+/// The message where a companion does not lie beside this program: `what` needs it ("'clip'"), and
+/// scripts/fathom builds it where it is given `how` ("clip").
+std::string not_built(const std::string& what, const std::string& program, const std::string& how);
+
+}  // namespace fathom::app

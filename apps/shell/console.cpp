@@ -1,0 +1,46 @@
+#include "apps/shell/console.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "fathom/text/warnings.h"
+
+namespace fathom::app {
+namespace {
+
+/// One line whatever the text, which may hold a file's name: control characters become '?'.
+void say(const std::string& text) {
+  std::string line = "fathom: " + text;
+  for (char& c : line) {
+    if (c == '\n' || c == '\r' || c == '\t') c = ' ';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  }
+  while (line.ends_with(' ')) line.pop_back();
+  line += '\n';
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+}  // namespace
+
+void Console::warn(const std::string& text) const {
+  if (!quiet) say("warning: " + text);
+}
+
+void Console::warn(const Warnings& warnings) const {
+  for (const std::string& text : warnings) warn(text);
+}
+
+void Console::note(const std::string& text) const {
+  if (!quiet) say(text);
+}
+
+void Console::error(const std::string& text) {
+  say("error: " + text);
+}
+
+bool Console::shows_progress() const {
+  return !quiet && ::isatty(STDERR_FILENO) == 1;
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,120 @@
+#include "apps/shell/values.h"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+[[noreturn]] void refuse(std::string_view text, std::string_view wanted) {
+  throw UsageError(fmt::format("'{}' is not {}", text, wanted));
+}
+
+template <class Number>
+bool read_whole(std::string_view text, Number& value) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+template <std::size_t N>
+std::array<double, N> parse_numbers(const std::string& text, std::string_view wanted) {
+  const std::vector<std::string> parts = parse_list(text);
+  if (parts.size() != N) refuse(text, wanted);
+  std::array<double, N> numbers{};
+  for (std::size_t i = 0; i < N; ++i) numbers[i] = parse_number(parts[i]);
+  return numbers;
+}
+
+std::array<std::uint32_t, 2> parse_two_counts(std::string_view text, char separator,
+                                              std::uint32_t least, std::string_view wanted) {
+  const std::size_t cut = text.find(separator);
+  std::array<std::uint32_t, 2> counts{};
+  if (cut == std::string_view::npos || !read_whole(text.substr(0, cut), counts[0]) ||
+      !read_whole(text.substr(cut + 1), counts[1]) || counts[0] < least || counts[1] < least) {
+    refuse(text, wanted);
+  }
+  return counts;
+}
+
+}  // namespace
+
+double parse_number(const std::string& text) {
+  double value = 0;
+  if (!read_whole(text, value) || !std::isfinite(value)) refuse(text, "a finite number");
+  return value;
+}
+
+std::int64_t parse_whole(const std::string& text) {
+  const double x = parse_number(text);
+  if (x != std::floor(x) || std::abs(x) > 1e9) refuse(text, "a whole number");
+  return static_cast<std::int64_t>(x);
+}
+
+std::uint32_t parse_count_from(std::uint32_t least, std::string_view text) {
+  std::uint32_t value = 0;
+  if (!read_whole(text, value) || value < least) {
+    refuse(text, fmt::format("an integer from {} to 4294967295", least));
+  }
+  return value;
+}
+
+Size parse_size(const std::string& text) {
+  return parse_two_counts(text, 'x', 1, "a size like 1280x720: WIDTHxHEIGHT, each at least 1");
+}
+
+std::array<std::uint32_t, 2> parse_pixel(const std::string& text) {
+  return parse_two_counts(text, ',', 0,
+                          "a pixel like 640,360: column and row, counted from 0 at the top left");
+}
+
+std::array<double, 2> parse_pair(const std::string& text) {
+  return parse_numbers<2>(text, "two numbers with a comma between them");
+}
+
+std::array<double, 3> parse_vector(const std::string& text) {
+  return parse_numbers<3>(text, "three numbers with commas between them");
+}
+
+std::vector<std::string> parse_list(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+std::string parse_png_name(const std::string& text) {
+  const std::string suffix = std::filesystem::path(text).extension().string();
+  std::error_code error;
+  if (suffix == ".png" || suffix == ".PNG") return text;
+  if (std::filesystem::is_other(std::filesystem::status(text, error))) return text;
+  throw UsageError("'" + text + "' does not end in .png");
+}
+
+std::string joined(const std::vector<std::string>& names, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 < names.size() ? ", " : last;
+    text += names[i];
+  }
+  return text;
+}
+
+void refuse_word(const std::string& text, const std::vector<std::string>& words) {
+  throw UsageError(words.size() == 2
+                       ? fmt::format("'{}' is neither {}", text, joined(words, " nor "))
+                       : fmt::format("'{}' is not one of {}", text, joined(words)));
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace fathom::app {
+
+/// What the texts on the command line become.
+/// Exact    decimal text is rounded once, to binary64.
+/// Fails    UsageError: "'text' is not …".
+
+/// A finite number.
+double parse_number(const std::string& text);
+/// A whole number in [−10⁹, 10⁹].
+std::int64_t parse_whole(const std::string& text);
+/// An integer in [least, 2³² − 1].
+std::uint32_t parse_count_from(std::uint32_t least, std::string_view text);
+inline std::uint32_t parse_count(const std::string& text) {
+  return parse_count_from(0, text);
+}
+inline std::uint32_t parse_positive(const std::string& text) {
+  return parse_count_from(1, text);
+}
+
+using Size = std::array<std::uint32_t, 2>;
+/// "1280x720".
+Size parse_size(const std::string& text);
+/// "X,Y".
+std::array<std::uint32_t, 2> parse_pixel(const std::string& text);
+/// Two numbers, "AZIMUTH,ELEVATION".
+std::array<double, 2> parse_pair(const std::string& text);
+/// "X,Y,Z".
+std::array<double, 3> parse_vector(const std::string& text);
+
+/// The parts of a text between commas.
+std::vector<std::string> parse_list(const std::string& text);
+
+/// The name of a picture: it ends in .png, or is a device or a pipe.
+std::string parse_png_name(const std::string& text);
+
+/// "a, b and c"
+std::string joined(const std::vector<std::string>& names, std::string_view last = " and ");
+
+[[noreturn]] void refuse_word(const std::string& text, const std::vector<std::string>& words);
+
+/// Words, and what each of them means.
+template <class Value>
+using Words = std::initializer_list<std::pair<const char*, Value>>;
+
+/// One of some words.
+template <class Value>
+Value parse_word(const std::string& text, Words<Value> words) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : words) {
+    if (text == name) return value;
+    names.emplace_back(name);
+  }
+  refuse_word(text, names);
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,153 @@
+// fathom study NAME --out DIR
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <list>
+#include <memory>
+
+#include "apps/options/camera_options.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/folder.h"
+#include "apps/shell/known_files.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/program.h"
+#include "apps/shell/progress.h"
+#include "apps/shell/values.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/framing.h"
+#include "fathom/scene/read_scene.h"
+#include "validation/studies/study.h"
+
+namespace fathom::app {
+namespace {
+
+using studies::Study;
+using studies::StudyFile;
+
+struct StudyArguments {
+  std::string name, out, camera;
+  std::vector<std::string> scene;
+  /// All but the scene, which is read when everything else is in order.
+  studies::StudyOptions options;
+  bool list = false;
+};
+
+std::string list_of_studies() {
+  std::string text;
+  for (const Study& study : studies::all_studies()) {
+    text += fmt::format("{:<18} {}\n", study.name, study.description);
+  }
+  return text;
+}
+
+/// The only camera of the file.
+Camera read_camera(const std::string& file) {
+  const std::vector<Camera> cameras = read_camera_file(file);
+  if (cameras.size() != 1) {
+    throw InputError(
+        fmt::format("{}: {} cameras; a study takes a single one", file, cameras.size()));
+  }
+  return cameras[0];
+}
+
+/// The scene with its camera, or with one that frames it in 640×360 pixels.
+studies::SceneView read_view(const StudyArguments& arguments, const Console& console) {
+  Warnings warnings;
+  const std::vector<std::filesystem::path> files(arguments.scene.begin(), arguments.scene.end());
+  for (const auto& file : files) note_input(file);
+  studies::SceneView view{files.front().filename().string(), read_scene(files, {}, warnings), {}};
+  console.warn(warnings);
+  if (triangle_count(view.scene) == 0) {
+    throw InputError(files.front().string() + ": the scene has no triangle");
+  }
+  view.camera = arguments.camera.empty()
+                    ? frame_scene(view.scene, {}, {.width = 640, .height = 360})
+                    : read_camera(arguments.camera);
+  return view;
+}
+
+/// All files are written before the first is put in its place.
+void write_files(const std::filesystem::path& folder, const std::vector<StudyFile>& files) {
+  std::list<OutputFile> outputs;
+  for (const StudyFile& file : files) {
+    outputs.emplace_back(folder / file.name);
+    outputs.back().write(file.content);
+  }
+  for (OutputFile& output : outputs) output.commit();
+}
+
+/// The study that the arguments name. Fails with UsageError where they do not fit it.
+const Study& study_of(const StudyArguments& arguments) {
+  if (arguments.name.empty()) throw UsageError("NAME is missing: 'fathom study --list' lists them");
+  const Study& study = studies::study_named(arguments.name);
+  if (arguments.out.empty()) throw UsageError("--out DIR is missing: where the files go");
+  if (!arguments.scene.empty() && !study.takes_scene) {
+    throw UsageError(fmt::format("the study {} takes no --scene", study.name));
+  }
+  if (arguments.scene.empty() && !arguments.camera.empty()) {
+    throw UsageError("--camera belongs to --scene");
+  }
+  return study;
+}
+
+std::vector<StudyFile> run_with_progress(const Study& study, const studies::StudyOptions& options,
+                                         const Console& console) {
+  Progress progress(console, study.name);
+  const auto report = progress.reporter();
+  return study.run(options, [&report](double share) {
+    if (report) report(share);
+  });
+}
+
+int run_study(const StudyArguments& arguments, const Console& console) {
+  if (arguments.list) {
+    print(list_of_studies());
+    return done;
+  }
+  const Study& study = study_of(arguments);
+  studies::StudyOptions options = arguments.options;
+  if (!arguments.scene.empty()) options.scene = read_view(arguments, console);
+  const std::vector<StudyFile> files = run_with_progress(study, options, console);
+  make_folder(arguments.out);
+  write_files(arguments.out, files);
+  return done;
+}
+
+std::uint32_t parse_samples(const std::string& text) {
+  return parse_count_from(2, text);
+}
+
+void add_study(Command& program) {
+  auto arguments = std::make_shared<StudyArguments>();
+  studies::StudyOptions& options = arguments->options;
+  Command& command = program.command(
+      "study", "Precision of depth buffers, measured: figures, plots and a page that explains them",
+      "  fathom study --list\n"
+      "  fathom study depth-resolution --near 0.1 --far 1000 --out resolution\n"
+      "  fathom study indistinguishable --out reed\n"
+      "  fathom study mitigation --scene data/meshes/spot.obj --near 0.001 --out cures");
+  command.argument("NAME", arguments->name, "The study");
+  command.option("--out", "DIR", arguments->out,
+                 "Folder for CSV, PNG, SVG, summary.json, index.html");
+  command.option_with_values(
+      "--scene", "NAME", arguments->scene,
+      "Meshes or scene files to study, for antialiasing, mitigation, subpixel and z-fighting; "
+      "without it they have scenes of their own");
+  command.option("--camera", "FILE", arguments->camera,
+                 "Camera file (JSON) for --scene; without it, one that frames the scene");
+  command.option("--near", "D", into(options.near, parse_number), "Least depth");
+  command.option("--far", "D", into(options.far, parse_number), "Greatest depth");
+  command.option("--samples", "N", into(options.samples, parse_samples), "Number of depths");
+  command.option("--separation", "D", into(options.separation, parse_number),
+                 "Of two surfaces along the view, for z-fighting");
+  command.flag("--list", arguments->list, "List the studies");
+  command.runs([arguments](const Console& console) { return run_study(*arguments, console); });
+}
+
+}  // namespace
+}  // namespace fathom::app
+
+int main(int argc, char** argv) {
+  return fathom::app::companion_main(argc, argv, "study", fathom::app::add_study);
+}

@@ -1,0 +1,115 @@
+// fathom coplanar SCENE… --camera FILE [--within DISTANCE]
+
+#include <fmt/core.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/options/camera_options.h"
+#include "apps/options/cull_option.h"
+#include "apps/options/scene_options.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/progress.h"
+#include "apps/shell/values.h"
+#include "apps/surfaces/surface_commands.h"
+#include "fathom/area/coplanar.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CoplanarArguments {
+  SceneOptions scene;
+  CameraOptions camera;
+  double within = 0;
+  Cull cull = Cull::none;
+  bool json = false;
+};
+
+/// "TRIANGLE (face FACE of OBJECT)"
+std::string in_words(const Scene& scene, std::uint32_t number) {
+  const TriangleOrigin origin = origin_of(scene, number);
+  return fmt::format("{} (face {} of {})", number, origin.face, scene.objects[origin.object].name);
+}
+
+std::string as_text(const Scene& scene, const std::vector<CoplanarPair>& pairs, double within) {
+  std::string text;
+  for (const CoplanarPair& pair : pairs) {
+    text += fmt::format("{} before {}: {} behind, {} {}", in_words(scene, pair.visible),
+                        in_words(scene, pair.behind), pair.separation, pair.pixels,
+                        pair.pixels == 1 ? "pixel" : "pixels");
+    text += fmt::format(", columns {} to {}, rows {} to {}\n", pair.box.first_column,
+                        pair.box.last_column, pair.box.first_row, pair.box.last_row);
+  }
+  return text + fmt::format("{} {} within {}\n", pairs.size(),
+                            pairs.size() == 1 ? "coplanar pair" : "coplanar pairs", within);
+}
+
+Json triangle_as_json(const Scene& scene, std::uint32_t number) {
+  const TriangleOrigin origin = origin_of(scene, number);
+  return {{"triangle", number},
+          {"object", origin.object},
+          {"name", scene.objects[origin.object].name},
+          {"face", origin.face}};
+}
+
+std::string as_json(const Scene& scene, const std::vector<CoplanarPair>& pairs, double within) {
+  Json list = Json::array();
+  for (const CoplanarPair& pair : pairs) {
+    const PixelBox& box = pair.box;
+    list.push_back({{"visible", triangle_as_json(scene, pair.visible)},
+                    {"behind", triangle_as_json(scene, pair.behind)},
+                    {"separation", pair.separation},
+                    {"pixels", pair.pixels},
+                    {"columns", {box.first_column, box.last_column}},
+                    {"rows", {box.first_row, box.last_row}}});
+  }
+  const Json answer{{"within", within}, {"pairs", list}};
+  return answer.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+double parse_distance(const std::string& text) {
+  const double distance = parse_number(text);
+  if (distance < 0) throw UsageError("'" + text + "' is negative");
+  return distance;
+}
+
+int run_coplanar(const CoplanarArguments& arguments, const Console& console) {
+  RenderOptions options;
+  options.cull = arguments.cull;
+  options.threads = arguments.scene.threads;
+  const Scene scene = arguments.scene.read(console);
+  const Camera camera = arguments.camera.get_one(scene, "coplanar");
+  std::vector<CoplanarPair> pairs;
+  {
+    Progress progress(console, "comparing");
+    options.progress = progress.reporter();
+    pairs = coplanar_pairs(scene, camera, arguments.within, options);
+  }
+  print(arguments.json ? as_json(scene, pairs, arguments.within)
+                       : as_text(scene, pairs, arguments.within));
+  return done;
+}
+
+}  // namespace
+
+void add_coplanar(Command& program) {
+  const auto arguments = std::make_shared<CoplanarArguments>();
+  Command& command = program.command(
+      "coplanar", "Find visible surfaces that coincide or nearly do, where z-buffers fight",
+      "  fathom coplanar data/scenes/hard/coplanar-overlaps.obj\n"
+      "  fathom coplanar room.json --camera camera.json --within 0.001 --json");
+  arguments->scene.add_to(command);
+  arguments->camera.add_to(command);
+  command.option("--within", "D", into(arguments->within, parse_distance),
+                 "The greatest distance along the view between the two surfaces of a pair (default "
+                 "0: only surfaces that coincide)");
+  add_cull_option(command, arguments->cull);
+  command.flag("--json", arguments->json, "Answer in JSON");
+  command.runs([arguments](const Console& console) { return run_coplanar(*arguments, console); });
+}
+
+}  // namespace fathom::app

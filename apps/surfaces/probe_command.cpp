@@ -1,0 +1,60 @@
+// fathom probe SCENE… --camera FILE --pixel X,Y
+
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "apps/options/camera_options.h"
+#include "apps/options/cull_option.h"
+#include "apps/options/scene_options.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/values.h"
+#include "apps/surfaces/probe_report.h"
+#include "apps/surfaces/surface_commands.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+struct ProbeArguments {
+  SceneOptions scene;
+  CameraOptions camera;
+  std::array<std::uint32_t, 2> pixel{};
+  Cull cull = Cull::none;
+  bool json = false;
+};
+
+int run_probe(const ProbeArguments& arguments, const Console& console) {
+  const auto [x, y] = arguments.pixel;
+  const Scene scene = arguments.scene.read(console);
+  const Camera camera = arguments.camera.get_one(scene, "probe");
+  if (x >= camera.width || y >= camera.height) {
+    throw UsageError(fmt::format("--pixel: {},{} is outside the image of {}x{} pixels", x, y,
+                                 camera.width, camera.height));
+  }
+  const Probe result{scene, camera, x, y, probe(scene, camera, x, y, arguments.cull)};
+  print(arguments.json ? as_json(result) : as_text(result));
+  return done;
+}
+
+}  // namespace
+
+void add_probe(Command& program) {
+  const auto arguments = std::make_shared<ProbeArguments>();
+  Command& command =
+      program.command("probe", "Show how the value of one pixel comes about",
+                      "  fathom probe data/meshes/spot.obj --pixel 640,360\n"
+                      "  fathom probe room.json --camera camera.json --pixel 12,34 --json");
+  arguments->scene.add_to(command);
+  arguments->camera.add_to(command);
+  command
+      .option("--pixel", "X,Y", into(arguments->pixel, parse_pixel),
+              "X,Y: column and row from the top left")
+      .required();
+  add_cull_option(command, arguments->cull);
+  command.flag("--json", arguments->json, "Answer in JSON");
+  command.runs([arguments](const Console& console) { return run_probe(*arguments, console); });
+}
+
+}  // namespace fathom::app

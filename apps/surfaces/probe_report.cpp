@@ -1,0 +1,142 @@
+#include "apps/surfaces/probe_report.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "fathom/numeric/rounding.h"
+
+namespace fathom::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The file that a triangle comes from.
+std::string file_of(const Scene& scene, const CoveringTriangle& triangle) {
+  return scene.sources[scene.objects[triangle.origin.object].source].path;
+}
+
+/// Why a triangle that covers the sample does not count (specification, section 5).
+std::string why_not_counted(const Probe& probe, const CoveringTriangle& triangle) {
+  if (triangle.depth.sign() != Sign::positive) return "behind the camera or in its plane (D <= 0)";
+  if (triangle.depth < Ratio(Dyadic(probe.camera.near))) return "nearer than near";
+  if (std::isfinite(probe.camera.far) && Ratio(Dyadic(probe.camera.far)) < triangle.depth) {
+    return "beyond far";
+  }
+  return triangle.front_facing ? "culled: it is front-facing" : "culled: it is back-facing";
+}
+
+/// The rule that decided about triangle `i` of the list.
+std::string rule(const Probe& probe, std::size_t i) {
+  const CoveringTriangle& triangle = probe.triangles[i];
+  if (!triangle.counts) return "does not count: " + why_not_counted(probe, triangle);
+  if (i > 0) {
+    const CoveringTriangle& visible = probe.triangles[0];
+    return visible.depth == triangle.depth
+               ? fmt::format("hidden: exactly as deep as triangle {}, whose number is lower",
+                             visible.number)
+               : fmt::format("hidden: deeper than triangle {}", visible.number);
+  }
+  if (probe.triangles.size() == 1 || !probe.triangles[1].counts) {
+    return "visible: no other triangle counts here";
+  }
+  return probe.triangles[1].depth == triangle.depth
+             ? "visible: the lowest number among equal depths"
+             : "visible: the least depth";
+}
+
+char sign_letter(Sign sign) {
+  return sign == Sign::zero ? '0' : sign == Sign::positive ? '+' : '-';
+}
+
+std::string edge_text(const CoveringTriangle& triangle) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) {
+    text +=
+        fmt::format("{}e_{} {}", i == 0 ? "" : ", ", "ABC"[i], sign_letter(triangle.edge_signs[i]));
+    if (triangle.edge_signs[i] == Sign::zero) {
+      text += triangle.left_or_top[i] ? " (on a left or top edge: covered)"
+                                      : " (on an edge that is neither left nor top)";
+    }
+  }
+  return text;
+}
+
+std::array<MeshPoint, 3> corners_of(const Scene& scene, const CoveringTriangle& triangle) {
+  const Mesh& mesh = scene.meshes[scene.objects[triangle.origin.object].mesh];
+  const CornerIndices& corners = mesh.triangles[triangle.origin.triangle];
+  return {mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]};
+}
+
+Json to_json(const Probe& probe, std::size_t i) {
+  const CoveringTriangle& triangle = probe.triangles[i];
+  Json corners = Json::array();
+  for (const MeshPoint& p : corners_of(probe.scene, triangle)) corners.push_back({p.x, p.y, p.z});
+  Json edges = Json::object();
+  for (int edge = 0; edge < 3; ++edge) {
+    edges[fmt::format("e_{}", "ABC"[edge])] = {
+        {"sign", static_cast<int>(triangle.edge_signs[edge])},
+        {"left_or_top", triangle.left_or_top[edge]}};
+  }
+  const float stored = round_to_binary32(triangle.depth);
+  return {{"number", triangle.number},
+          {"file", file_of(probe.scene, triangle)},
+          {"object", triangle.origin.object},
+          {"object_name", probe.scene.objects[triangle.origin.object].name},
+          {"face", triangle.origin.face},
+          {"corners", corners},
+          {"front_facing", triangle.front_facing},
+          {"edges", edges},
+          {"depth",
+           {{"exact", to_fraction(triangle.depth)},
+            {"decimal", to_decimal(triangle.depth, 40)},
+            {"binary32", stored},
+            {"binary32_hex", fmt::format("{:a}", stored)}}},
+          {"counts", triangle.counts},
+          {"visible", i == 0 && triangle.counts},
+          {"rule", rule(probe, i)}};
+}
+
+}  // namespace
+
+std::string as_text(const Probe& probe) {
+  std::string text = fmt::format(
+      "pixel ({}, {}) of {}x{}: the sample is ({}.5, {}.5)\n{} covers it{}\n", probe.x, probe.y,
+      probe.camera.width, probe.camera.height, probe.x, probe.y,
+      probe.triangles.empty()       ? "no triangle"
+      : probe.triangles.size() == 1 ? "one triangle"
+                                    : fmt::format("each of {} triangles", probe.triangles.size()),
+      probe.triangles.size() > 1 ? ", nearest first" : "");
+  for (std::size_t i = 0; i < probe.triangles.size(); ++i) {
+    const CoveringTriangle& triangle = probe.triangles[i];
+    text += fmt::format("\ntriangle {}: face {} of {}, {}-facing\n", triangle.number,
+                        triangle.origin.face, file_of(probe.scene, triangle),
+                        triangle.front_facing ? "front" : "back");
+    const auto corners = corners_of(probe.scene, triangle);
+    for (int corner = 0; corner < 3; ++corner) {
+      text += fmt::format("  {}       ({}, {}, {})\n", "ABC"[corner], corners[corner].x,
+                          corners[corner].y, corners[corner].z);
+    }
+    const float stored = round_to_binary32(triangle.depth);
+    text += fmt::format("  edges   {}\n", edge_text(triangle));
+    text += fmt::format("  depth   {}\n", to_decimal(triangle.depth, 40));
+    text += fmt::format("  exactly {}\n", to_fraction(triangle.depth));
+    text += fmt::format("  stored  {} = {:a} (binary32, rounded once)\n", stored, stored);
+    text += fmt::format("  {}\n", rule(probe, i));
+  }
+  return text;
+}
+
+std::string as_json(const Probe& probe) {
+  Json triangles = Json::array();
+  for (std::size_t i = 0; i < probe.triangles.size(); ++i) triangles.push_back(to_json(probe, i));
+  const Json answer{{"pixel", {probe.x, probe.y}},
+                    {"sample", {probe.x + 0.5, probe.y + 0.5}},
+                    {"width", probe.camera.width},
+                    {"height", probe.camera.height},
+                    {"triangles", triangles}};
+  return answer.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "apps/shell/command.h"
+
+/// Commands that ask which surface is visible where.
+namespace fathom::app {
+
+void add_probe(Command& program);
+void add_visible(Command& program);
+void add_coplanar(Command& program);
+
+}  // namespace fathom::app

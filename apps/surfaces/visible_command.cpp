@@ -1,0 +1,156 @@
+// fathom visible SCENE… --camera FILE
+
+#include <fmt/core.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/options/camera_options.h"
+#include "apps/options/cull_option.h"
+#include "apps/options/scene_options.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/progress.h"
+#include "apps/surfaces/surface_commands.h"
+#include "fathom/area/visible_areas.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct VisibleArguments {
+  SceneOptions scene;
+  CameraOptions camera;
+  Cull cull = Cull::none;
+  std::string output = "-";
+  bool json = false, csv = false;
+};
+
+/// What the answers are about.
+struct Answer {
+  const Scene& scene;
+  const Camera& camera;
+  const VisibleAreas& areas;
+};
+
+Json ratio_of(const VisibleArea& area) {
+  return area.ratio ? Json(*area.ratio) : Json(nullptr);
+}
+
+std::string as_json(const Answer& answer) {
+  Json objects = Json::array(), triangles = Json::array();
+  for (std::size_t i = 0; i < answer.areas.objects.size(); ++i) {
+    const VisibleArea& area = answer.areas.objects[i];
+    objects.push_back({{"object", i},
+                       {"name", answer.scene.objects[i].name},
+                       {"visible", area.visible},
+                       {"unoccluded", area.unoccluded},
+                       {"ratio", ratio_of(area)}});
+  }
+  for (std::size_t i = 0; i < answer.areas.triangles.size(); ++i) {
+    const VisibleArea& area = answer.areas.triangles[i];
+    const TriangleOrigin origin = origin_of(answer.scene, static_cast<std::uint32_t>(i));
+    triangles.push_back({{"triangle", i},
+                         {"object", origin.object},
+                         {"face", origin.face},
+                         {"visible", area.visible},
+                         {"unoccluded", area.unoccluded},
+                         {"ratio", ratio_of(area)}});
+  }
+  const Json json{{"width", answer.camera.width},
+                  {"height", answer.camera.height},
+                  {"objects", objects},
+                  {"triangles", triangles}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// A text as a field of CSV (RFC 4180).
+std::string quoted(const std::string& text) {
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return field + "\"";
+}
+
+std::string figures(const VisibleArea& area) {
+  return fmt::format("{:.17g},{:.17g},{}", area.visible, area.unoccluded,
+                     area.ratio ? fmt::format("{:.17g}", *area.ratio) : "");
+}
+
+std::string as_csv(const Answer& answer) {
+  std::string text = "kind,number,object,name,face,visible,unoccluded,ratio\n";
+  for (std::size_t i = 0; i < answer.areas.objects.size(); ++i) {
+    text += fmt::format("object,{},{},{},,{}\n", i, i, quoted(answer.scene.objects[i].name),
+                        figures(answer.areas.objects[i]));
+  }
+  for (std::size_t i = 0; i < answer.areas.triangles.size(); ++i) {
+    const TriangleOrigin origin = origin_of(answer.scene, static_cast<std::uint32_t>(i));
+    text += fmt::format("triangle,{},{},{},{},{}\n", i, origin.object,
+                        quoted(answer.scene.objects[origin.object].name), origin.face,
+                        figures(answer.areas.triangles[i]));
+  }
+  return text;
+}
+
+std::string as_text(const Answer& answer) {
+  std::string text =
+      fmt::format("{}x{} pixels\n{:<32} {:>22} {:>22} {:>10}\n", answer.camera.width,
+                  answer.camera.height, "object", "visible area", "unoccluded area", "ratio");
+  for (std::size_t i = 0; i < answer.areas.objects.size(); ++i) {
+    const VisibleArea& area = answer.areas.objects[i];
+    text += fmt::format("{:<32} {:>22.17g} {:>22.17g} {:>10}\n", answer.scene.objects[i].name,
+                        area.visible, area.unoccluded,
+                        area.ratio ? fmt::format("{:.6g}", *area.ratio) : "-");
+  }
+  std::size_t wholly = 0, partly = 0, hidden = 0, outside = 0;
+  for (const VisibleArea& area : answer.areas.triangles) {
+    ++(!area.ratio ? outside : area.visible == 0 ? hidden : *area.ratio == 1 ? wholly : partly);
+  }
+  text += fmt::format(
+      "{} triangles: {} visible, {} partly, {} hidden, {} outside the image, edge on or culled\n",
+      answer.areas.triangles.size(), wholly, partly, hidden, outside);
+  return text;
+}
+
+int run_visible(const VisibleArguments& arguments, const Console& console) {
+  if (arguments.json && arguments.csv) throw UsageError("--json and --csv exclude each other");
+  RenderOptions options;
+  options.cull = arguments.cull;
+  options.threads = arguments.scene.threads;
+  const Scene scene = arguments.scene.read(console);
+  const Camera camera = arguments.camera.get_one(scene, "visible");
+  VisibleAreas areas;
+  {
+    Progress progress(console, "measuring");
+    options.progress = progress.reporter();
+    areas = visible_areas(scene, camera, options);
+  }
+  const Answer answer{scene, camera, areas};
+  write_text(arguments.output, arguments.json  ? as_json(answer)
+                               : arguments.csv ? as_csv(answer)
+                                               : as_text(answer));
+  return done;
+}
+
+}  // namespace
+
+void add_visible(Command& program) {
+  const auto arguments = std::make_shared<VisibleArguments>();
+  Command& command =
+      program.command("visible", "Measure how much of each triangle and object is visible, exactly",
+                      "  fathom visible data/meshes/spot.obj\n"
+                      "  fathom visible room.json --camera camera.json --json\n"
+                      "  fathom visible room.json --camera camera.json --csv -o visible.csv");
+  arguments->scene.add_to(command);
+  arguments->camera.add_to(command);
+  add_cull_option(command, arguments->cull);
+  command.flag("--json", arguments->json,
+               "Every object and every triangle in JSON: areas in pixels, their ratio");
+  command.flag("--csv", arguments->csv, "Every object and every triangle in CSV");
+  command.option("-o,--output", "FILE", arguments->output,
+                 "Write the answer to this file (default -, standard output)");
+  command.runs([arguments](const Console& console) { return run_visible(*arguments, console); });
+}
+
+}  // namespace fathom::app

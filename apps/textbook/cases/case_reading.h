@@ -1,0 +1,51 @@
+#pragma once
+
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fathom/clipping/points.h"
+
+/// Reading the cases of `fathom clip` and `fathom scan`: a JSON object a line.
+/// Fails    InputError in words that name the ring and the corner.
+namespace fathom::app::cases {
+
+using Json = nlohmann::ordered_json;
+
+/// A line as an object. A number beyond binary64, NaN and Infinity are refused as not finite.
+/// `name` becomes the member "name", also where the rest cannot be read if it stands in front.
+Json parse_case(std::string_view line, Json& name);
+
+/// Refuses keys that are none of `known`; "name" is known everywhere.
+void expect_only(const Json& object, std::initializer_list<std::string_view> known);
+
+/// A member that has to be there.
+const Json& member(const Json& object, const std::string& key);
+
+/// A member that is one of some words; the first where it is missing.
+std::string word(const Json& object, const std::string& key,
+                 std::initializer_list<std::string_view> words);
+
+bool flag(const Json& object, const std::string& key);
+
+/// A list; `where` names it in messages.
+const Json& list(const Json& value, const std::string& where);
+
+/// A list of `least` to `most` finite numbers.
+std::vector<double> numbers(const Json& value, const std::string& where, std::size_t least,
+                            std::size_t most);
+
+/// [[ring], …] as the member `key`.
+clipping::Rings<double> rings(const Json& object, const std::string& key);
+
+/// [[x, …], …] as the member `key`: points of `least` to `most` coordinates.
+std::vector<std::vector<double>> points(const Json& object, const std::string& key,
+                                        std::size_t least, std::size_t most);
+
+/// The member "attributes": for each of `corners` corners a list, all of one length; empty lists
+/// where it is missing.
+std::vector<std::vector<double>> attributes(const Json& object, std::size_t corners);
+
+}  // namespace fathom::app::cases

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "fathom/clipping/exact_kernel.h"
+#include "fathom/clipping/points.h"
+#include "fathom/numeric/errors.h"
+
+/// Writing the answers to cases.
+namespace fathom::app::cases {
+
+using Json = nlohmann::ordered_json;
+
+struct Form {
+  /// Numbers as "p/q" instead of rounded once to binary64.
+  bool exact = false;
+  bool trace = false;
+};
+
+inline Json to_json(double x, Form form) {
+  if (!std::isfinite(x))
+    throw InputError("a result is beyond binary64; --kernel exact --exact writes any number");
+  if (form.exact) return clipping::to_fraction(clipping::Rational(x));
+  return x + 0.0;  // no −0
+}
+
+inline Json to_json(const clipping::Rational& x, Form form) {
+  return form.exact ? Json(clipping::to_fraction(x)) : to_json(clipping::to_binary64(x), form);
+}
+
+template <class Number>
+Json to_json(const clipping::Point2<Number>& p, Form form) {
+  return Json::array({to_json(p.x, form), to_json(p.y, form)});
+}
+
+template <class Number>
+Json to_json(const clipping::Point3<Number>& p, Form form) {
+  return Json::array({to_json(p.x, form), to_json(p.y, form), to_json(p.z, form)});
+}
+
+template <class Number>
+Json to_json(const clipping::Point4<Number>& p, Form form) {
+  return Json::array(
+      {to_json(p.x, form), to_json(p.y, form), to_json(p.z, form), to_json(p.w, form)});
+}
+
+template <class Item>
+Json to_json(const std::vector<Item>& items, Form form) {
+  Json result = Json::array();
+  for (const Item& item : items) result.push_back(to_json(item, form));
+  return result;
+}
+
+}  // namespace fathom::app::cases

@@ -1,0 +1,68 @@
+#include "apps/textbook/cases/json_lines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "apps/shell/exit_status.h"
+#include "apps/shell/known_files.h"
+#include "apps/shell/output_file.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/input_file.h"
+
+namespace fathom::app::cases {
+namespace {
+
+/// The answer to one line, and what is wrong with the case if it cannot be done.
+struct Answer {
+  Json json = Json::object();
+  std::optional<std::string> error;
+};
+
+Answer answer_to(std::string_view line, const AnswerCase& answer_case) {
+  Answer answer;
+  Json name, body;
+  try {
+    body = answer_case(parse_case(line, name));
+  } catch (const InputError& error) {
+    answer.error = error.what();
+    body = {{"error", *answer.error}};
+  }
+  if (!name.is_null()) answer.json["name"] = name;
+  answer.json.update(body);
+  return answer;
+}
+
+bool is_blank(std::string_view line) {
+  return line.find_first_not_of(" \t\r") == std::string_view::npos;
+}
+
+}  // namespace
+
+int answer_lines(const std::string& file, const AnswerCase& answer_case) {
+  const std::string name = file == "-" ? "standard input" : file;
+  note_input(file);
+  const InputFile input(file);
+  std::string_view rest = input.text();
+  std::size_t number = 0, count = 0, failures = 0;
+  std::string first_failure;
+  while (!rest.empty()) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    ++number;
+    if (is_blank(line)) continue;
+    ++count;
+    const Answer answer = answer_to(line, answer_case);
+    print(answer.json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+    if (answer.error && failures++ == 0)
+      first_failure = fmt::format("{}: line {}: {}", name, number, *answer.error);
+  }
+  if (failures == 0) return done;
+  throw InputError(failures == 1
+                       ? first_failure
+                       : fmt::format("{} (the first of {} cases of {} that cannot be done)",
+                                     first_failure, failures, count));
+}
+
+}  // namespace fathom::app::cases

@@ -1,0 +1,25 @@
+// fathom-textbook: what `fathom` needs for clip, scan, pipeline and render --engine pipeline.
+
+#include "apps/render/render_command.h"
+#include "apps/shell/program.h"
+#include "apps/textbook/pipeline/pipeline_render.h"
+#include "apps/textbook/textbook_commands.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+int refuse_exact_engines(const RenderArguments&, const Console&) {
+  throw UsageError("fathom-textbook renders with --engine pipeline alone; fathom has the others");
+}
+
+}  // namespace
+}  // namespace fathom::app
+
+int main(int argc, char** argv) {
+  using namespace fathom::app;
+  const auto add_render_by_pipeline = [](Command& program) {
+    add_render(program, refuse_exact_engines, render_by_pipeline);
+  };
+  return program_main(argc, argv, {add_render_by_pipeline, add_clip, add_scan, add_pipeline});
+}

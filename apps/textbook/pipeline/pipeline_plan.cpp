@@ -1,0 +1,60 @@
+#include "apps/textbook/pipeline/pipeline_plan.h"
+
+#include "apps/options/channel_list.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/render_by_pipeline.h"
+
+namespace fathom::app {
+namespace {
+
+/// Refuses what only an exact engine can do.
+void check_possible(const RenderArguments& a, MapFormat format) {
+  if (a.stream) throw UsageError("--stream is for the fast engine, not for pipeline");
+  if (a.verified_pixels) {
+    throw UsageError("--verify is for exact engines; fathom compare shows how two maps differ");
+  }
+  if (a.deep || a.cryptomatte) {
+    throw UsageError("--deep and --cryptomatte are for exact engines, not for pipeline");
+  }
+  if (a.samples || (a.depth_buffer.storage && a.depth_buffer.against_exact)) {
+    throw UsageError("--samples and --against-exact are for exact engines, not for pipeline");
+  }
+  if (format == MapFormat::png) {
+    throw UsageError(
+        "the pipeline writes its map as .exr, .pfm or .npy; --image is for the picture");
+  }
+  if (format == MapFormat::npy &&
+      a.storage.encoding_for(format).type != DepthEncoding::Type::binary32) {
+    throw UsageError("--dtype: the pipeline's depths are float32");
+  }
+}
+
+pipeline::PipelineOptions stages_of(const RenderArguments& a) {
+  pipeline::PipelineOptions stages = a.pipeline.options(a.cull);
+  DepthFormat& format = stages.depth_format;
+  format.storage = a.depth_buffer.storage.value_or(format.storage);
+  format.mapping = a.depth_buffer.mapping.value_or(format.mapping);
+  format.c = a.depth_buffer.c.value_or(format.c);
+  pipeline::require_meaningful(stages);
+  return stages;
+}
+
+}  // namespace
+
+PipelinePlan plan_pipeline(const RenderArguments& a) {
+  PipelinePlan plan;
+  plan.format = a.storage.format_of(a.output);
+  check_possible(a, plan.format);
+  plan.channels = a.channels.value_or(std::vector{Channel::Z});
+  if (plan.format != MapFormat::exr && plan.channels.size() != 1) {
+    throw UsageError(a.output + " holds one channel, not '" + text_of(plan.channels) +
+                     "'; .exr holds them all");
+  }
+  require_pipeline_channels(plan.channels);
+  plan.writing = a.storage.write_options(a.scene.threads);
+  plan.stages = stages_of(a);
+  plan.with_picture = !a.image.empty();
+  return plan;
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "apps/render/render_arguments.h"
+
+namespace fathom::app {
+
+/// How the pipeline makes maps and pictures: what the arguments mean together.
+struct PipelinePlan {
+  MapFormat format = MapFormat::exr;
+  WriteOptions writing;
+  std::vector<Channel> channels;
+  pipeline::PipelineOptions stages;
+  bool with_picture = false;
+};
+
+/// Fails    UsageError where the arguments contradict each other, before any work.
+PipelinePlan plan_pipeline(const RenderArguments& arguments);
+
+}  // namespace fathom::app

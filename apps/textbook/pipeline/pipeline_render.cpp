@@ -1,0 +1,77 @@
+#include "apps/textbook/pipeline/pipeline_render.h"
+
+#include <fmt/core.h>
+
+#include "apps/render/render_outputs.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/known_files.h"
+#include "apps/shell/progress.h"
+#include "apps/textbook/pipeline/pipeline_plan.h"
+#include "apps/textbook/pipeline/pipeline_report.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/pipeline/window_transform.h"
+#include "fathom/render_by_pipeline.h"
+
+namespace fathom::app {
+namespace {
+
+void warn_of(const pipeline::PipelineStatistics& s, const Console& console) {
+  if (s.triangles == 0) console.warn("the scene has no triangle: the map is background");
+  if (s.not_finite > 0) {
+    console.warn(
+        fmt::format("{} of {} triangles are left out: a corner is not finite after the transform",
+                    s.not_finite, s.triangles));
+  }
+  if (s.turned_by_snapping > 0) {
+    console.warn(fmt::format("{} of {} triangles are turned over or lose their area by snapping",
+                             s.turned_by_snapping, s.triangles));
+  }
+}
+
+PipelineReport report_of(const std::string& name, const PipelineRendering& rendering,
+                         const PipelinePlan& plan) {
+  PipelineReport report{name, rendering.map.width, rendering.map.height, rendering.statistics, {}};
+  if (plan.stages.hidden_surface == pipeline::HiddenSurface::painter) {
+    report.painter = rendering.painter;
+  }
+  return report;
+}
+
+int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const Console& console) {
+  if (plan.stages.texture != "checker") note_input(plan.stages.texture);
+  const Scene scene =
+      arguments.scene.read(console, {.hash = true, .attributes = plan.with_picture});
+  const std::vector<Camera> cameras = arguments.camera.get(scene);
+  RenderOutputs outputs(arguments, cameras.size());
+  if (pipeline::is_stretched(cameras[0], plan.stages)) {
+    console.warn("the viewport's width : height is not the camera's: the picture is stretched");
+  }
+
+  std::vector<PipelineReport> reports;
+  std::vector<Camera> used;
+  const Progress progress(console, "rendering");
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const PipelineRendering rendering = fathom::render_by_pipeline(
+        scene, cameras[i], plan.stages, plan.channels, plan.with_picture);
+    used.push_back(rendering.camera);
+    outputs.map(i).write(
+        [&](const auto& path) { write_map(rendering.map, path, plan.format, plan.writing); });
+    if (plan.with_picture) {
+      outputs.picture(i).write([&](const auto& path) { write_png(rendering.picture, path); });
+    }
+    if (i == 0) warn_of(rendering.statistics, console);
+    reports.push_back(report_of(outputs.map_name(i), rendering, plan));
+  }
+  outputs.write_cameras(to_json(used) + "\n");
+  outputs.write_statistics(as_json(reports));
+  outputs.commit();
+  return done;
+}
+
+}  // namespace
+
+int render_by_pipeline(const RenderArguments& arguments, const Console& console) {
+  return carry_out(plan_pipeline(arguments), arguments, console);
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fathom/pipeline/options.h"
+#include "fathom/pipeline/painters_algorithm.h"
+
+namespace fathom::app {
+
+/// What `render --engine pipeline --stats` says of a map.
+struct PipelineReport {
+  std::string map;  ///< the name of the file
+  std::uint32_t width = 0, height = 0;
+  pipeline::PipelineStatistics statistics;
+  std::optional<pipeline::PainterStatistics> painter;
+};
+
+/// An object for a single map, a list for several.
+std::string as_json(const std::vector<PipelineReport>& maps);
+
+}  // namespace fathom::app

@@ -1,0 +1,83 @@
+#include "apps/textbook/pipeline/trace_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+namespace fathom::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using pipeline::TriangleTrace;
+
+const char* name_of(pipeline::Facing facing) {
+  constexpr const char* names[] = {"front", "back", "edge on"};
+  return names[static_cast<std::size_t>(facing)];
+}
+
+Json to_json(const TriangleTrace& t) {
+  Json corners = Json::array(), polygon = Json::array();
+  for (const auto& c : t.corners)
+    corners.push_back({{"mesh", c.mesh}, {"world", c.world}, {"eye", c.eye}, {"clip", c.clip}});
+  for (const auto& c : t.polygon)
+    polygon.push_back(
+        {{"clip", c.clip}, {"ndc", c.ndc}, {"window", c.window}, {"snapped", c.snapped}});
+  Json answer{
+      {"near", t.near}, {"far", t.far}, {"vertex_transform", corners}, {"clipping", polygon}};
+  answer["facing"] = {{"world", name_of(t.in_world)}};
+  if (!t.polygon.empty()) {
+    answer["facing"]["ndc"] = name_of(t.in_ndc);
+    answer["facing"]["window"] = name_of(t.in_window);
+    answer["culled"] = t.culled;
+  }
+  answer["fragments"] = t.fragments;
+  if (t.sample) {
+    answer["sample"] = {
+        {"edges", t.sample->edges},       {"covered", t.sample->covered},
+        {"weights", t.sample->weights},   {"attribute_weights", t.sample->attribute_weights},
+        {"window_z", t.sample->window_z}, {"depth", t.sample->depth},
+        {"stored", t.sample->stored.bits}};
+  }
+  return answer;
+}
+
+}  // namespace
+
+std::string as_json(const TriangleTrace& t) {
+  return to_json(t).dump(2) + "\n";
+}
+
+std::string as_text(const TriangleTrace& t) {
+  constexpr const char* names = "ABC";
+  std::string text =
+      fmt::format("clip range: near {}, far {}\n\nvertex transform\n", t.near, t.far);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& c = t.corners[k];
+    text += fmt::format("  {}  mesh   ({})\n     world  ({})\n     eye    ({})\n     clip   ({})\n",
+                        names[k], fmt::join(c.mesh, ", "), fmt::join(c.world, ", "),
+                        fmt::join(c.eye, ", "), fmt::join(c.clip, ", "));
+  }
+  if (t.polygon.empty()) return text + "\nclipping: nothing is left in the view volume\n";
+  text += fmt::format("\nclipping, division, viewport: {} corners\n", t.polygon.size());
+  for (const auto& c : t.polygon)
+    text += fmt::format("  clip     ({})\n  NDC      ({})\n  window   ({})\n  snapped  ({})\n\n",
+                        fmt::join(c.clip, ", "), fmt::join(c.ndc, ", "), fmt::join(c.window, ", "),
+                        fmt::join(c.snapped, ", "));
+  text += fmt::format(
+      "facing: {} by N.V in the world, {} by n_z in NDC, {} by the determinant in the window{}\n",
+      name_of(t.in_world), name_of(t.in_ndc), name_of(t.in_window), t.culled ? ": culled" : "");
+  text += fmt::format("scan conversion: {} fragments\n", t.fragments);
+  if (!t.sample) return text;
+  const auto& s = *t.sample;
+  text += fmt::format("\nsample: {}\n  edge functions       {}\n  weights              {}\n",
+                      s.covered ? "covered" : "not covered", fmt::join(s.edges, ", "),
+                      fmt::join(s.weights, ", "));
+  text += fmt::format(
+      "  attribute weights    {}\n  window depth         {}\n  depth along the view {}\n"
+      "  stored               {:#x}\n",
+      fmt::join(s.attribute_weights, ", "), s.window_z, s.depth, s.stored.bits);
+  return text;
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,113 @@
+// fathom scan: lines.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "apps/textbook/scan/scan_reading.h"
+#include "apps/textbook/scan/scan_writing.h"
+#include "fathom/pipeline/scan/diamond_exit.h"
+#include "fathom/pipeline/scan/line.h"
+
+namespace fathom::app::scan {
+namespace {
+
+using pipeline::Pixel;
+using pipeline::PixelWindow;
+
+std::vector<double> ends_of(const Json& object) {
+  cases::expect_only(object, {"line", "width", "height"});
+  std::vector<double> ends = cases::numbers(cases::member(object, "line"), "line", 4, 4);
+  for (const double x : ends) checked_coordinate(x, "line");
+  return ends;
+}
+
+pipeline::LineEnds pixel_ends_of(const Json& object) {
+  const std::vector<double> ends = ends_of(object);
+  for (const double x : ends)
+    if (x != std::floor(x))
+      throw InputError(fmt::format(
+          "line: {} is no whole number; ends of lines are pixels, but for diamond-exit", x));
+  const auto whole = [&](std::size_t i) { return static_cast<std::int64_t>(ends[i]); };
+  return {whole(0), whole(1), whole(2), whole(3)};
+}
+
+/// Draws a line; `describe` makes the trace of a step from its state.
+template <class State, class Draw, class Describe>
+Json draw(const Json& object, const Form& form, const Draw& draw_line, const Describe& describe) {
+  const pipeline::LineEnds ends = pixel_ends_of(object);
+  const PixelWindow window = window_of(object);
+  if (window.is_unlimited()) PixelList::check_count(pipeline::LineAxes(ends).d_major + 1);
+  PixelList pixels(form.runs);
+  Json steps = Json::array();
+  draw_line(ends, window, [&](const Pixel& pixel, const State& state) {
+    pixels.add(pixel);
+    if (form.numbers.trace) {
+      Json step{{"pixel", {pixel.x, pixel.y}}};
+      step.update(describe(state));
+      steps.push_back(std::move(step));
+    }
+  });
+  Json result = pixels.json(false);
+  if (form.numbers.trace)
+    result["trace"] = {{"axis", pipeline::LineAxes(ends).steep ? "y" : "x"}, {"steps", steps}};
+  return result;
+}
+
+}  // namespace
+
+template <class Number>
+Json explicit_line(const Json& object, const Form& form) {
+  return draw<Number>(object, form, pipeline::explicit_line<Number>, [&](const Number& minor) {
+    return Json{{"minor", number_to_json(minor, form)}};
+  });
+}
+
+template <class Number>
+Json dda(const Json& object, const Form& form) {
+  return draw<Number>(object, form, pipeline::dda_line<Number>, [&](const Number& minor) {
+    return Json{{"minor", number_to_json(minor, form)}};
+  });
+}
+
+template <class Number>
+Json bresenham(const Json& object, const Form& form) {
+  return draw<std::int64_t>(object, form, pipeline::bresenham_line, [](std::int64_t error) {
+    return Json{{"error", error}};
+  });
+}
+
+template <class Number>
+Json midpoint(const Json& object, const Form& form) {
+  const pipeline::LineAxes axes(pixel_ends_of(object));
+  return draw<std::int64_t>(object, form, pipeline::midpoint_line, [&](std::int64_t d) {
+    const bool north_east = d > 0 || (d == 0 && axes.minor_sign > 0);
+    return Json{{"d", d}, {"choice", north_east ? "NE" : "E"}};
+  });
+}
+
+template <class Number>
+Json diamond_exit(const Json& object, const Form& form) {
+  const std::vector<double> ends = ends_of(object);
+  const auto number = [&](std::size_t i) { return pipeline::number_from<Number>(ends[i]); };
+  PixelList pixels(form.runs);
+  pipeline::diamond_exit_line<Number>({number(0), number(1), number(2), number(3)},
+                                      window_of(object),
+                                      [&](const Pixel& pixel) { pixels.add(pixel); });
+  return pixels.json(false);
+}
+
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+#define FATHOM_INSTANTIATE(Number)                               \
+  template Json explicit_line<Number>(const Json&, const Form&); \
+  template Json dda<Number>(const Json&, const Form&);           \
+  template Json bresenham<Number>(const Json&, const Form&);     \
+  template Json midpoint<Number>(const Json&, const Form&);      \
+  template Json diamond_exit<Number>(const Json&, const Form&);
+FATHOM_INSTANTIATE(pipeline::Exact)
+FATHOM_INSTANTIATE(double)
+FATHOM_INSTANTIATE(float)
+#undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
+
+}  // namespace fathom::app::scan

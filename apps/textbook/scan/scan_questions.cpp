@@ -1,0 +1,150 @@
+// fathom scan: questions about polygons, and flood fill.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "apps/textbook/scan/scan_reading.h"
+#include "apps/textbook/scan/scan_writing.h"
+#include "fathom/pipeline/scan/flood_fill.h"
+#include "fathom/pipeline/scan/polygon_tests.h"
+#include "fathom/pipeline/scan/tessellate.h"
+
+namespace fathom::app::scan {
+namespace {
+
+template <class Number>
+pipeline::Rings<Number> over(const clipping::Rings<double>& rings) {
+  pipeline::Rings<Number> result;
+  for (const auto& ring : rings) {
+    result.emplace_back();
+    for (const auto& p : ring)
+      result.back().push_back(
+          {pipeline::number_from<Number>(p.x), pipeline::number_from<Number>(p.y)});
+  }
+  return result;
+}
+
+template <class Number>
+std::vector<pipeline::Point<Number>> points_of(const Json& object) {
+  std::vector<pipeline::Point<Number>> points;
+  for (const auto& p : cases::points(object, "points", 2, 2))
+    points.push_back({pipeline::number_from<Number>(checked_coordinate(p[0], "points")),
+                      pipeline::number_from<Number>(checked_coordinate(p[1], "points"))});
+  return points;
+}
+
+template <class Number>
+Json ring_to_json(const pipeline::Ring<Number>& ring, const Form& form) {
+  Json list = Json::array();
+  for (const auto& p : ring) list.push_back(point_to_json(p, form));
+  return list;
+}
+
+pipeline::CharacterGrid grid_of(const Json& object) {
+  pipeline::CharacterGrid grid;
+  for (const Json& row : cases::list(cases::member(object, "grid"), "grid")) {
+    if (!row.is_string()) throw InputError(fmt::format("grid[{}]: expected a string", grid.size()));
+    grid.push_back(row.get<std::string>());
+    if (grid.back().size() != grid[0].size())
+      throw InputError(fmt::format("grid[{}] has {} characters, the first row {}", grid.size() - 1,
+                                   grid.back().size(), grid[0].size()));
+  }
+  if (grid.empty()) throw InputError("grid: expected at least one row");
+  return grid;
+}
+
+}  // namespace
+
+Json flood(const Json& object, const Form& form) {
+  cases::expect_only(object, {"grid", "seed", "connectivity"});
+  const pipeline::CharacterGrid grid = grid_of(object);
+  const auto seed = cases::numbers(cases::member(object, "seed"), "seed", 2, 2);
+  const Json connectivity = object.value("connectivity", Json(4));
+  if (connectivity != 4 && connectivity != 8)
+    throw InputError("\"connectivity\" is " + connectivity.dump() + "; expected 4 or 8");
+  if (seed[0] != std::floor(seed[0]) || seed[1] != std::floor(seed[1]) || seed[0] < 0 ||
+      seed[1] < 0 || seed[1] >= static_cast<double>(grid.size()) ||
+      seed[0] >= static_cast<double>(grid[0].size()))
+    throw InputError(fmt::format("seed: [{}, {}] is no pixel of the grid of {} by {}", seed[0],
+                                 seed[1], grid[0].size(), grid.size()));
+  PixelList pixels(form.runs);
+  for (const pipeline::Pixel& p : pipeline::flood_fill(
+           grid, {static_cast<std::int64_t>(seed[0]), static_cast<std::int64_t>(seed[1])},
+           connectivity == 4 ? pipeline::Connectivity::four : pipeline::Connectivity::eight))
+    pixels.add(p);
+  return pixels.json(false);
+}
+
+template <class Number>
+Json inside(const Json& object, const Form& form) {
+  cases::expect_only(object, {"polygon", "points", "width", "height"});
+  (void)form;
+  const pipeline::Rings<Number> rings = over<Number>(polygon_of(object));
+  Json even_odd = Json::array(), non_zero = Json::array(), crossings = Json::array(),
+       windings = Json::array(), on_outline = Json::array(), one_side = Json::array();
+  for (const auto& p : points_of<Number>(object)) {
+    const pipeline::RayCrossings ray = pipeline::ray_crossings(rings, p);
+    even_odd.push_back(ray.count % 2 != 0);
+    non_zero.push_back(ray.winding != 0);
+    crossings.push_back(ray.count);
+    windings.push_back(ray.winding);
+    on_outline.push_back(ray.on_outline);
+    one_side.push_back(rings.size() == 1 && pipeline::is_on_one_side_of_every_edge(rings[0], p));
+  }
+  Json result{{"inside", even_odd},
+              {"non_zero", non_zero},
+              {"crossings", crossings},
+              {"winding", windings},
+              {"on_outline", on_outline}};
+  if (rings.size() == 1) {
+    result["left_of_every_edge"] = one_side;
+    result["convex"] = pipeline::convexity_of(rings[0]).convex;
+  }
+  return result;
+}
+
+template <class Number>
+Json convexity(const Json& object, const Form& form) {
+  cases::expect_only(object, {"polygon", "width", "height"});
+  (void)form;
+  const pipeline::Rings<Number> rings = over<Number>(polygon_of(object));
+  if (rings.size() != 1)
+    throw InputError(fmt::format("polygon: {} rings; convexity is asked of one", rings.size()));
+  const pipeline::Convexity c = pipeline::convexity_of(rings[0]);
+  Json result{{"convex", c.convex},
+              {"corners_on_one_side", c.corners_on_one_side},
+              {"turns", c.turns},
+              {"turning_number", nullptr}};
+  if (c.turning_number) result["turning_number"] = *c.turning_number;
+  return result;
+}
+
+template <class Number>
+Json convex_hull(const Json& object, const Form& form) {
+  cases::expect_only(object, {"points", "width", "height"});
+  const auto points = points_of<Number>(object);
+  if (points.empty()) throw InputError("points: expected at least one");
+  return {{"hull", ring_to_json(pipeline::convex_hull(points), form)}};
+}
+
+Json tessellate(const Json& object, const Form& form) {
+  cases::expect_only(object, {"polygon", "width", "height"});
+  Json triangles = Json::array();
+  for (const auto& t : pipeline::tessellate(over<pipeline::Exact>(polygon_of(object))))
+    triangles.push_back(ring_to_json<pipeline::Exact>({t[0], t[1], t[2]}, form));
+  return {{"triangles", triangles}};
+}
+
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+#define FATHOM_INSTANTIATE(Number)                           \
+  template Json inside<Number>(const Json&, const Form&);    \
+  template Json convexity<Number>(const Json&, const Form&); \
+  template Json convex_hull<Number>(const Json&, const Form&);
+FATHOM_INSTANTIATE(pipeline::Exact)
+FATHOM_INSTANTIATE(double)
+FATHOM_INSTANTIATE(float)
+#undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
+
+}  // namespace fathom::app::scan

@@ -1,0 +1,80 @@
+#include "apps/textbook/scan/scan_reading.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/pipeline/subpixel_grid.h"
+
+namespace fathom::app::scan {
+namespace {
+
+std::int64_t size_of(const Json& object, const char* key) {
+  const Json& value = cases::member(object, key);
+  if (!value.is_number()) throw InputError(fmt::format("\"{}\": expected a number", key));
+  const double size = value.get<double>();
+  if (!(size >= 1 && size <= pipeline::greatest_coordinate) || size != std::floor(size))
+    throw InputError(
+        fmt::format("\"{}\" is {}; expected a whole number from 1 to 2147483648", key, size));
+  return static_cast<std::int64_t>(size);
+}
+
+}  // namespace
+
+pipeline::PixelWindow window_of(const Json& object) {
+  if (!object.contains("width") && !object.contains("height")) return {};
+  return {0, 0, size_of(object, "width"), size_of(object, "height")};
+}
+
+double checked_coordinate(double x, const std::string& where) {
+  if (std::abs(x) > pipeline::greatest_coordinate)
+    throw InputError(fmt::format("{}: {} is beyond 2^31 = 2147483648", where, x));
+  return x;
+}
+
+clipping::Rings<double> polygon_of(const Json& object) {
+  clipping::Rings<double> rings = cases::rings(object, "polygon");
+  if (rings.empty()) throw InputError("polygon: expected at least one ring");
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    if (rings[r].size() < 3)
+      throw InputError(
+          fmt::format("polygon ring {} has {} corners; expected at least 3", r, rings[r].size()));
+    for (const auto& p : rings[r]) {
+      checked_coordinate(p.x, fmt::format("polygon ring {}", r));
+      checked_coordinate(p.y, fmt::format("polygon ring {}", r));
+    }
+  }
+  return rings;
+}
+
+clipping::Ring<double> triangle_of(const Json& object, const Form& form) {
+  const auto corners = cases::points(object, "triangle", 2, 2);
+  if (corners.size() != 3)
+    throw InputError(fmt::format("triangle: {} corners; expected 3", corners.size()));
+  clipping::Ring<double> triangle;
+  for (const auto& p : corners) {
+    const double x = checked_coordinate(p[0], "triangle"), y = checked_coordinate(p[1], "triangle");
+    if (!form.subpixel_bits) {
+      triangle.push_back({x, y});
+    } else {
+      const pipeline::GridPoint snapped = pipeline::snap(x, y, *form.subpixel_bits);
+      triangle.push_back({static_cast<double>(snapped.x) / pipeline::grid_one,
+                          static_cast<double>(snapped.y) / pipeline::grid_one});
+    }
+  }
+  return triangle;
+}
+
+CarriedAlong carried_along(const Json& object, std::size_t corners) {
+  CarriedAlong carried{cases::attributes(object, corners), {}};
+  if (!object.contains("w")) return carried;
+  carried.w = cases::numbers(object["w"], "w", corners, corners);
+  for (std::size_t i = 0; i < corners; ++i)
+    if (carried.w[i] == 0)
+      throw InputError(fmt::format("w[{}] is 0: the corner lies at infinity", i));
+  if (!carried.any()) throw InputError("\"w\" stands without \"attributes\"");
+  return carried;
+}
+
+}  // namespace fathom::app::scan

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "apps/textbook/scan/scan_algorithms.h"
+#include "fathom/clipping/points.h"
+#include "fathom/pipeline/scan/polygon_fill.h"
+
+/// Reading the cases of `fathom scan`.
+/// Fails    InputError in words that name the place.
+namespace fathom::app::scan {
+
+/// "width" and "height", both or none: without them every pixel is asked for.
+pipeline::PixelWindow window_of(const Json& object);
+
+/// Refuses coordinates beyond ±2³¹; `where` names them.
+double checked_coordinate(double x, const std::string& where);
+
+/// The rings of "polygon", each of three corners or more.
+clipping::Rings<double> polygon_of(const Json& object);
+
+/// The corners of "triangle", snapped where --subpixel-bits says so.
+clipping::Ring<double> triangle_of(const Json& object, const Form& form);
+
+/// What is carried along at corners: "attributes" and "w".
+struct CarriedAlong {
+  std::vector<std::vector<double>> attributes;  ///< a list for each corner
+  std::vector<double> w;                        ///< one for each corner, or none
+
+  [[nodiscard]] bool any() const { return !attributes.empty() && !attributes[0].empty(); }
+};
+CarriedAlong carried_along(const Json& object, std::size_t corners);
+
+/// The attributes of a corner as they go through interpolation: a, or with w: a/w … and 1/w.
+template <class Number>
+std::vector<Number> prepared(const CarriedAlong& carried, std::size_t corner) {
+  std::vector<Number> result;
+  for (const double a : carried.attributes[corner])
+    result.push_back(pipeline::number_from<Number>(a));
+  if (carried.w.empty() || !carried.any()) return result;
+  const Number w = pipeline::number_from<Number>(carried.w[corner]);
+  for (Number& a : result) a = a / w;
+  result.push_back(Number(Number(1) / w));
+  return result;
+}
+
+/// Back from a/w … and 1/w to a.
+template <class Number>
+std::vector<Number> recovered(const CarriedAlong& carried, std::vector<Number> values) {
+  if (carried.w.empty() || values.empty()) return values;
+  const Number inverse_w = values.back();
+  values.pop_back();
+  if (inverse_w == Number(0)) throw InputError("1/w is 0 at a pixel: the w have different signs");
+  for (Number& a : values) a = a / inverse_w;
+  return values;
+}
+
+}  // namespace fathom::app::scan

@@ -1,0 +1,115 @@
+// fathom scan: triangles by edge functions.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/textbook/scan/scan_reading.h"
+#include "apps/textbook/scan/scan_writing.h"
+#include "fathom/pipeline/scan/edge_function.h"
+
+namespace fathom::app::scan {
+namespace {
+
+/// Centres that are tested before a case is refused.
+constexpr double most_tests = 1 << 26;
+
+template <class Number>
+Json trace_of(const std::optional<pipeline::EdgeTriangle<Number>>& triangle,
+              const clipping::Ring<double>& corners, const Form& form) {
+  Json list = Json::array();
+  for (const auto& p : corners) list.push_back({p.x, p.y});
+  Json trace{{"corners", list}};
+  if (!triangle) {
+    trace["degenerate"] = true;
+    return trace;
+  }
+  trace["twice_area"] = number_to_json(triangle->twice_area, form);
+  trace["winding"] = triangle->turned ? "clockwise" : "counter-clockwise";
+  Json edges = Json::array();
+  constexpr const char* names[] = {"BC", "CA", "AB"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& e = triangle->edges[k];
+    const Number zero(0);
+    edges.push_back({{"edge", names[k]},
+                     {"a", number_to_json(e.a, form)},
+                     {"b", number_to_json(e.b, form)},
+                     {"c", number_to_json(e.c, form)},
+                     {"kind", e.a > zero      ? "left"
+                              : e.left_or_top ? "top"
+                              : e.a < zero    ? "right"
+                                              : "bottom"}});
+  }
+  trace["edges"] = edges;
+  return trace;
+}
+
+void check_effort(const clipping::Ring<double>& t, const pipeline::PixelWindow& window) {
+  const auto [left, right] = std::minmax({t[0].x, t[1].x, t[2].x});
+  const auto [top, bottom] = std::minmax({t[0].y, t[1].y, t[2].y});
+  const auto overlap = [](double begin, double end, std::int64_t from, std::int64_t to) {
+    return std::max(
+        0.0, std::min(end, static_cast<double>(to)) - std::max(begin, static_cast<double>(from)));
+  };
+  const double tests = overlap(left, right, window.x_begin, window.x_end) *
+                       overlap(top, bottom, window.y_begin, window.y_end);
+  if (tests > most_tests)
+    throw InputError(
+        fmt::format("the triangle's box holds {:.0f} pixels, more than 67108864; \"width\" and "
+                    "\"height\" limit it, scan-line needs no box",
+                    tests));
+}
+
+}  // namespace
+
+template <class Number>
+Json edge_function(const Json& object, const Form& form) {
+  cases::expect_only(object, {"triangle", "width", "height", "attributes", "w"});
+  const clipping::Ring<double> ring = triangle_of(object, form);
+  const CarriedAlong carried = carried_along(object, 3);
+  const pipeline::PixelWindow window = window_of(object);
+  check_effort(ring, window);
+  std::array<pipeline::Point<Number>, 3> corners;
+  std::array<std::vector<Number>, 3> attributes;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners[k] = {pipeline::number_from<Number>(ring[k].x),
+                  pipeline::number_from<Number>(ring[k].y)};
+    attributes[k] = prepared<Number>(carried, k);
+  }
+  PixelList pixels(form.runs);
+  Json samples = Json::array();
+  const auto visit = [&](const pipeline::CoveredPixel<Number>& covered) {
+    pixels.add(covered.pixel);
+    if (carried.any()) {
+      std::vector<Number> value;
+      for (std::size_t i = 0; i < attributes[0].size(); ++i)
+        value.push_back(Number(covered.barycentric[0] * attributes[0][i] +
+                               covered.barycentric[1] * attributes[1][i] +
+                               covered.barycentric[2] * attributes[2][i]));
+      pixels.add_values(numbers_to_json(recovered(carried, std::move(value)), form));
+    }
+    if (form.numbers.trace) {
+      Json edges = Json::array(), weights = Json::array();
+      for (std::size_t k = 0; k < 3; ++k) {
+        edges.push_back(number_to_json(covered.edges[k], form));
+        weights.push_back(number_to_json(covered.barycentric[k], form));
+      }
+      samples.push_back({{"pixel", {covered.pixel.x, covered.pixel.y}},
+                         {"edges", edges},
+                         {"barycentric", weights}});
+    }
+  };
+  pipeline::rasterize_triangle<Number>(corners, window, visit);
+  Json result = pixels.json(carried.any());
+  if (form.numbers.trace) {
+    result["trace"] = trace_of(pipeline::edge_functions(corners), ring, form);
+    result["trace"]["samples"] = std::move(samples);
+  }
+  return result;
+}
+
+template Json edge_function<pipeline::Exact>(const Json&, const Form&);
+template Json edge_function<double>(const Json&, const Form&);
+template Json edge_function<float>(const Json&, const Form&);
+
+}  // namespace fathom::app::scan

@@ -1,0 +1,57 @@
+#include "apps/textbook/scan/scan_writing.h"
+
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app::scan {
+namespace {
+
+constexpr std::int64_t most_pixels = std::int64_t{1} << 24;
+
+}  // namespace
+
+void PixelList::check_count(std::int64_t pixels) {
+  if (pixels > most_pixels)
+    throw InputError("more than 16777216 pixels; \"width\" and \"height\" limit them");
+}
+
+void PixelList::count(std::int64_t pixels) {
+  check_count(total_ += pixels);
+}
+
+void PixelList::add(const pipeline::Pixel& p) {
+  count(1);
+  // Neighbours along a row join to a run, in either direction.
+  if (runs_ && !spans_.empty() && spans_.back().y == p.y) {
+    if (spans_.back().x_end == p.x) {
+      ++spans_.back().x_end;
+      return;
+    }
+    if (spans_.back().x_begin == p.x + 1) {
+      --spans_.back().x_begin;
+      return;
+    }
+  }
+  spans_.push_back({p.y, p.x, p.x + 1});
+}
+
+void PixelList::add(const pipeline::Span& span) {
+  if (span.x_begin >= span.x_end) return;
+  count(runs_ ? 1 : span.x_end - span.x_begin);
+  spans_.push_back(span);
+}
+
+Json PixelList::json(bool with_values) const {
+  Json list = Json::array();
+  for (const auto& [y, x_begin, x_end] : spans_) {
+    if (runs_) {
+      list.push_back({y, x_begin, x_end});
+    } else {
+      for (std::int64_t x = x_begin; x < x_end; ++x) list.push_back({x, y});
+    }
+  }
+  Json result{{runs_ ? "runs" : "pixels", std::move(list)}};
+  if (with_values) result["values"] = values_;
+  return result;
+}
+
+}  // namespace fathom::app::scan
