@@ -138,8 +138,8 @@ Mesh soup(std::uint32_t count, double depth_complexity, const Camera& camera) {
   Random random(50);
   Mesh mesh;
   const double width = camera.width, height = camera.height;
-  // Corners uniform in a square of side s make a triangle of area 11/144·s² on average [Henze
-  // 1983]; middles lie in a rectangle that reaches s/2 beyond the image, so that its border is
+  // Corners uniform in a square of side s make a triangle of area 11/144·s² on average
+  // [Hen83]; middles lie in a rectangle that reaches s/2 beyond the image, so that its border is
   // covered as its middle is: count·11/144·s² = depth_complexity·(width + s)·(height + s).
   const double k = depth_complexity * 144 / 11 / count;
   const double b = k * (width + height);

@@ -43,7 +43,7 @@ bool is_blank(std::string_view line) {
 int answer_lines(const std::string& file, const AnswerCase& answer_case) {
   const std::string name = file == "-" ? "standard input" : file;
   note_input(file);
-  const InputFile input(file);
+  const text::InputFile input(file);
   std::string_view rest = input.text();
   std::size_t number = 0, count = 0, failures = 0;
   std::string first_failure;

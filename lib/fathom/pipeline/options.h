@@ -34,7 +34,7 @@ struct Antialias {
   AntialiasMethod method = AntialiasMethod::none;
   /// ssaa: n of n × n; msaa: 1, 2, 4, 8 or 16; jitter: 1, 4, 16, 64 or 256; taa: frames.
   int count = 1;
-  /// msaa: not the standard positions but the 2 × 2 grid turned by arctan ½.
+  /// msaa: not the standard positions but the 2 × 2 grid turned by arctan ½ and enlarged by √5/2.
   bool rotated_grid = false;
 };
 
