@@ -15,6 +15,9 @@
 namespace {
 
 using namespace fathom;
+using namespace fathom::fast;
+using triangle::ChannelWriter;
+using triangle::SceneRays;
 
 /// A scene with what the engine makes of it.
 struct Stages {
@@ -111,7 +114,7 @@ void resolve(benchmark::State& state, const std::string& scene) {
     tiles.back()->start(stages.frame.grid.area(i));
     draw_tile(*tiles.back(), i, bins, objects, context);
   }
-  DepthMap map = make_background(camera, stages.options);
+  DepthMap map = triangle::make_background(camera, stages.options);
   ChannelWriter writer(map, stages.source, camera, stages.options);
   FastOutput output(map, writer, stages.rays);
   for (auto _ : state) {

@@ -12,13 +12,18 @@
 #include "fathom/depth_format/mapping.h"
 #include "fathom/depth_format/resolution.h"
 #include "fathom/triangle/referee.h"
+#include "fathom/triangle/sampling.h"
 
 namespace fathom::studies {
-namespace {
 
-ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
-  return {column + 0.5, row + 0.5};
-}
+using area::BoxedTriangle;
+using area::TriangleBands;
+using triangle::centre_of_pixel;
+using triangle::ProjectedTriangle;
+using triangle::Referee;
+using triangle::SceneRays;
+
+namespace {
 
 std::vector<LayeredSample> samples_of(const TriangleBands::Band& band, const Camera& camera,
                                       Referee& referee) {
