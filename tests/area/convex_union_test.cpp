@@ -38,6 +38,16 @@ Q difference_of(const ConvexPolygon& subject, const std::vector<ConvexPolygon>& 
   return checked_area(boundary_of_difference(subject, polygons, counts));
 }
 
+/// Bounds that are infinite would be true, but everything would be computed exactly, and slowly.
+TEST(ConvexUnion, ApproximateAreasAreClose) {
+  Lines lines;
+  TierCounts counts;
+  const ConvexPolygon squares[] = {lines.rectangle(0, 0, 2, 2).ours};
+  EXPECT_EQ(approximate_area({}).value, 0);
+  EXPECT_EQ(approximate_area({}).error, 0);
+  EXPECT_LT(approximate_area(boundary_of_union(squares, counts)).error, 1e-12);
+}
+
 TEST(ConvexUnion, SquaresOnPaper) {
   Lines lines;
   const auto square = [&](double left, double low, double side) {

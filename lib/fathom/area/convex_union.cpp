@@ -161,7 +161,7 @@ Ratio exact_area(const Boundary& boundary) {
 }
 
 Certified<double> approximate_area(const Boundary& boundary) {
-  if (boundary.empty()) return {};
+  if (boundary.empty()) return {0, 0};
   Certified<double> twice{0, 0};
   for (const BoundarySegment& s : boundary) {
     if (s.line->exact()[2].is_zero()) continue;
