@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/other_map.h"
-#include "fathom/attribution/renderer_model.h"
 
 namespace fathom::validation {
 

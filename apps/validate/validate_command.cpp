@@ -20,7 +20,7 @@
 #include "apps/shell/values.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/attribution/attribute_and_name.h"
-#include "fathom/attribution/named_models.h"
+#include "fathom/attribution/model/named_models.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/image/map_files.h"

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "fathom/attribution/clip_from_held.h"
-#include "fathom/attribution/named_models.h"
+#include "fathom/attribution/model/clip_from_held.h"
+#include "fathom/attribution/model/named_models.h"
 #include "fathom/camera/camera_making.h"
 #include "tests/attribution/float_rasterizer.h"
 #include "validation/bench/shapes.h"

@@ -1,4 +1,4 @@
-#include "fathom/attribution/cut_polygon.h"
+#include "fathom/attribution/raster/cut_polygon.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fathom/attribution/depth_relation.h"
+#include "fathom/attribution/faults/depth_relation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

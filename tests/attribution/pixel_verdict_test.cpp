@@ -1,11 +1,11 @@
-#include "fathom/attribution/pixel_verdict.h"
+#include "fathom/attribution/pixels/pixel_verdict.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <vector>
 
-#include "fathom/attribution/corner_numbers.h"
+#include "fathom/attribution/pixels/corner_numbers.h"
 
 /// What fragments allow together: a square of two triangles, the sample near their diagonal.
 namespace fathom::attribution {

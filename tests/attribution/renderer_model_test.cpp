@@ -1,11 +1,11 @@
-#include "fathom/attribution/renderer_model.h"
+#include "fathom/attribution/model/renderer_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "fathom/attribution/named_models.h"
+#include "fathom/attribution/model/named_models.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::attribution {

@@ -1,4 +1,4 @@
-#include "fathom/attribution/shift_estimate.h"
+#include "fathom/attribution/faults/shift_estimate.h"
 
 #include <gtest/gtest.h>
 

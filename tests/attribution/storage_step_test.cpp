@@ -1,4 +1,4 @@
-#include "fathom/attribution/storage_step.h"
+#include "fathom/attribution/pixels/storage_step.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fathom/attribution/window_depth.h"
+#include "fathom/attribution/model/window_depth.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fathom/attribution/written_depth.h"
+#include "fathom/attribution/model/written_depth.h"
 
 #include <gtest/gtest.h>
 

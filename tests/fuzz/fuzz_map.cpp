@@ -1,7 +1,7 @@
 #include <cstdint>
 #include <span>
 
-#include "fathom/image/map_codecs.h"
+#include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/errors.h"
 
 /// Readers of EXR, PFM, PNG and NPY: any bytes are a map or an InputError. A map that was read has

@@ -12,8 +12,8 @@
 
 #include <cstring>
 
-#include "fathom/image/exr_streams.h"
-#include "fathom/image/map_codecs.h"
+#include "fathom/image/files/exr_streams.h"
+#include "fathom/image/files/map_codecs.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/numeric/errors.h"
 #include "tests/image/map_samples.h"

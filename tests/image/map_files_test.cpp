@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fathom/image/map_codecs.h"
+#include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/binary16.h"
 #include "fathom/numeric/errors.h"
 #include "tests/image/map_samples.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/image/legend.h"
+#include "fathom/image/pictures/legend.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "tests/image/map_samples.h"

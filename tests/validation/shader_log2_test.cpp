@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include "fathom/attribution/written_depth.h"
+#include "fathom/attribution/model/written_depth.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/gl_functions.h"
 

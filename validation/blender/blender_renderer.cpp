@@ -9,7 +9,7 @@
 #include <fstream>
 #include <limits>
 
-#include "fathom/attribution/named_models.h"
+#include "fathom/attribution/model/named_models.h"
 #include "fathom/image/map_files.h"
 #include "fathom/numeric/errors.h"
 #include "validation/blender/blender_camera.h"

@@ -1,6 +1,6 @@
 #include "validation/embree/binary32_view.h"
 
-#include "fathom/attribution/camera_rays.h"
+#include "fathom/attribution/ray/camera_rays.h"
 
 namespace fathom::validation {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "fathom/attribution/renderer_model.h"
+#include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"
 #include "validation/opengl/gl_functions.h"

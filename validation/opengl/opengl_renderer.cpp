@@ -6,9 +6,9 @@
 #include <array>
 #include <limits>
 
-#include "fathom/attribution/camera_rays.h"
-#include "fathom/attribution/clip_from_held.h"
-#include "fathom/attribution/window_depth.h"
+#include "fathom/attribution/model/clip_from_held.h"
+#include "fathom/attribution/model/window_depth.h"
+#include "fathom/attribution/ray/camera_rays.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/unit_roundoff.h"
 #include "validation/opengl/drawn_mesh.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/attribution/opengl_matrices.h"
+#include "fathom/attribution/model/opengl_matrices.h"
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/numeric/errors.h"

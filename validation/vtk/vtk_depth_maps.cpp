@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "fathom/attribution/window_depth.h"
+#include "fathom/attribution/model/window_depth.h"
 #include "validation/opengl/opengl_renderer.h"
 #include "validation/vtk/vtk_renderer.h"
 

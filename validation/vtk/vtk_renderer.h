@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/opengl_matrices.h"
+#include "fathom/attribution/model/opengl_matrices.h"
+#include "fathom/attribution/model/written_depth.h"
 #include "fathom/attribution/world_mesh.h"
-#include "fathom/attribution/written_depth.h"
 #include "fathom/depth_format/depth_format.h"
 
 namespace fathom::validation {

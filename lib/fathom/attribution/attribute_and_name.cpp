@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "fathom/attribution/depth_relation.h"
-#include "fathom/attribution/hypotheses.h"
+#include "fathom/attribution/faults/depth_relation.h"
+#include "fathom/attribution/faults/hypotheses.h"
 
 // How to read this file: attribute_and_name() at the end. What names single triangles comes first;
 // where that does not explain nine tenths, what names faults of the whole image.

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "fathom/attribution/fragment_source.h"
-#include "fathom/attribution/pixel_judge.h"
-#include "fathom/attribution/statistics.h"
+#include "fathom/attribution/pixels/pixel_judge.h"
+#include "fathom/attribution/pixels/statistics.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::attribution {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/other_map.h"
 #include "fathom/attribution/pixel_class.h"
-#include "fathom/attribution/renderer_model.h"
 #include "fathom/attribution/truth.h"
 
 /// Every pixel of another renderer's map, attributed to a cause (docs/validation.md).

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "fathom/attribution/fragment.h"
-#include "fathom/attribution/renderer_model.h"
+#include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"
 #include "fathom/geometry/pixel_box.h"

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "fathom/attribution/corner_numbers.h"
+#include "fathom/attribution/pixels/corner_numbers.h"
 #include "fathom/render.h"
 
 namespace fathom::attribution {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "fathom/image/map_codecs.h"
+#include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "fathom/image/compare_internal.h"
-#include "fathom/image/legend.h"
+#include "fathom/image/pictures/legend.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 

@@ -1,0 +1,60 @@
+#include "fathom/attribution/model/opengl_matrices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fathom::attribution {
+
+ClipRange clip_range(const WorldMesh& mesh, const Camera& camera) {
+  const bool perspective = camera.projection == Projection::perspective;
+  if (std::isfinite(camera.far) && (camera.near > 0 || !perspective)) {
+    return {camera.near, camera.far};
+  }
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  const auto& r = camera.world_to_camera[2];
+  for (const auto& [x, y, z] : mesh.points) {
+    const double depth = r[0] * x + r[1] * y + r[2] * z + r[3];
+    if (depth <= 0) continue;
+    least = std::min(least, depth);
+    greatest = std::max(greatest, depth);
+  }
+  if (greatest == 0) return {1, 2};  // nothing lies in front
+  const double far = std::min(greatest * 1.001, camera.far);
+  const double near = std::max(least * 0.999, camera.near);
+  return {perspective ? std::max(near, far / 1e4) : near, far};
+}
+
+Matrix4 eye_from_world(const Camera& camera) {
+  const auto& [x, y, z] = camera.world_to_camera;
+  return {x[0],  x[1],  x[2],  x[3],  -y[0], -y[1], -y[2], -y[3],
+          -z[0], -z[1], -z[2], -z[3], 0,     0,     0,     1};
+}
+
+Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range, ClipDepth depth) {
+  const double w = camera.width, h = camera.height;
+  const double cx = camera.cx + (0.5 - camera.pixel_centre);
+  const double cy = camera.cy + (0.5 - camera.pixel_centre);
+  const double length = range.far - range.near, sum = range.far + range.near;
+  const bool reversed = depth == ClipDepth::one_to_zero;
+  // The row of z: of the eye's z, and constant.
+  const double z_orthographic = (reversed ? 1 : -2) / length;
+  const double one_orthographic = (reversed ? range.far : -sum) / length;
+  const double z_perspective = (reversed ? range.near : -sum) / length;
+  const double one_perspective = (reversed ? 1 : -2) * range.far * range.near / length;
+  const double xx = 2 * camera.fx / w, xy = -2 * camera.skew / w, yy = 2 * camera.fy / h;
+  // clang-format off
+  if (camera.projection == Projection::orthographic) {
+    return {xx, xy, 0,              2 * cx / w - 1,
+            0,  yy, 0,              1 - 2 * cy / h,
+            0,  0,  z_orthographic, one_orthographic,
+            0,  0,  0,              1};
+  }
+  return {xx, xy, 1 - 2 * cx / w, 0,
+          0,  yy, 2 * cy / h - 1, 0,
+          0,  0,  z_perspective,  one_perspective,
+          0,  0,  -1,             0};
+  // clang-format on
+}
+
+}  // namespace fathom::attribution

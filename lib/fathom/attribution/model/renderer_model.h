@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "fathom/attribution/model/written_depth.h"
+#include "fathom/depth_format/depth_format.h"
+
+/// What is assumed of a renderer whose map is compared with the truth. docs/validation.md derives
+/// the bounds that follow from it.
+namespace fathom::attribution {
+
+/// Corners are transformed and snapped to a grid; window depth is interpolated and stored.
+struct RasterModel {
+  /// Corners are held in binary32 as (position − shift)·scale, component by component.
+  ///
+  /// Frame    world, scene units.
+  std::array<double, 3> shift{0, 0, 0}, scale{1, 1, 1};
+  /// The matrix that takes held positions to clip coordinates, row by row, where it is known; its
+  /// entries then are not a source of error, and neither are the positions.
+  std::optional<std::array<float, 16>> matrix;
+  /// Whether model-view and projection are multiplied to one matrix before corners meet them.
+  bool premultiplied = true;
+  /// Corners are snapped to multiples of 2^−subpixel_bits pixel.
+  int subpixel_bits = 8;
+  /// Whether triangles are cut at the border of the image, or may be, or are not.
+  enum class Cut { always, unknown, never } border = Cut::unknown;
+
+  /// From depths to window depths, of the one that is interpolated.
+  Mapping mapping = Mapping::opengl;
+  Storage storage = Storage::unorm24;
+  /// What a fragment shader writes in place of the interpolated window depth; `mapping` is then
+  /// that of the interpolated one, between whose near and far triangles are cut.
+  std::optional<WrittenDepth> written;
+  /// Whether depth is interpolated between corners as they were before they were snapped.
+  bool depth_before_snap = false;
+  /// Depths were decoded from window depths in binary32 before they reached us.
+  bool decoded_in_binary32 = false;
+  /// Added to every window depth (polygon offset), and how uncertain that is.
+  double bias = 0, bias_error = 0;
+  /// Depth and not window depth is interpolated linearly: a fault, for hypotheses.
+  bool affine = false;
+
+  /// The mapping of what is stored.
+  [[nodiscard]] Mapping stored_mapping() const { return written ? written->mapping : mapping; }
+};
+
+/// A ray is intersected with triangles; the depth of the hit is stored as binary32.
+struct RayModel {
+  /// Corners are held in binary32 as position − shift. Frame: world, scene units.
+  std::array<double, 3> shift{0, 0, 0};
+  /// Roundings that an edge test or a distance may have gone through.
+  double roundings = 16;
+  /// How far each entry of the camera's rotation may be off, where the renderer makes it anew.
+  double rotation_error = 0;
+  /// The depth of a hit is computed from its position in the world.
+  bool depth_from_point = false;
+};
+
+/// Where in the pixel the sample lies, from its top left corner, and how far from there it may be
+/// in either direction. In pixels.
+struct SamplePosition {
+  double x = 0.5, y = 0.5;
+  double error = 0;
+};
+
+/// What renderers of all kinds have, and the kind.
+struct RendererModel {
+  std::string name;
+  SamplePosition sample;
+  /// No sample between two triangles that share an edge is missed.
+  bool watertight = true;
+  /// Of triangles with the same corners the one of the lowest number is seen.
+  bool first_of_equals = false;
+  std::variant<RasterModel, RayModel> kind;
+};
+
+}  // namespace fathom::attribution

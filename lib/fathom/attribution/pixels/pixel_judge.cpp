@@ -1,0 +1,167 @@
+#include "fathom/attribution/pixels/pixel_judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+// How to read this file: judge() at the end. explaining() says what may be stored, classify() why
+// what is stored is.
+namespace fathom::attribution {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// How much farther than the visible surface all others have to be, in window depth, for a pixel
+/// to count in the mean of stored minus exact.
+constexpr double extra_for_bias = 1e-3;
+
+/// Whether the visible triangle is certain to be drawn and nothing else is near it.
+bool is_alone(const Fragment& visible, const std::vector<Fragment>& fragments) {
+  return visible.coverage == Coverage::must &&
+         std::all_of(fragments.begin(), fragments.end(), [&](const Fragment& f) {
+           return &f == &visible || f.value.lower > visible.value.upper + extra_for_bias;
+         });
+}
+
+}  // namespace
+
+PixelJudge::PixelJudge(const Truth& truth, const OtherMap& other, const RendererModel& model)
+    : truth_(truth),
+      other_(other),
+      watertight_(model.watertight),
+      first_of_equals_(model.first_of_equals && !other.triangles.empty()),
+      values_(stored_values(truth.camera, other, model)) {}
+
+PixelJudge::Pixel PixelJudge::pixel(std::size_t index,
+                                    const std::vector<Fragment>& fragments) const {
+  return {index, fragments,
+          verdict_of(fragments, watertight_, truth_.mesh.triangles, truth_.corner_numbers)};
+}
+
+/// A triangle with the same corners in the same order and a lower number is certain to be seen
+/// instead.
+bool PixelJudge::is_later_of_equals(const Pixel& p, const Fragment& f) const {
+  const auto corners = [&](std::uint32_t triangle) {
+    CornerIndices t = truth_.mesh.triangles[triangle];
+    for (std::uint32_t& corner : t) corner = truth_.corner_numbers[corner];
+    return t;
+  };
+  return std::any_of(p.fragments.begin(), p.fragments.end(), [&](const Fragment& g) {
+    return g.triangle < f.triangle && corners(g.triangle) == corners(f.triangle);
+  });
+}
+
+/// A fragment that may be what is seen here: the visible triangle where it may be, else the one
+/// whose exact value is nearest to what is stored.
+const Fragment* PixelJudge::explaining(const Pixel& p, double stored) const {
+  const double farthest = values_->limit(p.verdict.cap);
+  const Fragment* best = nullptr;
+  for (const Fragment& f : p.fragments) {
+    if (!other_.triangles.empty() && f.triangle != other_.triangles[p.index]) continue;
+    const Interval allowed = values_->interval(f);
+    if (!(allowed.lower <= stored && stored <= allowed.upper)) continue;
+    if (allowed.lower > farthest || stored > farthest) continue;
+    if (first_of_equals_ && is_later_of_equals(p, f)) continue;
+    if (&f == p.visible) return &f;
+    const auto distance = [&](const Fragment& g) { return std::abs(values_->exact(g) - stored); };
+    if (best == nullptr || distance(f) < distance(*best)) best = &f;
+  }
+  return best;
+}
+
+/// The other map shows the background.
+PixelClass PixelJudge::class_of_none(const Pixel& p) const {
+  if (truth_.triangles[p.index] == no_surface) return PixelClass::equal;
+  if (p.verdict.must) return PixelClass::unexplained;
+  return p.verdict.must_if_watertight ? PixelClass::missed : PixelClass::edge;
+}
+
+/// The other map shows the visible triangle.
+PixelClass PixelJudge::class_of_visible(const Pixel& p) const {
+  const double depth = truth_.depths[p.index];
+  if (values_->is_nearest(p.index, depth)) return PixelClass::equal;
+  return values_->is_neighbour(p.index, depth) ? PixelClass::quantization : PixelClass::arithmetic;
+}
+
+PixelClass PixelJudge::class_of_another(const Pixel& p, const Fragment& seen) const {
+  if (p.visible == nullptr) return PixelClass::edge;
+  const bool is_nearest = values_->is_nearest(p.index, truth_.depths[p.index]);
+  if (is_nearest && other_.triangles.empty()) return PixelClass::equal;
+  if (p.visible->coverage == Coverage::must && seen.coverage == Coverage::must) {
+    return PixelClass::z_fight;
+  }
+  const bool behind = values_->interval(seen).lower > values_->interval(*p.visible).upper;
+  if (behind && p.verdict.must_if_watertight && !p.verdict.must) return PixelClass::missed;
+  return PixelClass::edge;
+}
+
+PixelClass PixelJudge::classify(const Pixel& p) const {
+  const double stored = values_->other(p.index);
+  const Fragment* const seen = explaining(p, stored);
+  if (values_->is_background(p.index)) {
+    const PixelClass none = class_of_none(p);
+    const bool may_be_a_surface = values_->surfaces_may_look_like_background() && seen != nullptr;
+    if (none != PixelClass::unexplained || !may_be_a_surface) return none;
+  }
+  if (seen == nullptr) return PixelClass::unexplained;
+  const bool is_visible = p.visible != nullptr && seen->triangle == p.visible->triangle;
+  return is_visible ? class_of_visible(p) : class_of_another(p, *seen);
+}
+
+/// Of an unexplained pixel: whether that is because a later one of equal triangles is shown.
+bool PixelJudge::shows_later_of_equals(const Pixel& p) const {
+  if (!first_of_equals_) return false;
+  const auto shown = std::find_if(p.fragments.begin(), p.fragments.end(), [&](const Fragment& f) {
+    return f.triangle == other_.triangles[p.index];
+  });
+  return shown != p.fragments.end() && is_later_of_equals(p, *shown);
+}
+
+/// Whether the pixel would be explained if a triangle were not there.
+bool PixelJudge::is_explained_without(std::uint32_t triangle, const Pixel& p) const {
+  std::vector<Fragment> others;
+  for (const Fragment& f : p.fragments) {
+    if (f.triangle != triangle) others.push_back(f);
+  }
+  const Pixel without = pixel(p.index, others);
+  const bool shows_none = other_.depths[p.index] == infinity;
+  return shows_none ? !without.verdict.must
+                    : explaining(without, values_->other(p.index)) != nullptr;
+}
+
+void PixelJudge::measure(const Pixel& p, PixelResult& result) const {
+  result.touched = !p.fragments.empty();
+  for (const Fragment& f : p.fragments) {
+    if (f.coverage == Coverage::may && f.value.lower <= p.verdict.cap) result.may = true;
+  }
+  if (p.visible == nullptr) return;
+  const double depth = truth_.depths[p.index];
+  const Interval allowed = values_->as_depths(*p.visible);
+  result.visible = {allowed, (allowed.upper - allowed.lower) / depth,
+                    values_->steps(*p.visible, depth)};
+  if (!(other_.depths[p.index] < infinity)) return;
+  if (result.pixel_class <= PixelClass::arithmetic) {  // the same surface
+    const double error = std::abs(other_.depths[p.index] - depth);
+    result.error = {error, error / depth};
+  }
+  if (is_alone(*p.visible, p.fragments)) result.bias = values_->bias_steps(p.index, *p.visible);
+}
+
+PixelResult PixelJudge::judge(std::size_t index, const std::vector<Fragment>& fragments) const {
+  Pixel p = pixel(index, fragments);
+  const std::uint32_t visible = truth_.triangles[index];
+  for (const Fragment& f : fragments) {
+    if (f.triangle == visible) p.visible = &f;
+  }
+  PixelResult result;
+  result.pixel_class = classify(p);
+  if (result.pixel_class == PixelClass::unexplained) {
+    result.wrong_tie = shows_later_of_equals(p);
+    const bool may_be_absent = visible != no_surface && !result.wrong_tie;
+    if (may_be_absent && is_explained_without(visible, p)) result.absent = visible;
+  }
+  measure(p, result);
+  return result;
+}
+
+}  // namespace fathom::attribution

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fathom/attribution/attribution.h"
+#include "fathom/attribution/fragment.h"
+#include "fathom/attribution/pixels/pixel_verdict.h"
+#include "fathom/attribution/pixels/stored_values.h"
+
+namespace fathom::attribution {
+
+/// What is found at one pixel.
+struct PixelResult {
+  PixelClass pixel_class = PixelClass::equal;
+  /// A triangle may be seen here or not; some triangle is drawn here or may be.
+  bool may = false, touched = false;
+  /// Unexplained, and another than the first of equal triangles is shown.
+  bool wrong_tie = false;
+  /// The triangle whose absence would explain it, if it is unexplained.
+  std::uint32_t absent = no_surface;
+
+  /// Of the visible triangle: the depths that the model allows, in scene units, and their width in
+  /// steps of the storage.
+  struct Visible {
+    Interval depths;
+    double relative_width = 0, steps_width = 0;
+  };
+  std::optional<Visible> visible;
+  /// Where both maps show the same surface: how far the depth is off, in scene units and relative.
+  struct Error {
+    double absolute = 0, relative = 0;
+  };
+  std::optional<Error> error;
+  /// Stored minus expected, in steps of the storage, where nothing else is near.
+  std::optional<double> bias;
+};
+
+/// Says what may be stored at a pixel, and why what is stored is. Calls may come from several
+/// threads. Truth and map outlive it.
+class PixelJudge {
+ public:
+  PixelJudge(const Truth& truth, const OtherMap& other, const RendererModel& model);
+
+  /// `fragments`: all of the model's at the pixel.
+  [[nodiscard]] PixelResult judge(std::size_t pixel, const std::vector<Fragment>& fragments) const;
+
+ private:
+  /// What is asked at one pixel.
+  struct Pixel {
+    std::size_t index = 0;
+    const std::vector<Fragment>& fragments;
+    PixelVerdict verdict;
+    const Fragment* visible = nullptr;  ///< the fragment of the visible triangle
+  };
+
+  [[nodiscard]] Pixel pixel(std::size_t index, const std::vector<Fragment>& fragments) const;
+  [[nodiscard]] const Fragment* explaining(const Pixel& p, double stored) const;
+  [[nodiscard]] bool is_later_of_equals(const Pixel& p, const Fragment& f) const;
+  [[nodiscard]] bool shows_later_of_equals(const Pixel& p) const;
+  [[nodiscard]] bool is_explained_without(std::uint32_t triangle, const Pixel& p) const;
+  [[nodiscard]] PixelClass classify(const Pixel& p) const;
+  [[nodiscard]] PixelClass class_of_none(const Pixel& p) const;
+  [[nodiscard]] PixelClass class_of_visible(const Pixel& p) const;
+  [[nodiscard]] PixelClass class_of_another(const Pixel& p, const Fragment& seen) const;
+  void measure(const Pixel& p, PixelResult& result) const;
+
+  const Truth& truth_;
+  const OtherMap& other_;
+  bool watertight_, first_of_equals_;
+  std::unique_ptr<const StoredValues> values_;
+};
+
+}  // namespace fathom::attribution

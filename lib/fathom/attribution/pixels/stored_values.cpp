@@ -1,0 +1,39 @@
+#include "fathom/attribution/pixels/stored_values.h"
+
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "fathom/numeric/unit_roundoff.h"
+
+namespace fathom::attribution {
+namespace {
+
+struct Values {
+  const Camera& camera;
+  const OtherMap& other;
+
+  std::unique_ptr<StoredValues> operator()(const RasterModel& model) const {
+    return raster_values(camera, other, model);
+  }
+  std::unique_ptr<StoredValues> operator()(const RayModel& /*model*/) const {
+    return ray_values(other);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<StoredValues> stored_values(const Camera& camera, const OtherMap& other,
+                                            const RendererModel& model) {
+  return std::visit(Values{camera, other}, model.kind);
+}
+
+Interval rounded_to_binary32(const Interval& depths) {
+  const auto [lower, upper] = depths;
+  return {lower - 2 * unit_roundoff<float> * std::abs(lower),
+          upper == std::numeric_limits<double>::infinity()
+              ? upper
+              : upper + 2 * unit_roundoff<float> * std::abs(upper)};
+}
+
+}  // namespace fathom::attribution

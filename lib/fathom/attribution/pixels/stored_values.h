@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+#include "fathom/attribution/fragment.h"
+#include "fathom/attribution/model/renderer_model.h"
+#include "fathom/attribution/other_map.h"
+#include "fathom/camera/camera.h"
+#include "fathom/numeric/interval.h"
+
+namespace fathom::attribution {
+
+/// What fragments and the other map are compared by: window depths where the other's are known (the
+/// nearer the less), else depths in scene units. Pixels are numbered row by row from the top left.
+class StoredValues {
+ public:
+  StoredValues() = default;
+  virtual ~StoredValues() = default;
+  StoredValues(const StoredValues&) = delete;
+  StoredValues& operator=(const StoredValues&) = delete;
+
+  /// All values that may be stored for a fragment, and what is stored without any rounding.
+  [[nodiscard]] virtual Interval interval(const Fragment& f) const = 0;
+  [[nodiscard]] virtual double exact(const Fragment& f) const = 0;
+  /// A bound on fragments' values as a bound on what is compared.
+  [[nodiscard]] virtual double limit(double value) const = 0;
+  /// What the other map holds.
+  [[nodiscard]] virtual double other(std::size_t pixel) const = 0;
+  /// All depths that may be read for a fragment.
+  [[nodiscard]] virtual Interval as_depths(const Fragment& f) const = 0;
+
+  /// Whether the other map shows the background, and whether a surface may look just like it: at
+  /// the far plane, where window depths are known.
+  [[nodiscard]] virtual bool is_background(std::size_t pixel) const = 0;
+  [[nodiscard]] virtual bool surfaces_may_look_like_background() const = 0;
+
+  /// Whether the other's value is the exact depth's rounded once, or next to it.
+  [[nodiscard]] virtual bool is_nearest(std::size_t pixel, double depth) const = 0;
+  [[nodiscard]] virtual bool is_neighbour(std::size_t pixel, double depth) const = 0;
+  /// Width of a fragment's interval in steps of the storage about `depth`.
+  [[nodiscard]] virtual double steps(const Fragment& f, double depth) const = 0;
+  /// The other's distance from what the model expects without any rounding of its own, in steps of
+  /// the storage; nothing for a model without window depths.
+  [[nodiscard]] virtual std::optional<double> bias_steps(std::size_t pixel,
+                                                         const Fragment& f) const = 0;
+};
+
+/// The map outlives what is returned.
+std::unique_ptr<StoredValues> stored_values(const Camera& camera, const OtherMap& other,
+                                            const RendererModel& model);
+std::unique_ptr<StoredValues> raster_values(const Camera& camera, const OtherMap& other,
+                                            const RasterModel& model);
+std::unique_ptr<StoredValues> ray_values(const OtherMap& other);
+
+/// Depths as they may be once they are decoded and rounded to binary32.
+Interval rounded_to_binary32(const Interval& depths);
+
+}  // namespace fathom::attribution

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "fathom/attribution/model/renderer_model.h"
+#include "fathom/attribution/model/window_depth.h"
+#include "fathom/attribution/raster/clip_vertex.h"
+#include "fathom/attribution/raster/depth_plane.h"
+#include "fathom/attribution/raster/window_vertex.h"
+#include "fathom/camera/camera.h"
+
+namespace fathom::attribution {
+
+/// A triangle in the image as a rasterizer may have cut it, with what it interpolates over it.
+struct RasterPolygon {
+  std::vector<WindowVertex> corners;
+  /// Of the window depth; of what a fragment shader makes its own of, where it writes one.
+  DepthPlane plane, q;
+  /// The plane of depths instead, for a renderer that interpolates those linearly.
+  DepthPlane linear;
+  /// The corners run clockwise, seen with y down.
+  bool turned = false;
+  /// A corner may lie in the plane of the eye: nothing is known of where it is seen.
+  bool anywhere = false;
+};
+
+/// Every way in which a renderer of the model may cut a triangle, whatever its roundings are: none
+/// where it is certainly not seen, else one or two.
+class RasterPolygons {
+ public:
+  RasterPolygons(const Camera& camera, const RasterModel& model)
+      : camera_(camera),
+        model_(model),
+        window_(window_depth(camera.projection, model.mapping, camera.near, camera.far)) {}
+
+  [[nodiscard]] std::vector<RasterPolygon> of(
+      const std::array<const ClipVertex*, 3>& triangle) const;
+
+ private:
+  [[nodiscard]] std::optional<RasterPolygon> polygon(
+      const std::array<const ClipVertex*, 3>& triangle, bool at_border) const;
+  void set_planes(RasterPolygon& polygon) const;
+
+  Camera camera_;
+  RasterModel model_;
+  WindowDepth window_;  ///< of what is interpolated
+};
+
+}  // namespace fathom::attribution

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "fathom/attribution/fragment_source.h"
+#include "fathom/attribution/image_box.h"
+#include "fathom/attribution/ray/model_ray.h"
+#include "fathom/attribution/ray/ray_triangle.h"
+#include "fathom/attribution/ray/vector3.h"
+#include "fathom/numeric/unit_roundoff.h"
+
+namespace fathom::attribution {
+namespace {
+
+constexpr double u = unit_roundoff<float>;
+
+/// A corner in the camera frame, and the greatest of the terms that its coordinates are sums of.
+struct CameraCorner {
+  Vector3 position{};
+  double size = 0;
+};
+
+CameraCorner in_camera(const Camera& camera, const Vector3& p) {
+  CameraCorner corner;
+  for (std::size_t r = 0; r < 3; ++r) {
+    const auto& m = camera.world_to_camera[r];
+    corner.position[r] = m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3];
+    corner.size = std::max({corner.size, std::abs(m[0] * p[0]), std::abs(m[1] * p[1]),
+                            std::abs(m[2] * p[2]), std::abs(m[3])});
+  }
+  return corner;
+}
+
+class RayFragments final : public FragmentSource {
+ public:
+  RayFragments(const WorldMesh& mesh, const Camera& camera, const SamplePosition& sample,
+               const RayModel& model)
+      : mesh_(mesh), sample_(sample), model_(model), rays_(camera, model, sample.error) {}
+
+  [[nodiscard]] PixelBox box(std::uint32_t triangle) const override;
+  void each(std::uint32_t triangle, const PixelBox& box, const TakeFragment& take) const override;
+
+ private:
+  [[nodiscard]] std::array<Vector3, 3> corners(std::uint32_t triangle) const {
+    const CornerIndices& t = mesh_.triangles[triangle];
+    return {mesh_.points[t[0]] - model_.shift, mesh_.points[t[1]] - model_.shift,
+            mesh_.points[t[2]] - model_.shift};
+  }
+
+  const WorldMesh& mesh_;
+  SamplePosition sample_;
+  RayModel model_;
+  ModelRays rays_;
+};
+
+PixelBox RayFragments::box(std::uint32_t triangle) const {
+  const Camera& c = rays_.camera();
+  const double cx = c.cx + (0.5 - c.pixel_centre), cy = c.cy + (0.5 - c.pixel_centre);
+  ImageBox box;
+  bool before = false, behind = false;
+  for (const Vector3& p : corners(triangle)) {
+    const auto [q, size] = in_camera(c, p);
+    const double w = c.projection == Projection::perspective ? q[2] : 1;
+    if (q[2] < 64 * u * size) {
+      behind = true;
+      continue;
+    }
+    before = true;
+    const double x = (c.fx * q[0] + c.skew * q[1]) / w + cx, y = c.fy * q[1] / w + cy;
+    // displaced corners: 64u of the coordinates that the position is the sum of
+    const double margin = (64 * u + 8 * model_.rotation_error) * size / w *
+                              (std::abs(c.fx) + std::abs(c.fy) + std::abs(c.skew) +
+                               std::abs(x - cx) + std::abs(y - cy)) +
+                          sample_.error + 1;
+    box.add(x, y, margin, margin);
+  }
+  if (!before) return {};
+  return behind ? whole_image(c) : pixels_of(box, c, 0);
+}
+
+void RayFragments::each(std::uint32_t triangle, const PixelBox& box,
+                        const TakeFragment& take) const {
+  if (box.is_empty()) return;
+  const std::array<Vector3, 3> points = corners(triangle);
+  for (std::uint32_t row = box.first_row; row <= box.last_row; ++row) {
+    for (std::uint32_t column = box.first_column; column <= box.last_column; ++column) {
+      const Ray ray = rays_.through(column + sample_.x, row + sample_.y);
+      std::optional<Fragment> f = ray_on_triangle(points, ray, rays_, model_);
+      if (!f) continue;
+      f->triangle = triangle;
+      take(column, row, *f);
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<FragmentSource> ray_fragments(const WorldMesh& mesh, const Camera& camera,
+                                              const SamplePosition& sample, const RayModel& model) {
+  return std::make_unique<RayFragments>(mesh, camera, sample, model);
+}
+
+}  // namespace fathom::attribution

@@ -1,0 +1,118 @@
+#include <ImfChannelList.h>
+#include <ImfDeepFrameBuffer.h>
+#include <ImfDeepImageStateAttribute.h>
+#include <ImfDeepScanLineOutputFile.h>
+#include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
+
+#include <array>
+#include <cstddef>
+
+#include "fathom/image/deep_map.h"
+#include "fathom/image/files/exr_attributes.h"
+#include "fathom/image/files/exr_streams.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/file_bytes.h"
+
+namespace fathom {
+using namespace image;
+using namespace text;
+
+namespace {
+
+Imf::Compression deep_compression(Compression compression) {
+  switch (compression) {
+    case Compression::none:
+      return Imf::NO_COMPRESSION;
+    case Compression::rle:
+      return Imf::RLE_COMPRESSION;
+    case Compression::zips:
+      return Imf::ZIPS_COMPRESSION;
+    case Compression::zip:
+    case Compression::piz:
+      break;
+  }
+  throw UsageError("deep EXR files are compressed by zips, rle or none");
+}
+
+struct DeepChannel {
+  const char* name;
+  Imf::PixelType type;
+  /// Where the value is within a sample, in bytes.
+  std::size_t offset;
+};
+
+const std::array<DeepChannel, 5> deep_channels{{{"A", Imf::FLOAT, offsetof(DeepSample, A)},
+                                                {"Z", Imf::FLOAT, offsetof(DeepSample, Z)},
+                                                {"ZBack", Imf::FLOAT, offsetof(DeepSample, ZBack)},
+                                                {"area", Imf::FLOAT, offsetof(DeepSample, area)},
+                                                {"id", Imf::UINT, offsetof(DeepSample, id)}}};
+
+/// For each pixel, where the values of a channel begin.
+std::vector<const char*> beginnings(const DeepMap& map, std::size_t offset) {
+  std::vector<const char*> result;
+  result.reserve(map.counts.size());
+  const char* next = reinterpret_cast<const char*>(map.samples.data()) + offset;
+  for (const std::uint32_t count : map.counts) {
+    result.push_back(next);
+    next += count * sizeof(DeepSample);
+  }
+  return result;
+}
+
+Bytes encode(const DeepMap& map, Compression compression, int threads, const std::string& name) {
+  const DepthMap& description = map.description;
+  if (description.width > 0x3FFFFFFF || description.height > 0x3FFFFFFF) {
+    throw OutputError(name + ": EXR holds fewer than 2^30 pixels a side");
+  }
+  Imf::Header header(static_cast<int>(description.width), static_cast<int>(description.height));
+  header.compression() = deep_compression(compression);
+  header.setType(Imf::DEEPSCANLINE);
+  set_attributes(header, description);
+  Imf::addDeepImageState(header, Imf::DIS_SORTED);
+
+  const std::size_t width = description.width;
+  Imf::DeepFrameBuffer pixels;
+  // OpenEXR takes non-const pointers but does not write through them.
+  auto* counts = reinterpret_cast<char*>(const_cast<std::uint32_t*>(map.counts.data()));
+  pixels.insertSampleCountSlice(Imf::Slice(Imf::UINT, counts, 4, 4 * width));
+  std::vector<std::vector<const char*>> pointers;
+  for (const DeepChannel& channel : deep_channels) {
+    header.channels().insert(channel.name, Imf::Channel(channel.type));
+    auto& at = pointers.emplace_back(beginnings(map, channel.offset));
+    pixels.insert(
+        channel.name,
+        Imf::DeepSlice(channel.type, const_cast<char*>(reinterpret_cast<const char*>(at.data())),
+                       sizeof(char*), sizeof(char*) * width, sizeof(DeepSample)));
+  }
+  ByteOutput stream(name);
+  {
+    Imf::DeepScanLineOutputFile file(stream, header, reserve_exr_threads(threads));
+    file.setFrameBuffer(pixels);
+    file.writePixels(static_cast<int>(description.height));
+  }
+  return stream.take();
+}
+
+}  // namespace
+
+void check_deep_compression(Compression compression) {
+  (void)deep_compression(compression);
+}
+
+void write_deep_map(const DeepMap& map, const std::filesystem::path& path, Compression compression,
+                    int threads) {
+  Bytes bytes;
+  try {
+    bytes = encode(map, compression, threads, path.string());
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {
+    throw OutputError(path.string() + ": cannot be written as EXR: " + exr_reason(failure));
+  }
+  write_file(path, bytes);
+}
+
+}  // namespace fathom

@@ -1,0 +1,222 @@
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "fathom/image/files/map_codecs.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/byte_order.h"
+
+/// Checks what an OpenEXR header claims against the size of the file, before OpenEXR, which
+/// allocates by those claims, sees it.
+/// Source   [OpenEXR] for the layout.
+namespace fathom::image {
+using namespace text;
+
+namespace {
+
+constexpr std::uint32_t flag_deep = 0x800, flag_multipart = 0x1000;
+
+/// For OpenEXR's compression codes 0 … 9: scan lines per chunk, and a bound on image bytes per file
+/// byte. RLE: 128 from 2. DEFLATE: 1032; its doubling covers PXR24, which first drops a byte of
+/// four. PIZ: a code of one bit and a run length of 8 give at most 256 16-bit values, 455. B44: 32
+/// from 3. DWA: DEFLATE of one 16-bit coefficient for a block of 64 values.
+struct CompressionBound {
+  std::uint64_t lines, ratio;
+};
+constexpr std::array<CompressionBound, 10> compression_bounds{{{1, 1},
+                                                               {1, 64},
+                                                               {1, greatest_deflate_ratio},
+                                                               {16, greatest_deflate_ratio},
+                                                               {32, greatest_deflate_ratio},
+                                                               {16, greatest_deflate_ratio},
+                                                               {32, greatest_deflate_ratio},
+                                                               {32, greatest_deflate_ratio},
+                                                               {32, 64 * greatest_deflate_ratio},
+                                                               {256, 64 * greatest_deflate_ratio}}};
+
+/// OpenEXR reads these types at their own size whatever the file says, and would lose its place.
+constexpr std::array<std::pair<std::string_view, std::size_t>, 24> fixed_sizes{
+    {{"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
+     {"compression", 1}, {"double", 8},   {"envmap", 1},
+     {"float", 4},       {"int", 4},      {"keycode", 28},
+     {"lineOrder", 1},   {"m33f", 36},    {"m33d", 72},
+     {"m44f", 64},       {"m44d", 128},   {"rational", 8},
+     {"timecode", 8},    {"tiledesc", 9}, {"v2i", 8},
+     {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
+     {"v3f", 12},        {"v3d", 24},     {"deepImageState", 1}}};
+
+/// Whether a value is as long as its own contents say, for the types whose length they give.
+bool is_consistent(std::string_view type, ByteView value) {
+  const auto count_at = [&](std::size_t at) {
+    return std::uint64_t{load<std::uint32_t>(&value[at], std::endian::little)};
+  };
+  for (const auto& [name, size] : fixed_sizes)
+    if (type == name) return value.size() == size;
+  if (type == "preview")
+    return value.size() >= 8 && count_at(0) <= value.size() && count_at(4) <= value.size() &&
+           8 + 4 * count_at(0) * count_at(4) == value.size();
+  if (type == "stringvector") {
+    std::size_t at = 0;
+    while (value.size() - at >= 4 && count_at(at) <= value.size() - at - 4) at += 4 + count_at(at);
+    return at == value.size();
+  }
+  if (type == "chlist") {
+    std::size_t at = 0;
+    while (at < value.size() && value[at] != std::byte{0}) {
+      while (at < value.size() && value[at] != std::byte{0}) ++at;
+      at += 17;
+    }
+    return at + 1 == value.size();
+  }
+  return true;
+}
+
+/// The attributes of one part, by name: their bytes. Types are left to OpenEXR.
+using Attributes = std::map<std::string_view, ByteView>;
+
+class Claims {
+ public:
+  Claims(ByteView bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  std::vector<std::size_t> check() {
+    if (bytes_.size() < 8) fail("truncated: expected a header");
+    const auto version = load<std::uint32_t>(&bytes_[4], std::endian::little);
+    if ((version & 0xFF) != 2) fail("expected version 2 of the format");
+    position_ = 8;
+    Attributes part = read_attributes();
+    if ((version & flag_deep && !(version & flag_multipart)) || is_deep(part))
+      fail("deep images are not read as maps: expected scan lines or tiles");
+    for (bool first = true; !part.empty(); first = false) {
+      check_part(part, first);
+      if (!(version & flag_multipart)) break;
+      part = read_attributes();
+    }
+    return defused_;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
+
+  std::string_view read_name() {
+    const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(position_);
+    const auto end = std::find(begin, bytes_.end(), std::byte{0});
+    if (end == bytes_.end()) fail("truncated: its header does not end");
+    const auto length = static_cast<std::size_t>(end - begin);
+    const std::string_view text(reinterpret_cast<const char*>(bytes_.data()) + position_, length);
+    position_ += length + 1;
+    return text;
+  }
+
+  Attributes read_attributes() {
+    Attributes attributes;
+    while (true) {
+      const std::string_view name = read_name();
+      if (name.empty()) return attributes;
+      const std::size_t type_at = position_;
+      const std::string_view type = read_name();
+      // OpenEXR 3.1 reads four bytes more than such an attribute has, and misreads what follows.
+      // It skips types that it does not know.
+      if (type == "idmanifest") defused_.push_back(type_at);
+      if (bytes_.size() - position_ < 4) fail("truncated: its header does not end");
+      const auto size = load<std::uint32_t>(&bytes_[position_], std::endian::little);
+      position_ += 4;
+      if (size > bytes_.size() - position_)
+        fail("corrupt or truncated: an attribute of its header is longer than the file");
+      attributes[name] = bytes_.subspan(position_, size);
+      if (!is_consistent(type, attributes[name]))
+        fail("corrupt: an attribute of its header has the wrong size for its type");
+      position_ += size;
+    }
+  }
+
+  static bool is_deep(const Attributes& part) {
+    const auto type = part.find("type");
+    return type != part.end() && type->second.size() >= 4 &&
+           std::equal(type->second.begin(), type->second.begin() + 4,
+                      std::as_bytes(std::span("deep")).begin());
+  }
+
+  ByteView attribute(const Attributes& part, std::string_view name, std::size_t least_size) const {
+    const auto found = part.find(name);
+    if (found == part.end() || found->second.size() < least_size)
+      fail("corrupt: its header has no usable '" + std::string(name) + "'");
+    return found->second;
+  }
+
+  static std::int64_t int_at(ByteView bytes, std::size_t offset) {
+    return load<std::int32_t>(&bytes[offset], std::endian::little);
+  }
+
+  std::uint64_t bytes_of_a_pixel(ByteView list) const {
+    std::uint64_t sum = 0;
+    for (std::size_t k = 0; k < list.size() && list[k] != std::byte{0};) {
+      while (k < list.size() && list[k] != std::byte{0}) ++k;
+      if (list.size() - k < 17) fail("corrupt: its list of channels is truncated");
+      sum += int_at(list, k + 1) == 1 ? 2 : 4;  // HALF; FLOAT and UINT
+      if (int_at(list, k + 9) != 1 || int_at(list, k + 13) != 1)
+        fail("subsampled channels are not read: expected every channel at every pixel");
+      k += 17;
+    }
+    if (sum == 0) fail("it has no channels");
+    return sum;
+  }
+
+  void check_part(const Attributes& part, bool first) const {
+    const ByteView window = attribute(part, "dataWindow", 16);
+    const std::int64_t columns = int_at(window, 8) - int_at(window, 0) + 1;
+    const std::int64_t rows = int_at(window, 12) - int_at(window, 4) + 1;
+    if (columns < 1 || rows < 1) fail("corrupt: its data window is empty");
+    const auto code = static_cast<std::size_t>(attribute(part, "compression", 1)[0]);
+    if (code >= compression_bounds.size()) fail("its compression is not known");
+    const CompressionBound bound = compression_bounds[code];
+    const auto width = static_cast<std::uint64_t>(columns),
+               height = static_cast<std::uint64_t>(rows);
+    const bool tiled = part.contains("tiles");
+    if (part.contains("chunkCount") &&
+        static_cast<std::uint64_t>(int_at(attribute(part, "chunkCount", 4), 0)) > bytes_.size() / 8)
+      refuse(width, height);
+    if (!tiled && (height - 1) / bound.lines >= bytes_.size() / 8) refuse(width, height);
+    if (!first) return;
+
+    // width·height < 2^64 is compared with a quotient: times a pixel's bytes it might overflow.
+    const std::uint64_t most_pixels =
+        bytes_.size() * bound.ratio / bytes_of_a_pixel(attribute(part, "channels", 1));
+    if (width * height > most_pixels) refuse(width, height);
+    if (tiled) check_tiles(attribute(part, "tiles", 9), width, height, most_pixels);
+  }
+
+  /// OpenEXR allocates whole tiles even where the image ends inside them: besides the pixels that
+  /// the file can hold, up to 2^24 are allowed.
+  void check_tiles(ByteView tiles, std::uint64_t width, std::uint64_t height,
+                   std::uint64_t most_pixels) const {
+    const std::int64_t tile_width = int_at(tiles, 0), tile_height = int_at(tiles, 4);
+    if (tile_width < 1 || tile_height < 1) fail("corrupt: its tiles are empty");
+    const auto w = static_cast<std::uint64_t>(tile_width),
+               h = static_cast<std::uint64_t>(tile_height);
+    const std::uint64_t allowed = std::max<std::uint64_t>(most_pixels, std::uint64_t{1} << 24);
+    if (w * h > allowed || (width + w) > allowed / h) refuse(width, height);
+    if ((width + w - 1) / w > bytes_.size() / 8 / ((height + h - 1) / h)) refuse(width, height);
+  }
+
+  [[noreturn]] void refuse(std::uint64_t width, std::uint64_t height) const {
+    fail("corrupt or truncated: its header claims " + std::to_string(width) + "×" +
+         std::to_string(height) + " pixels, more than " + std::to_string(bytes_.size()) +
+         " bytes can hold");
+  }
+
+  ByteView bytes_;
+  const std::string& name_;
+  std::size_t position_ = 0;
+  std::vector<std::size_t> defused_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> check_exr_claims(ByteView bytes, const std::string& name) {
+  return Claims(bytes, name).check();
+}
+
+}  // namespace fathom::image

@@ -1,0 +1,102 @@
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfOutputFile.h>
+#include <ImfThreading.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "fathom/image/files/exr_attributes.h"
+#include "fathom/image/files/exr_streams.h"
+#include "fathom/image/files/map_codecs.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::image {
+using namespace text;
+
+namespace {
+
+Imf::Compression compression_of(Compression compression) {
+  switch (compression) {
+    case Compression::none:
+      return Imf::NO_COMPRESSION;
+    case Compression::rle:
+      return Imf::RLE_COMPRESSION;
+    case Compression::zips:
+      return Imf::ZIPS_COMPRESSION;
+    case Compression::zip:
+      return Imf::ZIP_COMPRESSION;
+    case Compression::piz:
+      return Imf::PIZ_COMPRESSION;
+  }
+  return Imf::ZIP_COMPRESSION;
+}
+
+/// FLOAT or UINT, and where the values are. OpenEXR takes a non-const pointer but does not write
+/// through it.
+struct Source {
+  Imf::PixelType type;
+  const char* values;
+};
+
+Source source_of(const ImageChannel& channel, const std::string& name) {
+  if (const auto* floats = std::get_if<Samples<float>>(&channel.values))
+    return {Imf::FLOAT, reinterpret_cast<const char*>(floats->data())};
+  if (const auto* ids = std::get_if<Samples<std::uint32_t>>(&channel.values))
+    return {Imf::UINT, reinterpret_cast<const char*>(ids->data())};
+  throw OutputError(name + ": EXR holds binary32 numbers and 32-bit identifiers, and channel '" +
+                    channel.name + "' is stored otherwise");
+}
+
+}  // namespace
+
+int reserve_exr_threads(int threads) {
+  static std::mutex growing;
+  const std::lock_guard lock(growing);
+  const int wanted =
+      threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (Imf::globalThreadCount() < wanted) Imf::setGlobalThreadCount(wanted);
+  return wanted;
+}
+
+std::string exr_reason(const std::exception& failure) {
+  std::string reason = failure.what();
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
+  while (!reason.empty() && (reason.back() == ' ' || reason.back() == '.')) reason.pop_back();
+  return reason;
+}
+
+Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
+                 const std::string& name) {
+  if (map.width > 0x3FFFFFFF || map.height > 0x3FFFFFFF)
+    throw OutputError(name + ": EXR holds fewer than 2^30 pixels a side");
+  try {
+    Imf::Header header(static_cast<int>(map.width), static_cast<int>(map.height));
+    header.compression() = compression_of(compression);
+    set_attributes(header, map);
+    Imf::FrameBuffer pixels;
+    for (const ImageChannel& channel : map.channels) {
+      const Source source = source_of(channel, name);
+      if (header.channels().findChannel(channel.name))
+        throw OutputError(name + ": two channels of the name '" + channel.name + "'");
+      header.channels().insert(channel.name, Imf::Channel(source.type));
+      pixels.insert(channel.name, Imf::Slice(source.type, const_cast<char*>(source.values), 4,
+                                             std::size_t{4} * map.width));
+    }
+    ByteOutput stream(name);
+    {
+      Imf::OutputFile file(stream, header, reserve_exr_threads(threads));
+      file.setFrameBuffer(pixels);
+      file.writePixels(static_cast<int>(map.height));
+    }
+    return stream.take();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {
+    throw OutputError(name + ": cannot be written as EXR: " + exr_reason(failure));
+  }
+}
+
+}  // namespace fathom::image

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <csetjmp>
+#include <cstring>
+
+#include "fathom/image/files/map_codecs.h"
+#include "fathom/image/files/png_stream.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/byte_order.h"
+
+namespace fathom::image {
+using namespace text;
+
+void png_fail(png_structp png, png_const_charp reason) {
+  auto* failure = static_cast<PngFailure*>(png_get_error_ptr(png));
+  std::strncpy(failure->reason, reason, sizeof failure->reason - 1);
+  png_longjmp(png, 1);
+}
+
+void png_ignore_warning(png_structp, png_const_charp) {}
+
+namespace {
+
+/// Everything that a read holds, so that nothing is lost when libpng jumps.
+struct Reading {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  PngFailure failure;
+  ByteView bytes;
+  std::size_t position = 0;
+  std::vector<png_byte> pixels;
+  std::vector<png_bytep> rows;
+
+  explicit Reading(ByteView file) : bytes(file) {
+    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, png_fail, png_ignore_warning);
+    info = png ? png_create_info_struct(png) : nullptr;
+    if (!info) {
+      png_destroy_read_struct(&png, nullptr, nullptr);
+      throw std::bad_alloc();
+    }
+  }
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+  ~Reading() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+void read_bytes(png_structp png, png_bytep to, std::size_t count) {
+  auto* reading = static_cast<Reading*>(png_get_io_ptr(png));
+  if (count > reading->bytes.size() - reading->position) png_error(png, "unexpected end of file");
+  std::memcpy(to, reading->bytes.data() + reading->position, count);
+  reading->position += count;
+}
+
+/// libpng allocates as much for a chunk as its header claims. Walks over the chunks (length, type,
+/// data, checksum): none may be longer than what is left of the file.
+bool chunks_fit(ByteView bytes) {
+  constexpr std::size_t signature = 8, around = 12;
+  for (std::size_t at = signature; at < bytes.size();) {
+    if (bytes.size() - at < around) return false;
+    const std::size_t length = load<std::uint32_t>(&bytes[at], std::endian::big);
+    if (length > bytes.size() - at - around) return false;
+    at += around + length;
+  }
+  return true;
+}
+
+bool read_header(Reading& reading) {
+  if (setjmp(png_jmpbuf(reading.png))) return false;
+  png_set_read_fn(reading.png, &reading, read_bytes);
+  png_set_user_limits(reading.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+  // For compressed texts, at least libpng's usual limit.
+  png_set_chunk_malloc_max(reading.png, std::max<std::size_t>(reading.bytes.size(), 8000000));
+  png_read_info(reading.png, reading.info);
+  return true;
+}
+
+bool read_pixels(Reading& reading) {
+  if (setjmp(png_jmpbuf(reading.png))) return false;
+  png_read_image(reading.png, reading.rows.data());
+  png_read_end(reading.png, reading.info);
+  return true;
+}
+
+void read_texts(const Reading& reading, DepthMap& map) {
+  png_textp texts = nullptr;
+  int count = 0;
+  png_get_text(reading.png, reading.info, &texts, &count);
+  for (int k = 0; k < count; ++k)
+    if (texts[k].text) map.texts[texts[k].key] = texts[k].text;
+}
+
+std::optional<std::string> take_text(DepthMap& map, const std::string& key) {
+  const auto found = map.texts.find(key);
+  if (found == map.texts.end()) return std::nullopt;
+  std::string text = found->second;
+  map.texts.erase(found);
+  return text;
+}
+
+/// Codes, or identifiers if the file says so (png_write.cpp).
+ImageChannel channel_from(Samples<std::uint16_t> codes, DepthMap& map) {
+  const std::string channel = take_text(map, "fathom:channel").value_or("Z");
+  if (take_text(map, "fathom:type") != "identifier") return {channel, std::move(codes)};
+  Samples<std::uint32_t> ids(codes.size());
+  for (std::size_t k = 0; k < codes.size(); ++k) ids[k] = codes[k] == 65535 ? no_surface : codes[k];
+  return {channel, std::move(ids)};
+}
+
+}  // namespace
+
+DepthMap decode_png(ByteView bytes, const std::string& name) {
+  Reading reading(bytes);
+  const auto fail = [&](const std::string& reason) {
+    throw InputError(name + ": corrupt or truncated PNG file: " + reason);
+  };
+  if (!chunks_fit(bytes)) fail("a chunk is longer than the file");
+  if (!read_header(reading)) fail(reading.failure.reason);
+  DepthMap map;
+  map.width = png_get_image_width(reading.png, reading.info);
+  map.height = png_get_image_height(reading.png, reading.info);
+  if (png_get_bit_depth(reading.png, reading.info) != 16 ||
+      png_get_color_type(reading.png, reading.info) != PNG_COLOR_TYPE_GRAY)
+    throw InputError(name +
+                     ": a picture, not a depth map: expected a PNG of one 16-bit grey channel");
+  const std::uint64_t pixels = std::uint64_t{map.width} * map.height;
+  if (pixels > bytes.size() * greatest_deflate_ratio / 2)
+    fail("its header claims " + std::to_string(map.width) + "×" + std::to_string(map.height) +
+         " pixels, more than " + std::to_string(bytes.size()) + " bytes can hold");
+
+  reading.pixels.resize(2 * pixels);
+  reading.rows.resize(map.height);
+  for (std::size_t y = 0; y < map.height; ++y) reading.rows[y] = &reading.pixels[y * 2 * map.width];
+  if (!read_pixels(reading)) fail(reading.failure.reason);
+
+  Samples<std::uint16_t> codes(pixels);
+  const auto* data = reinterpret_cast<const std::byte*>(reading.pixels.data());
+  for (std::size_t k = 0; k < pixels; ++k)
+    codes[k] = load<std::uint16_t>(data + 2 * k, std::endian::big);
+  read_texts(reading, map);
+  if (const auto text = take_text(map, "fathom:scale")) {
+    double scale = 0;
+    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), scale);
+    if (error != std::errc() || end != text->data() + text->size() || !std::isfinite(scale) ||
+        scale <= 0)
+      throw InputError(name + ": its fathom:scale is '" + text->substr(0, 40) +
+                       "': expected a positive number");
+    map.png_scale = scale;
+  }
+  if (const auto text = take_text(map, "fathom.objects"))
+    map.object_names = object_names_from_json(*text);
+  map.channels.push_back(channel_from(std::move(codes), map));
+  return map;
+}
+
+}  // namespace fathom::image

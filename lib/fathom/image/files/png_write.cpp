@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <charconv>
+#include <csetjmp>
+#include <cstring>
+#include <utility>
+
+#include "fathom/image/files/map_codecs.h"
+#include "fathom/image/files/png_stream.h"
+#include "fathom/image/rgb_image.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/byte_order.h"
+
+namespace fathom::image {
+using namespace text;
+
+namespace {
+
+/// A PNG to be written: rows of bytes as PNG has them.
+struct Picture {
+  std::uint32_t width = 0, height = 0;
+  int bit_depth = 8, colour_type = PNG_COLOR_TYPE_RGB;
+  std::vector<std::byte> pixels;
+  std::vector<std::pair<std::string, std::string>> texts;
+};
+
+/// Everything that a write holds, so that nothing is lost when libpng jumps.
+struct Writing {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  PngFailure failure;
+  Bytes bytes;
+  std::vector<png_text> texts;
+  std::vector<png_bytep> rows;
+
+  Writing() {
+    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, png_fail, png_ignore_warning);
+    info = png ? png_create_info_struct(png) : nullptr;
+    if (!info) {
+      png_destroy_write_struct(&png, nullptr);
+      throw std::bad_alloc();
+    }
+  }
+  Writing(const Writing&) = delete;
+  Writing& operator=(const Writing&) = delete;
+  ~Writing() { png_destroy_write_struct(&png, &info); }
+};
+
+void append_bytes(png_structp png, png_bytep from, std::size_t count) {
+  auto* writing = static_cast<Writing*>(png_get_io_ptr(png));
+  append(writing->bytes, std::as_bytes(std::span(from, count)));
+}
+
+void flush_nothing(png_structp) {}
+
+bool write_all(Writing& writing, const Picture& picture) {
+  if (setjmp(png_jmpbuf(writing.png))) return false;
+  png_set_write_fn(writing.png, &writing, append_bytes, flush_nothing);
+  png_set_user_limits(writing.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+  png_set_IHDR(writing.png, writing.info, picture.width, picture.height, picture.bit_depth,
+               picture.colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
+  if (!writing.texts.empty())
+    png_set_text(writing.png, writing.info, writing.texts.data(),
+                 static_cast<int>(writing.texts.size()));
+  png_write_info(writing.png, writing.info);
+  png_write_image(writing.png, writing.rows.data());
+  png_write_end(writing.png, nullptr);
+  return true;
+}
+
+bool is_plain(const std::string& text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c == '\n' || (' ' <= c && c <= '~'); });
+}
+
+/// tEXt where plain characters are enough, else iTXt, which is UTF-8.
+png_text as_chunk(const std::string& key, const std::string& text) {
+  png_text chunk{};
+  chunk.compression = is_plain(text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+  chunk.key = const_cast<char*>(key.c_str());
+  chunk.text = const_cast<char*>(text.c_str());
+  chunk.text_length = text.size();
+  return chunk;
+}
+
+Bytes encode(Picture& picture, const std::string& name) {
+  Writing writing;
+  for (const auto& [key, text] : picture.texts) writing.texts.push_back(as_chunk(key, text));
+  const std::size_t row_bytes = picture.pixels.size() / picture.height;
+  for (std::size_t y = 0; y < picture.height; ++y)
+    writing.rows.push_back(reinterpret_cast<png_bytep>(&picture.pixels[y * row_bytes]));
+  if (!write_all(writing, picture))
+    throw OutputError(name + ": cannot be written as PNG: " + writing.failure.reason);
+  return std::move(writing.bytes);
+}
+
+std::vector<std::uint16_t> identifiers_as_codes(const Samples<std::uint32_t>& ids,
+                                                const std::string& name) {
+  std::vector<std::uint16_t> codes(ids.size());
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    if (ids[k] > 65534 && ids[k] != no_surface)
+      throw OutputError(name + ": identifier " + std::to_string(ids[k]) +
+                        " does not fit a 16-bit PNG: expected at most 65534");
+    codes[k] = ids[k] == no_surface ? std::uint16_t{65535} : static_cast<std::uint16_t>(ids[k]);
+  }
+  return codes;
+}
+
+std::string to_shortest(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+void add_texts(Picture& picture, const DepthMap& map, const ImageChannel& channel,
+               const std::string& name) {
+  picture.texts = {{"Software", "Fathom " FATHOM_VERSION}, {"fathom:channel", channel.name}};
+  if (std::holds_alternative<Samples<std::uint32_t>>(channel.values))
+    picture.texts.emplace_back("fathom:type", "identifier");
+  else if (map.png_scale)
+    picture.texts.emplace_back("fathom:scale", to_shortest(*map.png_scale));
+  if (!map.object_names.empty())
+    picture.texts.emplace_back("fathom.objects", object_names_as_json(map.object_names));
+  for (const auto& [key, text] : map.texts) {
+    if (key == "Software" || key == "software" || key.starts_with("fathom:")) continue;
+    if (key.empty() || key.size() > 79 || !is_plain(key) || key.find('\n') != std::string::npos)
+      throw OutputError(name + ": PNG cannot hold a text of the name '" + key.substr(0, 80) +
+                        "': expected 1 to 79 plain characters");
+    if (text.find('\0') != std::string::npos)
+      throw OutputError(name + ": PNG cannot hold the text '" + key + "', which has a zero byte");
+    picture.texts.emplace_back(key, text);
+  }
+}
+
+}  // namespace
+
+Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::string& name) {
+  std::vector<std::uint16_t> codes;
+  if (const auto* ids = std::get_if<Samples<std::uint32_t>>(&channel.values))
+    codes = identifiers_as_codes(*ids, name);
+  else if (const auto* stored = std::get_if<Samples<std::uint16_t>>(&channel.values))
+    codes.assign(stored->begin(), stored->end());
+  else
+    throw OutputError(name + ": PNG holds 16-bit codes, and channel '" + channel.name +
+                      "' is stored as floating point; give a scale");
+  Picture picture{map.width, map.height, 16, PNG_COLOR_TYPE_GRAY, {}, {}};
+  picture.pixels.resize(2 * codes.size());
+  for (std::size_t k = 0; k < codes.size(); ++k)
+    store(&picture.pixels[2 * k], codes[k], std::endian::big);
+  add_texts(picture, map, channel, name);
+  return encode(picture, name);
+}
+
+}  // namespace fathom::image
+
+namespace fathom {
+
+void write_png(const RgbImage& image, const std::filesystem::path& path) {
+  image::Picture picture{image.width, image.height, 8, PNG_COLOR_TYPE_RGB, {}, {}};
+  const auto bytes = std::as_bytes(std::span(image.pixels));
+  picture.pixels.assign(bytes.begin(), bytes.end());
+  picture.texts = {{"Software", "Fathom " FATHOM_VERSION}};
+  text::write_file(path, image::encode(picture, path.string()));
+}
+
+}  // namespace fathom
