@@ -81,7 +81,8 @@ Option Command::option(const std::string& names, const std::string& value_name, 
 
 Option Command::option_with_values(const std::string& names, const std::string& value_name,
                                    std::vector<std::string>& values, const std::string& help) {
-  CLI::Option& option = *app_.add_option(names, help)->type_name(value_name)->expected(1, -1);
+  CLI::Option& option =
+      *app_.add_option(names, help)->type_name(value_name)->expected(1, -1)->allow_extra_args();
   return taken_by(option, [&values](const auto& texts) { values = texts; });
 }
 

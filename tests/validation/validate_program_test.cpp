@@ -127,9 +127,9 @@ TEST_F(ValidateProgram, RefusesVariantsThatItDoesNotUnderstand) {
   expect_refused(render("blender", "eevee"),
                  "--variants: blender has no variant 'eevee', only cycles");
   expect_refused(render("pbrt", "default"),
-                 "--render: 'pbrt' is none of vtk, opengl, embree and blender");
+                 "--render: 'pbrt' is not one of vtk, opengl, embree and blender");
   expect_refused({"--against", "embree,pbrt", "--scene", "sphere"},
-                 "--against: 'pbrt' is none of vtk, opengl, embree and blender");
+                 "--against: 'pbrt' is not one of vtk, opengl, embree and blender");
   // One that is understood does not excuse one that is not.
   expect_refused({"--against", "embree", "--scene", "sphere", "--variants", "robust,defualt"},
                  "--variants: none of the renderers has a variant 'defualt'; there are default, "

@@ -130,7 +130,7 @@ TEST(Peers, RenderersHaveNames) {
     EXPECT_EQ(renderer_named(name_of(renderer)), renderer);
   }
   EXPECT_EQ(usage_error_of([] { renderer_named("pbrt"); }),
-            "'pbrt' is none of vtk, opengl, embree and blender");
+            "'pbrt' is not one of vtk, opengl, embree and blender");
 }
 
 TEST(Peers, AreChosenByVariantInTheirOwnOrder) {

@@ -71,7 +71,7 @@ Renderer renderer_named(std::string_view name) {
   for (const Renderer renderer : all_renderers) {
     if (name_of(renderer) == name) return renderer;
   }
-  throw UsageError(fmt::format("'{}' is none of vtk, opengl, embree and blender", name));
+  throw UsageError(fmt::format("'{}' is not one of vtk, opengl, embree and blender", name));
 }
 
 Renderer renderer_of(const Peer& peer) {

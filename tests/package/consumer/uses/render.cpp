@@ -1,0 +1,7 @@
+#include <fathom/render.h>
+
+#include "one_triangle.h"
+
+bool use_render() {
+  return fathom::render(one_triangle(), small_camera()).values<float>("Z")->at(0) == 2;
+}
