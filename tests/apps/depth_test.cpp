@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"CodeNotWhole",
                 {"decode", "--storage", "unorm16", "--near", "1", "--far", "2", "1.5"},
                 3,
-                "no code"},
+                "is not a code"},
         Refusal{"ValueAboveOne", {"decode", "--near", "1", "--far", "2", "1.5"}, 3, "from 0 to 1"},
         Refusal{"RangeSwapped", {"codes", "--near", "1", "--far", "2", "2,1"}, 3, "swapped"}),
     [](const auto& refusal) { return std::string(refusal.param.name); });

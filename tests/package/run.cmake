@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # run(COMMAND…): fails with the command's output where it fails. build(TARGET…): of the consumer.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)

@@ -2,7 +2,7 @@
 
 bool use_triangle() {
   fathom::RenderStatistics sum, part;
-  part.triangles = 3;
+  part.culled_triangles = 3;
   add(sum, part);
-  return sum.triangles == 3;
+  return sum.culled_triangles == 3;
 }
