@@ -84,6 +84,8 @@ TEST(StudyPlot, PointsWithoutAPlaceAreLeftOut) {
   EXPECT_THAT(files[0].content,
               HasSubstr("$series0 << END\n-1 0.5\nEND\n$series1 << END\n5 0.25\nEND\n"));
   EXPECT_THAT(files[0].content, Not(HasSubstr("\"none\"")));
+  plot.stretched_by_all = true;
+  EXPECT_THAT(draw(plot)[0].content, HasSubstr("$series0 << END\n-1 0.5\n2 0\n3 -1\nEND\n"));
   plot.series.pop_back();
   plot.series.erase(plot.series.begin());
   EXPECT_TRUE(draw(plot).empty());

@@ -38,8 +38,8 @@ bool is_negative(const Series& series) {
 }
 
 Plot drawable(Plot plot) {
-  const auto has_place = [](double x, bool logarithmic) {
-    return std::isfinite(x) && !(logarithmic && x <= 0);
+  const auto has_place = [&plot](double x, bool logarithmic) {
+    return std::isfinite(x) && (x > 0 || !logarithmic || plot.stretched_by_all);
   };
   for (Series& series : plot.series) {
     std::erase_if(series.points, [&](const auto& point) {

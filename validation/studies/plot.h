@@ -34,6 +34,8 @@ struct Plot {
   std::string name;  ///< of its files, without the suffix
   std::string title, x_label, y_label;
   bool logarithmic_x = false, logarithmic_y = false;
+  /// Points that are not drawn for want of a logarithm still stretch the other axis.
+  bool stretched_by_all = false;
   std::vector<Series> series;
 };
 

@@ -96,7 +96,8 @@ Plot error_plot(const std::vector<PatternError>& rows) {
             .x_label = "samples a pixel",
             .y_label = "root mean square error of the coverage",
             .logarithmic_x = true,
-            .logarithmic_y = true};
+            .logarithmic_y = true,
+            .stretched_by_all = true};
   for (const char* family : {"standard", "regular", "jittered", "rotated grid"}) {
     const auto is_member = [&](const PatternError& row) { return family_of(row) == family; };
     plot.series.push_back(series_of(family, rows_where(rows, is_member), &PatternError::samples,
