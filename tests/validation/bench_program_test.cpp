@@ -85,19 +85,19 @@ TEST_P(BenchRefuses, InOneLineAndLeavesNoFile) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, BenchRefuses,
-    testing::Values(Refused{"Scene", small({"--scene", "sphere"}), 2, "there is no scene 'sphere'"},
-                    Refused{"SphereOfNothing", small({"--scene", "sphere-0"}), 2, "sphere-0"},
-                    Refused{"Peer", {"bench", "--peers", "opengl"}, 2, "'opengl' is not one of"},
-                    Refused{"Size", {"bench", "--size", "40"}, 2, "--size"},
-                    Refused{"NoThreads", small({"--threads", "x"}), 2, "--threads"},
-                    Refused{"TooManyThreads", small({"--threads", "100000"}), 2, "more than the"},
-                    Refused{"NoRepeat", {"bench", "--repeat", "0"}, 2, "--repeat"},
-                    Refused{"Channel", small({"--channels", "depth"}), 2, "there is no channel 'depth'"},
-                    Refused{"Option", small({"--frobnicate"}), 2, "--frobnicate"},
-                    Refused{"MissingMesh", small({"--scene", "missing.obj", "--json", "t.json"}), 3,
-                            "missing.obj"},
-                    Refused{"NoFolder", small({"--scene", "sphere-8", "--json", "no/t.json"}), 4,
-                            "no/t.json"}),
+    testing::Values(
+        Refused{"Scene", small({"--scene", "sphere"}), 2, "there is no scene 'sphere'"},
+        Refused{"SphereOfNothing", small({"--scene", "sphere-0"}), 2, "sphere-0"},
+        Refused{"Peer", {"bench", "--peers", "opengl"}, 2, "'opengl' is not one of"},
+        Refused{"Size", {"bench", "--size", "40"}, 2, "--size"},
+        Refused{"NoThreads", small({"--threads", "x"}), 2, "--threads"},
+        Refused{"TooManyThreads", small({"--threads", "100000"}), 2, "more than the"},
+        Refused{"NoRepeat", {"bench", "--repeat", "0"}, 2, "--repeat"},
+        Refused{"Channel", small({"--channels", "depth"}), 2, "there is no channel 'depth'"},
+        Refused{"Option", small({"--frobnicate"}), 2, "--frobnicate"},
+        Refused{"MissingMesh", small({"--scene", "missing.obj", "--json", "t.json"}), 3,
+                "missing.obj"},
+        Refused{"NoFolder", small({"--scene", "sphere-8", "--json", "no/t.json"}), 4, "no/t.json"}),
     [](const auto& refused) { return refused.param.name; });
 
 }  // namespace
