@@ -13,6 +13,8 @@ function(fathom_target_options target)
     # False alarms on string concatenation: https://gcc.gnu.org/PR105651.
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
+  # A few large compilations read the headers of the standard library once instead of eight times.
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FATHOM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
   if(FATHOM_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

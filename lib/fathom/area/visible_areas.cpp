@@ -40,11 +40,6 @@ Ratio exact_sum(std::vector<Ratio> terms) {
   return terms.empty() ? Ratio() : std::move(terms.front());
 }
 
-/// a / b
-Ratio quotient(const Ratio& a, const Ratio& b) {
-  return {a.numerator * b.denominator, a.denominator * b.numerator};
-}
-
 VisibleArea rounded(const Ratio& visible, const Ratio& unoccluded) {
   VisibleArea area{round_to_binary64(visible), round_to_binary64(unoccluded), std::nullopt};
   if (unoccluded.sign() != Sign::zero) {

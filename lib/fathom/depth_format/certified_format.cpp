@@ -23,10 +23,6 @@ bool is_safe(double x) {
   return x >= least_safe && x <= greatest_safe;
 }
 
-Ratio quotient(const Ratio& a, const Ratio& b) {
-  return {a.numerator * b.denominator, a.denominator * b.numerator};
-}
-
 /// k of f = k·N(D)/M(D), or the divisor of a quotient of logarithms.
 Real constant_of(const DepthFormat& format) {
   const Ratio near = Dyadic(format.near), one = Dyadic(1.0);
@@ -136,7 +132,7 @@ std::optional<StoredDepth> round_to_float(Storage storage, const WordPair& x, do
                      static_cast<std::uint64_t>(*significand)};
 }
 
-double steps_of(Storage storage) {
+double greatest_code(Storage storage) {
   return power_of_two(bits_of(storage)) - 1;
 }
 
@@ -146,7 +142,7 @@ std::optional<StoredDepth> rounded_to_storage(Storage storage, const Certified<T
     const std::optional<StoredDepth> stored = round_to_float(storage, words_of(x.value), x.error);
     return stored && *stored > greatest_stored(storage) ? std::nullopt : stored;
   }
-  const double steps = steps_of(storage);
+  const double steps = greatest_code(storage);
   const Certified<T> scaled = product(x, exactly<T>(steps));
   const auto code = nearest_integer(words_of(scaled.value), scaled.error, -1);
   if (!code || *code < 0 || *code > steps) return std::nullopt;
@@ -183,7 +179,7 @@ double value_of_float(Storage storage, std::uint64_t bits) {
 
 StoredShare share_of(Storage storage, StoredDepth stored) {
   if (is_unorm(storage)) {
-    const double steps = steps_of(storage), code = static_cast<double>(stored.bits);
+    const double steps = greatest_code(storage), code = static_cast<double>(stored.bits);
     return {{code}, {steps - code}, steps};
   }
   const double s = value_of_float(storage, stored.bits);
@@ -196,7 +192,7 @@ StoredShare share_of(Storage storage, StoredDepth stored) {
 /// as a's last bit.
 StoredShare share_above(Storage storage, StoredDepth lower) {
   if (is_unorm(storage)) {
-    const double steps = steps_of(storage), twice = 2 * static_cast<double>(lower.bits) + 1;
+    const double steps = greatest_code(storage), twice = 2 * static_cast<double>(lower.bits) + 1;
     return {{twice}, {2 * steps - twice}, 2 * steps};
   }
   const double a = value_of_float(storage, lower.bits);

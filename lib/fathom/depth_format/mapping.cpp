@@ -5,10 +5,6 @@
 namespace fathom {
 namespace {
 
-Ratio quotient(const Ratio& a, const Ratio& b) {
-  return {a.numerator * b.denominator, a.denominator * b.numerator};
-}
-
 const Ratio& one() {
   static const Ratio value = Dyadic(1.0);
   return value;

@@ -53,10 +53,6 @@ float quotient(float a, float b) {
   return a / b;
 }
 
-Ratio quotient(const Ratio& a, const Ratio& b) {
-  return {a.numerator * b.denominator, a.denominator * b.numerator};
-}
-
 Number divide(const Number& a, const Number& b, bool rounds) {
   return apply(a, b, rounds, [](const auto& x, const auto& y) { return quotient(x, y); });
 }

@@ -13,8 +13,6 @@ using namespace text;
 
 namespace {
 
-constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
-
 static_assert(std::endian::native == std::endian::little, "glTF's buffers are little endian");
 
 template <class T>
@@ -56,7 +54,7 @@ unsigned size_of(GltfComponent component) {
 }
 
 GltfComponent read_component_type(const JsonValue& value) {
-  const std::uint64_t code = value.integer(0, largest);
+  const std::uint64_t code = value.integer(0, largest_integer);
   for (const auto known : {GltfComponent::int8, GltfComponent::uint8, GltfComponent::int16,
                            GltfComponent::uint16, GltfComponent::uint32, GltfComponent::float32})
     if (code == static_cast<std::uint64_t>(known)) return known;
@@ -74,12 +72,12 @@ unsigned read_width(const JsonValue& type) {
 
 std::uint64_t optional_integer(const JsonValue& object, const char* key, std::uint64_t otherwise) {
   const auto value = object.find(key);
-  return value ? value->integer(0, largest) : otherwise;
+  return value ? value->integer(0, largest_integer) : otherwise;
 }
 
 /// The element of a top-level list that an index refers to.
 JsonValue referred(const JsonValue& root, const char* list, const JsonValue& reference) {
-  const std::uint64_t index = reference.integer(0, largest);
+  const std::uint64_t index = reference.integer(0, largest_integer);
   const auto entries = root.find(list);
   if (!entries || index >= entries->size())
     reference.fail("there is no entry " + std::to_string(index) + " in " + list);
@@ -109,9 +107,9 @@ GltfAccessor::Layout GltfAccessor::lay_out(const JsonValue& root, GltfBuffers& b
                                            std::uint64_t element_size, bool strided) const {
   const JsonValue view = referred(root, "bufferViews", holder.at("bufferView"));
   const JsonValue buffer_index = view.at("buffer");
-  const Bytes buffer = buffers.at(buffer_index.integer(0, largest), buffer_index);
+  const Bytes buffer = buffers.at(buffer_index.integer(0, largest_integer), buffer_index);
   const std::uint64_t view_offset = optional_integer(view, "byteOffset", 0);
-  const std::uint64_t view_length = view.at("byteLength").integer(1, largest);
+  const std::uint64_t view_length = view.at("byteLength").integer(1, largest_integer);
   if (view_offset > buffer.size() || view_length > buffer.size() - view_offset)
     view.fail("reaches beyond the end of its buffer of " + std::to_string(buffer.size()) +
               " bytes");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,9 @@
 /// The numbers of a glTF asset. For this room's .cpp files only.
 /// Source   [GLTF20] 3.6.2 (accessors), 3.6.2.3 (sparse)
 namespace fathom::mesh_files {
+
+/// Of the integers of a glTF file, if nothing else limits one.
+inline constexpr std::uint64_t largest_integer = std::numeric_limits<std::uint64_t>::max();
 
 /// The numeric types of accessors, with glTF's codes.
 enum class GltfComponent {

@@ -20,7 +20,6 @@ using namespace text;
 
 namespace {
 
-constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
 /// Nodes are visited recursively, and transforms grow with every level.
 constexpr int deepest_node = 200;
 
@@ -123,7 +122,7 @@ class GltfReader {
     const auto scenes = root_.find("scenes");
     if (!scenes || scenes->elements().empty()) return parentless_nodes();
     const auto chosen = root_.find("scene");
-    const std::uint64_t index = chosen ? chosen->integer(0, largest) : 0;
+    const std::uint64_t index = chosen ? chosen->integer(0, largest_integer) : 0;
     if (index >= scenes->size()) chosen->fail("there is no scene " + std::to_string(index));
     const auto nodes = scenes->element(index).find("nodes");
     return nodes ? node_indices(*nodes) : std::vector<std::size_t>();
@@ -146,7 +145,7 @@ class GltfReader {
   [[nodiscard]] std::vector<std::size_t> node_indices(const JsonValue& list) const {
     std::vector<std::size_t> indices;
     for (const JsonValue& reference : list.elements()) {
-      const std::uint64_t index = reference.integer(0, largest);
+      const std::uint64_t index = reference.integer(0, largest_integer);
       if (index >= nodes_.size()) reference.fail("there is no node " + std::to_string(index));
       indices.push_back(index);
     }
@@ -168,7 +167,7 @@ class GltfReader {
 
   void place(const JsonValue& node, std::size_t node_index, const JsonValue& reference,
              const Transform& world_from_node) {
-    const std::uint64_t index = reference.integer(0, largest);
+    const std::uint64_t index = reference.integer(0, largest_integer);
     if (index >= meshes_.size()) reference.fail("there is no mesh " + std::to_string(index));
     const JsonValue& mesh = meshes_[index];
     const auto known = read_meshes_.find(index);

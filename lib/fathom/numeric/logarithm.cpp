@@ -53,10 +53,6 @@ Ratio at(Function function, const Ratio& x, long bits, mpfr_rnd_t direction) {
   return to_ratio(value);
 }
 
-Ratio quotient(const Ratio& a, const Ratio& b) {
-  return {a.numerator * b.denominator, a.denominator * b.numerator};
-}
-
 /// log a / log b enclosed. Logarithms of 1 + x keep their relative precision if x is small.
 Enclosure enclose_quotient(const Ratio& a, const Ratio& b, long bits) {
   const Ratio one = Dyadic(1.0);

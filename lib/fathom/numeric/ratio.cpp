@@ -27,6 +27,10 @@ Ratio operator*(const Ratio& a, const Ratio& b) {
   return {a.numerator * b.numerator, a.denominator * b.denominator};
 }
 
+Ratio quotient(const Ratio& a, const Ratio& b) {
+  return {a.numerator * b.denominator, a.denominator * b.numerator};
+}
+
 int compare(const Ratio& a, const Ratio& b) {
   return compare(a.numerator * b.denominator, b.numerator * a.denominator);
 }

@@ -22,6 +22,8 @@ struct Ratio {
 Ratio operator+(const Ratio& a, const Ratio& b);
 Ratio operator-(const Ratio& a, const Ratio& b);
 Ratio operator*(const Ratio& a, const Ratio& b);
+/// Throws std::domain_error if b is zero.
+Ratio quotient(const Ratio& a, const Ratio& b);
 int compare(const Ratio& a, const Ratio& b);
 inline bool operator==(const Ratio& a, const Ratio& b) {
   return compare(a, b) == 0;

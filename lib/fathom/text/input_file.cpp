@@ -6,10 +6,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <system_error>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/text/system_failure.h"
 
 namespace fathom::text {
 namespace {
@@ -17,10 +16,6 @@ namespace {
 /// Files up to this size are read rather than mapped: if another program truncated a mapped file
 /// while it is being read, ours would be killed, and below this size memory is no concern.
 constexpr std::size_t largest_read = std::size_t{64} << 20;
-
-[[noreturn]] void fail(const std::string& name, const char* what) {
-  throw InputError(name + ": " + what + ": " + std::generic_category().message(errno));
-}
 
 /// A file descriptor that closes itself; standard input stays open.
 struct Descriptor {
@@ -35,9 +30,9 @@ struct Descriptor {
 InputFile::InputFile(const std::filesystem::path& path) {
   const std::string name = path.string();
   const Descriptor file{name == "-" ? STDIN_FILENO : ::open(name.c_str(), O_RDONLY | O_CLOEXEC)};
-  if (file.number < 0) fail(name, "cannot be opened");
+  if (file.number < 0) fail_with_errno(name, "cannot be opened");
   struct stat status {};
-  if (::fstat(file.number, &status) != 0) fail(name, "cannot be examined");
+  if (::fstat(file.number, &status) != 0) fail_with_errno(name, "cannot be examined");
   if (S_ISDIR(status.st_mode)) throw InputError(name + ": is a directory, expected a file");
   const auto size = static_cast<std::size_t>(status.st_size);
   if (S_ISREG(status.st_mode) && size > largest_read && name != "-") {
@@ -63,7 +58,7 @@ void InputFile::read(int descriptor, std::size_t capacity, const std::string& na
     }
     const ssize_t got = ::read(descriptor, buffer_.get() + filled, capacity - filled);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(name, "cannot be read");
+    if (got < 0) fail_with_errno(name, "cannot be read");
     if (got == 0) break;
     filled += static_cast<std::size_t>(got);
   }

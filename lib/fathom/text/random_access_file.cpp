@@ -4,29 +4,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <system_error>
-
 #include "fathom/numeric/errors.h"
+#include "fathom/text/system_failure.h"
 
 namespace fathom::text {
-namespace {
-
-[[noreturn]] void fail(const std::string& name, const char* what) {
-  throw InputError(name + ": " + what + ": " + std::generic_category().message(errno));
-}
-
-}  // namespace
-
 RandomAccessFile::RandomAccessFile(const std::filesystem::path& path) : name_(path.string()) {
   struct stat status {};
-  if (::stat(name_.c_str(), &status) != 0) fail(name_, "cannot be opened");
+  if (::stat(name_.c_str(), &status) != 0) fail_with_errno(name_, "cannot be opened");
   if (S_ISDIR(status.st_mode)) throw InputError(name_ + ": is a directory, expected a file");
   if (!S_ISREG(status.st_mode)) {
     throw InputError(name_ + ": is not a regular file, expected one that can be read in parts");
   }
   descriptor_ = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor_ < 0) fail(name_, "cannot be opened");
+  if (descriptor_ < 0) fail_with_errno(name_, "cannot be opened");
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
 
@@ -39,7 +29,7 @@ void RandomAccessFile::read(std::uint64_t offset, std::span<std::byte> bytes) co
     const ssize_t got =
         ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(name_, "cannot be read");
+    if (got < 0) fail_with_errno(name_, "cannot be read");
     if (got == 0) {
       throw InputError(name_ + ": byte " + std::to_string(offset) +
                        ": the file ends, expected the " + std::to_string(size_) +

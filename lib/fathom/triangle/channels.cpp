@@ -220,8 +220,8 @@ void ChannelWriter::write_origin(std::size_t pixel, std::uint32_t number) {
 // n / |n| with n = ±(B − A) × (C − A): each component is ±√(nᵢ² / n·n).
 void ChannelWriter::write_normal(std::size_t pixel, const ProjectedTriangle& t) {
   const auto& [A, B, C] = t.world;
-  const ExactVector3 n =
-      cross({B.x - A.x, B.y - A.y, B.z - A.z}, {C.x - A.x, C.y - A.y, C.z - A.z});
+  const ExactVector3 n = cross(ExactVector3{B.x - A.x, B.y - A.y, B.z - A.z},
+                               ExactVector3{C.x - A.x, C.y - A.y, C.z - A.z});
   const Dyadic squared_length = dot(n, n);
   const Sign turn = -t.orientation * handedness_;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -104,7 +104,7 @@ bool WideReferee::lie_in_one_plane(std::uint32_t a, std::uint32_t b) {
 namespace {
 
 using Whole = std::array<std::int64_t, 3>;
-__extension__ using Wide = __int128;
+__extension__ using Integer128 = __int128;
 
 bool is_one_of(const MeshPoint& X, const MeshTriangle& t) {
   return std::any_of(t.begin(), t.end(),
@@ -136,9 +136,9 @@ bool certainly_coplanar(const MeshTriangle& a, const MeshTriangle& b) {
   };
   const Whole p = from_first(a[1]), r = from_first(a[2]);
   const auto minor = [&](std::size_t i, std::size_t j) {
-    return static_cast<Wide>(p[i]) * r[j] - static_cast<Wide>(p[j]) * r[i];
+    return static_cast<Integer128>(p[i]) * r[j] - static_cast<Integer128>(p[j]) * r[i];
   };
-  const Wide normal[] = {minor(1, 2), minor(2, 0), minor(0, 1)};
+  const Integer128 normal[] = {minor(1, 2), minor(2, 0), minor(0, 1)};
   return std::all_of(b.begin(), b.end(), [&](const MeshPoint& X) {
     const Whole d = from_first(X);
     return normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2] == 0;

@@ -15,10 +15,6 @@ const Ratio& one() {
   return value;
 }
 
-Ratio quotient(const Ratio& a, const Ratio& b) {
-  return {a.numerator * b.denominator, a.denominator * b.numerator};
-}
-
 /// One sample in each of `count` equal parts of the patch, at a place drawn at random. Evenly
 /// spaced ones would fall on the same place of every bin where the distance between them is a whole
 /// number of codes, and show the beat of the two instead of the share.

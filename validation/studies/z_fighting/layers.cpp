@@ -112,10 +112,6 @@ std::vector<LostSeparation> lost_separations(const std::vector<LayeredSample>& s
 
 namespace {
 
-Ratio quotient(const Ratio& a, const Ratio& b) {
-  return {a.numerator * b.denominator, a.denominator * b.numerator};
-}
-
 /// The window depth of a triangle: z = far/(far − near) − k/D with k = near·far/(far − near), and
 /// 1/D = w/n, w affine on the image and n constant under a perspective camera.
 WindowSlopes slopes_of(const ProjectedTriangle& t, const DepthFormat& format) {
