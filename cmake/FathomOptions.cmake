@@ -15,6 +15,10 @@ function(fathom_target_options target)
   endif()
   # A few large compilations read the headers of the standard library once instead of eight times.
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${FATHOM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  if(FATHOM_UNITY AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    # It would complain of names of the other sources; GCC sees what is shadowed within one.
+    target_compile_options(${target} PRIVATE -Wno-shadow)
+  endif()
   if(FATHOM_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
