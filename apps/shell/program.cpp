@@ -20,7 +20,7 @@ int report(ExitStatus status, const std::string& message) {
 
 /// Where the library names a setting, the user gave an option of that name.
 std::string message_of(const Error& error) {
-  const std::string message = error.what();
+  std::string message = error.what();
   if (error.setting().empty()) return message;
   std::string option = "--" + error.setting();
   std::replace(option.begin(), option.end(), '_', '-');

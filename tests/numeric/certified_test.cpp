@@ -106,7 +106,7 @@ TEST(Quotient, ContainsEveryQuotient) {
   for (int i = 0; i < 20000; ++i) {
     const double n = any_double(random), d = any_double(random);
     if (d == 0) continue;
-    const Interval q = quotient({n, n}, {d, d});
+    const Interval q = quotient(Interval{n, n}, Interval{d, d});
     if (std::isfinite(q.lower)) {
       ASSERT_FALSE(Ratio(Dyadic(n), Dyadic(d)) < Ratio(Dyadic(q.lower)));
     }
@@ -114,7 +114,7 @@ TEST(Quotient, ContainsEveryQuotient) {
       ASSERT_FALSE(Ratio(Dyadic(q.upper)) < Ratio(Dyadic(n), Dyadic(d)));
     }
   }
-  const Interval unknown = quotient({1, 2}, {-1, 1});
+  const Interval unknown = quotient(Interval{1, 2}, Interval{-1, 1});
   EXPECT_EQ(unknown.lower, -std::numeric_limits<double>::infinity());
   EXPECT_EQ(unknown.upper, std::numeric_limits<double>::infinity());
 }
