@@ -56,7 +56,7 @@ std::array<float, 12> read_stl_triangle(const std::byte* record, std::uint64_t n
 }
 
 bool is_binary_stl(std::span<const std::byte> head, std::uint64_t size) {
-  if (size >= stl_header_size &&
+  if (head.size() >= stl_header_size &&
       size == stl_header_size + stl_triangle_size * std::uint64_t{claimed_triangles(head)})
     return true;
   const std::string_view text(reinterpret_cast<const char*>(head.data()),
