@@ -103,8 +103,9 @@ int Command::run_named(const Console& console) const {
   for (const auto& below : commands_) {
     if (below->app_.parsed()) return below->run_named(console);
   }
-  for (const auto& [option, take] : taken_) {
-    if (option->count() > 0) about_option(option->get_name(), [&] { take(option->results()); });
+  for (const Taken& taken : taken_) {
+    if (taken.option->count() == 0) continue;
+    about_option(taken.option->get_name(), [&] { taken.take(taken.option->results()); });
   }
   return run_(console);
 }
