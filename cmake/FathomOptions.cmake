@@ -31,6 +31,19 @@ function(fathom_target_options target)
   endif()
 endfunction()
 
+# Makes the source OUTPUT in the build folder of texts of this folder: a std::string_view for each, named after it.
+#   fathom_embed_texts(OUTPUT HEADER NAMESPACE file…)
+# HEADER declares them, in NAMESPACE.
+function(fathom_embed_texts output header namespace)
+  set(files ${ARGN})
+  list(TRANSFORM files PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+  set(script "${PROJECT_SOURCE_DIR}/cmake/EmbedTexts.cmake")
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} "-DFILES=${files}" -DHEADER=${header} -DNAMESPACE=${namespace} -DOUTPUT=${output}
+            -P "${script}"
+    DEPENDS ${files} "${script}" VERBATIM)
+endfunction()
+
 # A room of the library, lib/fathom/ROOM: fathom_ROOM, exported as fathom::ROOM.
 #   fathom_room(ROOM HEADERS a.h… SOURCES b.cpp… [USES room…] [PUBLIC|PRIVATE library…])
 # HEADERS are what users may include; they are installed. USES names the rooms, defined before, that

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/shell/about_option.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"
@@ -46,16 +47,6 @@ struct ValidateArguments {
   std::uint32_t seconds = 300;
 };
 
-/// What `call` returns; its UsageError with the option to blame before it.
-template <class Call>
-auto blaming(const std::string& option, const Call& call) {
-  try {
-    return call();
-  } catch (const UsageError& error) {
-    throw UsageError(option + ": " + error.what());
-  }
-}
-
 Camera read_camera(const std::string& file) {
   if (file.empty()) throw UsageError("--camera FILE is missing");
   note_input(file);
@@ -86,7 +77,7 @@ void require_clip_planes(const RendererModel& model, const Camera& camera) {
 
 ValidationCase validate_map(const ValidateArguments& arguments, const Console& console) {
   ValidationCase made{.renderer = "map", .variant = arguments.model, .version = arguments.map};
-  made.model = blaming("--model", [&] { return attribution::model_named(arguments.model); });
+  made.model = about_option("--model", [&] { return attribution::model_named(arguments.model); });
   const Camera camera = read_camera(arguments.camera);
   require_clip_planes(made.model, camera);
   note_input(arguments.map);
@@ -158,13 +149,14 @@ std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Con
 std::vector<Peer> peers_of(const ValidateArguments& arguments) {
   std::vector<Peer> peers;
   for (const std::string& name : parse_list(arguments.against)) {
-    const auto renderer = blaming("--against", [&] { return validation::renderer_named(name); });
+    const auto renderer =
+        about_option("--against", [&] { return validation::renderer_named(name); });
     const std::vector<Peer> more = validation::peers_of(renderer, time_limit(arguments));
     peers.insert(peers.end(), more.begin(), more.end());
   }
   if (arguments.variants.empty()) return peers;
   const std::vector<std::string> variants = parse_list(arguments.variants);
-  return blaming("--variants", [&] { return validation::with_variants(peers, variants); });
+  return about_option("--variants", [&] { return validation::with_variants(peers, variants); });
 }
 
 /// Every scene drawn by every peer. Before any thread is started: see draw_in_child.
@@ -221,12 +213,12 @@ int validate_against(const ValidateArguments& arguments, const Console& console)
 /// The renderer of --render in the variant that is asked for, else in its first.
 Peer peer_to_render(const ValidateArguments& arguments) {
   const auto renderer =
-      blaming("--render", [&] { return validation::renderer_named(arguments.render); });
+      about_option("--render", [&] { return validation::renderer_named(arguments.render); });
   if (arguments.variants.empty()) {
     return validation::peers_of(renderer, time_limit(arguments)).front();
   }
-  return blaming("--variants",
-                 [&] { return validation::peer_named(renderer, arguments.variants); });
+  return about_option("--variants",
+                      [&] { return validation::peer_named(renderer, arguments.variants); });
 }
 
 /// What the renderer drew, as a map of ours.

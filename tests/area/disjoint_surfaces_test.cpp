@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fathom/scene/triangle_source.h"
+#include "tests/area/surfaces.h"
 #include "tests/effort.h"
 #include "tests/inputs/random_scenes.h"
 #include "tests/oracle/against_oracle.h"
@@ -20,17 +20,7 @@ using testing::Case;
 using testing::CaseMaker;
 using testing::Kind;
 using testing::scene_of;
-
-std::vector<std::optional<SurfaceRegion>> surfaces_of(const Scene& scene, const Camera& camera) {
-  std::vector<std::optional<SurfaceRegion>> surfaces;
-  TierCounts counts;
-  const TriangleSource triangles(scene);
-  for (std::uint32_t number = 0; number < triangles.count(); ++number) {
-    surfaces.push_back(
-        surface_region(project(triangles.world_corners(number), number, camera, counts), camera));
-  }
-  return surfaces;
-}
+using testing::surfaces_by_number;
 
 /// The area that both triangles of a scene cover in the image.
 Q common_area(const Scene& scene, const Camera& camera) {
@@ -53,7 +43,7 @@ TEST_P(Disjoint, IsSaidOnlyOfTrianglesWithoutACommonArea) {
     Case c = maker.make();
     std::vector<CornerIndices>& triangles = c.scene.meshes[0].triangles;
     triangles.resize(2);
-    const auto surfaces = surfaces_of(c.scene, c.camera);
+    const auto surfaces = surfaces_by_number(c.scene, c.camera);
     if (!surfaces[0] || !surfaces[1]) continue;
     const bool disjoint = are_disjoint(*surfaces[0], *surfaces[1]);
     EXPECT_EQ(are_disjoint(*surfaces[1], *surfaces[0]), disjoint);
@@ -88,7 +78,8 @@ TEST(DisjointSurfaces, AllTrianglesOfASheetAreToldApart) {
     }
   }
   Camera camera = camera_of(64, 64, 100);
-  const auto surfaces = surfaces_of(scene_of(std::move(vertices), std::move(triangles)), camera);
+  const auto surfaces =
+      surfaces_by_number(scene_of(std::move(vertices), std::move(triangles)), camera);
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     for (std::size_t t = 0; t < s; ++t) {
       EXPECT_TRUE(are_disjoint(*surfaces[s], *surfaces[t])) << s << " and " << t;
@@ -100,14 +91,14 @@ TEST(DisjointSurfaces, AllTrianglesOfASheetAreToldApart) {
 // Their planes and corners are the same, as those of a fold are; one reaches behind the camera.
 TEST(DisjointSurfaces, AFoldOverlapsAndWhatIsBehindTheCameraIsNoExcuse) {
   const Camera camera = camera_of(8, 8, 4);
-  const auto fold = surfaces_of(
+  const auto fold = surfaces_by_number(
       scene_of({{-0.5, 0, 2}, {0.5, 0, 2}, {0, 0.5, 2}, {0, 0.7, 3}}, {{0, 1, 2}, {1, 0, 3}}),
       camera);
   EXPECT_FALSE(are_disjoint(*fold[0], *fold[1]));
-  const auto across =
-      surfaces_of(scene_of({{-1, 1, 4}, {1, 1, 4}, {0, -1, -3}, {-1, 0, 3}, {1, 0, 3}, {0, -1, 3}},
-                           {{0, 1, 2}, {3, 4, 5}}),
-                  camera);
+  const auto across = surfaces_by_number(
+      scene_of({{-1, 1, 4}, {1, 1, 4}, {0, -1, -3}, {-1, 0, 3}, {1, 0, 3}, {0, -1, 3}},
+               {{0, 1, 2}, {3, 4, 5}}),
+      camera);
   EXPECT_FALSE(are_disjoint(*across[0], *across[1]));
 }
 

@@ -4,7 +4,6 @@
 #include <hwy/targets.h>
 
 #include <filesystem>
-#include <numbers>
 
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
@@ -14,6 +13,7 @@
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
 #include "tests/inputs/random_scenes.h"
+#include "tests/inputs/spheres.h"
 #include "tests/places.h"
 
 namespace fathom {
@@ -148,40 +148,12 @@ TEST(FastChannels, MagnitudesAroundTheSafeOnes) {
 }
 
 /// A sphere of `rings` × 2·rings quads.
-Mesh sphere(std::uint32_t rings) {
-  Mesh mesh;
-  const std::uint32_t columns = 2 * rings;
-  for (std::uint32_t i = 0; i <= rings; ++i) {
-    for (std::uint32_t k = 0; k < columns; ++k) {
-      const double a = std::numbers::pi * i / rings, b = 2 * std::numbers::pi * k / columns;
-      mesh.vertices.push_back({std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b)});
-    }
-  }
-  for (std::uint32_t i = 0; i < rings; ++i) {
-    for (std::uint32_t k = 0; k < columns; ++k) {
-      const std::uint32_t next = (k + 1) % columns;
-      const std::uint32_t a = i * columns + k, b = i * columns + next;
-      mesh.triangles.push_back({a, b, a + columns});
-      mesh.triangles.push_back({b, b + columns, a + columns});
-    }
-  }
-  mesh.face_count = mesh.triangles.size();
-  return mesh;
-}
-
+/// Two placed spheres, and between them an object of no face.
 Scene two_spheres() {
-  Scene scene;
-  scene.meshes.push_back(sphere(testing::effort > 1 ? 8 : 24));
-  scene.objects.push_back({.name = "one"});
-  scene.objects.push_back({.name = "none", .first_face = 7});
+  Scene scene = testing::two_spheres(testing::effort > 1 ? 8 : 24);
   scene.meshes.emplace_back();
-  scene.objects[1].mesh = 1;
-  Object moved{.name = "two", .first_face = 0};
-  moved.placed_as_is = false;
-  moved.world_from_mesh.rows[0] = {0.5, 0.1, 0.0, 0.75};
-  moved.world_from_mesh.rows[1] = {0.1, -0.7, 0.3, 0.1};
-  moved.world_from_mesh.rows[2] = {0.0, 0.3, 0.6, 0.3};
-  scene.objects.push_back(std::move(moved));
+  Object none{.mesh = 1, .name = "none", .first_face = 7};
+  scene.objects.insert(scene.objects.begin() + 1, std::move(none));
   return scene;
 }
 

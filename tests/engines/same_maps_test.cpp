@@ -1,8 +1,6 @@
 // The fast engine against the reference engine, bit for bit.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <numbers>
 #include <set>
 
 #include "fathom/camera/camera_making.h"
@@ -12,6 +10,7 @@
 #include "tests/engines/expect_same_map.h"
 #include "tests/inputs/random_scenes.h"
 #include "tests/inputs/soup.h"
+#include "tests/inputs/spheres.h"
 
 namespace fathom {
 namespace {
@@ -22,6 +21,7 @@ using testing::expect_same;
 using testing::Kind;
 using testing::quick_channels;
 using testing::soup;
+using testing::two_spheres;
 
 class RandomScenes : public ::testing::TestWithParam<std::tuple<Kind, int>> {};
 
@@ -239,42 +239,8 @@ TEST(Fast, AGridOnTheSamples) {
 }
 
 /// A sphere of `rings` × 2·rings quads.
-Mesh sphere(std::uint32_t rings) {
-  Mesh mesh;
-  const std::uint32_t columns = 2 * rings;
-  for (std::uint32_t i = 0; i <= rings; ++i) {
-    for (std::uint32_t k = 0; k < columns; ++k) {
-      const double a = std::numbers::pi * i / rings, b = 2 * std::numbers::pi * k / columns;
-      mesh.vertices.push_back({std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b)});
-    }
-  }
-  for (std::uint32_t i = 0; i < rings; ++i) {
-    for (std::uint32_t k = 0; k < columns; ++k) {
-      const std::uint32_t next = (k + 1) % columns;
-      const std::uint32_t a = i * columns + k, b = i * columns + next;
-      mesh.triangles.push_back({a, b, a + columns});
-      mesh.triangles.push_back({b, b + columns, a + columns});
-    }
-  }
-  mesh.face_count = mesh.triangles.size();
-  return mesh;
-}
-
-Scene two_spheres() {
-  Scene scene;
-  scene.meshes.push_back(sphere(24));
-  scene.objects.push_back({.name = "one"});
-  Object moved{.name = "two", .first_face = 0};
-  moved.placed_as_is = false;
-  moved.world_from_mesh.rows[0] = {0.5, 0.1, 0.0, 0.75};
-  moved.world_from_mesh.rows[1] = {0.1, -0.7, 0.3, 0.1};
-  moved.world_from_mesh.rows[2] = {0.0, 0.3, 0.6, 0.3};
-  scene.objects.push_back(std::move(moved));
-  return scene;
-}
-
 TEST(Fast, PlacedObjectsFromOutsideAndInside) {
-  const Scene scene = two_spheres();
+  const Scene scene = two_spheres(24);
   RenderOptions options;
   options.channels = quick_channels;
   for (const Vector3& eye : {Vector3{3, 1, 2}, Vector3{0.1, 0.2, 0.3}, Vector3{0.9, 0.1, 0.35}}) {
@@ -286,7 +252,7 @@ TEST(Fast, PlacedObjectsFromOutsideAndInside) {
 }
 
 TEST(Fast, EveryChannelAndEncodingOfTwoSpheres) {
-  const Scene scene = two_spheres();
+  const Scene scene = two_spheres(24);
   const Camera camera = look_at({3, 1, 2}, {0.4, 0, 0.1}, {0, 1, 0}, {.width = 70, .height = 66});
   RenderOptions options;
   options.channels = every_channel;
@@ -301,7 +267,7 @@ TEST(Fast, EveryChannelAndEncodingOfTwoSpheres) {
 }
 
 TEST(Fast, TheSamePixelIsNamedWhereAnEncodingCannotHoldADepth) {
-  const Scene scene = two_spheres();
+  const Scene scene = two_spheres(24);
   const Camera camera = look_at({3, 1, 2}, {0.4, 0, 0.1}, {0, 1, 0}, {.width = 150, .height = 130});
   RenderOptions options;
   options.threads = 3;

@@ -20,21 +20,6 @@ using namespace text;
 
 namespace {
 
-Imf::Compression deep_compression(Compression compression) {
-  switch (compression) {
-    case Compression::none:
-      return Imf::NO_COMPRESSION;
-    case Compression::rle:
-      return Imf::RLE_COMPRESSION;
-    case Compression::zips:
-      return Imf::ZIPS_COMPRESSION;
-    case Compression::zip:
-    case Compression::piz:
-      break;
-  }
-  throw UsageError("deep EXR files are compressed by zips, rle or none");
-}
-
 struct DeepChannel {
   const char* name;
   Imf::PixelType type;
@@ -66,7 +51,8 @@ Bytes encode(const DeepMap& map, Compression compression, int threads, const std
     throw OutputError(name + ": EXR holds fewer than 2^30 pixels a side");
   }
   Imf::Header header(static_cast<int>(description.width), static_cast<int>(description.height));
-  header.compression() = deep_compression(compression);
+  check_deep_compression(compression);
+  header.compression() = compression_of(compression);
   header.setType(Imf::DEEPSCANLINE);
   set_attributes(header, description);
   Imf::addDeepImageState(header, Imf::DIS_SORTED);
@@ -97,7 +83,8 @@ Bytes encode(const DeepMap& map, Compression compression, int threads, const std
 }  // namespace
 
 void check_deep_compression(Compression compression) {
-  (void)deep_compression(compression);
+  if (compression == Compression::zip || compression == Compression::piz)
+    throw UsageError("deep EXR files are compressed by zips, rle or none");
 }
 
 void write_deep_map(const DeepMap& map, const std::filesystem::path& path, Compression compression,

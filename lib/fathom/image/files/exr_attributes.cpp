@@ -88,6 +88,22 @@ void set_object_names(Imf::Header& header, const DepthMap& map) {
 
 }  // namespace
 
+Imf::Compression compression_of(Compression compression) {
+  switch (compression) {
+    case Compression::none:
+      return Imf::NO_COMPRESSION;
+    case Compression::rle:
+      return Imf::RLE_COMPRESSION;
+    case Compression::zips:
+      return Imf::ZIPS_COMPRESSION;
+    case Compression::zip:
+      return Imf::ZIP_COMPRESSION;
+    case Compression::piz:
+      return Imf::PIZ_COMPRESSION;
+  }
+  return Imf::ZIP_COMPRESSION;
+}
+
 void set_attributes(Imf::Header& header, const DepthMap& map) {
   set_window(header, map);
   for (const auto& [name, text] : map.texts)

@@ -3,8 +3,12 @@
 #include <ImfHeader.h>
 
 #include "fathom/image/depth_map.h"
+#include "fathom/image/map_files.h"
 
 namespace fathom::image {
+
+/// What the format calls it.
+Imf::Compression compression_of(Compression compression);
 
 /// Puts the map's camera matrices, texts, object names and window into an EXR header. Numbers that
 /// EXR cannot hold there (a mirrored screen window, a matrix beyond binary32) are left out or

@@ -16,22 +16,6 @@ using namespace text;
 
 namespace {
 
-Imf::Compression compression_of(Compression compression) {
-  switch (compression) {
-    case Compression::none:
-      return Imf::NO_COMPRESSION;
-    case Compression::rle:
-      return Imf::RLE_COMPRESSION;
-    case Compression::zips:
-      return Imf::ZIPS_COMPRESSION;
-    case Compression::zip:
-      return Imf::ZIP_COMPRESSION;
-    case Compression::piz:
-      return Imf::PIZ_COMPRESSION;
-  }
-  return Imf::ZIP_COMPRESSION;
-}
-
 /// FLOAT or UINT, and where the values are. OpenEXR takes a non-const pointer but does not write
 /// through it.
 struct Source {
