@@ -6,8 +6,8 @@
 #include "fathom/image/channel_table.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/rgb_image.h"
+#include "fathom/pipeline/geometry/painters_algorithm.h"
 #include "fathom/pipeline/options.h"
-#include "fathom/pipeline/painters_algorithm.h"
 #include "fathom/scene/scene.h"
 
 /// The front door to the pipeline of the textbooks.

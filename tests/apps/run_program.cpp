@@ -8,7 +8,6 @@
 
 #include <cerrno>
 #include <fstream>
-#include <sstream>
 
 #include "test_folder.h"
 #include "tests/places.h"

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "fathom/triangle/sampling.h"
 #include "tests/area/surfaces.h"
 #include "tests/effort.h"

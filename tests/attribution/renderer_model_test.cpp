@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/numeric/errors.h"
 

@@ -1,8 +1,6 @@
 // The labels and the walk by themselves: two squares of which one covers a corner of the other.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "fathom/clipping/contacts.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/weiler_atherton_labels.h"

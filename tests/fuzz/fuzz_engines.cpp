@@ -2,7 +2,6 @@
 //
 // The input is read as small numbers: few bits make ties, and a byte now and then moves a
 // coordinate to its neighbour or multiplies it by a power of two.
-#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>

@@ -1,7 +1,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 #include "fathom/mesh_files/recognise_format.h"
 #include "fathom/numeric/errors.h"

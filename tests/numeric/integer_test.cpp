@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/numeric/random_numbers.h"
 
 namespace fathom {

@@ -3,7 +3,6 @@
 #include <gmp.h>
 #include <mpfr.h>
 
-#include <bit>
 #include <cstdint>
 
 /// Rounding by MPFR, for holding ours against: the quotient is computed by MPFR itself in the

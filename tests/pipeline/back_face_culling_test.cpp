@@ -1,4 +1,4 @@
-#include "fathom/pipeline/back_face_culling.h"
+#include "fathom/pipeline/geometry/back_face_culling.h"
 
 #include <gtest/gtest.h>
 

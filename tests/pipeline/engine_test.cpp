@@ -7,8 +7,8 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/pipeline/fragments/texture.h"
 #include "fathom/pipeline/render_pipeline.h"
-#include "fathom/pipeline/texture.h"
 #include "fathom/render.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "tests/effort.h"

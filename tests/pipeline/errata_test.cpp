@@ -6,14 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "fathom/clipping/homogeneous.h"
 #include "fathom/depth_format/encode.h"
-#include "fathom/pipeline/grid_samples.h"
+#include "fathom/pipeline/rasterization/grid_samples.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/pipeline/scan/edge_function.h"
 #include "fathom/pipeline/scan/line.h"

@@ -1,4 +1,4 @@
-#include "fathom/pipeline/interpolation.h"
+#include "fathom/pipeline/fragments/interpolation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "fathom/pipeline/output_merger.h"
+#include "fathom/pipeline/output/output_merger.h"
 
 #include <gtest/gtest.h>
 
-#include "fathom/pipeline/fxaa.h"
+#include "fathom/pipeline/output/fxaa.h"
 
 namespace fathom::pipeline {
 namespace {

@@ -1,4 +1,4 @@
-#include "fathom/pipeline/plane_sides.h"
+#include "fathom/pipeline/geometry/plane_sides.h"
 
 #include <gtest/gtest.h>
 

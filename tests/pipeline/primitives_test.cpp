@@ -6,9 +6,9 @@
 #include <random>
 #include <set>
 
-#include "fathom/pipeline/primitive_assembly.h"
+#include "fathom/pipeline/geometry/primitive_assembly.h"
+#include "fathom/pipeline/geometry/subpixel_grid.h"
 #include "fathom/pipeline/render_pipeline.h"
-#include "fathom/pipeline/subpixel_grid.h"
 
 namespace fathom::pipeline {
 namespace {

@@ -1,4 +1,4 @@
-#include "fathom/pipeline/shading.h"
+#include "fathom/pipeline/fragments/shading.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,14 @@
 // Vertices to the window by the stages, against the exact camera.
-#include "fathom/pipeline/vertex_transform.h"
+#include "fathom/pipeline/geometry/vertex_transform.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <random>
 
 #include "fathom/depth_format/mapping.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
-#include "fathom/pipeline/window_transform.h"
+#include "fathom/pipeline/geometry/window_transform.h"
 #include "tests/inputs/scene_building.h"
 
 namespace fathom::pipeline {

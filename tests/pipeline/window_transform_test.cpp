@@ -1,4 +1,4 @@
-#include "fathom/pipeline/window_transform.h"
+#include "fathom/pipeline/geometry/window_transform.h"
 
 #include <gtest/gtest.h>
 

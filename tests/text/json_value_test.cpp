@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "fathom/numeric/errors.h"
 #include "tests/scratch_folder.h"
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "fathom/numeric/rounding.h"
 #include "fathom/triangle/projected_triangle.h"

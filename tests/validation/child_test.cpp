@@ -4,9 +4,7 @@
 #include <cmath>
 #include <csignal>
 #include <limits>
-#include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "validation/child/in_child.h"

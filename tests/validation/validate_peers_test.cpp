@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"

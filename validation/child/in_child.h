@@ -2,7 +2,6 @@
 
 #include <new>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "validation/child/child_process.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "fathom/image/preview.h"
 #include "fathom/render.h"

@@ -9,7 +9,7 @@
 #include "apps/textbook/pipeline/pipeline_plan.h"
 #include "apps/textbook/pipeline/pipeline_report.h"
 #include "fathom/camera/camera_files.h"
-#include "fathom/pipeline/window_transform.h"
+#include "fathom/pipeline/geometry/window_transform.h"
 #include "fathom/render_by_pipeline.h"
 
 namespace fathom::app {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "fathom/pipeline/geometry/painters_algorithm.h"
 #include "fathom/pipeline/options.h"
-#include "fathom/pipeline/painters_algorithm.h"
 
 namespace fathom::app {
 

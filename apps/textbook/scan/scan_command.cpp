@@ -9,7 +9,7 @@
 #include "apps/textbook/scan/scan_algorithms.h"
 #include "apps/textbook/textbook_commands.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/pipeline/subpixel_grid.h"
+#include "fathom/pipeline/geometry/subpixel_grid.h"
 
 namespace fathom::app {
 namespace {

@@ -1,7 +1,5 @@
 #include "fathom/area/cell_division.h"
 
-#include <optional>
-
 namespace fathom::area {
 namespace {
 

@@ -1,7 +1,6 @@
 #include "fathom/area/convex_polygon.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fathom::area {
 namespace {

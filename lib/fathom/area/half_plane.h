@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/certified_arithmetic.h"

@@ -4,7 +4,6 @@
 #include <array>
 #include <deque>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "fathom/area/convex_union.h"

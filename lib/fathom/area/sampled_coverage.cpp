@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bitset>
-#include <limits>
 
 #include "fathom/area/coverage_image.h"
 #include "fathom/threads/threads.h"

@@ -2,8 +2,6 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include <atomic>
-
 #include "fathom/area/cell_division.h"
 #include "fathom/area/scene_surfaces.h"
 #include "fathom/area/visible_fragments.h"

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <limits>
 
 #include "fathom/camera/camera_import_internal.h"

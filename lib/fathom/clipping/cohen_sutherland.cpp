@@ -1,7 +1,6 @@
 #include "fathom/clipping/cohen_sutherland.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/numeric/errors.h"

@@ -1,6 +1,5 @@
 #include "fathom/clipping/homogeneous.h"
 
-#include <algorithm>
 #include <array>
 
 #include "fathom/clipping/exact_kernel.h"

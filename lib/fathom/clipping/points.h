@@ -1,7 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <utility>
 #include <vector>
 
 /// Points, segments and rings over a kernel: Number is double (every operation rounded to binary64)

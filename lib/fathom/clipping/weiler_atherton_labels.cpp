@@ -1,6 +1,5 @@
 #include "fathom/clipping/weiler_atherton_labels.h"
 
-#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>

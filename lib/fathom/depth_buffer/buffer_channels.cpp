@@ -2,8 +2,6 @@
 
 #include <bit>
 #include <limits>
-#include <string>
-#include <utility>
 
 #include "fathom/numeric/binary16.h"
 

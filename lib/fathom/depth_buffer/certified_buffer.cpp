@@ -1,7 +1,6 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 

@@ -1,7 +1,6 @@
 #include "fathom/fast/bins.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "fathom/fast/boxes.h"
 #include "fathom/fast/tile.h"

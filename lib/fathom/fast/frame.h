@@ -3,10 +3,8 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "fathom/fast/bins.h"

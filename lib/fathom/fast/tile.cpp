@@ -1,7 +1,6 @@
 #include "fathom/fast/tile.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "fathom/triangle/sampling.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <utility>
 
 #include "fathom/image/compare_internal.h"
 #include "fathom/numeric/errors.h"

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <set>
 
 #include "fathom/image/compare_internal.h"
 #include "fathom/image/pictures/legend.h"

@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "fathom/image/depth_map.h"
 #include "fathom/image/rgb_image.h"

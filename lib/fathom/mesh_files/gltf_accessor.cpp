@@ -1,7 +1,6 @@
 #include "fathom/mesh_files/gltf_accessor.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstring>
 #include <limits>

@@ -1,7 +1,6 @@
 #include "fathom/mesh_files/gltf_buffers.h"
 
 #include <array>
-#include <bit>
 #include <cstring>
 #include <limits>
 #include <system_error>

@@ -1,8 +1,5 @@
 #include "fathom/mesh_files/read_gltf.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <string>

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh_files/read_options.h"

@@ -2,8 +2,6 @@
 
 #include <gmp.h>
 
-#include <string>
-
 #include "fathom/numeric/interval.h"
 
 namespace fathom {

@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 /// The three ways in which a user's request can fail. The message is one line: what is wrong and
 /// what was expected, beginning with "FILE: " or "FILE: line N: " if a file is to blame.

@@ -3,7 +3,6 @@
 #include <mpfr.h>
 
 #include <stdexcept>
-#include <utility>
 
 #include "fathom/numeric/integer.h"
 

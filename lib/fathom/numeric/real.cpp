@@ -1,7 +1,5 @@
 #include "fathom/numeric/real.h"
 
-#include <utility>
-
 namespace fathom {
 
 std::optional<Ratio> Real::rational() const {

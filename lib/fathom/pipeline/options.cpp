@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fathom/numeric/errors.h"
-#include "fathom/pipeline/subpixel_grid.h"
+#include "fathom/pipeline/geometry/subpixel_grid.h"
 
 namespace fathom::pipeline {
 namespace {

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "fathom/numeric/errors.h"
-#include "fathom/pipeline/area_sampling.h"
-#include "fathom/pipeline/fxaa.h"
-#include "fathom/pipeline/geometry_stages.h"
-#include "fathom/pipeline/rasterizer.h"
+#include "fathom/pipeline/geometry/geometry_stages.h"
+#include "fathom/pipeline/output/area_sampling.h"
+#include "fathom/pipeline/output/fxaa.h"
+#include "fathom/pipeline/rasterization/rasterizer.h"
 
 namespace fathom::pipeline {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "fathom/image/depth_map.h"
-#include "fathom/pipeline/output_merger.h"
-#include "fathom/pipeline/painters_algorithm.h"
+#include "fathom/pipeline/geometry/painters_algorithm.h"
+#include "fathom/pipeline/output/output_merger.h"
 
 /// The pipeline from end to end, one file per stage, in the order of the data:
 ///   primitive_assembly, vertex_transform, window_transform (clipping, division, viewport),

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fathom/numeric/errors.h"
-#include "fathom/pipeline/shading.h"
+#include "fathom/pipeline/fragments/shading.h"
 
 namespace fathom::pipeline {
 namespace {

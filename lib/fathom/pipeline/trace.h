@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "fathom/pipeline/depth_test.h"
+#include "fathom/pipeline/fragments/depth_test.h"
 
 /// One triangle followed through the pipeline: what enters each stage and what leaves it.
 namespace fathom::pipeline {

@@ -1,7 +1,6 @@
 #include "fathom/reference/probe.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/sampling.h"

@@ -1,6 +1,5 @@
 #include "fathom/scene/read_scene.h"
 
-#include <algorithm>
 #include <future>
 #include <iterator>
 #include <map>

@@ -3,7 +3,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 
 /// Numbers in files, whatever the machine's own byte order. Values move as integers, so that the

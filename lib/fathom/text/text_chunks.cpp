@@ -1,6 +1,5 @@
 #include "fathom/text/text_chunks.h"
 
-#include <algorithm>
 #include <exception>
 
 #include "fathom/threads/threads.h"

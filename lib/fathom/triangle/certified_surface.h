@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/certified_value.h"

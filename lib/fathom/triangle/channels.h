@@ -3,7 +3,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/triangle_source.h"

@@ -1,7 +1,6 @@
 #include "fathom/triangle/double_word_referee.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "fathom/numeric/last_bit.h"

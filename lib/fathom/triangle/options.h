@@ -1,9 +1,6 @@
 #pragma once
 
-#include <atomic>
 #include <functional>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "fathom/image/channel_table.h"

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 
 #include "fathom/camera/camera.h"
 #include "fathom/geometry/pixel_box.h"

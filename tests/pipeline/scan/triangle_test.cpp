@@ -7,9 +7,9 @@
 #include <map>
 #include <random>
 
+#include "fathom/pipeline/geometry/subpixel_grid.h"
 #include "fathom/pipeline/scan/edge_function.h"
 #include "fathom/pipeline/scan/polygon_fill.h"
-#include "fathom/pipeline/subpixel_grid.h"
 #include "tests/effort.h"
 
 namespace fathom::pipeline {

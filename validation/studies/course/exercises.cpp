@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fathom/pipeline/grid_samples.h"
+#include "fathom/pipeline/rasterization/grid_samples.h"
 #include "fathom/pipeline/scan/edge_function.h"
 #include "fathom/pipeline/scan/line.h"
 #include "fathom/render.h"

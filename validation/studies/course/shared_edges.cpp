@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "fathom/pipeline/subpixel_grid.h"
+#include "fathom/pipeline/geometry/subpixel_grid.h"
 
 namespace fathom::studies {
 namespace {

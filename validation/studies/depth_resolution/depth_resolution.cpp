@@ -1,7 +1,5 @@
 #include "validation/studies/depth_resolution/depth_resolution.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "fathom/numeric/errors.h"

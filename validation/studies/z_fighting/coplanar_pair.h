@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "fathom/depth_format/pipeline_model.h"
 #include "validation/studies/indistinguishable/depth_order.h"
 

@@ -1,6 +1,5 @@
 #include "validation/studies/z_fighting/z_fighting.h"
 
-#include <cmath>
 #include <limits>
 
 #include "fathom/numeric/errors.h"

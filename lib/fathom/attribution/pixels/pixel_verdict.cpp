@@ -1,10 +1,7 @@
 #include "fathom/attribution/pixels/pixel_verdict.h"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <numeric>
-#include <unordered_map>
 
 namespace fathom::attribution {
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/ray/camera_rays.h"
 #include "fathom/attribution/ray/vector3.h"

@@ -4,7 +4,6 @@
 #include <ImfIO.h>
 
 #include <cstring>
-#include <mutex>
 #include <utility>
 #include <vector>
 

@@ -1,5 +1,4 @@
 #include <charconv>
-#include <optional>
 #include <string_view>
 
 #include "fathom/image/files/map_codecs.h"

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <charconv>
 #include <csetjmp>
-#include <cstring>
 #include <utility>
 
 #include "fathom/image/files/map_codecs.h"

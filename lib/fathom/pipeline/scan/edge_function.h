@@ -3,7 +3,6 @@
 #include <array>
 #include <functional>
 #include <optional>
-#include <vector>
 
 #include "fathom/pipeline/scan/arithmetic.h"
 #include "fathom/pipeline/scan/pixels.h"

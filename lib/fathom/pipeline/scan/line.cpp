@@ -1,7 +1,6 @@
 #include "fathom/pipeline/scan/line.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace fathom::pipeline {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <vector>
 
 /// Pixels of a window: pixel (x, y) is the square [x, x+1] × [y, y+1], y grows down, its centre is
 /// (x + ½, y + ½).

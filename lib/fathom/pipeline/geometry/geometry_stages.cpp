@@ -1,0 +1,151 @@
+#include "fathom/pipeline/geometry/geometry_stages.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fathom/pipeline/fragments/shading.h"
+
+// How to read this file: GeometryStages::run() is the order of the stages, for one triangle.
+namespace fathom::pipeline {
+namespace {
+
+template <class Real>
+bool is_finite(const ClipVertex<Real>& v) {
+  const auto& [x, y, z, w] = v.position;
+  return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && std::isfinite(w) &&
+         std::all_of(v.attributes.begin(), v.attributes.end(),
+                     [](Real a) { return std::isfinite(a); });
+}
+
+template <class Real>
+class GeometryStages {
+ public:
+  GeometryStages(const Camera& camera, const PipelineOptions& options, WindowPrimitives<Real>& out,
+                 PipelineStatistics& statistics)
+      : options_(options),
+        viewport_(viewport_of(camera, options)),
+        eye_(lighting_of(camera)),
+        mirrored_(((camera.fx < 0) != (camera.fy < 0)) !=
+                  (determinant_of_rotation(camera).sign() == Sign::negative)),
+        out_(out),
+        count_(statistics) {}
+
+  void run(const InputTriangle& input, const VertexTransform<Real>& transform) {
+    ++count_.triangles;
+    std::vector<ClipVertex<Real>> corners;
+    for (const InputVertex& corner : input.corners) corners.push_back(transform(corner));
+    if (!std::all_of(corners.begin(), corners.end(), is_finite<Real>)) {
+      ++count_.not_finite;
+      return;
+    }
+    const auto polygon = clip_triangle(corners, viewport_.volume);
+    if (polygon.empty()) {
+      ++count_.clipped_away;
+      return;
+    }
+    const bool whole = polygon.size() == 3 && same_place(polygon, corners);
+    if (!whole) ++count_.clipped;
+    std::vector<WindowVertex<Real>> window;
+    window.reserve(polygon.size());
+    for (const ClipVertex<Real>& corner : polygon) window.push_back(viewport_(divide(corner)));
+    if (whole) compare_facings(corners, window);
+    bool culled = false, degenerate = true;
+    for (std::size_t i = 2; i < window.size(); ++i)
+      emit({input.number, {window[0], window[i - 1], window[i]}}, culled, degenerate);
+    count_.culled += culled;
+    count_.degenerate += degenerate && !culled;
+    if (!degenerate) emit_outline(input.number, corners);
+  }
+
+ private:
+  static bool same_place(const std::vector<ClipVertex<Real>>& a,
+                         const std::vector<ClipVertex<Real>>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), [](const auto& p, const auto& q) {
+      return p.position.x == q.position.x && p.position.y == q.position.y &&
+             p.position.z == q.position.z && p.position.w == q.position.w;
+    });
+  }
+
+  void compare_facings(const std::vector<ClipVertex<Real>>& corners,
+                       const std::vector<WindowVertex<Real>>& window) {
+    std::array<WorldVertex<Real>, 3> world;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Real* p = &corners[k].attributes[attribute::world];
+      world[k] = {p[0], p[1], p[2]};
+    }
+    const FrontFace rule = options_.front_face;
+    const bool in_world =
+        facing_in_world(world, eye_.eye, !eye_.orthographic, mirrored_, rule) == Facing::front;
+    const bool in_ndc =
+        facing_in_ndc<Real>({divide(corners[0]), divide(corners[1]), divide(corners[2])}, rule) ==
+        Facing::front;
+    const bool in_window =
+        facing_in_window<Real>({window[0], window[1], window[2]}, rule) == Facing::front;
+    FacingStatistics& f = count_.facings;
+    ++f.compared;
+    f.front_in_world += in_world;
+    f.front_in_ndc += in_ndc;
+    f.front_in_window += in_window;
+    f.disagreeing += in_world != in_ndc || in_ndc != in_window;
+  }
+
+  void emit_outline(std::uint32_t number, const std::vector<ClipVertex<Real>>& corners) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (options_.shading == Shading::wireframe) {
+        if (const auto line = clip_line(corners[k], corners[(k + 1) % 3], viewport_.volume))
+          out_.lines.push_back(
+              {number, {viewport_(divide((*line)[0])), viewport_(divide((*line)[1]))}});
+      } else if (options_.shading == Shading::points && is_inside(corners[k], viewport_.volume)) {
+        out_.points.push_back({number, viewport_(divide(corners[k]))});
+      }
+    }
+  }
+
+  void emit(WindowTriangle<Real> triangle, bool& culled, bool& degenerate) {
+    const Facing facing = facing_in_window(triangle.corners, options_.front_face);
+    if (facing == Facing::edge_on) return;
+    if (is_culled(facing, options_.culling)) {
+      culled = true;
+      return;
+    }
+    degenerate = false;
+    triangle.front = facing == Facing::front;
+    triangle.depth_offset = depth_offset(triangle, options_);
+    const auto on_grid = GridTriangle::of(snapped(triangle, options_.subpixel_bits));
+    const bool ccw = (options_.front_face == FrontFace::counter_clockwise) == triangle.front;
+    if (!on_grid || on_grid->counter_clockwise() != ccw) ++count_.turned_by_snapping;
+    ++count_.drawn;
+    out_.triangles.push_back(triangle);
+  }
+
+  const PipelineOptions& options_;
+  Viewport viewport_;
+  Lighting eye_;
+  bool mirrored_;
+  WindowPrimitives<Real>& out_;
+  PipelineStatistics& count_;
+};
+
+}  // namespace
+
+template <class Real>
+WindowPrimitives<Real> to_window(const Scene& scene, const Camera& camera,
+                                 const PipelineOptions& options, PipelineStatistics& statistics) {
+  WindowPrimitives<Real> primitives;
+  GeometryStages<Real> stages(camera, options, primitives, statistics);
+  std::uint32_t first = 0;
+  for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
+    const VertexTransform<Real> transform(camera, scene.objects[object], options);
+    for (const InputTriangle& triangle : assemble_triangles(scene, object, first))
+      stages.run(triangle, transform);
+    first += static_cast<std::uint32_t>(scene.meshes[scene.objects[object].mesh].triangles.size());
+  }
+  return primitives;
+}
+
+template WindowPrimitives<float> to_window(const Scene&, const Camera&, const PipelineOptions&,
+                                           PipelineStatistics&);
+template WindowPrimitives<double> to_window(const Scene&, const Camera&, const PipelineOptions&,
+                                            PipelineStatistics&);
+
+}  // namespace fathom::pipeline

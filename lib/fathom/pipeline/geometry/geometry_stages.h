@@ -1,0 +1,13 @@
+#pragma once
+
+#include "fathom/pipeline/geometry/window_triangle.h"
+
+namespace fathom::pipeline {
+
+/// The stages up to the window: transform, clip, divide, cull, viewport, in that order. Parts of a
+/// clipped triangle come one after another.
+template <class Real>
+WindowPrimitives<Real> to_window(const Scene& scene, const Camera& camera,
+                                 const PipelineOptions& options, PipelineStatistics& statistics);
+
+}  // namespace fathom::pipeline

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "fathom/pipeline/geometry/window_triangle.h"
+
+namespace fathom::pipeline {
+
+/// How the painter's order came about: how often each of Newell's tests settled that a polygon may
+/// be painted before another, and what had to be done if none did.
+struct PainterStatistics {
+  std::array<std::uint64_t, 5> settled{};
+  std::uint64_t z_disjoint = 0;   ///< polygons whose successors are entirely nearer
+  std::uint64_t moved = 0;        ///< painted earlier than their farthest corner suggests
+  std::uint64_t splits = 0;       ///< cut in two: cycles and penetration
+  std::uint64_t comparisons = 0;  ///< pairs whose depths overlap
+};
+
+/// The painter's algorithm by Newell, Newell and Sancha: triangles are sorted by their farthest
+/// corner; then P may be painted before every Q whose depths overlap its own if one of these holds:
+///   1, 2  their boxes are disjoint in x, in y
+///   3     P lies wholly behind the plane of Q
+///   4     Q lies wholly in front of the plane of P
+///   5     their projections do not overlap
+/// Otherwise Q is tried before P; if that has been tried, a polygon is split by the plane of the
+/// other. All tests are exact for the given window coordinates; the corners of pieces are rounded.
+/// Source   [NNS72]
+///
+/// Returns  the triangles, pieces among them, in painting order.
+/// Fails    InputError if more than a million pieces do not suffice.
+template <class Real>
+std::vector<WindowTriangle<Real>> painters_order(std::vector<WindowTriangle<Real>> triangles,
+                                                 bool greater_is_nearer,
+                                                 PainterStatistics& statistics);
+
+}  // namespace fathom::pipeline

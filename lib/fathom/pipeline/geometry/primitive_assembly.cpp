@@ -1,0 +1,83 @@
+#include "fathom/pipeline/geometry/primitive_assembly.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::pipeline {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+/// Twice the area times the unit normal of a triangle.
+Vector area_vector(const MeshPoint& a, const MeshPoint& b, const MeshPoint& c) {
+  const Vector s{b.x - a.x, b.y - a.y, b.z - a.z}, t{c.x - a.x, c.y - a.y, c.z - a.z};
+  return {s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]};
+}
+
+std::vector<Vector> smooth_normals(const Mesh& mesh) {
+  std::vector<Vector> normals(mesh.vertices.size(), Vector{0, 0, 0});
+  for (const CornerIndices& t : mesh.triangles) {
+    const Vector n = area_vector(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    for (const std::uint32_t v : t)
+      for (std::size_t k = 0; k < 3; ++k) normals[v][k] += n[k];
+  }
+  for (Vector& n : normals) {
+    const double length = std::hypot(n[0], n[1], n[2]);
+    if (length > 0 && std::isfinite(length)) {
+      for (double& component : n) component /= length;
+    } else {
+      n = {0, 0, 0};
+    }
+  }
+  return normals;
+}
+
+/// The index of a corner into a list that has triangles of its own, else that of the vertex.
+std::uint32_t index_of(const std::vector<CornerIndices>& own, const Mesh& mesh, std::size_t t,
+                       std::size_t corner) {
+  return own.empty() ? mesh.triangles[t][corner] : own[t][corner];
+}
+
+}  // namespace
+
+std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
+                                              std::uint32_t first_number) {
+  const Mesh& mesh = scene.meshes[scene.objects[object].mesh];
+  const std::vector<Vector> smooth =
+      mesh.normals.empty() ? smooth_normals(mesh) : std::vector<Vector>();
+  std::vector<InputTriangle> triangles(mesh.triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    triangles[t].number = first_number + static_cast<std::uint32_t>(t);
+    triangles[t].object = object;
+    for (std::size_t k = 0; k < 3; ++k) {
+      InputVertex& corner = triangles[t].corners[k];
+      const std::uint32_t v = mesh.triangles[t][k];
+      corner.position = mesh.vertices[v];
+      if (mesh.normals.empty()) {
+        corner.normal = smooth[v];
+      } else if (const auto n = index_of(mesh.normal_triangles, mesh, t, k);
+                 n < mesh.normals.size()) {
+        corner.normal = mesh.normals[n];
+      }
+      if (const auto u = index_of(mesh.texture_triangles, mesh, t, k);
+          u < mesh.texture_coordinates.size())
+        corner.uv = mesh.texture_coordinates[u];
+      if (v < mesh.colours.size())
+        for (std::size_t c = 0; c < 3; ++c)
+          corner.colour[c] = static_cast<double>(mesh.colours[v][c]);
+    }
+  }
+  return triangles;
+}
+
+bool has_texture_coordinates(const Scene& scene) {
+  return std::all_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    if (mesh.texture_coordinates.empty()) return mesh.triangles.empty();
+    return std::all_of(
+        mesh.texture_triangles.begin(), mesh.texture_triangles.end(),
+        [](const CornerIndices& t) { return std::find(t.begin(), t.end(), no_index) == t.end(); });
+  });
+}
+
+}  // namespace fathom::pipeline

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fathom/pipeline/geometry/back_face_culling.h"
+#include "fathom/pipeline/geometry/subpixel_grid.h"
+#include "fathom/pipeline/geometry/window_transform.h"
+
+namespace fathom::pipeline {
+
+/// A triangle as it reaches scan conversion.
+template <class Real>
+struct WindowTriangle {
+  std::uint32_t number = 0;  ///< of the triangle of the scene that it is, or of which it is a part
+  std::array<WindowVertex<Real>, 3> corners;
+  bool front = true;
+  Real depth_offset = 0;  ///< polygon offset, added to the window depth of its fragments
+};
+
+/// An edge of a triangle, or a part of one.
+template <class Real>
+struct WindowLine {
+  std::uint32_t number = 0;
+  std::array<WindowVertex<Real>, 2> ends;
+};
+
+/// A corner of a triangle.
+template <class Real>
+struct WindowPoint {
+  std::uint32_t number = 0;
+  WindowVertex<Real> place;
+};
+
+/// What reaches scan conversion. Lines and points are there if the options draw them, for the
+/// triangles that are not culled; they are clipped as lines and points.
+template <class Real>
+struct WindowPrimitives {
+  std::vector<WindowTriangle<Real>> triangles;
+  std::vector<WindowLine<Real>> lines;
+  std::vector<WindowPoint<Real>> points;
+};
+
+/// The corners, snapped to the subpixel grid.
+template <class Real>
+std::array<GridPoint, 3> snapped(const WindowTriangle<Real>& triangle, int bits);
+
+/// The offset that the options give for a triangle (depth_format/depth_bias.h).
+template <class Real>
+Real depth_offset(const WindowTriangle<Real>& triangle, const PipelineOptions& options);
+
+}  // namespace fathom::pipeline

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <vector>
+
+#include "fathom/image/depth_map.h"
+#include "fathom/image/rgb_image.h"
+#include "fathom/pipeline/fragments/depth_test.h"
+
+/// Output merger: what becomes of a shaded fragment, and of the samples at the end.
+namespace fathom::pipeline {
+
+/// A picture of floating-point colours, row by row from the top left.
+struct ColourImage {
+  std::uint32_t width = 0, height = 0;
+  std::vector<Colour> pixels;
+
+  [[nodiscard]] const Colour& at(std::uint32_t x, std::uint32_t y) const {
+    return pixels[std::size_t{y} * width + x];
+  }
+};
+
+/// Rounded to 8 bits, to nearest.
+RgbImage to_rgb(const ColourImage& image);
+
+/// What is kept for a sample. A cleared depth buffer is farther than every depth: a fragment at the
+/// far end passes.
+struct StoredSample {
+  std::uint32_t id = no_surface;
+  std::array<float, 3> colour{};
+  StoredDepth stored;
+  double depth = 0;  ///< along the view, of the triangle that `id` names
+};
+
+/// Colour and depth buffer, `samples` per pixel, for the rows of an image from `first_row` on.
+class FrameBuffer {
+ public:
+  FrameBuffer(std::uint32_t width, std::uint32_t height, std::size_t samples,
+              const Colour& background, std::uint32_t first_row = 0);
+
+  [[nodiscard]] std::uint32_t width() const { return width_; }
+  [[nodiscard]] std::uint32_t height() const { return height_; }
+  [[nodiscard]] std::size_t samples() const { return samples_; }
+  [[nodiscard]] StoredSample& at(const Pixel& p, std::size_t sample) {
+    return buffer_[index(p) + sample];
+  }
+  [[nodiscard]] const StoredSample& at(const Pixel& p, std::size_t sample) const {
+    return buffer_[index(p) + sample];
+  }
+
+  /// Selects: the fragment replaces what is stored.
+  void replace(const Pixel& p, std::size_t sample, std::uint32_t id, StoredDepth stored,
+               double depth, const Colour& colour);
+  /// Blends: colour over what is stored, by its opacity. What is drawn first lies below, however
+  /// near it is; the depth buffer still keeps the nearest.
+  void blend(const Pixel& p, std::size_t sample, const Colour& colour, double alpha);
+
+  /// The mean of each pixel's samples.
+  [[nodiscard]] ColourImage resolve() const;
+
+ private:
+  [[nodiscard]] std::size_t index(const Pixel& p) const {
+    return (static_cast<std::size_t>(p.y - first_row_) * width_ + static_cast<std::size_t>(p.x)) *
+           samples_;
+  }
+
+  std::uint32_t width_, height_, first_row_;
+  std::size_t samples_;
+  std::vector<StoredSample> buffer_;
+};
+
+}  // namespace fathom::pipeline

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "fathom/pipeline/fragments/shading.h"
+#include "fathom/pipeline/output/output_merger.h"
+#include "fathom/pipeline/rasterization/grid_samples.h"
+
+/// Scan conversion stage and what follows it, for triangles in the window: fragments, depth test,
+/// shading, output merger.
+namespace fathom::pipeline {
+
+enum class ShadingRate {
+  per_sample,
+  /// Once for each pixel and triangle: at the centre or, if that is not covered, at the mean of the
+  /// covered samples (multisampling).
+  per_pixel,
+};
+
+struct RasterizerSettings {
+  const PipelineOptions& options;
+  const GridSamples& pattern;
+  ShadingRate rate = ShadingRate::per_sample;
+  /// Without a depth test, what comes later is on top (the painter's algorithm).
+  bool depth_tested = true;
+  /// The part of the window that is drawn to.
+  PixelWindow window;
+};
+
+/// Draws triangles in their order. `shader` may be null if colours are not asked for.
+template <class Real>
+void rasterize(const std::vector<WindowTriangle<Real>>& triangles,
+               const RasterizerSettings& settings, Shader<Real>* shader, FrameBuffer& target,
+               PipelineStatistics& statistics);
+
+/// Draws lines, with a depth test at each pixel.
+template <class Real>
+void rasterize_lines(const std::vector<WindowLine<Real>>& lines, const RasterizerSettings& settings,
+                     FrameBuffer& target, PipelineStatistics& statistics);
+
+/// Draws the pixel that each point lies in, with a depth test.
+template <class Real>
+void rasterize_points(const std::vector<WindowPoint<Real>>& points,
+                      const RasterizerSettings& settings, FrameBuffer& target,
+                      PipelineStatistics& statistics);
+
+}  // namespace fathom::pipeline

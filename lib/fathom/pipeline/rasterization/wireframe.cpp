@@ -1,0 +1,107 @@
+#include <algorithm>
+
+#include "fathom/pipeline/rasterization/rasterizer.h"
+#include "fathom/pipeline/scan/diamond_exit.h"
+#include "fathom/pipeline/scan/line.h"
+
+namespace fathom::pipeline {
+namespace {
+
+template <class Real>
+class OutlineDrawer {
+ public:
+  OutlineDrawer(const RasterizerSettings& settings, FrameBuffer& target,
+                PipelineStatistics& statistics)
+      : s_(settings), test_(settings.options), target_(target), count_(statistics) {}
+
+  void draw(std::uint32_t number, const WindowVertex<Real>& a, const WindowVertex<Real>& b) {
+    a_ = &a, b_ = &b, number_ = number;
+    const LineEnds ends{column(a.x), column(a.y), column(b.x), column(b.y)};
+    const auto visit = [&](const Pixel& p, const auto&) { put(p); };
+    switch (s_.options.wire_line) {
+      case WireLine::explicit_equation:
+        return explicit_line<Real>(ends, s_.window, visit);
+      case WireLine::dda:
+        return dda_line<Real>(ends, s_.window, visit);
+      case WireLine::bresenham:
+        return bresenham_line(ends, s_.window, visit);
+      case WireLine::midpoint:
+        return midpoint_line(ends, s_.window, visit);
+      case WireLine::diamond_exit:
+        return diamond_exit_line<Real>({a.x, a.y, b.x, b.y}, s_.window,
+                                       [&](const Pixel& p) { put(p); });
+    }
+  }
+
+  void draw(std::uint32_t number, const WindowVertex<Real>& place) {
+    a_ = b_ = &place, number_ = number;
+    const Pixel p{column(place.x), column(place.y)};
+    const PixelWindow& w = s_.window;
+    if (p.x >= w.x_begin && p.x < w.x_end && p.y >= w.y_begin && p.y < w.y_end) put(p);
+  }
+
+ private:
+  static std::int64_t column(Real x) { return floor_of(x); }
+
+  /// Draws a pixel at the window depth of the line's point that is nearest to its centre.
+  void put(const Pixel& p) {
+    ++count_.fragments;
+    const Real dx = b_->x - a_->x, dy = b_->y - a_->y, length2 = dx * dx + dy * dy;
+    const Real t = length2 > 0 ? std::clamp(((centre_of<Real>(p.x) - a_->x) * dx +
+                                             (centre_of<Real>(p.y) - a_->y) * dy) /
+                                                length2,
+                                            Real(0), Real(1))
+                               : Real(0);
+    Fragment fragment;
+    fragment.window_z = std::clamp(static_cast<double>(a_->z + t * (b_->z - a_->z)), 0.0, 1.0);
+    const Real inverse_w = a_->inverse_w + t * (b_->inverse_w - a_->inverse_w);
+    const auto at = [&](std::size_t i) {
+      const Real a = a_->attributes[i] * a_->inverse_w, b = b_->attributes[i] * b_->inverse_w;
+      return static_cast<double>((a + t * (b - a)) / inverse_w);
+    };
+    fragment.depth = at(attribute::depth);
+    const StoredDepth stored = test_.stored(fragment);
+    const StoredSample& there = target_.at(p, 0);
+    if (there.id != no_surface && !test_.is_nearer(stored, there.stored)) return;
+    ++count_.depth_passed;
+    target_.replace(p, 0, number_, stored, fragment.depth,
+                    {at(attribute::colour), at(attribute::colour + 1), at(attribute::colour + 2)});
+  }
+
+  const RasterizerSettings& s_;
+  DepthTest test_;
+  FrameBuffer& target_;
+  PipelineStatistics& count_;
+  const WindowVertex<Real>*a_ = nullptr, *b_ = nullptr;
+  std::uint32_t number_ = 0;
+};
+
+}  // namespace
+
+template <class Real>
+void rasterize_lines(const std::vector<WindowLine<Real>>& lines, const RasterizerSettings& settings,
+                     FrameBuffer& target, PipelineStatistics& statistics) {
+  OutlineDrawer<Real> drawer(settings, target, statistics);
+  for (const WindowLine<Real>& line : lines) drawer.draw(line.number, line.ends[0], line.ends[1]);
+}
+
+template <class Real>
+void rasterize_points(const std::vector<WindowPoint<Real>>& points,
+                      const RasterizerSettings& settings, FrameBuffer& target,
+                      PipelineStatistics& statistics) {
+  OutlineDrawer<Real> drawer(settings, target, statistics);
+  for (const WindowPoint<Real>& point : points) drawer.draw(point.number, point.place);
+}
+
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+#define FATHOM_INSTANTIATE(Real)                                                                   \
+  template void rasterize_lines(const std::vector<WindowLine<Real>>&, const RasterizerSettings&,   \
+                                FrameBuffer&, PipelineStatistics&);                                \
+  template void rasterize_points(const std::vector<WindowPoint<Real>>&, const RasterizerSettings&, \
+                                 FrameBuffer&, PipelineStatistics&);
+FATHOM_INSTANTIATE(float)
+FATHOM_INSTANTIATE(double)
+#undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
+
+}  // namespace fathom::pipeline
