@@ -14,6 +14,7 @@
 #include "apps/surfaces/surface_commands.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/scene/triangle_source.h"
 
 namespace fathom::app {
 namespace {
@@ -49,9 +50,10 @@ std::string as_json(const Answer& answer) {
                        {"unoccluded", area.unoccluded},
                        {"ratio", ratio_of(area)}});
   }
+  const TriangleSource source(answer.scene);
   for (std::size_t i = 0; i < answer.areas.triangles.size(); ++i) {
     const VisibleArea& area = answer.areas.triangles[i];
-    const TriangleOrigin origin = origin_of(answer.scene, static_cast<std::uint32_t>(i));
+    const TriangleOrigin origin = source.origin(static_cast<std::uint32_t>(i));
     triangles.push_back({{"triangle", i},
                          {"object", origin.object},
                          {"face", origin.face},
@@ -84,8 +86,9 @@ std::string as_csv(const Answer& answer) {
     text += fmt::format("object,{},{},{},,{}\n", i, i, quoted(answer.scene.objects[i].name),
                         figures(answer.areas.objects[i]));
   }
+  const TriangleSource source(answer.scene);
   for (std::size_t i = 0; i < answer.areas.triangles.size(); ++i) {
-    const TriangleOrigin origin = origin_of(answer.scene, static_cast<std::uint32_t>(i));
+    const TriangleOrigin origin = source.origin(static_cast<std::uint32_t>(i));
     text += fmt::format("triangle,{},{},{},{},{}\n", i, origin.object,
                         quoted(answer.scene.objects[origin.object].name), origin.face,
                         figures(answer.areas.triangles[i]));

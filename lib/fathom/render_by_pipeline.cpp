@@ -3,6 +3,7 @@
 #include "fathom/map_description.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/render_pipeline.h"
+#include "fathom/scene/triangle_source.h"
 
 namespace fathom {
 namespace {
@@ -12,9 +13,10 @@ ImageChannel channel_of(const Scene& scene, const pipeline::PipelineFrame& frame
   if (channel == Channel::Z) return {"Z", frame.depth};
   if (channel == Channel::id) return {"id", frame.id};
   Samples<std::uint32_t> values(frame.id.size(), no_surface);
+  const TriangleSource triangles(scene);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (frame.id[i] == no_surface) continue;
-    const TriangleOrigin origin = origin_of(scene, frame.id[i]);
+    const TriangleOrigin origin = triangles.origin(frame.id[i]);
     values[i] = channel == Channel::face ? origin.face : origin.object;
   }
   return {channel == Channel::face ? "face" : "object", values};

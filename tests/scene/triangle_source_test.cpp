@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "tests/inputs/both_readings.h"
 #include "tests/places.h"
 #include "tests/scratch_folder.h"
@@ -26,16 +28,29 @@ TEST(TriangleSource, TheSameInMemoryAndInFiles) {
   ASSERT_EQ(memory.count(), 24U);
   ASSERT_EQ(files.count(), 24U);
   for (std::uint32_t t = 0; t < 24; ++t) {
-    const TriangleOrigin truth = origin_of(both.scene, t);
-    for (const TriangleSource* source : {&memory, &files}) {
-      for (const TriangleOrigin& origin : {source->origin(t), source->triangle(t).origin}) {
-        EXPECT_EQ(origin.object, truth.object);
-        EXPECT_EQ(origin.triangle, truth.triangle);
-        EXPECT_EQ(origin.face, truth.face);
-      }
+    for (const TriangleOrigin& origin :
+         {memory.origin(t), memory.triangle(t).origin, origin_of(both.scene, t), files.origin(t),
+          files.triangle(t).origin, origin_of(both.streamed, t)}) {
+      EXPECT_EQ(origin.object, 1 + t / 12);  // none.stl is object 0
+      EXPECT_EQ(origin.triangle, t % 12);
+      // In PLY and STL each triangle is a face.
+      EXPECT_EQ(origin.face, t % 12);
     }
     EXPECT_EQ(memory.triangle(t).corners, files.triangle(t).corners);
   }
+}
+
+TEST(TriangleSource, RefusesANumberThatIsNotThere) {
+  const ScratchFolder folder;
+  Warnings warnings;
+  const Scene cube = read_scene({test::source_dir() / "data/meshes/cube.obj"}, {}, warnings);
+  const Both both({folder.write("cube.stl", stl_of(cube.meshes.at(0)))});
+  for (const std::uint32_t number : {12U, 0xFFFFFFFFU}) {
+    EXPECT_THROW(origin_of(both.scene, number), std::out_of_range);
+    EXPECT_THROW(origin_of(both.streamed, number), std::out_of_range);
+    EXPECT_THROW(TriangleSource(both.scene).world_corners(number), std::out_of_range);
+  }
+  EXPECT_THROW(origin_of(Scene{}, 0), std::out_of_range);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bitset>
 
-#include "fathom/area/coverage_image.h"
+#include "fathom/area/triangle_bands.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/certified_surfaces.h"
 #include "fathom/triangle/referee.h"

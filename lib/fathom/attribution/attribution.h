@@ -71,6 +71,8 @@ struct Attribution {
 };
 
 /// Compares `other` with the truth, pixel by pixel, as `model` allows. Looks for no findings.
+/// Exact    the truth and the bounds of what the model allows; a class is given only where they
+///          prove it. Means and errors are sums in binary64.
 /// Needs    maps of the same size; near and far of the truth's camera as the model's mapping does.
 Attribution attribute(const Truth& truth, const OtherMap& other, const RendererModel& model);
 

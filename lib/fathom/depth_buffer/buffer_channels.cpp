@@ -25,10 +25,8 @@ StoredDepth stored_of(Storage storage, float value) {
 
 template <class T>
 T* values(DepthMap& map, const char* name) {
-  for (ImageChannel& channel : map.channels) {
-    if (channel.name == name) return std::get<Samples<T>>(channel.values).data();
-  }
-  return nullptr;
+  Samples<T>* found = map.values<T>(name);
+  return found ? found->data() : nullptr;
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 namespace fathom {
 using namespace area;
 using namespace depth_buffer;
-using namespace triangle;
 
 DepthFormat depth_format_of(const Camera& camera, Mapping mapping, Storage storage, double c) {
   const DepthFormat format{mapping, storage, camera.near, camera.far, c};

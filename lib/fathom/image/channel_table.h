@@ -29,6 +29,9 @@ enum class ChannelType {
   identifier  ///< a 32-bit integer
 };
 
+/// How depths are stored. Identifiers keep their 32 bits.
+enum class StoredType { binary32, binary64, scaled_unorm16 };
+
 struct ChannelDescription {
   Channel channel;
   /// Its name in files and options, without a part.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "fathom/image/channel_table.h"
 #include "fathom/image/depth_map.h"
 
 /// Conversions of maps that are already written, from their stored, rounded values: the results are
@@ -51,9 +52,6 @@ struct StereoRig {
 ///          the pixel, if a disparity plus doffs is negative (no point has it).
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
                           const MapView& view, const std::optional<StereoRig>& rig = std::nullopt);
-
-/// How a depth channel is stored. Identifiers keep their 32 bits.
-enum class StoredType { binary32, binary64, scaled_unorm16 };
 
 /// Returns a map with only `channel` (empty: Z, or else the only channel), stored as `type`.
 ///   to binary32           rounded to nearest even; from codes, code / scale

@@ -38,8 +38,10 @@ struct Mattes {
   std::vector<MatteShare> shares;
 };
 
-/// Adds the layer to a map: channels LAYERnn.R, .G, .B, .A (id and coverage of two ranks each), six
-/// ranks or as many as the fullest pixel has, and the texts "cryptomatte/…" with the manifest.
+/// Adds the layer to a map: binary32 channels LAYERnn.R, .G, .B, .A (id and coverage of two ranks
+/// each), six ranks or as many as the fullest pixel has, and the texts "cryptomatte/…" with the
+/// manifest.
+/// Needs    a count for each pixel of the map.
 void add_mattes(DepthMap& map, const Mattes& mattes);
 
 }  // namespace fathom

@@ -35,6 +35,7 @@ void check_deep_compression(Compression compression);
 
 /// Writes a deep scan-line EXR with the channels A, Z, ZBack (FLOAT), area (FLOAT) and id (UINT)
 /// and deepImageState SORTED; such files can have the compressions `none`, `rle` and `zips`.
+/// `threads` compress; 0: all of the machine.
 /// Fails    OutputError: "PATH: why"; UsageError for another compression.
 void write_deep_map(const DeepMap& map, const std::filesystem::path& path,
                     Compression compression = Compression::zips, int threads = 0);

@@ -50,11 +50,18 @@ struct DepthMap {
   std::array<double, 2> screen_window_centre{0, 0};
   double screen_window_width = 1;
 
+  /// nullptr if there is no such channel.
   [[nodiscard]] const ImageChannel* find(const std::string& name) const;
-  /// The values of a channel if it exists and has this type.
+  [[nodiscard]] ImageChannel* find(const std::string& name);
+  /// The values of a channel; nullptr unless it exists and has this type.
   template <class T>
   [[nodiscard]] const Samples<T>* values(const std::string& name) const {
     const ImageChannel* channel = find(name);
+    return channel ? std::get_if<Samples<T>>(&channel->values) : nullptr;
+  }
+  template <class T>
+  [[nodiscard]] Samples<T>* values(const std::string& name) {
+    ImageChannel* channel = find(name);
     return channel ? std::get_if<Samples<T>>(&channel->values) : nullptr;
   }
 };

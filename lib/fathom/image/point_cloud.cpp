@@ -114,15 +114,15 @@ void put(Bytes& bytes, T value) {
   store(&bytes[bytes.size() - sizeof(T)], value, std::endian::little);
 }
 
-std::string header_of(std::size_t points, bool binary64, bool normals,
-                      const std::vector<std::string>& identifiers, PointFrame frame) {
+std::string header_of(std::size_t points, const PointCloudOptions& options, bool has_normals,
+                      const std::vector<std::string>& identifiers) {
   std::string text = "ply\nformat binary_little_endian 1.0\n";
-  text += frame == PointFrame::world ? "comment world frame\n"
-                                     : "comment camera frame: x right, y down, z forward\n";
+  text += options.frame == PointFrame::world ? "comment world frame\n"
+                                             : "comment camera frame: x right, y down, z forward\n";
   text += "element vertex " + std::to_string(points) + "\n";
   for (const char* axis : {"x", "y", "z"})
-    text += std::string("property ") + (binary64 ? "double " : "float ") + axis + "\n";
-  if (normals)
+    text += std::string("property ") + (options.binary64 ? "double " : "float ") + axis + "\n";
+  if (has_normals)
     for (const char* axis : {"nx", "ny", "nz"})
       text += std::string("property float ") + axis + "\n";
   for (const std::string& name : identifiers) text += "property uint " + name + "\n";
@@ -150,8 +150,7 @@ void write_point_cloud(const DepthMap& map, const MapView& view, const std::file
     for (const std::string& name : identifiers) put(body, (*map.values<std::uint32_t>(name))[k]);
   }
   Bytes file;
-  append(file,
-         header_of(count, options.binary64, points.has_normals(), identifiers, options.frame));
+  append(file, header_of(count, options, points.has_normals(), identifiers));
   append(file, body);
   write_file(path, file);
 }

@@ -20,14 +20,14 @@ std::string in_small_letters(std::string_view text) {
   return result;
 }
 
-std::optional<FileKind> kind_by_suffix(const std::filesystem::path& path) {
+std::optional<FileFormat> kind_by_suffix(const std::filesystem::path& path) {
   const std::string suffix = in_small_letters(path.extension().string());
-  if (suffix == ".obj") return FileKind::obj;
-  if (suffix == ".ply") return FileKind::ply;
-  if (suffix == ".stl") return FileKind::stl;
-  if (suffix == ".off" || suffix == ".coff" || suffix == ".noff") return FileKind::off;
-  if (suffix == ".gltf" || suffix == ".glb") return FileKind::gltf;
-  if (suffix == ".json") return FileKind::scene_json;
+  if (suffix == ".obj") return FileFormat::obj;
+  if (suffix == ".ply") return FileFormat::ply;
+  if (suffix == ".stl") return FileFormat::stl;
+  if (suffix == ".off" || suffix == ".coff" || suffix == ".noff") return FileFormat::off;
+  if (suffix == ".gltf" || suffix == ".glb") return FileFormat::gltf;
+  if (suffix == ".json") return FileFormat::scene_json;
   return std::nullopt;
 }
 
@@ -63,27 +63,27 @@ bool has_asset_key(std::string_view text) {
 
 }  // namespace
 
-std::optional<FileKind> recognise_format(std::span<const std::byte> bytes, std::uint64_t size,
-                                         const std::filesystem::path& path) {
+std::optional<FileFormat> recognise_format(std::span<const std::byte> bytes, std::uint64_t size,
+                                           const std::filesystem::path& path) {
   const std::string_view text =
       TextCursor::without_mark({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  if (text.starts_with("glTF")) return FileKind::gltf;
-  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return FileKind::ply;
-  if (is_binary_stl_by_size(bytes, size)) return FileKind::stl;
+  if (text.starts_with("glTF")) return FileFormat::gltf;
+  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return FileFormat::ply;
+  if (is_binary_stl_by_size(bytes, size)) return FileFormat::stl;
 
   const std::string no_name;
   TextCursor cursor(text, no_name, {.comments = true, .continuation = false});
   if (!cursor.next_line_with_words()) return kind_by_suffix(path);
   const char first = *cursor.position();
   if (first == '{' || first == '[') {
-    const std::optional<FileKind> by_suffix = kind_by_suffix(path);
-    if (by_suffix == FileKind::gltf) return by_suffix;
-    return has_asset_key(text) ? FileKind::gltf : FileKind::scene_json;
+    const std::optional<FileFormat> by_suffix = kind_by_suffix(path);
+    if (by_suffix == FileFormat::gltf) return by_suffix;
+    return has_asset_key(text) ? FileFormat::gltf : FileFormat::scene_json;
   }
   const std::string_view word = cursor.word();
-  if (is_off_keyword(word)) return FileKind::off;
-  if (in_small_letters(word.substr(0, 6)) == "solid") return FileKind::stl;
-  if (is_obj_keyword(word)) return FileKind::obj;
+  if (is_off_keyword(word)) return FileFormat::off;
+  if (in_small_letters(word.substr(0, 6)) == "solid") return FileFormat::stl;
+  if (is_obj_keyword(word)) return FileFormat::obj;
   return kind_by_suffix(path);
 }
 

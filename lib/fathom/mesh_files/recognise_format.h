@@ -8,16 +8,16 @@
 
 namespace fathom::mesh_files {
 
-enum class FileKind { obj, ply, stl, off, gltf, scene_json };
+enum class FileFormat { obj, ply, stl, off, gltf, scene_json };
 
 /// What a file is: by its content or, if that does not tell (an OBJ or OFF without a word that
 /// gives it away, an STL whose header is arbitrary), by the suffix of its path, in any case.
 /// nullopt if neither tells. `bytes` is the whole file of `size` bytes, or its beginning if only
 /// binary formats matter.
-std::optional<FileKind> recognise_format(std::span<const std::byte> bytes, std::uint64_t size,
-                                         const std::filesystem::path& path);
-inline std::optional<FileKind> recognise_format(std::span<const std::byte> bytes,
-                                                const std::filesystem::path& path) {
+std::optional<FileFormat> recognise_format(std::span<const std::byte> bytes, std::uint64_t size,
+                                           const std::filesystem::path& path);
+inline std::optional<FileFormat> recognise_format(std::span<const std::byte> bytes,
+                                                  const std::filesystem::path& path) {
   return recognise_format(bytes, bytes.size(), path);
 }
 

@@ -26,21 +26,21 @@ std::vector<std::byte> beginning_of(const RandomAccessFile& file, std::size_t si
   return bytes;
 }
 
-FileKind kind_of(const RandomAccessFile& file, const std::filesystem::path& path,
-                 const ReadOptions& options) {
+FileFormat kind_of(const RandomAccessFile& file, const std::filesystem::path& path,
+                   const ReadOptions& options) {
   if (file.size() == 0) throw InputError(file.name() + ": is empty, expected a mesh");
-  if (options.format == MeshFormat::stl) return FileKind::stl;
-  if (options.format == MeshFormat::ply) return FileKind::ply;
+  if (options.format == MeshFormat::stl) return FileFormat::stl;
+  if (options.format == MeshFormat::ply) return FileFormat::ply;
   if (options.format) fail_format(file.name());
   const auto kind = recognise_format(beginning_of(file, 512), file.size(), path);
-  if (kind != FileKind::stl && kind != FileKind::ply) fail_format(file.name());
+  if (kind != FileFormat::stl && kind != FileFormat::ply) fail_format(file.name());
   return *kind;
 }
 
-std::unique_ptr<TriangleStream> open(std::unique_ptr<RandomAccessFile> file, FileKind kind,
+std::unique_ptr<TriangleStream> open(std::unique_ptr<RandomAccessFile> file, FileFormat kind,
                                      Warnings& warnings) {
   const std::string name = file->name();
-  if (kind == FileKind::stl) {
+  if (kind == FileFormat::stl) {
     if (!is_binary_stl(beginning_of(*file, 512), file->size())) fail_format(name);
     return open_stl_stream(std::move(file), warnings);
   }
@@ -57,7 +57,7 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
                                                      const ReadOptions& options,
                                                      Warnings& warnings) {
   auto file = std::make_unique<RandomAccessFile>(path);
-  const FileKind kind = kind_of(*file, path, options);
+  const FileFormat kind = kind_of(*file, path, options);
   // The hash is computed during the reading, in a thread of its own, from a file of its own.
   std::future<std::string> hash;
   if (options.hash) {

@@ -53,9 +53,11 @@ struct PipelineOptions {
   DepthFormat depth_format{Mapping::standard, Storage::float32, 0, 0, 1};
   std::optional<WindowRectangle> viewport;  ///< default: the window
   std::optional<WindowRectangle> scissor;   ///< default: the window
+  /// What z_ndc of near and far become (glDepthRange), each in [0, 1].
   std::array<double, 2> depth_range{0, 1};
   Culling culling = Culling::none;
   FrontFace front_face = FrontFace::counter_clockwise;
+  /// The grid of corners in the window has 2^subpixel_bits steps a pixel.
   int subpixel_bits = 8;
   ScanConversion scan = ScanConversion::edge_function;
   /// Blocks of 8 × 8 pixels are tested before their samples; the picture does not change.
@@ -97,7 +99,7 @@ struct PipelineStatistics {
   std::uint64_t depth_passed = 0;
   std::uint64_t shaded = 0;
   std::uint64_t blocks_skipped = 0, blocks_full = 0;
-  double near = 0, far = 0;
+  double near = 0, far = 0;  ///< clip planes, in scene units from the camera
   FacingStatistics facings;
 };
 

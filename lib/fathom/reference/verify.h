@@ -48,8 +48,9 @@ struct Verification {
 /// Cost     the corners of every triangle are looked at once (per 4 million chosen pixels) for a
 ///          box that certainly contains it; only triangles whose box contains a chosen pixel are
 ///          looked at exactly.
-/// Needs    in `options` the channels, culling and encoding with which the map was rendered;
-///          threads and progress are this call's own.
+/// Needs    a map of the camera's size with every channel of `options`; in `options` also the
+///          culling and encoding with which it was rendered; threads and progress are this call's
+///          own.
 Verification verify(const DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                     const RenderOptions& options, const PixelChoice& chosen);
 

@@ -22,29 +22,29 @@ using namespace text;
 
 namespace {
 
-FileKind kind_of(MeshFormat format) {
+FileFormat kind_of(MeshFormat format) {
   switch (format) {
     case MeshFormat::obj:
-      return FileKind::obj;
+      return FileFormat::obj;
     case MeshFormat::ply:
-      return FileKind::ply;
+      return FileFormat::ply;
     case MeshFormat::stl:
-      return FileKind::stl;
+      return FileFormat::stl;
     case MeshFormat::off:
-      return FileKind::off;
+      return FileFormat::off;
     default:
-      return FileKind::gltf;
+      return FileFormat::gltf;
   }
 }
 
-Mesh read_mesh(FileKind kind, const InputFile& input, const std::string& file,
+Mesh read_mesh(FileFormat kind, const InputFile& input, const std::string& file,
                const ReadOptions& options, Warnings& warnings) {
   switch (kind) {
-    case FileKind::obj:
+    case FileFormat::obj:
       return read_obj(input.text(), file, options, warnings);
-    case FileKind::ply:
+    case FileFormat::ply:
       return read_ply(input.bytes(), file, options, warnings);
-    case FileKind::stl:
+    case FileFormat::stl:
       return read_stl(input.bytes(), file, options, warnings);
     default:
       return read_off(input.text(), file, options, warnings);
@@ -60,8 +60,8 @@ class SceneReader {
   void add_file(const std::filesystem::path& path) {
     const std::string file = path.string();
     const InputFile input(path);
-    const FileKind kind = options_.format ? kind_of(*options_.format) : recognise(input, path);
-    if (kind != FileKind::scene_json) {
+    const FileFormat kind = options_.format ? kind_of(*options_.format) : recognise(input, path);
+    if (kind != FileFormat::scene_json) {
       add_mesh_file(kind, input, path);
       return;
     }
@@ -77,7 +77,7 @@ class SceneReader {
  private:
   using ObjectsOfFile = std::map<std::string, std::vector<Object>>;
 
-  FileKind recognise(const InputFile& input, const std::filesystem::path& path) const {
+  FileFormat recognise(const InputFile& input, const std::filesystem::path& path) const {
     if (input.bytes().empty())
       throw InputError(path.string() + ": is empty, expected a mesh or a scene file");
     if (const auto kind = recognise_format(input.bytes(), path)) return *kind;
@@ -93,13 +93,13 @@ class SceneReader {
   }
 
   /// The hash is computed during the reading, in a thread of its own.
-  void add_mesh_file(FileKind kind, const InputFile& input, const std::filesystem::path& path) {
+  void add_mesh_file(FileFormat kind, const InputFile& input, const std::filesystem::path& path) {
     std::future<std::string> hash;
     if (options_.hash) hash = std::async(std::launch::async, [&] { return sha256(input.bytes()); });
     const std::string file = path.string();
     const std::size_t source = scene_.sources.size(), first = scene_.objects.size();
     scene_.sources.push_back({file, ""});
-    if (kind == FileKind::gltf) {
+    if (kind == FileFormat::gltf) {
       append(read_gltf(input.bytes(), path, options_, warnings_));
     } else {
       if (input.bytes().empty()) throw InputError(file + ": is empty, expected a mesh");
@@ -133,8 +133,8 @@ class SceneReader {
       expect_countable(triangle_count(scene_), "triangles in all", file);
     } else {
       const InputFile input(placed.file);
-      const FileKind kind = recognise(input, placed.file);
-      if (kind == FileKind::scene_json)
+      const FileFormat kind = recognise(input, placed.file);
+      if (kind == FileFormat::scene_json)
         throw InputError(file + ": is no mesh, expected OBJ, PLY, STL, OFF or glTF");
       add_mesh_file(kind, input, placed.file);
       known[file].assign(scene_.objects.begin() + static_cast<std::ptrdiff_t>(first),

@@ -1,6 +1,6 @@
 #include "fathom/scene/scene.h"
 
-#include <cassert>
+#include "fathom/scene/triangle_source.h"
 
 namespace fathom {
 
@@ -11,19 +11,7 @@ std::uint64_t triangle_count(const Scene& scene) {
 }
 
 TriangleOrigin origin_of(const Scene& scene, std::uint32_t number) {
-  std::uint64_t rest = number;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const Object& object = scene.objects[i];
-    const Mesh& mesh = scene.meshes[object.mesh];
-    if (rest < mesh.triangles.size()) {
-      const auto triangle = static_cast<std::uint32_t>(rest);
-      return {static_cast<std::uint32_t>(i), triangle,
-              static_cast<std::uint32_t>(object.first_face + mesh.face_of(triangle))};
-    }
-    rest -= mesh.triangles.size();
-  }
-  assert(!"triangle number out of range");
-  return {};
+  return TriangleSource(scene).origin(number);
 }
 
 }  // namespace fathom

@@ -28,6 +28,8 @@ struct TriangleOrigin {
   /// The number of its face within its file.
   std::uint32_t face = 0;
 };
+/// Cost     that of a TriangleSource, which is made once to ask for many.
+/// Fails    std::out_of_range where `number` is not below triangle_count().
 TriangleOrigin origin_of(const Scene& scene, std::uint32_t number);
 
 }  // namespace fathom

@@ -1,8 +1,7 @@
 #include "fathom/scene/streamed_scene.h"
 
-#include <cassert>
-
 #include "fathom/mesh/mesh_faces.h"
+#include "fathom/scene/triangle_source.h"
 
 namespace fathom {
 using namespace mesh;
@@ -31,18 +30,7 @@ std::uint64_t triangle_count(const StreamedScene& scene) {
 }
 
 TriangleOrigin origin_of(const StreamedScene& scene, std::uint32_t number) {
-  std::uint32_t rest = number;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const Object& object = scene.objects[i];
-    const TriangleStream& stream = *scene.streams[object.mesh];
-    if (rest < stream.triangle_count()) {
-      return {static_cast<std::uint32_t>(i), rest,
-              static_cast<std::uint32_t>(object.first_face + stream.face_of(rest))};
-    }
-    rest -= stream.triangle_count();
-  }
-  assert(!"triangle number out of range");
-  return {};
+  return TriangleSource(scene).origin(number);
 }
 
 Scene outline_of(const StreamedScene& scene) {

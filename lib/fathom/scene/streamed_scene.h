@@ -25,6 +25,7 @@ StreamedScene stream_scene(const std::vector<std::filesystem::path>& files,
                            const ReadOptions& options, Warnings& warnings);
 
 std::uint64_t triangle_count(const StreamedScene& scene);
+/// As of a Scene.
 TriangleOrigin origin_of(const StreamedScene& scene, std::uint32_t number);
 
 /// A scene in memory with the same objects, sources and world_bounds(), in which each mesh is a

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <future>
+#include <stdexcept>
+#include <string>
 
 namespace fathom {
 
@@ -18,6 +20,7 @@ TriangleSource::TriangleSource(const StreamedScene& scene) : streamed_(&scene) {
 }
 
 TriangleSource::Place TriangleSource::place_of(std::uint32_t number) const {
+  if (number >= count()) throw std::out_of_range("there is no triangle " + std::to_string(number));
   const auto after = std::upper_bound(first_numbers_.begin(), first_numbers_.end(), number);
   // An object without triangles shares its first number with the next: the last of them has it.
   const auto object = static_cast<std::size_t>(after - first_numbers_.begin()) - 1;

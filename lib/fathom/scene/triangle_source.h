@@ -12,6 +12,8 @@ namespace fathom {
 
 /// Triangles by number, whether the scene is in memory or in files. A view: the scene must outlive
 /// it unchanged. Several threads may ask at the same time.
+/// Fails    std::out_of_range where `number` is not below count(); InputError where a file of a
+///          StreamedScene has changed or cannot be read any more.
 class TriangleSource {
  public:
   TriangleSource(const Scene& scene);          // implicit: a scene is a source,
@@ -23,7 +25,7 @@ class TriangleSource {
     return scene_ ? scene_->objects : streamed_->objects;
   }
 
-  /// As fathom::origin_of(), by bisection over the objects.
+  /// Where a triangle comes from, by bisection over the objects.
   [[nodiscard]] TriangleOrigin origin(std::uint32_t number) const;
   struct Triangle {
     TriangleOrigin origin;

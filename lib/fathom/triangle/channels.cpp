@@ -64,18 +64,10 @@ std::optional<std::string> store(const EncodedValues& values, std::size_t pixel,
   return std::nullopt;
 }
 
-ImageChannel* channel(DepthMap& map, const std::string& name) {
-  for (ImageChannel& c : map.channels) {
-    if (c.name == name) return &c;
-  }
-  return nullptr;
-}
-
 /// The values of a channel if it exists and has this type.
 template <class T>
 T* values_of(DepthMap& map, const std::string& name) {
-  ImageChannel* c = channel(map, name);
-  auto* values = c ? std::get_if<Samples<T>>(&c->values) : nullptr;
+  Samples<T>* values = map.values<T>(name);
   return values ? values->data() : nullptr;
 }
 

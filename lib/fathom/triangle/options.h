@@ -9,12 +9,14 @@
 namespace fathom {
 
 enum class Engine { reference, fast };
-/// Which triangles are left out: none, the back-facing or the front-facing ones.
+/// Which triangles are left out: none, the back-facing or the front-facing ones. Facing is decided
+/// exactly; the pipeline of the textbooks has a choice of its own, since it decides after rounding.
 enum class Cull { none, back, front };
 
 /// How Z and distance are rounded: once from the exact number, whatever the file format.
 struct DepthEncoding {
-  enum class Type { binary32, binary64, scaled_unorm16 } type = Type::binary32;
+  using Type = StoredType;
+  Type type = Type::binary32;
   /// For scaled_unorm16: codes per scene unit; code = round-half-even(scale·D), 0 for no surface. A
   /// depth whose code would be 0 or above 65535 is an OutputError that names the pixel.
   double scale = 1000;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "fathom/area/coverage_image.h"
+#include "fathom/area/triangle_bands.h"
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/mapping.h"
 #include "fathom/depth_format/resolution.h"
