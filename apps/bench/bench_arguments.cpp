@@ -82,7 +82,7 @@ void BenchArguments::add_to(Command& command) {
                  "Channels that our engines compute (default Z)");
   command.option("--repeat", "N", into(repeat, parse_repeat),
                  "Frames to time, within 20 seconds (default 9)");
-  command.option("--json", "NAME", json, "Also write the figures as JSON; - for only them");
+  command.option("--json", "FILE", json, "Also write the figures as JSON; - for only them");
 }
 
 }  // namespace fathom::app

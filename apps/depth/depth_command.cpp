@@ -111,7 +111,8 @@ void add_depth(Command& program) {
   add_question(
       family,
       {"resolution",
-       "The larger distance to the depths of the two neighbouring codes, in scene units", "Depths",
+       "The larger of the distances to the depths of the two neighbouring codes, in scene units",
+       "Depths",
        "  fathom depth resolution --storage unorm24 --near 0.1 --far 1000 1 10 100 --json",
        resolution_answer});
   add_question(family, {"codes", "How many codes a range of depths is stored as",

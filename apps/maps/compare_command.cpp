@@ -65,7 +65,7 @@ void add_compare(Command& program) {
   command.argument("OTHER", arguments->other, "The map to check").required();
   command.option("--tolerance-ulp", "N", into(options.tolerance_ulp, parse_tolerance),
                  "Accept differences of up to N units in the last place (default 0)");
-  command.option("--json", "NAME", arguments->json,
+  command.option("--json", "FILE", arguments->json,
                  "Write the figures to this file (- is standard output, without the text)");
   command.option("--heatmap", "PNG", into(arguments->heatmap, parse_png_name),
                  "Draw the differences (PNG)");

@@ -161,7 +161,7 @@ void add_convert(Command& program) {
   command.option("--camera", "FILE", arguments->camera,
                  "Camera file, where the map does not carry its camera");
   command.option("--baseline", "B", into(arguments->baseline, parse_number),
-                 "Of the stereo pair, for disparity");
+                 "Baseline of the stereo pair, for disparity");
   command.option("--doffs", "D", into(arguments->doffs, parse_number),
                  "Difference of the principal points of the stereo pair (default 0)");
   command.option("--frame", "NAME", into(arguments->frame, parse_frame),

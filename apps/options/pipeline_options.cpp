@@ -90,7 +90,7 @@ void PipelineArguments::add_window_options(Command& command) {
 
 void PipelineArguments::add_merging_options(Command& command) {
   declared_.push_back(command.option("--opacity", "ALPHA", into(opacity_, parse_number),
-                                     "Of --blend: 0 to 1 (default 0.5)"));
+                                     "Opacity with --blend, 0 to 1 (default 0.5)"));
   declared_.push_back(command.flag(
       "--blend", blend_, "Blend every fragment over the picture, in the order of the triangles"));
   declared_.push_back(

@@ -41,7 +41,7 @@ bool is_written_through(const std::string& target) {
 
 void StorageOptions::add_to(Command& command) {
   command.option("--compression", "NAME", into(compression, parse_compression),
-                 "Of an EXR, all lossless: zip (default), zips, rle, piz or none");
+                 "Compression of an EXR, always lossless: zip (default), zips, rle, piz or none");
   command.option("--png-scale", "N", into(png_scale, parse_scale),
                  "Codes per unit of a PNG (default 1000)");
   command.option("--dtype", "NAME", into(dtype, parse_dtype),

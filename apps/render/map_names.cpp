@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -12,8 +14,8 @@ std::vector<std::string> names_of_outputs(const char* option, const std::string&
   if (!has_index) {
     if (cameras == 1) return {pattern};
     throw UsageError(fmt::format(
-        "the camera file is a path of {} cameras: {} needs a pattern such as maps/{{index:04}}",
-        cameras, option));
+        "the camera file is a path of {} cameras: {} needs a pattern such as maps/{{index:04}}{}",
+        cameras, option, std::filesystem::path(pattern).extension().string()));
   }
   std::vector<std::string> names;
   try {

@@ -33,12 +33,14 @@ void add_outputs(Command& command, RenderArguments& arguments) {
 }
 
 void add_contents(Command& command, RenderArguments& arguments) {
-  command.option(
-      "--channels", "LIST", into(arguments.channels, parse_channels),
-      "Of Z, A, Zlow, distance, id, face, object, N, P, bary (default Z,A in EXR, otherwise Z)");
-  command.flag("--deep", arguments.deep,
-               "Write a deep EXR: for each pixel the visible fragments, sorted, with their depths "
-               "Z and ZBack, triangle id, exact area and alpha A");
+  command.option("--channels", "LIST", into(arguments.channels, parse_channels),
+                 "Of Z, A, Zlow, distance, id, face, object, N, P, bary (default Z,A in EXR; Z in "
+                 "other formats, with --stream and with --engine pipeline)");
+  command.flag(
+      "--deep", arguments.deep,
+      "Write a deep EXR: for each pixel the visible fragments, sorted, with their depths "
+      "Z and ZBack, triangle id, exact area and alpha A; compressed by zips (default), rle or "
+      "none");
   command.flag("--cryptomatte", arguments.cryptomatte,
                "Add Cryptomatte channels by object with exact coverage to the EXR");
   command.option("--engine", "NAME", into(arguments.engine, parse_engine),
@@ -48,7 +50,7 @@ void add_contents(Command& command, RenderArguments& arguments) {
 }
 
 void add_checks(Command& command, RenderArguments& arguments) {
-  command.option("--samples", "N", into(arguments.samples, sample_pattern),
+  command.option("--samples", "PATTERN", into(arguments.samples, sample_pattern),
                  "Add coverage by samples, channel Asampled: the share of the samples of a pixel "
                  "at which a surface counts. 1, 2, 4, 8, 16 (the standard positions of Direct3D "
                  "and Vulkan), rotated-grid, regular:N, jittered:N or jittered:N:SEED (N by N "
@@ -58,9 +60,9 @@ void add_checks(Command& command, RenderArguments& arguments) {
                "memory; implies --engine fast");
   command.option("--stats", "FILE", arguments.statistics,
                  "Write how the decisions were made to this file (JSON; - is standard output)");
-  command.option("--verify", "N", into(arguments.verified_pixels, parse_pixels),
-                 "Compute this many pixels, or all, again by exact arithmetic and compare every "
-                 "channel bit for bit; exit status 1 if one differs");
+  command.option("--verify", "N|all", into(arguments.verified_pixels, parse_pixels),
+                 "Compute this many pixels, and those that were nearly undecided, again by exact "
+                 "arithmetic and compare every channel bit for bit; exit status 1 if one differs");
 }
 
 }  // namespace
@@ -74,7 +76,7 @@ void RenderArguments::add_to(Command& command) {
   add_checks(command, *this);
   const std::string heading = "With --engine pipeline";
   of_pipeline_.push_back(command
-                             .option("--image", "NAME", into(image, parse_png_name),
+                             .option("--image", "FILE", into(image, parse_png_name),
                                      "Write the colour picture to this PNG")
                              .below(heading));
   pipeline.add_to(command, heading);

@@ -127,20 +127,23 @@ void add_study(Command& program) {
       "  fathom study depth-resolution --near 0.1 --far 1000 --out resolution\n"
       "  fathom study indistinguishable --out reed\n"
       "  fathom study mitigation --scene data/meshes/spot.obj --near 0.001 --out cures");
-  command.argument("NAME", arguments->name, "The study");
+  command.argument("NAME", arguments->name, "Its name; --list shows them");
   command.option("--out", "DIR", arguments->out,
                  "Folder for CSV, PNG, SVG, summary.json, index.html");
   command.option_with_values(
-      "--scene", "NAME", arguments->scene,
+      "--scene", "FILE", arguments->scene,
       "Meshes or scene files to study, for antialiasing, mitigation, subpixel and z-fighting; "
-      "without it they have scenes of their own");
+      "without it each study uses its own scene");
   command.option("--camera", "FILE", arguments->camera,
                  "Camera file (JSON) for --scene; without it, one that frames the scene");
-  command.option("--near", "D", into(options.near, parse_number), "Least depth");
-  command.option("--far", "D", into(options.far, parse_number), "Greatest depth");
-  command.option("--samples", "N", into(options.samples, parse_samples), "Number of depths");
+  command.option("--near", "D", into(options.near, parse_number),
+                 "Least depth (default: the study's)");
+  command.option("--far", "D", into(options.far, parse_number),
+                 "Greatest depth (default: the study's)");
+  command.option("--samples", "N", into(options.samples, parse_samples),
+                 "Number of depths (default: the study's)");
   command.option("--separation", "D", into(options.separation, parse_number),
-                 "Of two surfaces along the view, for z-fighting");
+                 "Separation of the two surfaces along the view, for z-fighting");
   command.flag("--list", arguments->list, "List the studies");
   command.runs([arguments](const Console& console) { return run_study(*arguments, console); });
 }
