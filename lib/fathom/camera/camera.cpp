@@ -65,4 +65,9 @@ HomogeneousImagePoint to_image(const Camera& camera, const CameraPoint& p) {
           camera.fy * p.y + centred(camera.cy, camera.pixel_centre) * W, W};
 }
 
+PrincipalPoint principal_point(const Camera& camera) {
+  const double half_less_centre = 0.5 - camera.pixel_centre;
+  return {camera.cx + half_less_centre, camera.cy + half_less_centre};
+}
+
 }  // namespace fathom

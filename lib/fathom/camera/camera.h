@@ -46,4 +46,13 @@ CameraPoint to_camera(const Camera& camera, const WorldPoint& X);
 /// The homogeneous image point of a camera point in pixels, exactly; accounts for `pixel_centre`.
 HomogeneousImagePoint to_image(const Camera& camera, const CameraPoint& p);
 
+/// The image of a camera's z axis: pixels from the top left corner of the image, y downwards.
+struct PrincipalPoint {
+  double x = 0, y = 0;
+};
+
+/// The principal point in binary64; accounts for `pixel_centre`. Rounded twice, by a difference and
+/// a sum: what is exact goes through to_image().
+PrincipalPoint principal_point(const Camera& camera);
+
 }  // namespace fathom
