@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fathom/numeric/certified.h"
+#include "fathom/numeric/errors.h"
 
 namespace fathom {
 namespace {
@@ -41,6 +42,10 @@ std::optional<std::string> find_fault(const Camera& camera) {
   if (determinant_of_rotation(camera).is_zero())
     return "world_to_camera is singular: the determinant of its first three columns is exactly 0";
   return std::nullopt;
+}
+
+void require_valid(const Camera& camera) {
+  if (const auto fault = find_fault(camera)) throw InputError("camera: " + *fault);
 }
 
 Dyadic determinant_of_rotation(const Camera& camera) {

@@ -37,6 +37,10 @@ struct Camera {
 /// numbers are finite (far may be +∞), det R ≠ 0 exactly, fx and fy ≠ 0, near ≥ 0 and far > near.
 std::optional<std::string> find_fault(const Camera& camera);
 
+/// Refuses a camera that is not valid.
+/// Fails    InputError, "camera: " and what find_fault() says.
+void require_valid(const Camera& camera);
+
 /// det R, exactly.
 Dyadic determinant_of_rotation(const Camera& camera);
 
