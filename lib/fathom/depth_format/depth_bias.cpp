@@ -10,14 +10,10 @@ Ratio magnitude(const Ratio& x) {
   return {abs(x.numerator), x.denominator};
 }
 
-long bit_length(const Dyadic& x) {
-  return static_cast<long>(mpz_sizeinbase(x.significand(), 2)) + x.exponent();
-}
-
 /// The exponent e with 2^e ≤ x < 2^(e+1), for x > 0.
 long exponent_of(const Ratio& x) {
-  // n / d lies in (2^(ln−ld−1), 2^(ln−ld+1)).
-  const long e = bit_length(x.numerator) - bit_length(x.denominator);
+  // With the tops t and s of n and d, n / d lies in (2^(t−s−1), 2^(t−s+1)).
+  const long e = x.numerator.top() - x.denominator.top();
   return compare(x, Dyadic(1.0).scaled(e)) < 0 ? e - 1 : e;
 }
 
