@@ -17,21 +17,15 @@ long exponent_of(const Ratio& x) {
   return compare(x, Dyadic(1.0).scaled(e)) < 0 ? e - 1 : e;
 }
 
-/// The exponent of the least normal number.
-long least_exponent(Storage storage) {
-  return storage == Storage::float16 ? -14 : storage == Storage::float32 ? -126 : -1022;
-}
-
 }  // namespace
 
 Ratio resolvable_difference(Storage storage, const Ratio& greatest_z) {
-  const int n = bits_of(storage);
-  if (is_unorm(storage)) return {Dyadic(1.0), Dyadic(std::ldexp(1.0, n) - 1)};
+  if (is_unorm(storage)) return {Dyadic(1.0), Dyadic(greatest_code(storage))};
   // Below the least normal number the steps stay as they are at that number.
-  const long e = greatest_z.sign() == Sign::zero
-                     ? least_exponent(storage)
-                     : std::max(exponent_of(magnitude(greatest_z)), least_exponent(storage));
-  return Dyadic(1.0).scaled(e - n);
+  const long least = least_exponent(storage);
+  const long e =
+      greatest_z.sign() == Sign::zero ? least : std::max(exponent_of(magnitude(greatest_z)), least);
+  return Dyadic(1.0).scaled(e - bits_of(storage));
 }
 
 Ratio depth_offset(Storage storage, const DepthBias& bias, const WindowSlopes& slopes) {
