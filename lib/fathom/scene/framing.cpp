@@ -10,8 +10,6 @@
 namespace fathom {
 using namespace camera;
 
-using namespace camera;
-
 namespace {
 
 /// The part of the image's width and height that framed bounds may fill.
