@@ -29,8 +29,7 @@ Matrix4 exr_camera_from_world(const Camera& camera) {
 Matrix4 exr_ndc_from_world(const Camera& camera) {
   const auto& [x, y, z] = camera.world_to_camera;
   const bool perspective = camera.projection == Projection::perspective;
-  const double cx = camera.cx + (0.5 - camera.pixel_centre);
-  const double cy = camera.cy + (0.5 - camera.pixel_centre);
+  const auto [cx, cy] = principal_point(camera);
   std::array<std::array<double, 4>, 4> m{};
   m[3] = perspective ? z : std::array<double, 4>{0, 0, 0, 1};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -43,8 +42,7 @@ Matrix4 exr_ndc_from_world(const Camera& camera) {
 
 /// The rectangle on the plane z = 1 (orthographic: the image's extent) that the image shows.
 void describe_screen_window(const Camera& camera, DepthMap& map) {
-  const double cx = camera.cx + (0.5 - camera.pixel_centre);
-  const double cy = camera.cy + (0.5 - camera.pixel_centre);
+  const auto [cx, cy] = principal_point(camera);
   map.pixel_aspect_ratio = std::abs(camera.fy / camera.fx);
   map.screen_window_width = camera.width / std::abs(camera.fx);
   map.screen_window_centre = {(camera.width / 2.0 - cx) / camera.fx,

@@ -23,7 +23,7 @@ void describe(const Scene& scene, const Camera& camera, const RenderOptions& opt
 }  // namespace
 
 DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& options) {
-  if (const auto fault = find_fault(camera)) throw InputError("camera: " + *fault);
+  require_valid(camera);
   DepthMap map = options.engine == Engine::fast ? render_fast(scene, camera, options)
                                                 : render_reference(scene, camera, options);
   describe(scene, camera, options, map);
@@ -32,7 +32,7 @@ DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& o
 
 DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options,
                 const StreamLimits& limits) {
-  if (const auto fault = find_fault(camera)) throw InputError("camera: " + *fault);
+  require_valid(camera);
   if (options.engine != Engine::fast) {
     throw UsageError("only the fast engine renders a scene that stays in its files");
   }
@@ -42,7 +42,7 @@ DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOp
 }
 
 DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options) {
-  if (const auto fault = find_fault(camera)) throw InputError("camera: " + *fault);
+  require_valid(camera);
   DeepMap map = visible_in_pixels(scene, camera, options);
   describe(scene, camera, options, map.description);
   map.description.texts.erase("fathom.engine");

@@ -32,6 +32,7 @@ DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOption
 /// Adds Cryptomatte channels by object, CryptoObject00.R and so on, with the exact visible area of
 /// each object in each pixel rounded once. Objects of the same name are one. The map is one of this
 /// scene and camera; of the options culling, threads and progress count.
+/// Needs    a camera without fault (find_fault()), which is not asked again here.
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
                      const RenderOptions& options = {});
 

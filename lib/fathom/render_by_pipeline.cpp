@@ -36,7 +36,7 @@ void require_pipeline_channels(const std::vector<Channel>& channels) {
 PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
                                      const pipeline::PipelineOptions& options,
                                      const std::vector<Channel>& channels, bool with_picture) {
-  if (const auto fault = find_fault(camera)) throw InputError("camera: " + *fault);
+  require_valid(camera);
   require_pipeline_channels(channels);
   const pipeline::PipelineFrame frame =
       pipeline::render_frame(scene, camera, options, with_picture);

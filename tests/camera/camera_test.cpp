@@ -55,6 +55,18 @@ TEST(Camera, PixelCentreMovesTheImageByExactlyItsDifferenceToAHalf) {
   }
 }
 
+TEST(Camera, ThePrincipalPointCountsFromTheCornerOfTheImage) {
+  Camera camera = small_camera();
+  camera.cx = 3, camera.cy = 5;
+  for (const double pixel_centre : {0.5, 0.0, 0.25}) {
+    camera.pixel_centre = pixel_centre;
+    const auto [U, V, W] = to_image(camera, CameraPoint{0.0, 0.0, 1.0});
+    const auto [x, y] = principal_point(camera);
+    EXPECT_EQ(U, Dyadic(x) * W);
+    EXPECT_EQ(V, Dyadic(y) * W);
+  }
+}
+
 TEST(Camera, WorldToCameraIsNotRounded) {
   Camera camera = small_camera();
   camera.world_to_camera = {{{1e150, 1, 0, 1e-150}, {0, 1, 0, -1e300}, {0, 0, 0x1p-1000, 3}}};

@@ -99,5 +99,14 @@ TEST(Dyadic, EnclosureAtTheEndsOfTheRange) {
   EXPECT_EQ(tiny.upper, 0.0);
 }
 
+TEST(Dyadic, TheTopIsTheLeastPowerOfTwoAbove) {
+  EXPECT_EQ(Dyadic(1.0).top(), 1);
+  EXPECT_EQ(Dyadic(-0.75).top(), 0);
+  EXPECT_EQ(Dyadic(0x1p-1074).top(), -1073);
+  const Dyadic even = Dyadic(3.0) + Dyadic(5.0);
+  EXPECT_EQ(even.top(), 4);
+  EXPECT_EQ((even * Dyadic(0x1p1000) * Dyadic(0x1p1000) - Dyadic(1.0)).top(), 2003);
+}
+
 }  // namespace
 }  // namespace fathom

@@ -35,8 +35,7 @@ BlenderCamera blender_camera(const Camera& camera) {
   const double pixel = camera.fx / camera.fy;  // aspect_y / aspect_x
   if (pixel > 2 || pixel < 0.5) refuse("pixels more than twice as wide as high, or the reverse");
   const double width = camera.width, height = camera.height;
-  const double cx = camera.cx + (0.5 - camera.pixel_centre);
-  const double cy = camera.cy + (0.5 - camera.pixel_centre);
+  const auto [cx, cy] = principal_point(camera);
 
   BlenderCamera made;
   made.perspective = camera.projection == Projection::perspective;

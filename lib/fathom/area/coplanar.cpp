@@ -27,16 +27,6 @@ bool share_a_corner(const std::array<WorldPoint, 3>& a, const std::array<WorldPo
   return false;
 }
 
-bool is_zero(const ImageForm& form) {
-  const auto& l = form.coefficients();
-  return l[0].is_zero() && l[1].is_zero() && l[2].is_zero();
-}
-
-ImageForm negated(const ImageForm& form) {
-  const auto& l = form.coefficients();
-  return ImageForm({-l[0], -l[1], -l[2]});
-}
-
 /// A cell with the pieces of it that triangles cover.
 class CellPairs {
  public:
@@ -107,11 +97,11 @@ class CellPairs {
       if (!part.clip(*edge, visibility_.decisions())) return std::nullopt;
     }
     const ImageForm form = in_front(visibility_.surface(s), visibility_.surface(t));
-    if (is_zero(form)) {
+    if (form.is_zero()) {
       if (visibility_.surface(t).number < visibility_.surface(s).number) return part;
       return std::nullopt;
     }
-    return cell_.clip(part, negated(form), visibility_.decisions());
+    return cell_.clip(part, -form, visibility_.decisions());
   }
 
   ImageCell cell_;
@@ -135,7 +125,7 @@ class PairFinder {
     if (pairs.piece_of(t) != 0) return found;
     for (std::size_t s = 1; s < pairs.size(); ++s) {
       const SurfaceRegion& other = pairs.surface(s);
-      if (within_ == 0 && !is_zero(in_front(other, *surfaces_.surface(t)))) continue;
+      if (within_ == 0 && !in_front(other, *surfaces_.surface(t)).is_zero()) continue;
       if (share_a_corner(triangles_.world_corners(t), triangles_.world_corners(other.number))) {
         continue;
       }

@@ -9,15 +9,11 @@ namespace {
 
 constexpr double u = unit_roundoff<double>;
 
-long top_bit(const Dyadic& x) {
-  return static_cast<long>(mpz_sizeinbase(x.significand(), 2)) + x.exponent();
-}
-
 /// The least e such that all components are below 2^e; 0 if they are 0.
 long greatest_exponent(const ExactVector3& l) {
   std::optional<long> top;
   for (const Dyadic& x : l) {
-    if (!x.is_zero()) top = std::max(top.value_or(top_bit(x)), top_bit(x));
+    if (!x.is_zero()) top = std::max(top.value_or(x.top()), x.top());
   }
   return top.value_or(0);
 }

@@ -19,11 +19,6 @@ ImageForm above(const ImageForm& n, const Dyadic& limit, const ImageForm& w) {
   return ImageForm(l);
 }
 
-ImageForm negated(const ImageForm& form) {
-  const auto& l = form.coefficients();
-  return ImageForm({-l[0], -l[1], -l[2]});
-}
-
 bool is_constant(const ImageForm& form) {
   return form.coefficients()[0].is_zero() && form.coefficients()[1].is_zero();
 }
@@ -47,7 +42,7 @@ std::optional<std::vector<ImageForm>> covered_region(const ProjectedTriangle& t,
     return true;
   };
   if (camera.near > 0 && !add(above(depth, camera.near, t.weight))) return std::nullopt;
-  if (std::isfinite(camera.far) && !add(negated(above(depth, camera.far, t.weight)))) {
+  if (std::isfinite(camera.far) && !add(-above(depth, camera.far, t.weight))) {
     return std::nullopt;
   }
   return region;

@@ -13,11 +13,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-bool is_zero(const ImageForm& form) {
-  const auto& l = form.coefficients();
-  return l[0].is_zero() && l[1].is_zero() && l[2].is_zero();
-}
-
 /// a·b, one of which is a constant form.
 ExactVector3 product(const ImageForm& a, const ImageForm& b) {
   const bool a_is_constant = a.coefficients()[0].is_zero() && a.coefficients()[1].is_zero();
@@ -78,7 +73,7 @@ bool CellVisibility::is_in_front(const PieceOfSurface& s, const PieceOfSurface& 
   const Order order = quick_order(s.depths, t.depths);
   if (order != Order::unknown) return order == Order::in_front;
   const ImageForm form = area::in_front(*s.surface, *t.surface);
-  if (is_zero(form)) return s.surface->number < t.surface->number;
+  if (form.is_zero()) return s.surface->number < t.surface->number;
   return part_.sign_of(form) == Sign::positive;
 }
 
@@ -129,7 +124,7 @@ std::optional<ConvexPolygon> CellVisibility::hidden_part(const ConvexPolygon& po
   }
   if (order == Order::in_front) return part;
   const ImageForm form = area::in_front(*before.surface, *behind.surface);
-  if (is_zero(form)) {
+  if (form.is_zero()) {
     if (before.surface->number < behind.surface->number) return part;
     return std::nullopt;
   }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fathom/numeric/certified.h"
+#include "fathom/numeric/errors.h"
 
 namespace fathom {
 namespace {
@@ -43,6 +44,10 @@ std::optional<std::string> find_fault(const Camera& camera) {
   return std::nullopt;
 }
 
+void require_valid(const Camera& camera) {
+  if (const auto fault = find_fault(camera)) throw InputError("camera: " + *fault);
+}
+
 Dyadic determinant_of_rotation(const Camera& camera) {
   const auto row = [&](int i) {
     const auto& r = camera.world_to_camera[i];
@@ -63,6 +68,11 @@ HomogeneousImagePoint to_image(const Camera& camera, const CameraPoint& p) {
   const Dyadic W = camera.projection == Projection::perspective ? p.z : Dyadic(1.0);
   return {camera.fx * p.x + camera.skew * p.y + centred(camera.cx, camera.pixel_centre) * W,
           camera.fy * p.y + centred(camera.cy, camera.pixel_centre) * W, W};
+}
+
+PrincipalPoint principal_point(const Camera& camera) {
+  const double half_less_centre = 0.5 - camera.pixel_centre;
+  return {camera.cx + half_less_centre, camera.cy + half_less_centre};
 }
 
 }  // namespace fathom

@@ -37,6 +37,10 @@ struct Camera {
 /// numbers are finite (far may be +∞), det R ≠ 0 exactly, fx and fy ≠ 0, near ≥ 0 and far > near.
 std::optional<std::string> find_fault(const Camera& camera);
 
+/// Refuses a camera that is not valid.
+/// Fails    InputError, "camera: " and what find_fault() says.
+void require_valid(const Camera& camera);
+
 /// det R, exactly.
 Dyadic determinant_of_rotation(const Camera& camera);
 
@@ -45,5 +49,14 @@ CameraPoint to_camera(const Camera& camera, const WorldPoint& X);
 
 /// The homogeneous image point of a camera point in pixels, exactly; accounts for `pixel_centre`.
 HomogeneousImagePoint to_image(const Camera& camera, const CameraPoint& p);
+
+/// The image of a camera's z axis: pixels from the top left corner of the image, y downwards.
+struct PrincipalPoint {
+  double x = 0, y = 0;
+};
+
+/// The principal point in binary64; accounts for `pixel_centre`. Rounded twice, by a difference and
+/// a sum: what is exact goes through to_image().
+PrincipalPoint principal_point(const Camera& camera);
 
 }  // namespace fathom

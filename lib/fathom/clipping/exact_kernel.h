@@ -25,12 +25,6 @@ inline double to_binary64(double x) {
 /// "p/q" in lowest terms, "p" if q is 1.
 std::string to_fraction(const Rational& x);
 
-/// The exact value of `x`, which must be finite.
-template <class Number>
-Rational to_rational(const Number& x) {
-  return Rational(x);
-}
-
 /// The same rings over the exact kernel.
 Rings<Rational> to_exact(const Rings<double>& rings);
 inline Rings<Rational> to_exact(const Rings<Rational>& rings) {

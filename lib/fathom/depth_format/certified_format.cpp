@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/numeric/binary16.h"
 #include "fathom/numeric/certified_logarithm.h"
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/fused_multiply_add.h"
@@ -120,7 +121,7 @@ std::optional<double> nearest_integer(const WordPair& x, double error, double na
 std::optional<StoredDepth> round_to_float(Storage storage, const WordPair& x, double error) {
   if (!(x.hi > 0x1p-300)) return std::nullopt;
   const int fraction_bits = bits_of(storage);
-  const int least = storage == Storage::float16 ? -14 : storage == Storage::float32 ? -126 : -1022;
+  const int least = least_exponent(storage);
   const int exponent =
       std::max(static_cast<int>(std::bit_cast<std::uint64_t>(x.hi) >> 52) - 1023, least);
   const double steps = power_of_two(fraction_bits - exponent);
@@ -130,10 +131,6 @@ std::optional<StoredDepth> round_to_float(Storage storage, const WordPair& x, do
   if (!significand) return std::nullopt;
   return StoredDepth{(static_cast<std::uint64_t>(exponent - least) << fraction_bits) +
                      static_cast<std::uint64_t>(*significand)};
-}
-
-double greatest_code(Storage storage) {
-  return power_of_two(bits_of(storage)) - 1;
 }
 
 template <class T>
@@ -169,11 +166,8 @@ double value_of_float(Storage storage, std::uint64_t bits) {
       return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
     case Storage::float64:
       return std::bit_cast<double>(bits);
-    default: {
-      const auto exponent = static_cast<int>(bits >> 10);
-      const auto fraction = static_cast<double>(bits & 1023);
-      return exponent == 0 ? fraction * 0x1p-24 : (fraction + 1024) * power_of_two(exponent - 25);
-    }
+    default:
+      return widen_binary16(static_cast<std::uint16_t>(bits));
   }
 }
 

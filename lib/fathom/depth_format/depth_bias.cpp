@@ -10,32 +10,22 @@ Ratio magnitude(const Ratio& x) {
   return {abs(x.numerator), x.denominator};
 }
 
-long bit_length(const Dyadic& x) {
-  return static_cast<long>(mpz_sizeinbase(x.significand(), 2)) + x.exponent();
-}
-
 /// The exponent e with 2^e ≤ x < 2^(e+1), for x > 0.
 long exponent_of(const Ratio& x) {
-  // n / d lies in (2^(ln−ld−1), 2^(ln−ld+1)).
-  const long e = bit_length(x.numerator) - bit_length(x.denominator);
+  // With the tops t and s of n and d, n / d lies in (2^(t−s−1), 2^(t−s+1)).
+  const long e = x.numerator.top() - x.denominator.top();
   return compare(x, Dyadic(1.0).scaled(e)) < 0 ? e - 1 : e;
-}
-
-/// The exponent of the least normal number.
-long least_exponent(Storage storage) {
-  return storage == Storage::float16 ? -14 : storage == Storage::float32 ? -126 : -1022;
 }
 
 }  // namespace
 
 Ratio resolvable_difference(Storage storage, const Ratio& greatest_z) {
-  const int n = bits_of(storage);
-  if (is_unorm(storage)) return {Dyadic(1.0), Dyadic(std::ldexp(1.0, n) - 1)};
+  if (is_unorm(storage)) return {Dyadic(1.0), Dyadic(greatest_code(storage))};
   // Below the least normal number the steps stay as they are at that number.
-  const long e = greatest_z.sign() == Sign::zero
-                     ? least_exponent(storage)
-                     : std::max(exponent_of(magnitude(greatest_z)), least_exponent(storage));
-  return Dyadic(1.0).scaled(e - n);
+  const long least = least_exponent(storage);
+  const long e =
+      greatest_z.sign() == Sign::zero ? least : std::max(exponent_of(magnitude(greatest_z)), least);
+  return Dyadic(1.0).scaled(e - bits_of(storage));
 }
 
 Ratio depth_offset(Storage storage, const DepthBias& bias, const WindowSlopes& slopes) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -70,6 +71,15 @@ constexpr bool is_unorm(Storage storage) {
 constexpr int bits_of(Storage storage) {
   constexpr int bits[] = {16, 24, 32, 10, 23, 52};
   return bits[static_cast<int>(storage)];
+}
+/// The greatest code of a unorm storage, which means 1.
+constexpr std::uint32_t greatest_code(Storage storage) {
+  return static_cast<std::uint32_t>((std::uint64_t{1} << bits_of(storage)) - 1);
+}
+/// The exponent of the least normal number of a float storage. That of a number is kept with
+/// 1 − least_exponent() added to it.
+constexpr int least_exponent(Storage storage) {
+  return storage == Storage::float16 ? -14 : storage == Storage::float32 ? -126 : -1022;
 }
 
 }  // namespace fathom

@@ -7,21 +7,14 @@ namespace fathom {
 namespace {
 
 /// The value of a number in [0, 1] in an IEEE 754 format, from its bits.
-Ratio value_of_float(std::uint64_t bits, int fraction_bits, long bias) {
+Ratio exact_value_of_float(Storage storage, std::uint64_t bits) {
+  const int fraction_bits = bits_of(storage);
   const std::uint64_t hidden = std::uint64_t{1} << fraction_bits;
   const auto exponent = static_cast<long>(bits >> fraction_bits);
   const std::uint64_t fraction = bits & (hidden - 1);
-  const long least = 1 - bias - fraction_bits;
+  const long least = least_exponent(storage) - fraction_bits;
   if (exponent == 0) return Dyadic(static_cast<double>(fraction)).scaled(least);
   return Dyadic(static_cast<double>(fraction | hidden)).scaled(least + exponent - 1);
-}
-
-long bias_of(Storage storage) {
-  return storage == Storage::float16 ? 15 : storage == Storage::float32 ? 127 : 1023;
-}
-
-std::uint64_t steps_of(Storage storage) {
-  return (std::uint64_t{1} << bits_of(storage)) - 1;
 }
 
 /// The bits of a float storage nearest to an exact number.
@@ -39,13 +32,13 @@ std::uint64_t round_to_float(Storage storage, const Real& value) {
 }  // namespace
 
 StoredDepth greatest_stored(Storage storage) {
-  if (is_unorm(storage)) return {steps_of(storage)};
-  return {static_cast<std::uint64_t>(bias_of(storage)) << bits_of(storage)};
+  if (is_unorm(storage)) return {greatest_code(storage)};
+  return {static_cast<std::uint64_t>(1 - least_exponent(storage)) << bits_of(storage)};
 }
 
 Ratio value_of(Storage storage, StoredDepth stored) {
-  if (!is_unorm(storage)) return value_of_float(stored.bits, bits_of(storage), bias_of(storage));
-  return {Dyadic(static_cast<double>(stored.bits)), Dyadic(static_cast<double>(steps_of(storage)))};
+  if (!is_unorm(storage)) return exact_value_of_float(storage, stored.bits);
+  return {Dyadic(static_cast<double>(stored.bits)), Dyadic(greatest_code(storage))};
 }
 
 StoredDepth round_to_storage(Storage storage, const Real& value) {

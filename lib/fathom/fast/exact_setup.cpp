@@ -11,10 +11,10 @@ using namespace triangle;
 
 namespace {
 
-/// e with |x| < 2^e.
+/// The least e with |x| < 2^e; below every other number's for 0.
 long magnitude(const Dyadic& x) {
   if (x.is_zero()) return std::numeric_limits<long>::min() / 2;
-  return static_cast<long>(mpz_sizeinbase(x.significand(), 2)) + x.exponent();
+  return x.top();
 }
 
 double rounded(const Dyadic& x) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/numeric/certified_arithmetic.h"
+
 namespace fathom {
 
 ApproximateRow::ApproximateRow(const std::array<Dyadic, 4>& row) {
@@ -25,7 +27,7 @@ Interval ApproximateRow::at(const MeshPoint& p) const {
   const double magnitude = std::abs(a * p.x) + std::abs(b * p.y) + std::abs(c * p.z) + std::abs(d);
   const double error = magnitude * 0x1p-49 + 0x1p-1070;
   if (!usable_ || !std::isfinite(magnitude)) return {-infinity, infinity};
-  return {std::nextafter(value - error, -infinity), std::nextafter(value + error, infinity)};
+  return enclose(Certified<double>{value, error});
 }
 
 }  // namespace fathom

@@ -22,4 +22,9 @@ struct Object {
   std::size_t source = 0;
 };
 
+/// A point of the object's mesh in the world, exactly; scene units.
+inline WorldPoint to_world(const Object& object, const MeshPoint& p) {
+  return object.placed_as_is ? WorldPoint{p.x, p.y, p.z} : object.world_from_mesh(p);
+}
+
 }  // namespace fathom

@@ -102,6 +102,14 @@ ImageForm::ImageForm(ExactVector3 coefficients) : coefficients_(std::move(coeffi
                             [](const Interval& x) { return is_below(x, greatest_coefficient); });
 }
 
+bool ImageForm::is_zero() const {
+  return coefficients_[0].is_zero() && coefficients_[1].is_zero() && coefficients_[2].is_zero();
+}
+
+ImageForm ImageForm::operator-() const {
+  return ImageForm({-coefficients_[0], -coefficients_[1], -coefficients_[2]});
+}
+
 Dyadic ImageForm::at(double u, double v) const {
   return coefficients_[0] * Dyadic(u) + coefficients_[1] * Dyadic(v) + coefficients_[2];
 }

@@ -47,8 +47,9 @@ class ImageForm {
   explicit ImageForm(ExactVector3 coefficients);
 
   [[nodiscard]] const ExactVector3& coefficients() const { return coefficients_; }
-  /// Intervals that contain the coefficients.
-  [[nodiscard]] const std::array<Interval, 3>& enclosures() const { return enclosures_; }
+  /// Whether the value is 0 everywhere.
+  [[nodiscard]] bool is_zero() const;
+  ImageForm operator-() const;
   /// The exact value at the sample (u, v); u and v finite.
   [[nodiscard]] Dyadic at(double u, double v) const;
   /// An interval that contains the value at (u, v).
@@ -60,6 +61,7 @@ class ImageForm {
 
  private:
   ExactVector3 coefficients_;
+  /// Intervals that contain the coefficients.
   std::array<Interval, 3> enclosures_;
   bool filterable_ = false;
 };

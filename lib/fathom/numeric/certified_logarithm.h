@@ -31,8 +31,8 @@ struct LogarithmTables {
 };
 const LogarithmTables& logarithm_tables();
 
-/// A double-word nearest to x, up to 2⁻¹⁰⁵|x|.
 class Real;
+/// A double-word nearest to x, up to 2⁻¹⁰⁵|x|.
 WordPair to_double_word(const Real& x);
 
 /// log y, for y > 0; the error is +∞ if that of y is more than 2⁻²⁰ of it, or y beyond 2^±1000.

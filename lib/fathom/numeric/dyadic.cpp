@@ -132,8 +132,7 @@ int compare(const Dyadic& a, const Dyadic& b) {
   if (sign_a != sign_b) return sign_a < sign_b ? -1 : 1;
   if (sign_a == 0) return 0;
   // The bit lengths settle most comparisons without aligning numbers of very different size.
-  const long top_a = static_cast<long>(mpz_sizeinbase(a.significand_, 2)) + a.exponent_;
-  const long top_b = static_cast<long>(mpz_sizeinbase(b.significand_, 2)) + b.exponent_;
+  const long top_a = a.top(), top_b = b.top();
   if (top_a != top_b) return (top_a < top_b) == (sign_a > 0) ? -1 : 1;
   return static_cast<int>((a - b).sign());
 }
@@ -143,8 +142,7 @@ int compare(const Dyadic& a, const Dyadic& b) {
 Interval enclose(const Dyadic& x) {
   if (x.is_zero()) return {0, 0};
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto length = static_cast<long>(mpz_sizeinbase(x.significand(), 2));
-  const long top = length + x.exponent();  // 2^(top−1) ≤ |x| < 2^top
+  const long top = x.top();
   double toward_zero;
   bool representable;
   if (top > 1024) {

@@ -38,6 +38,10 @@ class Dyadic {
   /// m and e. They are not unique: m may be even.
   [[nodiscard]] mpz_srcptr significand() const { return significand_; }
   [[nodiscard]] long exponent() const { return exponent_; }
+  /// The t with 2^(t−1) ≤ |x| < 2^t, for a number x that is not 0.
+  [[nodiscard]] long top() const {
+    return static_cast<long>(mpz_sizeinbase(significand_, 2)) + exponent_;
+  }
 
   friend int compare(const Dyadic& a, const Dyadic& b);
   friend bool operator==(const Dyadic& a, const Dyadic& b) { return compare(a, b) == 0; }

@@ -61,7 +61,8 @@ class DepthRange {
   }
 
  private:
-  /// n − limit·w
+  /// n − limit·w. area/ has the same text; this one is the reference's own, as it decides the range
+  /// of depths for itself.
   static ImageForm minus(const ImageForm& n, const Dyadic& limit, const ImageForm& w) {
     ExactVector3 l;
     for (std::size_t k = 0; k < 3; ++k) l[k] = n.coefficients()[k] - limit * w.coefficients()[k];

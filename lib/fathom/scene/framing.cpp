@@ -10,8 +10,6 @@
 namespace fathom {
 using namespace camera;
 
-using namespace camera;
-
 namespace {
 
 /// The part of the image's width and height that framed bounds may fill.
@@ -71,8 +69,7 @@ Placement estimate_placement(const Box& box, const Matrix3& R, const Lens& lens)
     offsets[i] = rotate(R, {c[0] - box.middle[0], c[1] - box.middle[1], c[2] - box.middle[2]});
     for (const Dyadic& x : offsets[i]) {
       if (x.is_zero()) continue;
-      const long bits = static_cast<long>(mpz_sizeinbase(x.significand(), 2)) + x.exponent();
-      power = single_point ? bits : std::max(power, bits);
+      power = single_point ? x.top() : std::max(power, x.top());
       single_point = false;
     }
   }

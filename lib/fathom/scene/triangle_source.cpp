@@ -59,10 +59,7 @@ std::array<WorldPoint, 3> TriangleSource::world_corners(std::uint32_t number) co
   const Triangle mesh_triangle = triangle(number);
   const Object& object = objects()[mesh_triangle.origin.object];
   std::array<WorldPoint, 3> world;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const MeshPoint& p = mesh_triangle.corners[i];
-    world[i] = object.placed_as_is ? WorldPoint{p.x, p.y, p.z} : object.world_from_mesh(p);
-  }
+  for (std::size_t i = 0; i < 3; ++i) world[i] = to_world(object, mesh_triangle.corners[i]);
   return world;
 }
 

@@ -50,8 +50,7 @@ std::array<WorldPoint, 3> world_corners(const Object& object, const Mesh& mesh,
                                         std::uint32_t triangle) {
   std::array<WorldPoint, 3> world;
   for (std::size_t i = 0; i < 3; ++i) {
-    const MeshPoint& p = mesh.vertices[mesh.triangles[triangle][i]];
-    world[i] = object.placed_as_is ? WorldPoint{p.x, p.y, p.z} : object.world_from_mesh(p);
+    world[i] = to_world(object, mesh.vertices[mesh.triangles[triangle][i]]);
   }
   return world;
 }

@@ -33,8 +33,7 @@ Matrix4 eye_from_world(const Camera& camera) {
 
 Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range, ClipDepth depth) {
   const double w = camera.width, h = camera.height;
-  const double cx = camera.cx + (0.5 - camera.pixel_centre);
-  const double cy = camera.cy + (0.5 - camera.pixel_centre);
+  const auto [cx, cy] = principal_point(camera);
   const double length = range.far - range.near, sum = range.far + range.near;
   const bool reversed = depth == ClipDepth::one_to_zero;
   // The row of z: of the eye's z, and constant.

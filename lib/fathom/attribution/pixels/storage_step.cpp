@@ -20,7 +20,7 @@ double storage_step(const RasterModel& model, double window) {
   }
   if (model.storage == Storage::float16) return 0x1p13 * resolved;
   if (!is_unorm(model.storage)) return resolved;
-  return std::max(resolved, 1 / (std::ldexp(1.0, bits_of(model.storage)) - 1));
+  return std::max(resolved, 1.0 / greatest_code(model.storage));
 }
 
 }  // namespace fathom::attribution

@@ -13,8 +13,7 @@ using Matrix = std::array<Row, 4>;
 /// Rows of x, y (up), z, w over the camera frame (x, y, depth, 1), as OpenGL has them.
 Matrix clip_from_camera(const Camera& camera, const WindowDepth& window) {
   const double w = camera.width, h = camera.height;
-  const double cx = camera.cx + (0.5 - camera.pixel_centre);
-  const double cy = camera.cy + (0.5 - camera.pixel_centre);
+  const auto [cx, cy] = principal_point(camera);
   const double xx = 2 * camera.fx / w, xy = 2 * camera.skew / w, x1 = 2 * cx / w - 1;
   const double yy = -2 * camera.fy / h, y1 = 1 - 2 * cy / h;
   double a = window.a, b = window.b;

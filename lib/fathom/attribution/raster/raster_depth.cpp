@@ -18,7 +18,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 double RasterDepth::storage_error(double z) const {
   double error = model_.decoded_in_binary32 ? 4 * u : 0;
   if (is_unorm(model_.storage)) {
-    return error + 0.5 / (std::ldexp(1.0, bits_of(model_.storage)) - 1) + u * std::abs(z);
+    return error + 0.5 / greatest_code(model_.storage) + u * std::abs(z);
   }
   if (model_.storage == Storage::float16) return error + 0x1p-11 * std::abs(z) + 0x1p-25;
   return error;  // what is interpolated is binary32 already

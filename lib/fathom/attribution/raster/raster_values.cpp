@@ -76,7 +76,7 @@ bool RasterValues::is_nearest(std::size_t pixel, double depth) const {
   }
   const double exact = window_.of_depth(depth) + model_.bias;
   if (!is_unorm(model_.storage)) return other_.windows[pixel] == static_cast<float>(exact);
-  const double codes = std::ldexp(1.0, bits_of(model_.storage)) - 1;
+  const double codes = greatest_code(model_.storage);
   return std::abs(other_.windows[pixel] * codes - std::nearbyint(exact * codes)) < 0.25;
 }
 

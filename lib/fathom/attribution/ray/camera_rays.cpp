@@ -45,8 +45,7 @@ class WorldFromCamera {
 
 CameraRays camera_rays(const Camera& camera) {
   const WorldFromCamera world_from_camera(camera);
-  const double cx = camera.cx + (0.5 - camera.pixel_centre);
-  const double cy = camera.cy + (0.5 - camera.pixel_centre);
+  const auto [cx, cy] = principal_point(camera);
   const auto& m = camera.world_to_camera;
   const Vector3 to_world{-m[0][3], -m[1][3], -m[2][3]};  // of the camera point 0
 

@@ -55,7 +55,7 @@ class RayFragments final : public FragmentSource {
 
 PixelBox RayFragments::box(std::uint32_t triangle) const {
   const Camera& c = rays_.camera();
-  const double cx = c.cx + (0.5 - c.pixel_centre), cy = c.cy + (0.5 - c.pixel_centre);
+  const auto [cx, cy] = principal_point(c);
   ImageBox box;
   bool before = false, behind = false;
   for (const Vector3& p : corners(triangle)) {

@@ -179,9 +179,7 @@ SquarePoint TileCoverage::exact_corner(const ImageObject& object, const ImageVer
   const MeshPoint& p =
       object.mesh.vertices[static_cast<std::size_t>(&vertex - object.vertices.get())];
   const Camera& camera = scene_.frame.camera;
-  const auto [U, V, W] =
-      to_image(camera, to_camera(camera, its_object.placed_as_is ? WorldPoint{p.x, p.y, p.z}
-                                                                 : its_object.world_from_mesh(p)));
+  const auto [U, V, W] = to_image(camera, to_camera(camera, to_world(its_object, p)));
   const std::uint32_t x = area_.first_column + pixel % size, y = area_.first_row + pixel / size;
   const Dyadic column = static_cast<double>(x), row = static_cast<double>(y);
   return {round_to_binary64(Ratio(U - column * W, W)), round_to_binary64(Ratio(V - row * W, W))};

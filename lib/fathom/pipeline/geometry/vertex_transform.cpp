@@ -62,8 +62,9 @@ std::array<double, 2> depth_row(const DepthFormat& f, bool perspective) {
 Rows projection_matrix(const Camera& camera, const DepthFormat& format) {
   const bool perspective = camera.projection == Projection::perspective;
   const double w = camera.width, h = camera.height;
-  const double cx = 2 * (camera.cx + (0.5 - camera.pixel_centre)) / w - 1;
-  const double cy = 1 - 2 * (camera.cy + (0.5 - camera.pixel_centre)) / h;
+  const PrincipalPoint centre = principal_point(camera);
+  const double cx = 2 * centre.x / w - 1;
+  const double cy = 1 - 2 * centre.y / h;
   const auto [za, zb] = depth_row(format, perspective);
   Rows m{};
   m[0] = {2 * camera.fx / w, -2 * camera.skew / w, 0, 0};
