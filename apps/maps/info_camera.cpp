@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "apps/maps/info.h"
 #include "apps/maps/map_view.h"
@@ -28,7 +29,7 @@ Pose pose_of(const Camera& camera) {
 }
 
 double degrees_of(double extent, double focal) {
-  return 2 * std::atan(extent / (2 * std::abs(focal))) * 180 / std::acos(-1.0);
+  return 2 * std::atan(extent / (2 * std::abs(focal))) * 180 / std::numbers::pi;
 }
 
 Json describe(const Camera& camera) {

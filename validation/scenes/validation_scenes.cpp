@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "fathom/attribution/model/opengl_matrices.h"
 #include "fathom/attribution/world_mesh.h"
@@ -54,10 +55,9 @@ void add_tilted(Mesh& mesh, double x0, double x1, double y0, double y1, double d
 ValidationScene slivers(const ImageSize& size) {
   Mesh mesh;
   constexpr int count = 400;
-  constexpr double pi = 3.14159265358979323846;
   mesh.vertices.push_back({0.013, -0.017, 2});
   for (int i = 0; i <= count; ++i) {
-    const double angle = 2 * pi * i / count;
+    const double angle = 2 * std::numbers::pi * i / count;
     mesh.vertices.push_back(
         {0.7 * std::cos(angle), 0.7 * std::sin(angle), 2 + 0.4 * std::sin(5 * angle)});
   }
