@@ -53,7 +53,7 @@ Json to_json(const DepthBufferReport& report) {
 
 Json to_json(const MapReport& report) {
   Json json{{"map", report.map},
-            {"engine", report.engine == Engine::fast ? "fast" : "reference"},
+            {"engine", name_of(report.engine)},
             {"width", report.width},
             {"height", report.height}};
   json.update(to_json(report.statistics));
