@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/maps/comparison_report.h"
+#include "apps/shell/json_answer.h"
 
 namespace fathom::app {
 namespace {
@@ -65,7 +66,7 @@ std::string as_json(const Comparison& comparison) {
                     {"only_in_truth", maps.only_in_truth},
                     {"only_in_other", maps.only_in_other},
                     {"notes", maps.notes}};
-  return answer.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_answer(answer);
 }
 
 }  // namespace fathom::app

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "apps/maps/info.h"
 #include "apps/maps/map_view.h"
@@ -28,7 +29,7 @@ Pose pose_of(const Camera& camera) {
 }
 
 double degrees_of(double extent, double focal) {
-  return 2 * std::atan(extent / (2 * std::abs(focal))) * 180 / std::acos(-1.0);
+  return 2 * std::atan(extent / (2 * std::abs(focal))) * 180 / std::numbers::pi;
 }
 
 Json describe(const Camera& camera) {
@@ -72,7 +73,7 @@ std::string info_of_cameras(const std::string& file, AnswerForm form) {
   if (form == AnswerForm::json) {
     Json list = Json::array();
     for (const Camera& camera : cameras) list.push_back(describe(camera));
-    return Json{{"kind", "camera"}, {"file", file}, {"cameras", list}}.dump(2) + "\n";
+    return json_answer({{"kind", "camera"}, {"file", file}, {"cameras", list}});
   }
   std::string text = fmt::format(
       "{}: {}\n", file,

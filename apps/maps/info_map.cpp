@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/maps/info.h"
+#include "apps/shell/json_answer.h"
 #include "apps/shell/values.h"
 #include "fathom/image/surface.h"
 
@@ -124,7 +125,7 @@ std::string describe_as_text(const DepthMap& map, const std::string& file) {
 
 std::string info_of_map(const DepthMap& map, const std::string& file, AnswerForm form) {
   if (form == AnswerForm::text) return describe_as_text(map, file);
-  return describe(map, file).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_answer(describe(map, file));
 }
 
 }  // namespace fathom::app

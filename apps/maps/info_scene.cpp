@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "apps/maps/info.h"
+#include "apps/shell/json_answer.h"
 #include "fathom/scene/bounds.h"
 
 namespace fathom::app {
@@ -93,7 +94,7 @@ std::string describe_as_text(const Scene& scene, FileKind kind, const std::strin
 std::string info_of_scene(const Scene& scene, FileKind kind, const std::string& file,
                           AnswerForm form) {
   if (form == AnswerForm::text) return describe_as_text(scene, kind, file);
-  return describe(scene, kind, file).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_answer(describe(scene, kind, file));
 }
 
 }  // namespace fathom::app

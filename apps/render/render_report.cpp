@@ -53,7 +53,7 @@ Json to_json(const DepthBufferReport& report) {
 
 Json to_json(const MapReport& report) {
   Json json{{"map", report.map},
-            {"engine", report.engine == Engine::fast ? "fast" : "reference"},
+            {"engine", name_of(report.engine)},
             {"width", report.width},
             {"height", report.height}};
   json.update(to_json(report.statistics));
@@ -77,7 +77,7 @@ Json to_json(const MapReport& report) {
 std::string as_json(const std::vector<MapReport>& maps) {
   Json list = Json::array();
   for (const MapReport& map : maps) list.push_back(to_json(map));
-  return (list.size() == 1 ? list[0] : list).dump(2) + "\n";
+  return json_answer(list.size() == 1 ? list[0] : list);
 }
 
 std::string as_json(const DepthFormat& format) {

@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <utility>
 
+#include "fathom/text/printable.h"
 #include "fathom/text/warnings.h"
 
 namespace fathom::app {
@@ -14,8 +16,8 @@ void say(const std::string& text) {
   std::string line = "fathom: " + text;
   for (char& c : line) {
     if (c == '\n' || c == '\r' || c == '\t') c = ' ';
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
   }
+  line = text::printable(std::move(line));
   while (line.ends_with(' ')) line.pop_back();
   line += '\n';
   std::fwrite(line.data(), 1, line.size(), stderr);

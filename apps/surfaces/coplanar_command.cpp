@@ -9,6 +9,7 @@
 #include "apps/options/cull_option.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
+#include "apps/shell/json_answer.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/values.h"
@@ -68,7 +69,7 @@ std::string as_json(const Scene& scene, const std::vector<CoplanarPair>& pairs, 
                     {"rows", {box.first_row, box.last_row}}});
   }
   const Json answer{{"within", within}, {"pairs", list}};
-  return answer.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_answer(answer);
 }
 
 double parse_distance(const std::string& text) {

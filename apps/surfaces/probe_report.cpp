@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/shell/json_answer.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom::app {
@@ -136,7 +137,7 @@ std::string as_json(const Probe& probe) {
                     {"width", probe.camera.width},
                     {"height", probe.camera.height},
                     {"triangles", triangles}};
-  return answer.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_answer(answer);
 }
 
 }  // namespace fathom::app

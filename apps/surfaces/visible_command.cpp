@@ -9,6 +9,7 @@
 #include "apps/options/cull_option.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
+#include "apps/shell/json_answer.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/progress.h"
 #include "apps/surfaces/surface_commands.h"
@@ -65,7 +66,7 @@ std::string as_json(const Answer& answer) {
                   {"height", answer.camera.height},
                   {"objects", objects},
                   {"triangles", triangles}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_answer(json, 1);
 }
 
 /// A text as a field of CSV (RFC 4180).

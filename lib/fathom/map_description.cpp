@@ -59,7 +59,8 @@ std::string sources_as_json(const std::vector<Source>& sources) {
 
 }  // namespace
 
-void describe_map(const Scene& scene, const Camera& camera, const char* engine, DepthMap& map) {
+void describe_map(const Scene& scene, const Camera& camera, std::string_view engine,
+                  DepthMap& map) {
   map.world_to_camera = exr_camera_from_world(camera);
   map.world_to_ndc = exr_ndc_from_world(camera);
   describe_screen_window(camera, map);

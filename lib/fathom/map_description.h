@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/scene.h"
@@ -9,6 +11,6 @@ namespace fathom {
 /// What a map carries so that it can be computed again: the camera and the sources with their
 /// SHA-256 as JSON, the names of the objects, the engine; and the camera in OpenEXR's words.
 /// Exact    the camera to 17 digits; OpenEXR's matrices are rounded, for other programs' eyes only.
-void describe_map(const Scene& scene, const Camera& camera, const char* engine, DepthMap& map);
+void describe_map(const Scene& scene, const Camera& camera, std::string_view engine, DepthMap& map);
 
 }  // namespace fathom

@@ -14,7 +14,7 @@ namespace {
 
 void describe(const Scene& scene, const Camera& camera, const RenderOptions& options,
               DepthMap& map) {
-  describe_map(scene, camera, options.engine == Engine::fast ? "fast" : "reference", map);
+  describe_map(scene, camera, name_of(options.engine), map);
   if (options.cull != Cull::none) {
     map.texts["fathom.cull"] = options.cull == Cull::back ? "back" : "front";
   }

@@ -36,5 +36,11 @@ TEST(WorldMesh, PlacedPointsAreRoundedOnce) {
   EXPECT_EQ(world_mesh(scene).points[0][0], 0x1p-60);
 }
 
+TEST(WorldMesh, ItsBoxContainsPointsOfNoTriangleToo) {
+  EXPECT_EQ(box_of({}), std::nullopt);
+  const WorldMesh mesh{.points = {{1, -2, 3}, {-4, 5, 0}, {2, 2, 7}}, .triangles = {}};
+  EXPECT_EQ(box_of(mesh), (WorldBounds{{-4, -2, 0}, {2, 5, 7}}));
+}
+
 }  // namespace
 }  // namespace fathom::attribution

@@ -14,8 +14,8 @@
 
 /// Times render(), from mesh and camera in memory to the complete map in memory, without any peer:
 ///   engine_bench [SCENE…] [--size WxH] [--threads N] [--repeat N] [--engine fast|reference]
-///                [--channels Z,id,…] [--cull back|front] [--without
-///                simd,hierarchy,early-rejection]
+///                [--channels Z,id,…] [--cull back|front|none]
+///                [--without simd,hierarchy,early-rejection]
 /// The scenes are those of scenes.h, or mesh files. The first run of each is not counted.
 namespace {
 
@@ -29,25 +29,59 @@ struct Arguments {
   RenderOptions options{.engine = Engine::fast};
 };
 
-std::vector<Channel> channels_of(const std::string& list) {
-  std::vector<Channel> channels;
+/// The parts of a text between commas.
+std::vector<std::string> parts_of(const std::string& list) {
+  std::vector<std::string> parts;
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t end = std::min(list.find(',', begin), list.size());
-    const auto channel = channel_named(list.substr(begin, end - begin));
+    parts.push_back(list.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+[[noreturn]] void refuse_word(const std::string& option, const std::string& word,
+                              const char* wanted) {
+  throw UsageError(option + ": '" + word + "' is " + wanted);
+}
+
+std::vector<Channel> channels_of(const std::string& list) {
+  std::vector<Channel> channels;
+  for (const std::string& name : parts_of(list)) {
+    const auto channel = channel_named(name);
     if (!channel)
       throw UsageError("--channels: '" + list + "' names a channel that does not exist");
     channels.push_back(*channel);
-    begin = end + 1;
   }
   return channels;
 }
 
+Engine engine_named(const std::string& word) {
+  if (word == "fast") return Engine::fast;
+  if (word == "reference") return Engine::reference;
+  refuse_word("--engine", word, "neither fast nor reference");
+}
+
+Cull cull_named(const std::string& word) {
+  if (word == "back") return Cull::back;
+  if (word == "front") return Cull::front;
+  if (word == "none") return Cull::none;
+  refuse_word("--cull", word, "not one of back, front and none");
+}
+
 /// Leaves out what makes the fast engine fast; its map stays the same.
 void leave_out(const std::string& list, FastSwitches& switches) {
-  if (list.find("hierarchy") != std::string::npos) switches.hierarchy = false;
-  if (list.find("early-rejection") != std::string::npos) switches.early_rejection = false;
-  // What remains is compiled for every processor.
-  if (list.find("simd") != std::string::npos) hwy::DisableTargets(~HWY_EMU128);
+  for (const std::string& word : parts_of(list)) {
+    if (word == "hierarchy") {
+      switches.hierarchy = false;
+    } else if (word == "early-rejection") {
+      switches.early_rejection = false;
+    } else if (word == "simd") {
+      hwy::DisableTargets(~HWY_EMU128);  // what remains is compiled for every processor
+    } else {
+      refuse_word("--without", word, "not one of simd, hierarchy and early-rejection");
+    }
+  }
 }
 
 Arguments parse(int argc, char** argv) {
@@ -69,11 +103,11 @@ Arguments parse(int argc, char** argv) {
     } else if (name == "--repeat") {
       arguments.repeat = std::max(1, std::atoi(value.c_str()));
     } else if (name == "--engine") {
-      arguments.options.engine = value == "reference" ? Engine::reference : Engine::fast;
+      arguments.options.engine = engine_named(value);
     } else if (name == "--channels") {
       arguments.options.channels = channels_of(value);
     } else if (name == "--cull") {
-      arguments.options.cull = value == "front" ? Cull::front : Cull::back;
+      arguments.options.cull = cull_named(value);
     } else if (name == "--without") {
       leave_out(value, arguments.options.fast);
     } else {

@@ -30,9 +30,8 @@ std::vector<Measurement> measure_engine(Engine engine, const BenchScene& bench, 
   DepthMap map;
   Frames frames = time_frames(
       plan.repeat, [&] { map = render(bench.scene, bench.camera, options); }, [&] { map = {}; });
-  return {{engine == Engine::fast ? "fast" : "reference", "", frames.first_ms,
-           std::move(frames.milliseconds), peak_resident_bytes() - idle_bytes,
-           covered_pixels(map)}};
+  return {{std::string(name_of(engine)), "", frames.first_ms, std::move(frames.milliseconds),
+           peak_resident_bytes() - idle_bytes, covered_pixels(map)}};
 }
 
 }  // namespace

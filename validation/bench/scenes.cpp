@@ -10,14 +10,10 @@
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "validation/bench/shapes.h"
+#include "validation/bench/simple_camera.h"
 
 namespace fathom::bench {
 namespace {
-
-struct Size {
-  std::uint32_t width, height;
-  [[nodiscard]] std::uint32_t least() const { return std::min(width, height); }
-};
 
 const std::vector<std::string> made_names{"mesh",         "soup", "few-large",   "grid-aligned",
                                           "grid-shifted", "room", "room-outside"};
@@ -36,24 +32,15 @@ std::optional<std::uint64_t> sphere_size(const std::string& name) {
   return number;
 }
 
-/// At the origin, looking along +z.
-Camera simple_camera(const Size& size) {
-  Camera camera{.width = size.width, .height = size.height};
-  camera.fx = camera.fy = 1.2 * size.height;
-  camera.cx = size.width / 2.0;
-  camera.cy = size.height / 2.0;
-  return camera;
-}
-
 /// The sphere's outline has the radius focal / √(3² − 1): 523.5 pixels of 1080.
-Camera sphere_camera(const Size& size) {
+Camera sphere_camera(const ImageSize& size) {
   const double radius = 523.5 / 1080 * size.least();
   return look_from({.azimuth = 35, .elevation = 25}, {0, 0, 0}, 3,
                    {.width = size.width, .height = size.height, .focal = radius * std::sqrt(8.0)});
 }
 
 /// One unit of the world is one pixel.
-BenchScene grid_scene(const std::string& name, const Size& size) {
+BenchScene grid_scene(const std::string& name, const ImageSize& size) {
   Camera camera{.width = size.width, .height = size.height, .projection = Projection::orthographic};
   const std::uint32_t step = std::max(1U, size.least() / 1000);
   const std::uint32_t columns = std::min(1000U, size.width / step);
@@ -67,7 +54,7 @@ BenchScene grid_scene(const std::string& name, const Size& size) {
   return {name, as_scene({grid(columns, rows, left, top, step)}, name), camera};
 }
 
-BenchScene room_scene(const std::string& name, const Size& size) {
+BenchScene room_scene(const std::string& name, const ImageSize& size) {
   const Lens lens{.width = size.width, .height = size.height, .vertical_fov = 60};
   const Camera camera = name == "room"
                             ? look_at({-2.9, 0.4, 2.3}, {1.5, -0.5, -1.2}, {0, 1, 0}, lens)
@@ -80,7 +67,7 @@ Scene read(const std::string& file) {
   return read_scene({file}, {.hash = false}, warnings);
 }
 
-BenchScene framed(const std::string& name, Scene scene, const Size& size) {
+BenchScene framed(const std::string& name, Scene scene, const ImageSize& size) {
   const Camera camera = frame_scene(scene, {}, {.width = size.width, .height = size.height});
   return {name, std::move(scene), camera};
 }
@@ -98,7 +85,7 @@ bool is_made_scene(const std::string& name) {
 }
 
 BenchScene make_scene(const std::string& name, std::uint32_t width, std::uint32_t height) {
-  const Size size{width, height};
+  const ImageSize size{width, height};
   if (const auto triangles = sphere_size(name)) {
     return {name, as_scene({sphere(*triangles)}, name), sphere_camera(size)};
   }

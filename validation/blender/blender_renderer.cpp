@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/image/map_files.h"
@@ -60,16 +61,13 @@ Camera moved(Camera camera, const std::array<double, 3>& shift) {
 
 std::array<double, 3> middle_of(const WorldMesh& mesh) {
   std::array<double, 3> middle{};
+  const auto box = box_of(mesh);
+  if (!box) return middle;
   for (std::size_t k = 0; k < 3; ++k) {
-    double least = std::numeric_limits<double>::infinity(), greatest = -least;
-    for (const auto& p : mesh.points) {
-      least = std::min(least, p[k]);
-      greatest = std::max(greatest, p[k]);
-    }
+    const double least = box->lower[k], greatest = box->upper[k];
     // Only what binary32 would hurt is moved.
     const double size = greatest - least, away = std::max(std::abs(least), std::abs(greatest));
-    if (least <= greatest && away > 16 * size)
-      middle[k] = static_cast<float>(least / 2 + greatest / 2);
+    if (away > 16 * size) middle[k] = static_cast<float>(least / 2 + greatest / 2);
   }
   return middle;
 }

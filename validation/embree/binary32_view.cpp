@@ -8,7 +8,7 @@ namespace {
 using attribution::CameraRays;
 
 Binary32View::Affine narrowed(const CameraRays::Affine& f) {
-  const auto narrow = [](const CameraRays::Vector3& v) {
+  const auto narrow = [](const std::array<double, 3>& v) {
     return std::array<float, 3>{static_cast<float>(v[0]), static_cast<float>(v[1]),
                                 static_cast<float>(v[2])};
   };

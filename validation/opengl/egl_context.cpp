@@ -121,10 +121,6 @@ std::string EglContext::description() const {
   return text(0x1F01) + ", " + text(0x1F02) + way();
 }
 
-bool EglContext::is_current() const {
-  return eglGetCurrentContext() == context_;
-}
-
 void EglContext::make_current() const {
   if (eglMakeCurrent(display_, surface_, surface_, context_) == EGL_FALSE) fail("eglMakeCurrent");
 }

@@ -27,7 +27,6 @@ class EglContext {
   [[nodiscard]] std::string description() const;
   /// ", on Xvfb" or "".
   [[nodiscard]] std::string way() const;
-  [[nodiscard]] bool is_current() const;
   void make_current() const;
 
  private:

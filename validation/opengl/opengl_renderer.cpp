@@ -70,13 +70,8 @@ void measure_offset(const GlFunctions& gl, const DrawnMesh& mesh, const Camera& 
 std::array<double, 3> held_from(const WorldMesh& mesh, const Camera& camera) {
   if (camera.projection == Projection::perspective) return camera_rays(camera).origin.at_corner;
   std::array<double, 3> middle{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    double least = std::numeric_limits<double>::infinity(), greatest = -least;
-    for (const auto& p : mesh.points) {
-      least = std::min(least, p[k]);
-      greatest = std::max(greatest, p[k]);
-    }
-    if (least <= greatest) middle[k] = least / 2 + greatest / 2;
+  if (const auto box = box_of(mesh)) {
+    for (std::size_t k = 0; k < 3; ++k) middle[k] = box->lower[k] / 2 + box->upper[k] / 2;
   }
   return middle;
 }

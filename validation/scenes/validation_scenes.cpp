@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "fathom/attribution/model/opengl_matrices.h"
 #include "fathom/attribution/world_mesh.h"
@@ -11,6 +12,7 @@
 #include "fathom/scene/read_scene.h"
 #include "validation/bench/scenes.h"
 #include "validation/bench/shapes.h"
+#include "validation/bench/simple_camera.h"
 
 namespace fathom::validation {
 namespace {
@@ -19,10 +21,8 @@ using attribution::clip_range;
 using attribution::ClipRange;
 using attribution::world_mesh;
 using attribution::WorldMesh;
-
-struct Size {
-  std::uint32_t width, height;
-};
+using bench::ImageSize;
+using bench::simple_camera;
 
 Scene read(const std::string& file) {
   Warnings warnings;
@@ -30,16 +30,7 @@ Scene read(const std::string& file) {
                     warnings);
 }
 
-/// At the origin, looking along +z.
-Camera simple_camera(const Size& size, double focal) {
-  Camera camera{.width = size.width, .height = size.height};
-  camera.fx = camera.fy = focal * size.height;
-  camera.cx = size.width / 2.0;
-  camera.cy = size.height / 2.0;
-  return camera;
-}
-
-ValidationScene framed(const std::string& name, Scene scene, const Size& size,
+ValidationScene framed(const std::string& name, Scene scene, const ImageSize& size,
                        Projection projection = Projection::perspective) {
   const Camera camera = frame_scene(
       scene, {}, {.width = size.width, .height = size.height, .projection = projection});
@@ -61,23 +52,22 @@ void add_tilted(Mesh& mesh, double x0, double x1, double y0, double y1, double d
   add_sheet(mesh, {{{x0, y0, z(x0)}, {x1, y0, z(x1)}, {x1, y1, z(x1)}, {x0, y1, z(x0)}}});
 }
 
-ValidationScene slivers(const Size& size) {
+ValidationScene slivers(const ImageSize& size) {
   Mesh mesh;
   constexpr int count = 400;
-  constexpr double pi = 3.14159265358979323846;
   mesh.vertices.push_back({0.013, -0.017, 2});
   for (int i = 0; i <= count; ++i) {
-    const double angle = 2 * pi * i / count;
+    const double angle = 2 * std::numbers::pi * i / count;
     mesh.vertices.push_back(
         {0.7 * std::cos(angle), 0.7 * std::sin(angle), 2 + 0.4 * std::sin(5 * angle)});
   }
   for (std::uint32_t i = 1; i <= count; i += 2) mesh.triangles.push_back({0, i, i + 1});
   add_tilted(mesh, -2, 2, -2, 2, 4, 0.25);
-  return {"slivers", bench::as_scene({mesh}, "slivers"), simple_camera(size, 1.2)};
+  return {"slivers", bench::as_scene({mesh}, "slivers"), simple_camera(size)};
 }
 
 /// Pairs side by side: the second sheet of each is 10⁻⁴ of the distance behind the first.
-ValidationScene sheets(const Size& size) {
+ValidationScene sheets(const ImageSize& size) {
   Mesh mesh;
   const double distances[] = {1, 3, 10, 30, 100, 300};
   for (int i = 0; i < 6; ++i) {
@@ -85,10 +75,10 @@ ValidationScene sheets(const Size& size) {
     add_tilted(mesh, left * d, (left + 0.11) * d, -0.3 * d, 0.2 * d, d, 0.3);
     add_tilted(mesh, (left + 0.01) * d, (left + 0.12) * d, -0.2 * d, 0.3 * d, d * (1 + 1e-4), 0.3);
   }
-  return {"sheets", bench::as_scene({mesh}, "sheets"), simple_camera(size, 1.2)};
+  return {"sheets", bench::as_scene({mesh}, "sheets"), simple_camera(size)};
 }
 
-ValidationScene utm(const Size& size) {
+ValidationScene utm(const ImageSize& size) {
   const Scene scene = read("scenes/hard/utm-terrain.obj");
   const WorldMesh mesh = world_mesh(scene);
   double low = INFINITY;
@@ -100,7 +90,7 @@ ValidationScene utm(const Size& size) {
 }
 
 /// Spheres of radius 0.2·d at distances d = 0.002, 0.02, … 8000; near 10⁻³, far 10⁴.
-ValidationScene range(const Size& size) {
+ValidationScene range(const ImageSize& size) {
   std::vector<Mesh> meshes;
   double distance = 0.002;
   for (int i = 0; i < 7; ++i, distance *= 10) {
@@ -117,7 +107,7 @@ ValidationScene range(const Size& size) {
   return made;
 }
 
-ValidationScene calibrated(const Size& size) {
+ValidationScene calibrated(const ImageSize& size) {
   ValidationScene made = framed("calibrated", read("meshes/spot.obj"), size);
   made.camera.fy *= 1.07;
   made.camera.skew = 0.06 * made.camera.fx;
@@ -127,19 +117,19 @@ ValidationScene calibrated(const Size& size) {
   return made;
 }
 
-ValidationScene soup(const Size& size) {
-  const Camera camera = simple_camera(size, 1.2);
+ValidationScene soup(const ImageSize& size) {
+  const Camera camera = simple_camera(size);
   return {"soup", bench::as_scene({bench::soup(5000, 20, camera)}, "soup"), camera};
 }
 
 ValidationScene from_bench(const std::string& name, const std::string& bench_name,
-                           const Size& size) {
+                           const ImageSize& size) {
   bench::BenchScene made = bench::make_scene(bench_name, size.width, size.height);
   return {name, std::move(made.scene), made.camera};
 }
 
 /// Whatever the near plane would be, floor and ceiling reach through it.
-ValidationScene room(const Size& size) {
+ValidationScene room(const ImageSize& size) {
   ValidationScene made = from_bench("room", "room", size);
   made.camera.near = 0.05;
   made.camera.far = 20;
@@ -147,7 +137,7 @@ ValidationScene room(const Size& size) {
 }
 
 /// A bumpy sheet with a corner on the ray of every pixel, exactly: all numbers have few bits.
-ValidationScene vertices(const Size& size) {
+ValidationScene vertices(const ImageSize& size) {
   Camera camera{.width = size.width, .height = size.height};
   camera.fx = camera.fy = 256;
   camera.cx = size.width / 2.0;
@@ -172,30 +162,30 @@ ValidationScene vertices(const Size& size) {
   return {"vertices", bench::as_scene({mesh}, "vertices"), camera};
 }
 
-ValidationScene coplanar(const Size& size) {
+ValidationScene coplanar(const ImageSize& size) {
   return {"coplanar", read("scenes/hard/coplanar-overlaps.obj"), simple_camera(size, 0.8)};
 }
 
-using Make = ValidationScene (*)(const Size&);
+using Make = ValidationScene (*)(const ImageSize&);
 struct Named {
   const char* name;
   Make make;
 };
 constexpr Named makers[] = {
-    {"sphere", [](const Size& s) { return from_bench("sphere", "sphere-5k", s); }},
-    {"spot", [](const Size& s) { return framed("spot", read("meshes/spot.obj"), s); }},
-    {"teapot", [](const Size& s) { return framed("teapot", read("meshes/teapot.obj"), s); }},
-    {"dense", [](const Size& s) { return from_bench("dense", "sphere-200k", s); }},
+    {"sphere", [](const ImageSize& s) { return from_bench("sphere", "sphere-5k", s); }},
+    {"spot", [](const ImageSize& s) { return framed("spot", read("meshes/spot.obj"), s); }},
+    {"teapot", [](const ImageSize& s) { return framed("teapot", read("meshes/teapot.obj"), s); }},
+    {"dense", [](const ImageSize& s) { return from_bench("dense", "sphere-200k", s); }},
     {"slivers", slivers},
     {"coplanar", coplanar},
     {"sheets", sheets},
-    {"grid", [](const Size& s) { return from_bench("grid", "grid-aligned", s); }},
+    {"grid", [](const ImageSize& s) { return from_bench("grid", "grid-aligned", s); }},
     {"vertices", vertices},
     {"room", room},
     {"utm", utm},
     {"range", range},
     {"orthographic",
-     [](const Size& s) {
+     [](const ImageSize& s) {
        return framed("orthographic", read("meshes/teapot.obj"), s, Projection::orthographic);
      }},
     {"calibrated", calibrated},

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "apps/shell/exit_status.h"
+#include "apps/shell/json_answer.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"
 #include "fathom/numeric/errors.h"
@@ -54,7 +55,7 @@ int answer_lines(const std::string& file, const AnswerCase& answer_case) {
     if (is_blank(line)) continue;
     ++count;
     const Answer answer = answer_to(line, answer_case);
-    print(answer.json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+    print(json_answer(answer.json, -1));
     if (answer.error && failures++ == 0)
       first_failure = fmt::format("{}: line {}: {}", name, number, *answer.error);
   }

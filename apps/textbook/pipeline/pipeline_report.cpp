@@ -58,7 +58,7 @@ Json to_json(const PipelineReport& report) {
 std::string as_json(const std::vector<PipelineReport>& maps) {
   Json list = Json::array();
   for (const PipelineReport& map : maps) list.push_back(to_json(map));
-  return (list.size() == 1 ? list[0] : list).dump(2) + "\n";
+  return json_answer(list.size() == 1 ? list[0] : list);
 }
 
 }  // namespace fathom::app

@@ -45,7 +45,7 @@ Json to_json(const TriangleTrace& t) {
 }  // namespace
 
 std::string as_json(const TriangleTrace& t) {
-  return to_json(t).dump(2) + "\n";
+  return json_answer(to_json(t));
 }
 
 std::string as_text(const TriangleTrace& t) {

@@ -1,5 +1,6 @@
 #include "fathom/attribution/world_mesh.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "fathom/numeric/errors.h"
@@ -35,6 +36,18 @@ WorldMesh world_mesh(const Scene& scene) {
     }
   }
   return world;
+}
+
+std::optional<WorldBounds> box_of(const WorldMesh& mesh) {
+  if (mesh.points.empty()) return std::nullopt;
+  WorldBounds box{mesh.points.front(), mesh.points.front()};
+  for (const auto& p : mesh.points) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.lower[k] = std::min(box.lower[k], p[k]);
+      box.upper[k] = std::max(box.upper[k], p[k]);
+    }
+  }
+  return box;
 }
 
 }  // namespace fathom::attribution

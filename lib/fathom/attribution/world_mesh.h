@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "fathom/mesh/mesh.h"
+#include "fathom/scene/bounds.h"
 #include "fathom/scene/scene.h"
 
 /// The scene as other renderers are given it.
@@ -20,5 +22,9 @@ struct WorldMesh {
 
 /// Fails    InputError if the scene has more than 2³² − 1 corners in all.
 WorldMesh world_mesh(const Scene& scene);
+
+/// The smallest box that contains every point, whether a triangle uses it or not. nullopt if there
+/// is no point.
+std::optional<WorldBounds> box_of(const WorldMesh& mesh);
 
 }  // namespace fathom::attribution

@@ -5,6 +5,7 @@
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/printable.h"
 #include "fathom/text/text_chunks.h"
 #include "fathom/text/text_cursor.h"
 
@@ -63,10 +64,7 @@ struct ObjCounts {
 
 /// A keyword as it can be shown in a one-line warning.
 std::string shown(std::string_view keyword) {
-  std::string text(keyword.substr(0, 20));
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
-  return text;
+  return printable(std::string(keyword.substr(0, 20)));
 }
 
 void count_face(TextCursor& cursor, ObjCounts& counts) {

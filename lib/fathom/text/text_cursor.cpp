@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::text {
 
@@ -52,10 +53,8 @@ void TextCursor::fail_at(std::uint64_t line, const std::string& message) const {
 
 void TextCursor::fail_here(const std::string& message) {
   constexpr std::size_t longest = 40;
-  std::string shown(word().substr(0, longest));
+  const std::string shown = printable(std::string(word().substr(0, longest)));
   if (shown.empty()) fail(message + ", found the end of the line");
-  for (char& c : shown)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
   fail(message + ", found '" + shown + "'");
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include "fathom/image/channel_table.h"
@@ -9,6 +10,9 @@
 namespace fathom {
 
 enum class Engine { reference, fast };
+/// "reference" or "fast".
+std::string_view name_of(Engine engine);
+
 /// Which triangles are left out: none, the back-facing or the front-facing ones. Facing is decided
 /// exactly; the pipeline of the textbooks has a choice of its own, since it decides after rounding.
 enum class Cull { none, back, front };

@@ -49,32 +49,36 @@ Hypothesis shifted(const OtherMap& other, const RendererModel& model, const Imag
   return h;
 }
 
+/// Which axes of the image are mirrored: the horizontal one, the vertical one or both.
+struct Axes {
+  bool x = false, y = false;
+};
+
 template <class T>
-std::vector<T> mirrored_values(const std::vector<T>& values, std::uint32_t width, bool x, bool y) {
+std::vector<T> mirrored_values(const std::vector<T>& values, std::uint32_t width, Axes axes) {
   if (values.empty()) return values;
   const std::size_t height = values.size() / width;
   std::vector<T> result(values.size());
   for (std::size_t row = 0; row < height; ++row) {
     for (std::size_t column = 0; column < width; ++column) {
-      result[row * width + column] =
-          values[(y ? height - 1 - row : row) * width + (x ? width - 1 - column : column)];
+      result[row * width + column] = values[(axes.y ? height - 1 - row : row) * width +
+                                            (axes.x ? width - 1 - column : column)];
     }
   }
   return result;
 }
 
-/// Along the horizontal axis, the vertical one or both.
-Hypothesis mirrored(const OtherMap& other, const RendererModel& model, bool x, bool y) {
+Hypothesis mirrored(const OtherMap& other, const RendererModel& model, Axes axes) {
   Hypothesis h{"mirrored",
                std::string("the image is mirrored: ") +
-                   (x && y ? "both axes are"
-                    : x    ? "the horizontal axis is"
-                           : "the vertical axis is") +
+                   (axes.x && axes.y ? "both axes are"
+                    : axes.x         ? "the horizontal axis is"
+                                     : "the vertical axis is") +
                    " flipped",
                model, other};
-  h.map.depths = mirrored_values(other.depths, other.width, x, y);
-  h.map.windows = mirrored_values(other.windows, other.width, x, y);
-  h.map.triangles = mirrored_values(other.triangles, other.width, x, y);
+  h.map.depths = mirrored_values(other.depths, other.width, axes);
+  h.map.windows = mirrored_values(other.windows, other.width, axes);
+  h.map.triangles = mirrored_values(other.triangles, other.width, axes);
   return h;
 }
 
@@ -118,8 +122,8 @@ std::vector<MakeHypothesis> hypotheses(const Truth& truth, const OtherMap& other
       list.emplace_back([&other, &model, dx, dy] { return shifted(other, model, {dx, dy}); });
     }
   }
-  for (const auto& [x, y] : {std::pair{true, false}, {false, true}, {true, true}}) {
-    list.emplace_back([&other, &model, x = x, y = y] { return mirrored(other, model, x, y); });
+  for (const Axes axes : {Axes{true, false}, {false, true}, {true, true}}) {
+    list.emplace_back([&other, &model, axes] { return mirrored(other, model, axes); });
   }
   list.emplace_back([&] { return ray_distance(truth.camera, other, model); });
   return list;

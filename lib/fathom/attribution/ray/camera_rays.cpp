@@ -1,17 +1,9 @@
 #include "fathom/attribution/ray/camera_rays.h"
 
+#include "fathom/attribution/ray/vector3.h"
+
 namespace fathom::attribution {
 namespace {
-
-using Vector3 = CameraRays::Vector3;
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vector3& a, const Vector3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /// R⁻¹ of world_to_camera, by cofactors.
 class WorldFromCamera {

@@ -12,10 +12,9 @@ namespace fathom::attribution {
 /// Frame    world, scene units; (u, v) in pixels, (0, 0) the top left corner of the image.
 /// Exact    rounded to binary64 several times: good enough for renderers that compute in binary32.
 struct CameraRays {
-  using Vector3 = std::array<double, 3>;
   /// f(u, v) = at_corner + u·per_u + v·per_v
   struct Affine {
-    Vector3 at_corner{}, per_u{}, per_v{};
+    std::array<double, 3> at_corner{}, per_u{}, per_v{};
   };
   Affine origin, direction;
 };

@@ -1,0 +1,34 @@
+#include "apps/validate/validate_arguments.h"
+
+#include <algorithm>
+
+namespace fathom::app {
+
+void ValidateArguments::add_to(Command& command) {
+  command.arguments("SCENE", scenes, "Meshes and scene files");
+  command.option("--against", "NAME", against,
+                 "Renderers that draw the scenes: vtk, opengl, embree, blender");
+  command.option("--scene", "NAME", scene_names,
+                 "Scenes of ours instead of SCENE (default: all, see below)");
+  command.option("--variants", "NAME", variants,
+                 "Only these variants of the renderers: unorm24, robust, … (default: all)");
+  command.option("--size", "WxH", into(size, parse_size),
+                 "Image size without --camera (default 320x240)");
+  command.option("--time-limit", "SECONDS", into(seconds, parse_positive),
+                 "Seconds after which a renderer is ended (default 300)");
+  command.option("--render", "NAME", render, "Only draw, with this renderer");
+  command.option("-o", "MAP", output, "Where --render puts its map");
+  command.option("--map", "MAP", map, "The map of another renderer (EXR, PFM, PNG, NPY)");
+  command.option("--channel", "NAME", channel, "Its channel of depths (default: detected)");
+  command.option("--camera", "FILE", camera, "Camera file");
+  command.option("--model", "NAME", model, "What is assumed of the renderer");
+  command.option("--out", "DIR", out, "Folder for report.json and report.html");
+  command.option("--baseline", "REPORT", baseline,
+                 "An earlier report.json: exit status 1 if something got worse");
+}
+
+int ValidateArguments::time_limit() const {
+  return static_cast<int>(std::min(seconds, 86400U));
+}
+
+}  // namespace fathom::app

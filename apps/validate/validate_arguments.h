@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/shell/command.h"
+#include "apps/shell/values.h"
+
+namespace fathom::app {
+
+/// The arguments of `fathom validate`.
+struct ValidateArguments {
+  std::vector<std::string> scenes;
+  std::string map, camera, model, channel, out, baseline;
+  std::string against, scene_names, variants, render, output;
+  Size size{320, 240};
+  std::uint32_t seconds = 300;
+
+  void add_to(Command& command);
+
+  /// Seconds after which a renderer is ended: --time-limit, a day at most.
+  [[nodiscard]] int time_limit() const;
+};
+
+}  // namespace fathom::app

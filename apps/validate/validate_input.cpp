@@ -1,0 +1,29 @@
+#include "apps/validate/validate_input.h"
+
+#include "apps/shell/known_files.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/read_scene.h"
+
+namespace fathom::app {
+
+Camera read_camera(const std::string& file) {
+  if (file.empty()) throw UsageError("--camera FILE is missing");
+  note_input(file);
+  const std::vector<Camera> cameras = read_cameras(file);
+  if (cameras.size() != 1) {
+    throw UsageError(file + ": is a camera path; expected a single camera");
+  }
+  return cameras.front();
+}
+
+Scene read_files(const std::vector<std::string>& files, const Console& console) {
+  if (files.empty()) throw UsageError("SCENE is missing: what the map shows");
+  for (const std::string& file : files) note_input(file);
+  Warnings warnings;
+  Scene scene = read_scene({files.begin(), files.end()}, {.hash = false}, warnings);
+  console.warn(warnings);
+  return scene;
+}
+
+}  // namespace fathom::app

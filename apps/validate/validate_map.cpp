@@ -1,0 +1,73 @@
+#include "apps/validate/validate_map.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "apps/shell/about_option.h"
+#include "apps/shell/known_files.h"
+#include "apps/validate/validate_input.h"
+#include "apps/validate/validate_report.h"
+#include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/model/named_models.h"
+#include "fathom/image/map_files.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+using attribution::RendererModel;
+using attribution::Truth;
+using validation::ValidationCase;
+
+void require_clip_planes(const RendererModel& model, const Camera& camera) {
+  if (std::holds_alternative<attribution::RayModel>(model.kind)) return;
+  const bool perspective = camera.projection == Projection::perspective;
+  if (camera.far < std::numeric_limits<double>::infinity() && (camera.near > 0 || !perspective))
+    return;
+  throw UsageError("--model " + model.name +
+                   ": the camera file has no near and far, between which its depths are stored");
+}
+
+ValidationCase judge_map(const ValidateArguments& arguments, const Console& console) {
+  ValidationCase made{.renderer = "map", .variant = arguments.model, .version = arguments.map};
+  made.model = about_option("--model", [&] { return attribution::model_named(arguments.model); });
+  const Camera camera = read_camera(arguments.camera);
+  require_clip_planes(made.model, camera);
+  note_input(arguments.map);
+  made.other = attribution::other_map(read_map(arguments.map), arguments.channel);
+  if (made.other.width != camera.width || made.other.height != camera.height) {
+    throw InputError(fmt::format("{}: has {}x{} pixels, the camera {}x{}", arguments.map,
+                                 made.other.width, made.other.height, camera.width, camera.height));
+  }
+  const Scene scene = read_files(arguments.scenes, console);
+  made.scene = std::filesystem::path(arguments.scenes.front()).stem();
+  const auto truth = std::make_shared<Truth>(attribution::make_truth(scene, camera));
+  for (const std::uint32_t triangle : made.other.triangles) {
+    if (triangle != no_surface && triangle >= truth->mesh.triangles.size()) {
+      throw InputError(fmt::format("{}: shows triangle {}, but the scene has {}", arguments.map,
+                                   triangle, truth->mesh.triangles.size()));
+    }
+  }
+  made.attribution = attribution::attribute_and_name(*truth, made.other, made.model);
+  made.truth = truth;
+  return made;
+}
+
+}  // namespace
+
+int validate_map(const ValidateArguments& arguments, const Console& console) {
+  if (arguments.model.empty()) {
+    throw UsageError("--model is missing: there are " + attribution::model_names());
+  }
+  const ReportPlaces places{arguments.out, arguments.baseline};
+  prepare(places);
+  const std::vector<ValidationCase> cases{judge_map(arguments, console)};
+  return report_cases(cases, places);
+}
+
+}  // namespace fathom::app

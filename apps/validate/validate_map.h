@@ -1,0 +1,12 @@
+#pragma once
+
+#include "apps/shell/console.h"
+#include "apps/validate/validate_arguments.h"
+
+namespace fathom::app {
+
+/// `validate --map`: holds a map that another renderer made against the truth. Returns the exit
+/// status, as report_cases().
+int validate_map(const ValidateArguments& arguments, const Console& console);
+
+}  // namespace fathom::app

@@ -1,0 +1,55 @@
+#include "apps/validate/validate_render.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "apps/shell/about_option.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/output_file.h"
+#include "apps/validate/scenes_to_draw.h"
+#include "fathom/attribution/other_map.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/image/map_files.h"
+#include "fathom/numeric/errors.h"
+#include "validation/peers/drawing.h"
+
+namespace fathom::app {
+namespace {
+
+using validation::Peer;
+
+/// The renderer of --render in the variant that is asked for, else in its first.
+Peer peer_to_render(const ValidateArguments& arguments) {
+  const auto renderer =
+      about_option("--render", [&] { return validation::renderer_named(arguments.render); });
+  if (arguments.variants.empty()) {
+    return validation::peers_of(renderer, arguments.time_limit()).front();
+  }
+  return about_option("--variants",
+                      [&] { return validation::peer_named(renderer, arguments.variants); });
+}
+
+}  // namespace
+
+int validate_render(const ValidateArguments& arguments, const Console& console) {
+  if (arguments.output.empty()) throw UsageError("-o MAP is missing: where the map goes");
+  const auto format = map_format_of(arguments.output);
+  if (!format)
+    throw UsageError("-o: '" + arguments.output + "' does not end in .exr, .pfm or .npy");
+  if (arguments.scenes.empty()) throw UsageError("SCENE is missing: what is rendered");
+  const SceneToMake scene = scenes_of(arguments, console).front();
+  const Peer peer = peer_to_render(arguments);
+  OutputFile output(arguments.output);
+  validation::Drawing drawing = validation::draw_in_child(peer, scene.make, arguments.time_limit());
+  if (!drawing.drawn) throw InputError(drawing.failure);
+  DepthMap map = attribution::as_depth_map(drawing.drawn->map);
+  map.texts["fathom.camera"] = to_json(scene.make().camera);
+  map.texts["fathom.engine"] = drawing.drawn->version;
+  output.write([&](const std::filesystem::path& path) {
+    write_map(map, path, *format, {.channel = *format == MapFormat::exr ? "" : "Z"});
+  });
+  output.commit();
+  return done;
+}
+
+}  // namespace fathom::app
