@@ -6,6 +6,7 @@
 
 #include "apps/maps/info.h"
 #include "apps/maps/map_view.h"
+#include "apps/shell/json_answer.h"
 #include "fathom/camera/camera_files.h"
 
 namespace fathom::app {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/shell/json_answer.h"
+
 namespace fathom::app {
 namespace {
 

@@ -211,6 +211,18 @@ assert np.isposinf(channel('Z', oiio.FLOAT)[~inside]).all()
   EXPECT_EQ(info["bounds"], Json::parse("[[-2, -2, 2], [2, 2, 4.5]]"));
 }
 
+/// JSON has to be UTF-8, names of files need not be.
+TEST_F(Rendering, AnswersInJsonShowNamesThatAreNotUtf8) {
+  const std::string camera = "camera\xff.json", map = "map\xfe.exr";
+  folder_.write(camera, square_camera);
+  const Json info = Json::parse(answer({"info", camera, "--json"}));
+  EXPECT_EQ(info["kind"], "camera");
+  EXPECT_EQ(info["file"], "camera\uFFFD.json");
+  const Json report =
+      Json::parse(answer({"render", "square.obj", "--camera", camera, "-o", map, "--stats", "-"}));
+  EXPECT_EQ(report["map"], "map\uFFFD.exr");
+}
+
 TEST_F(Rendering, AnEmptySceneThroughACameraIsBackgroundWithAWarning) {
   folder_.write("empty.obj", "v 0 0 1\n");
   const std::vector<std::string> arguments{"render",      "empty.obj", "--camera",

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/shell/json_answer.h"
+
 namespace fathom::app {
 namespace {
 
