@@ -304,13 +304,13 @@ Mesh read_variant(const MeshFile& file, Warnings& warnings, bool attributes) {
   if (!kind) throw InputError(file.name + ": not recognised");
   const ReadOptions options{.format = {}, .threads = 2, .attributes = attributes, .hash = false};
   switch (*kind) {
-    case FileKind::obj:
+    case FileFormat::obj:
       return read_obj(file.bytes, file.name, options, warnings);
-    case FileKind::ply:
+    case FileFormat::ply:
       return read_ply(bytes, file.name, options, warnings);
-    case FileKind::stl:
+    case FileFormat::stl:
       return read_stl(bytes, file.name, options, warnings);
-    case FileKind::off:
+    case FileFormat::off:
       return read_off(file.bytes, file.name, options, warnings);
     default:
       throw InputError(file.name + ": taken for another format");
