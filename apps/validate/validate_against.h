@@ -5,7 +5,7 @@
 
 namespace fathom::app {
 
-/// `validate --against`: has renderers draw scenes and holds every map against the truth. Returns
+/// `validate --against`: has renderers draw scenes and compares every map with the truth. Returns
 /// the exit status, as report_cases().
 int validate_against(const ValidateArguments& arguments, const Console& console);
 

@@ -1,4 +1,4 @@
-// fathom validate: another renderer's map held against the exact one, every difference attributed.
+// fathom validate: another renderer's map beside the exact one, every difference attributed.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,7 +31,7 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
 
 void add_validate(Command& program) {
   Command& command = program.command(
-      "validate", "Hold another renderer's maps against the truth, every difference explained",
+      "validate", "Check another renderer's maps against the truth and explain every difference",
       "  fathom validate --against vtk,opengl,embree,blender --out report\n"
       "  fathom validate --against opengl --scene sheets,room --variants unorm16,float32\n"
       "  fathom validate --against vtk spot.obj --camera camera.json\n"

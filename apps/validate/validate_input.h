@@ -7,7 +7,7 @@
 #include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
-/// What a map is held against, as files: read, and kept from being an output's place.
+/// What a map is compared with, as files: read, and kept from being an output's place.
 namespace fathom::app {
 
 /// The single camera of --camera.

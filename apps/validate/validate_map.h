@@ -5,7 +5,7 @@
 
 namespace fathom::app {
 
-/// `validate --map`: holds a map that another renderer made against the truth. Returns the exit
+/// `validate --map`: compares a map that another renderer made with the truth. Returns the exit
 /// status, as report_cases().
 int validate_map(const ValidateArguments& arguments, const Console& console);
 
