@@ -94,6 +94,18 @@ TEST_P(Vertices, BoundsHoldAndAreTight) {
 
 INSTANTIATE_TEST_SUITE_P(Fast, Vertices, ::testing::Bool());
 
+/// An entry that is not 0 but rounds to 0 would count as exact.
+TEST(Fast, MatricesWithEntriesThatUnderflowAreNotUsable) {
+  Camera camera = testing::camera_of(16, 12, 8);
+  camera.fx = 2e-162;
+  EXPECT_FALSE(VertexTransform(Object{}, camera)({0, 0, 1}).is_usable());  // below 2⁻²⁰⁰
+  camera.world_to_camera[0][0] = 1e-162;
+  EXPECT_FALSE(VertexTransform(Object{}, camera)({0, 0, 1}).is_usable());  // rounds to 0
+  camera.world_to_camera[0] = {0, 1, 0, 0};
+  camera.world_to_camera[1] = {1, 0, 0, 0};
+  EXPECT_FALSE(VertexTransform(Object{}, camera)({0, 0, 1}).is_usable());
+}
+
 TEST(Fast, VerticesOfMagnitudesBeyondTheBoundsAreNotUsable) {
   const Camera camera = testing::camera_of(100, 100, 50);
   const VertexTransform transform(Object{}, camera);

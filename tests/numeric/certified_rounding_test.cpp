@@ -36,6 +36,16 @@ void expect_rounding(const std::optional<Rounded>& ours, const Dyadic& x, double
   }
 }
 
+TEST(CertifiedRounding, ExactZeroHasNoSign) {
+  for (const double zero : {0.0, -0.0}) {
+    EXPECT_FALSE(std::signbit(to_binary32(zero, 0).value()));
+    EXPECT_FALSE(std::signbit(to_binary32(WordPair{zero, zero}, 0).value()));
+    EXPECT_FALSE(std::signbit(to_binary64(WordPair{zero, zero}, 0).value()));
+  }
+  // A negative number that underflows keeps its sign.
+  EXPECT_TRUE(std::signbit(to_binary32(WordPair{-1e-60, 0}, 0).value()));
+}
+
 /// Double-words are not asked to settle a number whose leading word is itself in the middle: errors
 /// here are so large that the leading words differ.
 TEST(CertifiedRounding, IsRightAndHardlyEverDeclinesWithoutNeed) {

@@ -56,6 +56,22 @@ Dyadic midpoint(std::mt19937_64& random, int bits, int least_exponent, int great
   return (Dyadic(significand) * Dyadic(2.0) + Dyadic(1.0)).scaled(exponent - 1);
 }
 
+TEST(Rounding, ToNormalNumbersDeclinesWhereSomethingIsLost) {
+  constexpr double least = std::numeric_limits<double>::min();
+  const auto round = [](const Dyadic& x) { return round_to_normal(Ratio(x)); };
+  EXPECT_EQ(round_to_normal(Ratio(Dyadic(0.0), Dyadic(-3.0))), 0.0);
+  EXPECT_EQ(round(least), least);
+  EXPECT_EQ(round(-least), -least);
+  EXPECT_EQ(round(std::numeric_limits<double>::max()), std::numeric_limits<double>::max());
+  EXPECT_EQ(round_to_normal(Ratio(1.0, 3.0)), 1.0 / 3);
+  // Below the least normal number by less than half a step: rounded to it, with an error of u.
+  EXPECT_EQ(round(Dyadic(least) - Dyadic(0x1p-1074).scaled(-2)), least);
+  EXPECT_EQ(round(least / 2), std::nullopt);
+  EXPECT_EQ(round(Dyadic(0x1p-1074).scaled(-1)), std::nullopt);
+  EXPECT_EQ(round(Dyadic(-1.0).scaled(-5000)), std::nullopt);
+  EXPECT_EQ(round(Dyadic(1.0).scaled(1024)), std::nullopt);
+}
+
 double denominator(std::mt19937_64& random, bool small) {
   for (;;) {
     const double d = small ? few_bits(random) : any_double(random);

@@ -123,5 +123,22 @@ TEST(ExactRow, ValuesAreTheExactOnes) {
   EXPECT_GT(found, 1500);
 }
 
+/// An entry that is not 0 but rounds to 0 would count as exact.
+TEST(Rays, EntriesThatUnderflowAreRefused) {
+  const Camera plain = testing::camera_of(16, 12, 8);
+  ASSERT_TRUE(ObjectRays({}, plain).usable);
+  Camera centre = plain;  // at (−5·10⁻³²⁴/4, 0, 0)
+  centre.world_to_camera = {{{4, 0, 0, 0x1p-1074}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  EXPECT_FALSE(ObjectRays({}, centre).usable);
+  Camera direction = plain;  // m₀ is tilted by 2⁻¹⁰⁷⁸
+  direction.world_to_camera = {{{1, 0, 0, 0}, {0x1p-1074, 0, 1, 0}, {0, 1, 0, 0}}};
+  EXPECT_FALSE(ObjectRays({}, direction).usable);
+  Object object;  // a cofactor of the placement is 2⁻¹⁰⁷⁶
+  object.placed_as_is = false;
+  object.world_from_mesh.rows = {
+      {{0.25, 0.0, 0.0, 0.0}, {0.0, 0x1p-1074, 2.0, 0.0}, {0.0, 2.0, 0.0, 8.0}}};
+  EXPECT_FALSE(ObjectRays(object, plain).usable);
+}
+
 }  // namespace
 }  // namespace fathom

@@ -9,8 +9,9 @@
 // The bounds of this file, with u = 2⁻⁵³ (docs/error-analysis.md, "Vertices").
 //
 // Matrix. U, V, W, D are affine in the mesh's coordinates. The entries of that map are computed
-// exactly and rounded once, so that a rounded entry is m(1 + δ), |δ| ≤ u. Entries are 0 or between
-// 2⁻²⁰⁰ and 2²⁰⁰ in magnitude, else the object is not usable.
+// exactly and rounded once, so that a rounded entry is m(1 + δ), |δ| ≤ u: an entry is 0 only if the
+// exact one is (RoundedRows::set). Entries are 0 or between 2⁻²⁰⁰ and 2²⁰⁰ in magnitude (is_safe).
+// Else the object is not usable.
 //
 // Affine value. m₀x + m₁y + m₂z + m₃ from rounded entries: each term goes through at most one
 // rounding of its entry, one of the product and three of sums, so the error is at most γ₅·S, where
@@ -41,14 +42,23 @@ std::array<Dyadic, 4> exact_image(const Object& object, const Camera& camera, co
   return {image.U, image.V, image.W, p.z};
 }
 
+bool is_safe(double entry) {
+  const double size = std::abs(entry);
+  return size == 0 || (size >= 0x1p-200 && size <= 0x1p200);
+}
+
 struct RoundedRows {
-  std::array<Row, 4> rows;
+  std::array<Row, 4> rows{};
+  /// Whether the bounds were derived for all entries.
+  bool usable = true;
   /// Whether no entry was changed by rounding.
   bool exact = true;
 
   void set(std::size_t i, std::size_t k, const Dyadic& entry) {
-    rows[i][k] = round_to_binary64(Ratio(entry));
-    exact = exact && std::isfinite(rows[i][k]) && compare(Dyadic(rows[i][k]), entry) == 0;
+    const std::optional<double> rounded = round_to_normal(Ratio(entry));
+    usable = usable && rounded && is_safe(*rounded);
+    if (rounded) rows[i][k] = *rounded;
+    exact = exact && rounded && compare(Dyadic(*rounded), entry) == 0;
   }
 };
 
@@ -64,11 +74,6 @@ RoundedRows rounded_rows(const Object& object, const Camera& camera) {
     for (std::size_t i = 0; i < 4; ++i) rounded.set(i, k, end[i] - origin[i]);
   }
   return rounded;
-}
-
-bool is_safe(double entry) {
-  const double size = std::abs(entry);
-  return size == 0 || (size >= 0x1p-200 && size <= 0x1p200);
 }
 
 /// m·x without rounding; false: not known.
@@ -101,9 +106,7 @@ VertexTransform::VertexTransform(const Object& object, const Camera& camera)
       width_(camera.width),
       height_(camera.height) {
   const RoundedRows rounded = rounded_rows(object, camera);
-  for (const Row& row : rounded.rows) {
-    usable_ = usable_ && std::all_of(row.begin(), row.end(), is_safe);
-  }
+  usable_ = rounded.usable;
   exact_ = rounded.exact;
   rows_.U = rounded.rows[0];
   rows_.V = rounded.rows[1];
@@ -140,10 +143,11 @@ VertexTransform::Homogeneous VertexTransform::homogeneous(const MeshPoint& X) co
 
 // A covered sample s is a combination of the corners with weights that are not negative (the edge
 // functions divided by Δ), so a linear form in (U, V, W) that is negative at every corner is
-// negative at (s_u, s_v, 1). The forms: W itself; U − ½W, which is not negative at any sample;
-// (w − ½)W − U; and the same two for V. With k = ½ or w − ½, the computed form errs by at most
-// E_UV + k·E_W and by roundings of k·Ŵ and of the difference, at most u(|Û| + 2k|Ŵ|)(1 + u), which
-// is less than (E_UV + 2k·E_W)/5, as |Û| ≤ E_UV/(6u)·(1 + 2⁻⁵⁰) and likewise for Ŵ. 1.5 is used.
+// negative at (s_u, s_v, 1). The forms, w and h being the image's width and height: W itself; U and
+// V, which are positive at every sample; wW − U and hW − V, which are too. With k = 0, w or h, the
+// computed form kŴ − Û errs by at most E_UV + k·E_W and by roundings of k·Ŵ and of the difference,
+// at most u(|Û| + 2k|Ŵ|)(1 + u), which is less than (E_UV + 2k·E_W)/5, as |Û| ≤ E_UV/(6u)·(1 + 2⁻⁵⁰)
+// and likewise for Ŵ. 1.5 is used. Where something overflows, the comparison is false.
 bool VertexTransform::misses_image(const std::array<MeshPoint, 3>& corners) const {
   if (!usable_) return false;
   bool behind = true, left = true, right = true, above = true, below = true;

@@ -83,7 +83,8 @@ class VertexTransform {
   [[nodiscard]] Homogeneous homogeneous(const MeshPoint& X) const;
 
   bool perspective_;
-  /// False if an entry of the matrix has a magnitude for which the bounds were not derived.
+  /// False if an entry of the matrix has a magnitude for which the bounds were not derived, or is
+  /// not 0 but rounds to 0.
   bool usable_ = true;
   /// Whether the rounded entries are the exact ones.
   bool exact_ = false;

@@ -44,9 +44,9 @@ inline double half_gap(double x) {
 /// The candidate f is the nearest to hi; hi − f is exact (both are multiples of the last bit of
 /// hi), the rest is rounded once: a number whose distance to f is below half of the smaller gap
 /// beside f rounds to f. A binary64 number that is exact is rounded once by its conversion, even if
-/// it is a tie.
+/// it is a tie; + 0.0 makes +0 of −0, as an exact zero is +0.
 inline std::optional<float> to_binary32(const WordPair& x, double error) {
-  if (error == 0 && x.lo == 0) return static_cast<float>(x.hi);
+  if (error == 0 && x.lo == 0) return static_cast<float>(x.hi + 0.0);
   const double size = std::abs(x.hi);
   if (!(size >= least_safe && size <= greatest_safe)) return std::nullopt;
   const auto candidate = static_cast<float>(x.hi);
@@ -56,7 +56,7 @@ inline std::optional<float> to_binary32(const WordPair& x, double error) {
 }
 
 inline std::optional<double> to_binary64(const WordPair& x, double error) {
-  if (error == 0 && x.lo == 0) return x.hi;
+  if (error == 0 && x.lo == 0) return x.hi + 0.0;
   const double size = std::abs(x.hi);
   if (!(size >= least_safe && size <= greatest_safe)) return std::nullopt;
   if (!((std::abs(x.lo) + error) * (1 + 0x1p-50) < half_gap(x.hi))) return std::nullopt;

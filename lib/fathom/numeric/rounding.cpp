@@ -1,6 +1,7 @@
 #include "fathom/numeric/rounding.h"
 
 #include <bit>
+#include <cmath>
 #include <stdexcept>
 
 #include "fathom/numeric/integer.h"
@@ -126,6 +127,12 @@ float round_to_binary32(const Ratio& x) {
 double round_to_binary64(const Ratio& x) {
   const std::uint64_t bits = round_quotient(binary64, x);
   return std::bit_cast<double>(bits | (is_negative(x) ? std::uint64_t{1} << 63 : 0));
+}
+
+std::optional<double> round_to_normal(const Ratio& x) {
+  const double rounded = round_to_binary64(x);
+  if (x.sign() != Sign::zero && !std::isnormal(rounded)) return std::nullopt;
+  return rounded;
 }
 
 Binary16 round_to_binary16(const Ratio& x) {

@@ -24,20 +24,16 @@ bool is_safe(double x) {
   return size == 0 || (size >= least_safe && size <= greatest_safe);
 }
 
-/// lo is dropped if it is below 2⁻¹¹⁰·|hi|, so that its last bit is never far below: the relative
-/// error stays below 2⁻¹⁰⁶ + 2⁻¹¹⁰.
-WordPair rounded(const Ratio& x) {
-  const double hi = round_to_binary64(x);
-  if (!std::isfinite(hi)) return {hi, 0};
-  const double lo = round_to_binary64(x - Ratio(Dyadic(hi)));
-  return {hi, std::abs(lo) < std::abs(hi) * 0x1p-110 ? 0 : lo};
-}
-
-/// Sets an entry and its magnitude; false if that is not safe.
+/// Sets an entry and its magnitude; false if that is not safe, or if the entry is not 0 but rounds
+/// to 0. lo is dropped if it is below 2⁻¹¹⁰·|hi|, so that its last bit is never far below: the
+/// relative error stays below 2⁻¹⁰⁶ + 2⁻¹¹⁰.
 bool set(const Ratio& exact, WordPair& entry, double& size) {
-  entry = rounded(exact);
-  size = std::abs(entry.hi);
-  return is_safe(entry.hi);
+  const std::optional<double> hi = round_to_normal(exact);
+  if (!hi || !is_safe(*hi)) return false;
+  const double lo = round_to_binary64(exact - Ratio(Dyadic(*hi)));
+  entry = {*hi, std::abs(lo) < std::abs(*hi) * 0x1p-110 ? 0 : lo};
+  size = std::abs(*hi);
+  return true;
 }
 
 /// The world as an object.
