@@ -31,11 +31,13 @@ void warn_of(const RenderStatistics& statistics, const Console& console) {
   }
 }
 
-/// Refuses cameras that the plan has no room or no depth format for.
-void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan) {
+/// Refuses cameras that the file, the memory or the depth format has no room for.
+void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
+                   const std::string& output) {
   const std::size_t more =
       (plan.depth_buffer ? plan.depth_buffer->most_channels() : 0) + (plan.samples ? 1 : 0);
   for (const Camera& camera : cameras) {
+    require_size(plan.format, camera.width, camera.height, output);
     check_size(camera, plan.rendering, more);
     if (plan.depth_buffer) (void)format_for(*plan.depth_buffer, camera);
   }
@@ -102,7 +104,7 @@ int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Con
   const RenderInput scene(arguments.scene, place, console);
   const double seconds_reading = stopwatch.lap();
   const std::vector<Camera> cameras = arguments.camera.get(scene.outline());
-  check_cameras(cameras, plan);
+  check_cameras(cameras, plan, arguments.output);
   RenderOutputs outputs(arguments, cameras.size());
   outputs.write_cameras(to_json(cameras) + "\n");
 
@@ -130,7 +132,10 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
   const ThreadLimit limit(options.threads);
   const Scene scene = arguments.scene.read(console, {.hash = true});
   const std::vector<Camera> cameras = arguments.camera.get(scene);
-  for (const Camera& camera : cameras) check_size(camera, options, 0);
+  for (const Camera& camera : cameras) {
+    require_size(MapFormat::exr, camera.width, camera.height, arguments.output);
+    check_size(camera, options, 0);
+  }
   RenderOutputs outputs(arguments, cameras.size());
   outputs.write_cameras(to_json(cameras) + "\n");
   {

@@ -57,6 +57,18 @@ inside = np.zeros((6, 8), bool)
 inside[1:5, 2:6] = True
 )";
 
+/// Before any work: an image of 2³⁰ pixels takes minutes, and more memory than many machines have.
+TEST_F(Rendering, SidesThatTheFileCannotHoldAreRefusedAtOnce) {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--deep"}}) {
+    std::vector<std::string> command{"render",       "square.obj", "--size",
+                                     "1073741824x1", "-o",         "a.exr"};
+    command.insert(command.end(), more.begin(), more.end());
+    const Outcome outcome = run_fathom(command, {.folder = folder_.path(), .memory = 1 << 30});
+    EXPECT_EQ(outcome.status, 4);
+    EXPECT_EQ(outcome.err, "fathom: error: a.exr: EXR holds fewer than 2^30 pixels a side\n");
+  }
+}
+
 TEST_F(Rendering, ExrWithEveryChannelIsReadByOpenImageIo) {
   render("map.exr", {"--channels", "Z,Zlow,distance,id,face,object,N,P,bary"});
   run_python(inside_in_python + R"(

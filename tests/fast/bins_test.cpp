@@ -8,6 +8,7 @@
 
 #include "fathom/area/coverage.h"
 #include "fathom/fast/tile.h"
+#include "fathom/numeric/errors.h"
 #include "fathom/triangle/sampling.h"
 #include "tests/inputs/scene_building.h"
 #include "tests/inputs/soup.h"
@@ -36,6 +37,42 @@ TEST(TileGrid, TilesAreThePixelsOnce) {
     }
     for (const int count : times) ASSERT_EQ(count, 1);
   }
+}
+
+TEST(TileGrid, ReachesToTheLastColumnThatThereIs) {
+  constexpr std::uint32_t most = 0xFFFFFFFF;
+  for (const std::uint32_t width : {0x80000000U, 0x80000041U, most - 64, most - 1, most}) {
+    const TileGrid wide(width, 1), high(1, width);
+    ASSERT_EQ(wide.count(), (width - 1) / 64 + 1);
+    const std::uint32_t last = wide.count() - 1;
+    const PixelBox right = wide.area(last), bottom = high.area(last);
+    EXPECT_EQ(right.first_column, last * 64);
+    EXPECT_EQ(right.last_column, width - 1);
+    EXPECT_EQ(bottom.first_row, last * 64);
+    EXPECT_EQ(bottom.last_row, width - 1);
+    EXPECT_EQ(right.last_row, 0U);
+    EXPECT_EQ(wide.area(last - 1).last_column, last * 64 - 1);
+  }
+  EXPECT_NO_THROW(TileGrid(most, 64 * 63));
+  EXPECT_THROW(TileGrid(most, most), InputError);
+}
+
+/// The last numbers that a triangle can have.
+TEST(Bins, TakeTheLastTrianglesThatThereAre) {
+  const std::uint32_t first = no_surface - 1500;
+  std::vector<CornerIndices> triangles(1500, {0, 1, 2});
+  const Scene scene = testing::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, triangles);
+  const Camera camera = camera_of(8, 8, 4);
+  Referee referee(scene, camera);
+  RenderStatistics statistics;
+  const TileGrid grid(camera.width, camera.height);
+  ImageObjects objects;
+  objects.emplace_back(scene.objects[0], scene.meshes[0], camera, first);
+  Bins bins(first, no_surface);
+  bins.fill({objects, camera, Cull::none, false, grid, referee, statistics});
+  const auto found = bins.in_tile(0);
+  ASSERT_EQ(found.size(), 1500U);
+  for (std::uint32_t i = 0; i < 1500; ++i) ASSERT_EQ(found[i], first + i);
 }
 
 TEST(ImageObjects, OwnTheNumbersOfTheirTriangles) {

@@ -94,6 +94,48 @@ TEST(Tile, ShowsTheNearestWhateverTheOrder) {
   EXPECT_GT(seen, 1000);
 }
 
+/// Triangles around the column at which a sample looks straight ahead, in a very wide image.
+TEST(Tile, ShowsTheNearestInColumnsBeyondTheRangeOfInt) {
+  std::mt19937_64 random(202);
+  int seen = 0;
+  for (const std::uint32_t first_column : {0x7FFFFFC0U, 0x80000000U, 0xFFFFFFC0U}) {
+    const Scene scene = testing::soup(random, 20, true);
+    Camera camera = testing::camera_of(0xFFFFFFFF, 140, 64);
+    camera.cx = first_column + 32.0;
+    const TriangleSource source(scene);
+    Referee referee(source, camera);
+    RenderStatistics statistics;
+    const DepthRange range = depth_range(camera);
+    const FastSwitches switches;
+    const Tile::Context context{referee, statistics, range, true, switches};
+    ImageObjects objects;
+    objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
+    std::vector<ProjectedTriangle> projected;
+    std::vector<std::uint32_t> kept;
+    TierCounts counts;
+    for (std::uint32_t number = 0; number < source.count(); ++number) {
+      projected.push_back(project(source.world_corners(number), number, camera, counts));
+      if (projected.back().orientation != Sign::zero) kept.push_back(number);
+    }
+    const TileGrid grid(camera.width, camera.height);
+    const PixelBox area = grid.area(grid.columns + first_column / Tile::size);
+    ASSERT_EQ(area.first_column, first_column);
+    Tile tile;
+    tile.start(area);
+    tile.draw(objects[0], kept, context);
+    for (std::uint32_t row = area.first_row; row <= area.last_row; row += 3) {
+      for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
+        const std::size_t at = Tile::index(column - area.first_column, row - area.first_row);
+        const auto number = static_cast<std::uint32_t>(tile.tags()[at]);
+        ASSERT_EQ(number, visible_at(projected, camera, centre_of_pixel(column, row)))
+            << column << ' ' << row;
+        seen += number != no_surface;
+      }
+    }
+  }
+  EXPECT_GT(seen, 1000);
+}
+
 TEST(Tile, StartEmptiesIt) {
   const Scene scene = testing::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, {{0, 1, 2}});
   const Camera camera = testing::camera_of(64, 64, 1);

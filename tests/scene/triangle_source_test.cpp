@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "fathom/numeric/errors.h"
 #include "tests/inputs/both_readings.h"
+#include "tests/inputs/scene_building.h"
 #include "tests/places.h"
 #include "tests/scratch_folder.h"
 
@@ -53,6 +55,16 @@ TEST(TriangleSource, RefusesANumberThatIsNotThere) {
     EXPECT_THROW(std::ignore = TriangleSource(both.scene).world_corners(number), std::out_of_range);
   }
   EXPECT_THROW(origin_of(Scene{}, 0), std::out_of_range);
+}
+
+/// A mesh that is placed often: numbers of triangles would wrap.
+TEST(TriangleSource, MoreTrianglesThanNumbersAreRefused) {
+  Scene scene = testing::scene_of({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
+                                  std::vector<CornerIndices>(1 << 20, {0, 1, 2}));
+  scene.objects.resize(4095, scene.objects[0]);
+  EXPECT_EQ(TriangleSource(scene).count(), 4095ULL << 20);
+  scene.objects.resize(4096, scene.objects[0]);
+  EXPECT_THROW(TriangleSource{scene}, InputError);
 }
 
 }  // namespace

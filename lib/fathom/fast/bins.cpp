@@ -1,9 +1,11 @@
 #include "fathom/fast/bins.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "fathom/fast/boxes.h"
 #include "fathom/fast/tile.h"
+#include "fathom/numeric/errors.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::fast {
@@ -35,12 +37,17 @@ TileGrid::TileGrid(std::uint32_t image_width, std::uint32_t image_height)
     : width(image_width),
       height(image_height),
       columns((image_width - 1) / Tile::size + 1),
-      rows((image_height - 1) / Tile::size + 1) {}
+      rows((image_height - 1) / Tile::size + 1) {
+  if (std::uint64_t{columns} * rows > std::numeric_limits<std::uint32_t>::max()) {
+    throw InputError("an image of more than 2^44 pixels cannot be rendered");
+  }
+}
 
 PixelBox TileGrid::area(std::uint32_t tile) const {
   const std::uint32_t column = tile % columns * Tile::size, row = tile / columns * Tile::size;
-  return {column, std::min(column + Tile::size, width) - 1, row,
-          std::min(row + Tile::size, height) - 1};
+  // Sums with the side of a tile could be beyond the range of a column.
+  return {column, column + (std::min(Tile::size, width - column) - 1), row,
+          row + (std::min(Tile::size, height - row) - 1)};
 }
 
 void Bins::fill(const Context& context) {
@@ -88,8 +95,8 @@ void Bins::add_object(const ImageObject& object, const Context& context) {
   const std::uint32_t end = std::min(end_, object.end_number());
   const auto boxes = std::make_unique_for_overwrite<BoxBatch>();
   RenderStatistics& statistics = context.statistics;
-  for (std::uint32_t next = first; next < end; next += BoxBatch::most) {
-    const std::uint32_t count = std::min<std::uint32_t>(BoxBatch::most, end - next);
+  for (std::uint32_t next = first, count = 0; next < end; next += count) {
+    count = std::min<std::uint32_t>(BoxBatch::most, end - next);
     box_triangles({object.vertices.get(), &object.mesh.triangles[next - object.first_number], count,
                    next, context.cull, context.by_area, context.grid.width, context.grid.height,
                    context.grid.columns},

@@ -37,6 +37,7 @@ const ImageObject& object_of(const ImageObjects& objects, std::uint32_t number);
 
 /// The image cut into tiles, numbered row by row.
 struct TileGrid {
+  /// Fails    InputError if there are 2³² tiles or more, which is more than bins can tell apart.
   TileGrid(std::uint32_t image_width, std::uint32_t image_height);
   [[nodiscard]] std::uint32_t count() const { return columns * rows; }
   [[nodiscard]] PixelBox area(std::uint32_t tile) const;

@@ -11,7 +11,7 @@ using namespace triangle;
 namespace {
 
 double local(std::uint32_t position, std::uint32_t origin) {
-  return static_cast<double>(static_cast<std::int32_t>(position - origin));
+  return static_cast<double>(position) - origin;
 }
 
 }  // namespace

@@ -55,17 +55,20 @@ struct Drawn {
 
 HWY_INLINE Drawn drawn(const SetupBatch& batch, std::size_t k, bool test_range,
                        const PixelBox& area) {
-  const int left = static_cast<int>(area.first_column), top = static_cast<int>(area.first_row);
-  const int first_column = static_cast<int>(batch.first_column[k]) - left;
-  const int first_row = static_cast<int>(batch.first_row[k]) - top;
+  // Columns and rows of the image may be beyond the range of int; those of a tile are below 64.
+  const auto local = [](double position, std::uint32_t origin) {
+    return static_cast<int>(position - origin);
+  };
+  const int first_column = local(batch.first_column[k], area.first_column);
+  const int first_row = local(batch.first_row[k], area.first_row);
   return {batch,
           k,
           functions_of(batch, k),
           hn::Set(DU(), surface_tag(batch.number[k], batch.q_error[k])),
           first_column,
-          static_cast<int>(batch.last_column[k]) - left,
+          local(batch.last_column[k], area.first_column),
           first_row,
-          static_cast<int>(batch.last_row[k]) - top,
+          local(batch.last_row[k], area.first_row),
           static_cast<double>(-first_column),
           static_cast<double>(-first_row),
           test_range};

@@ -52,6 +52,16 @@ std::optional<MapFormat> map_format_of(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
+void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
+                  const std::string& name) {
+  if (format == MapFormat::exr && std::max(width, height) > 0x3FFFFFFF) {
+    throw OutputError(name + ": EXR holds fewer than 2^30 pixels a side");
+  }
+  if (format == MapFormat::png && std::max(width, height) > 0x7FFFFFFF) {
+    throw OutputError(name + ": PNG holds fewer than 2^31 pixels a side");
+  }
+}
+
 void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat format,
                const WriteOptions& options) {
   require_consistent(map);

@@ -13,6 +13,11 @@ enum class MapFormat { exr, pfm, png, npy };
 /// The format that a path's suffix names (in any case); nullopt if none.
 std::optional<MapFormat> map_format_of(const std::filesystem::path& path);
 
+/// Refuses images with more pixels on a side than the format holds, before any work is done.
+/// Fails    OutputError "NAME: EXR holds fewer than 2^30 pixels a side".
+void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
+                  const std::string& name);
+
 /// Lossless EXR compressions.
 enum class Compression { none, rle, zips, zip, piz };
 

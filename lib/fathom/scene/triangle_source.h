@@ -16,6 +16,7 @@ namespace fathom {
 ///          StreamedScene has changed or cannot be read any more.
 class TriangleSource {
  public:
+  /// Fails    InputError if there are more than 2³² − 2 triangles: one mesh may be placed often.
   TriangleSource(const Scene& scene);          // implicit: a scene is a source,
   TriangleSource(const StreamedScene& scene);  // and so is this one
 

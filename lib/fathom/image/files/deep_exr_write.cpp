@@ -47,9 +47,7 @@ std::vector<const char*> beginnings(const DeepMap& map, std::size_t offset) {
 
 Bytes encode(const DeepMap& map, Compression compression, int threads, const std::string& name) {
   const DepthMap& description = map.description;
-  if (description.width > 0x3FFFFFFF || description.height > 0x3FFFFFFF) {
-    throw OutputError(name + ": EXR holds fewer than 2^30 pixels a side");
-  }
+  require_size(MapFormat::exr, description.width, description.height, name);
   Imf::Header header(static_cast<int>(description.width), static_cast<int>(description.height));
   check_deep_compression(compression);
   header.compression() = compression_of(compression);

@@ -52,8 +52,7 @@ std::string exr_reason(const std::exception& failure) {
 
 Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
                  const std::string& name) {
-  if (map.width > 0x3FFFFFFF || map.height > 0x3FFFFFFF)
-    throw OutputError(name + ": EXR holds fewer than 2^30 pixels a side");
+  require_size(MapFormat::exr, map.width, map.height, name);
   try {
     Imf::Header header(static_cast<int>(map.width), static_cast<int>(map.height));
     header.compression() = compression_of(compression);
