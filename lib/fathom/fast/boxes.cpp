@@ -18,10 +18,11 @@ namespace {
 
 /// Whether the triangles certainly cover no sample of their boxes: an edge function is certainly
 /// negative at the corner where it is greatest, and so everywhere in the box.
+/// Needs    a certain orientation, or else edge functions may have the wrong sign.
 HWY_INLINE M certainly_miss(const Corners& t, const Boxes& box) {
   const LocalTriangles l = localise(t, box);
   Edges e = certified_edges(l);
-  use_top_left_rule(are_snapped(t), e);
+  use_top_left_rule(have_exact_edges(t, l), e);
   const V right = hn::Sub(box.last_column, box.first_column);
   const V bottom = hn::Sub(box.last_row, box.first_row);
   V least = constant(0);

@@ -1,9 +1,18 @@
 // Triangles, several at once, with bounds on their errors. Included once for every kind of vector
 // instructions, by the files that foreach_target.h compiles for each.
 //
-// The bounds of this file, with u = 2⁻⁵³ (docs/error-analysis.md, "Triangles"). All magnitudes are
-// between 2⁻¹⁰⁰ and 2¹⁰⁰, or differences of such, so nothing overflows; errors of underflow are
-// below 2⁻¹⁰⁰⁰ and vanish in the terms u·L² and the floors of the vertices' bounds.
+// The bounds of this file, with u = 2⁻⁵³ (docs/error-analysis.md, "Triangles").
+//
+// Overflow: usable corners have |u|, |v| ≤ 2³⁰ and |q| ≤ 2⁶⁰, boxes lie within 2³², so L ≤ 2³³, and
+// nothing here exceeds 2³⁰⁰.
+//
+// Underflow: coordinates relative to a sample are 0 or at least 2⁻⁵⁵, because sample coordinates
+// are multiples of ½ and at least ½: a corner below ¼ leaves ¼ or more, and one above is a multiple
+// of 2⁻⁵⁵, as is the difference. So products of two of them are normal, and so are those with
+// differences of q under a perspective camera, where q ≥ 2⁻⁶⁰. Differences of corners as they are
+// (certified_orientation) and of q under an orthographic camera may be of any size: products err by
+// at most 2⁻¹⁰⁷⁵ more, divisions enlarge that by at most 2¹¹⁰, and the floor of 2⁻¹⁰⁰ in every
+// position_error and q_error of such corners covers it.
 #if defined(FATHOM_FAST_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FATHOM_FAST_SETUP_INL_H
 #undef FATHOM_FAST_SETUP_INL_H
@@ -143,7 +152,20 @@ HWY_INLINE M are_snapped(const Corners& t) {
   return hn::Eq(t.position_error, constant(0));
 }
 
+/// Differences of the corners' computed coordinates: B − A and C − A.
+struct Sides {
+  V bu, bv, cu, cv;
+  [[nodiscard]] HWY_INLINE V doubled_area() const {
+    return hn::Sub(hn::Mul(bu, cv), hn::Mul(bv, cu));
+  }
+};
+HWY_INLINE Sides sides_of(const Corners& t) {
+  return {hn::Sub(t.B.u, t.A.u), hn::Sub(t.B.v, t.A.v), hn::Sub(t.C.u, t.A.u),
+          hn::Sub(t.C.v, t.A.v)};
+}
+
 /// The sign of the triangles' doubled area in the image, which is sign(Δ), where it is certain.
+/// Where it is, it is the sign of Sides::doubled_area().
 struct Orientation {
   M positive, negative, zero;
 };
@@ -153,16 +175,15 @@ struct Orientation {
 // 4dM + 2d² for its factors and 2uM² + 2uM²(1 + u) ≤ 4.01uM² for its roundings.
 // On the grid of snap_step differences and products are exact (2·16 + 16 bits), and so is the sign.
 HWY_INLINE Orientation certified_orientation(const Corners& t) {
-  const V bu = hn::Sub(t.B.u, t.A.u), bv = hn::Sub(t.B.v, t.A.v);
-  const V cu = hn::Sub(t.C.u, t.A.u), cv = hn::Sub(t.C.v, t.A.v);
-  const V size = hn::Max(hn::Max(hn::Abs(bu), hn::Abs(bv)), hn::Max(hn::Abs(cu), hn::Abs(cv)));
+  const Sides s = sides_of(t);
+  const V size = hn::Max(greatest_magnitude(s.bu, s.bv, s.cu), hn::Abs(s.cv));
   const V d = hn::MulAdd(constant(unit_roundoff<double>), size,
                          hn::Add(t.position_error, t.position_error));
   const V bound = hn::MulAdd(hn::MulAdd(constant(4), size, hn::Add(d, d)), d,
                              hn::Mul(constant(5 * unit_roundoff<double>), hn::Mul(size, size)));
   const M snapped = are_snapped(t);
   const V limit = hn::IfThenZeroElse(snapped, bound);
-  const V doubled_area = hn::Sub(hn::Mul(bu, cv), hn::Mul(bv, cu));
+  const V doubled_area = s.doubled_area();
   return {hn::Gt(doubled_area, limit), hn::Lt(doubled_area, hn::Neg(limit)),
           hn::And(snapped, hn::Eq(doubled_area, constant(0)))};
 }
@@ -216,8 +237,9 @@ HWY_INLINE Boxes area_boxes(const Corners& t, const PixelBox& area) {
           last(greatest_of(t.A.v, t.B.v, t.C.v), area.last_row)};
 }
 
-/// Triangles relative to their boxes' first samples, turned so that their doubled area T is
-/// positive by exchanging B and C where it is not.
+/// Triangles relative to their boxes' first samples, turned by exchanging B and C so that their
+/// doubled area T is positive: certainly where certified_orientation() knows its sign, and where
+/// the computed T is greater than its error.
 struct LocalTriangles {
   V Au, Av, Bu, Bv, Cu, Cv;
   V qA, qB, qC;
@@ -233,9 +255,7 @@ HWY_INLINE LocalTriangles localise(const Corners& t, const Boxes& box) {
   l.Av = hn::Sub(t.A.v, origin_v);
   const V Bu = hn::Sub(t.B.u, origin_u), Bv = hn::Sub(t.B.v, origin_v);
   const V Cu = hn::Sub(t.C.u, origin_u), Cv = hn::Sub(t.C.v, origin_v);
-  const V T = hn::Sub(hn::Mul(hn::Sub(Bu, l.Au), hn::Sub(Cv, l.Av)),
-                      hn::Mul(hn::Sub(Bv, l.Av), hn::Sub(Cu, l.Au)));
-  const M turn = hn::Lt(T, constant(0));
+  const M turn = hn::Lt(sides_of(t).doubled_area(), constant(0));
   l.Bu = hn::IfThenElse(turn, Cu, Bu);
   l.Bv = hn::IfThenElse(turn, Cv, Bv);
   l.Cu = hn::IfThenElse(turn, Bu, Cu);
@@ -243,7 +263,8 @@ HWY_INLINE LocalTriangles localise(const Corners& t, const Boxes& box) {
   l.qA = t.A.q;
   l.qB = hn::IfThenElse(turn, t.C.q, t.B.q);
   l.qC = hn::IfThenElse(turn, t.B.q, t.C.q);
-  l.T = hn::Abs(T);
+  l.T = hn::Sub(hn::Mul(hn::Sub(l.Bu, l.Au), hn::Sub(l.Cv, l.Av)),
+                hn::Mul(hn::Sub(l.Bv, l.Av), hn::Sub(l.Cu, l.Au)));
   const V extent = hn::Add(
       hn::Max(hn::Sub(box.last_column, box.first_column), hn::Sub(box.last_row, box.first_row)),
       constant(8));
@@ -280,6 +301,11 @@ HWY_INLINE Edges certified_edges(const LocalTriangles& t) {
   e.error = hn::Mul(
       hn::MulAdd(constant(8.25), t.delta, hn::Mul(constant(24 * unit_roundoff<double>), t.L)), t.L);
   return e;
+}
+
+/// Whether use_top_left_rule() may be asked for.
+HWY_INLINE M have_exact_edges(const Corners& t, const LocalTriangles& l) {
+  return hn::And(are_snapped(t), hn::Le(l.L, constant(0x1p16)));
 }
 
 // Corners on the grid of step g = 2⁻⁸ with L ≤ 2¹⁶: every term of an edge function is a multiple of
@@ -354,7 +380,7 @@ HWY_INLINE void set_up_lanes(const ImageVertex* vertices, const CornerIndices* t
   const LocalTriangles l = localise(t, box);
   Edges e = certified_edges(l);
   const M safe = hn::And(usable, hn::Ge(l.T, hn::Mul(constant(16), e.error)));
-  const M snapped = hn::And(are_snapped(t), hn::Le(l.L, constant(0x1p16)));
+  const M snapped = have_exact_edges(t, l);
   use_top_left_rule(snapped, e);
   const Depths q = certified_depths(t, l, e);
   for (std::size_t i = 0; i < 3; ++i) {

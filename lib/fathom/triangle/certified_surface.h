@@ -320,6 +320,10 @@ WorldNormal<Real> world_normal(const MeshTriangle& corners, const ObjectRays& ob
 /// Length. Squares err by 2k + 1, sums by 2, the root by half of that and 1; but since the length's
 /// error comes from those of the components, it is counted thus: |n̂| and |n| differ by at most the
 /// sum of the components' errors, and |n̂| is computed with an error of (3/2 + 1)ε; 3 is used.
+///
+/// Underflow. Components of placed normals are multiples of 2⁻⁵⁶⁶ (2⁻²⁶² of an entry times 2⁻³⁰⁴ of
+/// n), so their squares may lose words below 2⁻¹⁰⁷⁴. That is less than 2⁻³⁰⁰ of |n|²: as the turn is
+/// certain and the greatest size at least 2⁻²⁵⁰, |n| is at least 2⁻¹⁰⁰·2⁻²⁵⁰. The slack covers it.
 template <class Real>
 Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRays& object,
                                     const ObjectRays& world, const ImageBounds& image,

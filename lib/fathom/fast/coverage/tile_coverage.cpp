@@ -61,9 +61,7 @@ TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_
   }
   const double error =
       (8.25 * (e + unit_roundoff<double> * L) + 34 * unit_roundoff<double> * L) * L;
-  const double doubled_area =
-      (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
-  if (doubled_area < 0) std::swap(p[1], p[2]);
+  if (classes_[i].kind == CoverageClass::negative) std::swap(p[1], p[2]);
   Shape shape{.triangle = static_cast<std::uint32_t>(i), .is_open = false, .sides = {}};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto &P = p[(k + 1) % 3], &Q = p[(k + 2) % 3];
