@@ -4,6 +4,7 @@
 #include "fathom/fast/render_fast.h"
 #include "fathom/map_description.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/reference.h"
 #include "fathom/scene/read_scene.h"
 
@@ -23,6 +24,7 @@ void describe(const Scene& scene, const Camera& camera, const RenderOptions& opt
 }  // namespace
 
 DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  const StandardArithmetic standard;
   require_valid(camera);
   DepthMap map = options.engine == Engine::fast ? render_fast(scene, camera, options)
                                                 : render_reference(scene, camera, options);
@@ -32,6 +34,7 @@ DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& o
 
 DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options,
                 const StreamLimits& limits) {
+  const StandardArithmetic standard;
   require_valid(camera);
   if (options.engine != Engine::fast) {
     throw UsageError("only the fast engine renders a scene that stays in its files");
@@ -42,6 +45,7 @@ DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOp
 }
 
 DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  const StandardArithmetic standard;
   require_valid(camera);
   DeepMap map = visible_in_pixels(scene, camera, options);
   describe(scene, camera, options, map.description);
@@ -51,6 +55,7 @@ DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOption
 
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
                      const RenderOptions& options) {
+  const StandardArithmetic standard;
   std::vector<std::uint32_t> ids;
   for (const Object& object : scene.objects) ids.push_back(cryptomatte_id(object.name));
   const TriangleSource triangles(scene);

@@ -2,6 +2,7 @@
 
 #include "fathom/map_description.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/scene/triangle_source.h"
 
@@ -36,6 +37,7 @@ void require_pipeline_channels(const std::vector<Channel>& channels) {
 PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
                                      const pipeline::PipelineOptions& options,
                                      const std::vector<Channel>& channels, bool with_picture) {
+  const StandardArithmetic standard;
   require_valid(camera);
   require_pipeline_channels(channels);
   const pipeline::PipelineFrame frame =

@@ -7,6 +7,7 @@
 #include "fathom/area/scene_surfaces.h"
 #include "fathom/area/separation.h"
 #include "fathom/area/visible_fragments.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"
 
 // How to read this file: coplanar_pairs() at the end. For each triangle, within its box, each
@@ -187,6 +188,7 @@ class PairFinder {
 
 std::vector<CoplanarPair> coplanar_pairs(const TriangleSource& triangles, const Camera& camera,
                                          double within, const RenderOptions& options) {
+  const StandardArithmetic standard;
   return with_threads(options.threads, [&] {
     const PairFinder finder({triangles, camera, options.cull}, within);
     std::vector<std::vector<CoplanarPair>> found(finder.count());

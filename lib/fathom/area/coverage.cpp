@@ -1,6 +1,7 @@
 #include "fathom/area/coverage.h"
 
 #include "fathom/area/image_cell.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 using namespace area;
@@ -25,6 +26,7 @@ void add(const CoverageFrame& frame, std::span<const std::uint32_t> triangles,
 
 Ratio pixel_coverage(const CoverageFrame& frame, std::span<const std::uint32_t> triangles,
                      std::uint32_t column, std::uint32_t row) {
+  const StandardArithmetic standard;
   ImageCell pixel(column, row);
   CellCoverage coverage(pixel);
   add(frame, triangles, coverage);

@@ -7,6 +7,7 @@
 #include "fathom/area/coverage_image.h"
 #include "fathom/area/visible_fragments.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::area {
@@ -167,6 +168,7 @@ void gather(const CoverageFrame& frame, const RenderOptions& options, const Comp
 
 DeepMap visible_in_pixels(const TriangleSource& triangles, const Camera& camera,
                           const RenderOptions& options) {
+  const StandardArithmetic standard;
   DeepMap map;
   map.description.width = camera.width;
   map.description.height = camera.height;
@@ -180,6 +182,7 @@ DeepMap visible_in_pixels(const TriangleSource& triangles, const Camera& camera,
 Mattes mattes_in_pixels(const TriangleSource& triangles, const Camera& camera,
                         const RenderOptions& options,
                         const std::function<std::uint32_t(std::uint32_t)>& matte_of) {
+  const StandardArithmetic standard;
   Mattes mattes;
   const auto compute = [&](ImageCell& pixel, std::span<const SurfaceRegion* const> surfaces) {
     return shares(look_into(pixel, surfaces), matte_of);

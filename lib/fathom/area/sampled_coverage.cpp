@@ -6,6 +6,7 @@
 #include <bitset>
 
 #include "fathom/area/triangle_bands.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/certified_surfaces.h"
 #include "fathom/triangle/referee.h"
@@ -113,6 +114,7 @@ void fill(const TriangleBands::Band& band, const Camera& camera, const SamplePat
 
 void add_sampled_coverage(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                           const SamplePattern& pattern, const RenderOptions& options) {
+  const StandardArithmetic standard;
   Samples<float> shares(static_cast<std::size_t>(map.width) * map.height);
   with_threads(options.threads, [&] {
     const TriangleBands bands({triangles, camera, options.cull});

@@ -7,6 +7,7 @@
 #include "fathom/area/visible_fragments.h"
 #include "fathom/numeric/enclosed_sum.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
@@ -181,6 +182,7 @@ VisibleAreas areas_in_arena(const CoverageFrame& frame, const RenderOptions& opt
 
 VisibleAreas visible_areas(const TriangleSource& triangles, const Camera& camera,
                            const RenderOptions& options) {
+  const StandardArithmetic standard;
   return with_threads(options.threads, [&] {
     return areas_in_arena({triangles, camera, options.cull}, options);
   });

@@ -9,6 +9,7 @@
 
 #include "fathom/attribution/faults/depth_relation.h"
 #include "fathom/attribution/faults/hypotheses.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 // How to read this file: attribute_and_name() at the end. What names single triangles comes first;
 // where that does not explain nine tenths, what names faults of the whole image.
@@ -104,6 +105,7 @@ bool name_by_relation(const Truth& truth, const OtherMap& other, Attribution& fo
 
 Attribution attribute_and_name(const Truth& truth, const OtherMap& other,
                                const RendererModel& model) {
+  const StandardArithmetic standard;
   Attribution found = attribute(truth, other, model);
   const std::uint64_t unexplained = found.count(PixelClass::unexplained);
   if (unexplained == 0) {

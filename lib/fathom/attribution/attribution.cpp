@@ -5,6 +5,7 @@
 #include "fathom/attribution/fragment_source.h"
 #include "fathom/attribution/pixels/pixel_judge.h"
 #include "fathom/attribution/pixels/statistics.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::attribution {
@@ -33,6 +34,7 @@ std::vector<std::vector<Fragment>> fragments_in(const FragmentSource& source,
 }  // namespace
 
 Attribution attribute(const Truth& truth, const OtherMap& other, const RendererModel& model) {
+  const StandardArithmetic standard;
   const std::uint32_t width = truth.camera.width, height = truth.camera.height;
   const auto source = fragments(truth.mesh, truth.camera, model);
   std::vector<PixelBox> boxes(truth.mesh.triangles.size());

@@ -5,6 +5,7 @@
 
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::attribution {
 namespace {
@@ -26,6 +27,7 @@ const ImageChannel& depth_channel(const DepthMap& map, const std::string& name) 
 }  // namespace
 
 OtherMap other_map(const DepthMap& map, const std::string& name) {
+  const StandardArithmetic standard;
   const ImageChannel& channel = depth_channel(map, name);
   OtherMap other{.width = map.width, .height = map.height};
   const std::vector<std::uint8_t> seen = surface_mask(map, channel, detect_background(channel));

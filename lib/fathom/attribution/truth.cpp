@@ -3,11 +3,13 @@
 #include <limits>
 
 #include "fathom/attribution/pixels/corner_numbers.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/render.h"
 
 namespace fathom::attribution {
 
 Truth make_truth(const Scene& scene, const Camera& camera) {
+  const StandardArithmetic standard;
   Truth truth{.mesh = world_mesh(scene), .camera = camera};
   truth.corner_numbers = corner_numbers(truth.mesh);
   const DepthMap map =

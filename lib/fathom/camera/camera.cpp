@@ -5,6 +5,7 @@
 
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 namespace {
@@ -31,6 +32,7 @@ std::optional<std::string> find_number_that_is_not_finite(const Camera& camera) 
 }  // namespace
 
 std::optional<std::string> find_fault(const Camera& camera) {
+  const StandardArithmetic standard;
   if (camera.width == 0) return "width is 0, expected at least 1";
   if (camera.height == 0) return "height is 0, expected at least 1";
   if (auto fault = find_number_that_is_not_finite(camera)) return fault;

@@ -8,6 +8,7 @@
 
 #include "fathom/camera/camera_files_internal.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
@@ -84,6 +85,7 @@ std::vector<Camera> camera::parse_cameras(std::string_view text, const std::stri
 }
 
 std::vector<Camera> read_cameras(const std::filesystem::path& file) {
+  const StandardArithmetic standard;
   return parse_cameras(InputFile(file).text(), file.string());
 }
 

@@ -6,6 +6,7 @@
 
 #include "fathom/camera/camera_making_internal.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 namespace camera {
@@ -113,6 +114,7 @@ ExactVector3 exactly(const Vector3& v) {
 }  // namespace
 
 Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up, const Lens& lens) {
+  const StandardArithmetic standard;
   expect_finite(eye, "the eye");
   expect_finite(target, "the target");
   expect_finite(up, "the up direction");
@@ -129,6 +131,7 @@ Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up, con
 }
 
 Camera look_from(const View& view, const Vector3& centre, double distance, const Lens& lens) {
+  const StandardArithmetic standard;
   expect_finite(centre, "the centre");
   expect(distance > 0 && std::isfinite(distance), "the distance must be greater than 0");
   Camera camera = with_lens(lens);
@@ -139,6 +142,7 @@ Camera look_from(const View& view, const Vector3& centre, double distance, const
 
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const Vector3& centre,
                           double distance, const Lens& lens) {
+  const StandardArithmetic standard;
   expect_count(count);
   std::vector<Camera> path;
   for (std::uint32_t i = 0; i < count; ++i)

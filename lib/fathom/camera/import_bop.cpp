@@ -3,6 +3,7 @@
 
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
@@ -69,6 +70,7 @@ std::vector<ImportedCamera> camera::parse_bop(std::string_view text, const std::
 
 std::vector<ImportedCamera> import_bop(const std::filesystem::path& file, std::uint32_t width,
                                        std::uint32_t height) {
+  const StandardArithmetic standard;
   return parse_bop(InputFile(file).text(), file.string(), width, height);
 }
 

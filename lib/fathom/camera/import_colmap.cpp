@@ -12,6 +12,7 @@
 #include "fathom/camera/pose.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/decimal.h"
 
 namespace fathom {
@@ -329,6 +330,7 @@ std::vector<ImportedCamera> camera::parse_colmap_text(NamedStream cameras, Named
 }
 
 std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder) {
+  const StandardArithmetic standard;
   using Parse = std::vector<ImportedCamera> (*)(NamedStream, NamedStream);
   const std::pair<const char*, Parse> forms[] = {{".bin", parse_colmap_binary},
                                                  {".txt", parse_colmap_text}};

@@ -5,6 +5,7 @@
 #include "fathom/camera/pose.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
@@ -130,6 +131,7 @@ std::vector<ImportedCamera> camera::parse_nerf(std::string_view text, const std:
 
 std::vector<ImportedCamera> import_nerf(const std::filesystem::path& file, std::uint32_t width,
                                         std::uint32_t height, Warnings& warnings) {
+  const StandardArithmetic standard;
   return parse_nerf(InputFile(file).text(), file.string(), width, height, warnings);
 }
 

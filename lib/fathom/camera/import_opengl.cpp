@@ -4,6 +4,7 @@
 #include "fathom/camera/pose.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
@@ -146,6 +147,7 @@ std::vector<ImportedCamera> camera::parse_opengl(std::string_view text, const st
 }
 
 std::vector<ImportedCamera> import_opengl(const std::filesystem::path& file) {
+  const StandardArithmetic standard;
   return parse_opengl(InputFile(file).text(), file.string());
 }
 

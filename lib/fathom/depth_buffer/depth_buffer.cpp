@@ -5,6 +5,7 @@
 
 #include "fathom/depth_buffer/buffer_work.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
@@ -12,6 +13,7 @@ using namespace area;
 using namespace depth_buffer;
 
 DepthFormat depth_format_of(const Camera& camera, Mapping mapping, Storage storage, double c) {
+  const StandardArithmetic standard;
   const DepthFormat format{mapping, storage, camera.near, camera.far, c};
   try {
     require_meaningful(format);
@@ -50,6 +52,7 @@ DepthBufferStatistics depth_buffer::sum_of(const std::vector<DepthBufferStatisti
 
 DepthBufferStatistics add_depth_buffer(DepthMap& map, const TriangleSource& triangles,
                                        const Camera& camera, const DepthBufferOptions& options) {
+  const StandardArithmetic standard;
   require_meaningful(options.format);
   if (!map.values<std::uint32_t>("id")) throw UsageError("a depth buffer needs the channel id");
   BufferChannels channels(map, options.format, options.against_exact);

@@ -6,6 +6,7 @@
 
 #include "fathom/image/compare_internal.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 using namespace image;
@@ -240,6 +241,7 @@ bool MapComparison::within_tolerance() const {
 
 MapComparison compare_maps(const DepthMap& truth, const DepthMap& other,
                            const CompareOptions& options) {
+  const StandardArithmetic standard;
   const PairedNames names = paired_channels(truth, other, options);
   MapComparison result;
   if (!names.note.empty()) result.notes.push_back(names.note);

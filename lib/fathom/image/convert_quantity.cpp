@@ -3,6 +3,7 @@
 
 #include "fathom/image/convert.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 namespace {
@@ -83,6 +84,7 @@ std::string channel_of(DepthQuantity quantity) {
 
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
                           const MapView& view, const std::optional<StereoRig>& rig) {
+  const StandardArithmetic standard;
   const std::string name = channel_of(from);
   const ImageChannel* source = map.find(name);
   if (!source) throw UsageError("the map has no channel '" + name + "' to convert from");

@@ -5,6 +5,7 @@
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 namespace {
@@ -74,6 +75,7 @@ Samples<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, 
 
 DepthMap with_storage(const DepthMap& map, const std::string& asked, StoredType type,
                       std::optional<double> scale) {
+  const StandardArithmetic standard;
   const ImageChannel& channel = depth_channel(map, asked);
   DepthMap result = map;
   result.channels.clear();

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "fathom/numeric/standard_arithmetic.h"
+
 namespace fathom {
 
 /// Half the distance from 1 to the next number, 2⁻⁵³ for binary64 and 2⁻²⁴ for binary32: the

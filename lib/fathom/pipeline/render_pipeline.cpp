@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/geometry/geometry_stages.h"
 #include "fathom/pipeline/output/area_sampling.h"
 #include "fathom/pipeline/output/fxaa.h"
@@ -180,6 +181,7 @@ class Frame {
 
 PipelineFrame render_frame(const Scene& scene, const Camera& camera, const PipelineOptions& options,
                            bool with_picture) {
+  const StandardArithmetic standard;
   require_meaningful(options);
   PipelineOptions complete = options;
   fill_in_range(scene, camera, complete.depth_format);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/fragments/shading.h"
 
 namespace fathom::pipeline {
@@ -130,6 +131,7 @@ class Tracer {
 TriangleTrace trace_triangle(const Scene& scene, const Camera& camera,
                              const PipelineOptions& options, std::uint32_t number,
                              const std::optional<Pixel>& pixel) {
+  const StandardArithmetic standard;
   require_meaningful(options);
   PipelineOptions complete = options;
   fill_in_range(scene, camera, complete.depth_format);

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "fathom/area/coverage.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/verify_samples.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"
@@ -301,6 +302,7 @@ PixelChoice choose_pixels(std::uint32_t width, std::uint32_t height, std::uint64
 
 Verification verify(const DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                     const RenderOptions& options, const PixelChoice& chosen) {
+  const StandardArithmetic standard;
   return with_threads(options.threads, [&] {
     return verify_in_arena({map, triangles, camera, options}, chosen);
   });

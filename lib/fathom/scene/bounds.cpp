@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fathom/geometry/approximate_row.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 namespace {
@@ -60,6 +61,7 @@ void include_placed(WorldBounds& bounds, int axis, const Object& object, const M
 }  // namespace
 
 std::optional<WorldBounds> world_bounds(const Scene& scene) {
+  const StandardArithmetic standard;
   WorldBounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   bool empty = true;
   for (const Object& object : scene.objects) {

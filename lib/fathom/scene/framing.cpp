@@ -6,6 +6,7 @@
 #include "fathom/camera/camera_making_internal.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 using namespace camera;
@@ -108,6 +109,7 @@ Camera place(const Box& box, const Matrix3& R, const Lens& lens, double distance
 
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBounds& bounds,
                           const Lens& lens) {
+  const StandardArithmetic standard;
   expect_count(count);
   const Box box = box_of(bounds);
   const bool extent_is_free = lens.projection == Projection::orthographic && !lens.vertical_extent;

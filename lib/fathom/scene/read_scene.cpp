@@ -10,6 +10,7 @@
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/recognise_format.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_json.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/sha256.h"
@@ -164,6 +165,7 @@ class SceneReader {
 
 Scene read_scene(const std::vector<std::filesystem::path>& files, const ReadOptions& options,
                  Warnings& warnings) {
+  const StandardArithmetic standard;
   SceneReader reader(options, warnings);
   for (const std::filesystem::path& file : files) reader.add_file(file);
   return reader.finish();

@@ -1,6 +1,7 @@
 #include "fathom/scene/streamed_scene.h"
 
 #include "fathom/mesh/mesh_faces.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/triangle_source.h"
 
 namespace fathom {
@@ -8,6 +9,7 @@ using namespace mesh;
 
 StreamedScene stream_scene(const std::vector<std::filesystem::path>& files,
                            const ReadOptions& options, Warnings& warnings) {
+  const StandardArithmetic standard;
   StreamedScene scene;
   for (const std::filesystem::path& path : files) {
     auto stream = open_triangle_stream(path, options, warnings);

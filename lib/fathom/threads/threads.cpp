@@ -4,10 +4,15 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "fathom/numeric/standard_arithmetic.h"
+
 namespace fathom {
 
 void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
-  tbb::parallel_for(std::size_t{0}, count, work);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const StandardArithmetic standard;
+    work(i);
+  });
 }
 
 void run_with_threads(int threads, const std::function<void()>& work) {
@@ -16,7 +21,10 @@ void run_with_threads(int threads, const std::function<void()>& work) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   }
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute(work);
+  arena.execute([&] {
+    const StandardArithmetic standard;
+    work();
+  });
 }
 
 }  // namespace fathom

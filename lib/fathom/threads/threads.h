@@ -9,7 +9,7 @@
 #include <utility>
 
 /// Parallel work, and reports of its progress. oneTBB does it, in one .cpp: its headers take
-/// seconds to compile.
+/// seconds to compile. All of it runs in StandardArithmetic, whatever the threads do otherwise.
 namespace fathom {
 
 /// Calls work(0), …, work(count − 1), several at the same time, in the threads of with_threads() or

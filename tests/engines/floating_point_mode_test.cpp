@@ -1,0 +1,260 @@
+// Programs around us flush subnormal numbers to zero, or round upwards: no door for users may
+// compute anything else because of that, and the mode is the caller's again when it returns.
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <functional>
+#include <map>
+#include <type_traits>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+#include "fathom/area/coplanar.h"
+#include "fathom/area/visible_areas.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/depth_buffer/depth_buffer.h"
+#include "fathom/image/compare.h"
+#include "fathom/image/convert.h"
+#include "fathom/reference/probe.h"
+#include "fathom/reference/verify.h"
+#include "fathom/render.h"
+#include "fathom/render_by_pipeline.h"
+#include "fathom/scene/framing.h"
+#include "fathom/scene/read_scene.h"
+#include "tests/engines/expect_same_map.h"
+#include "tests/inputs/random_scenes.h"
+#include "tests/places.h"
+
+namespace fathom {
+namespace {
+
+/// How a thread rounds, and whether it takes subnormal numbers, as operands or results, for 0.
+struct Mode {
+  const char* name;
+  int rounding;
+  bool flush;
+};
+const Mode modes[] = {{"subnormals are flushed to zero", FE_TONEAREST, true},
+                      {"rounds upwards", FE_UPWARD, false},
+                      {"rounds downwards", FE_DOWNWARD, false},
+                      {"rounds towards zero, flushes", FE_TOWARDZERO, true}};
+
+#if defined(__SSE__)
+constexpr unsigned flags = 0x3F, flush_bits = 0x8040;
+unsigned current() {
+  return _mm_getcsr() & ~flags;
+}
+void set_flush() {
+  _mm_setcsr(_mm_getcsr() | flush_bits);
+}
+#else
+unsigned current() {
+  return static_cast<unsigned>(std::fegetround());
+}
+void set_flush() {}
+#endif
+
+/// While one lives, its thread computes in a mode.
+class In {
+ public:
+  explicit In(const Mode& mode) {
+    std::fegetenv(&before_);
+    std::fesetround(mode.rounding);
+    if (mode.flush) set_flush();
+  }
+  ~In() { std::fesetenv(&before_); }
+  In(const In&) = delete;
+  In& operator=(const In&) = delete;
+
+ private:
+  std::fenv_t before_{};
+};
+
+/// What a door has computed, as bytes: nothing of it is rounded again.
+class Bytes {
+ public:
+  template <class T>
+  void add(const T& value) {
+    if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+      text_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    } else if constexpr (requires { value.begin(); }) {
+      add(value.size());
+      for (const auto& each : value) add(each);
+    } else if constexpr (requires { value.has_value(); }) {
+      add(value.has_value());
+      if (value) add(*value);
+    } else {
+      static_assert(std::is_same_v<T, Binary16>);
+      add(value.bits);
+    }
+  }
+  void add(const Camera& c) {
+    for (const double x : {c.fx, c.fy, c.cx, c.cy, c.skew, c.near, c.far}) add(x);
+    add(c.world_to_camera);
+  }
+  void add(const DepthMap& map) {
+    for (const ImageChannel& channel : map.channels) {
+      add(channel.name);
+      std::visit([&](const auto& values) { add(values); }, channel.values);
+    }
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+using Door = std::function<void(Bytes&)>;
+
+/// Doors into a scene with a camera; each adds what it computes.
+std::map<std::string, Door> doors_of(const Scene& scene, const Camera& camera) {
+  std::map<std::string, Door> doors;
+  for (const Engine engine : {Engine::fast, Engine::reference}) {
+    doors["render, " + std::string(name_of(engine))] = [&scene, &camera, engine](Bytes& bytes) {
+      RenderOptions options;
+      options.engine = engine;
+      options.channels = testing::every_channel;
+      options.threads = 2;
+      bytes.add(render(scene, camera, options));
+    };
+  }
+  doors["verify"] = [&](Bytes& bytes) {
+    RenderOptions options;
+    options.channels = testing::quick_channels;
+    DepthMap map;
+    {
+      const In standard({"", FE_TONEAREST, false});
+      std::fesetenv(FE_DFL_ENV);
+      map = render(scene, camera, options);
+    }
+    const Verification result =
+        verify(map, scene, camera, options, choose_pixels(camera.width, camera.height, 20));
+    bytes.add(result.verified);
+    bytes.add(result.differing);
+  };
+  doors["probe"] = [&](Bytes& bytes) {
+    for (const CoveringTriangle& t : probe(scene, camera, 3, 2)) {
+      bytes.add(t.number);
+      bytes.add(to_fraction(t.depth));
+      bytes.add(t.counts);
+    }
+  };
+  doors["visible areas"] = [&](Bytes& bytes) {
+    for (const VisibleArea& area : visible_areas(scene, camera, {}).triangles) {
+      bytes.add(area.visible);
+      bytes.add(area.unoccluded);
+      bytes.add(area.ratio);
+    }
+  };
+  doors["coplanar pairs"] = [&](Bytes& bytes) {
+    for (const CoplanarPair& pair : coplanar_pairs(scene, camera, 0.5, {})) {
+      bytes.add(pair.visible);
+      bytes.add(pair.behind);
+      bytes.add(pair.separation);
+      bytes.add(pair.pixels);
+    }
+  };
+  doors["render_deep"] = [&](Bytes& bytes) {
+    const DeepMap map = render_deep(scene, camera);
+    bytes.add(map.counts);
+    for (const DeepSample& sample : map.samples) {
+      for (const float x : {sample.Z, sample.ZBack, sample.area, sample.A}) bytes.add(x);
+      bytes.add(sample.id);
+    }
+  };
+  doors["add_cryptomatte"] = [&](Bytes& bytes) {
+    DepthMap map;
+    map.width = camera.width;
+    map.height = camera.height;
+    add_cryptomatte(map, scene, camera);
+    bytes.add(map);
+  };
+  doors["find_fault"] = [&](Bytes& bytes) {
+    Camera flat = camera;
+    flat.world_to_camera = {{{0x1p-1074, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    bytes.add(find_fault(flat).has_value());
+  };
+  doors["frame_scene"] = [&](Bytes& bytes) {
+    bytes.add(frame_scene(scene, {.azimuth = 35, .elevation = 20}));
+  };
+  doors["look_at"] = [&](Bytes& bytes) {
+    bytes.add(look_at({1, 0.2, 0.3}, {0.1, 0.7, 9}, {0, 1, 0.1}));
+  };
+  return doors;
+}
+
+void expect_same_in_all_modes(const std::string& name, const Door& door) {
+  SCOPED_TRACE(name);
+  Bytes truth;
+  door(truth);
+  for (const Mode& mode : modes) {
+    SCOPED_TRACE(mode.name);
+    Bytes bytes;
+    {
+      const In here(mode);
+      const unsigned before = current();
+      door(bytes);
+      EXPECT_EQ(current(), before);
+    }
+    EXPECT_TRUE(bytes.text() == truth.text());
+  }
+}
+
+TEST(FloatingPointMode, ChangesNothingInRandomScenes) {
+  for (const auto kind :
+       {testing::Kind::few_bits, testing::Kind::neighbours, testing::Kind::tiny}) {
+    testing::CaseMaker maker(404, kind);
+    for (int i = 0; i < 40; ++i) {
+      SCOPED_TRACE(i);
+      const testing::Case c = maker.make();
+      if (!world_bounds(c.scene)) continue;
+      for (const auto& [name, door] : doors_of(c.scene, c.camera)) {
+        expect_same_in_all_modes(name, door);
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+/// Numbers of files are rounded, and those below 2⁻¹⁰²² are kept.
+TEST(FloatingPointMode, ChangesNothingOfWhatIsRead) {
+  const std::filesystem::path hard = test::source_dir() / "data/scenes/hard";
+  expect_same_in_all_modes("read_scene", [&](Bytes& bytes) {
+    Warnings warnings;
+    const Scene scene =
+        read_scene({hard / "huge-and-tiny.obj", hard / "slivers.obj"}, {}, warnings);
+    for (const Mesh& mesh : scene.meshes) {
+      for (const MeshPoint& X : mesh.vertices) {
+        for (const double x : {X.x, X.y, X.z}) bytes.add(x);
+      }
+    }
+  });
+  expect_same_in_all_modes("read_cameras", [&](Bytes& bytes) {
+    for (const char* name : {"look-at.json", "calibrated.json", "orbit.json", "transforms.json"}) {
+      for (const Camera& camera : read_cameras(test::source_dir() / "data/cameras" / name)) {
+        bytes.add(camera);
+      }
+    }
+  });
+}
+
+TEST(FloatingPointMode, ChangesNothingOfMapsAndDepthBuffers) {
+  testing::CaseMaker maker(405, testing::Kind::neighbours);
+  testing::Case c = maker.make();
+  c.camera.near = 0.1;
+  c.camera.far = 20.3;
+  const DepthMap map = render(c.scene, c.camera, {.channels = testing::every_channel});
+  expect_same_in_all_modes("depth buffer", [&](Bytes& bytes) {
+    DepthMap with_buffer = map;
+    add_depth_buffer(with_buffer, c.scene, c.camera,
+                     {depth_format_of(c.camera, Mapping::standard, Storage::unorm24), true, {}});
+    bytes.add(with_buffer);
+  });
+  expect_same_in_all_modes("pipeline", [&](Bytes& bytes) {
+    bytes.add(render_by_pipeline(c.scene, c.camera, {}, {Channel::Z, Channel::id}, false).map);
+  });
+}
+
+}  // namespace
+}  // namespace fathom
