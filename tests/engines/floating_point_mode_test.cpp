@@ -2,13 +2,9 @@
 // compute anything else because of that, and the mode is the caller's again when it returns.
 #include <gtest/gtest.h>
 
-#include <cfenv>
 #include <functional>
 #include <map>
 #include <type_traits>
-#if defined(__SSE__)
-#include <xmmintrin.h>
-#endif
 
 #include "fathom/area/coplanar.h"
 #include "fathom/area/visible_areas.h"
@@ -16,6 +12,8 @@
 #include "fathom/depth_buffer/depth_buffer.h"
 #include "fathom/image/compare.h"
 #include "fathom/image/convert.h"
+#include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/probe.h"
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"
@@ -23,53 +21,12 @@
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/engines/expect_same_map.h"
+#include "tests/inputs/floating_point_modes.h"
 #include "tests/inputs/random_scenes.h"
 #include "tests/places.h"
 
 namespace fathom {
 namespace {
-
-/// How a thread rounds, and whether it takes subnormal numbers, as operands or results, for 0.
-struct Mode {
-  const char* name;
-  int rounding;
-  bool flush;
-};
-const Mode modes[] = {{"subnormals are flushed to zero", FE_TONEAREST, true},
-                      {"rounds upwards", FE_UPWARD, false},
-                      {"rounds downwards", FE_DOWNWARD, false},
-                      {"rounds towards zero, flushes", FE_TOWARDZERO, true}};
-
-#if defined(__SSE__)
-constexpr unsigned flags = 0x3F, flush_bits = 0x8040;
-unsigned current() {
-  return _mm_getcsr() & ~flags;
-}
-void set_flush() {
-  _mm_setcsr(_mm_getcsr() | flush_bits);
-}
-#else
-unsigned current() {
-  return static_cast<unsigned>(std::fegetround());
-}
-void set_flush() {}
-#endif
-
-/// While one lives, its thread computes in a mode.
-class In {
- public:
-  explicit In(const Mode& mode) {
-    std::fegetenv(&before_);
-    std::fesetround(mode.rounding);
-    if (mode.flush) set_flush();
-  }
-  ~In() { std::fesetenv(&before_); }
-  In(const In&) = delete;
-  In& operator=(const In&) = delete;
-
- private:
-  std::fenv_t before_{};
-};
 
 /// What a door has computed, as bytes: nothing of it is rounded again.
 class Bytes {
@@ -124,8 +81,7 @@ std::map<std::string, Door> doors_of(const Scene& scene, const Camera& camera) {
     options.channels = testing::quick_channels;
     DepthMap map;
     {
-      const In standard({"", FE_TONEAREST, false});
-      std::fesetenv(FE_DFL_ENV);
+      const StandardArithmetic standard;
       map = render(scene, camera, options);
     }
     const Verification result =
@@ -188,14 +144,14 @@ void expect_same_in_all_modes(const std::string& name, const Door& door) {
   SCOPED_TRACE(name);
   Bytes truth;
   door(truth);
-  for (const Mode& mode : modes) {
+  for (const testing::FloatingPointMode& mode : testing::other_modes) {
     SCOPED_TRACE(mode.name);
     Bytes bytes;
     {
-      const In here(mode);
-      const unsigned before = current();
+      const testing::InMode here(mode);
+      const unsigned before = testing::current_mode();
       door(bytes);
-      EXPECT_EQ(current(), before);
+      EXPECT_EQ(testing::current_mode(), before);
     }
     EXPECT_TRUE(bytes.text() == truth.text());
   }
@@ -231,7 +187,7 @@ TEST(FloatingPointMode, ChangesNothingOfWhatIsRead) {
     }
   });
   expect_same_in_all_modes("read_cameras", [&](Bytes& bytes) {
-    for (const char* name : {"look-at.json", "calibrated.json", "orbit.json", "transforms.json"}) {
+    for (const char* name : {"look-at.json", "calibrated.json", "orbit.json"}) {
       for (const Camera& camera : read_cameras(test::source_dir() / "data/cameras" / name)) {
         bytes.add(camera);
       }

@@ -1,13 +1,13 @@
 // The fast engine's map with every kind of vector instructions that this machine has, with any
 // number of threads, and with each of its short cuts left out: always the reference engine's.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <set>
 #include <string>
 
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
+#include "tests/engines/only_target.h"
 #include "tests/inputs/random_scenes.h"
 #include "tests/inputs/soup.h"
 
@@ -15,32 +15,9 @@ namespace fathom {
 namespace {
 
 using testing::expect_same;
+using testing::OnlyTarget;
 using testing::quick_channels;
-
-/// Restricts the engine to one kind of vector instructions for as long as it lives.
-class OnlyTarget {
- public:
-  explicit OnlyTarget(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().DeInit();
-  }
-  ~OnlyTarget() {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().DeInit();
-  }
-  OnlyTarget(const OnlyTarget&) = delete;
-  OnlyTarget& operator=(const OnlyTarget&) = delete;
-};
-
-/// All kinds of this machine, one bit each, and the emulation for machines without any.
-/// What was not compiled is emulated.
-std::vector<std::int64_t> targets() {
-  std::vector<std::int64_t> all;
-  for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
-    all.push_back(rest & -rest);
-  }
-  return all;
-}
+using testing::vector_targets;
 
 /// Scenes of several tiles with the reference engine's maps of them.
 class Soups {
@@ -84,7 +61,7 @@ TEST(FastTargets, EveryKindOfVectorInstructions) {
   const Soups soups(99, testing::effort > 1 ? 4 : 12, quick_channels);
   const Soups rows(98, 4, {Channel::Z});  // Z alone is written by whole rows
   std::set<std::string> names;
-  for (const std::int64_t target : targets()) {
+  for (const std::int64_t target : vector_targets()) {
     const OnlyTarget only(target);
     names.insert(vector_instructions());
     SCOPED_TRACE(vector_instructions());
@@ -102,7 +79,7 @@ TEST(FastTargets, EveryKindOfVectorInstructions) {
     }
   }
   // The kinds were really chosen between, where the machine has several.
-  if (targets().size() > 2) {
+  if (vector_targets().size() > 2) {
     EXPECT_GT(names.size(), 1U);
   }
 }

@@ -5,6 +5,7 @@
 
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/byte_order.h"
 #include "fathom/text/file_bytes.h"
 
@@ -133,6 +134,7 @@ std::string header_of(std::size_t points, const PointCloudOptions& options, bool
 
 void write_point_cloud(const DepthMap& map, const MapView& view, const std::filesystem::path& path,
                        const PointCloudOptions& options) {
+  const StandardArithmetic standard;
   const Points points(map, view, options.frame);
   std::vector<std::string> identifiers;
   for (const char* name : {"id", "face", "object"})

@@ -9,6 +9,7 @@
 #include "fathom/image/pictures/legend.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 using namespace image;
@@ -185,6 +186,7 @@ void draw_normals(Sheet& sheet, const DepthMap& map, const PreviewOptions& optio
 }  // namespace
 
 RgbImage draw_preview(const DepthMap& map, const PreviewOptions& options) {
+  const StandardArithmetic standard;
   Sheet sheet;
   sheet.picture = RgbImage(map.width, map.height);
   if (options.channel == "N") {

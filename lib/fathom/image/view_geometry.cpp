@@ -2,11 +2,13 @@
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 
 /// By Cramer's rule: the rows of R⁻¹·det R are the cross products of the columns of R.
 std::array<std::array<double, 4>, 3> camera_to_world(const MapView& view) {
+  const StandardArithmetic standard;
   const auto column = [&](std::size_t k) {
     return ExactVector3{view.world_to_camera[0][k], view.world_to_camera[1][k],
                         view.world_to_camera[2][k]};
@@ -30,6 +32,7 @@ std::array<std::array<double, 4>, 3> camera_to_world(const MapView& view) {
 }
 
 std::array<double, 3> point_at(const MapView& view, double i, double j, double z) {
+  const StandardArithmetic standard;
   // (i + ½) − (c + ½ − pixel_centre) = i − c + pixel_centre
   const double y = (j - view.cy + view.pixel_centre) / view.fy;
   const double x = (i - view.cx + view.pixel_centre - view.skew * y) / view.fx;

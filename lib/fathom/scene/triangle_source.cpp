@@ -13,14 +13,14 @@ TriangleSource::TriangleSource(const Scene& scene) : scene_(&scene) {
   for (const Object& object : scene.objects) {
     first_numbers_.push_back(count() + scene.meshes[object.mesh].triangles.size());
   }
-  expect_countable(count(), "triangles in all", "the scene");
+  mesh::expect_countable(count(), "triangles in all", "the scene");
 }
 
 TriangleSource::TriangleSource(const StreamedScene& scene) : streamed_(&scene) {
   for (const Object& object : scene.objects) {
     first_numbers_.push_back(count() + scene.streams[object.mesh]->triangle_count());
   }
-  expect_countable(count(), "triangles in all", "the scene");
+  mesh::expect_countable(count(), "triangles in all", "the scene");
 }
 
 TriangleSource::Place TriangleSource::place_of(std::uint32_t number) const {

@@ -6,6 +6,7 @@
 #include "fathom/image/compare_internal.h"
 #include "fathom/image/pictures/legend.h"
 #include "fathom/image/preview.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 using namespace image;
@@ -52,6 +53,7 @@ std::vector<ColourBar::Mark> logarithmic_marks(double greatest) {
 
 RgbImage draw_differences(const DepthMap& truth, const DepthMap& other,
                           const CompareOptions& options) {
+  const StandardArithmetic standard;
   const PairedNames names = paired_channels(truth, other, options);
   const auto& [a, b] = names.pairs.front();
   const ChannelPair pair = make_pair(truth, *a, other, *b, options);

@@ -1,0 +1,137 @@
+// Scenes from families that are each hard for a reason of their own: the fast engine against the
+// reference engine, and both against rays cast in rational numbers. Each scene is rendered with one
+// combination, drawn at random, of outputs, vector instructions, threads and floating-point mode.
+//   FATHOM_ADVERSARIES    scenes of each family (default 900; scripts/check-long has more)
+//   FATHOM_FIRST_SEED     of the first scene of each family (default 0)
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "fathom/numeric/errors.h"
+#include "tests/effort.h"
+#include "tests/engines/expect_same_map.h"
+#include "tests/engines/only_target.h"
+#include "tests/inputs/adversarial_scenes.h"
+#include "tests/inputs/floating_point_modes.h"
+#include "tests/oracle/against_oracle.h"
+
+namespace fathom {
+namespace {
+
+using testing::Case;
+using testing::Family;
+
+std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+/// What a scene is rendered with.
+struct Combination {
+  RenderOptions options;
+  std::int64_t target;
+  const testing::FloatingPointMode* mode;  // null: the standard one
+};
+
+Combination combination(std::mt19937_64& random) {
+  const auto below = [&](std::size_t n) { return random() % n; };
+  static const std::vector<std::int64_t> targets = testing::vector_targets();
+  Combination c{{}, targets[below(targets.size())], nullptr};
+  RenderOptions& options = c.options;
+  switch (below(3)) {
+    case 0:
+      options.channels = testing::every_channel;
+      break;
+    case 1:
+      options.channels = {Channel::Z};
+      break;
+    default:
+      options.channels = {Channel::Z};
+      for (const Channel channel : testing::every_channel) {
+        if (channel != Channel::Z && below(2) == 0) options.channels.push_back(channel);
+      }
+  }
+  options.cull = below(5) == 0 ? Cull::back : below(5) == 0 ? Cull::front : Cull::none;
+  if (below(4) == 0) options.depth_encoding.type = DepthEncoding::Type::binary64;
+  if (below(12) == 0) options.depth_encoding = {DepthEncoding::Type::scaled_unorm16, 1000};
+  if (options.depth_encoding.type != DepthEncoding::Type::binary32) {
+    std::erase(options.channels, Channel::Zlow);
+  }
+  options.threads = static_cast<int>(1 + below(3));
+  if (below(4) == 0) options.fast.hierarchy = false;
+  if (below(3) == 0) c.mode = &testing::other_modes[below(std::size(testing::other_modes))];
+  return c;
+}
+
+/// The map, or what is wrong with a depth that does not fit.
+template <class Render>
+std::variant<DepthMap, std::string> outcome(const Render& render) {
+  try {
+    return render();
+  } catch (const OutputError& error) {
+    return std::string(error.what());
+  }
+}
+
+std::variant<DepthMap, std::string> fast_map(const Case& c, const Combination& how) {
+  const testing::OnlyTarget only(how.target);
+  std::optional<testing::InMode> mode;
+  if (how.mode) mode.emplace(*how.mode);
+  return outcome([&] { return render_fast(c.scene, c.camera, how.options); });
+}
+
+void expect_same(const Case& c, const Combination& how) {
+  RenderOptions slow = how.options;
+  slow.threads = 1;
+  const auto truth = outcome([&] { return render_reference(c.scene, c.camera, slow); });
+  const auto ours = fast_map(c, how);
+  ASSERT_EQ(ours.index(), truth.index());
+  if (truth.index() == 1) {
+    EXPECT_EQ(std::get<1>(ours), std::get<1>(truth));
+  } else {
+    testing::expect_same_map(std::get<0>(ours), std::get<0>(truth));
+  }
+}
+
+/// Returns how many pixels show a surface.
+int expect_as_rays(const Case& c) {
+  RenderOptions options;
+  options.channels = testing::all_channels();
+  options.threads = 1;
+  const DepthMap map = render_reference(c.scene, c.camera, options);
+  const oracle::RayCaster rays = testing::cast_at(c.scene, c.camera);
+  int seen = 0;
+  for (int y = 0; y < static_cast<int>(c.camera.height); ++y) {
+    for (int x = 0; x < static_cast<int>(c.camera.width); ++x) {
+      const auto hit = rays.cast(x, y);
+      testing::expect_pixel(map, x, y, hit, c.scene);
+      seen += hit.has_value();
+    }
+  }
+  return seen;
+}
+
+class Adversaries : public ::testing::TestWithParam<Family> {};
+
+TEST_P(Adversaries, AreRenderedExactly) {
+  const std::uint64_t count =
+      std::max<std::uint64_t>(1, from_environment("FATHOM_ADVERSARIES", 900) / testing::effort);
+  const std::uint64_t first = from_environment("FATHOM_FIRST_SEED", 0);
+  int seen = 0;
+  for (std::uint64_t seed = first; seed < first + count && !HasFailure(); ++seed) {
+    SCOPED_TRACE("FATHOM_FIRST_SEED=" + std::to_string(seed));
+    const Case c = testing::adversarial_case(GetParam(), seed);
+    std::mt19937_64 random(seed ^ 0x9E3779B97F4A7C15);
+    expect_same(c, combination(random));
+    if (seed % 8 == 0) seen += expect_as_rays(c);
+  }
+  if (count >= 100) {
+    EXPECT_GT(seen, static_cast<int>(count / 20));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EachFamily, Adversaries, ::testing::ValuesIn(testing::all_families),
+                         [](const auto& test) { return testing::name_of(test.param); });
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cfenv>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+/// What programs around us may have done to the floating-point environment of a thread.
+namespace fathom::testing {
+
+/// How a thread rounds, and whether it takes subnormal numbers, as operands or results, for 0.
+struct FloatingPointMode {
+  const char* name;
+  int rounding;
+  bool flush;
+};
+inline constexpr FloatingPointMode other_modes[] = {
+    {"subnormals are flushed to zero", FE_TONEAREST, true},
+    {"rounds upwards", FE_UPWARD, false},
+    {"rounds downwards", FE_DOWNWARD, false},
+    {"rounds towards zero, flushes", FE_TOWARDZERO, true}};
+
+/// While one lives, its thread computes in the mode.
+class InMode {
+ public:
+  explicit InMode(const FloatingPointMode& mode) {
+    std::fegetenv(&before_);
+    std::fesetround(mode.rounding);
+#if defined(__SSE__)
+    if (mode.flush) _mm_setcsr(_mm_getcsr() | 0x8040);
+#endif
+  }
+  ~InMode() {
+    std::fesetenv(&before_);
+  }
+  InMode(const InMode&) = delete;
+  InMode& operator=(const InMode&) = delete;
+
+ private:
+  std::fenv_t before_{};
+};
+
+/// The mode of this thread, whatever exceptions have been raised.
+inline unsigned current_mode() {
+#if defined(__SSE__)
+  return _mm_getcsr() & ~0x3FU;
+#else
+  return static_cast<unsigned>(std::fegetround());
+#endif
+}
+
+}  // namespace fathom::testing
