@@ -44,7 +44,7 @@ HWY_INLINE void round_lanes(const CertifiedLanes& x, std::size_t first,
                             RoundedValues<float>& rounded) {
   const D d;
   const hn::Rebind<float, D> d32;
-  const V margin = hn::MulAdd(hn::Abs(x.value), constant(0x1p-51), x.error);
+  const V margin = hn::MulAdd(hn::Abs(x.value), constant(interval_widening), x.error);
   const V low = hn::Sub(x.value, margin), high = hn::Add(x.value, margin);
   const auto nearest_to_low = to_binary32(d32, low);
   const M one_sign = hn::Or(hn::Gt(low, constant(0)), hn::Lt(high, constant(0)));
@@ -62,7 +62,7 @@ HWY_INLINE void round_lanes(const CertifiedLanes& x, double scale, std::size_t f
                           constant(slack));
   const V code = hn::Round(scaled);
   const V rest = hn::Abs(hn::Sub(scaled, code));
-  const M near = hn::Lt(hn::MulAdd(rest, constant(1 + 0x1p-50), error), constant(0.5));
+  const M near = hn::Lt(hn::MulAdd(rest, constant(distance_room), error), constant(0.5));
   const M in_range = hn::And(hn::Ge(code, constant(1)), hn::Le(code, constant(65535)));
   const M settled = hn::And(near, in_range);
   HWY_ALIGN double codes[8];
@@ -98,7 +98,8 @@ HWY_ATTR void round_lanes_of_positions(const SurfaceRow& row, const Rays& world,
       const V origin = perspective ? constant_part : along;
       const V d = perspective ? along : constant_part;
       const V size = hn::MulAdd(d_size, hn::Abs(depth.value), origin_size);
-      const V error = hn::MulAdd(size, constant(6 * ulp), hn::Mul(d_size, depth.error));
+      const V error =
+          hn::MulAdd(size, constant(surface_bounds::position * ulp), hn::Mul(d_size, depth.error));
       round_lanes({hn::MulAdd(d, depth.value, origin), hn::Mul(error, constant(slack))}, first,
                   rounded[i]);
     }
@@ -113,7 +114,8 @@ HWY_INLINE CertifiedLanes times_ray_length(const CertifiedLanes& depth, V u, con
   const V y = AlongRow(ky[2].hi, ky[1].hi, ky[0].hi, row.v).at(u);
   const V length = hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, constant(1))));
   const V length_error =
-      hn::Mul(hn::Add(length, constant(6 * rays.lens_size() + 1)), constant(ulp * slack));
+      hn::Mul(hn::Add(length, constant(surface_bounds::ray_length * rays.lens_size() + 1)),
+              constant(ulp * slack));
   const V value = hn::Mul(depth.value, length);
   const V size = hn::Abs(depth.value);
   const V error = hn::MulAdd(size, length_error,

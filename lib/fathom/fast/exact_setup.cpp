@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "fathom/fast/setup.h"
+#include "fathom/fast/setup_bounds.h"
 #include "fathom/numeric/rounding.h"
 
 // Setups from exact forms: every coefficient is exact and rounded once.
@@ -51,7 +52,7 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
     setup.edge_b[i] = rounded(l[1].scaled(-scale));
     setup.edge_c[i] = rounded(c.scaled(-scale));
   }
-  setup.edge_error = 12 * unit_roundoff<double>;
+  setup.edge_error = setup_bounds::exact_edge_error;
 
   const ImageForm& numerator = perspective ? t.weight : t.depth_numerator;
   const ImageForm& denominator = perspective ? t.depth_numerator : t.weight;
@@ -65,7 +66,7 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
   setup.q_c = coefficient(numerator.at(origin_u, origin_v));
   const double S = std::abs(setup.q_c) + (std::abs(setup.q_a) + std::abs(setup.q_b)) * extent;
   if (S < 0x1p100) {
-    setup.q_error = (5 * unit_roundoff<double> * S + 0x1p-100) * (1 + 0x1p-19);
+    setup.q_error = (setup_bounds::exact_q_error * S + 0x1p-100) * setup_bounds::q_room;
   } else {
     setup.q_a = setup.q_b = setup.q_c = 0;
     setup.q_error = std::numeric_limits<double>::infinity();

@@ -8,6 +8,7 @@
 #include <bit>
 #include <limits>
 
+#include "fathom/fast/resolve_bounds.h"
 #include "fathom/fast/setup-inl.h"
 #include "fathom/fast/tile.h"
 
@@ -41,17 +42,17 @@ struct DepthInterval {
 // one, which 2⁻¹⁸ and 2⁻⁵⁰ = 8u cover.
 HWY_INLINE DepthInterval perspective_depth(V q, V error) {
   const V z = hn::Div(constant(1), q);
-  const V spread = hn::Mul(hn::Mul(z, z), hn::Mul(error, constant(1 + 0x1p-18)));
-  return {hn::MulSub(z, constant(1 - 0x1p-50), spread),
-          hn::MulAdd(z, constant(1 + 0x1p-50), spread),
-          hn::Le(error, hn::Mul(q, constant(0x1p-21)))};
+  const V spread = hn::Mul(hn::Mul(z, z), hn::Mul(error, constant(resolve_bounds::spread_room)));
+  return {hn::MulSub(z, constant(1 - resolve_bounds::end_room), spread),
+          hn::MulAdd(z, constant(1 + resolve_bounds::end_room), spread),
+          hn::Le(error, hn::Mul(q, constant(resolve_bounds::greatest_relative_error)))};
 }
 
 // D = −q: one rounding of the sum and one of the product, which 8u covers for positive numbers.
 HWY_INLINE DepthInterval orthographic_depth(V q, V error) {
   const V least = hn::Neg(hn::Add(q, error)), greatest = hn::Sub(error, q);
-  return {hn::Mul(least, constant(1 - 0x1p-50)), hn::Mul(greatest, constant(1 + 0x1p-50)),
-          hn::Gt(least, constant(0))};
+  return {hn::Mul(least, constant(1 - resolve_bounds::end_room)),
+          hn::Mul(greatest, constant(1 + resolve_bounds::end_room)), hn::Gt(least, constant(0))};
 }
 
 // If both ends of an interval that contains D round to the same number, so does D: rounding is

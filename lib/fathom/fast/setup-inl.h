@@ -23,6 +23,7 @@
 #include <hwy/highway.h>
 
 #include "fathom/fast/setup.h"
+#include "fathom/fast/setup_bounds.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
@@ -179,8 +180,9 @@ HWY_INLINE Orientation certified_orientation(const Corners& t) {
   const V size = hn::Max(greatest_magnitude(s.bu, s.bv, s.cu), hn::Abs(s.cv));
   const V d = hn::MulAdd(constant(unit_roundoff<double>), size,
                          hn::Add(t.position_error, t.position_error));
-  const V bound = hn::MulAdd(hn::MulAdd(constant(4), size, hn::Add(d, d)), d,
-                             hn::Mul(constant(5 * unit_roundoff<double>), hn::Mul(size, size)));
+  const V bound =
+      hn::MulAdd(hn::MulAdd(constant(setup_bounds::area_by_corners), size, hn::Add(d, d)), d,
+                 hn::Mul(constant(setup_bounds::area_rounding), hn::Mul(size, size)));
   const M snapped = are_snapped(t);
   const V limit = hn::IfThenZeroElse(snapped, bound);
   const V doubled_area = s.doubled_area();
@@ -200,11 +202,13 @@ HWY_INLINE M are_empty(const Boxes& box) {
 // computed coordinate, moved outwards by the corners' error and by the roundings of the subtraction
 // below and of the ½: 2u·(|coordinate| + 1) each, less than 2⁻⁵¹·(|coordinate| + 1) together.
 HWY_INLINE V first_sample(V low, V error, double least) {
-  const V margin = hn::MulAdd(hn::Add(hn::Abs(low), constant(1)), constant(0x1p-50), error);
+  const V margin =
+      hn::MulAdd(hn::Add(hn::Abs(low), constant(1)), constant(setup_bounds::box_margin), error);
   return hn::Ceil(hn::Max(hn::Sub(hn::Sub(low, margin), constant(0.5)), constant(least)));
 }
 HWY_INLINE V last_sample(V high, V error, double greatest) {
-  const V margin = hn::MulAdd(hn::Add(hn::Abs(high), constant(1)), constant(0x1p-50), error);
+  const V margin =
+      hn::MulAdd(hn::Add(hn::Abs(high), constant(1)), constant(setup_bounds::box_margin), error);
   return hn::Floor(hn::Min(hn::Sub(hn::Add(high, margin), constant(0.5)), constant(greatest)));
 }
 
@@ -222,13 +226,13 @@ HWY_INLINE Boxes sample_boxes(const Corners& t, const PixelBox& area) {
 /// Needs    usable corners.
 HWY_INLINE Boxes area_boxes(const Corners& t, const PixelBox& area) {
   const auto first = [&](V low, double least) HWY_ATTR {
-    const V margin =
-        hn::MulAdd(hn::Add(hn::Abs(low), constant(1)), constant(0x1p-50), t.position_error);
+    const V margin = hn::MulAdd(hn::Add(hn::Abs(low), constant(1)),
+                                constant(setup_bounds::box_margin), t.position_error);
     return hn::Floor(hn::Max(hn::Sub(low, margin), constant(least)));
   };
   const auto last = [&](V high, double greatest) HWY_ATTR {
-    const V margin =
-        hn::MulAdd(hn::Add(hn::Abs(high), constant(1)), constant(0x1p-50), t.position_error);
+    const V margin = hn::MulAdd(hn::Add(hn::Abs(high), constant(1)),
+                                constant(setup_bounds::box_margin), t.position_error);
     return hn::Floor(hn::Min(hn::Add(high, margin), constant(greatest)));
   };
   return {first(least_of(t.A.u, t.B.u, t.C.u), area.first_column),
@@ -298,8 +302,9 @@ HWY_INLINE Edges certified_edges(const LocalTriangles& t) {
   e.c[0] = hn::Sub(hn::Mul(t.Bu, t.Cv), hn::Mul(t.Bv, t.Cu));
   e.c[1] = hn::Sub(hn::Mul(t.Cu, t.Av), hn::Mul(t.Cv, t.Au));
   e.c[2] = hn::Sub(hn::Mul(t.Au, t.Bv), hn::Mul(t.Av, t.Bu));
-  e.error = hn::Mul(
-      hn::MulAdd(constant(8.25), t.delta, hn::Mul(constant(24 * unit_roundoff<double>), t.L)), t.L);
+  e.error = hn::Mul(hn::MulAdd(constant(setup_bounds::edge_by_corners), t.delta,
+                               hn::Mul(constant(setup_bounds::edge_rounding), t.L)),
+                    t.L);
   return e;
 }
 
@@ -349,11 +354,13 @@ HWY_INLINE Depths certified_depths(const Corners& t, const LocalTriangles& l, co
   q.b = hn::Mul(hn::MulAdd(e.b[1], dB, hn::Mul(e.b[2], dC)), inverse);
   q.c = hn::NegMulAdd(q.b, l.Av, hn::NegMulAdd(q.a, l.Au, l.qA));
   const V dq = hn::Max(hn::Abs(dB), hn::Abs(dC));
-  const V corners = hn::MulAdd(constant(4.1 * unit_roundoff<double>), hn::Abs(l.qA), t.q_error);
-  const V slope = hn::Mul(
-      hn::MulAdd(constant(72), l.delta, hn::Mul(constant(230 * unit_roundoff<double>), l.L)), l.L);
+  const V corners = hn::MulAdd(constant(setup_bounds::q_of_corner), hn::Abs(l.qA), t.q_error);
+  const V slope = hn::Mul(hn::MulAdd(constant(setup_bounds::q_by_corners), l.delta,
+                                     hn::Mul(constant(setup_bounds::q_rounding), l.L)),
+                          l.L);
   // 2⁻¹⁹: the promised room, and the roundings of this bound.
-  q.error = hn::Mul(hn::MulAdd(hn::Mul(slope, dq), inverse, corners), constant(1 + 0x1p-19));
+  q.error =
+      hn::Mul(hn::MulAdd(hn::Mul(slope, dq), inverse, corners), constant(setup_bounds::q_room));
   return q;
 }
 
@@ -379,7 +386,8 @@ HWY_INLINE void set_up_lanes(const ImageVertex* vertices, const CornerIndices* t
   const Boxes box = sample_boxes(t, area);
   const LocalTriangles l = localise(t, box);
   Edges e = certified_edges(l);
-  const M safe = hn::And(usable, hn::Ge(l.T, hn::Mul(constant(16), e.error)));
+  const M safe =
+      hn::And(usable, hn::Ge(l.T, hn::Mul(constant(setup_bounds::triangle_thinness), e.error)));
   const M snapped = have_exact_edges(t, l);
   use_top_left_rule(snapped, e);
   const Depths q = certified_depths(t, l, e);

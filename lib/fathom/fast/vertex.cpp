@@ -22,6 +22,7 @@ namespace fathom::fast {
 namespace {
 
 using vertex_bounds::affine_error;
+using vertex_bounds::missed_form;
 using vertex_bounds::underflow_floor;
 using Row = ImageRows::Row;
 
@@ -154,9 +155,9 @@ bool VertexTransform::misses_image(const std::array<MeshPoint, 3>& corners) cons
   for (const MeshPoint& X : corners) {
     const Homogeneous p = homogeneous(X);
     const auto is_negative = [&](double form, double k) {
-      return form + 1.5 * (p.error_UV + k * p.error_W + underflow_floor) < 0;
+      return form + missed_form * (p.error_UV + k * p.error_W + underflow_floor) < 0;
     };
-    behind = behind && p.W + 1.5 * (p.error_W + underflow_floor) < 0;
+    behind = behind && p.W + missed_form * (p.error_W + underflow_floor) < 0;
     left = left && is_negative(p.U, 0);
     right = right && is_negative(width_ * p.W - p.U, width_);
     above = above && is_negative(p.V, 0);

@@ -57,13 +57,13 @@ HWY_INLINE Result perspective_vertex(const ImageRows& rows, V x, V y, V z) {
   r.u = hn::Mul(U, r.q);
   r.v = hn::Mul(Vv, r.q);
   const V size = hn::Max(hn::Abs(r.u), hn::Abs(r.v));
-  const V relative = hn::Mul(constant(3 * unit_roundoff<double>), size);
+  const V relative = hn::Mul(constant(quotient_error), size);
   r.position_error = hn::MulAdd(hn::MulAdd(hn::MulAdd(size, w_error, uv_error), r.q, relative),
                                 constant(slack), constant(underflow_floor));
-  r.q_error = hn::Mul(hn::MulAdd(w_error, r.q, constant(unit_roundoff<double>)),
-                      hn::Mul(r.q, constant(slack)));
+  r.q_error =
+      hn::Mul(hn::MulAdd(w_error, r.q, constant(reciprocal_error)), hn::Mul(r.q, constant(slack)));
   r.usable = hn::And(hn::And(hn::And(hn::Ge(W, constant(least_W)), hn::Le(W, constant(greatest_W))),
-                             hn::Le(w_error, hn::Mul(W, constant(0x1p-20)))),
+                             hn::Le(w_error, hn::Mul(W, constant(greatest_relative_error_of_W)))),
                      hn::And(hn::Le(size, constant(greatest_coordinate)),
                              hn::Le(r.position_error, constant(greatest_position_error))));
   r.behind = hn::Lt(hn::MulAdd(hn::Add(w_error, constant(underflow_floor)), constant(slack), W),

@@ -16,12 +16,16 @@ namespace fathom {
 /// Magnitudes for which the bounds of the fast engine's channels are derived.
 inline constexpr double least_safe = 0x1p-100, greatest_safe = 0x1p100;
 
+/// By how much of the value an interval is widened for the rounding of its ends, and by how much a
+/// distance is for its own (validation/proofs/rounding_*.gappa.in).
+inline constexpr double interval_widening = 0x1p-51, distance_room = 1 + 0x1p-50;
+
 /// Rounding is monotone, so it is enough that both ends of the interval round to the same number.
 /// The ends are moved outwards by 2⁻⁵¹ of themselves, for their own rounding. An interval that
 /// contains 0 is not settled, unless it is the point 0.
 inline std::optional<float> to_binary32(double value, double error) {
   if (value == 0 && error == 0) return 0.0F;
-  const double margin = error + std::abs(value) * 0x1p-51;
+  const double margin = error + std::abs(value) * interval_widening;
   const double low = value - margin, high = value + margin;
   if (!(low > 0) && !(high < 0)) return std::nullopt;
   const auto rounded = static_cast<float>(low);
@@ -51,7 +55,7 @@ inline std::optional<float> to_binary32(const WordPair& x, double error) {
   if (!(size >= least_safe && size <= greatest_safe)) return std::nullopt;
   const auto candidate = static_cast<float>(x.hi);
   const double rest = (x.hi - static_cast<double>(candidate)) + x.lo;
-  if (!(std::abs(rest) * (1 + 0x1p-50) + error < half_gap(candidate))) return std::nullopt;
+  if (!(std::abs(rest) * distance_room + error < half_gap(candidate))) return std::nullopt;
   return candidate;
 }
 
@@ -59,7 +63,7 @@ inline std::optional<double> to_binary64(const WordPair& x, double error) {
   if (error == 0 && x.lo == 0) return x.hi + 0.0;
   const double size = std::abs(x.hi);
   if (!(size >= least_safe && size <= greatest_safe)) return std::nullopt;
-  if (!((std::abs(x.lo) + error) * (1 + 0x1p-50) < half_gap(x.hi))) return std::nullopt;
+  if (!((std::abs(x.lo) + error) * distance_room < half_gap(x.hi))) return std::nullopt;
   return x.hi;
 }
 
@@ -72,7 +76,7 @@ inline std::optional<std::uint16_t> to_code(const WordPair& x, double error) {
   if (fraction > 0.5 || (fraction == 0.5 && code % 2 == 1)) ++code;
   const bool is_exact = error == 0 && x.lo == 0;
   const double rest = (x.hi - code) + x.lo;
-  if (!is_exact && !(std::abs(rest) * (1 + 0x1p-50) + error < 0.5)) return std::nullopt;
+  if (!is_exact && !(std::abs(rest) * distance_room + error < 0.5)) return std::nullopt;
   if (code == 0 || code > 65535) return std::nullopt;
   return static_cast<std::uint16_t>(code);
 }

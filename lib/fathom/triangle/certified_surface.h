@@ -8,6 +8,7 @@
 #include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/double_word.h"
 #include "fathom/triangle/rays.h"
+#include "fathom/triangle/surface_bounds.h"
 
 // Depth, barycentric weights and normal of a triangle at a sample, with bounds on their errors, in
 // any arithmetic whose operations have a relative error of at most ε = epsilon<Real>: binary64 and
@@ -158,9 +159,11 @@ DepthForms<Real> depth_forms(const MeshTriangle& corners, const Rays& rays,
   }
   const double part = nm_size[0] * image.u + nm_size[1] * image.v;
   if (image.perspective) {
-    return {{nm[0], nm[1], nm[2], 12 * e * (part + nm_size[2])}, {nt, 9 * e * nt_size}};
+    return {{nm[0], nm[1], nm[2], surface_bounds::form * e * (part + nm_size[2])},
+            {nt, surface_bounds::constant_form * e * nt_size}};
   }
-  return {{-nm[0], -nm[1], nt, 12 * e * (part + nt_size)}, {nm[2], 9 * e * nm_size[2]}};
+  return {{-nm[0], -nm[1], nt, surface_bounds::form * e * (part + nt_size)},
+          {nm[2], surface_bounds::constant_form * e * nm_size[2]}};
 }
 
 /// The weights of B and C: weights[0](s)/divisor(s), weights[1](s)/divisor(s).
@@ -181,7 +184,8 @@ Form<Real> form_along(const Vector<Real>& g, const Vector<double>& g_size, const
   const auto along = [&](std::size_t j) { return dot(g, entries<Real>(rays.columns[j])); };
   const auto size = [&](std::size_t j) { return dot(g_size, rays.sizes[j]); };
   return {along(0), along(1), along(2),
-          12 * epsilon<Real> * slack * (size(0) * image.u + size(1) * image.v + size(2))};
+          surface_bounds::form * epsilon<Real> * slack *
+              (size(0) * image.u + size(1) * image.v + size(2))};
 }
 
 /// The form y·(t − u·m₀ − v·m₁).
@@ -190,9 +194,9 @@ Form<Real> form_across(const Vector<Real>& y, const Vector<double>& y_size, cons
                        const Vector<double>& t_size, const Rays& rays, const ImageBounds& image) {
   const auto along = [&](std::size_t j) { return dot(y, entries<Real>(rays.columns[j])); };
   const auto size = [&](std::size_t j) { return dot(y_size, rays.sizes[j]); };
-  return {
-      -along(0), -along(1), dot(y, t),
-      12 * epsilon<Real> * slack * (size(0) * image.u + size(1) * image.v + dot(y_size, t_size))};
+  return {-along(0), -along(1), dot(y, t),
+          surface_bounds::form * epsilon<Real> * slack *
+              (size(0) * image.u + size(1) * image.v + dot(y_size, t_size))};
 }
 
 /// Perspective: d·(r × t) with d varying. Orthographic: d = m₂ and t varies, and d·(r × t) =
@@ -217,10 +221,10 @@ WeightForms<Real> weight_forms(const MeshTriangle& corners, const Rays& rays,
   const auto across = [&](const Vector<Real>& y, const Vector<double>& size) {
     return form_across(y, size, t, t_size, rays, image);
   };
-  return {
-      {across(cross(d, edges.r), cross_size(d_size, edges.r_size)),
-       across(cross(edges.p, d), cross_size(edges.p_size, d_size))},
-      {Real{}, Real{}, dot(edges.n, d), 12 * epsilon<Real> * slack * dot(edges.n_size, d_size)}};
+  return {{across(cross(d, edges.r), cross_size(d_size, edges.r_size)),
+           across(cross(edges.p, d), cross_size(edges.p_size, d_size))},
+          {Real{}, Real{}, dot(edges.n, d),
+           surface_bounds::form * epsilon<Real> * slack * dot(edges.n_size, d_size)}};
 }
 
 /// Origin and direction of the ray of a sample. One of them varies over the image, as
@@ -285,7 +289,7 @@ struct WorldNormal {
   /// Errors are at most 4ε (placed as is) or 8ε (a dot product of cofactors, exact entries rounded
   /// once, with the mesh's n) times this.
   Vector<double> size;
-  double factor = 4;
+  double factor = surface_bounds::normal;
 };
 
 template <class Real>
@@ -305,7 +309,7 @@ WorldNormal<Real> world_normal(const MeshTriangle& corners, const ObjectRays& ob
     placed.n[i] = dot(entries<Real>(object.normal_matrix[i]), mesh.n);
     placed.size[i] = dot(object.normal_sizes[i], mesh.size);
   }
-  placed.factor = 8;
+  placed.factor = surface_bounds::placed_normal;
   return placed;
 }
 
@@ -334,14 +338,15 @@ Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRay
   const Vector<Real> d = ray_at<Real>(world.rays, image.perspective, s).direction;
   const Vector<double> d_size = RaySizes(world.rays, image).direction;
   const double nd = nearest(dot(normal.n, d));
-  if (!(std::abs(nd) > 15 * e * dot(normal.size, d_size))) return result;
+  if (!(std::abs(nd) > surface_bounds::turn * e * dot(normal.size, d_size))) return result;
 
   const double greatest = std::max({normal.size[0], normal.size[1], normal.size[2]});
   if (!(greatest >= 0x1p-250 && greatest <= 0x1p450)) return result;  // squares stay in range
   Vector<double> error;
   for (std::size_t i = 0; i < 3; ++i) error[i] = normal.factor * e * normal.size[i];
   const Real length = square_root(dot(normal.n, normal.n));
-  const double length_error = (error[0] + error[1] + error[2]) + 3 * e * std::abs(nearest(length));
+  const double length_error =
+      (error[0] + error[1] + error[2]) + surface_bounds::length * e * std::abs(nearest(length));
   for (std::size_t i = 0; i < 3; ++i) {
     const Real turned = nd > 0 ? -normal.n[i] : normal.n[i];
     result[i] = quotient<Real>({turned, error[i]}, {length, length_error});

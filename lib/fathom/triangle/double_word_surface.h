@@ -14,7 +14,10 @@ Certified<Real> ray_length(const SceneRays& rays, const ImagePoint& s) {
   };
   const Real x = coordinate(rays.lens()[0]), y = coordinate(rays.lens()[1]);
   const Real length = square_root((x * x + y * y) + Real(1.0));
-  return {length, epsilon<Real> * (6 * rays.lens_size() + 1 + std::abs(nearest(length))) * slack};
+  return {length,
+          epsilon<Real> *
+              (surface_bounds::ray_length * rays.lens_size() + 1 + std::abs(nearest(length))) *
+              slack};
 }
 
 /// The point of depth D on the ray of a sample, o + d·D. o and d err by 4ε of their sizes ō and d̄,
@@ -27,8 +30,10 @@ Vector<Certified<Real>> position(const Rays& rays, const RaySizes& sizes, bool p
   Vector<Certified<Real>> point;
   for (std::size_t i = 0; i < 3; ++i) {
     const double size = sizes.origin[i] + sizes.direction[i] * D_size;
-    point[i] = {ray.origin[i] + ray.direction[i] * depth.value,
-                (6 * epsilon<Real> * size + sizes.direction[i] * depth.error) * slack};
+    point[i] = {
+        ray.origin[i] + ray.direction[i] * depth.value,
+        (surface_bounds::position * epsilon<Real> * size + sizes.direction[i] * depth.error) *
+            slack};
   }
   return point;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/fast/setup_bounds.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom::fast {
@@ -59,8 +60,9 @@ TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_
     L = std::max({L, std::abs(p[k].x), std::abs(p[k].y)});
     e = std::max(e, vertex.position_error());
   }
-  const double error =
-      (8.25 * (e + unit_roundoff<double> * L) + 34 * unit_roundoff<double> * L) * L;
+  const double error = (setup_bounds::edge_by_corners * (e + unit_roundoff<double> * L) +
+                        setup_bounds::shape_rounding * L) *
+                       L;
   if (classes_[i].kind == CoverageClass::negative) std::swap(p[1], p[2]);
   Shape shape{.triangle = static_cast<std::uint32_t>(i), .is_open = false, .sides = {}};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -79,7 +81,7 @@ TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context
       exact_setup(context.referee.projected(numbers_[i]), context.perspective, area_);
   Shape shape{.triangle = static_cast<std::uint32_t>(i), .is_open = true, .sides = {}};
   const auto add = [&](double a, double b, double c, double error) {
-    shape.add(a, b, c - (a + b) / 2, 1.5 * error);
+    shape.add(a, b, c - (a + b) / 2, setup_bounds::shape_share * error);
   };
   for (std::size_t k = 0; k < 3; ++k) add(s.edge_a[k], s.edge_b[k], s.edge_c[k], s.edge_error);
   const DepthRange& range = context.range;

@@ -1,0 +1,13 @@
+#pragma once
+
+// Constants of the interval of D at a sample (resolve.cpp). validation/proofs/depth_*.gappa.in
+// proves each.
+namespace fathom::fast::resolve_bounds {
+
+/// Relative room for the roundings of the ends of the interval, and of what spreads it.
+inline constexpr double end_room = 0x1p-50;
+inline constexpr double spread_room = 1 + 0x1p-18;
+/// The greatest error of q, relative to q, for which 1/q has an interval.
+inline constexpr double greatest_relative_error = 0x1p-21;
+
+}  // namespace fathom::fast::resolve_bounds

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "fathom/numeric/unit_roundoff.h"
+
+// Constants of the bounds of triangles; their derivations are where they are used (setup-inl.h,
+// exact_setup.cpp). validation/proofs/ proves each, in the file that is named beside it.
+namespace fathom::fast::setup_bounds {
+
+// Names as in setup-inl.h: d, M, δ, L, T, dq.
+
+/// certified_orientation(): 4dM + 2d² + 5uM² (orientation). 2⁻⁴⁰ covers the roundings of the bound
+/// itself, which the last term does not where d is above M/30.
+inline constexpr double area_by_corners = 4 + 0x1p-40;
+inline constexpr double area_rounding = 5 * unit_roundoff<double>;
+
+/// first_sample(): of |coordinate| + 1 (box).
+inline constexpr double box_margin = 0x1p-50;
+
+/// certified_edges(): 8.25δL + 24uL² (edges).
+inline constexpr double edge_by_corners = 8.25;
+inline constexpr double edge_rounding = 24 * unit_roundoff<double>;
+
+/// certified_depths(): (72δL + 230uL²)·dq/T + 4.1u|q_A|, where T is at least so many times the
+/// bound on edge functions (q_gradient, q_area, q_bound); q_room gives users 2⁻²⁰ of it (q_room).
+inline constexpr double triangle_thinness = 16;
+inline constexpr double q_by_corners = 72;
+inline constexpr double q_rounding = 230 * unit_roundoff<double>;
+inline constexpr double q_of_corner = 4.1 * unit_roundoff<double>;
+inline constexpr double q_room = 1 + 0x1p-19;
+
+/// exact_setup() (exact_edges, exact_q).
+inline constexpr double exact_edge_error = 12 * unit_roundoff<double>;
+inline constexpr double exact_q_error = 5 * unit_roundoff<double>;
+
+/// TileCoverage::exact_shape(): so many times the bounds of exact_setup() (shape_edges).
+inline constexpr double shape_share = 1.5;
+/// TileCoverage::shape_of(): edge_rounding, and what moving by half a pixel adds (shape_of).
+inline constexpr double shape_rounding = 34 * unit_roundoff<double>;
+
+}  // namespace fathom::fast::setup_bounds

@@ -1,0 +1,52 @@
+// Prints the constants of the error bounds, one "NAME VALUE" in each line, exactly: what check-proofs proves with.
+#include <cstdio>
+
+#include "fathom/fast/resolve_bounds.h"
+#include "fathom/fast/setup_bounds.h"
+#include "fathom/fast/vertex_bounds.h"
+#include "fathom/numeric/certified_rounding.h"
+#include "fathom/numeric/certified_value.h"
+#include "fathom/triangle/surface_bounds.h"
+
+int main() {
+  using namespace fathom;
+  const auto print = [](const char* name, double value) { std::printf("%s %a\n", name, value); };
+  print("affine_error", fast::vertex_bounds::affine_error);
+  print("quotient_error", fast::vertex_bounds::quotient_error);
+  print("reciprocal_error", fast::vertex_bounds::reciprocal_error);
+  print("greatest_relative_error_of_W", fast::vertex_bounds::greatest_relative_error_of_W);
+  print("missed_form", fast::vertex_bounds::missed_form);
+  print("vertex_slack", fast::vertex_bounds::slack);
+
+  print("area_by_corners", fast::setup_bounds::area_by_corners);
+  print("area_rounding", fast::setup_bounds::area_rounding);
+  print("box_margin", fast::setup_bounds::box_margin);
+  print("edge_by_corners", fast::setup_bounds::edge_by_corners);
+  print("edge_rounding", fast::setup_bounds::edge_rounding);
+  print("triangle_thinness", fast::setup_bounds::triangle_thinness);
+  print("q_by_corners", fast::setup_bounds::q_by_corners);
+  print("q_rounding", fast::setup_bounds::q_rounding);
+  print("q_of_corner", fast::setup_bounds::q_of_corner);
+  print("q_room", fast::setup_bounds::q_room);
+  print("exact_edge_error", fast::setup_bounds::exact_edge_error);
+  print("exact_q_error", fast::setup_bounds::exact_q_error);
+  print("shape_share", fast::setup_bounds::shape_share);
+  print("shape_rounding", fast::setup_bounds::shape_rounding);
+
+  print("end_room", fast::resolve_bounds::end_room);
+  print("spread_room", fast::resolve_bounds::spread_room);
+  print("greatest_relative_error_of_q", fast::resolve_bounds::greatest_relative_error);
+
+  print("interval_widening", interval_widening);
+  print("distance_room", distance_room);
+  print("slack", slack);
+
+  print("normal", triangle::surface_bounds::normal);
+  print("placed_normal", triangle::surface_bounds::placed_normal);
+  print("constant_form", triangle::surface_bounds::constant_form);
+  print("form", triangle::surface_bounds::form);
+  print("turn", triangle::surface_bounds::turn);
+  print("length", triangle::surface_bounds::length);
+  print("position", triangle::surface_bounds::position);
+  print("ray_length", triangle::surface_bounds::ray_length);
+}
