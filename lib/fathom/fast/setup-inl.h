@@ -173,7 +173,9 @@ struct Orientation {
 
 // Let M be the greatest magnitude of the differences of coordinates; each differs from the exact
 // one by at most d = 2e + uM. A difference of two products of such differences then errs by at most
-// 4dM + 2d² for its factors and 2uM² + 2uM²(1 + u) ≤ 4.01uM² for its roundings.
+// 4dM + 2d² for its factors and 2uM² + 2uM²(1 + u) ≤ 4.01uM² for its roundings. The bound itself
+// is computed with a relative error of up to 8u: area_by_corners covers it up to d = M, and beyond
+// it no computed area exceeds the bound.
 // On the grid of snap_step differences and products are exact (2·16 + 16 bits), and so is the sign.
 HWY_INLINE Orientation certified_orientation(const Corners& t) {
   const Sides s = sides_of(t);
@@ -338,14 +340,14 @@ struct Depths {
 // same function for the corners p̂, q̂ (certified_edges), in real arithmetic, T' its area. At a
 // covered sample 0 ≤ β, γ, β + γ ≤ 1, so
 //   |q − F| ≤ e_q + (|β − β'| + |γ − γ'|)·dq,  dq = max(|q̂_B − q̂_A|, |q̂_C − q̂_A|),
-//   |β − β'| = |(E_B − E_B')/T' + β(T' − T)/T'| ≤ 4η/T' (T is the sum of three edge functions),
-// together e_q + 8η·dq/T' ≤ e_q + 64.1δL·dq/T'.
-// Rounding of F, in units of uL²·dq/T': the numerators of the gradient a_B·dB + a_C·dC err by 16.1
-// each over |s − A| ≤ 2L: 64.2; 1/T̂ and the product, 2.01u·|gradient|·2L: 32.2; T̂ itself by
-// 32.1uL², which scales F − q̂_A ≤ 1.55dq: 50.3; c: 20.3 and 2u|q_A|; the evaluation: 36.6 and
-// 2u|q_A|. Together 203.6, and 4.1u|q_A|.
-// The condition T̂ ≥ 16·(8.25δL + 24uL²) gives T' ≥ 0.91·T̂, so that 1.1/T̂ ≥ 1/T', and
-// η/T' ≤ 0.069, so that |β'| + |γ'| ≤ 1.55 as used above. 1.1·64.1 ≤ 72, 1.1·203.6 ≤ 230.
+//   |β − β'| = |(E_B − E_B')/T' + β(T' − T)/T'| ≤ (η + 3ηβ)/T' (T is the sum of three edge
+// functions), together e_q + 5η·dq/T' ≤ e_q + 40.1δL·dq/T'.
+// Rounding, in units of uL²·dq/T̂: T̂ errs by 32.1uL², which scales F − q̂_A by 32.1(1 + 5η/T'). For
+// the real gradients over T̂: their computed numerators err by 16 each over |s − A| ≤ 2L, together
+// 64; 1/T̂ and the product by 2u·|gradient|·2L: 32; c: 20 and 2u|q_A|; the evaluation: 36 and
+// 2u|q_A|: 152.1, and 4.1u|q_A|.
+// The condition T̂ ≥ 16·(8.25δL + 24uL²) gives T' ≥ 0.93·T̂, so 1.07·40.1 and 152.1 + 34.3·1.05 are
+// enough; 72 and 230 are used.
 HWY_INLINE Depths certified_depths(const Corners& t, const LocalTriangles& l, const Edges& e) {
   const V inverse = hn::Div(constant(1), l.T);
   const V dB = hn::Sub(l.qB, l.qA), dC = hn::Sub(l.qC, l.qA);

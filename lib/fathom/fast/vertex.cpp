@@ -148,7 +148,8 @@ VertexTransform::Homogeneous VertexTransform::homogeneous(const MeshPoint& X) co
 // V, which are positive at every sample; wW − U and hW − V, which are too. With k = 0, w or h, the
 // computed form kŴ − Û errs by at most E_UV + k·E_W and by roundings of k·Ŵ and of the difference,
 // at most u(|Û| + 2k|Ŵ|)(1 + u), which is less than (E_UV + 2k·E_W)/5, as |Û| ≤ E_UV/(6u)·(1 + 2⁻⁵⁰)
-// and likewise for Ŵ. 1.5 is used. Where something overflows, the comparison is false.
+// and likewise for Ŵ: together 1.2·E_UV + 1.4k·E_W. 1.5 is used, for the roundings of the bound as
+// well; that of the last sum does not change its sign. Where something overflows, the comparison is false.
 bool VertexTransform::misses_image(const std::array<MeshPoint, 3>& corners) const {
   if (!usable_) return false;
   bool behind = true, left = true, right = true, above = true, below = true;

@@ -74,8 +74,9 @@ TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_
 
 // The functions of exact_setup() are relative to the sample of the tile's first pixel, half a pixel
 // from its corner: c moves by (a + b)/2. Their bounds hold for any point up to 8 pixels beyond the
-// tile. Two more roundings, of c and of what meet() and add_to_union() add, are below u·S each,
-// which the additional half of a bound covers. Ends of the range are known up to the next number.
+// tile. The additional half of a bound covers the further roundings: of c, of half a pixel's change
+// that meet() subtracts, and of what add_to_union() adds (validation/proofs/shape_edges.gappa.in).
+// Ends of the range are known up to the next number.
 TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context& context) const {
   const TriangleSetup s =
       exact_setup(context.referee.projected(numbers_[i]), context.perspective, area_);
