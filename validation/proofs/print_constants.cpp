@@ -6,6 +6,7 @@
 #include "fathom/fast/vertex_bounds.h"
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/certified_value.h"
+#include "fathom/numeric/double_word.h"
 #include "fathom/triangle/surface_bounds.h"
 
 int main() {
@@ -40,6 +41,7 @@ int main() {
   print("interval_widening", interval_widening);
   print("distance_room", distance_room);
   print("slack", slack);
+  print("root_error", root_error);
 
   print("normal", triangle::surface_bounds::normal);
   print("placed_normal", triangle::surface_bounds::placed_normal);
