@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/double_word.h"
@@ -37,6 +38,11 @@ class Share {
   template <class Real>
   void add(const Certified<Real>& x, const Ratio& exact) {
     if (std::isfinite(x.error)) add(exactly(x.value), exact, x.error);
+  }
+  /// The greatest share; also written into the test's report (--gtest_output=json), by this name.
+  double publish(const char* name) const {
+    ::testing::Test::RecordProperty(name, std::to_string(greatest_));
+    return greatest_;
   }
   [[nodiscard]] double greatest() const { return greatest_; }
   [[nodiscard]] int count() const { return count_; }

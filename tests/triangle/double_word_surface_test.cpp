@@ -222,16 +222,16 @@ struct Tightness {
 
 void expect_tight(const Shares& shares, const Tightness& least, bool perspective) {
   if (testing::effort > 1) return;
-  EXPECT_GT(shares.varying.greatest(), least.varying);
-  EXPECT_GT(shares.constant.greatest(), least.constant);
-  EXPECT_GT(shares.edges.greatest(), least.edges);
-  EXPECT_GT(shares.depth.greatest(), least.depth);
+  EXPECT_GT(shares.varying.publish("varying"), least.varying);
+  EXPECT_GT(shares.constant.publish("constant"), least.constant);
+  EXPECT_GT(shares.edges.publish("edges"), least.edges);
+  EXPECT_GT(shares.depth.publish("depth"), least.depth);
   if (perspective) {
-    EXPECT_GT(shares.distance.greatest(), least.distance);
+    EXPECT_GT(shares.distance.publish("distance"), least.distance);
   }
-  EXPECT_GT(shares.position.greatest(), least.position);
-  EXPECT_GT(shares.weights.greatest(), least.weights);
-  EXPECT_GT(shares.normal.greatest(), least.normal);
+  EXPECT_GT(shares.position.publish("position"), least.position);
+  EXPECT_GT(shares.weights.publish("weights"), least.weights);
+  EXPECT_GT(shares.normal.publish("normal"), least.normal);
 }
 
 /// ε is 16u², while an operation mostly errs by less than u²: the bounds are loose by design here,

@@ -1,6 +1,7 @@
 // Prints the constants of the error bounds, one "NAME VALUE" in each line, exactly: what check-proofs proves with.
 #include <cstdio>
 
+#include "fathom/fast/coverage/area_bounds.h"
 #include "fathom/fast/resolve_bounds.h"
 #include "fathom/fast/setup_bounds.h"
 #include "fathom/fast/vertex_bounds.h"
@@ -33,6 +34,12 @@ int main() {
   print("exact_q_error", fast::setup_bounds::exact_q_error);
   print("shape_share", fast::setup_bounds::shape_share);
   print("shape_rounding", fast::setup_bounds::shape_rounding);
+
+  print("crossing_error", fast::area_bounds::crossing_error);
+  print("moved_edge", fast::area_bounds::moved_edge);
+  print("moved_triangle", fast::area_bounds::moved_triangle);
+  print("cut_error", fast::area_bounds::cut_error);
+  print("cut_rounding", fast::area_bounds::cut_rounding);
 
   print("end_room", fast::resolve_bounds::end_room);
   print("spread_room", fast::resolve_bounds::spread_room);

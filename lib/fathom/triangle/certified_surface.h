@@ -40,7 +40,8 @@
 // Nothing underflows: coordinates and leading parts of entries are 0 or between 2⁻¹⁰⁰ and 2¹⁰⁰, so
 // coordinates are multiples of 2⁻¹⁵², entries, whose second words are not below 2⁻²¹⁰, of 2⁻²⁶²,
 // and a multiple of a power of two remains one when it is rounded: every intermediate result above,
-// and every error of one, is a multiple of 2⁻⁶⁷⁶. Nor does anything overflow: (2¹⁰¹)⁴·2⁴⁰ < 2⁵⁰⁰.
+// and every error of one, is a multiple of 2⁻⁶⁷⁷
+// (samples lie at halves). Nor does anything overflow: (2¹⁰¹)⁴·2⁴⁰ < 2⁵⁰⁰.
 namespace fathom::triangle {
 
 /// c + b·v + a·u; its computed and exact values differ by at most `error` at every sample.

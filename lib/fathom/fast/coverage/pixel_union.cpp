@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/fast/coverage/area_bounds.h"
 #include "fathom/fast/vertex.h"
 
 namespace fathom::fast {
@@ -82,7 +83,8 @@ void ClippedSquare::clip(const UncertainHalfPlane& h) {
     return;
   }
   const double slope = std::max(std::abs(h.a), std::abs(h.b));
-  area_error_ += slope > 0 ? 8 * h.error / slope + 64 * unit_roundoff<double> : 1;
+  area_error_ +=
+      slope > 0 ? area_bounds::cut_error * h.error / slope + area_bounds::cut_rounding : 1;
   std::array<SquarePoint, most> kept{};
   std::size_t kept_count = 0;
   for (std::size_t i = 0; i < count_; ++i) {

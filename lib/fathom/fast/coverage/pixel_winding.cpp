@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fathom/fast/coverage/area_bounds.h"
 #include "fathom/fast/vertex.h"
 
 // Let the corners of all triangles go straight from their exact to their computed places, by at
@@ -24,7 +25,7 @@ void PixelWinding::clear() {
 // With x to the right and y downwards, a triangle of positive area lies to the left of its edges
 // that go down and to the right of those that go up.
 void PixelWinding::add(const SquarePoint& from, const SquarePoint& to, double position_error) {
-  error_ += 4.1 * position_error;
+  error_ += area_bounds::moved_edge * position_error;
   edges_.add(from, to, from.y < to.y ? -1 : 1);
 }
 

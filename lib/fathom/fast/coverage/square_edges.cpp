@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/fast/coverage/area_bounds.h"
 #include "fathom/fast/vertex.h"
 
 namespace fathom::fast {
@@ -67,7 +68,7 @@ void SquareEdges::cut(bool tags_apart) {
 }
 
 double SquareEdges::error_of(std::size_t crossings) const {
-  const double xi = 16 * unit_roundoff<double> * extent_;
+  const double xi = area_bounds::crossing_error * extent_;
   return 10 * static_cast<double>(crossings + 2) * xi +
          32 * unit_roundoff<double> * static_cast<double>(breaks_.size());
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/fast/coverage/area_bounds.h"
 #include "fathom/fast/setup_bounds.h"
 #include "fathom/numeric/rounding.h"
 
@@ -254,7 +255,7 @@ void TileCoverage::add_to_union(const Shape& shape, std::uint32_t x, std::uint32
     extent = std::max({extent, std::abs(p[k].x), std::abs(p[k].y)});
     e = std::max(e, vertex.position_error());
   }
-  union_.add(p, 16 * (e + unit_roundoff<double> * extent));
+  union_.add(p, area_bounds::moved_triangle * (e + unit_roundoff<double> * extent));
 }
 
 float TileCoverage::settle(std::uint32_t pixel, const Tile::Context& context) {

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "fathom/numeric/unit_roundoff.h"
+
+// Constants of the bounds on areas; their derivations are where they are used.
+// validation/proofs/area_*.gappa.in proves each.
+namespace fathom::fast::area_bounds {
+
+/// x of an edge at a height, in units of its greatest |x| (square_edges.h).
+inline constexpr double crossing_error = 16 * unit_roundoff<double>;
+/// What moving the ends of an edge, or the corners of a triangle, by ε does to an area, over ε.
+inline constexpr double moved_edge = 4.1, moved_triangle = 16;
+/// A cut by a line: error/max(|a|, |b|), and its own roundings (pixel_union.cpp).
+inline constexpr double cut_error = 8, cut_rounding = 64 * unit_roundoff<double>;
+
+}  // namespace fathom::fast::area_bounds
