@@ -33,6 +33,7 @@ int main() {
   print("exact_edge_error", fast::setup_bounds::exact_edge_error);
   print("exact_q_error", fast::setup_bounds::exact_q_error);
   print("shape_share", fast::setup_bounds::shape_share);
+  print("range_end_rounding", fast::setup_bounds::range_end_rounding);
   print("shape_rounding", fast::setup_bounds::shape_rounding);
 
   print("crossing_error", fast::area_bounds::crossing_error);

@@ -34,6 +34,8 @@ inline constexpr double exact_q_error = 5 * unit_roundoff<double>;
 
 /// TileCoverage::exact_shape(): so many times the bounds of exact_setup() (shape_edges).
 inline constexpr double shape_share = 1.5;
+/// The same, of an end of the range of depths (shape_q).
+inline constexpr double range_end_rounding = 4 * unit_roundoff<double>;
 /// TileCoverage::shape_of(): edge_rounding, and what moving by half a pixel adds (shape_of).
 inline constexpr double shape_rounding = 34 * unit_roundoff<double>;
 

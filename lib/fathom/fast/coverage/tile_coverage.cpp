@@ -77,7 +77,8 @@ TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_
 // from its corner: c moves by (a + b)/2. Their bounds hold for any point up to 8 pixels beyond the
 // tile. The additional half of a bound covers the further roundings: of c, of half a pixel's change
 // that meet() subtracts, and of what add_to_union() adds (validation/proofs/shape_edges.gappa.in).
-// Ends of the range are known up to the next number.
+// Ends of the range are known up to the next number; their part of a sum is rounded five times,
+// which range_end_rounding covers (shape_q.gappa.in).
 TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context& context) const {
   const TriangleSetup s =
       exact_setup(context.referee.projected(numbers_[i]), context.perspective, area_);
@@ -91,12 +92,14 @@ TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context
   if (range.inside_greatest < infinity) {
     const double doubt = std::abs(range.outside_greatest - range.inside_greatest);
     add(-s.q_a, -s.q_b, range.inside_greatest - s.q_c,
-        2 * s.q_error + 2 * doubt + 2 * unit_roundoff<double> * std::abs(range.inside_greatest));
+        2 * s.q_error + 2 * doubt +
+            setup_bounds::range_end_rounding * std::abs(range.inside_greatest));
   }
   if (range.inside_least > -infinity) {
     const double doubt = std::abs(range.inside_least - range.outside_least);
     add(s.q_a, s.q_b, s.q_c - range.inside_least,
-        2 * s.q_error + 2 * doubt + 2 * unit_roundoff<double> * std::abs(range.inside_least));
+        2 * s.q_error + 2 * doubt +
+            setup_bounds::range_end_rounding * std::abs(range.inside_least));
   }
   return shape;
 }
