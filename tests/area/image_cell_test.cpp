@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fathom/area/cell_coverage.h"
 #include "fathom/triangle/sampling.h"
 #include "tests/area/surfaces.h"
 #include "tests/effort.h"
@@ -138,9 +139,10 @@ TEST(ImageCell, SignsAreThoseOfTheWholePart) {
   EXPECT_EQ(sign(1, 1, -4.75), Sign::positive);  // least value 0.25
   EXPECT_EQ(sign(1, 0, -3.5), Sign::negative);
   EXPECT_EQ(sign(1, 0, -2.5), std::nullopt);  // u = 2.5 divides the pixel
-  const auto& [left, right] = pixel.halves(pixel.all());
-  EXPECT_EQ(left.part.sign_of(ImageForm({1.0, 0.0, -2.75})), Sign::negative);
-  EXPECT_EQ(right.part.sign_of(ImageForm({1.0, 0.0, -2.25})), Sign::positive);
+  const auto halves = pixel.halves(pixel.all());
+  ASSERT_EQ(halves.size(), 2U);
+  EXPECT_EQ(halves[0].part.sign_of(ImageForm({1.0, 0.0, -2.75})), Sign::negative);
+  EXPECT_EQ(halves[1].part.sign_of(ImageForm({1.0, 0.0, -2.25})), Sign::positive);
 }
 
 TEST(CellCoverage, IsCompleteOnceOneCoversAll) {

@@ -1,12 +1,17 @@
 // Scenes from families that are each hard for a reason of their own: the fast engine against the
 // reference engine, and both against rays cast in rational numbers. Each scene is rendered with one
 // combination, drawn at random, of outputs, vector instructions, threads and floating-point mode.
+// Every 32nd scene also has its deep map, mattes and visible areas compared with rational areas.
 //   FATHOM_ADVERSARIES    scenes of each family (default 900; scripts/check-long has more)
 //   FATHOM_FIRST_SEED     of the first scene of each family (default 0)
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <map>
+#include <span>
 
+#include "fathom/area/deep_pixels.h"
+#include "fathom/area/visible_areas.h"
 #include "fathom/numeric/errors.h"
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
@@ -14,6 +19,7 @@
 #include "tests/inputs/adversarial_scenes.h"
 #include "tests/inputs/floating_point_modes.h"
 #include "tests/oracle/against_oracle.h"
+#include "tests/oracle/mpfr_rounding.h"
 
 namespace fathom {
 namespace {
@@ -111,6 +117,58 @@ int expect_as_rays(const Case& c) {
   return seen;
 }
 
+std::uint32_t matte_of(std::uint32_t triangle) {
+  return triangle % 3;
+}
+
+/// The areas of visible surfaces in a pixel against the oracle's.
+void expect_pixel_areas(std::map<std::uint32_t, oracle::Q> expected,
+                        std::span<const DeepSample> samples, std::span<const MatteShare> shares) {
+  std::map<std::uint32_t, oracle::Q> mattes;
+  for (const auto& [number, area] : expected) mattes[matte_of(number)] += area;
+  for (const DeepSample& sample : samples) {
+    EXPECT_EQ(sample.area, testing::nearest_float(expected[sample.id])) << "triangle " << sample.id;
+    expected.erase(sample.id);
+  }
+  for (const auto& [number, area] : expected) EXPECT_EQ(area, 0) << "triangle " << number;
+  for (const MatteShare& share : shares) {
+    EXPECT_EQ(share.coverage, testing::nearest_float(mattes[share.id])) << "matte " << share.id;
+    mattes.erase(share.id);
+  }
+  for (const auto& [id, area] : mattes) EXPECT_EQ(area, 0) << "matte " << id;
+}
+
+/// Deep maps, mattes and visible areas.
+void expect_areas(const Case& c, const Combination& how) {
+  RenderOptions options;
+  options.threads = how.options.threads;
+  const TriangleSource triangles(c.scene);
+  std::optional<testing::InMode> mode;
+  if (how.mode) mode.emplace(*how.mode);
+  const DeepMap deep = area::visible_in_pixels(triangles, c.camera, options);
+  const Mattes mattes = area::mattes_in_pixels(triangles, c.camera, options, matte_of);
+  const VisibleAreas visible = visible_areas(triangles, c.camera, options);
+  mode.reset();
+  const oracle::Areas areas = testing::areas_at(c.scene, c.camera);
+  std::vector<oracle::Q> sums(triangles.count());
+  std::size_t sample = 0, share = 0;
+  for (std::size_t pixel = 0; pixel < deep.counts.size(); ++pixel) {
+    SCOPED_TRACE("pixel " + std::to_string(pixel));
+    const std::size_t width = c.camera.width;
+    const auto expected =
+        areas.visible(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
+    for (const auto& [number, area] : expected) sums[number] += area;
+    expect_pixel_areas(expected, std::span(deep.samples).subspan(sample, deep.counts[pixel]),
+                       std::span(mattes.shares).subspan(share, mattes.counts[pixel]));
+    sample += deep.counts[pixel];
+    share += mattes.counts[pixel];
+  }
+  for (std::size_t t = 0; t < sums.size(); ++t) {
+    EXPECT_EQ(visible.triangles[t].visible, oracle::quotient(oracle::binary64, sums[t].get_mpq_t()))
+        << "triangle " << t;
+  }
+}
+
 class Adversaries : public ::testing::TestWithParam<Family> {};
 
 TEST_P(Adversaries, AreRenderedExactly) {
@@ -122,8 +180,10 @@ TEST_P(Adversaries, AreRenderedExactly) {
     SCOPED_TRACE("FATHOM_FIRST_SEED=" + std::to_string(seed));
     const Case c = testing::adversarial_case(GetParam(), seed);
     std::mt19937_64 random(seed ^ 0x9E3779B97F4A7C15);
-    expect_same(c, combination(random));
+    const Combination how = combination(random);
+    expect_same(c, how);
     if (seed % 8 == 0) seen += expect_as_rays(c);
+    if (seed % 32 == 0) expect_areas(c, how);
   }
   if (count >= 100) {
     EXPECT_GT(seen, static_cast<int>(count / 20));

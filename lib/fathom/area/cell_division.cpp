@@ -17,20 +17,53 @@ class DividedPolygons {
   [[nodiscard]] std::size_t size() const { return polygons_.size(); }
   [[nodiscard]] std::span<const ConvexPolygon> polygons() const { return polygons_; }
 
-  [[nodiscard]] std::array<DividedPolygons, 2> halves() const {
-    const std::array<ImageCell::Half, 2> parts = cell_->halves(part_);
-    const auto half = [&](const ImageCell::Half& its) {
-      DividedPolygons result(*cell_, its.part, *counts_);
-      for (const ConvexPolygon& polygon : polygons_) {
-        if (result.complete_) break;
-        if (auto piece = in_half(polygon, its, *counts_)) result.add(std::move(*piece));
-      }
-      return result;
-    };
-    return {half(parts[0]), half(parts[1])};
+  [[nodiscard]] std::vector<DividedPolygons> halves() const {
+    return divided(cell_->halves(part_));
+  }
+
+  /// Along an edge of the largest polygon.
+  std::vector<DividedPolygons> halves_along_edge() {
+    merge_lines();
+    const HalfPlane* edge = nullptr;
+    double greatest = -1;
+    for (const ConvexPolygon& polygon : polygons_) {
+      const double size = size_of(polygon.bounds());
+      if (!(size > greatest)) continue;
+      const HalfPlane* its = part_.first_inside(polygon);
+      if (!its) continue;
+      edge = its;
+      greatest = size;
+    }
+    if (!edge) return {};
+    return divided(cell_->halves_along(part_, *edge));
   }
 
  private:
+  /// Of the box around a polygon.
+  static double size_of(const BoundingRectangle& bounds) {
+    const double size = (bounds.u.upper - bounds.u.lower) * (bounds.v.upper - bounds.v.lower);
+    return size >= 0 ? size : 0;
+  }
+
+  void merge_lines() {
+    MergedLines& lines = cell_->merged_lines();
+    part_.outline = lines.of(part_.outline);
+    for (ConvexPolygon& polygon : polygons_) polygon = lines.of(polygon);
+  }
+
+  [[nodiscard]] std::vector<DividedPolygons> divided(
+      const std::vector<ImageCell::Half>& halves) const {
+    std::vector<DividedPolygons> result;
+    for (const ImageCell::Half& half : halves) {
+      DividedPolygons& inside = result.emplace_back(*cell_, half.part, *counts_);
+      for (const ConvexPolygon& polygon : polygons_) {
+        if (inside.complete_) break;
+        if (auto piece = in_half(polygon, half, *counts_)) inside.add(std::move(*piece));
+      }
+    }
+    return result;
+  }
+
   ImageCell* cell_;
   CellPart part_;
   TierCounts* counts_;

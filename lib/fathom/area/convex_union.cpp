@@ -126,6 +126,14 @@ Ratio sum(std::vector<Ratio> terms) {
 
 }  // namespace
 
+Boundary boundary_of(const ConvexPolygon& polygon) {
+  Boundary boundary;
+  for (std::size_t k = 0; k < polygon.edges().size(); ++k) {
+    boundary.push_back({polygon.edges()[k], &polygon.before(k), &polygon.after(k), false});
+  }
+  return boundary;
+}
+
 Boundary boundary_of_union(std::span<const ConvexPolygon> polygons, TierCounts& counts) {
   Boundary boundary;
   for (std::size_t i = 0; i < polygons.size(); ++i) {

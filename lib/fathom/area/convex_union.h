@@ -26,6 +26,9 @@ struct BoundarySegment {
 /// The boundary of one or several polygons, with holes; in no order. Empty if there is no area.
 using Boundary = std::vector<BoundarySegment>;
 
+/// That of one polygon.
+Boundary boundary_of(const ConvexPolygon& polygon);
+
 Boundary boundary_of_union(std::span<const ConvexPolygon> polygons, TierCounts& counts);
 
 /// The boundary of `subject` without the polygons.

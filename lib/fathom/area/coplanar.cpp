@@ -4,6 +4,8 @@
 #include <limits>
 #include <optional>
 
+#include "fathom/area/cell_division.h"
+#include "fathom/area/remainder.h"
 #include "fathom/area/scene_surfaces.h"
 #include "fathom/area/separation.h"
 #include "fathom/area/visible_fragments.h"
@@ -28,43 +30,28 @@ bool share_a_corner(const std::array<WorldPoint, 3>& a, const std::array<WorldPo
   return false;
 }
 
-/// A cell with the pieces of it that triangles cover.
-class CellPairs {
+/// A triangle within its box, and what of it is visible.
+class VisibleTriangle {
  public:
-  CellPairs(const PixelBox& box, const SceneSurfaces& surfaces,
-            const std::vector<std::uint32_t>& numbers)
-      : cell_(box.first_column, box.first_row, box.last_column - box.first_column + 1,
-              box.last_row - box.first_row + 1),
-        visibility_(cell_) {
-    for (const std::uint32_t number : numbers) visibility_.add(*surfaces.surface(number));
-  }
+  VisibleTriangle(const SceneSurfaces& surfaces, std::uint32_t number)
+      : surfaces_(surfaces),
+        number_(number),
+        cell_(cell_of(surfaces.box(number))),
+        visibility_(cell_),
+        is_in_cell_(visibility_.add(surface())) {}
 
-  [[nodiscard]] std::optional<std::size_t> piece_of(std::uint32_t number) const {
-    for (std::size_t i = 0; i < visibility_.size(); ++i) {
-      if (visibility_.surface(i).number == number) return i;
+  /// Where both are and this one is visible, in convex polygons. Empty if the other is nowhere
+  /// behind it, or certainly farther than `within`.
+  std::vector<ConvexPolygon> visible_before(std::uint32_t other, double within) {
+    const auto both = before(other);
+    if (!both || is_certainly_apart(*both, other, within)) return {};
+    std::vector<ConvexPolygon> result;
+    for (ConvexPolygon part : visible()) {
+      if (part.bounds().may_meet(both->bounds()) && clip(part, *both)) {
+        result.push_back(std::move(part));
+      }
     }
-    return std::nullopt;
-  }
-  [[nodiscard]] std::size_t size() const { return visibility_.size(); }
-  [[nodiscard]] const SurfaceRegion& surface(std::size_t piece) const {
-    return visibility_.surface(piece);
-  }
-  [[nodiscard]] const ImageCell& cell() const { return cell_; }
-
-  /// The boundary of where t is visible and s is not in front of it; empty if that has no area, or
-  /// if s certainly lies farther behind than `within`.
-  Boundary visible_before(std::size_t t, std::size_t s, double within) {
-    const auto both = before(t, s);
-    if (!both || is_certainly_apart(*both, t, s, within)) return {};
-    std::vector<ConvexPolygon> hidden;
-    for (std::size_t other = 0; other < visibility_.size(); ++other) {
-      if (other == t || other == s) continue;
-      auto part = visibility_.hidden_part(*both, t, other);
-      if (!part) continue;
-      if (part->edges() == both->edges()) return {};
-      hidden.push_back(std::move(*part));
-    }
-    return boundary_of_difference(*both, hidden, visibility_.decisions());
+    return result;
   }
 
   /// Whether the separation of both is at most `within` over an area.
@@ -73,11 +60,35 @@ class CellPairs {
     return separation.is_below(boundary, within) || separation.is_constantly(within);
   }
 
+  [[nodiscard]] const SurfaceRegion& surface() const { return *surfaces_.surface(number_); }
+  [[nodiscard]] ImageCell& cell() { return cell_; }
+
  private:
+  bool clip(ConvexPolygon& polygon, const ConvexPolygon& by) {
+    return std::all_of(by.edges().begin(), by.edges().end(), [&](const HalfPlane* edge) {
+      return cell_.is_side(edge) || polygon.clip(*edge, counts_);
+    });
+  }
+
+  /// The points that both cover, with this one in front, or equally deep and with the lower number.
+  std::optional<ConvexPolygon> before(std::uint32_t other) {
+    if (!is_in_cell_) return std::nullopt;
+    const SurfaceRegion& behind = *surfaces_.surface(other);
+    const auto piece = cell_.clip(behind.region, counts_);
+    ConvexPolygon part = visibility_.polygon(0);
+    if (!piece || !part.bounds().may_meet(piece->polygon.bounds()) || !clip(part, piece->polygon)) {
+      return std::nullopt;
+    }
+    const ImageForm form = in_front(behind, surface());
+    if (!form.is_zero()) return cell_.clip(part, -form, counts_);
+    if (number_ < other) return part;
+    return std::nullopt;
+  }
+
   /// D is monotone along lines: in a polygon it lies between its values at the corners.
-  [[nodiscard]] bool is_certainly_apart(const ConvexPolygon& polygon, std::size_t t, std::size_t s,
+  [[nodiscard]] bool is_certainly_apart(const ConvexPolygon& polygon, std::uint32_t other,
                                         double within) const {
-    const CellDepths front(cell_, surface(t)), behind(cell_, surface(s));
+    const CellDepths front(cell_, surface()), behind(cell_, *surfaces_.surface(other));
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double greatest = -infinity, least = infinity;
     for (std::size_t k = 0; k < polygon.edges().size(); ++k) {
@@ -89,25 +100,62 @@ class CellPairs {
     return (least - greatest) * (1 - 0x1p-50) > within;
   }
 
-  /// The points that t and s cover, with t in front, or equally deep and with the lower number.
-  std::optional<ConvexPolygon> before(std::size_t t, std::size_t s) {
-    ConvexPolygon part = visibility_.polygon(t);
-    if (!part.bounds().may_meet(visibility_.polygon(s).bounds())) return std::nullopt;
-    for (const HalfPlane* edge : visibility_.polygon(s).edges()) {
-      if (cell_.is_side(edge)) continue;
-      if (!part.clip(*edge, visibility_.decisions())) return std::nullopt;
-    }
-    const ImageForm form = in_front(visibility_.surface(s), visibility_.surface(t));
-    if (form.is_zero()) {
-      if (visibility_.surface(t).number < visibility_.surface(s).number) return part;
-      return std::nullopt;
-    }
-    return cell_.clip(part, -form, visibility_.decisions());
+  /// What is visible of the triangle; found when it is first asked for.
+  const std::vector<ConvexPolygon>& visible() {
+    if (!visible_) visible_ = find_visible();
+    return *visible_;
   }
 
+  std::vector<ConvexPolygon> find_visible() {
+    std::vector<ConvexPolygon> result;
+    PartlyHidden hidden(cell_, visibility_.polygon(0));
+    for (const std::uint32_t other : surfaces_.near(number_)) {
+      if (!surfaces_.is_first(other)) continue;
+      const auto part = visibility_.add_if_it_hides(*surfaces_.surface(other), 0);
+      if (!part) continue;
+      if (!hidden.hide(*part)) visibility_.drop_last();
+      if (hidden.is_hidden()) return result;
+    }
+    divide(visibility_, [&](CellVisibility& part) {
+      for (std::size_t piece = 0; piece < part.size(); ++piece) {
+        if (&part.surface(piece) != &surface()) continue;
+        for (ConvexPolygon& polygon : part.visible_polygons(piece)) {
+          result.push_back(std::move(polygon));
+        }
+      }
+    });
+    return result;
+  }
+
+  const SceneSurfaces& surfaces_;
+  std::uint32_t number_;
   ImageCell cell_;
+  /// The triangle, and those that hide a part of it.
   CellVisibility visibility_;
+  bool is_in_cell_;
+  std::optional<std::vector<ConvexPolygon>> visible_;
+  TierCounts counts_;
 };
+
+Boundary boundary_of(const std::vector<ConvexPolygon>& polygons) {
+  Boundary boundary;
+  for (const ConvexPolygon& polygon : polygons) {
+    const Boundary its = area::boundary_of(polygon);
+    boundary.insert(boundary.end(), its.begin(), its.end());
+  }
+  return boundary;
+}
+
+/// The polygons between two parallel sides.
+std::vector<ConvexPolygon> between(const std::vector<ConvexPolygon>& polygons,
+                                   const HalfPlane& first, const HalfPlane& second) {
+  std::vector<ConvexPolygon> result;
+  TierCounts counts;
+  for (ConvexPolygon part : polygons) {
+    if (part.clip(first, counts) && part.clip(second, counts)) result.push_back(std::move(part));
+  }
+  return result;
+}
 
 class PairFinder {
  public:
@@ -118,55 +166,47 @@ class PairFinder {
 
   /// The pairs in which triangle t is the visible one.
   [[nodiscard]] std::vector<CoplanarPair> pairs_of(std::uint32_t t) const {
-    if (!surfaces_.surface(t)) return {};
-    std::vector<std::uint32_t> numbers = surfaces_.near(t);
-    numbers.insert(numbers.begin(), t);
-    CellPairs pairs(surfaces_.box(t), surfaces_, numbers);
+    if (!surfaces_.surface(t) || !surfaces_.is_first(t)) return {};
+    VisibleTriangle triangle(surfaces_, t);
+    const auto corners = triangles_.world_corners(t);
     std::vector<CoplanarPair> found;
-    if (pairs.piece_of(t) != 0) return found;
-    for (std::size_t s = 1; s < pairs.size(); ++s) {
-      const SurfaceRegion& other = pairs.surface(s);
-      if (within_ == 0 && !in_front(other, *surfaces_.surface(t)).is_zero()) continue;
-      if (share_a_corner(triangles_.world_corners(t), triangles_.world_corners(other.number))) {
-        continue;
-      }
-      const Boundary boundary = pairs.visible_before(0, s, within_);
-      const Separation separation(pairs.cell(), *surfaces_.surface(t), other);
-      if (!CellPairs::is_close(separation, boundary, within_)) continue;
-      CoplanarPair pair{t, other.number, separation.least(boundary), 0, {}};
-      count_pixels(pair, numbers);
+    for (const std::uint32_t s : surfaces_.near(t)) {
+      const SurfaceRegion& other = *surfaces_.surface(s);
+      if (within_ == 0 && !in_front(other, triangle.surface()).is_zero()) continue;
+      if (share_a_corner(corners, triangles_.world_corners(s))) continue;
+      const std::vector<ConvexPolygon> polygons = triangle.visible_before(s, within_);
+      const Boundary boundary = boundary_of(polygons);
+      const Separation separation(triangle.cell(), triangle.surface(), other);
+      if (!VisibleTriangle::is_close(separation, boundary, within_)) continue;
+      CoplanarPair pair{t, s, separation.least(boundary), 0, {}};
+      count_pixels(pair, polygons, separation);
       found.push_back(pair);
     }
     return found;
   }
 
  private:
-  void count_pixels(CoplanarPair& pair, const std::vector<std::uint32_t>& numbers) const {
+  /// The pixels in which the separation is small over an area of the polygons, whose coordinates
+  /// begin at the corner of the box of the visible triangle.
+  void count_pixels(CoplanarPair& pair, const std::vector<ConvexPolygon>& polygons,
+                    const Separation& separation) const {
     const PixelBox& a = surfaces_.box(pair.visible);
     const PixelBox& b = surfaces_.box(pair.behind);
     const std::uint32_t first_column = std::max(a.first_column, b.first_column);
     const std::uint32_t last_column = std::min(a.last_column, b.last_column);
     for (std::uint32_t row = std::max(a.first_row, b.first_row);
          row <= std::min(a.last_row, b.last_row); ++row) {
+      const double top = row - a.first_row;
+      const HalfPlane below({0.0, 1.0, -top}), above({0.0, -1.0, top + 1});
+      const std::vector<ConvexPolygon> in_row = between(polygons, below, above);
+      if (in_row.empty()) continue;
       for (std::uint32_t column = first_column; column <= last_column; ++column) {
-        if (is_close_in(pair, {column, column, row, row}, numbers)) add_pixel(pair, column, row);
+        const double left = column - a.first_column;
+        const HalfPlane after({1.0, 0.0, -left}), before({-1.0, 0.0, left + 1});
+        const Boundary boundary = boundary_of(between(in_row, after, before));
+        if (VisibleTriangle::is_close(separation, boundary, within_)) add_pixel(pair, column, row);
       }
     }
-  }
-
-  [[nodiscard]] bool is_close_in(const CoplanarPair& pair, const PixelBox& pixel,
-                                 const std::vector<std::uint32_t>& numbers) const {
-    std::vector<std::uint32_t> here;
-    for (const std::uint32_t number : numbers) {
-      if (surfaces_.box(number).contains(pixel.first_column, pixel.first_row)) {
-        here.push_back(number);
-      }
-    }
-    CellPairs pairs(pixel, surfaces_, here);
-    const auto t = pairs.piece_of(pair.visible), s = pairs.piece_of(pair.behind);
-    if (!t || !s) return false;
-    const Separation separation(pairs.cell(), pairs.surface(*t), pairs.surface(*s));
-    return CellPairs::is_close(separation, pairs.visible_before(*t, *s, within_), within_);
   }
 
   static void add_pixel(CoplanarPair& pair, std::uint32_t column, std::uint32_t row) {

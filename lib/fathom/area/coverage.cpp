@@ -1,6 +1,7 @@
 #include "fathom/area/coverage.h"
 
-#include "fathom/area/image_cell.h"
+#include "fathom/area/cell_coverage.h"
+#include "fathom/area/equal_triangles.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
@@ -13,8 +14,10 @@ namespace {
 void add(const CoverageFrame& frame, std::span<const std::uint32_t> triangles,
          CellCoverage& coverage) {
   TierCounts counts;
+  EqualTriangles equal(frame.triangles);
   for (const std::uint32_t number : triangles) {
     if (coverage.is_complete()) return;
+    if (!equal.is_first(number)) continue;
     const ProjectedTriangle t =
         project(frame.triangles.world_corners(number), number, frame.camera, counts);
     if (!is_kept(t, frame.cull)) continue;

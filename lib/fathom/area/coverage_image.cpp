@@ -2,6 +2,8 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include "fathom/area/cell_coverage.h"
+#include "fathom/area/equal_triangles.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::area {
@@ -17,8 +19,10 @@ struct BoxedRegion {
 
 std::vector<BoxedRegion> regions_of(const CoverageFrame& frame, const TriangleBands::Band& band) {
   std::vector<BoxedRegion> regions;
+  EqualTriangles equal(frame.triangles);
   TierCounts counts;
   for (const BoxedTriangle& triangle : band.triangles) {
+    if (!equal.is_first(triangle.number)) continue;
     const ProjectedTriangle t = project(frame.triangles.world_corners(triangle.number),
                                         triangle.number, frame.camera, counts);
     if (!is_kept(t, frame.cull)) continue;

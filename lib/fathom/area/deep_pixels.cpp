@@ -47,7 +47,11 @@ Boundary& boundary_in(std::vector<Fragment>& fragments, const SurfaceRegion& sur
 
 PixelSurfaces look_into(ImageCell& pixel, std::span<const SurfaceRegion* const> triangles) {
   CellVisibility visibility(pixel);
-  for (const SurfaceRegion* t : triangles) visibility.add(*t);
+  if (triangles.size() > DivisionLimits{}.few) {
+    visibility.add_visible(triangles);
+  } else {
+    for (const SurfaceRegion* t : triangles) visibility.add(*t);
+  }
   visibility.drop_hidden();
   PixelSurfaces result;
   divide(std::move(visibility), [&](CellVisibility& part) {

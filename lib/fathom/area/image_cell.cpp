@@ -4,9 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/area/cell_division.h"
-#include "fathom/numeric/rounding.h"
-
 namespace fathom::area {
 using namespace triangle;
 
@@ -51,8 +48,13 @@ std::optional<std::vector<ImageForm>> covered_region(const ProjectedTriangle& t,
 std::optional<SurfaceRegion> surface_region(const ProjectedTriangle& t, const Camera& camera) {
   auto region = covered_region(t, camera);
   if (!region) return std::nullopt;
-  SurfaceRegion surface{t.number, std::move(*region), t.depth_numerator, t.weight, {}};
+  SurfaceRegion surface{t.number, std::move(*region), t.depth_numerator, t.weight, {}, {}};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  surface.depths = {infinity, -infinity};
   for (std::size_t i = 0; i < 3; ++i) {
+    const Interval depth = enclose(t.camera[i].z);
+    surface.depths.lower = std::min(surface.depths.lower, depth.lower);
+    surface.depths.upper = std::max(surface.depths.upper, depth.upper);
     auto [U, V, W] = to_image(camera, t.camera[i]);
     const std::array<Interval, 3> enclosure{enclose(U), enclose(V), enclose(W)};
     surface.corners[i] = {{std::move(U), std::move(V), std::move(W)}, enclosure};
@@ -89,26 +91,61 @@ std::optional<Sign> CellPart::sign_of(const ImageForm& form) const {
   return std::nullopt;
 }
 
-std::array<ImageCell::Half, 2> ImageCell::halves(const CellPart& part) {
+const HalfPlane& ImageCell::keep(HalfPlane line) {
+  const HalfPlane& kept = half_planes_.emplace_back(std::move(line));
+  return merges_ ? merged_lines_.of(kept) : kept;
+}
+
+const HalfPlane& ImageCell::opposite(const HalfPlane& line) {
+  const ExactVector3& l = line.exact();
+  return half_planes_.emplace_back(ExactVector3{-l[0], -l[1], -l[2]});
+}
+
+std::vector<ImageCell::Half> ImageCell::halves(const CellPart& part) {
   const bool across = part.right - part.left >= part.bottom - part.top;
   const double from = across ? part.left : part.top, to = across ? part.right : part.bottom;
   const double middle = from + (to - from) / 2;
   // In the cell's coordinates.
-  const double cut = middle - (across ? all_->left : all_->top);
-  const auto half = [&](double sign) {
-    const HalfPlane& side = half_planes_.emplace_back(
-        across ? ExactVector3{-sign, 0.0, sign * cut} : ExactVector3{0.0, -sign, sign * cut});
-    CellPart result = part;
+  const double origin = across ? all_->left : all_->top;
+  const double cut = middle - origin;
+  // Where that is; the middle, unless the difference was rounded.
+  const Interval place = enclose(Dyadic(cut) + Dyadic(origin));
+  std::vector<Half> result;
+  for (const double sign : {1.0, -1.0}) {
+    Half half{part, &keep(HalfPlane(across ? ExactVector3{-sign, 0.0, sign * cut}
+                                           : ExactVector3{0.0, -sign, sign * cut}))};
     TierCounts counts;
-    (void)result.outline.clip(side, counts);
+    if (!half.part.outline.clip(*half.side, counts)) continue;
     if (across) {
-      (sign > 0 ? result.right : result.left) = middle;
+      (sign > 0 ? half.part.right : half.part.left) = sign > 0 ? place.upper : place.lower;
     } else {
-      (sign > 0 ? result.bottom : result.top) = middle;
+      (sign > 0 ? half.part.bottom : half.part.top) = sign > 0 ? place.upper : place.lower;
     }
-    return Half{std::move(result), &side};
+    result.push_back(std::move(half));
+  }
+  return result;
+}
+
+std::vector<ImageCell::Half> ImageCell::halves_along(const CellPart& part, const HalfPlane& line) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  // Not where a bound is NaN.
+  const auto narrow = [](double& low, double& high, const Interval& range, double origin) {
+    const double least = std::nextafter(origin + range.lower, -infinity);
+    const double greatest = std::nextafter(origin + range.upper, infinity);
+    if (least > low) low = least;
+    if (greatest < high) high = greatest;
   };
-  return {half(1), half(-1)};
+  std::vector<Half> result;
+  for (const HalfPlane* side : {&merged_lines_.of(line), &merged_lines_.opposite(line)}) {
+    Half half{part, side};
+    TierCounts counts;
+    if (!half.part.outline.clip(*side, counts)) continue;
+    const BoundingRectangle& bounds = half.part.outline.bounds();
+    narrow(half.part.left, half.part.right, bounds.u, all_->left);
+    narrow(half.part.top, half.part.bottom, bounds.v, all_->top);
+    result.push_back(std::move(half));
+  }
+  return result;
 }
 
 ExactVector3 ImageCell::localised(const ImageForm& form) const {
@@ -143,36 +180,6 @@ std::optional<ConvexPolygon> ImageCell::clip(const ConvexPolygon& polygon, const
   if (sign) return result;
   if (!result.clip(half_planes_.emplace_back(localised(form)), counts)) return std::nullopt;
   return result;
-}
-
-void CellCoverage::add(const std::vector<ImageForm>& region) {
-  if (complete_) return;
-  auto piece = cell_.clip(region, counts_);
-  if (!piece) return;
-  if (piece->is_whole) {
-    complete_ = true;
-    pieces_.clear();
-  }
-  pieces_.push_back(std::move(piece->polygon));
-}
-
-Boundary CellCoverage::boundary() {
-  Boundary boundary;
-  for_each_simple_part(cell_, pieces_, counts_, [&](std::span<const ConvexPolygon> pieces) {
-    const Boundary more = boundary_of_union(pieces, counts_);
-    boundary.insert(boundary.end(), more.begin(), more.end());
-  });
-  return boundary;
-}
-
-Ratio CellCoverage::area() {
-  return exact_area(boundary());
-}
-
-float CellCoverage::rounded_area() {
-  const Boundary found = boundary();
-  if (const auto settled = settled_binary32(approximate_area(found))) return *settled;
-  return round_to_binary32(exact_area(found));
 }
 
 }  // namespace fathom::area

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fathom/area/convex_union.h"
+#include "fathom/area/merged_lines.h"
 #include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::area {
@@ -34,29 +35,35 @@ struct SurfaceRegion {
   std::vector<ImageForm> region;
   ImageForm depth_numerator, weight;
   std::array<SurfaceCorner, 3> corners;
+  /// D at any point of the triangle lies in it.
+  Interval depths;
 };
 std::optional<SurfaceRegion> surface_region(const triangle::ProjectedTriangle& t,
                                             const Camera& camera);
 
-/// A rectangle of the image in the coordinates of a cell: the cell or a part of it.
+/// A cell or a convex part of it.
 struct CellPart {
+  /// In the coordinates of the cell.
   ConvexPolygon outline;
-  /// In coordinates of the image.
+  /// A rectangle around the part, in coordinates of the image.
   double left, top, right, bottom;
 
-  /// Corner 0 to 3, in coordinates of the image.
+  /// Corner 0 to 3 of that rectangle.
   [[nodiscard]] ImagePoint corner(std::size_t k) const {
     return {k % 2 == 0 ? left : right, k < 2 ? top : bottom};
   }
-  /// Whether a half-plane is that of one of its sides.
+  /// Whether a half-plane is the object that bounds one of its sides.
   [[nodiscard]] bool is_side(const HalfPlane* edge) const {
     return std::find(outline.edges().begin(), outline.edges().end(), edge) != outline.edges().end();
   }
-  /// Whether a polygon in it is all of it.
-  [[nodiscard]] bool is_all(const ConvexPolygon& polygon) const {
-    return std::all_of(polygon.edges().begin(), polygon.edges().end(),
-                       [&](const HalfPlane* edge) { return is_side(edge); });
+  /// An edge of a polygon in it that is no side of the part; null if there is none.
+  [[nodiscard]] const HalfPlane* first_inside(const ConvexPolygon& polygon) const {
+    const auto inside = std::find_if_not(polygon.edges().begin(), polygon.edges().end(),
+                                         [&](const HalfPlane* edge) { return is_side(edge); });
+    return inside == polygon.edges().end() ? nullptr : *inside;
   }
+  /// Whether a polygon in it is all of it.
+  [[nodiscard]] bool is_all(const ConvexPolygon& polygon) const { return !first_inside(polygon); }
   /// The sign of the form if it is certainly the same in the whole part (0 allowed on the rim).
   [[nodiscard]] std::optional<Sign> sign_of(const ImageForm& form) const;
 };
@@ -76,13 +83,22 @@ class ImageCell {
   [[nodiscard]] const ConvexPolygon& whole() const { return all_->outline; }
   /// Whether a half-plane is that of one of the cell's own sides.
   [[nodiscard]] bool is_side(const HalfPlane* edge) const { return all_->is_side(edge); }
-  /// The halves of a part, cut across its longer side, and for each its half-plane at the cut. The
-  /// part must have been made by few cuts, so that the middle is a binary64 number.
+  /// A part of a part, on the inside of a line.
   struct Half {
     CellPart part;
     const HalfPlane* side;
   };
-  std::array<Half, 2> halves(const CellPart& part);
+  /// The halves of a part, cut across the longer side of the rectangle around it; one, if a cut
+  /// there misses the part.
+  std::vector<Half> halves(const CellPart& part);
+  /// The parts on the inside and the outside of a line; one, if it misses the inside of the part.
+  std::vector<Half> halves_along(const CellPart& part, const HalfPlane& line);
+
+  /// From the first call on, sides of halves are merged, too.
+  MergedLines& merged_lines() {
+    merges_ = true;
+    return merged_lines_;
+  }
 
   struct Piece {
     ConvexPolygon polygon;
@@ -104,34 +120,21 @@ class ImageCell {
     return all_->sign_of(form);
   }
 
+  /// The half-plane in which a form that is not constant is not negative.
+  const HalfPlane& add(const ImageForm& form) { return keep(HalfPlane(localised(form))); }
+  /// The half-plane on the other side of a line.
+  const HalfPlane& opposite(const HalfPlane& line);
   /// The coefficients of a form in the cell's coordinates.
   [[nodiscard]] ExactVector3 localised(const ImageForm& form) const;
 
  private:
+  const HalfPlane& keep(HalfPlane line);
+
   /// A deque, because it leaves its elements where they are.
   std::deque<HalfPlane> half_planes_;
+  MergedLines merged_lines_;
+  bool merges_ = false;
   std::optional<CellPart> all_;
-};
-
-/// The area of the union of what the regions cover of a cell.
-class CellCoverage {
- public:
-  explicit CellCoverage(ImageCell& cell) : cell_(cell) {}
-  void add(const std::vector<ImageForm>& region);
-  /// Whether the whole cell is covered: what is added then changes nothing.
-  [[nodiscard]] bool is_complete() const { return complete_; }
-  [[nodiscard]] Ratio area();
-  /// The area, rounded once.
-  [[nodiscard]] float rounded_area();
-  [[nodiscard]] const TierCounts& decisions() const { return counts_; }
-
- private:
-  [[nodiscard]] Boundary boundary();
-
-  ImageCell& cell_;
-  std::vector<ConvexPolygon> pieces_;
-  bool complete_ = false;
-  TierCounts counts_;
 };
 
 }  // namespace fathom::area

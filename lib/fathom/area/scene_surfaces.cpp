@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fathom/area/equal_triangles.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::area {
@@ -20,7 +21,9 @@ SceneSurfaces::SceneSurfaces(const CoverageFrame& frame)
     : columns_((frame.camera.width - 1) / side_of_tile + 1),
       boxes_(frame.triangles.count()),
       surfaces_(frame.triangles.count()),
-      tiles_(std::size_t{columns_} * ((frame.camera.height - 1) / side_of_tile + 1)) {
+      tiles_(std::size_t{columns_} * ((frame.camera.height - 1) / side_of_tile + 1)),
+      first_(count()),
+      first_of_object_(count()) {
   parallel_for(std::uint32_t{0}, count(), [&](std::uint32_t number) {
     TierCounts counts;
     const ProjectedTriangle t =
@@ -29,6 +32,7 @@ SceneSurfaces::SceneSurfaces(const CoverageFrame& frame)
     boxes_[number] = bounding_box(t, frame.camera);
     if (!boxes_[number].is_empty()) surfaces_[number] = surface_region(t, frame.camera);
   });
+  find_equal_triangles(frame.triangles);
   for (std::uint32_t number = 0; number < count(); ++number) {
     if (!surfaces_[number]) continue;
     const PixelBox& box = boxes_[number];
@@ -38,6 +42,21 @@ SceneSurfaces::SceneSurfaces(const CoverageFrame& frame)
         tiles_[std::size_t{y} * columns_ + x].push_back(number);
       }
     }
+  }
+}
+
+void SceneSurfaces::find_equal_triangles(const TriangleSource& triangles) {
+  EqualTriangles in_scene(triangles);
+  std::optional<EqualTriangles> in_object;
+  std::optional<std::uint32_t> object;
+  for (std::uint32_t number = 0; number < count(); ++number) {
+    if (!surfaces_[number]) continue;
+    if (const std::uint32_t its = triangles.origin(number).object; its != object) {
+      in_object.emplace(triangles);
+      object = its;
+    }
+    first_[number] = in_scene.is_first(number);
+    first_of_object_[number] = in_object->is_first(number);
   }
 }
 

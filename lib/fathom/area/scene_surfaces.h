@@ -18,16 +18,26 @@ class SceneSurfaces {
     return surfaces_[number] ? &*surfaces_[number] : nullptr;
   }
   [[nodiscard]] const PixelBox& box(std::uint32_t number) const { return boxes_[number]; }
+  /// Whether no triangle of a lower number has the same three corners in the same
+  /// order round; or none of its object. Others
+  /// hide nothing that the first does not hide, and are hidden by it.
+  [[nodiscard]] bool is_first(std::uint32_t number) const { return first_[number]; }
+  [[nodiscard]] bool is_first_of_object(std::uint32_t number) const {
+    return first_of_object_[number];
+  }
   /// Numbers of the triangles whose boxes meet that of `number`, without `number`, in order.
   [[nodiscard]] std::vector<std::uint32_t> near(std::uint32_t number) const;
 
  private:
   static constexpr std::uint32_t side_of_tile = 16;
 
+  void find_equal_triangles(const TriangleSource& triangles);
+
   std::uint32_t columns_;
   std::vector<PixelBox> boxes_;
   std::vector<std::optional<SurfaceRegion>> surfaces_;
   std::vector<std::vector<std::uint32_t>> tiles_;
+  std::vector<bool> first_, first_of_object_;
 };
 
 /// The cell of the image that a box covers.

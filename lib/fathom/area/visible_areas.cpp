@@ -3,6 +3,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "fathom/area/cell_division.h"
+#include "fathom/area/remainder.h"
 #include "fathom/area/scene_surfaces.h"
 #include "fathom/area/visible_fragments.h"
 #include "fathom/numeric/enclosed_sum.h"
@@ -64,19 +65,38 @@ class SceneAreas {
     CellVisibility all(cell);
     if (!all.add(*surface)) return {};
     CellVisibility in_object = all;
-    const std::uint32_t object = object_of(number);
-    for (const std::uint32_t other : surfaces_.near(number)) {
-      if (!all.add_if_it_hides(*surfaces_.surface(other), 0)) continue;
-      if (object_of(other) == object) in_object.add_last_of(all);
+    // By triangles of any object, and of its own.
+    PartlyHidden hidden(cell, all.polygon(0)), hidden_in_object = hidden;
+    bool is_hidden = !surfaces_.is_first(number);
+    bool is_hidden_in_object = !surfaces_.is_first_of_object(number);
+    bool are_same = is_hidden == is_hidden_in_object;
+    std::vector<std::uint32_t> others;
+    if (!is_hidden || !is_hidden_in_object) others = surfaces_.near(number);
+    for (const std::uint32_t other : others) {
+      const bool counts = !is_hidden && surfaces_.is_first(other);
+      const bool counts_in_object = !is_hidden_in_object && object_of(other) == object_of(number) &&
+                                    surfaces_.is_first_of_object(other);
+      if (!counts && !counts_in_object) continue;
+      const auto part = all.add_if_it_hides(*surfaces_.surface(other), 0);
+      if (!part) continue;
+      const bool added = counts && hidden.hide(*part);
+      const bool added_in_object = counts_in_object && hidden_in_object.hide(*part);
+      if (added_in_object) in_object.add_last_of(all);
+      if (!added) all.drop_last();
+      are_same &= added == added_in_object;
+      is_hidden |= hidden.is_hidden();
+      is_hidden_in_object |= hidden_in_object.is_hidden();
     }
     ExactAreas areas;
     const ConvexPolygon polygons[] = {all.polygon(0)};
     TierCounts counts;
     areas.unoccluded = exact_area(boundary_of_union(polygons, counts));
-    const bool others_hide = in_object.size() < all.size();
-    areas.visible = visible_parts(std::move(all), areas.unoccluded);
-    areas.in_object =
-        others_hide ? visible_parts(std::move(in_object), areas.unoccluded) : areas.visible;
+    if (!is_hidden) areas.visible = visible_parts(std::move(all), areas.unoccluded);
+    if (are_same) {
+      areas.in_object = areas.visible;
+    } else if (!is_hidden_in_object) {
+      areas.in_object = visible_parts(std::move(in_object), areas.unoccluded);
+    }
     return areas;
   }
 

@@ -6,6 +6,7 @@
 
 #include "fathom/area/cell_division.h"
 #include "fathom/area/disjoint_surfaces.h"
+#include "fathom/area/remainder.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom::area {
@@ -50,13 +51,40 @@ bool CellVisibility::add(const SurfaceRegion& surface) {
   return true;
 }
 
-bool CellVisibility::add_if_it_hides(const SurfaceRegion& surface, std::size_t piece) {
-  if (quick_order(depths_of(surface), pieces_[piece].depths) == Order::behind) return false;
-  if (are_disjoint(surface, *pieces_[piece].surface)) return false;
-  if (!add(surface)) return false;
-  if (hidden_part(pieces_[piece].polygon, piece, size() - 1)) return true;
-  pieces_.pop_back();
-  return false;
+// From front to back. A surface that lies farther away than all before it, with its nearest point,
+// is hidden where one of those is; so it need not be added if the others leave nothing of it.
+void CellVisibility::add_visible(std::span<const SurfaceRegion* const> surfaces) {
+  std::vector<const SurfaceRegion*> nearest_first(surfaces.begin(), surfaces.end());
+  std::sort(nearest_first.begin(), nearest_first.end(), [](const auto* a, const auto* b) {
+    return std::pair(a->depths.lower, a->number) < std::pair(b->depths.lower, b->number);
+  });
+  Remainder uncovered(*cell_, part_.outline);
+  double farthest = -infinity;
+  std::uint32_t last = 0;
+  for (const SurfaceRegion* surface : nearest_first) {
+    const bool is_behind = surface->depths.lower > farthest ||
+                           (surface->depths.lower == farthest && surface->number > last);
+    if (is_behind && uncovered.is_empty()) break;
+    if (!add(*surface)) continue;
+    const ConvexPolygon& polygon = pieces_.back().polygon;
+    if (is_behind && !uncovered.meets(polygon)) {
+      pieces_.pop_back();
+      continue;
+    }
+    farthest = std::max(farthest, surface->depths.upper);
+    last = std::max(last, surface->number);
+    uncovered.subtract(polygon, Remainder::simple);
+  }
+}
+
+std::optional<ConvexPolygon> CellVisibility::add_if_it_hides(const SurfaceRegion& surface,
+                                                             std::size_t piece) {
+  if (quick_order(depths_of(surface), pieces_[piece].depths) == Order::behind) return std::nullopt;
+  if (are_disjoint(surface, *pieces_[piece].surface)) return std::nullopt;
+  if (!add(surface)) return std::nullopt;
+  auto hidden = hidden_part(pieces_[piece].polygon, piece, size() - 1);
+  if (!hidden) pieces_.pop_back();
+  return hidden;
 }
 
 // The form of in_front() is affine: the signs at the corners of the cell decide those inside.
@@ -74,41 +102,100 @@ bool CellVisibility::is_in_front(const PieceOfSurface& s, const PieceOfSurface& 
   if (order != Order::unknown) return order == Order::in_front;
   const ImageForm form = area::in_front(*s.surface, *t.surface);
   if (form.is_zero()) return s.surface->number < t.surface->number;
-  return part_.sign_of(form) == Sign::positive;
+  if (const auto sign = part_.sign_of(form)) return sign == Sign::positive;
+  if (!is_merged_) return false;
+  // Not settled by the rectangle around the part: the corners of its outline decide.
+  const HalfPlane line(cell_->localised(form));
+  ConvexPolygon rest = part_.outline;
+  TierCounts counts;
+  return rest.clip(line, counts) && rest.edges() == part_.outline.edges();
 }
 
+/// Removes the pieces behind one that is the whole part.
+void CellVisibility::drop_behind(std::size_t whole) {
+  const PieceOfSurface hiding = pieces_[whole];
+  std::erase_if(pieces_, [&](const PieceOfSurface& piece) {
+    return piece.surface != hiding.surface && is_in_front(hiding, piece);
+  });
+}
+
+// The nearest one first, which mostly hides all others.
 void CellVisibility::drop_hidden() {
-  for (std::size_t w = 0; w < pieces_.size(); ++w) {
-    if (!pieces_[w].is_whole) continue;
-    std::size_t kept = 0, place = 0;
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      // Those before i have moved up, perhaps the whole one among them.
-      const PieceOfSurface& whole = pieces_[i <= w ? w : place];
-      if (i != w && is_in_front(whole, pieces_[i])) continue;
-      if (i == w) place = kept;
-      if (i != kept) pieces_[kept] = std::move(pieces_[i]);
-      ++kept;
-    }
-    pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(kept), pieces_.end());
-    w = place;
+  std::optional<std::size_t> nearest;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    if (!pieces_[i].is_whole) continue;
+    if (!nearest || is_in_front(pieces_[i], pieces_[*nearest])) nearest = i;
+  }
+  if (!nearest) return;
+  drop_behind(*nearest);
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    if (!pieces_[i].is_whole) continue;
+    const SurfaceRegion* hiding = pieces_[i].surface;
+    drop_behind(i);
+    while (pieces_[i].surface != hiding) --i;
   }
 }
 
-std::array<CellVisibility, 2> CellVisibility::halves() const {
-  const std::array<ImageCell::Half, 2> parts = cell_->halves(part_);
-  const auto half = [&](const ImageCell::Half& its) {
-    CellVisibility result(*cell_, its.part);
+std::vector<CellVisibility> CellVisibility::divided(
+    const std::vector<ImageCell::Half>& halves) const {
+  std::vector<CellVisibility> result;
+  for (const ImageCell::Half& its : halves) {
+    CellVisibility half(*cell_, its.part);
+    half.is_merged_ = is_merged_;
     for (const PieceOfSurface& piece : pieces_) {
-      auto polygon = in_half(piece.polygon, its, result.counts_);
+      auto polygon = in_half(piece.polygon, its, half.counts_);
       if (!polygon) continue;
       const bool is_whole = its.part.is_all(*polygon);
-      result.pieces_.push_back(
-          {piece.surface, std::move(*polygon), is_whole, result.depths_of(*piece.surface)});
+      half.pieces_.push_back(
+          {piece.surface, std::move(*polygon), is_whole, half.depths_of(*piece.surface)});
     }
-    result.drop_hidden();
-    return result;
-  };
-  return {half(parts[0]), half(parts[1])};
+    half.drop_hidden();
+    result.push_back(std::move(half));
+  }
+  return result;
+}
+
+std::vector<CellVisibility> CellVisibility::halves() const {
+  return divided(cell_->halves(part_));
+}
+
+void CellVisibility::merge_lines() {
+  MergedLines& lines = cell_->merged_lines();
+  part_.outline = lines.of(part_.outline);
+  for (PieceOfSurface& piece : pieces_) {
+    piece.polygon = lines.of(piece.polygon);
+    piece.is_whole = part_.is_all(piece.polygon);
+  }
+  is_merged_ = true;
+}
+
+/// An edge, which is no side of the part, of the piece whose plane is nearest at its middle.
+const HalfPlane* CellVisibility::edge_in_front() const {
+  const HalfPlane* edge = nullptr;
+  double nearest = infinity;
+  std::uint32_t number = 0;
+  for (const PieceOfSurface& piece : pieces_) {
+    if (piece.is_whole) continue;
+    double depth = 0;
+    for (const Interval& at_corner : piece.depths) depth += at_corner.lower / 4;
+    // Where nothing is known, the depth is −∞: last.
+    if (!(depth > -infinity)) depth = std::numeric_limits<double>::max();
+    const bool is_nearer = depth < nearest || (depth == nearest && piece.surface->number < number);
+    if (edge && !is_nearer) continue;
+    edge = part_.first_inside(piece.polygon);
+    nearest = depth;
+    number = piece.surface->number;
+  }
+  return edge;
+}
+
+std::vector<CellVisibility> CellVisibility::halves_along_edge() {
+  merge_lines();
+  drop_hidden();
+  if (const HalfPlane* edge = edge_in_front()) return divided(cell_->halves_along(part_, *edge));
+  if (pieces_.size() < 2) return {};
+  const ImageForm form = area::in_front(*pieces_[0].surface, *pieces_[1].surface);
+  return divided(cell_->halves_along(part_, cell_->add(form)));
 }
 
 std::optional<ConvexPolygon> CellVisibility::hidden_part(const ConvexPolygon& polygon,
@@ -131,18 +218,34 @@ std::optional<ConvexPolygon> CellVisibility::hidden_part(const ConvexPolygon& po
   return cell_->clip(part, form, part_, counts_);
 }
 
-Boundary CellVisibility::visible(std::size_t piece,
-                                 const std::function<bool(const SurfaceRegion&)>& counts) {
+std::vector<ConvexPolygon> CellVisibility::hidden_parts(
+    std::size_t piece, const std::function<bool(const SurfaceRegion&)>& counts) {
   const ConvexPolygon& polygon = pieces_[piece].polygon;
   std::vector<ConvexPolygon> hidden;
   for (std::size_t s = 0; s < pieces_.size(); ++s) {
     if (s == piece || (counts && !counts(*pieces_[s].surface))) continue;
     auto part = hidden_part(polygon, piece, s);
     if (!part) continue;
-    if (part->edges() == polygon.edges()) return {};
+    const bool is_all = part->edges() == polygon.edges();
+    if (is_all) hidden.clear();
     hidden.push_back(std::move(*part));
+    if (is_all) break;
   }
+  return hidden;
+}
+
+Boundary CellVisibility::visible(std::size_t piece,
+                                 const std::function<bool(const SurfaceRegion&)>& counts) {
+  const ConvexPolygon& polygon = pieces_[piece].polygon;
+  const std::vector<ConvexPolygon> hidden = hidden_parts(piece, counts);
+  if (hidden.size() == 1 && hidden[0].edges() == polygon.edges()) return {};
   return boundary_of_difference(polygon, hidden, counts_);
+}
+
+std::vector<ConvexPolygon> CellVisibility::visible_polygons(std::size_t piece) {
+  Remainder rest(*cell_, pieces_[piece].polygon);
+  for (const ConvexPolygon& hidden : hidden_parts(piece, {})) rest.subtract(hidden);
+  return rest.parts();
 }
 
 Boundary CellVisibility::uncovered() {

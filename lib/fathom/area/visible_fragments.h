@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "fathom/area/image_cell.h"
@@ -33,6 +34,9 @@ class CellVisibility {
   /// Adds a triangle, in any order. Returns whether it covers a part of the cell; if so, the piece
   /// has the next number.
   bool add(const SurfaceRegion& surface);
+  /// Adds many surfaces, in any order, without most of those of which nothing is visible. To be
+  /// called before anything else is added.
+  void add_visible(std::span<const SurfaceRegion* const> surfaces);
   [[nodiscard]] std::size_t size() const { return pieces_.size(); }
   [[nodiscard]] const SurfaceRegion& surface(std::size_t piece) const {
     return *pieces_[piece].surface;
@@ -41,19 +45,27 @@ class CellVisibility {
     return pieces_[piece].polygon;
   }
 
-  /// add(), unless the triangle certainly hides nothing of a piece that was added before.
-  bool add_if_it_hides(const SurfaceRegion& surface, std::size_t piece);
+  /// add(), unless the triangle hides nothing of a piece that was added before. Returns what it
+  /// hides.
+  std::optional<ConvexPolygon> add_if_it_hides(const SurfaceRegion& surface, std::size_t piece);
+  /// Removes the last piece.
+  void drop_last() { pieces_.pop_back(); }
   /// Adds the last piece of another CellVisibility of the same cell.
   void add_last_of(const CellVisibility& other) { pieces_.push_back(other.pieces_.back()); }
 
-  /// Removes pieces that are hidden by one that is the whole cell; numbers change.
+  /// Removes pieces that are hidden by one that is the whole part; numbers change.
   void drop_hidden();
-  /// The pieces in each half of the cell, without those hidden by one that is the whole half.
-  [[nodiscard]] std::array<CellVisibility, 2> halves() const;
+  /// For divide(): the pieces in both halves of the part, and on both sides of an edge of a piece in
+  /// front or, where all are the whole part, of the line where two of them change places. Without
+  /// those hidden by one that is the whole half.
+  [[nodiscard]] std::vector<CellVisibility> halves() const;
+  [[nodiscard]] std::vector<CellVisibility> halves_along_edge();
 
   /// The boundary of the visible part of a piece; empty if it is hidden. Only triangles that
   /// `counts` accepts, if given, hide it.
   Boundary visible(std::size_t piece, const std::function<bool(const SurfaceRegion&)>& counts = {});
+  /// The visible part of a piece, in convex polygons.
+  std::vector<ConvexPolygon> visible_polygons(std::size_t piece);
   /// The boundary of what no piece covers.
   Boundary uncovered();
 
@@ -65,6 +77,9 @@ class CellVisibility {
   [[nodiscard]] TierCounts& decisions() { return counts_; }
 
  private:
+  /// What others hide of a piece; one polygon, equal to the piece, if that is all of it.
+  std::vector<ConvexPolygon> hidden_parts(std::size_t piece,
+                                          const std::function<bool(const SurfaceRegion&)>& counts);
   CellVisibility(ImageCell& cell, CellPart part) : cell_(&cell), part_(std::move(part)) {}
 
   /// Depths of a triangle's plane at the cell's corners; [−∞, ∞] where that is not known.
@@ -79,10 +94,17 @@ class CellVisibility {
   [[nodiscard]] static Order quick_order(const CornerDepths& s, const CornerDepths& t);
   [[nodiscard]] CornerDepths depths_of(const SurfaceRegion& surface) const;
   [[nodiscard]] bool is_in_front(const PieceOfSurface& s, const PieceOfSurface& t) const;
+  void drop_behind(std::size_t whole);
+  [[nodiscard]] std::vector<CellVisibility> divided(
+      const std::vector<ImageCell::Half>& halves) const;
+  void merge_lines();
+  [[nodiscard]] const HalfPlane* edge_in_front() const;
 
   ImageCell* cell_;
   /// The part of the cell that this is about.
   CellPart part_;
+  /// Whether edges that lie in one line are one object.
+  bool is_merged_ = false;
   std::vector<PieceOfSurface> pieces_;
   TierCounts counts_;
 };

@@ -173,4 +173,19 @@ Dyadic abs(const Dyadic& x) {
   return x.sign() == Sign::negative ? -x : x;
 }
 
+std::size_t hash_of(const Dyadic& x) {
+  if (x.is_zero()) return 0;
+  constexpr std::size_t factor = 0x9E3779B97F4A7C15;
+  const mp_bitcnt_t zeros = mpz_scan1(x.significand(), 0);
+  Mpz odd;
+  mpz_tdiv_q_2exp(odd.value, x.significand(), zeros);
+  auto hash = static_cast<std::size_t>(x.exponent() + static_cast<long>(zeros));
+  if (x.sign() == Sign::negative) hash = ~hash;
+  for (std::size_t i = 0; i < mpz_size(odd.value); ++i) {
+    hash = (hash ^ mpz_getlimbn(odd.value, static_cast<mp_size_t>(i))) * factor;
+    hash ^= hash >> 29;
+  }
+  return hash;
+}
+
 }  // namespace fathom

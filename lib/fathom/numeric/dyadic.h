@@ -2,6 +2,8 @@
 
 #include <gmp.h>
 
+#include <cstddef>
+
 #include "fathom/numeric/interval.h"
 
 namespace fathom {
@@ -59,5 +61,8 @@ class Dyadic {
 Interval enclose(const Dyadic& x);
 
 Dyadic abs(const Dyadic& x);
+
+/// The same for equal numbers, however they are stored.
+std::size_t hash_of(const Dyadic& x);
 
 }  // namespace fathom

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <random>
 #include <set>
@@ -40,9 +41,37 @@ TEST(EdgeBalance, OppositeEdgesCancelWhateverTheOrder) {
     balance.start(i % 2 == 0 ? 1 : 1000);
     for (const auto& [from, to] : edges) balance.add(from, to);
     std::multiset<std::pair<std::uint32_t, std::uint32_t>> found;
-    balance.for_each_left([&](const EdgeBalance::Edge& e) { found.insert({e.from, e.to}); });
+    balance.for_each_left([&](const EdgeBalance::Edge& e) {
+      EXPECT_GT(e.times, 0U);
+      for (std::uint32_t k = 0; k < e.times; ++k) found.insert({e.from, e.to});
+    });
     EXPECT_EQ(found, left);
   }
+}
+
+// Thousands of equal edges take one place.
+TEST(EdgeBalance, EqualEdgesAreCounted) {
+  const auto left_of = [](const EdgeBalance& balance) {
+    std::vector<std::array<std::uint32_t, 3>> left;
+    balance.for_each_left([&](const EdgeBalance::Edge& e) {
+      left.push_back({e.from, e.to, e.times});
+    });
+    return left;
+  };
+  using Left = std::vector<std::array<std::uint32_t, 3>>;
+  EdgeBalance balance;
+  balance.start(1);
+  for (int i = 0; i < 5000; ++i) balance.add(7, 3);
+  EXPECT_EQ(left_of(balance), (Left{{7, 3, 5000}}));
+  balance.add(3, 7, 4999);
+  EXPECT_EQ(left_of(balance), (Left{{7, 3, 1}}));
+  balance.add(3, 7, 3);
+  EXPECT_EQ(left_of(balance), (Left{{3, 7, 2}}));
+  // It grows, and they stay what they are.
+  for (std::uint32_t i = 100; i < 1100; ++i) balance.add(i, i + 1, 2);
+  for (std::uint32_t i = 100; i < 1100; ++i) balance.add(i + 1, i, i == 500 ? 1 : 2);
+  balance.add(7, 3, 2);
+  EXPECT_EQ(left_of(balance), (Left{{500, 501, 1}}));
 }
 
 }  // namespace

@@ -110,6 +110,31 @@ TEST(PixelArea, IntervalsContainTheExactArea) {
   EXPECT_GT(settled, cases * 9 / 10);
 }
 
+/// A triangle that is there a thousand times, and one beside it that has an edge in common with all.
+TEST(PixelArea, EdgesInOnePlaceAreOne) {
+  const Triangle t{{{0.125, 0.25}, {0.75, 0.25}, {0.25, 0.875}}};
+  const Triangle beside{{{0.75, 0.25}, {0.875, 1.5}, {0.25, 0.875}}};
+  PixelWinding pixel;
+  pixel.clear();
+  const auto add = [&](const Triangle& its, int times) {
+    for (std::size_t k = 0; k < 3; ++k) pixel.add(its[k], its[(k + 1) % 3], 0, times);
+  };
+  for (int i = 0; i < 999; ++i) add(t, 1);
+  EXPECT_EQ(pixel.size(), 3U);
+  add(t, 1);
+  add(beside, 1);
+  EXPECT_EQ(pixel.size(), 5U);
+  const auto is_in = [](const Triangle& its, const SquarePoint& s) {
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) inside = inside && cross({s, its[k], its[(k + 1) % 3]}) > 0;
+    return inside;
+  };
+  const Interval area = pixel.area(
+      [&](const SquarePoint& s) { return (is_in(t, s) ? 1000 : 0) + (is_in(beside, s) ? 1 : 0); });
+  expect_contains(area, exact_area({t, beside}));
+  EXPECT_LT(area.upper - area.lower, 0x1p-40);
+}
+
 TEST(PixelArea, OfNothingIsNothing) {
   PixelUnion pixel;
   pixel.clear();

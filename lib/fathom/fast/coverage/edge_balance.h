@@ -17,21 +17,28 @@ class EdgeBalance {
  public:
   struct Edge {
     std::uint32_t from, to;
+    /// How often it is there more than its opposite.
+    std::uint32_t times = 1;
   };
 
   /// Empties it, with room for about so many different edges; there may be more.
   void start(std::size_t expected_edges);
-  /// Vertices must be less than 2³² − 1. Cancels an edge from `to` to `from`, or keeps this one
-  /// until its opposite comes.
-  void add(std::uint32_t from, std::uint32_t to) {
+  /// Vertices must be less than 2³² − 1. Cancels edges from `to` to `from`, and keeps this one until
+  /// its opposite comes.
+  void add(std::uint32_t from, std::uint32_t to, std::uint32_t times = 1) {
     const std::uint64_t edge = key(from, to), opposite = key(to, from);
     for (std::size_t i = start_of(from, to);; i = (i + 1) & mask_) {
       if (slots_[i] == opposite) {
-        slots_[i] = cancelled;
+        cancel(i, edge, times);
+        return;
+      }
+      if (slots_[i] == edge) {
+        add_more(i, times);
         return;
       }
       if (slots_[i] == empty) {
         slots_[i] = edge;
+        if (times > 1) add_more(i, times - 1);
         if (++used_ > mask_ / 4 * 3) grow();
         return;
       }
@@ -40,10 +47,8 @@ class EdgeBalance {
   /// Calls visit(Edge) for each edge that is left.
   template <class Visit>
   void for_each_left(const Visit& visit) const {
-    for (const std::uint64_t slot : slots_) {
-      if (slot > cancelled) {
-        visit(Edge{static_cast<std::uint32_t>((slot >> 32) - 1), static_cast<std::uint32_t>(slot)});
-      }
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+      if (slots_[i] > cancelled) visit(edge_in(i));
     }
   }
 
@@ -59,9 +64,32 @@ class EdgeBalance {
     return static_cast<std::size_t>(((sum ^ product << 1) * 0x9E3779B97F4A7C15) >> shift_);
   }
 
+  [[nodiscard]] Edge edge_in(std::size_t i) const {
+    return {static_cast<std::uint32_t>((slots_[i] >> 32) - 1),
+            static_cast<std::uint32_t>(slots_[i]), 1 + (more_.empty() ? 0 : more_[i])};
+  }
+  void add_more(std::size_t i, std::uint32_t times) {
+    if (more_.empty()) more_.resize(slots_.size());
+    more_[i] += times;
+  }
+  /// Takes an edge `times` times from its opposite in slot i.
+  void cancel(std::size_t i, std::uint64_t edge, std::uint32_t times) {
+    const std::uint32_t there = 1 + (more_.empty() ? 0 : more_[i]);
+    if (!more_.empty()) more_[i] = 0;
+    if (there == times) {
+      slots_[i] = cancelled;
+      return;
+    }
+    if (there < times) slots_[i] = edge;
+    const std::uint32_t left = there < times ? times - there : there - times;
+    if (left > 1) add_more(i, left - 1);
+  }
+
   void grow();
 
   std::vector<std::uint64_t> slots_;
+  /// How often the edge in each slot is there beyond once; empty as long as none is.
+  std::vector<std::uint32_t> more_;
   /// Slots that are not empty.
   std::size_t used_ = 0;
   std::size_t mask_ = 0;
@@ -74,15 +102,15 @@ inline void EdgeBalance::start(std::size_t expected_edges) {
   shift_ = std::countl_zero(mask_);
   used_ = 0;
   slots_.assign(size, empty);
+  more_.clear();
 }
 
 inline void EdgeBalance::grow() {
-  const std::vector<std::uint64_t> before = std::move(slots_);
-  start(before.size());
-  for (const std::uint64_t slot : before) {
-    if (slot > cancelled)
-      add(static_cast<std::uint32_t>((slot >> 32) - 1), static_cast<std::uint32_t>(slot));
-  }
+  EdgeBalance before;
+  before.slots_ = std::move(slots_);
+  before.more_ = std::move(more_);
+  start(before.slots_.size());
+  before.for_each_left([&](const Edge& edge) { add(edge.from, edge.to, edge.times); });
 }
 
 }  // namespace fathom::fast

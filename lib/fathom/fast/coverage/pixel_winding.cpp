@@ -18,15 +18,35 @@
 namespace fathom::fast {
 
 void PixelWinding::clear() {
-  edges_.clear();
+  added_.clear();
   error_ = 0;
+}
+
+// Many surfaces may have an edge in one place. Each adds its error, as each has exact ends of its
+// own; the computed edges are one line, across which the winding number changes by all of them.
+void PixelWinding::add(const SquarePoint& from, const SquarePoint& to, double position_error,
+                       int times) {
+  error_ += area_bounds::moved_edge * position_error;
+  const bool in_order = from.x < to.x || (from.x == to.x && from.y <= to.y);
+  const Added edge = in_order ? Added{from, to, times} : Added{to, from, -times};
+  const auto same = std::find_if(added_.rbegin(), added_.rend(), [&](const Added& other) {
+    return other.first.x == edge.first.x && other.first.y == edge.first.y &&
+           other.second.x == edge.second.x && other.second.y == edge.second.y;
+  });
+  if (same == added_.rend()) {
+    added_.push_back(edge);
+  } else {
+    same->times += edge.times;
+  }
 }
 
 // With x to the right and y downwards, a triangle of positive area lies to the left of its edges
 // that go down and to the right of those that go up.
-void PixelWinding::add(const SquarePoint& from, const SquarePoint& to, double position_error) {
-  error_ += area_bounds::moved_edge * position_error;
-  edges_.add(from, to, from.y < to.y ? -1 : 1);
+void PixelWinding::set_edges() {
+  edges_.clear();
+  for (const auto& [first, second, times] : added_) {
+    if (times != 0) edges_.add(first, second, first.y < second.y ? -times : times);
+  }
 }
 
 void PixelWinding::find_crossings(double height) {

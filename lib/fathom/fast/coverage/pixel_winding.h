@@ -13,9 +13,12 @@ namespace fathom::fast {
 class PixelWinding {
  public:
   void clear();
-  /// An edge of a triangle turned so that its area is positive. `position_error` bounds the errors
-  /// of the ends' coordinates.
-  void add(const SquarePoint& from, const SquarePoint& to, double position_error);
+  /// An edge of a triangle turned so that its area is positive, which is there so many times.
+  /// `position_error` bounds the errors of the ends' coordinates. Edges with the same computed ends
+  /// become one.
+  void add(const SquarePoint& from, const SquarePoint& to, double position_error, int times = 1);
+  /// How many edges differ from each other.
+  [[nodiscard]] std::size_t size() const { return added_.size(); }
 
   /// An interval that contains the area, within [0, 1]. `count(point)` is the number of triangles
   /// that cover a point of the square, if it is certain that it is the same for all points within
@@ -40,7 +43,14 @@ class PixelWinding {
   /// Length of the gaps where the number is positive; it is `number` in gap `known`.
   [[nodiscard]] double covered_length(std::size_t known, int number) const;
   [[nodiscard]] Interval enclose(double sum) const;
+  void set_edges();
 
+  /// Between ends in order; `times` is negative if the edge goes from `second` to `first`.
+  struct Added {
+    SquarePoint first, second;
+    int times;
+  };
+  std::vector<Added> added_;
   SquareEdges edges_;
   std::vector<Crossing> crossings_;
   double error_ = 0;
@@ -48,6 +58,7 @@ class PixelWinding {
 
 template <class Count>
 Interval PixelWinding::area(const Count& count) {
+  set_edges();
   edges_.cut(false);
   bool known = true;
   const double sum = edges_.integrate([&](double height) {

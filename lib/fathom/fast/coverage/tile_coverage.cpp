@@ -10,6 +10,12 @@
 #include "fathom/numeric/rounding.h"
 
 namespace fathom::fast {
+namespace {
+
+/// With slabs between all ends and crossings, time grows with the cube of the number of edges.
+constexpr std::size_t most_edges = 400;
+
+}  // namespace
 
 void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile::Context& context,
                          float* values, std::uint32_t image_width) {
@@ -195,7 +201,7 @@ Interval TileCoverage::area_between_edges(std::uint32_t pixel, Corners corners) 
   const double left = area_.first_column + x, top = area_.first_row + y;
   winding_.clear();
   for (const std::uint32_t i : edges_at_.at(pixel)) {
-    const auto& [from, to, object] = unbalanced_[i];
+    const auto& [from, to, object, times] = unbalanced_[i];
     SquarePoint p{from->u - left, from->v - top}, q{to->u - left, to->v - top};
     double error = std::max(from->position_error(), to->position_error());
     if (corners == Corners::exact) {
@@ -205,7 +211,8 @@ Interval TileCoverage::area_between_edges(std::uint32_t pixel, Corners corners) 
     }
     const double extent =
         std::max({std::abs(p.x), std::abs(p.y), std::abs(q.x), std::abs(q.y), 1.0});
-    winding_.add(p, q, error + unit_roundoff<double> * extent);
+    winding_.add(p, q, error + unit_roundoff<double> * extent, times);
+    if (winding_.size() > most_edges) return {0, 1};
   }
   return winding_.area([&](const SquarePoint& point) {
     int number = 0;
@@ -273,13 +280,11 @@ float TileCoverage::settle(std::uint32_t pixel, const Tile::Context& context) {
   };
   const bool any_open = std::any_of(shapes.begin(), shapes.end(),
                                     [&](std::uint32_t i) { return shapes_[i].is_open; });
-  // With slabs between all ends and crossings, time grows with the cube of the number of edges.
-  constexpr std::size_t most = 400;
-  if ((any_open ? shapes.size() : edges_at_.at(pixel).size()) > most) {
-    return settle_exactly(pixel, context);
-  }
+  if (any_open && shapes.size() > most_edges) return settle_exactly(pixel, context);
   Interval area = any_open ? area_of_union(pixel) : area_between_edges(pixel, Corners::computed);
-  if (!settles(area) && !any_open) area = area_between_edges(pixel, Corners::exact);
+  if (!settles(area) && !any_open && winding_.size() <= most_edges) {
+    area = area_between_edges(pixel, Corners::exact);
+  }
   const double more = (area.upper - area.lower) / 2 * (context.switches.widening - 1);
   if (!settles({area.lower - more, area.upper + more})) {
     context.note_doubt(area_.first_column + pixel % size, area_.first_row + pixel / size);

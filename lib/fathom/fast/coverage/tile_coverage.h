@@ -104,6 +104,7 @@ class TileCoverage {
   struct UnbalancedEdge {
     const ImageVertex *from, *to;
     const ImageObject* object;
+    int times;
   };
 
   // tile_coverage_open.cpp: which pixels are open.

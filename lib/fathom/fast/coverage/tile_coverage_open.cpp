@@ -165,9 +165,10 @@ void TileCoverage::balance_edges(const ImageObject& object, std::size_t first, s
   // Vertices that are in the file more than once, at the same place, are taken as one.
   VertexAtPlace vertex_at(object.mesh, 2 * left_.size(), vertex_at_);
   balance_.start(left_.size());
-  for (const auto& [from, to] : left_) balance_.add(vertex_at(from), vertex_at(to));
+  for (const auto& [from, to, times] : left_) balance_.add(vertex_at(from), vertex_at(to), times);
   balance_.for_each_left([&](const EdgeBalance::Edge& edge) {
-    unbalanced_.push_back({&object.vertices[edge.from], &object.vertices[edge.to], &object});
+    unbalanced_.push_back({&object.vertices[edge.from], &object.vertices[edge.to], &object,
+                           static_cast<int>(edge.times)});
     for_each_row(unbalanced_.back(),
                  [&](std::size_t row, std::uint64_t columns) { open_[row] |= columns; });
   });
