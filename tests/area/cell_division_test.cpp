@@ -114,7 +114,9 @@ TEST(CellDivision, WhatIsHiddenByMostIsLeftOut) {
     CellVisibility all(pixel), some(pixel);
     for (const SurfaceRegion& surface : surfaces) all.add(surface);
     some.add_visible(pointers);
-    if (crowd.name == "coins") EXPECT_LT(some.size(), all.size() / 2);
+    if (crowd.name == "coins") {
+      EXPECT_LT(some.size(), all.size() / 2);
+    }
     const auto visible = [](CellVisibility& pieces) {
       std::map<std::uint32_t, Q> areas;
       for (std::size_t i = 0; i < pieces.size(); ++i) {

@@ -109,7 +109,8 @@ class VisibleTriangle {
   std::vector<ConvexPolygon> find_visible() {
     std::vector<ConvexPolygon> result;
     PartlyHidden hidden(cell_, visibility_.polygon(0));
-    for (const std::uint32_t other : surfaces_.near(number_)) {
+    for (const std::uint32_t other : surfaces_.nearest_first(number_)) {
+      if (surfaces_.surface(other)->depths.lower > surface().depths.upper) break;
       if (!surfaces_.is_first(other)) continue;
       const auto part = visibility_.add_if_it_hides(*surfaces_.surface(other), 0);
       if (!part) continue;
@@ -172,6 +173,7 @@ class PairFinder {
     std::vector<CoplanarPair> found;
     for (const std::uint32_t s : surfaces_.near(t)) {
       const SurfaceRegion& other = *surfaces_.surface(s);
+      if (are_certainly_apart(triangle.surface(), other)) continue;
       if (within_ == 0 && !in_front(other, triangle.surface()).is_zero()) continue;
       if (share_a_corner(corners, triangles_.world_corners(s))) continue;
       const std::vector<ConvexPolygon> polygons = triangle.visible_before(s, within_);
@@ -207,6 +209,14 @@ class PairFinder {
         if (VisibleTriangle::is_close(separation, boundary, within_)) add_pixel(pair, column, row);
       }
     }
+  }
+
+  /// Whether the second is nowhere behind the first, or farther behind it everywhere than counts.
+  [[nodiscard]] bool are_certainly_apart(const SurfaceRegion& front,
+                                         const SurfaceRegion& behind) const {
+    if (behind.depths.upper < front.depths.lower) return true;
+    // The difference is rounded, by less than this factor.
+    return (behind.depths.lower - front.depths.upper) * (1 - 0x1p-50) > within_;
   }
 
   static void add_pixel(CoplanarPair& pair, std::uint32_t column, std::uint32_t row) {

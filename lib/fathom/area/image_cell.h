@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "fathom/area/convex_union.h"
@@ -38,6 +39,10 @@ struct SurfaceRegion {
   /// D at any point of the triangle lies in it.
   Interval depths;
 };
+/// By their nearest points, then by their numbers.
+inline bool is_nearer(const SurfaceRegion& a, const SurfaceRegion& b) {
+  return std::pair(a.depths.lower, a.number) < std::pair(b.depths.lower, b.number);
+}
 std::optional<SurfaceRegion> surface_region(const triangle::ProjectedTriangle& t,
                                             const Camera& camera);
 

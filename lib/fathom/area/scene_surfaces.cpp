@@ -76,4 +76,12 @@ std::vector<std::uint32_t> SceneSurfaces::near(std::uint32_t number) const {
   return found;
 }
 
+std::vector<std::uint32_t> SceneSurfaces::nearest_first(std::uint32_t number) const {
+  std::vector<std::uint32_t> numbers = near(number);
+  std::sort(numbers.begin(), numbers.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return is_nearer(*surfaces_[a], *surfaces_[b]);
+  });
+  return numbers;
+}
+
 }  // namespace fathom::area

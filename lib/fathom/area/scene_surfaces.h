@@ -27,6 +27,8 @@ class SceneSurfaces {
   }
   /// Numbers of the triangles whose boxes meet that of `number`, without `number`, in order.
   [[nodiscard]] std::vector<std::uint32_t> near(std::uint32_t number) const;
+  /// The same, from front to back: those that hide most come first.
+  [[nodiscard]] std::vector<std::uint32_t> nearest_first(std::uint32_t number) const;
 
  private:
   static constexpr std::uint32_t side_of_tile = 16;

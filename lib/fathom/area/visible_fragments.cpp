@@ -54,25 +54,27 @@ bool CellVisibility::add(const SurfaceRegion& surface) {
 // From front to back. A surface that lies farther away than all before it, with its nearest point,
 // is hidden where one of those is; so it need not be added if the others leave nothing of it.
 void CellVisibility::add_visible(std::span<const SurfaceRegion* const> surfaces) {
-  std::vector<const SurfaceRegion*> nearest_first(surfaces.begin(), surfaces.end());
-  std::sort(nearest_first.begin(), nearest_first.end(), [](const auto* a, const auto* b) {
-    return std::pair(a->depths.lower, a->number) < std::pair(b->depths.lower, b->number);
-  });
+  // A heap, because mostly the first few hide all others.
+  std::vector<const SurfaceRegion*> left(surfaces.begin(), surfaces.end());
+  const auto is_after = [](const auto* a, const auto* b) { return is_nearer(*b, *a); };
+  std::make_heap(left.begin(), left.end(), is_after);
   Remainder uncovered(*cell_, part_.outline);
   double farthest = -infinity;
   std::uint32_t last = 0;
-  for (const SurfaceRegion* surface : nearest_first) {
-    const bool is_behind = surface->depths.lower > farthest ||
-                           (surface->depths.lower == farthest && surface->number > last);
+  for (; !left.empty(); left.pop_back()) {
+    std::pop_heap(left.begin(), left.end(), is_after);
+    const SurfaceRegion& surface = *left.back();
+    const bool is_behind = surface.depths.lower > farthest ||
+                           (surface.depths.lower == farthest && surface.number > last);
     if (is_behind && uncovered.is_empty()) break;
-    if (!add(*surface)) continue;
+    if (!add(surface)) continue;
     const ConvexPolygon& polygon = pieces_.back().polygon;
     if (is_behind && !uncovered.meets(polygon)) {
       pieces_.pop_back();
       continue;
     }
-    farthest = std::max(farthest, surface->depths.upper);
-    last = std::max(last, surface->number);
+    farthest = std::max(farthest, surface.depths.upper);
+    last = std::max(last, surface.number);
     uncovered.subtract(polygon, Remainder::simple);
   }
 }
