@@ -39,7 +39,7 @@ TEST(EdgeBalance, OppositeEdgesCancelWhateverTheOrder) {
     std::shuffle(edges.begin(), edges.end(), random);
     EdgeBalance balance;
     balance.start(i % 2 == 0 ? 1 : 1000);
-    for (const auto& [from, to] : edges) balance.add(from, to);
+    for (const auto& edge : edges) balance.add(edge.from, edge.to);
     std::multiset<std::pair<std::uint32_t, std::uint32_t>> found;
     balance.for_each_left([&](const EdgeBalance::Edge& e) {
       EXPECT_GT(e.times, 0U);
