@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/inputs/random_scenes.h"
 #include "tests/inputs/soup.h"
 
@@ -39,6 +41,14 @@ void check(const Scene& scene, const Camera& camera, Cull cull, int& pairs) {
       if (meet) expected.push_back(b);
     }
     ASSERT_EQ(surfaces.near(a), expected) << a;
+    const auto depths_of = [&](std::uint32_t k) { return surfaces.surface(k)->depths; };
+    std::vector<std::uint32_t> in_front = expected;
+    std::erase_if(in_front,
+                  [&](std::uint32_t other) { return depths_of(other).lower > depths_of(a).upper; });
+    std::stable_sort(in_front.begin(), in_front.end(), [&](std::uint32_t i, std::uint32_t k) {
+      return depths_of(i).lower < depths_of(k).lower;
+    });
+    ASSERT_EQ(surfaces.in_front(a), in_front) << a;
     pairs += static_cast<int>(expected.size());
   }
 }

@@ -41,9 +41,11 @@ class VisibleTriangle {
         is_in_cell_(visibility_.add(surface())) {}
 
   /// Where both are and this one is visible, in convex polygons. Empty if the other is nowhere
-  /// behind it, or certainly farther than `within`.
-  std::vector<ConvexPolygon> visible_before(std::uint32_t other, double within) {
-    const auto both = before(other);
+  /// behind it, or certainly farther than `within`. Where they are equally deep, the other must have
+  /// the higher number; `other_in_front` is in_front() of both.
+  std::vector<ConvexPolygon> visible_before(std::uint32_t other, const ImageForm& other_in_front,
+                                            double within) {
+    const auto both = before(other, other_in_front);
     if (!both || is_certainly_apart(*both, other, within)) return {};
     std::vector<ConvexPolygon> result;
     for (ConvexPolygon part : visible()) {
@@ -70,19 +72,16 @@ class VisibleTriangle {
     });
   }
 
-  /// The points that both cover, with this one in front, or equally deep and with the lower number.
-  std::optional<ConvexPolygon> before(std::uint32_t other) {
+  /// The points that both cover, with this one in front or equally deep.
+  std::optional<ConvexPolygon> before(std::uint32_t other, const ImageForm& other_in_front) {
     if (!is_in_cell_) return std::nullopt;
-    const SurfaceRegion& behind = *surfaces_.surface(other);
-    const auto piece = cell_.clip(behind.region, counts_);
+    const auto piece = cell_.clip(surfaces_.surface(other)->region, counts_);
     ConvexPolygon part = visibility_.polygon(0);
     if (!piece || !part.bounds().may_meet(piece->polygon.bounds()) || !clip(part, piece->polygon)) {
       return std::nullopt;
     }
-    const ImageForm form = in_front(behind, surface());
-    if (!form.is_zero()) return cell_.clip(part, -form, counts_);
-    if (number_ < other) return part;
-    return std::nullopt;
+    if (other_in_front.is_zero()) return part;
+    return cell_.clip(part, -other_in_front, counts_);
   }
 
   /// D is monotone along lines: in a polygon it lies between its values at the corners.
@@ -109,8 +108,7 @@ class VisibleTriangle {
   std::vector<ConvexPolygon> find_visible() {
     std::vector<ConvexPolygon> result;
     PartlyHidden hidden(cell_, visibility_.polygon(0));
-    for (const std::uint32_t other : surfaces_.nearest_first(number_)) {
-      if (surfaces_.surface(other)->depths.lower > surface().depths.upper) break;
+    for (const std::uint32_t other : surfaces_.in_front(number_)) {
       if (!surfaces_.is_first(other)) continue;
       const auto part = visibility_.add_if_it_hides(*surfaces_.surface(other), 0);
       if (!part) continue;
@@ -174,9 +172,13 @@ class PairFinder {
     for (const std::uint32_t s : surfaces_.near(t)) {
       const SurfaceRegion& other = *surfaces_.surface(s);
       if (are_certainly_apart(triangle.surface(), other)) continue;
-      if (within_ == 0 && !in_front(other, triangle.surface()).is_zero()) continue;
+      const ImageForm other_in_front = in_front(other, triangle.surface());
+      if (within_ == 0 && !other_in_front.is_zero()) continue;
+      // Equally deep, but hidden by the other.
+      if (other_in_front.is_zero() && s < t) continue;
       if (share_a_corner(corners, triangles_.world_corners(s))) continue;
-      const std::vector<ConvexPolygon> polygons = triangle.visible_before(s, within_);
+      const std::vector<ConvexPolygon> polygons =
+          triangle.visible_before(s, other_in_front, within_);
       const Boundary boundary = boundary_of(polygons);
       const Separation separation(triangle.cell(), triangle.surface(), other);
       if (!VisibleTriangle::is_close(separation, boundary, within_)) continue;
@@ -242,7 +244,7 @@ std::vector<CoplanarPair> coplanar_pairs(const TriangleSource& triangles, const 
   return with_threads(options.threads, [&] {
     const PairFinder finder({triangles, camera, options.cull}, within);
     std::vector<std::vector<CoplanarPair>> found(finder.count());
-    constexpr std::uint32_t chunk = 64;
+    constexpr std::uint32_t chunk = 8;
     const std::uint32_t chunks = finder.count() / chunk + 1;
     Progress progress(options.progress, chunks);
     parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {

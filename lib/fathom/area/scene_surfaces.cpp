@@ -60,28 +60,41 @@ void SceneSurfaces::find_equal_triangles(const TriangleSource& triangles) {
   }
 }
 
-std::vector<std::uint32_t> SceneSurfaces::near(std::uint32_t number) const {
+// Boxes that meet have a first tile in common, in which the other one is taken.
+template <class Take>
+void SceneSurfaces::for_each_near(std::uint32_t number, const Take& take) const {
   const PixelBox& box = boxes_[number];
-  std::vector<std::uint32_t> found;
   for (std::uint32_t y = box.first_row / side_of_tile; y <= box.last_row / side_of_tile; ++y) {
     for (std::uint32_t x = box.first_column / side_of_tile; x <= box.last_column / side_of_tile;
          ++x) {
       for (const std::uint32_t other : tiles_[std::size_t{y} * columns_ + x]) {
-        if (other != number && meet(box, boxes_[other])) found.push_back(other);
+        const PixelBox& its = boxes_[other];
+        if (other == number || !meet(box, its)) continue;
+        const bool is_first = std::max(box.first_column, its.first_column) / side_of_tile == x &&
+                              std::max(box.first_row, its.first_row) / side_of_tile == y;
+        if (is_first) take(other);
       }
     }
   }
+}
+
+std::vector<std::uint32_t> SceneSurfaces::near(std::uint32_t number) const {
+  std::vector<std::uint32_t> found;
+  for_each_near(number, [&](std::uint32_t other) { found.push_back(other); });
   std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
-std::vector<std::uint32_t> SceneSurfaces::nearest_first(std::uint32_t number) const {
-  std::vector<std::uint32_t> numbers = near(number);
-  std::sort(numbers.begin(), numbers.end(), [&](std::uint32_t a, std::uint32_t b) {
+std::vector<std::uint32_t> SceneSurfaces::in_front(std::uint32_t number) const {
+  const double farthest = surfaces_[number]->depths.upper;
+  std::vector<std::uint32_t> found;
+  for_each_near(number, [&](std::uint32_t other) {
+    if (surfaces_[other]->depths.lower <= farthest) found.push_back(other);
+  });
+  std::sort(found.begin(), found.end(), [&](std::uint32_t a, std::uint32_t b) {
     return is_nearer(*surfaces_[a], *surfaces_[b]);
   });
-  return numbers;
+  return found;
 }
 
 }  // namespace fathom::area

@@ -27,12 +27,15 @@ class SceneSurfaces {
   }
   /// Numbers of the triangles whose boxes meet that of `number`, without `number`, in order.
   [[nodiscard]] std::vector<std::uint32_t> near(std::uint32_t number) const;
-  /// The same, from front to back: those that hide most come first.
-  [[nodiscard]] std::vector<std::uint32_t> nearest_first(std::uint32_t number) const;
+  /// Those of them of which a point is not farther away than all of `number`, from front to back:
+  /// what hides most comes first.
+  [[nodiscard]] std::vector<std::uint32_t> in_front(std::uint32_t number) const;
 
  private:
   static constexpr std::uint32_t side_of_tile = 16;
 
+  template <class Take>
+  void for_each_near(std::uint32_t number, const Take& take) const;
   void find_equal_triangles(const TriangleSource& triangles);
 
   std::uint32_t columns_;

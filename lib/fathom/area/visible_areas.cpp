@@ -71,13 +71,12 @@ class SceneAreas {
     bool is_hidden_in_object = !surfaces_.is_first_of_object(number);
     bool are_same = is_hidden == is_hidden_in_object;
     std::vector<std::uint32_t> others;
-    if (!is_hidden || !is_hidden_in_object) others = surfaces_.nearest_first(number);
+    if (!is_hidden || !is_hidden_in_object) others = surfaces_.in_front(number);
     for (const std::uint32_t other : others) {
       const bool counts = !is_hidden && surfaces_.is_first(other);
       const bool counts_in_object = !is_hidden_in_object && object_of(other) == object_of(number) &&
                                     surfaces_.is_first_of_object(other);
       if (!counts && !counts_in_object) continue;
-      if (surfaces_.surface(other)->depths.lower > surface->depths.upper) break;
       const auto part = all.add_if_it_hides(*surfaces_.surface(other), 0);
       if (!part) continue;
       const bool added = counts && hidden.hide(*part);
