@@ -52,6 +52,19 @@ TEST(Separation, OfParallelPlanesIsTheirDistance) {
   EXPECT_TRUE(planes.separation.is_below(planes.boundary, std::nextafter(0.375, 1)));
 }
 
+TEST(Separation, InOnePlaneIsNothing) {
+  const auto depth = [](double x, double y) { return 2 + x / 4 - y / 2; };
+  const Planes planes(plain_camera(1, 1), depth, depth);
+  EXPECT_EQ(planes.least(), 0);
+  EXPECT_TRUE(planes.separation.is_constantly(0.0));
+  EXPECT_TRUE(planes.separation.is_at_most(planes.boundary, 0.0));
+  EXPECT_FALSE(planes.separation.is_below(planes.boundary, 0.0));
+  EXPECT_TRUE(planes.separation.is_below(planes.boundary, 5e-324));
+  EXPECT_FALSE(planes.separation.is_at_most(planes.boundary, -5e-324));
+  EXPECT_FALSE(planes.separation.is_at_most({}, 1.0));
+  EXPECT_FALSE(planes.separation.is_below({}, 1.0));
+}
+
 /// 1 + (x + y)/4 more: least, 1, in the corner (0, 0) of the pixel.
 TEST(Separation, OfSlantedPlanesIsLeastInACorner) {
   const Planes planes(

@@ -35,7 +35,8 @@ Separation::Separation(const ImageCell& cell, const SurfaceRegion& front,
     : front_numerator_{cell.localised(front.depth_numerator)},
       front_weight_{cell.localised(front.weight)},
       behind_numerator_{cell.localised(behind.depth_numerator)},
-      behind_weight_{cell.localised(behind.weight)} {}
+      behind_weight_{cell.localised(behind.weight)},
+      is_zero_(is_constantly(0.0)) {}
 
 Separation::Ends Separation::ends_of(const BoundarySegment& segment) const {
   Ends ends;
@@ -72,6 +73,7 @@ bool Separation::reaches(const Ends& e, const Dyadic& limit, bool closed) {
 }
 
 bool Separation::is_below(const Boundary& boundary, const Dyadic& limit) const {
+  if (is_zero_) return !boundary.empty() && limit.sign() == Sign::positive;
   for (const BoundarySegment& segment : boundary) {
     if (reaches(ends_of(segment), limit, false)) return true;
   }
@@ -79,6 +81,7 @@ bool Separation::is_below(const Boundary& boundary, const Dyadic& limit) const {
 }
 
 bool Separation::is_at_most(const Boundary& boundary, const Dyadic& limit) const {
+  if (is_zero_) return !boundary.empty() && limit.sign() != Sign::negative;
   for (const BoundarySegment& segment : boundary) {
     if (reaches(ends_of(segment), limit, true)) return true;
   }
@@ -104,6 +107,7 @@ bool Separation::is_constantly(const Dyadic& limit) const {
 // The greatest binary64 number below which the separation never falls, by bisection over the order
 // of the numbers; then the one above it, if the least value lies beyond the middle.
 double Separation::least(const Boundary& boundary) const {
+  if (is_zero_) return 0;
   std::uint64_t low = 0;  // not above the least value
   std::uint64_t high = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
   while (high - low > 1) {

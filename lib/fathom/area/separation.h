@@ -32,6 +32,8 @@ class Separation {
   [[nodiscard]] static bool reaches(const Ends& ends, const Dyadic& limit, bool closed);
 
   Form front_numerator_, front_weight_, behind_numerator_, behind_weight_;
+  /// Whether both lie in one plane.
+  bool is_zero_;
 };
 
 }  // namespace fathom::area
