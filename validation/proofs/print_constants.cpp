@@ -29,6 +29,8 @@ int main() {
   print("q_by_corners", fast::setup_bounds::q_by_corners);
   print("q_rounding", fast::setup_bounds::q_rounding);
   print("q_of_corner", fast::setup_bounds::q_of_corner);
+  print("q_left", fast::setup_bounds::q_left);
+  print("q_moves", fast::setup_bounds::q_moves);
   print("q_room", fast::setup_bounds::q_room);
   print("exact_edge_error", fast::setup_bounds::exact_edge_error);
   print("exact_q_error", fast::setup_bounds::exact_q_error);
@@ -42,12 +44,17 @@ int main() {
   print("cut_error", fast::area_bounds::cut_error);
   print("cut_rounding", fast::area_bounds::cut_rounding);
 
+  print("far", fast::area_bounds::far);
+  print("rounding_room", fast::area_bounds::rounding_room);
+
   print("end_room", fast::resolve_bounds::end_room);
   print("spread_room", fast::resolve_bounds::spread_room);
   print("greatest_relative_error_of_q", fast::resolve_bounds::greatest_relative_error);
 
   print("interval_widening", interval_widening);
   print("distance_room", distance_room);
+  print("sign_room", sign_room);
+  print("quotient_condition", quotient_condition);
   print("slack", slack);
   print("root_error", root_error);
 

@@ -14,7 +14,7 @@
 // Constants are exact numbers rounded to double-words, with errors below ε = epsilon<T>; binary64
 // takes their leading parts: also ε. Everything else is Certified, whose operations carry the
 // bounds. near, far and C lie between 2⁻¹⁰⁰ and 2¹⁰⁰, depths are below 2²⁰⁰, stored values are 0 or
-// above 2⁻⁴⁰⁰: so nothing overflows, and no error of a product is lost to underflow.
+// above 2⁻⁴⁰⁰: so nothing overflows.
 namespace fathom {
 namespace {
 

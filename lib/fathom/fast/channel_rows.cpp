@@ -26,7 +26,9 @@ HWY_INLINE V load_u(const SurfaceRow& row, std::size_t first) {
 }
 
 /// D from q. Perspective: 1/q, where |1/q̂ − 1/q| = |q − q̂|/(q·q̂) and q ≥ q̂·(1 − 2⁻²⁰), and the
-/// division rounds. Orthographic: −q. A bound that is NaN says that nothing is known.
+/// division rounds (validation/proofs/depth_row.gappa.in). Orthographic: −q. A bound that is NaN says
+/// that nothing is known. Nothing underflows: bounds on q are at least 2⁻¹⁰⁰ or u·|q|, so known
+/// depths lie between 2⁻¹⁰⁰ and 2⁸⁰, or err by at least 2⁻¹⁰⁰.
 HWY_INLINE CertifiedLanes load_depth(const SurfaceRow& row, std::size_t first, bool perspective) {
   const D d;
   const V q = hn::LoadU(d, row.q + first);
@@ -35,7 +37,7 @@ HWY_INLINE CertifiedLanes load_depth(const SurfaceRow& row, std::size_t first, b
   const V depth = hn::Div(constant(1), q);
   const V relative = hn::MulAdd(q_error, depth, constant(ulp));
   const V error = hn::Mul(hn::Mul(relative, depth), constant(slack));
-  const M known = hn::Le(q_error, hn::Mul(q, constant(0x1p-20)));
+  const M known = hn::Le(q_error, hn::Mul(q, constant(quotient_condition)));
   return {depth, hn::IfThenElse(known, error, constant(std::numeric_limits<double>::infinity()))};
 }
 
@@ -53,7 +55,8 @@ HWY_INLINE void round_lanes(const CertifiedLanes& x, std::size_t first,
   rounded.settled |= std::uint64_t{bits_of(hn::And(one_sign, same))} << first;
 }
 
-/// Like to_code() of a binary64 number with an error, to which scaling adds a rounding.
+/// Like to_code() of a binary64 number with an error, to which scaling adds a rounding
+/// (validation/proofs/scaled_code.gappa.in).
 HWY_INLINE void round_lanes(const CertifiedLanes& x, double scale, std::size_t first,
                             RoundedValues<std::uint16_t>& rounded) {
   const D d;

@@ -21,12 +21,17 @@ inline constexpr double edge_by_corners = 8.25;
 inline constexpr double edge_rounding = 24 * unit_roundoff<double>;
 
 /// certified_depths(): (72δL + 230uL²)·dq/T + 4.1u|q_A|, where T is at least so many times the
-/// bound on edge functions (q_gradient, q_area, q_bound); q_room gives users 2⁻²⁰ of it (q_room).
+/// bound on edge functions (q_gradient, q_area, q_bound). The bound leaves q_left of itself to
+/// users, for their roundings (q_room).
 inline constexpr double triangle_thinness = 16;
 inline constexpr double q_by_corners = 72;
 inline constexpr double q_rounding = 230 * unit_roundoff<double>;
 inline constexpr double q_of_corner = 4.1 * unit_roundoff<double>;
-inline constexpr double q_room = 1 + 0x1p-19;
+inline constexpr double q_left = 0x1p-20;
+inline constexpr double q_room = 1 + 2 * q_left;
+/// By so many of its bounds a computed q is moved so that it lies beyond the exact one after
+/// rounding (moved_q).
+inline constexpr double q_moves = 2;
 
 /// exact_setup() (exact_edges, exact_q).
 inline constexpr double exact_edge_error = 12 * unit_roundoff<double>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "fathom/fast/setup_bounds.h"
 #include "fathom/triangle/sampling.h"
 
 namespace fathom::fast {
@@ -53,7 +54,7 @@ void Tile::settle(const TriangleSetup& setup, bool test_range, std::uint32_t col
     if (!context.referee.covers(setup.number, s, statistics)) return;
   }
   if (test_range) {
-    const double error = 2 * setup.q_error;
+    const double error = setup_bounds::q_moves * setup.q_error;
     if (context.range.certainly_misses(q - error, q + error)) return;
     if (!context.range.certainly_contains(q - error, q + error)) {
       if (!context.referee.is_in_range(setup.number, s, statistics)) return;

@@ -96,10 +96,11 @@ struct Strip {
 // ("loses"), or neither is certain. The third case is settled exactly.
 //
 // d is the difference of two values of q with a relative error of u; the sum of their errors has
-// one too, and both errors leave out 2⁻²⁰ of themselves: d > sum implies that the exact q of this
-// triangle is greater. Where the triangle does not cover the sample the bound on q does not hold,
-// but then "loses" is right anyway. Ends of the range are compared with q moved by twice its error:
-// a bound on q is never below u·|q|, so the second half covers the rounding of the end.
+// one too, and both errors leave out q_left of themselves: d > sum implies that the exact q of this
+// triangle is greater (validation/proofs/nearer_q.gappa.in). Where the triangle does not cover the
+// sample the bound on q does not hold, but then "loses" is right anyway. Ends of the range are
+// compared with q moved by twice its error: a bound on q is never below u·|q|, so the second half
+// covers the rounding of the end (moved_q.gappa.in).
 template <bool test_edges, bool test_range>
 HWY_INLINE bool draw_strip(Tile& tile, const Drawn& t, const Strip& strip,
                            const Tile::Context& context) {
@@ -137,7 +138,7 @@ HWY_INLINE bool draw_strip(Tile& tile, const Drawn& t, const Strip& strip,
       }
       if (hn::AllFalse(d, open)) continue;
       if constexpr (test_range) {
-        const V error = hn::Add(f.q_error, f.q_error);
+        const V error = hn::Mul(constant(setup_bounds::q_moves), f.q_error);
         const DepthRange& range = context.range;
         wins = hn::And(wins, hn::And(hn::Ge(hn::Sub(q, error), constant(range.inside_least)),
                                      hn::Le(hn::Add(q, error), constant(range.inside_greatest))));
@@ -183,7 +184,8 @@ struct BlockRow {
 // that of the corner where the function is greatest, or below that of the opposite corner; only
 // blocks that the box meets count, and the bounds hold up to 8 samples beyond it.
 // Hidden: no surface of the block has a q below the block's farthest, and the triangle's greatest q
-// with its error is below that: twice the error, for the rounding of the sum.
+// moved by twice its error is below that (moved_q.gappa.in, of the sample where q is greatest; the
+// computed value at the corner is not less, and rounding is monotone).
 HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, int block_row, bool reject) {
   const D d;
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -214,7 +216,9 @@ HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, int block_row, bo
       const V farthest = hn::LoadU(
           d, tile.farthest() + static_cast<std::size_t>(
                                    block_row * (static_cast<int>(Tile::size) / block) + part));
-      missed = hn::Or(missed, hn::Lt(hn::MulAdd(constant(2), f.q_error, greatest), farthest));
+      missed = hn::Or(
+          missed,
+          hn::Lt(hn::MulAdd(constant(setup_bounds::q_moves), f.q_error, greatest), farthest));
     }
     row.drawn |= (bits_of(missed) ^ ((1U << lanes) - 1)) << part;
     row.inside |= bits_of(inside) << part;
@@ -222,8 +226,8 @@ HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, int block_row, bo
   return row;
 }
 
-// The least q − 3·error: a bound on q is never below u·|q|, so the computed value is not greater
-// than the exact q. If a surface has no bound (NaN), nothing is known.
+// The least q, moved by twice its error: not greater than any exact q (moved_q.gappa.in). If a
+// surface has no bound (NaN), nothing is known.
 HWY_INLINE void update_farthest(Tile& tile, std::size_t block_number) {
   const D d;
   const DU du;
@@ -238,7 +242,8 @@ HWY_INLINE void update_farthest(Tile& tile, std::size_t block_number) {
     for (std::size_t part = 0; part < Tile::block; part += lanes) {
       const std::size_t i = start + row * Tile::size + part;
       const V error = hn::BitCast(d, hn::LoadU(du, tile.tags() + i));
-      least = hn::Min(least, hn::NegMulAdd(constant(3), error, hn::LoadU(d, tile.q() + i)));
+      least = hn::Min(
+          least, hn::NegMulAdd(constant(setup_bounds::q_moves), error, hn::LoadU(d, tile.q() + i)));
       known = hn::And(known, hn::Eq(error, error));
     }
   }

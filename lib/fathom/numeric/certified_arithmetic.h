@@ -5,14 +5,11 @@
 #include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/interval.h"
 
-/// Arithmetic of binary64 numbers with bounds that hold whatever underflows. sum(), product() and
-/// quotient() of certified_value.h serve double-words too, but rely on magnitudes at which nothing
-/// underflows.
+/// Arithmetic of binary64 numbers with bounds that count every rounding of their own, so that many
+/// operations may follow each other; a divisor may err by almost all of itself. sum(), product() and
+/// quotient() of certified_value.h serve double-words too.
 namespace fathom {
 
-/// More than underflow can do to a sum of products of numbers below 1: each of fewer than 2⁶
-/// operations loses at most 2⁻¹⁰⁷⁴, and so does each coefficient.
-inline constexpr double most_underflow = 0x1p-1000;
 /// More than at most 6 roundings of a bound's own terms, none of them negative, can take from it.
 inline constexpr double bound_rounding = 1 + 0x1p-48;
 

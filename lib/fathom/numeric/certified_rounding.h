@@ -19,6 +19,15 @@ inline constexpr double least_safe = 0x1p-100, greatest_safe = 0x1p100;
 /// By how much of the value an interval is widened for the rounding of its ends, and by how much a
 /// distance is for its own (validation/proofs/rounding_*.gappa.in).
 inline constexpr double interval_widening = 0x1p-51, distance_room = 1 + 0x1p-50;
+/// How much of the leading word certainly is of the number.
+inline constexpr double sign_room = 1 - 0x1p-50;
+
+/// The sign of a number that is certainly not 0: |hi + lo| ≥ |hi|·(1 − u), and the factor covers the
+/// rounding of the product, too. Exact zeroes are not known, either.
+inline std::optional<int> certain_sign(const WordPair& x, double error) {
+  if (!(std::abs(x.hi) * sign_room > error)) return std::nullopt;
+  return x.hi > 0 ? 1 : -1;
+}
 
 /// Rounding is monotone, so it is enough that both ends of the interval round to the same number.
 /// The ends are moved outwards by 2⁻⁵¹ of themselves, for their own rounding. An interval that

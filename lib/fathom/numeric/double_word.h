@@ -14,8 +14,8 @@
 ///            products are representable). epsilon<Real> is above all of them.
 /// Needs      rounding to nearest, no fast-math, no contraction: std::fma is fused where it is
 ///            written and nothing else is (-ffp-contract=off).
-/// Source     [JMP17], whose algorithm numbers are used here; [MR22] for formal proofs of the
-///            bounds.
+/// Source     [JMP17], whose numbers of algorithms and theorems are used here; [MR22] for formal
+///            proofs of the bounds.
 namespace fathom {
 
 /// A double-word number without its operations, as tables hold it.
@@ -69,7 +69,7 @@ struct DoubleWord {
 
   DoubleWord operator-() const { return {-hi, -lo}; }
 
-  /// 3u²/(1 − 4u) (Algorithm 6, AccurateDWPlusDW).
+  /// 3u²/(1 − 4u) (Algorithm 6, AccurateDWPlusDW; Theorem 3.1).
   friend DoubleWord operator+(const DoubleWord& x, const DoubleWord& y) {
     const WordPair s = two_sum(x.hi, y.hi);
     const WordPair t = two_sum(x.lo, y.lo);
@@ -78,20 +78,20 @@ struct DoubleWord {
   }
   friend DoubleWord operator-(const DoubleWord& x, const DoubleWord& y) { return x + -y; }
 
-  /// 2u² (Algorithm 7, DWTimesFP1).
+  /// 3u²/2 + 4u³ < 2u² (Algorithm 7, DWTimesFP1; Theorem 4.1).
   friend DoubleWord operator*(const DoubleWord& x, double y) {
     const WordPair c = two_product<fused>(x.hi, y);
     const WordPair t = fast_two_sum(c.hi, x.lo * y);
     return fast_two_sum(t.hi, t.lo + c.lo);
   }
 
-  /// 7u² (Algorithm 10, DWTimesDW1).
+  /// 7u² (Algorithm 10, DWTimesDW1; Theorem 5.1).
   friend DoubleWord operator*(const DoubleWord& x, const DoubleWord& y) {
     const WordPair c = two_product<fused>(x.hi, y.hi);
     return fast_two_sum(c.hi, c.lo + (x.hi * y.lo + x.lo * y.hi));
   }
 
-  /// 15u² + 56u³ (Algorithm 17, DWDivDW2).
+  /// 15u² + 56u³ (Algorithm 17, DWDivDW2; Theorem 7.1).
   friend DoubleWord operator/(const DoubleWord& x, const DoubleWord& y) {
     const double t = x.hi / y.hi;
     const DoubleWord r = y * t;

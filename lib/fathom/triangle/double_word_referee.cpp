@@ -3,27 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/last_bit.h"
 
 namespace fathom::triangle {
 namespace {
 
-/// The sign of the exact number if the bound settles it: |value − exact| ≤ error, and hi + lo is
-/// rounded once.
-std::optional<int> sign_of(const Certified<WordPair>& x) {
-  const double value = x.value.hi + x.value.lo;
-  const double bound = x.error * (1 + 0x1p-40);
-  if (value * (1 - 0x1p-50) > bound) return 1;
-  if (value * (1 - 0x1p-50) < -bound) return -1;
-  return std::nullopt;
+using Word = DoubleWord<false>;
+
+Certified<WordPair> difference(const Certified<WordPair>& x, const Certified<WordPair>& y) {
+  const Certified<Word> result = sum<Word>({Word(x.value), x.error}, {-Word(y.value), y.error});
+  return {result.value, result.error};
 }
 
-/// x − y with its bound, both widened for the roundings of their sums.
-Certified<WordPair> difference(const Certified<WordPair>& x, const Certified<WordPair>& y) {
-  using Word = DoubleWord<false>;
-  const Word value = Word(x.value) - Word(y.value);
-  const double size = std::abs(x.value.hi) + std::abs(y.value.hi);
-  return {value, (x.error + y.error + 0x1p-100 * size) * slack};
+std::optional<int> sign_of_difference(const Certified<WordPair>& x, const Certified<WordPair>& y) {
+  const Certified<WordPair> d = difference(x, y);
+  return certain_sign(d.value, d.error);
 }
 
 Certified<WordPair> exactly(double x) {
@@ -70,26 +65,27 @@ std::optional<bool> WideReferee::covers(std::uint32_t number, const ImagePoint& 
   const Certified<WordPair> alpha = difference(difference(exactly(1), weights[0]), weights[1]);
   bool all_positive = true;
   for (const Certified<WordPair>& weight : {weights[0], weights[1], alpha}) {
-    const auto sign = sign_of(weight);
+    const auto sign = certain_sign(weight.value, weight.error);
     if (sign && *sign < 0) return false;
     all_positive = all_positive && sign;
   }
   if (!all_positive) return std::nullopt;
   if (!image_.perspective) return true;
-  const auto sign = sign_of(depth_at(number, s));
+  const Certified<WordPair> depth = depth_at(number, s);
+  const auto sign = certain_sign(depth.value, depth.error);
   if (!sign) return std::nullopt;
   return *sign > 0;
 }
 
 std::optional<int> WideReferee::compare_depth(std::uint32_t number, const ImagePoint& s,
                                               double limit) {
-  return sign_of(difference(depth_at(number, s), exactly(limit)));
+  return sign_of_difference(depth_at(number, s), exactly(limit));
 }
 
 std::optional<int> WideReferee::compare_depths(std::uint32_t a, std::uint32_t b,
                                                const ImagePoint& s) {
   const Certified<WordPair> depth_of_a = depth_at(a, s);
-  return sign_of(difference(depth_of_a, depth_at(b, s)));
+  return sign_of_difference(depth_of_a, depth_at(b, s));
 }
 
 bool WideReferee::lie_in_one_plane(std::uint32_t a, std::uint32_t b) {

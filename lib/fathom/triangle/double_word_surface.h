@@ -21,7 +21,8 @@ Certified<Real> ray_length(const SceneRays& rays, const ImagePoint& s) {
 }
 
 /// The point of depth D on the ray of a sample, o + d·D. o and d err by 4ε of their sizes ō and d̄,
-/// so the point errs by 5ε·d̄·|D̂| + d̄·E_D + 4ε·ō for its terms and by ε for the sum.
+/// so the point errs by 5ε·d̄·|D̂| + d̄·E_D + 4ε·ō for its terms and by ε for the sum. A coordinate
+/// of which all terms are 0 is exactly 0.
 template <class Real>
 Vector<Certified<Real>> position(const Rays& rays, const RaySizes& sizes, bool perspective,
                                  const ImagePoint& s, const Certified<Real>& depth) {
@@ -29,11 +30,14 @@ Vector<Certified<Real>> position(const Rays& rays, const RaySizes& sizes, bool p
   const double D_size = std::abs(nearest(depth.value));
   Vector<Certified<Real>> point;
   for (std::size_t i = 0; i < 3; ++i) {
+    if (sizes.origin[i] == 0 && sizes.direction[i] == 0) {
+      point[i] = {Real(0.0), 0};
+      continue;
+    }
     const double size = sizes.origin[i] + sizes.direction[i] * D_size;
-    point[i] = {
-        ray.origin[i] + ray.direction[i] * depth.value,
-        (surface_bounds::position * epsilon<Real> * size + sizes.direction[i] * depth.error) *
-            slack};
+    const double error =
+        surface_bounds::position * epsilon<Real> * size + sizes.direction[i] * depth.error;
+    point[i] = {ray.origin[i] + ray.direction[i] * depth.value, (error + most_underflow) * slack};
   }
   return point;
 }

@@ -13,4 +13,8 @@ inline constexpr double moved_edge = 4.1, moved_triangle = 16;
 /// A cut by a line: error/max(|a|, |b|), and its own roundings (pixel_union.cpp).
 inline constexpr double cut_error = 8, cut_rounding = 64 * unit_roundoff<double>;
 
+/// Coordinates of at most `far` pixels are computed within rounding_room, also along edges whose ends
+/// differ by least_rise in height (tile_coverage_open.cpp; row_of_edge).
+inline constexpr double far = 0x1p28, rounding_room = 0x1p-20, least_rise = 0x1p-20;
+
 }  // namespace fathom::fast::area_bounds
