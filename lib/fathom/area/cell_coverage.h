@@ -1,20 +1,19 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
+#include "fathom/area/covered_parts.h"
 #include "fathom/area/image_cell.h"
-#include "fathom/area/remainder.h"
 
 namespace fathom::area {
 
 /// The area of the union of what the regions cover of a cell.
 class CellCoverage {
  public:
-  explicit CellCoverage(ImageCell& cell) : cell_(cell) {}
+  explicit CellCoverage(ImageCell& cell) : cell_(cell), covered_(cell, cell.whole()) {}
   void add(const std::vector<ImageForm>& region);
   /// Whether the whole cell is covered: what is added then changes nothing.
-  [[nodiscard]] bool is_complete() const { return complete_; }
+  [[nodiscard]] bool is_complete() const { return covered_.is_all(); }
   [[nodiscard]] Ratio area();
   /// The area, rounded once.
   [[nodiscard]] float rounded_area();
@@ -22,13 +21,9 @@ class CellCoverage {
 
  private:
   [[nodiscard]] Boundary boundary();
-  void complete();
 
   ImageCell& cell_;
-  std::vector<ConvexPolygon> pieces_;
-  /// Of the cell, once there are many pieces.
-  std::optional<Remainder> uncovered_;
-  bool complete_ = false;
+  CoveredParts covered_;
   TierCounts counts_;
 };
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "fathom/area/cell_division.h"
-#include "fathom/area/remainder.h"
+#include "fathom/area/covered_parts.h"
 #include "fathom/area/scene_surfaces.h"
 #include "fathom/area/separation.h"
 #include "fathom/area/visible_fragments.h"
@@ -30,6 +30,12 @@ bool share_a_corner(const std::array<WorldPoint, 3>& a, const std::array<WorldPo
   return false;
 }
 
+/// Whether a depth is certainly more than `within` behind another one.
+bool is_farther(double depth, double than, double within) {
+  // The difference is rounded, by less than this factor.
+  return (depth - than) * (1 - 0x1p-50) > within;
+}
+
 /// A triangle within its box, and what of it is visible.
 class VisibleTriangle {
  public:
@@ -49,9 +55,7 @@ class VisibleTriangle {
     if (!both || is_certainly_apart(*both, other, within)) return {};
     std::vector<ConvexPolygon> result;
     for (ConvexPolygon part : visible()) {
-      if (part.bounds().may_meet(both->bounds()) && clip(part, *both)) {
-        result.push_back(std::move(part));
-      }
+      if (cell_.all().clip(part, *both, counts_)) result.push_back(std::move(part));
     }
     return result;
   }
@@ -66,20 +70,12 @@ class VisibleTriangle {
   [[nodiscard]] ImageCell& cell() { return cell_; }
 
  private:
-  bool clip(ConvexPolygon& polygon, const ConvexPolygon& by) {
-    return std::all_of(by.edges().begin(), by.edges().end(), [&](const HalfPlane* edge) {
-      return cell_.is_side(edge) || polygon.clip(*edge, counts_);
-    });
-  }
-
   /// The points that both cover, with this one in front or equally deep.
   std::optional<ConvexPolygon> before(std::uint32_t other, const ImageForm& other_in_front) {
     if (!is_in_cell_) return std::nullopt;
     const auto piece = cell_.clip(surfaces_.surface(other)->region, counts_);
     ConvexPolygon part = visibility_.polygon(0);
-    if (!piece || !part.bounds().may_meet(piece->polygon.bounds()) || !clip(part, piece->polygon)) {
-      return std::nullopt;
-    }
+    if (!piece || !cell_.all().clip(part, piece->polygon, counts_)) return std::nullopt;
     if (other_in_front.is_zero()) return part;
     return cell_.clip(part, -other_in_front, counts_);
   }
@@ -95,8 +91,7 @@ class VisibleTriangle {
       greatest = std::max(greatest, front.enclose_at(edge, polygon.after(k)).upper);
       least = std::min(least, behind.enclose_at(edge, polygon.after(k)).lower);
     }
-    // The difference is rounded, by less than this factor.
-    return (least - greatest) * (1 - 0x1p-50) > within;
+    return is_farther(least, greatest, within);
   }
 
   /// What is visible of the triangle; found when it is first asked for.
@@ -107,13 +102,13 @@ class VisibleTriangle {
 
   std::vector<ConvexPolygon> find_visible() {
     std::vector<ConvexPolygon> result;
-    PartlyHidden hidden(cell_, visibility_.polygon(0));
+    CoveredParts hidden(cell_, visibility_.polygon(0));
     for (const std::uint32_t other : surfaces_.in_front(number_)) {
       if (!surfaces_.is_first(other)) continue;
       const auto part = visibility_.add_if_it_hides(*surfaces_.surface(other), 0);
       if (!part) continue;
-      if (!hidden.hide(*part)) visibility_.drop_last();
-      if (hidden.is_hidden()) return result;
+      if (!hidden.add(*part)) visibility_.drop_last();
+      if (hidden.is_all()) return result;
     }
     divide(visibility_, [&](CellVisibility& part) {
       for (std::size_t piece = 0; piece < part.size(); ++piece) {
@@ -217,8 +212,7 @@ class PairFinder {
   [[nodiscard]] bool are_certainly_apart(const SurfaceRegion& front,
                                          const SurfaceRegion& behind) const {
     if (behind.depths.upper < front.depths.lower) return true;
-    // The difference is rounded, by less than this factor.
-    return (behind.depths.lower - front.depths.upper) * (1 - 0x1p-50) > within_;
+    return is_farther(behind.depths.lower, front.depths.upper, within_);
   }
 
   static void add_pixel(CoplanarPair& pair, std::uint32_t column, std::uint32_t row) {

@@ -69,6 +69,15 @@ struct CellPart {
   }
   /// Whether a polygon in it is all of it.
   [[nodiscard]] bool is_all(const ConvexPolygon& polygon) const { return !first_inside(polygon); }
+  /// Cuts a polygon in it off at the edges of another one in it. Returns false, and leaves a polygon
+  /// that must not be used any more, if they have no area in common.
+  [[nodiscard]] bool clip(ConvexPolygon& polygon, const ConvexPolygon& by,
+                          TierCounts& counts) const {
+    return polygon.bounds().may_meet(by.bounds()) &&
+           std::all_of(by.edges().begin(), by.edges().end(), [&](const HalfPlane* edge) {
+             return is_side(edge) || polygon.clip(*edge, counts);
+           });
+  }
   /// The sign of the form if it is certainly the same in the whole part (0 allowed on the rim).
   [[nodiscard]] std::optional<Sign> sign_of(const ImageForm& form) const;
 };

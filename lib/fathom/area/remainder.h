@@ -1,7 +1,6 @@
 #pragma once
 
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "fathom/area/image_cell.h"
@@ -29,25 +28,6 @@ class Remainder {
  private:
   ImageCell* cell_;
   std::vector<ConvexPolygon> parts_;
-};
-
-/// A polygon of which parts are hidden, one after the other.
-class PartlyHidden {
- public:
-  PartlyHidden(ImageCell& cell, const ConvexPolygon& polygon) : cell_(&cell), polygon_(polygon) {}
-
-  /// Whether the hidden parts are certainly all of it.
-  [[nodiscard]] bool is_hidden() const { return is_hidden_; }
-  /// Returns whether this may hide more than the parts before.
-  bool hide(const ConvexPolygon& part);
-
- private:
-  ImageCell* cell_;
-  ConvexPolygon polygon_;
-  bool is_hidden_ = false;
-  /// The first parts; then what all of them leave, or more.
-  std::vector<ConvexPolygon> parts_;
-  std::optional<Remainder> rest_;
 };
 
 }  // namespace fathom::area

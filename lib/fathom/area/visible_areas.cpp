@@ -3,7 +3,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "fathom/area/cell_division.h"
-#include "fathom/area/remainder.h"
+#include "fathom/area/covered_parts.h"
 #include "fathom/area/scene_surfaces.h"
 #include "fathom/area/visible_fragments.h"
 #include "fathom/numeric/enclosed_sum.h"
@@ -66,7 +66,7 @@ class SceneAreas {
     if (!all.add(*surface)) return {};
     CellVisibility in_object = all;
     // By triangles of any object, and of its own.
-    PartlyHidden hidden(cell, all.polygon(0)), hidden_in_object = hidden;
+    CoveredParts hidden(cell, all.polygon(0)), hidden_in_object = hidden;
     bool is_hidden = !surfaces_.is_first(number);
     bool is_hidden_in_object = !surfaces_.is_first_of_object(number);
     bool are_same = is_hidden == is_hidden_in_object;
@@ -79,13 +79,13 @@ class SceneAreas {
       if (!counts && !counts_in_object) continue;
       const auto part = all.add_if_it_hides(*surfaces_.surface(other), 0);
       if (!part) continue;
-      const bool added = counts && hidden.hide(*part);
-      const bool added_in_object = counts_in_object && hidden_in_object.hide(*part);
+      const bool added = counts && hidden.add(*part);
+      const bool added_in_object = counts_in_object && hidden_in_object.add(*part);
       if (added_in_object) in_object.add_last_of(all);
       if (!added) all.drop_last();
       are_same &= added == added_in_object;
-      is_hidden |= hidden.is_hidden();
-      is_hidden_in_object |= hidden_in_object.is_hidden();
+      is_hidden |= hidden.is_all();
+      is_hidden_in_object |= hidden_in_object.is_all();
     }
     ExactAreas areas;
     const ConvexPolygon polygons[] = {all.polygon(0)};

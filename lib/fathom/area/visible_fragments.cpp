@@ -203,14 +203,10 @@ std::vector<CellVisibility> CellVisibility::halves_along_edge() {
 std::optional<ConvexPolygon> CellVisibility::hidden_part(const ConvexPolygon& polygon,
                                                          std::size_t t, std::size_t s) {
   const PieceOfSurface &behind = pieces_[t], &before = pieces_[s];
-  if (!polygon.bounds().may_meet(before.polygon.bounds())) return std::nullopt;
   const Order order = quick_order(before.depths, behind.depths);
   if (order == Order::behind) return std::nullopt;
   ConvexPolygon part = polygon;
-  for (const HalfPlane* edge : before.polygon.edges()) {
-    if (part_.is_side(edge)) continue;
-    if (!part.clip(*edge, counts_)) return std::nullopt;
-  }
+  if (!part_.clip(part, before.polygon, counts_)) return std::nullopt;
   if (order == Order::in_front) return part;
   const ImageForm form = area::in_front(*before.surface, *behind.surface);
   if (form.is_zero()) {
@@ -220,12 +216,11 @@ std::optional<ConvexPolygon> CellVisibility::hidden_part(const ConvexPolygon& po
   return cell_->clip(part, form, part_, counts_);
 }
 
-std::vector<ConvexPolygon> CellVisibility::hidden_parts(
-    std::size_t piece, const std::function<bool(const SurfaceRegion&)>& counts) {
+std::vector<ConvexPolygon> CellVisibility::hidden_parts(std::size_t piece) {
   const ConvexPolygon& polygon = pieces_[piece].polygon;
   std::vector<ConvexPolygon> hidden;
   for (std::size_t s = 0; s < pieces_.size(); ++s) {
-    if (s == piece || (counts && !counts(*pieces_[s].surface))) continue;
+    if (s == piece) continue;
     auto part = hidden_part(polygon, piece, s);
     if (!part) continue;
     const bool is_all = part->edges() == polygon.edges();
@@ -236,17 +231,16 @@ std::vector<ConvexPolygon> CellVisibility::hidden_parts(
   return hidden;
 }
 
-Boundary CellVisibility::visible(std::size_t piece,
-                                 const std::function<bool(const SurfaceRegion&)>& counts) {
+Boundary CellVisibility::visible(std::size_t piece) {
   const ConvexPolygon& polygon = pieces_[piece].polygon;
-  const std::vector<ConvexPolygon> hidden = hidden_parts(piece, counts);
+  const std::vector<ConvexPolygon> hidden = hidden_parts(piece);
   if (hidden.size() == 1 && hidden[0].edges() == polygon.edges()) return {};
   return boundary_of_difference(polygon, hidden, counts_);
 }
 
 std::vector<ConvexPolygon> CellVisibility::visible_polygons(std::size_t piece) {
   Remainder rest(*cell_, pieces_[piece].polygon);
-  for (const ConvexPolygon& hidden : hidden_parts(piece, {})) rest.subtract(hidden);
+  for (const ConvexPolygon& hidden : hidden_parts(piece)) rest.subtract(hidden);
   return rest.parts();
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -61,9 +60,8 @@ class CellVisibility {
   [[nodiscard]] std::vector<CellVisibility> halves() const;
   [[nodiscard]] std::vector<CellVisibility> halves_along_edge();
 
-  /// The boundary of the visible part of a piece; empty if it is hidden. Only triangles that
-  /// `counts` accepts, if given, hide it.
-  Boundary visible(std::size_t piece, const std::function<bool(const SurfaceRegion&)>& counts = {});
+  /// The boundary of the visible part of a piece; empty if it is hidden.
+  Boundary visible(std::size_t piece);
   /// The visible part of a piece, in convex polygons.
   std::vector<ConvexPolygon> visible_polygons(std::size_t piece);
   /// The boundary of what no piece covers.
@@ -78,8 +76,7 @@ class CellVisibility {
 
  private:
   /// What others hide of a piece; one polygon, equal to the piece, if that is all of it.
-  std::vector<ConvexPolygon> hidden_parts(std::size_t piece,
-                                          const std::function<bool(const SurfaceRegion&)>& counts);
+  std::vector<ConvexPolygon> hidden_parts(std::size_t piece);
   CellVisibility(ImageCell& cell, CellPart part) : cell_(&cell), part_(std::move(part)) {}
 
   /// Depths of a triangle's plane at the cell's corners; [−∞, ∞] where that is not known.
