@@ -104,17 +104,7 @@ int expect_as_rays(const Case& c) {
   RenderOptions options;
   options.channels = testing::all_channels();
   options.threads = 1;
-  const DepthMap map = render_reference(c.scene, c.camera, options);
-  const oracle::RayCaster rays = testing::cast_at(c.scene, c.camera);
-  int seen = 0;
-  for (int y = 0; y < static_cast<int>(c.camera.height); ++y) {
-    for (int x = 0; x < static_cast<int>(c.camera.width); ++x) {
-      const auto hit = rays.cast(x, y);
-      testing::expect_pixel(map, x, y, hit, c.scene);
-      seen += hit.has_value();
-    }
-  }
-  return seen;
+  return testing::expect_as_rays(render_reference(c.scene, c.camera, options), c.scene, c.camera);
 }
 
 std::uint32_t matte_of(std::uint32_t triangle) {

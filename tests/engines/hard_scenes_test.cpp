@@ -34,14 +34,7 @@ TEST_P(HardScene, AgreesWithRays) {
     RenderOptions options;
     options.channels = testing::all_channels();
     const DepthMap map = testing::render_tested(scene, camera, options);
-    const oracle::RayCaster rays = testing::cast_at(scene, camera);
-    for (int y = 0; y < static_cast<int>(camera.height); ++y) {
-      for (int x = 0; x < static_cast<int>(camera.width); ++x) {
-        const auto hit = rays.cast(x, y);
-        seen += hit.has_value();
-        testing::expect_pixel(map, x, y, hit, scene);
-      }
-    }
+    seen += testing::expect_as_rays(map, scene, camera);
   }
   EXPECT_GT(seen, 0);
 }

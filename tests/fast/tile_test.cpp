@@ -7,7 +7,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "fathom/triangle/sampling.h"
 #include "tests/inputs/soup.h"
@@ -50,46 +49,64 @@ std::uint32_t visible_at(const std::vector<ProjectedTriangle>& triangles, const 
   return best;
 }
 
+/// A scene of one object, and what is needed to draw it into a tile.
+struct TileScene {
+  Scene scene;
+  Camera camera;
+  TriangleSource source{scene};
+  Referee referee{source, camera};
+  RenderStatistics statistics;
+  DepthRange range = depth_range(camera);
+  FastSwitches switches;
+  ImageObjects objects;
+  std::vector<ProjectedTriangle> projected;
+  /// The triangles that are not seen edge-on.
+  std::vector<std::uint32_t> drawn;
+
+  TileScene(Scene the_scene, const Camera& the_camera)
+      : scene(std::move(the_scene)), camera(the_camera) {
+    objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
+    TierCounts counts;
+    for (std::uint32_t number = 0; number < source.count(); ++number) {
+      projected.push_back(project(source.world_corners(number), number, camera, counts));
+      if (projected.back().orientation != Sign::zero) drawn.push_back(number);
+    }
+  }
+  TileScene(const TileScene&) = delete;
+  TileScene& operator=(const TileScene&) = delete;
+  [[nodiscard]] Tile::Context context() { return {referee, statistics, range, true, switches}; }
+};
+
+/// Draws a tile and looks at every sample. Returns how many show a surface.
+int expect_nearest(TileScene& x, const PixelBox& area) {
+  Tile tile;
+  tile.start(area);
+  tile.draw(x.objects[0], x.drawn, x.context());
+  int seen = 0;
+  for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
+    for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
+      const std::size_t at = Tile::index(column - area.first_column, row - area.first_row);
+      const auto number = static_cast<std::uint32_t>(tile.tags()[at]);
+      EXPECT_EQ(number, visible_at(x.projected, x.camera, centre_of_pixel(column, row)))
+          << column << ' ' << row;
+      EXPECT_EQ(tile.q()[at] == -infinity, number == no_surface);
+      seen += number != no_surface;
+    }
+  }
+  return seen;
+}
+
 TEST(Tile, ShowsTheNearestWhateverTheOrder) {
   std::mt19937_64 random(201);
   int seen = 0;
   for (int i = 0; i < 6; ++i) {
-    const Scene scene = testing::soup(random, 20, i % 2 == 0);
+    Scene scene = testing::soup(random, 20, i % 2 == 0);
     Camera camera = testing::camera_of(160, 140, 64);
     if (i % 3 == 1) camera.near = 3;
-    const TriangleSource source(scene);
-    Referee referee(source, camera);
-    RenderStatistics statistics;
-    const DepthRange range = depth_range(camera);
-    const FastSwitches switches;
-    const Tile::Context context{referee, statistics, range, true, switches};
-    ImageObjects objects;
-    objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
-    std::vector<ProjectedTriangle> projected;
-    std::vector<std::uint32_t> numbers(source.count());
-    std::iota(numbers.begin(), numbers.end(), 0U);
-    TierCounts counts;
-    std::vector<std::uint32_t> kept;
-    for (const std::uint32_t number : numbers) {
-      projected.push_back(project(source.world_corners(number), number, camera, counts));
-      if (projected.back().orientation != Sign::zero) kept.push_back(number);
-    }
-    std::shuffle(kept.begin(), kept.end(), random);
+    TileScene x(std::move(scene), camera);
+    std::shuffle(x.drawn.begin(), x.drawn.end(), random);
     const TileGrid grid(camera.width, camera.height);
-    const PixelBox area = grid.area(static_cast<std::uint32_t>(i) % grid.count());
-    Tile tile;
-    tile.start(area);
-    tile.draw(objects[0], kept, context);
-    for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
-      for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
-        const std::size_t at = Tile::index(column - area.first_column, row - area.first_row);
-        const auto number = static_cast<std::uint32_t>(tile.tags()[at]);
-        ASSERT_EQ(number, visible_at(projected, camera, centre_of_pixel(column, row)))
-            << column << ' ' << row;
-        seen += number != no_surface;
-        EXPECT_EQ(tile.q()[at] == -infinity, number == no_surface);
-      }
-    }
+    seen += expect_nearest(x, grid.area(static_cast<std::uint32_t>(i) % grid.count()));
   }
   EXPECT_GT(seen, 1000);
 }
@@ -99,57 +116,23 @@ TEST(Tile, ShowsTheNearestInColumnsBeyondTheRangeOfInt) {
   std::mt19937_64 random(202);
   int seen = 0;
   for (const std::uint32_t first_column : {0x7FFFFFC0U, 0x80000000U, 0xFFFFFFC0U}) {
-    const Scene scene = testing::soup(random, 20, true);
     Camera camera = testing::camera_of(0xFFFFFFFF, 140, 64);
     camera.cx = first_column + 32.0;
-    const TriangleSource source(scene);
-    Referee referee(source, camera);
-    RenderStatistics statistics;
-    const DepthRange range = depth_range(camera);
-    const FastSwitches switches;
-    const Tile::Context context{referee, statistics, range, true, switches};
-    ImageObjects objects;
-    objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
-    std::vector<ProjectedTriangle> projected;
-    std::vector<std::uint32_t> kept;
-    TierCounts counts;
-    for (std::uint32_t number = 0; number < source.count(); ++number) {
-      projected.push_back(project(source.world_corners(number), number, camera, counts));
-      if (projected.back().orientation != Sign::zero) kept.push_back(number);
-    }
+    TileScene x(testing::soup(random, 20, true), camera);
     const TileGrid grid(camera.width, camera.height);
     const PixelBox area = grid.area(grid.columns + first_column / Tile::size);
     ASSERT_EQ(area.first_column, first_column);
-    Tile tile;
-    tile.start(area);
-    tile.draw(objects[0], kept, context);
-    for (std::uint32_t row = area.first_row; row <= area.last_row; row += 3) {
-      for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
-        const std::size_t at = Tile::index(column - area.first_column, row - area.first_row);
-        const auto number = static_cast<std::uint32_t>(tile.tags()[at]);
-        ASSERT_EQ(number, visible_at(projected, camera, centre_of_pixel(column, row)))
-            << column << ' ' << row;
-        seen += number != no_surface;
-      }
-    }
+    seen += expect_nearest(x, area);
   }
   EXPECT_GT(seen, 1000);
 }
 
 TEST(Tile, StartEmptiesIt) {
-  const Scene scene = testing::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, {{0, 1, 2}});
-  const Camera camera = testing::camera_of(64, 64, 1);
-  Referee referee(scene, camera);
-  RenderStatistics statistics;
-  const DepthRange range = depth_range(camera);
-  const FastSwitches switches;
-  const Tile::Context context{referee, statistics, range, true, switches};
-  ImageObjects objects;
-  objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
+  TileScene x(testing::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, {{0, 1, 2}}),
+              testing::camera_of(64, 64, 1));
   Tile tile;
   tile.start({0, 63, 0, 63});
-  const std::uint32_t first[] = {0};
-  tile.draw(objects[0], first, context);
+  tile.draw(x.objects[0], x.drawn, x.context());
   EXPECT_EQ(static_cast<std::uint32_t>(tile.tags()[Tile::index(32, 32)]), 0U);
   EXPECT_EQ(tile.q()[Tile::index(32, 32)], 1);
   tile.start({0, 63, 0, 63});

@@ -145,4 +145,17 @@ void expect_pixel(const DepthMap& map, int x, int y, const std::optional<oracle:
   }
 }
 
+int expect_as_rays(const DepthMap& map, const Scene& scene, const Camera& camera) {
+  const oracle::RayCaster rays = cast_at(scene, camera);
+  int seen = 0;
+  for (int y = 0; y < static_cast<int>(camera.height); ++y) {
+    for (int x = 0; x < static_cast<int>(camera.width); ++x) {
+      const auto hit = rays.cast(x, y);
+      expect_pixel(map, x, y, hit, scene);
+      seen += hit.has_value();
+    }
+  }
+  return seen;
+}
+
 }  // namespace fathom::testing

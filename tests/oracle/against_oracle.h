@@ -29,4 +29,7 @@ std::vector<Channel> all_channels();
 void expect_pixel(const DepthMap& map, int x, int y, const std::optional<oracle::Hit>& hit,
                   const Scene& scene);
 
+/// expect_pixel() of all pixels of a map with all_channels(). Returns how many show a surface.
+int expect_as_rays(const DepthMap& map, const Scene& scene, const Camera& camera);
+
 }  // namespace fathom::testing
