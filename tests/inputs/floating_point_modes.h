@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cfenv>
 #if defined(__SSE__)
 #include <xmmintrin.h>
@@ -47,6 +49,24 @@ inline unsigned current_mode() {
 #else
   return static_cast<unsigned>(std::fegetround());
 #endif
+}
+
+/// What `compute` returns, numbers that can be compared, is the same in all modes, which it leaves
+/// as they were. Compared out of the mode, in which subnormal numbers may equal 0.
+template <class Compute>
+void expect_same_in_all_modes(const Compute& compute) {
+  const auto truth = compute();
+  for (const FloatingPointMode& mode : other_modes) {
+    SCOPED_TRACE(mode.name);
+    auto found = truth;
+    {
+      const InMode here(mode);
+      const unsigned before = current_mode();
+      found = compute();
+      EXPECT_EQ(current_mode(), before);
+    }
+    EXPECT_EQ(found, truth);
+  }
 }
 
 }  // namespace fathom::testing

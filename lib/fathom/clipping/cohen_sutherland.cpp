@@ -4,6 +4,7 @@
 
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {
 namespace {
@@ -73,6 +74,7 @@ template <class Number>
 std::optional<Segment2<Number>> cohen_sutherland(const Segment2<Number>& segment,
                                                  const Window<Number>& window,
                                                  std::vector<CohenSutherlandStep<Number>>* trace) {
+  const StandardArithmetic standard;
   check_window(window);
   Segment2<Number> s = segment;
   for (;;) {

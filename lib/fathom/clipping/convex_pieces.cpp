@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fathom/clipping/exact_kernel.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {
 namespace {
@@ -92,6 +93,7 @@ class Decomposition {
 
 template <class Number>
 Rings<Number> convex_pieces(const Ring<Number>& ring) {
+  const StandardArithmetic standard;
   const Ring<Rational> exact = to_exact(Rings<Number>{ring})[0];
   Rings<Number> result;
   for (const Piece& piece : Decomposition(exact).run()) {

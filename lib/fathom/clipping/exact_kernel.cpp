@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {
 namespace {
@@ -26,6 +27,7 @@ Ratio to_ratio(const Rational& x) {
 }
 
 double to_binary64(const Rational& x) {
+  const StandardArithmetic standard;
   return round_to_binary64(to_ratio(x));
 }
 
@@ -38,6 +40,7 @@ std::string to_fraction(const Rational& x) {
 }
 
 Rings<Rational> to_exact(const Rings<double>& rings) {
+  const StandardArithmetic standard;
   Rings<Rational> exact;
   for (const Ring<double>& ring : rings) {
     exact.emplace_back();

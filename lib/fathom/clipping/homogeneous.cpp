@@ -4,6 +4,7 @@
 
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {
 namespace {
@@ -56,6 +57,7 @@ template <class Number>
 std::vector<Corner4<Number>> clip_homogeneous(const std::vector<Corner4<Number>>& subject,
                                               Volume volume, Half half,
                                               ClipStages<Point4, Number>* trace) {
+  const StandardArithmetic standard;
   for (const Corner4<Number>& corner : subject) check_point(corner.position);
   std::vector<Corner4<Number>> polygon = subject;
   for (int k = 0; k < boundary_count; ++k) {
@@ -73,6 +75,7 @@ std::vector<Corner4<Number>> clip_homogeneous(const std::vector<Corner4<Number>>
 template <class Number>
 std::optional<Segment4<Number>> clip_homogeneous(const Segment4<Number>& segment, Volume volume,
                                                  Half half, LiangBarskyTrace<Number>* trace) {
+  const StandardArithmetic standard;
   const auto& [start, end] = segment;
   check_point(start);
   check_point(end);
@@ -103,6 +106,7 @@ Point3<Number> divided(const Point4<Number>& p) {
 template <class Number>
 std::vector<Corner3<Number>> clip_after_division(const std::vector<Corner4<Number>>& polygon,
                                                  Volume volume) {
+  const StandardArithmetic standard;
   std::vector<Corner3<Number>> flat;
   flat.reserve(polygon.size());
   for (const Corner4<Number>& corner : polygon)

@@ -30,7 +30,8 @@ enum class Half { upper, lower };
 constexpr int boundary_count = 6;
 const char* boundary_name(int k);
 
-/// Not negative on the inner side of boundary k in the upper half: w + x, w − x, …
+/// Not negative on the inner side of boundary k in the upper half: w + x, w − x, … A sum or a
+/// difference, rounded as the thread rounds.
 template <class Number>
 Number boundary_value(int k, const Point4<Number>& point, Volume volume);
 

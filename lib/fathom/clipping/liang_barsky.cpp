@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fathom/clipping/exact_kernel.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {
 namespace {
@@ -57,6 +58,7 @@ template <class Number>
 std::optional<Segment2<Number>> liang_barsky(const Segment2<Number>& segment,
                                              const Window<Number>& window,
                                              LiangBarskyTrace<Number>* trace) {
+  const StandardArithmetic standard;
   check_window(window);
   auto parameters = against_window(segment, window);
   const auto [t_entering, t_leaving, visible] = visible_range(parameters);

@@ -6,6 +6,7 @@
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {
 namespace {
@@ -56,6 +57,7 @@ Side side_of(const Plane<Number>& plane, const Point4<Number>& point) {
 
 template <class Number>
 double signed_distance(const Plane<Number>& plane, const Point4<Number>& point) {
+  const StandardArithmetic standard;
   check_plane(plane);
   const double side = static_cast<int>(side_of(plane, point));
   if (point.w == 0) return side == 0 ? 0 : side * std::numeric_limits<double>::infinity();
@@ -69,6 +71,7 @@ template <class Number>
 std::optional<PlaneLineIntersection<Number>> plane_line_intersection(const Plane<Number>& plane,
                                                                      const Point3<Number>& R,
                                                                      const Point3<Number>& S) {
+  const StandardArithmetic standard;
   check_plane(plane);
   const Number along =
       (S.x - R.x) * plane.A + (S.y - R.y) * plane.B + (S.z - R.z) * plane.C;  // (S − R)·N

@@ -7,6 +7,7 @@
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/nesting.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {
 namespace {
@@ -59,6 +60,7 @@ void check_simple(const Ring<Rational>& ring, const std::string& side, std::size
 
 template <class Number>
 Number signed_area(const Ring<Number>& ring) {
+  const StandardArithmetic standard;
   Number twice(0);
   for (std::size_t i = 2; i < ring.size(); ++i) twice += cross(ring[0], ring[i - 1], ring[i]);
   return twice / 2;
@@ -66,6 +68,7 @@ Number signed_area(const Ring<Number>& ring) {
 
 template <class Number>
 Number signed_area(const Rings<Number>& rings) {
+  const StandardArithmetic standard;
   Number area(0);
   for (const Ring<Number>& ring : rings) area += signed_area(ring);
   return area;
@@ -73,6 +76,7 @@ Number signed_area(const Rings<Number>& rings) {
 
 template <class Number>
 Rings<Number> checked_rings(const Rings<Number>& rings, const std::string& side) {
+  const StandardArithmetic standard;
   Rings<Number> checked;
   for (std::size_t i = 0; i < rings.size(); ++i) {
     check_finite(rings[i], side, i);
@@ -93,6 +97,7 @@ Rings<Number> checked_rings(const Rings<Number>& rings, const std::string& side)
 
 template <class Number>
 void check_convex(const Ring<Number>& ring, const std::string& side) {
+  const StandardArithmetic standard;
   const Ring<Rational> exact = to_exact(Rings<Number>{ring})[0];
   const std::size_t n = exact.size();
   for (std::size_t i = 0; i < n; ++i)

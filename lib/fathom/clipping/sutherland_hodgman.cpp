@@ -1,6 +1,7 @@
 #include "fathom/clipping/sutherland_hodgman.h"
 
 #include "fathom/clipping/exact_kernel.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {
 
@@ -8,6 +9,7 @@ template <class Number>
 std::vector<Corner2<Number>> sutherland_hodgman(const std::vector<Corner2<Number>>& subject,
                                                 const Ring<Number>& convex,
                                                 ClipStages<Point2, Number>* trace) {
+  const StandardArithmetic standard;
   std::vector<Corner2<Number>> polygon = subject;
   for (std::size_t i = 0; i < convex.size(); ++i) {
     const Point2<Number>&a = convex[i], &b = convex[(i + 1) % convex.size()];
@@ -23,6 +25,7 @@ template <class Number>
 std::vector<Corner3<Number>> sutherland_hodgman(const std::vector<Corner3<Number>>& subject,
                                                 const std::vector<Plane<Number>>& planes,
                                                 ClipStages<Point3, Number>* trace) {
+  const StandardArithmetic standard;
   std::vector<Corner3<Number>> polygon = subject;
   for (const Plane<Number>& plane : planes) {
     check_plane(plane);

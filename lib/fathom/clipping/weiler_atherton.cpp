@@ -12,6 +12,7 @@
 #include "fathom/clipping/weiler_atherton_labels.h"
 #include "fathom/clipping/weiler_atherton_walk.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {
 namespace {
@@ -119,6 +120,7 @@ std::vector<Polygon<Number>> weiler_atherton(const Rings<Number>& subject_rings,
                                              const Rings<Number>& clip_rings,
                                              SetOperation operation,
                                              WeilerAthertonTrace<Number>* trace) {
+  const StandardArithmetic standard;
   const Rings<Number> subject = checked_rings(subject_rings, "subject");
   const Rings<Number> clip = checked_rings(clip_rings, "clip");
 
@@ -139,6 +141,7 @@ std::vector<Polygon<Number>> weiler_atherton(const Rings<Number>& subject_rings,
 
 template <class Number>
 Number area_of(const std::vector<Polygon<Number>>& polygons) {
+  const StandardArithmetic standard;
   Number area(0);
   for (const Polygon<Number>& polygon : polygons)
     area += signed_area(polygon.outline) + signed_area(polygon.holes);

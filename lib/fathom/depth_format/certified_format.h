@@ -9,6 +9,7 @@
 /// encode() and decode() in floating point, with proved bounds: they return what exact arithmetic
 /// gives, and nothing where a bound does not settle it. Binary64 first, then double-words; only the
 /// latter for logarithms (numeric/certified_logarithm.h).
+/// Needs    StandardArithmetic in the thread that calls it: it is asked once a pixel, and has none.
 namespace fathom {
 
 /// A value of either width as a pair of words.

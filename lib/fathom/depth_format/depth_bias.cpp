@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/numeric/standard_arithmetic.h"
+
 namespace fathom {
 namespace {
 
@@ -20,6 +22,7 @@ long exponent_of(const Ratio& x) {
 }  // namespace
 
 Ratio resolvable_difference(Storage storage, const Ratio& greatest_z) {
+  const StandardArithmetic standard;
   if (is_unorm(storage)) return {Dyadic(1.0), Dyadic(greatest_code(storage))};
   // Below the least normal number the steps stay as they are at that number.
   const long least = least_exponent(storage);
@@ -29,6 +32,7 @@ Ratio resolvable_difference(Storage storage, const Ratio& greatest_z) {
 }
 
 Ratio depth_offset(Storage storage, const DepthBias& bias, const WindowSlopes& slopes) {
+  const StandardArithmetic standard;
   const Ratio x = magnitude(slopes.dz_dx), y = magnitude(slopes.dz_dy);
   const Ratio m = x < y ? y : x;
   const Ratio r = resolvable_difference(storage, slopes.greatest_z);
@@ -40,6 +44,7 @@ Ratio depth_offset(Storage storage, const DepthBias& bias, const WindowSlopes& s
 }
 
 Ratio biased_depth(const Ratio& window_depth, const Ratio& offset) {
+  const StandardArithmetic standard;
   Ratio sum = window_depth + offset;
   if (sum.sign() == Sign::negative) return Ratio();
   const Ratio one = Dyadic(1.0);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 namespace {
@@ -23,6 +24,7 @@ std::string text_of(const Ratio& x) {
 }  // namespace
 
 StoredDepth encode(const DepthFormat& format, const Ratio& depth) {
+  const StandardArithmetic standard;
   const Ratio near = Dyadic(format.near);
   if (depth < near) {
     throw InputError("depth " + text_of(depth) + " is nearer than near = " + text_of(near));
@@ -35,15 +37,18 @@ StoredDepth encode(const DepthFormat& format, const Ratio& depth) {
 }
 
 std::optional<Real> decode(const DepthFormat& format, StoredDepth stored) {
+  const StandardArithmetic standard;
   return depth_of(format, value_of(format.storage, stored));
 }
 
 double decode_to_binary64(const DepthFormat& format, StoredDepth stored) {
+  const StandardArithmetic standard;
   const std::optional<Real> depth = decode(format, stored);
   return depth ? round_to_binary64(*depth) : std::numeric_limits<double>::infinity();
 }
 
 Ratio clamp_to_range(const DepthFormat& format, const Ratio& depth) {
+  const StandardArithmetic standard;
   if (depth < Dyadic(format.near)) return Dyadic(format.near);
   if (is_beyond_far(format, depth)) return Dyadic(format.far);
   return depth;

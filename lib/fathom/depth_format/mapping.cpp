@@ -1,6 +1,7 @@
 #include "fathom/depth_format/mapping.h"
 
 #include "fathom/numeric/logarithm.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 namespace {
@@ -13,6 +14,7 @@ const Ratio& one() {
 }  // namespace
 
 Real stored_value(const DepthFormat& format, const Ratio& depth) {
+  const StandardArithmetic standard;
   const auto& D = depth;
   const Ratio near = Dyadic(format.near);
   // Mappings that know far only as infinity may have a far that no Dyadic can hold.
@@ -42,6 +44,7 @@ Real stored_value(const DepthFormat& format, const Ratio& depth) {
 }
 
 std::optional<Real> depth_of(const DepthFormat& format, const Ratio& value) {
+  const StandardArithmetic standard;
   const auto& s = value;
   const Ratio near = Dyadic(format.near);
   const Ratio far = takes_infinite_far(format.mapping) ? Ratio() : Ratio(Dyadic(format.far));

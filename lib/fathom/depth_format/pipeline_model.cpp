@@ -6,6 +6,7 @@
 
 #include "fathom/depth_format/depth_bias.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 namespace {
@@ -126,12 +127,14 @@ Clip clip_coordinates(const PipelineModel& model, const Vertex& vertex) {
 }  // namespace
 
 Ratio exact_depth(const PipelineModel& model, const Vertex& vertex) {
+  const StandardArithmetic standard;
   Dyadic depth(model.view[3]);
   for (int i = 0; i < 3; ++i) depth += Dyadic(model.view[i]) * Dyadic(vertex[i]);
   return depth;
 }
 
 Ratio window_depth(const PipelineModel& model, const Vertex& vertex) {
+  const StandardArithmetic standard;
   const Clip clip = clip_coordinates(model, vertex);
   if (exact(clip.w).sign() == Sign::zero) {
     throw UsageError("the pipeline model: a vertex in the plane of the eye");
@@ -144,6 +147,7 @@ Ratio window_depth(const PipelineModel& model, const Vertex& vertex) {
 
 Ratio interpolated_window_depth(const PipelineModel& model, const Vertex& a, const Vertex& b,
                                 const Ratio& t) {
+  const StandardArithmetic standard;
   const bool rounds = model.rounding.interpolation;
   const Number share = rounded(t, rounds);
   const Number z_a = rounded(window_depth(model, a), rounds);
@@ -152,6 +156,7 @@ Ratio interpolated_window_depth(const PipelineModel& model, const Vertex& a, con
 }
 
 Ratio stored_number(const PipelineModel& model, const Ratio& window_depth) {
+  const StandardArithmetic standard;
   Ratio limited = biased_depth(window_depth, Ratio());
   if (!model.rounding.storage) return limited;
   return value_of(model.format.storage, round_to_storage(model.format.storage, limited));

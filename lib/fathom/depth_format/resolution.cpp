@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/numeric/standard_arithmetic.h"
+
 namespace fathom {
 namespace {
 
@@ -39,6 +41,7 @@ bool is_finite(const DepthFormat& format) {
 }  // namespace
 
 Resolution resolution(const DepthFormat& format, const Ratio& depth) {
+  const StandardArithmetic standard;
   const StoredDepth stored = encode(format, depth);
   return {stored, distance(format, stored, neighbour(format, stored, false), false),
           distance(format, stored, neighbour(format, stored, true), true)};
@@ -46,11 +49,13 @@ Resolution resolution(const DepthFormat& format, const Ratio& depth) {
 
 std::uint64_t codes_between(const DepthFormat& format, const Ratio& nearest,
                             const Ratio& farthest) {
+  const StandardArithmetic standard;
   const std::uint64_t a = encode(format, nearest).bits, b = encode(format, farthest).bits;
   return (a < b ? b - a : a - b) + 1;
 }
 
 std::optional<double> separation_behind(const DepthFormat& format, const Ratio& depth) {
+  const StandardArithmetic standard;
   const std::optional<Real> end = end_of_bin(format, encode(format, depth), true);
   if (!end) return std::nullopt;
   if (is_finite(format) && compare(*end, Dyadic(format.far)) >= 0) return std::nullopt;
@@ -58,6 +63,7 @@ std::optional<double> separation_behind(const DepthFormat& format, const Ratio& 
 }
 
 double bin_width(const DepthFormat& format, const Ratio& depth) {
+  const StandardArithmetic standard;
   const StoredDepth stored = encode(format, depth);
   const Ratio near = Dyadic(format.near);
   std::optional<Real> begin = end_of_bin(format, stored, false);

@@ -3,6 +3,8 @@
 #include <bit>
 #include <stdexcept>
 
+#include "fathom/numeric/standard_arithmetic.h"
+
 namespace fathom {
 namespace {
 
@@ -37,11 +39,13 @@ StoredDepth greatest_stored(Storage storage) {
 }
 
 Ratio value_of(Storage storage, StoredDepth stored) {
+  const StandardArithmetic standard;
   if (!is_unorm(storage)) return exact_value_of_float(storage, stored.bits);
   return {Dyadic(static_cast<double>(stored.bits)), Dyadic(greatest_code(storage))};
 }
 
 StoredDepth round_to_storage(Storage storage, const Real& value) {
+  const StandardArithmetic standard;
   if (is_unorm(storage)) {
     const std::optional<std::uint32_t> code = round_to_unorm(value, bits_of(storage));
     if (!code) throw std::domain_error("a depth format stores values in [0, 1]");
@@ -55,6 +59,7 @@ StoredDepth round_to_storage(Storage storage, const Real& value) {
 }
 
 Ratio boundary_above(Storage storage, StoredDepth stored) {
+  const StandardArithmetic standard;
   const Ratio sum = value_of(storage, stored) + value_of(storage, {stored.bits + 1});
   return {sum.numerator.scaled(-1), sum.denominator};
 }
