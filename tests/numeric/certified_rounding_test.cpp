@@ -90,6 +90,21 @@ TEST(CertifiedRounding, IsRightAndHardlyEverDeclinesWithoutNeed) {
   }
 }
 
+/// Errors around the size of a number whose second word points at 0.
+TEST(CertifiedRounding, ASignIsSettledOnlyOffZero) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double sign : {1.0, -1.0}) {
+    const WordPair x{sign, -sign * 0x1p-54};
+    EXPECT_EQ(certain_sign(x, 0), sign);
+    EXPECT_EQ(certain_sign(x, 1 - 0x1p-49), sign);
+    for (const double error : {1 - 0x1p-53, 1.0, 1 + 0x1p-52, infinity, std::nan("")}) {
+      EXPECT_EQ(certain_sign(x, error), std::nullopt);
+    }
+  }
+  EXPECT_EQ(certain_sign({0, 0}, 0), std::nullopt);
+  EXPECT_EQ(certain_sign({0, 0}, 0x1p-1074), std::nullopt);
+}
+
 TEST(CertifiedRounding, ExactNumbersZeroesAndTies) {
   EXPECT_EQ(std::signbit(*to_binary32(0.0, 0.0)), false);
   EXPECT_EQ(to_binary32(0.0, 1e-300), std::nullopt);

@@ -37,13 +37,14 @@ DoubleWord<fused> scaled(const DoubleWord<fused>& x, int power) {
   return two_sum(std::ldexp(x.hi, power), std::ldexp(x.lo, power));
 }
 
-/// Of any exponent, or near the ends of the range; some are exact, some 0.
+/// Of any exponent, or near the ends of the range; some are exact, some 0, some err by as much as
+/// they are large.
 template <class Real>
 Meant<Real> any_number(Numbers& n) {
   const int power = n.below(2) ? n.below(1900) - 1074 : -1074 + n.below(130);
   const Real value = n.below(16) == 0 ? Real(0.0) : scaled(entry<Real>(n.word_pair()), power);
   const bool is_exact = n.below(3) == 0;
-  const double error = std::ldexp(std::abs(nearest(value)), -20 - n.below(100));
+  const double error = std::ldexp(std::abs(nearest(value)), -n.below(2) * (20 + n.below(100)));
   return {value, is_exact ? 0 : error, n.unit()};
 }
 
