@@ -105,6 +105,15 @@ TEST(CertifiedRounding, ASignIsSettledOnlyOffZero) {
   EXPECT_EQ(certain_sign({0, 0}, 0x1p-1074), std::nullopt);
 }
 
+/// The leading word is a tie between two codes, the second one decides.
+TEST(CertifiedRounding, TheSecondWordCounts) {
+  EXPECT_EQ(to_code(WordPair{32768.5, -0x1p-40}, 0x1p-60), 32768);
+  EXPECT_EQ(to_code(WordPair{32769.5, 0x1p-40}, 0x1p-60), 32770);
+  // Not the nearest to the leading word, which is what is looked at.
+  EXPECT_EQ(to_code(WordPair{32768.5, 0x1p-40}, 0x1p-60), std::nullopt);
+  EXPECT_EQ(to_code(WordPair{32769.5, -0x1p-40}, 0x1p-60), std::nullopt);
+}
+
 TEST(CertifiedRounding, ExactNumbersZeroesAndTies) {
   EXPECT_EQ(std::signbit(*to_binary32(0.0, 0.0)), false);
   EXPECT_EQ(to_binary32(0.0, 1e-300), std::nullopt);
