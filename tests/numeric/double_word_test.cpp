@@ -35,6 +35,7 @@ void expect_operations_within_their_bounds() {
     const Dyadic X = exactly(WordPair(x)), Y = exactly(WordPair(y));
     if (X.is_zero() || Y.is_zero()) continue;
     relative(sum, x + y, Ratio(X + Y), 3.01);
+    relative(sum, x - y, Ratio(X - Y), 3.01);
     relative(product, x * y, Ratio(X * Y), 7);
     relative(scaled, x * y.hi, Ratio(X * Dyadic(y.hi)), 2);
     relative(quotient, x / y, Ratio(X, Y), 15.01);

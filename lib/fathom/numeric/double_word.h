@@ -39,7 +39,7 @@ inline WordPair fast_two_sum(double a, double b) {
 
 /// x as a sum of two numbers of at most 26 bits (Veltkamp, see [Dek71]); |x| < 2⁹⁹⁵.
 inline WordPair split(double x) {
-  const double c = 0x1p27 * x + x;
+  const double c = 0x1p27 * x + x;  // either sign: 2²⁷ − 1 splits as well
   const double high = c - (c - x);
   return {high, x - high};
 }
