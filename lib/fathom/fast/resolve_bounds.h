@@ -1,7 +1,7 @@
 #pragma once
 
-// Constants of the interval of D at a sample (resolve.cpp). validation/proofs/depth_*.gappa.in
-// proves each.
+// Constants of the interval of D at a sample (depth_interval-inl.h).
+// validation/proofs/depth_*.gappa.in proves each.
 namespace fathom::fast::resolve_bounds {
 
 /// Relative room for the roundings of the ends of the interval, and of what spreads it.

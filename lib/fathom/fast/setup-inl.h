@@ -10,8 +10,8 @@
 // are multiples of ½ and at least ½: a corner below ¼ leaves ¼ or more, and one above is a multiple
 // of 2⁻⁵⁵, as is the difference. So products of two of them are normal, and so are those with
 // differences of q under a perspective camera, where q ≥ 2⁻⁶⁰. Differences of corners as they are
-// (certified_orientation) and of q under an orthographic camera may be of any size: products err by
-// at most 2⁻¹⁰⁷⁵ more, divisions enlarge that by at most 2¹¹⁰, and the floor of 2⁻¹⁰⁰ in every
+// (area_error) and of q under an orthographic camera may be of any size: products err by at most
+// 2⁻¹⁰⁷⁵ more, divisions enlarge that by at most 2¹¹⁰, and the floor of 2⁻¹⁰⁰ in every
 // position_error and q_error of such corners covers it.
 #if defined(FATHOM_FAST_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FATHOM_FAST_SETUP_INL_H
@@ -165,28 +165,32 @@ HWY_INLINE Sides sides_of(const Corners& t) {
           hn::Sub(t.C.v, t.A.v)};
 }
 
+/// A bound on the error of Sides::doubled_area().
+//
+// Let M be the greatest magnitude of the differences of coordinates; each differs from the exact
+// one by at most d = 2e + uM. A difference of two products of such differences then errs by at most
+// 4dM + 2d² for its factors and 2uM² + 2uM²(1 + u) ≤ 4.01uM² for its roundings. The bound itself
+// is computed with a relative error of up to 8u: area_by_corners covers it up to d = M, and beyond
+// it no computed area exceeds the bound.
+HWY_INLINE V area_error(const Sides& s, V position_error) {
+  const V size = hn::Max(greatest_magnitude(s.bu, s.bv, s.cu), hn::Abs(s.cv));
+  const V d =
+      hn::MulAdd(constant(unit_roundoff<double>), size, hn::Add(position_error, position_error));
+  return hn::MulAdd(hn::MulAdd(constant(setup_bounds::area_by_corners), size, hn::Add(d, d)), d,
+                    hn::Mul(constant(setup_bounds::area_rounding), hn::Mul(size, size)));
+}
+
 /// The sign of the triangles' doubled area in the image, which is sign(Δ), where it is certain.
 /// Where it is, it is the sign of Sides::doubled_area().
 struct Orientation {
   M positive, negative, zero;
 };
 
-// Let M be the greatest magnitude of the differences of coordinates; each differs from the exact
-// one by at most d = 2e + uM. A difference of two products of such differences then errs by at most
-// 4dM + 2d² for its factors and 2uM² + 2uM²(1 + u) ≤ 4.01uM² for its roundings. The bound itself
-// is computed with a relative error of up to 8u: area_by_corners covers it up to d = M, and beyond
-// it no computed area exceeds the bound.
 // On the grid of snap_step differences and products are exact (2·16 + 16 bits), and so is the sign.
 HWY_INLINE Orientation certified_orientation(const Corners& t) {
   const Sides s = sides_of(t);
-  const V size = hn::Max(greatest_magnitude(s.bu, s.bv, s.cu), hn::Abs(s.cv));
-  const V d = hn::MulAdd(constant(unit_roundoff<double>), size,
-                         hn::Add(t.position_error, t.position_error));
-  const V bound =
-      hn::MulAdd(hn::MulAdd(constant(setup_bounds::area_by_corners), size, hn::Add(d, d)), d,
-                 hn::Mul(constant(setup_bounds::area_rounding), hn::Mul(size, size)));
   const M snapped = are_snapped(t);
-  const V limit = hn::IfThenZeroElse(snapped, bound);
+  const V limit = hn::IfThenZeroElse(snapped, area_error(s, t.position_error));
   const V doubled_area = s.doubled_area();
   return {hn::Gt(doubled_area, limit), hn::Lt(doubled_area, hn::Neg(limit)),
           hn::And(snapped, hn::Eq(doubled_area, constant(0)))};
@@ -203,15 +207,30 @@ HWY_INLINE M are_empty(const Boxes& box) {
 // A covered sample lies in the triangle of the exact corners, so between the least and the greatest
 // computed coordinate, moved outwards by the corners' error and by the roundings of the subtraction
 // below and of the ½: 2u·(|coordinate| + 1) each, less than 2⁻⁵¹·(|coordinate| + 1) together.
+HWY_INLINE V box_margin(V coordinate, V error) {
+  return hn::MulAdd(hn::Add(hn::Abs(coordinate), constant(1)), constant(setup_bounds::box_margin),
+                    error);
+}
+/// No exact coordinate is less, or greater, if none is of the computed ones, which err by `error`.
+HWY_INLINE V moved_down(V low, V error) {
+  return hn::Sub(low, box_margin(low, error));
+}
+HWY_INLINE V moved_up(V high, V error) {
+  return hn::Add(high, box_margin(high, error));
+}
+/// The same of columns and rows, which are ½ less than their samples.
+HWY_INLINE V least_place(V low, V error) {
+  return hn::Sub(moved_down(low, error), constant(0.5));
+}
+HWY_INLINE V greatest_place(V high, V error) {
+  return hn::Sub(moved_up(high, error), constant(0.5));
+}
+
 HWY_INLINE V first_sample(V low, V error, double least) {
-  const V margin =
-      hn::MulAdd(hn::Add(hn::Abs(low), constant(1)), constant(setup_bounds::box_margin), error);
-  return hn::Ceil(hn::Max(hn::Sub(hn::Sub(low, margin), constant(0.5)), constant(least)));
+  return hn::Ceil(hn::Max(least_place(low, error), constant(least)));
 }
 HWY_INLINE V last_sample(V high, V error, double greatest) {
-  const V margin =
-      hn::MulAdd(hn::Add(hn::Abs(high), constant(1)), constant(setup_bounds::box_margin), error);
-  return hn::Floor(hn::Min(hn::Sub(hn::Add(high, margin), constant(0.5)), constant(greatest)));
+  return hn::Floor(hn::Min(greatest_place(high, error), constant(greatest)));
 }
 
 /// The pixels of the area whose samples the triangles can cover.
@@ -227,15 +246,12 @@ HWY_INLINE Boxes sample_boxes(const Corners& t, const PixelBox& area) {
 /// The pixels of the area that the triangles meet, by the same argument.
 /// Needs    usable corners.
 HWY_INLINE Boxes area_boxes(const Corners& t, const PixelBox& area) {
+  const V e = t.position_error;
   const auto first = [&](V low, double least) HWY_ATTR {
-    const V margin = hn::MulAdd(hn::Add(hn::Abs(low), constant(1)),
-                                constant(setup_bounds::box_margin), t.position_error);
-    return hn::Floor(hn::Max(hn::Sub(low, margin), constant(least)));
+    return hn::Floor(hn::Max(moved_down(low, e), constant(least)));
   };
   const auto last = [&](V high, double greatest) HWY_ATTR {
-    const V margin = hn::MulAdd(hn::Add(hn::Abs(high), constant(1)),
-                                constant(setup_bounds::box_margin), t.position_error);
-    return hn::Floor(hn::Min(hn::Add(high, margin), constant(greatest)));
+    return hn::Floor(hn::Min(moved_up(high, e), constant(greatest)));
   };
   return {first(least_of(t.A.u, t.B.u, t.C.u), area.first_column),
           last(greatest_of(t.A.u, t.B.u, t.C.u), area.last_column),

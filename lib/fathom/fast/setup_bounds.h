@@ -8,12 +8,12 @@ namespace fathom::fast::setup_bounds {
 
 // Names as in setup-inl.h: d, M, δ, L, T, dq.
 
-/// certified_orientation(): 4dM + 2d² + 5uM² (orientation). 2⁻⁴⁰ covers the roundings of the bound
-/// itself, which the last term does not where d is above M/30.
+/// area_error(): 4dM + 2d² + 5uM² (orientation). 2⁻⁴⁰ covers the roundings of the bound itself,
+/// which the last term does not where d is above M/30.
 inline constexpr double area_by_corners = 4 + 0x1p-40;
 inline constexpr double area_rounding = 5 * unit_roundoff<double>;
 
-/// first_sample(): of |coordinate| + 1 (box).
+/// box_margin(): of |coordinate| + 1 (box).
 inline constexpr double box_margin = 0x1p-50;
 
 /// certified_edges(): 8.25δL + 24uL² (edges).

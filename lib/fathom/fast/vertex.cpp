@@ -142,29 +142,35 @@ VertexTransform::Homogeneous VertexTransform::homogeneous(const MeshPoint& X) co
           affine_error * apply(rows_.size_W, ax, ay, az)};
 }
 
+// With k = 0, w or h, the computed form kŴ − Û errs by at most E_UV + k·E_W and by roundings of k·Ŵ
+// and of the difference, at most u(|Û| + 2k|Ŵ|)(1 + u), which is less than (E_UV + 2k·E_W)/5, as
+// |Û| ≤ E_UV/(6u)·(1 + 2⁻⁵⁰) and likewise for Ŵ: together 1.2·E_UV + 1.4k·E_W. 1.5 is used, for the
+// roundings of the bound as well.
+std::array<VertexForm, 5> VertexTransform::forms_of_image(const MeshPoint& X) const {
+  const Homogeneous p = homogeneous(X);
+  const auto form = [&](double value, double k) {
+    return VertexForm{value, missed_form * (p.error_UV + k * p.error_W + underflow_floor)};
+  };
+  return {VertexForm{p.W, missed_form * (p.error_W + underflow_floor)}, form(p.U, 0),
+          form(width_ * p.W - p.U, width_), form(p.V, 0), form(height_ * p.W - p.V, height_)};
+}
+
 // A covered sample s is a combination of the corners with weights that are not negative (the edge
 // functions divided by Δ), so a linear form in (U, V, W) that is negative at every corner is
-// negative at (s_u, s_v, 1). The forms, w and h being the image's width and height: W itself; U and
-// V, which are positive at every sample; wW − U and hW − V, which are too. With k = 0, w or h, the
-// computed form kŴ − Û errs by at most E_UV + k·E_W and by roundings of k·Ŵ and of the difference,
-// at most u(|Û| + 2k|Ŵ|)(1 + u), which is less than (E_UV + 2k·E_W)/5, as |Û| ≤ E_UV/(6u)·(1 + 2⁻⁵⁰)
-// and likewise for Ŵ: together 1.2·E_UV + 1.4k·E_W. 1.5 is used, for the roundings of the bound as
-// well; that of the last sum does not change its sign. Where something overflows, the comparison is false.
+// negative at (s_u, s_v, 1). The forms are W itself; U and V, which are positive at every sample;
+// wW − U and hW − V, which are too. The rounding of the last sum does not change its sign. Where
+// something overflows, the comparison is false.
 bool VertexTransform::misses_image(const std::array<MeshPoint, 3>& corners) const {
   if (!usable_) return false;
-  bool behind = true, left = true, right = true, above = true, below = true;
+  std::array<bool, 5> misses;
+  misses.fill(true);
   for (const MeshPoint& X : corners) {
-    const Homogeneous p = homogeneous(X);
-    const auto is_negative = [&](double form, double k) {
-      return form + missed_form * (p.error_UV + k * p.error_W + underflow_floor) < 0;
-    };
-    behind = behind && p.W + missed_form * (p.error_W + underflow_floor) < 0;
-    left = left && is_negative(p.U, 0);
-    right = right && is_negative(width_ * p.W - p.U, width_);
-    above = above && is_negative(p.V, 0);
-    below = below && is_negative(height_ * p.W - p.V, height_);
+    const auto forms = forms_of_image(X);
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+      misses[i] = misses[i] && forms[i].value + forms[i].error < 0;
+    }
   }
-  return behind || left || right || above || below;
+  return std::find(misses.begin(), misses.end(), true) != misses.end();
 }
 
 }  // namespace fathom::fast

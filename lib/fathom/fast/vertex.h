@@ -53,6 +53,11 @@ struct ImageRows {
   Row size_UV, size_W, size_D;
 };
 
+/// A linear form at a vertex; its computed and exact values differ by at most `error`.
+struct VertexForm {
+  double value, error;
+};
+
 /// Takes the vertices of one object to the image.
 class VertexTransform {
  public:
@@ -66,6 +71,9 @@ class VertexTransform {
   /// are: all of them behind the camera, or all beyond one side of the image.
   /// Meant for corners that are not usable; false means "not known".
   [[nodiscard]] bool misses_image(const std::array<MeshPoint, 3>& corners) const;
+  /// Forms that are negative at no point of the image, w and h being its width and height:
+  /// W, U, wW − U, V, hW − V. Mean nothing if the matrix is such that no vertex is usable.
+  [[nodiscard]] std::array<VertexForm, 5> forms_of_image(const MeshPoint& X) const;
 
   // For the vector code:
   [[nodiscard]] const ImageRows& rows() const { return rows_; }

@@ -314,17 +314,42 @@ WorldNormal<Real> world_normal(const MeshTriangle& corners, const ObjectRays& ob
   return placed;
 }
 
+/// Bounds on the errors of its components.
+template <class Real>
+Vector<double> errors_of(const WorldNormal<Real>& normal) {
+  const double e = normal.factor * (epsilon<Real> * slack);
+  return {e * normal.size[0], e * normal.size[1], e * normal.size[2]};
+}
+
+/// |n|. Squares err by 2k + 1, sums by 2, the root by half of that and 1; but since the length's
+/// error comes from those of the components, it is counted thus: |n̂| and |n| differ by at most the
+/// sum of the components' errors, and |n̂| is computed with an error of (3/2 + 1)ε; 3 is used.
+/// Needs    squares of the components that stay in range.
+template <class Real>
+Certified<Real> length_of(const WorldNormal<Real>& normal) {
+  const Vector<double> error = errors_of(normal);
+  const Real length = square_root(dot(normal.n, normal.n));
+  return {length, (error[0] + error[1] + error[2]) +
+                      surface_bounds::length * epsilon<Real> * slack * std::abs(nearest(length))};
+}
+
+/// n·d at a sample: the products err by (8 + 4 + 1)ε and two sums.
+template <class Real>
+Certified<Real> along_ray(const WorldNormal<Real>& normal, const Rays& world,
+                          const ImageBounds& image, const ImagePoint& s) {
+  const Vector<Real> d = ray_at<Real>(world, image.perspective, s).direction;
+  const Vector<double> d_size = RaySizes(world, image).direction;
+  return {dot(normal.n, d),
+          surface_bounds::turn * (epsilon<Real> * slack) * dot(normal.size, d_size)};
+}
+
 /// The unit normal, turned towards the camera, at a sample where the triangle is visible; every
 /// error is +∞ if it is not certain which way to turn it.
 /// Needs    safe corners, and usable rays of the object and of the world.
 ///
 /// Turn. Σe = det(H)·(n·d) and Δ = D·Σe for n and d of one frame (H the linear part of the map to
 /// (U, V, D), det H = fx·fy·det R in the world), and D > 0: so the specification's sign
-/// −sign(Δ)·sign(fx·fy·det R) is −sign(n·d). The products n·d err by (8 + 4 + 1)ε and two sums.
-///
-/// Length. Squares err by 2k + 1, sums by 2, the root by half of that and 1; but since the length's
-/// error comes from those of the components, it is counted thus: |n̂| and |n| differ by at most the
-/// sum of the components' errors, and |n̂| is computed with an error of (3/2 + 1)ε; 3 is used.
+/// −sign(Δ)·sign(fx·fy·det R) is −sign(n·d).
 ///
 /// Underflow. Components of placed normals are multiples of 2⁻⁵⁶⁶ (2⁻²⁶² of an entry times 2⁻³⁰⁴ of
 /// n), so their squares may lose words below 2⁻¹⁰⁷⁴. That is less than 2⁻³⁰⁰ of |n|²: as the turn is
@@ -333,24 +358,18 @@ template <class Real>
 Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRays& object,
                                     const ObjectRays& world, const ImageBounds& image,
                                     const ImagePoint& s) {
-  constexpr double e = epsilon<Real> * slack;
   Vector<Certified<Real>> result;
-  WorldNormal<Real> normal = world_normal<Real>(corners, object);
-  const Vector<Real> d = ray_at<Real>(world.rays, image.perspective, s).direction;
-  const Vector<double> d_size = RaySizes(world.rays, image).direction;
-  const double nd = nearest(dot(normal.n, d));
-  if (!(std::abs(nd) > surface_bounds::turn * e * dot(normal.size, d_size))) return result;
+  const WorldNormal<Real> normal = world_normal<Real>(corners, object);
+  const Certified<Real> nd = along_ray(normal, world.rays, image, s);
+  if (!(std::abs(nearest(nd.value)) > nd.error)) return result;
 
   const double greatest = std::max({normal.size[0], normal.size[1], normal.size[2]});
   if (!(greatest >= 0x1p-250 && greatest <= 0x1p450)) return result;  // squares stay in range
-  Vector<double> error;
-  for (std::size_t i = 0; i < 3; ++i) error[i] = normal.factor * e * normal.size[i];
-  const Real length = square_root(dot(normal.n, normal.n));
-  const double length_error =
-      (error[0] + error[1] + error[2]) + surface_bounds::length * e * std::abs(nearest(length));
+  const Vector<double> error = errors_of(normal);
+  const Certified<Real> length = length_of(normal);
   for (std::size_t i = 0; i < 3; ++i) {
-    const Real turned = nd > 0 ? -normal.n[i] : normal.n[i];
-    result[i] = quotient<Real>({turned, error[i]}, {length, length_error});
+    const Real turned = nearest(nd.value) > 0 ? -normal.n[i] : normal.n[i];
+    result[i] = quotient<Real>({turned, error[i]}, length);
     if (normal.size[i] == 0) result[i] = {Real(0.0), 0};
   }
   return result;
