@@ -6,61 +6,16 @@
 
 #include <cmath>
 
-#include "fathom/fast/vertex.h"
-#include "tests/inputs/scene_building.h"
+#include "tests/effort.h"
+#include "tests/fast/image_triangles.h"
 #include "tests/numeric/error_shares.h"
-#include "tests/numeric/random_numbers.h"
 
 namespace fathom {
 namespace {
 
 using namespace fast;
 using namespace triangle;
-using testing::Numbers;
-using testing::Share;
-
-/// Triangles near the image: of all sizes, many of them thin.
-std::array<MeshPoint, 3> triangle_from(Numbers& n) {
-  const MeshPoint A{n.unit() * 2, n.unit() * 2, 1 + n.unit() / 2};
-  const double size = std::ldexp(1, -n.below(12));
-  const auto near = [&](const MeshPoint& p, double s) {
-    return MeshPoint{p.x + n.unit() * s, p.y + n.unit() * s, p.z + n.unit() * s / 4};
-  };
-  MeshPoint B = near(A, size), C = near(A, size);
-  if (n.below(3) == 0) {  // thin: C near the line AB
-    const double t = n.unit() * 2;
-    const double off = size * std::ldexp(1, -n.below(40));
-    C = near({A.x + t * (B.x - A.x), A.y + t * (B.y - A.y), A.z + t * (B.z - A.z)}, off);
-  }
-  return {A, B, C};
-}
-
-struct Triangle {
-  ProjectedTriangle exact;
-  std::array<ImageVertex, 3> vertices;
-};
-
-Triangle project_both(const std::array<MeshPoint, 3>& corners, const Camera& camera) {
-  Triangle t;
-  std::array<WorldPoint, 3> world;
-  const VertexTransform transform(Object{}, camera);
-  for (std::size_t i = 0; i < 3; ++i) {
-    world[i] = WorldFromMesh{}(corners[i]);
-    t.vertices[i] = transform(corners[i]);
-  }
-  TierCounts counts;
-  t.exact = project(world, 0, camera, counts);
-  return t;
-}
-
-Camera plain_camera(bool perspective) {
-  Camera camera = testing::camera_of(640, 480, 301.7);
-  camera.cx = 320.3;
-  camera.skew = 0.3;
-  if (!perspective) camera.projection = Projection::orthographic;
-  camera.world_to_camera = {{{0.9, 0.1, -0.2, 0.03}, {0.05, 1.1, 0.3, -0.1}, {0.2, -0.3, 0.8, 3}}};
-  return camera;
-}
+using namespace testing;
 
 double edge_at(const TriangleSetup& s, std::size_t i, double x, double y) {
   return (s.edge_c[i] + s.edge_b[i] * y) + s.edge_a[i] * x;
@@ -90,7 +45,8 @@ struct SetupShares {
   int setups = 0, refused = 0;
 };
 
-void check_certified(const Triangle& t, const Camera& camera, Numbers& n, SetupShares& shares) {
+void check_certified(const ImageTriangle& t, const Camera& camera, Numbers& n,
+                     SetupShares& shares) {
   const bool perspective = camera.projection == Projection::perspective;
   constexpr CornerIndices corners{0, 1, 2};
   const auto orientation = certified_orientation(t.vertices.data(), corners);
@@ -147,34 +103,11 @@ TEST_P(Setups, FromVerticesBoundsHoldAndAreTight) {
   EXPECT_GT(shares.q.publish("q"), 0.02);
 }
 
-/// Corners given directly, their errors as large as their bounds allow: the exact corners are the
-/// computed ones moved by the bound in the worst direction.
 TEST_P(Setups, FromVerticesBoundsHoldForTheWorstErrorsOfCorners) {
-  Camera camera = testing::camera_of(64, 64, 1);  // u = x/z or x
-  camera.cx = camera.cy = 0;
-  const bool perspective = GetParam();
-  if (!perspective) camera.projection = Projection::orthographic;
+  const Camera camera = bare_camera(GetParam());
   Numbers n(22);
   SetupShares shares;
-  for (int i = 0; i < 20000; ++i) {
-    const double e = std::ldexp(1, -13 - n.below(12));
-    Triangle t;
-    std::array<WorldPoint, 3> world;
-    const int size = 1 << n.below(7);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double q = perspective ? std::ldexp(1, -n.below(4)) : n.below(9) - 4.0;
-      const double u = n.below(size + 1) + n.below(2) * 0.5, v = n.below(size + 1);
-      t.vertices[k] = {u, v, q, upper_half(e) << 32 | upper_half(e * 0x1p-10)};
-      const Dyadic exact_u = Dyadic(u) + Dyadic((n.below(2) * 2 - 1) * e);
-      const Dyadic exact_v = Dyadic(v) + Dyadic((n.below(2) * 2 - 1) * e);
-      const Dyadic D = perspective ? Dyadic(1 / q) : Dyadic(-q);
-      world[k] =
-          perspective ? WorldPoint{exact_u * D, exact_v * D, D} : WorldPoint{exact_u, exact_v, D};
-    }
-    TierCounts counts;
-    t.exact = project(world, 0, camera, counts);
-    check_certified(t, camera, n, shares);
-  }
+  for (int i = 0; i < 20000; ++i) check_certified(worst_triangle(n, camera), camera, n, shares);
   EXPECT_GT(shares.setups, 3000);
   EXPECT_GT(shares.q.count(), 3000);
   EXPECT_GT(shares.edges.publish("edges"), 0.2);
@@ -189,7 +122,7 @@ TEST_P(Setups, FromExactFormsBoundsHoldAndAreTight) {
   for (int i = 0; i < 6000; ++i) {
     auto corners = triangle_from(n);
     if (n.below(2)) corners[0].z -= 5;  // reaches behind the camera
-    const Triangle t = project_both(corners, camera);
+    const ImageTriangle t = project_both(corners, camera);
     if (t.exact.orientation == Sign::zero) continue;
     const auto column = static_cast<std::uint32_t>(n.below(576));
     const auto row = static_cast<std::uint32_t>(n.below(416));
@@ -218,6 +151,31 @@ TEST_P(Setups, FromExactFormsBoundsHoldAndAreTight) {
   EXPECT_GT(q.count(), 5000);
   EXPECT_GT(edges.publish("edges"), 0.1);
   EXPECT_GT(q.publish("q"), 0.1);
+}
+
+/// Triangles of almost one depth: what is left of the bound on q is the share of |q_A|.
+TEST(LevelSetups, BoundsHoldForTheRoundingsOfQ) {
+  const Camera camera = bare_camera(false);
+  Numbers n(24);
+  SetupShares shares;
+  for (int i = 0; i < 6000 / effort; ++i) {
+    ImageTriangle t;
+    std::array<WorldPoint, 3> world;
+    const double level = 1 + n.below(2) * n.unit() / 8;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double u = 32 + n.unit() * 40, v = 32 + n.unit() * 40, D = level + n.unit() * 0x1p-20;
+      t.vertices[k] = {u, v, -D, upper_half(0x1p-100) << 32 | upper_half(0x1p-100)};
+      world[k] = {u, v, D};
+    }
+    TierCounts counts;
+    t.exact = project(world, 0, camera, counts);
+    check_certified(t, camera, n, shares);
+  }
+  EXPECT_GT(shares.q.count(), 4000 / effort);
+  const double greatest = shares.q.publish("q_of_corner");
+  if (effort == 1) {
+    EXPECT_GT(greatest, 0.5);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Fast, Setups, ::testing::Bool());

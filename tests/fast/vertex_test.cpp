@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/effort.h"
 #include "tests/inputs/scene_building.h"
 #include "tests/numeric/error_shares.h"
 #include "tests/numeric/random_numbers.h"
@@ -90,6 +91,28 @@ TEST_P(Vertices, BoundsHoldAndAreTight) {
   EXPECT_GT(u.publish("u"), 0.25);
   EXPECT_GT(v.publish("v"), 0.25);
   EXPECT_GT(q.publish("q"), 0.25);
+}
+
+TEST_P(Vertices, BoundsHoldForFormsOfTheImage) {
+  const bool perspective = GetParam();
+  Numbers n(perspective ? 13 : 14);
+  Share missed;
+  for (int i = 0; i < 600 / testing::effort; ++i) {
+    const Camera camera = camera_from(n, perspective);
+    const Object object = object_from(n);
+    const VertexTransform transform(object, camera);
+    for (int k = 0; k < 20; ++k) {
+      const MeshPoint X{n.unit(), n.unit(), n.unit()};
+      const auto forms = transform.forms_of_image(X);
+      const auto [U, V, W] = exact_image(object, camera, X).image;
+      const Dyadic exact[] = {W, U, W * Dyadic(camera.width) - U, V, W * Dyadic(camera.height) - V};
+      for (std::size_t j = 0; j < 5; ++j) missed.add(forms[j].value, exact[j], forms[j].error);
+    }
+  }
+  const double greatest = missed.publish("missed_form");
+  if (testing::effort == 1) {
+    EXPECT_GT(greatest, 0.25);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Fast, Vertices, ::testing::Bool());

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/double_word.h"
+#include "fathom/numeric/interval.h"
 #include "fathom/numeric/ratio.h"
 #include "fathom/numeric/rounding.h"
 
@@ -39,6 +41,11 @@ class Share {
   void add(const Certified<Real>& x, const Ratio& exact) {
     if (std::isfinite(x.error)) add(exactly(x.value), exact, x.error);
   }
+  /// Of an interval: |middle − exact| / half its width.
+  void add(const Interval& x, const Ratio& exact) {
+    const Dyadic lower(x.lower), upper(x.upper);
+    add((lower + upper).scaled(-1), exact, (upper - lower).scaled(-1));
+  }
   /// The greatest share; also written into the test's report (--gtest_output=json), by this name.
   double publish(const char* name) const {
     ::testing::Test::RecordProperty(name, std::to_string(greatest_));
@@ -52,6 +59,32 @@ class Share {
   int count_ = 0;
 };
 
+inline Dyadic exactly(mpz_srcptr integer) {
+  Dyadic sum;  // through 53-bit pieces, the only way into a Dyadic
+  mpz_t rest;
+  mpz_init_set(rest, integer);
+  while (mpz_sgn(rest) != 0) {
+    long power = 0;
+    const double piece = mpz_get_d_2exp(&power, rest);  // towards zero
+    const Dyadic part = Dyadic(piece).scaled(power);
+    sum += part;
+    mpz_t taken;
+    mpz_init_set(taken, part.significand());
+    if (part.exponent() >= 0) {
+      mpz_mul_2exp(taken, taken, static_cast<mp_bitcnt_t>(part.exponent()));
+    } else {
+      mpz_tdiv_q_2exp(taken, taken, static_cast<mp_bitcnt_t>(-part.exponent()));
+    }
+    mpz_sub(rest, rest, taken);
+    mpz_clear(taken);
+  }
+  mpz_clear(rest);
+  return sum;
+}
+inline Ratio exactly(mpq_srcptr x) {
+  return {exactly(mpq_numref(x)), exactly(mpq_denref(x))};
+}
+
 /// √x with a relative error below 2⁻³⁰⁰, nothing beside the bounds it is compared with.
 inline Ratio root(const Ratio& x) {
   if (x.sign() == Sign::zero) return {};
@@ -63,33 +96,10 @@ inline Ratio root(const Ratio& x) {
   const long odd = ((e % 2) + 2) % 2;
   mpz_mul_2exp(n, n, static_cast<mp_bitcnt_t>(odd) + 2 * 700);
   mpz_sqrt(n, n);
-  Dyadic numerator, denominator;  // through 53-bit pieces, the only way into a Dyadic
-  const auto from = [](mpz_srcptr z) {
-    Dyadic sum;
-    mpz_t rest;
-    mpz_init_set(rest, z);
-    while (mpz_sgn(rest) != 0) {
-      long power = 0;
-      const double piece = mpz_get_d_2exp(&power, rest);  // towards zero
-      const Dyadic part = Dyadic(piece).scaled(power);
-      sum += part;
-      mpz_t taken;
-      mpz_init_set(taken, part.significand());
-      if (part.exponent() >= 0) {
-        mpz_mul_2exp(taken, taken, static_cast<mp_bitcnt_t>(part.exponent()));
-      } else {
-        mpz_tdiv_q_2exp(taken, taken, static_cast<mp_bitcnt_t>(-part.exponent()));
-      }
-      mpz_sub(rest, rest, taken);
-      mpz_clear(taken);
-    }
-    mpz_clear(rest);
-    return sum;
-  };
-  numerator = from(n).scaled((e - odd) / 2 - 700);
-  denominator = from(x.denominator.significand());
+  Dyadic numerator = exactly(n).scaled((e - odd) / 2 - 700);
+  Dyadic denominator = exactly(x.denominator.significand());
   mpz_clear(n);
-  return {numerator, denominator};
+  return {std::move(numerator), std::move(denominator)};
 }
 
 }  // namespace fathom::testing

@@ -127,19 +127,27 @@ struct Wide {
 
 struct Shares {
   Share varying, constant, edges, depth, distance, position, weights, normal;
+  /// Of what the normal and the distance are computed from.
+  Share mesh_normal, placed_normal, length, turn, ray_length;
 };
+
+/// det(H), H being the linear part of the map from a mesh, or the world, to (U, V, D), with the sign
+/// that ProjectedTriangle gives to its forms.
+Dyadic determinant_of(const ObjectRays& object, const ProjectedTriangle& t) {
+  std::array<ExactVector3, 3> H;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) H[i][k] = object.image_rows[i].coefficients[k];
+  }
+  const Dyadic det = determinant(H[0], H[1], H[2]);
+  return t.orientation == Sign::negative ? -det : det;
+}
 
 /// The parts of depth and weights, before quotients and differences cover their errors: n·d is
 /// Σe/det H, n·t is Δ/det H, d·(r × t) and d·(t × p) are e_B/det H and e_C/det H.
 template <class Arithmetic>
 void add_shares_of_parts(const Seen& x, const ProjectedTriangle& t, Shares& shares) {
   using Real = typename Arithmetic::Real;
-  std::array<ExactVector3, 3> H;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) H[i][k] = x.object.image_rows[i].coefficients[k];
-  }
-  Dyadic det = determinant(H[0], H[1], H[2]);
-  if (t.orientation == Sign::negative) det = -det;
+  const Dyadic det = determinant_of(x.object, t);
   const auto over_det = [&](const ImageForm& form) { return Ratio(form.at(x.s.u, x.s.v), det); };
   const DepthForms<Real> forms = Arithmetic::forms(x);
   const auto& [varying, constant] = x.image.perspective ? std::pair{t.weight, t.depth_numerator}
@@ -150,6 +158,22 @@ void add_shares_of_parts(const Seen& x, const ProjectedTriangle& t, Shares& shar
   shares.varying.add(weights.divisor.at(x.s), over_det(t.weight));
   shares.edges.add(weights.weights[0].at(x.s), over_det(t.edges[1]));
   shares.edges.add(weights.weights[1].at(x.s), over_det(t.edges[2]));
+}
+
+/// The parts of the unit normal, n = p × r in the world: its components, |n|, n·d.
+template <class Real>
+void add_shares_of_normal(const Seen& x, const ProjectedTriangle& t, const ExactVector3& n,
+                          Shares& shares) {
+  const WorldNormal<Real> normal = world_normal<Real>(x.corners, x.object);
+  const Vector<double> errors = errors_of(normal);
+  Share& components = x.object.placed_as_is ? shares.mesh_normal : shares.placed_normal;
+  for (std::size_t i = 0; i < 3; ++i) {
+    components.add(Certified<Real>{normal.n[i], errors[i]}, Ratio(n[i]));
+  }
+  shares.length.add(length_of(normal), root(Ratio(dot(n, n))));
+  const Dyadic det = determinant_of(x.rays.world(), t);
+  shares.turn.add(along_ray(normal, x.rays.world().rays, x.image, x.s),
+                  Ratio(t.weight.at(x.s.u, x.s.v), det));
 }
 
 template <class Arithmetic>
@@ -169,10 +193,14 @@ void add_shares(const Seen& x, const ProjectedTriangle& t, Sign handedness, Shar
     const auto& [a, b, c] = t.camera;
     const Ratio X = interpolate(t, s, {a.x, b.x, c.x}), Y = interpolate(t, s, {a.y, b.y, c.y});
     const Ratio Z = depth_at(t, s);
-    shares.distance.add(Arithmetic::distance(x), root(X * X + Y * Y + Z * Z));
+    const Ratio squared = X * X + Y * Y + Z * Z;
+    shares.distance.add(Arithmetic::distance(x), root(squared));
+    shares.ray_length.add(ray_length<typename Arithmetic::Real>(x.rays, x.s),
+                          root(quotient(squared, Z * Z)));
   }
   const ExactVector3 n = cross(ExactVector3{B.x - A.x, B.y - A.y, B.z - A.z},
                                ExactVector3{C.x - A.x, C.y - A.y, C.z - A.z});
+  add_shares_of_normal<typename Arithmetic::Real>(x, t, n, shares);
   const auto normal = Arithmetic::normal(x);
   for (std::size_t i = 0; i < 3; ++i) {
     const Ratio size = root(Ratio(n[i] * n[i], dot(n, n)));
@@ -218,6 +246,7 @@ Shares shares_of(bool perspective, std::uint64_t seed) {
 /// No error exceeds its bound; the greatest reaches these shares of it.
 struct Tightness {
   double varying, constant, edges, depth, distance, position, weights, normal;
+  double mesh_normal, placed_normal, length, turn, ray_length;
 };
 
 void expect_tight(const Shares& shares, const Tightness& least, bool perspective) {
@@ -228,20 +257,27 @@ void expect_tight(const Shares& shares, const Tightness& least, bool perspective
   EXPECT_GT(shares.depth.publish("depth"), least.depth);
   if (perspective) {
     EXPECT_GT(shares.distance.publish("distance"), least.distance);
+    EXPECT_GT(shares.ray_length.publish("ray_length"), least.ray_length);
   }
   EXPECT_GT(shares.position.publish("position"), least.position);
   EXPECT_GT(shares.weights.publish("weights"), least.weights);
   EXPECT_GT(shares.normal.publish("normal"), least.normal);
+  EXPECT_GT(shares.mesh_normal.publish("mesh_normal"), least.mesh_normal);
+  EXPECT_GT(shares.placed_normal.publish("placed_normal"), least.placed_normal);
+  EXPECT_GT(shares.length.publish("length"), least.length);
+  EXPECT_GT(shares.turn.publish("turn"), least.turn);
 }
 
 /// ε is 16u², while an operation mostly errs by less than u²: the bounds are loose by design here,
-/// eight bits of the forty that are to spare.
-constexpr Tightness double_words{0.0018, 0.004, 0.002, 0.002, 0.001, 0.0015, 0.0018, 0.006};
+/// eight bits of the forty that are to spare. The products of n itself are often exact.
+constexpr Tightness double_words{0.0018, 0.004, 0.002, 0.002, 0.001,  0.0015, 0.0018,
+                                 0.006,  -1,    0.006, 0.004, 0.0014, 0.0018};
 
 class ChannelBounds : public ::testing::TestWithParam<bool> {};
 
 TEST_P(ChannelBounds, HoldInBinary64) {
-  const Tightness least{0.06, 0.12, 0.035, 0.04, 0.03, 0.03, 0.03, 0.08};
+  const Tightness least{0.06, 0.12, 0.035, 0.04, 0.03, 0.03, 0.03,
+                        0.08, 0.25, 0.2, 0.1, 0.04, 0.03};
   expect_tight(shares_of<Binary64>(GetParam(), 41), least, GetParam());
 }
 TEST_P(ChannelBounds, HoldInDoubleWordsWithFma) {

@@ -7,70 +7,32 @@
 #include "fathom/fast/coverage/pixel_winding.h"
 #include "fathom/fast/vertex.h"
 #include "tests/effort.h"
-#include "tests/oracle/areas.h"
+#include "tests/fast/coverage/square_triangles.h"
 #include "tests/oracle/clipped_polygon.h"
 
 namespace fathom {
 namespace {
 
 using namespace fast;
+using namespace testing;
 using oracle::Q;
-using Triangle = std::array<SquarePoint, 3>;
 
-double cross(const Triangle& t) {
-  return (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x);
-}
-
-/// Triangles around the unit square. On a grid of 1/8 many corners and edges coincide, and all the
-/// arithmetic of cross() is exact; otherwise none do.
-std::vector<Triangle> random_triangles(std::mt19937_64& random, std::size_t count, bool on_grid) {
-  std::uniform_int_distribution<int> eighths(-8, 16);
-  std::uniform_real_distribution<double> anywhere(-1, 2);
-  std::vector<Triangle> triangles;
-  while (triangles.size() < count) {
-    Triangle t;
-    for (SquarePoint& p : t) {
-      p = on_grid ? SquarePoint{eighths(random) / 8.0, eighths(random) / 8.0}
-                  : SquarePoint{anywhere(random), anywhere(random)};
-    }
-    if (cross(t) < 0) std::swap(t[1], t[2]);
-    if (cross(t) > 0x1p-30) triangles.push_back(t);
-  }
-  return triangles;
-}
-
-/// The area of the union within the square, exactly: the square is the first pixel of an
-/// orthographic camera that leaves coordinates as they are.
-Q exact_area(const std::vector<Triangle>& triangles) {
-  oracle::RayCamera camera;
-  camera.perspective = false;
-  camera.fx = camera.fy = 1;
-  camera.pixel_centre = Q(1, 2);
-  for (std::size_t k = 0; k < 3; ++k) camera.world_to_camera[k][k] = 1;
-  std::vector<oracle::Triangle> placed;
-  for (const Triangle& t : triangles) {
-    placed.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) placed.back()[k] = {Q(t[k].x), Q(t[k].y), Q(1)};
-  }
-  return oracle::Areas(camera, placed).coverage(0, 0);
-}
-
-Interval area_of_union(const std::vector<Triangle>& triangles) {
+Interval area_of_union(const std::vector<SquareTriangle>& triangles) {
   PixelUnion pixel;
   pixel.clear();
-  for (const Triangle& t : triangles) pixel.add(t, 0);
+  for (const SquareTriangle& t : triangles) pixel.add(t, 0);
   return pixel.area();
 }
 
-Interval area_between_edges(const std::vector<Triangle>& triangles) {
+Interval area_between_edges(const std::vector<SquareTriangle>& triangles) {
   PixelWinding pixel;
   pixel.clear();
-  for (const Triangle& t : triangles) {
+  for (const SquareTriangle& t : triangles) {
     for (std::size_t k = 0; k < 3; ++k) pixel.add(t[k], t[(k + 1) % 3], 0);
   }
   return pixel.area([&](const SquarePoint& s) {
     int number = 0;
-    for (const Triangle& t : triangles) {
+    for (const SquareTriangle& t : triangles) {
       bool inside = true, outside = false;
       for (std::size_t k = 0; k < 3; ++k) {
         const double e = cross({s, t[k], t[(k + 1) % 3]});
@@ -112,11 +74,11 @@ TEST(PixelArea, IntervalsContainTheExactArea) {
 
 /// A triangle that is there a thousand times, and one beside it that has an edge in common with all.
 TEST(PixelArea, EdgesInOnePlaceAreOne) {
-  const Triangle t{{{0.125, 0.25}, {0.75, 0.25}, {0.25, 0.875}}};
-  const Triangle beside{{{0.75, 0.25}, {0.875, 1.5}, {0.25, 0.875}}};
+  const SquareTriangle t{{{0.125, 0.25}, {0.75, 0.25}, {0.25, 0.875}}};
+  const SquareTriangle beside{{{0.75, 0.25}, {0.875, 1.5}, {0.25, 0.875}}};
   PixelWinding pixel;
   pixel.clear();
-  const auto add = [&](const Triangle& its, int times) {
+  const auto add = [&](const SquareTriangle& its, int times) {
     for (std::size_t k = 0; k < 3; ++k) pixel.add(its[k], its[(k + 1) % 3], 0, times);
   };
   for (int i = 0; i < 999; ++i) add(t, 1);
@@ -124,7 +86,7 @@ TEST(PixelArea, EdgesInOnePlaceAreOne) {
   add(t, 1);
   add(beside, 1);
   EXPECT_EQ(pixel.size(), 5U);
-  const auto is_in = [](const Triangle& its, const SquarePoint& s) {
+  const auto is_in = [](const SquareTriangle& its, const SquarePoint& s) {
     bool inside = true;
     for (std::size_t k = 0; k < 3; ++k) inside = inside && cross({s, its[k], its[(k + 1) % 3]}) > 0;
     return inside;
@@ -140,7 +102,7 @@ TEST(PixelArea, OfNothingIsNothing) {
   pixel.clear();
   EXPECT_EQ(pixel.area().lower, 0);
   EXPECT_LT(pixel.area().upper, 0x1p-40);
-  pixel.add(Triangle{{{2, 0}, {3, 0}, {2, 1}}}, 0);
+  pixel.add(SquareTriangle{{{2, 0}, {3, 0}, {2, 1}}}, 0);
   EXPECT_EQ(pixel.area().lower, 0);
   EXPECT_LT(pixel.area().upper, 0x1p-40);
 }
