@@ -37,11 +37,11 @@ inline constexpr double q_moves = 2;
 inline constexpr double exact_edge_error = 12 * unit_roundoff<double>;
 inline constexpr double exact_q_error = 5 * unit_roundoff<double>;
 
-/// TileCoverage::exact_shape(): so many times the bounds of exact_setup() (shape_edges).
+/// functions_over_tile(): so many times the bounds of exact_setup() (shape_edges).
 inline constexpr double shape_share = 1.5;
 /// The same, of an end of the range of depths (shape_q).
 inline constexpr double range_end_rounding = 4 * unit_roundoff<double>;
-/// TileCoverage::shape_of(): edge_rounding, and what moving by half a pixel adds (shape_of).
+/// edges_over_tile(): edge_rounding, and what moving by half a pixel adds (shape_of).
 inline constexpr double shape_rounding = 34 * unit_roundoff<double>;
 
 }  // namespace fathom::fast::setup_bounds

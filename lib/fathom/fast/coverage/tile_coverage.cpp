@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "fathom/fast/coverage/area_bounds.h"
-#include "fathom/fast/setup_bounds.h"
+#include "fathom/fast/coverage/tile_functions.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom::fast {
@@ -55,59 +55,21 @@ bool TileCoverage::is_open(const TileBox& box) const {
   return false;
 }
 
-// The bound of certified_edges() in setup-inl.h, for coordinates relative to the tile; 10uL²
-// more for adding half a pixel's change (meet()), of a magnitude of at most 2L.
 TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_t i) const {
-  const auto& corners = object.mesh.triangles[numbers_[i] - object.first_number];
-  std::array<SquarePoint, 3> p{};
-  double L = size, e = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const ImageVertex& vertex = object.vertices[corners[k]];
-    p[k] = {vertex.u - area_.first_column, vertex.v - area_.first_row};
-    L = std::max({L, std::abs(p[k].x), std::abs(p[k].y)});
-    e = std::max(e, vertex.position_error());
-  }
-  const double error = (setup_bounds::edge_by_corners * (e + unit_roundoff<double> * L) +
-                        setup_bounds::shape_rounding * L) *
-                       L;
-  if (classes_[i].kind == CoverageClass::negative) std::swap(p[1], p[2]);
-  Shape shape{.triangle = static_cast<std::uint32_t>(i), .is_open = false, .sides = {}};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto &P = p[(k + 1) % 3], &Q = p[(k + 2) % 3];
-    shape.add(P.y - Q.y, Q.x - P.x, P.x * Q.y - P.y * Q.x, error);
-  }
+  auto [A, B, C] = object.mesh.triangles[numbers_[i] - object.first_number];
+  if (classes_[i].kind == CoverageClass::negative) std::swap(B, C);
+  const auto edges =
+      edges_over_tile({object.vertices[A], object.vertices[B], object.vertices[C]}, area_);
+  Shape shape{.triangle = static_cast<std::uint32_t>(i), .is_open = false, .sides = {}, .count = 3};
+  std::copy(edges.begin(), edges.end(), shape.sides.begin());
   return shape;
 }
 
-// The functions of exact_setup() are relative to the sample of the tile's first pixel, half a pixel
-// from its corner: c moves by (a + b)/2. Their bounds hold for any point up to 8 pixels beyond the
-// tile. The additional half of a bound covers the further roundings: of c, of half a pixel's change
-// that meet() subtracts, and of what add_to_union() adds (validation/proofs/shape_edges.gappa.in).
-// Ends of the range are known up to the next number; their part of a sum is rounded five times,
-// which range_end_rounding covers (shape_q.gappa.in).
 TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context& context) const {
-  const TriangleSetup s =
+  const TriangleSetup setup =
       exact_setup(context.referee.projected(numbers_[i]), context.perspective, area_);
-  Shape shape{.triangle = static_cast<std::uint32_t>(i), .is_open = true, .sides = {}};
-  const auto add = [&](double a, double b, double c, double error) {
-    shape.add(a, b, c - (a + b) / 2, setup_bounds::shape_share * error);
-  };
-  for (std::size_t k = 0; k < 3; ++k) add(s.edge_a[k], s.edge_b[k], s.edge_c[k], s.edge_error);
-  const DepthRange& range = context.range;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (range.inside_greatest < infinity) {
-    const double doubt = std::abs(range.outside_greatest - range.inside_greatest);
-    add(-s.q_a, -s.q_b, range.inside_greatest - s.q_c,
-        2 * s.q_error + 2 * doubt +
-            setup_bounds::range_end_rounding * std::abs(range.inside_greatest));
-  }
-  if (range.inside_least > -infinity) {
-    const double doubt = std::abs(range.inside_least - range.outside_least);
-    add(s.q_a, s.q_b, s.q_c - range.inside_least,
-        2 * s.q_error + 2 * doubt +
-            setup_bounds::range_end_rounding * std::abs(range.inside_least));
-  }
-  return shape;
+  const auto [functions, count] = functions_over_tile(setup, context.range);
+  return {static_cast<std::uint32_t>(i), true, functions, count};
 }
 
 void TileCoverage::meet(const TileBox& box, const Shape& shape) {
@@ -119,11 +81,10 @@ void TileCoverage::meet(const TileBox& box, const Shape& shape) {
       const int column = std::countr_zero(bits);
       bool inside = true, outside = false;
       for (std::size_t k = 0; k < shape.count; ++k) {
-        const auto& [a, b, c, error] = shape.sides[k];
-        const double at_centre = c + a * (column + 0.5) + b * (row + 0.5);
-        const double half = (std::abs(a) + std::abs(b)) / 2;
-        inside = inside && at_centre - half > error;
-        outside = outside || at_centre + half < -error;
+        const UncertainHalfPlane& side = shape.sides[k];
+        const auto [least, greatest] = values_in_pixel(side, column, row);
+        inside = inside && least > side.error;
+        outside = outside || greatest < -side.error;
       }
       if (inside) {
         open_row &= ~(std::uint64_t{1} << column);

@@ -77,7 +77,6 @@ class TileCoverage {
     bool is_open;
     std::array<UncertainHalfPlane, 5> sides;
     std::uint32_t count = 0;
-    void add(double a, double b, double c, double error) { sides[count++] = {a, b, c, error}; }
   };
   /// A shape or an edge that meets a pixel; pixels are numbered by rows of the tile.
   struct Meeting {

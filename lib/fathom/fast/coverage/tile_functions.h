@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "fathom/fast/coverage/pixel_union.h"
+#include "fathom/fast/setup.h"
+
+// Affine functions that are positive inside a triangle, in pixels from a tile's top left corner.
+// Their bounds cover what their users compute from them at pixels of the tile.
+namespace fathom::fast {
+
+/// The edge functions of a triangle with usable corners, in an order that makes its area positive.
+std::array<UncertainHalfPlane, 3> edges_over_tile(const std::array<ImageVertex, 3>& corners,
+                                                  const PixelBox& tile);
+
+/// The edge functions, and q less the ends of the range of depths.
+struct TileFunctions {
+  std::array<UncertainHalfPlane, 5> functions;
+  std::uint32_t count = 0;
+};
+/// Needs    a setup of exact_setup() for the samples of the tile.
+TileFunctions functions_over_tile(const TriangleSetup& exact_setup, const DepthRange& range);
+
+struct ValuesInPixel {
+  double least, greatest;
+};
+inline ValuesInPixel values_in_pixel(const UncertainHalfPlane& f, double column, double row) {
+  const double at_centre = f.c + f.a * (column + 0.5) + f.b * (row + 0.5);
+  const double half = (std::abs(f.a) + std::abs(f.b)) / 2;
+  return {at_centre - half, at_centre + half};
+}
+
+}  // namespace fathom::fast

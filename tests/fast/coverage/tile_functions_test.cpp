@@ -1,0 +1,141 @@
+// Functions over a tile: their least and greatest values in pixels err by no more than their bounds,
+// and by as much as stated shares of them.
+#include "fathom/fast/coverage/tile_functions.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/effort.h"
+#include "tests/fast/image_triangles.h"
+#include "tests/numeric/error_shares.h"
+
+namespace fathom {
+namespace {
+
+using namespace fast;
+using namespace triangle;
+using namespace testing;
+
+/// A tile of the image.
+PixelBox tile_at(Numbers& n, const Camera& camera) {
+  const auto first = [&](std::uint32_t size) {
+    return static_cast<std::uint32_t>(n.below(static_cast<int>(size / 64))) * 64;
+  };
+  const std::uint32_t column = first(camera.width), row = first(camera.height);
+  return {column, column + 63, row, row + 63};
+}
+
+/// Compares the values of a function in a pixel with those at its corners, where an affine function
+/// has its greatest and its least. exact(u, v): a Ratio.
+template <class Exact>
+void add_pixel(const UncertainHalfPlane& f, Numbers& n, const PixelBox& tile, const Exact& exact,
+               Share& share) {
+  const int column = n.below(64), row = n.below(64);
+  std::array<Ratio, 4> values;
+  for (int k = 0; k < 4; ++k) {
+    values[static_cast<std::size_t>(k)] =
+        exact(tile.first_column + 1.0 * (column + k % 2), tile.first_row + 1.0 * (row + k / 2));
+  }
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  const ValuesInPixel computed = values_in_pixel(f, column, row);
+  share.add(computed.least, *least, f.error);
+  share.add(computed.greatest, *greatest, f.error);
+}
+
+void add_edges(const ImageTriangle& t, const Camera& camera, Numbers& n, Share& share) {
+  for (const ImageVertex& vertex : t.vertices) {
+    if (!vertex.is_usable()) return;
+  }
+  if (t.exact.orientation == Sign::zero) return;
+  const bool turned = t.exact.orientation == Sign::negative;
+  const std::array<std::size_t, 3> order{0, turned ? 2U : 1U, turned ? 1U : 2U};
+  const PixelBox tile = tile_at(n, camera);
+  const auto edges =
+      edges_over_tile({t.vertices[order[0]], t.vertices[order[1]], t.vertices[order[2]]}, tile);
+  std::array<Dyadic, 3> W;
+  for (std::size_t i = 0; i < 3; ++i) W[i] = to_image(camera, t.exact.camera[i]).W;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t corner = order[i];
+    const Dyadic scale = W[(corner + 1) % 3] * W[(corner + 2) % 3];
+    const auto exact = [&](double u, double v) {
+      return Ratio(t.exact.edges[corner].at(u, v), scale);
+    };
+    add_pixel(edges[i], n, tile, exact, share);
+  }
+}
+
+class FunctionShares : public ::testing::TestWithParam<bool> {};
+
+TEST_P(FunctionShares, OfEdgesOverATile) {
+  const Camera camera = plain_camera(GetParam()), bare = bare_camera(GetParam());
+  Numbers n(36);
+  Share ordinary, worst;
+  for (int i = 0; i < 2000 / effort; ++i) {
+    add_edges(project_both(triangle_from(n), camera), camera, n, ordinary);
+    add_edges(worst_triangle(n, bare), bare, n, worst);
+  }
+  EXPECT_GT(ordinary.count(), 8000 / effort);
+  const double found = ordinary.publish("shape_rounding"), found_worst = worst.publish("worst");
+  if (effort == 1) {
+    EXPECT_GT(found, 0.03);
+    EXPECT_GT(found_worst, 0.3);
+  }
+}
+
+/// The power of two by which exact_setup() scales a function: that between a coefficient and its
+/// exact value.
+long scale_of(double a, double b, const ExactVector3& exact) {
+  const bool use_a = !exact[0].is_zero();
+  return std::ilogb(use_a ? a : b) -
+         std::ilogb(round_to_binary64(Ratio(use_a ? exact[0] : exact[1])));
+}
+
+TEST_P(FunctionShares, OfExactSetupsOverATile) {
+  const bool perspective = GetParam();
+  Camera camera = plain_camera(perspective);
+  camera.near = 2.9;
+  camera.far = 3.7;
+  const DepthRange range = depth_range(camera);
+  Numbers n(37);
+  Share edges, ends;
+  for (int i = 0; i < 2000 / effort; ++i) {
+    auto corners = triangle_from(n);
+    if (n.below(2)) corners[0].z -= 5;  // reaches behind the camera
+    const ProjectedTriangle t = project_both(corners, camera).exact;
+    if (t.orientation == Sign::zero) continue;
+    const PixelBox tile = tile_at(n, camera);
+    const TriangleSetup setup = exact_setup(t, perspective, tile);
+    const auto [functions, count] = functions_over_tile(setup, range);
+    ASSERT_EQ(count, 5U);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const long scale = scale_of(setup.edge_a[k], setup.edge_b[k], t.edges[k].coefficients());
+      const auto exact = [&](double u, double v) {
+        return Ratio(t.edges[k].at(u, v).scaled(scale));
+      };
+      add_pixel(functions[k], n, tile, exact, edges);
+    }
+    // q is 1/D or −D, an affine function of the place.
+    const auto q = [&](double u, double v) {
+      return perspective ? Ratio(t.weight.at(u, v), t.depth_numerator.at(u, v))
+                         : Ratio(-t.depth_numerator.at(u, v), t.weight.at(u, v));
+    };
+    const auto end = [&](double D) { return perspective ? Ratio(1.0, D) : Ratio(-D); };
+    add_pixel(
+        functions[3], n, tile, [&](double u, double v) { return end(camera.near) - q(u, v); },
+        ends);
+    add_pixel(
+        functions[4], n, tile, [&](double u, double v) { return q(u, v) - end(camera.far); }, ends);
+  }
+  EXPECT_GT(ends.count(), 6000 / effort);
+  const double of_edges = edges.publish("shape_share"), of_ends = ends.publish("ends_of_range");
+  if (effort == 1) {
+    EXPECT_GT(of_edges, 0.1);
+    EXPECT_GT(of_ends, 0.12);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fast, FunctionShares, ::testing::Bool());
+
+}  // namespace
+}  // namespace fathom
