@@ -13,6 +13,7 @@
 #include "fathom/numeric/interval.h"
 #include "fathom/numeric/ratio.h"
 #include "fathom/numeric/rounding.h"
+#include "tests/effort.h"
 
 namespace fathom::testing {
 
@@ -83,6 +84,13 @@ inline Dyadic exactly(mpz_srcptr integer) {
 }
 inline Ratio exactly(mpq_srcptr x) {
   return {exactly(mpq_numref(x)), exactly(mpq_denref(x))};
+}
+
+/// A bound is no looser than this. Where fewer cases are run, less is found.
+inline void expect_share(double found, double least) {
+  if (effort == 1) {
+    EXPECT_GT(found, least);
+  }
 }
 
 /// √x with a relative error below 2⁻³⁰⁰, nothing beside the bounds it is compared with.

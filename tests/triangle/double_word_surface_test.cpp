@@ -277,7 +277,7 @@ class ChannelBounds : public ::testing::TestWithParam<bool> {};
 
 TEST_P(ChannelBounds, HoldInBinary64) {
   const Tightness least{0.06, 0.12, 0.035, 0.04, 0.03, 0.03, 0.03,
-                        0.08, 0.25, 0.2, 0.1, 0.04, 0.03};
+                        0.08, 0.25, 0.2,   0.1,  0.04, 0.03};
   expect_tight(shares_of<Binary64>(GetParam(), 41), least, GetParam());
 }
 TEST_P(ChannelBounds, HoldInDoubleWordsWithFma) {

@@ -21,13 +21,6 @@ using namespace testing;
 using oracle::Polygon;
 using oracle::Q;
 
-/// No looser than this; fewer cases find less.
-void expect_more(double share, double least) {
-  if (effort == 1) {
-    EXPECT_GT(share, least);
-  }
-}
-
 Polygon unit_square() {
   return {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 }
@@ -87,7 +80,7 @@ TEST(AreaShares, OfCrossings) {
     add(height, edge.at(height));
   }
   EXPECT_GT(share.count(), 20000 / effort);
-  expect_more(share.publish("crossing_error"), 0.15);
+  expect_share(share.publish("crossing_error"), 0.15);
 }
 
 Ratio exact_area_of(const SquareTriangle& t) {
@@ -118,8 +111,8 @@ TEST(AreaShares, OfUnions) {
   }
   EXPECT_GT(one.count(), 6000 / effort);
   EXPECT_GT(several.count(), 100 / effort);
-  expect_more(one.publish("of_one"), 0.002);
-  expect_more(several.publish("of_four"), 0.0003);
+  expect_share(one.publish("of_one"), 0.002);
+  expect_share(several.publish("of_four"), 0.0003);
 }
 
 /// Each coordinate is moved by `error`, one way or the other.
@@ -159,7 +152,7 @@ TEST(AreaShares, OfMovedEdges) {
                  share);
   }
   EXPECT_GT(share.count(), 2000 / effort);
-  expect_more(share.publish("moved_edge"), 0.4);
+  expect_share(share.publish("moved_edge"), 0.4);
 }
 
 TEST(AreaShares, OfMovedTriangles) {
@@ -185,7 +178,7 @@ TEST(AreaShares, OfMovedTriangles) {
     add_interval(pixel.area(), area_of(exact), share);
   }
   EXPECT_GT(share.count(), 2000 / effort);
-  expect_more(share.publish("moved_triangle"), 0.2);
+  expect_share(share.publish("moved_triangle"), 0.2);
 }
 
 /// A function that differs from f by at most `error` in the square, as much as it may in places.
@@ -232,8 +225,8 @@ TEST(AreaShares, OfCuts) {
   }
   EXPECT_GT(by_error.count(), 3000 / effort);
   EXPECT_GT(by_rounding.count(), 2000 / effort);
-  expect_more(by_error.publish("cut_error"), 0.1);
-  expect_more(by_rounding.publish("cut_rounding"), 0.005);
+  expect_share(by_error.publish("cut_error"), 0.1);
+  expect_share(by_rounding.publish("cut_rounding"), 0.005);
 }
 
 }  // namespace

@@ -76,11 +76,8 @@ TEST_P(FunctionShares, OfEdgesOverATile) {
     add_edges(worst_triangle(n, bare), bare, n, worst);
   }
   EXPECT_GT(ordinary.count(), 8000 / effort);
-  const double found = ordinary.publish("shape_rounding"), found_worst = worst.publish("worst");
-  if (effort == 1) {
-    EXPECT_GT(found, 0.03);
-    EXPECT_GT(found_worst, 0.3);
-  }
+  expect_share(ordinary.publish("shape_rounding"), 0.03);
+  expect_share(worst.publish("worst"), 0.3);
 }
 
 /// The power of two by which exact_setup() scales a function: that between a coefficient and its
@@ -128,11 +125,8 @@ TEST_P(FunctionShares, OfExactSetupsOverATile) {
         functions[4], n, tile, [&](double u, double v) { return q(u, v) - end(camera.far); }, ends);
   }
   EXPECT_GT(ends.count(), 6000 / effort);
-  const double of_edges = edges.publish("shape_share"), of_ends = ends.publish("ends_of_range");
-  if (effort == 1) {
-    EXPECT_GT(of_edges, 0.1);
-    EXPECT_GT(of_ends, 0.12);
-  }
+  expect_share(edges.publish("shape_share"), 0.1);
+  expect_share(ends.publish("ends_of_range"), 0.12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Fast, FunctionShares, ::testing::Bool());
