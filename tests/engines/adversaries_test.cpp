@@ -2,18 +2,17 @@
 // reference engine, and both against rays cast in rational numbers. Each scene is rendered with one
 // combination, drawn at random, of outputs, vector instructions, threads and floating-point mode.
 // Every 32nd scene also has its deep map, mattes and visible areas compared with rational areas.
-//   FATHOM_ADVERSARIES    scenes of each family (default 900; scripts/check-long has more)
-//   FATHOM_FIRST_SEED     of the first scene of each family (default 0)
+// tests/adversaries.h says how many there are.
+#include "tests/adversaries.h"
+
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <map>
 #include <span>
 
 #include "fathom/area/deep_pixels.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/numeric/errors.h"
-#include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
 #include "tests/engines/only_target.h"
 #include "tests/inputs/adversarial_scenes.h"
@@ -26,11 +25,6 @@ namespace {
 
 using testing::Case;
 using testing::Family;
-
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
 
 /// What a scene is rendered with.
 struct Combination {
@@ -65,7 +59,7 @@ Combination combination(std::mt19937_64& random) {
   }
   options.threads = static_cast<int>(1 + below(3));
   if (below(4) == 0) options.fast.hierarchy = false;
-  if (below(3) == 0) c.mode = &testing::other_modes[below(std::size(testing::other_modes))];
+  c.mode = testing::any_mode(random);
   return c;
 }
 
@@ -81,8 +75,7 @@ std::variant<DepthMap, std::string> outcome(const Render& render) {
 
 std::variant<DepthMap, std::string> fast_map(const Case& c, const Combination& how) {
   const testing::OnlyTarget only(how.target);
-  std::optional<testing::InMode> mode;
-  if (how.mode) mode.emplace(*how.mode);
+  const testing::InMode mode(how.mode);
   return outcome([&] { return render_fast(c.scene, c.camera, how.options); });
 }
 
@@ -133,8 +126,7 @@ void expect_areas(const Case& c, const Combination& how) {
   RenderOptions options;
   options.threads = how.options.threads;
   const TriangleSource triangles(c.scene);
-  std::optional<testing::InMode> mode;
-  if (how.mode) mode.emplace(*how.mode);
+  std::optional<testing::InMode> mode(std::in_place, how.mode);
   const DeepMap deep = area::visible_in_pixels(triangles, c.camera, options);
   const Mattes mattes = area::mattes_in_pixels(triangles, c.camera, options, matte_of);
   const VisibleAreas visible = visible_areas(triangles, c.camera, options);
@@ -162,19 +154,16 @@ void expect_areas(const Case& c, const Combination& how) {
 class Adversaries : public ::testing::TestWithParam<Family> {};
 
 TEST_P(Adversaries, AreRenderedExactly) {
-  const std::uint64_t count =
-      std::max<std::uint64_t>(1, from_environment("FATHOM_ADVERSARIES", 900) / testing::effort);
-  const std::uint64_t first = from_environment("FATHOM_FIRST_SEED", 0);
   int seen = 0;
-  for (std::uint64_t seed = first; seed < first + count && !HasFailure(); ++seed) {
-    SCOPED_TRACE("FATHOM_FIRST_SEED=" + std::to_string(seed));
+  testing::for_each_adversary(900, [&](std::uint64_t seed) {
     const Case c = testing::adversarial_case(GetParam(), seed);
     std::mt19937_64 random(seed ^ 0x9E3779B97F4A7C15);
     const Combination how = combination(random);
     expect_same(c, how);
     if (seed % 8 == 0) seen += expect_as_rays(c);
     if (seed % 32 == 0) expect_areas(c, how);
-  }
+  });
+  const std::uint64_t count = testing::number_of_adversaries();
   if (count >= 100) {
     EXPECT_GT(seen, static_cast<int>(count / 20));
   }

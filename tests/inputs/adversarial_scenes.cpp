@@ -4,38 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/inputs/draw.h"
+
 namespace fathom::testing {
 namespace {
 
 constexpr std::uint32_t image_width = 8, image_height = 6;
-
-/// Numbers from a generator whose sequence the standard fixes (its distributions are not).
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : random_(seed) {}
-
-  int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
-  bool one_in(int n) { return below(n) == 0; }
-  int between(int least, int greatest) { return least + below(greatest - least + 1); }
-  double sign() { return one_in(2) ? 1 : -1; }
-  /// In [0, 1), with 53 bits.
-  double unit() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
-  double within(double limit) { return (2 * unit() - 1) * limit; }
-  /// A number of few bits of a magnitude of at most `limit`, which is a power of two.
-  double few_bits(double limit) { return between(-16, 16) * (limit / 16); }
-  /// ±(1 to 2)·2^e.
-  double of_exponent(int e) { return sign() * std::ldexp(one_in(3) ? 1 : 1 + unit(), e); }
-  /// x moved by at most `steps` binary64 numbers.
-  double nudged(double x, int steps) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    for (int k = below(steps + 1); k > 0; --k)
-      x = std::nextafter(x, one_in(2) ? infinity : -infinity);
-    return x;
-  }
-
- private:
-  std::mt19937_64 random_;
-};
 
 struct Builder {
   Draw draw;

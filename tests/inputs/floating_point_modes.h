@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cfenv>
+#include <iterator>
+#include <random>
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
@@ -22,14 +24,21 @@ inline constexpr FloatingPointMode other_modes[] = {
     {"rounds downwards", FE_DOWNWARD, false},
     {"rounds towards zero, flushes", FE_TOWARDZERO, true}};
 
-/// While one lives, its thread computes in the mode.
+/// One of them, or null for the standard one.
+inline const FloatingPointMode* any_mode(std::mt19937_64& random) {
+  return random() % 3 == 0 ? &other_modes[random() % std::size(other_modes)] : nullptr;
+}
+
+/// While one lives, its thread computes in the mode; null: as before.
 class InMode {
  public:
-  explicit InMode(const FloatingPointMode& mode) {
+  explicit InMode(const FloatingPointMode& mode) : InMode(&mode) {}
+  explicit InMode(const FloatingPointMode* mode) {
     std::fegetenv(&before_);
-    std::fesetround(mode.rounding);
+    if (!mode) return;
+    std::fesetround(mode->rounding);
 #if defined(__SSE__)
-    if (mode.flush) _mm_setcsr(_mm_getcsr() | 0x8040);
+    if (mode->flush) _mm_setcsr(_mm_getcsr() | 0x8040);
 #endif
   }
   ~InMode() {
