@@ -3,8 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <ostream>
 #include <stdexcept>
+#include <vector>
 
+#include "fathom/numeric/binary16.h"
+#include "tests/adversaries.h"
+#include "tests/inputs/draw.h"
+#include "tests/inputs/floating_point_modes.h"
 #include "tests/numeric/random_numbers.h"
 #include "tests/oracle/mpfr_rounding.h"
 
@@ -88,6 +95,202 @@ TEST(Logarithm, RandomPowersAgreeWithMpfr) {
     ASSERT_EQ(oracle::round_with(oracle::binary64, copy), round_to_binary64(ours)) << b << " " << p;
   }
   mpfr_clears(x, y, nullptr);
+}
+
+using testing::Draw;
+using testing::Rational;
+
+/// An mpfr_t of 3000 bits that cleans up after itself.
+class Wide {
+ public:
+  Wide() { mpfr_init2(value_, 3000); }
+  Wide(const Wide&) = delete;
+  Wide& operator=(const Wide&) = delete;
+  ~Wide() { mpfr_clear(value_); }
+  operator mpfr_ptr() { return value_; }
+
+ private:
+  mpfr_t value_;
+};
+
+/// log a; from a − 1, so that no bit is lost near 1.
+void set_logarithm(mpfr_ptr result, const Ratio& a) {
+  const Rational beyond_one(a - Dyadic(1.0));
+  mpfr_set_q(result, beyond_one.q, MPFR_RNDN);
+  mpfr_log1p(result, result, MPFR_RNDN);
+}
+
+/// A number in all formats, and as codes where it is one.
+struct Rounded {
+  double binary64 = 0, binary32 = 0, binary16 = 0;
+  std::vector<std::uint32_t> codes;
+  friend bool operator==(const Rounded&, const Rounded&) = default;
+};
+std::ostream& operator<<(std::ostream& out, const Rounded& x) {
+  return out << std::hexfloat << x.binary64 << " " << x.binary32 << " " << x.binary16;
+}
+
+constexpr int code_bits[] = {16, 24, 32};
+
+Rounded rounded_by_us(const Real& x, const testing::FloatingPointMode* mode) {
+  std::optional<testing::InMode> in_mode(std::in_place, mode);
+  const double full = round_to_binary64(x);
+  const float single = round_to_binary32(x);
+  const std::uint16_t half = round_to_binary16(x).bits;
+  Rounded result;
+  for (const int bits : code_bits) {
+    if (const auto code = round_to_unorm(x, bits)) result.codes.push_back(*code);
+  }
+  in_mode.reset();
+  result.binary64 = full;
+  result.binary32 = static_cast<double>(single);
+  result.binary16 = static_cast<double>(widen_binary16(half));
+  return result;
+}
+
+Rounded rounded_by_mpfr(mpfr_srcptr x) {
+  const auto copy = [&](mpfr_ptr r) { return mpfr_set(r, x, MPFR_RNDN); };
+  Rounded result{oracle::round_with(oracle::binary64, copy),
+                 oracle::round_with(oracle::binary32, copy),
+                 oracle::round_with(oracle::binary16, copy),
+                 {}};
+  if (mpfr_cmp_ui(x, 1) > 0) return result;
+  for (const int bits : code_bits) {
+    Wide scaled;
+    mpfr_mul_ui(scaled, x, (1UL << bits) - 1, MPFR_RNDN);
+    mpfr_rint(scaled, scaled, MPFR_RNDN);  // ties to even
+    result.codes.push_back(static_cast<std::uint32_t>(mpfr_get_ui(scaled, MPFR_RNDN)));
+  }
+  return result;
+}
+
+/// Makes x what it is if it is a quotient of small integers: no other number that is drawn comes
+/// within 2⁻²⁸⁰⁰ of one.
+void make_rational_exact(mpfr_ptr x) {
+  Wide multiple, nearest;
+  for (unsigned long j = 1; j <= 64; ++j) {
+    mpfr_mul_ui(multiple, x, j, MPFR_RNDN);
+    mpfr_rint(nearest, multiple, MPFR_RNDN);
+    mpfr_sub(multiple, multiple, nearest, MPFR_RNDN);
+    if (mpfr_zero_p(nearest) == 0 &&
+        (mpfr_zero_p(multiple) != 0 || mpfr_get_exp(multiple) < -2800)) {
+      mpfr_div_ui(x, nearest, j, MPFR_RNDN);
+      return;
+    }
+  }
+}
+
+/// The same for numbers of which 2²⁰⁰ times are whole.
+void make_dyadic_exact(mpfr_ptr x) {
+  Wide multiple, nearest;
+  mpfr_mul_2si(multiple, x, 200, MPFR_RNDN);
+  mpfr_rint(nearest, multiple, MPFR_RNDN);
+  mpfr_sub(multiple, multiple, nearest, MPFR_RNDN);
+  if (mpfr_zero_p(multiple) == 0 && mpfr_get_exp(multiple) > -1500) return;
+  if (mpfr_zero_p(nearest) == 0) mpfr_mul_2si(x, nearest, -200, MPFR_RNDN);
+}
+
+Ratio power(const Ratio& x, int exponent) {
+  Ratio result = Dyadic(1.0);
+  for (int i = 0; i < exponent; ++i) result = result * x;
+  return result;
+}
+
+/// A small rational number above 1.
+Ratio small_root(Draw& draw) {
+  const int q = draw.between(1, 9);
+  return ratio(q + draw.between(1, 9), q);
+}
+
+/// A rational number above 1: next to 1, huge, a power, next to a power, a quotient.
+Ratio above_one(Draw& draw) {
+  switch (draw.below(6)) {
+    case 0:
+      return Dyadic(1.0) + Dyadic(std::abs(draw.of_exponent(draw.between(-1074, -1))));
+    case 1:
+      return Dyadic(std::abs(draw.of_exponent(draw.between(1, 1023))));
+    case 2:
+      return power(small_root(draw), draw.between(1, 12));
+    case 3: {
+      const Ratio x = power(small_root(draw), draw.between(1, 12));
+      return x + x * Ratio(Dyadic(1.0).scaled(-draw.between(20, 300)));
+    }
+    case 4: {
+      const double near = std::abs(draw.of_exponent(draw.between(-300, 300)));
+      return ratio(near * (1 + std::ldexp(1 + draw.unit(), draw.between(-50, 300))), near);
+    }
+    default:
+      return Dyadic(1 + std::max(0x1p-52, draw.unit()));
+  }
+}
+
+void expect_quotient(const Ratio& a, const Ratio& b, const testing::FloatingPointMode* mode) {
+  Wide x, y;
+  set_logarithm(x, a);
+  set_logarithm(y, b);
+  mpfr_div(x, x, y, MPFR_RNDN);
+  make_rational_exact(x);
+  EXPECT_EQ(rounded_by_us(quotient_of_logarithms(a, b), mode), rounded_by_mpfr(x))
+      << "log " << to_fraction(a) << " / log " << to_fraction(b);
+}
+
+TEST(LogarithmAdversaries, QuotientsAgreeWithMpfr) {
+  testing::for_each_adversary(1000, [](std::uint64_t seed) {
+    Draw draw(seed);
+    const auto* mode = testing::any_mode(draw.generator());
+    expect_quotient(above_one(draw), above_one(draw), mode);
+    const Ratio root = small_root(draw);
+    expect_quotient(power(root, draw.between(1, 12)), power(root, draw.between(1, 12)), mode);
+    const Ratio a = above_one(draw);
+    Wide x;
+    set_logarithm(x, a);
+    EXPECT_EQ(rounded_by_us(natural_logarithm(a), mode), rounded_by_mpfr(x))
+        << "log " << to_fraction(a);
+  });
+}
+
+/// Where a depth is decoded exponents are codes, over 2ⁿ − 1, or numbers of a float storage.
+Ratio any_exponent(Draw& draw) {
+  const std::uint64_t steps = (std::uint64_t{1} << draw.one_of(code_bits)) - 1;
+  switch (draw.below(3)) {
+    case 0:
+      return ratio(static_cast<double>(draw.bits() % (steps + 1)), static_cast<double>(steps));
+    case 1:
+      return Dyadic(std::ldexp(draw.unit(), -draw.below(1074)));
+    default:
+      return Dyadic(std::ldexp(draw.below(64), -6));
+  }
+}
+
+TEST(LogarithmAdversaries, PowersAgreeWithMpfr) {
+  testing::for_each_adversary(1000, [](std::uint64_t seed) {
+    Draw draw(seed);
+    const auto* mode = testing::any_mode(draw.generator());
+    const Ratio b = above_one(draw), e = any_exponent(draw);
+    Wide x;
+    set_logarithm(x, b);
+    const Rational factor(e);
+    mpfr_mul_q(x, x, factor.q, MPFR_RNDN);
+    mpfr_expm1(x, x, MPFR_RNDN);
+    make_dyadic_exact(x);
+    EXPECT_EQ(rounded_by_us(power_minus_one(b, e), mode), rounded_by_mpfr(x))
+        << to_fraction(b) << " to the power of " << to_fraction(e);
+  });
+}
+
+/// r^j to the power of i/j is r^i; with as many bits as a tie of binary64 has, if r is 3/2.
+TEST(LogarithmAdversaries, PowersThatAreRationalAreExact) {
+  testing::for_each_adversary(1000, [](std::uint64_t seed) {
+    Draw draw(seed);
+    const auto* mode = testing::any_mode(draw.generator());
+    const Ratio root = draw.one_in(2) ? ratio(3, 2) : small_root(draw);
+    const int i = draw.between(1, 36), j = draw.between(1, 36);
+    const Rational exact(power(root, i) - Dyadic(1.0));
+    Wide x;
+    mpfr_set_q(x, exact.q, MPFR_RNDN);
+    EXPECT_EQ(rounded_by_us(power_minus_one(power(root, j), ratio(i, j)), mode), rounded_by_mpfr(x))
+        << to_fraction(root) << " " << i << "/" << j;
+  });
 }
 
 TEST(Logarithm, AffineKeepsEnclosuresInOrder) {

@@ -4,8 +4,13 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
+#include "fathom/numeric/binary16.h"
+#include "tests/adversaries.h"
+#include "tests/inputs/draw.h"
+#include "tests/inputs/floating_point_modes.h"
 #include "tests/numeric/random_numbers.h"
 #include "tests/oracle/mpfr_rounding.h"
 
@@ -32,19 +37,29 @@ double value_of(Binary16 x) {
          << to_fraction(x) << ": MPFR " << std::hexfloat << expected << ", ours " << actual;
 }
 
-void check_quotient(const Ratio& x) {
+using Mode = const testing::FloatingPointMode*;
+
+void check_quotient(const Ratio& x, Mode mode = nullptr) {
   const Rational q(x);
+  std::optional<testing::InMode> in_mode(std::in_place, mode);
+  const float single = round_to_binary32(x);
+  const double full = round_to_binary64(x);
+  const Binary16 half = round_to_binary16(x);
+  in_mode.reset();
   // MPFR keeps the sign of a negative number that underflows; an exact zero is +0.
-  ASSERT_TRUE(same_bits(oracle::quotient(oracle::binary32, q.q), round_to_binary32(x), x));
-  ASSERT_TRUE(same_bits(oracle::quotient(oracle::binary64, q.q), round_to_binary64(x), x));
-  ASSERT_TRUE(
-      same_bits(oracle::quotient(oracle::binary16, q.q), value_of(round_to_binary16(x)), x));
+  ASSERT_TRUE(same_bits(oracle::quotient(oracle::binary32, q.q), single, x));
+  ASSERT_TRUE(same_bits(oracle::quotient(oracle::binary64, q.q), full, x));
+  ASSERT_TRUE(same_bits(oracle::quotient(oracle::binary16, q.q), value_of(half), x));
 }
 
-void check_root(const Ratio& x) {
+void check_root(const Ratio& x, Mode mode = nullptr) {
   const Rational q(x);
-  ASSERT_TRUE(same_bits(oracle::root(oracle::binary32, q.q), round_sqrt_to_binary32(x), x));
-  ASSERT_TRUE(same_bits(oracle::root(oracle::binary64, q.q), round_sqrt_to_binary64(x), x));
+  std::optional<testing::InMode> in_mode(std::in_place, mode);
+  const float single = round_sqrt_to_binary32(x);
+  const double full = round_sqrt_to_binary64(x);
+  in_mode.reset();
+  ASSERT_TRUE(same_bits(oracle::root(oracle::binary32, q.q), single, x));
+  ASSERT_TRUE(same_bits(oracle::root(oracle::binary64, q.q), full, x));
 }
 
 /// The number halfway between a value of a format and the next: `bits` of precision.
@@ -89,11 +104,13 @@ TEST(Rounding, RandomQuotientsAgreeWithMpfr) {
   }
 }
 
+struct Ties {
+  int bits, least, greatest;
+};
+constexpr Ties formats[] = {{24, -149, 105}, {53, -1074, 972}, {11, -24, 6}};
+
 TEST(Rounding, TiesAndTheirNeighboursAgreeWithMpfr) {
   std::mt19937_64 random(12);
-  const struct {
-    int bits, least, greatest;
-  } formats[] = {{24, -149, 105}, {53, -1074, 972}, {11, -24, 6}};
   for (const auto& f : formats) {
     for (int i = 0; i < 3000; ++i) {
       const Dyadic tie = midpoint(random, f.bits, f.least, f.greatest);
@@ -103,6 +120,70 @@ TEST(Rounding, TiesAndTheirNeighboursAgreeWithMpfr) {
         check_quotient({x * d, d});
         if (HasFatalFailure()) return;
       }
+    }
+  }
+}
+
+/// Halfway between two numbers of a format, in the middle or at an end of its range.
+Dyadic hard_tie(testing::Draw& draw) {
+  const Ties& f = draw.one_of(formats);
+  const Dyadic tie = midpoint(draw.generator(), f.bits, f.least, f.greatest);
+  if (!draw.one_in(3)) return tie;
+  const int end = draw.one_in(2) ? f.least : f.greatest - 1;
+  return midpoint(draw.generator(), draw.one_in(2) ? f.bits : 1, end, end + 1);
+}
+
+/// As near to a tie m·2^e as quotients with a denominator d come to it: m ± 1/d; or anything.
+Ratio hard_quotient(testing::Draw& draw) {
+  const Dyadic d = Dyadic(denominator(draw.generator(), draw.one_in(2)));
+  const Dyadic tie = draw.one_in(2) ? hard_tie(draw) : -hard_tie(draw);
+  switch (draw.below(4)) {
+    case 0:
+      return {Dyadic(any_double(draw.generator())), d};
+    case 1:  // a product of two: exponents beyond the range of all formats
+      return {Dyadic(any_double(draw.generator())) * tie, d * d};
+    case 2:
+      return {tie * d, d};
+    default:
+      return {tie * d + Dyadic(draw.few_bits(1)).scaled(-draw.below(1200)) * tie, d};
+  }
+}
+
+TEST(RoundingAdversaries, QuotientsAgreeWithMpfr) {
+  testing::for_each_adversary(20000, [](std::uint64_t seed) {
+    testing::Draw draw(seed);
+    const Mode mode = testing::any_mode(draw.generator());
+    check_quotient(hard_quotient(draw), mode);
+  });
+}
+
+/// The same for numbers whose roots are such.
+TEST(RoundingAdversaries, RootsAgreeWithMpfr) {
+  testing::for_each_adversary(5000, [](std::uint64_t seed) {
+    testing::Draw draw(seed);
+    const Mode mode = testing::any_mode(draw.generator());
+    const Dyadic tie = hard_tie(draw), d = Dyadic(denominator(draw.generator(), true));
+    const Dyadic nearly = tie * tie + (tie * tie).scaled(-draw.between(50, 1000));
+    const Ratio any = hard_quotient(draw);
+    const Ratio anything = any.sign() == Sign::negative ? Ratio() - any : any;
+    check_root(
+        draw.one_in(3) ? anything : Ratio{(draw.one_in(2) ? tie * tie : nearly) * d * d, d * d},
+        mode);
+  });
+}
+
+TEST(RoundingAdversaries, EveryBinary16NumberIsWidenedAndComesBack) {
+  for (std::uint32_t bits = 0; bits < 0x10000; ++bits) {
+    const Binary16 x{static_cast<std::uint16_t>(bits)};
+    if ((bits & 0x7FFF) > 0x7C00) continue;  // NaN
+    const Mode mode = &testing::other_modes[bits % std::size(testing::other_modes)];
+    std::optional<testing::InMode> in_mode(std::in_place, mode);
+    const float wide = widen_binary16(x.bits);
+    in_mode.reset();
+    ASSERT_EQ(static_cast<double>(wide), value_of(x)) << bits;
+    ASSERT_EQ(std::signbit(wide), bits >= 0x8000) << bits;
+    if (std::isfinite(wide) && wide != 0) {
+      ASSERT_EQ(round_to_binary16(Dyadic(wide)), x);
     }
   }
 }
