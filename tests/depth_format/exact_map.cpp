@@ -35,47 +35,53 @@ std::uint64_t greatest(Storage storage) {
   return 0;
 }
 
-/// log q for q ≥ 1, 300 bits; of q − 1, so that nothing is lost where q is near 1.
-class Logarithm {
+/// An mpfr_t that cleans up after itself.
+class Mpfr {
  public:
-  Logarithm() { mpfr_init2(value, 300); }
-  /// Works it out again where q is not that of the last time.
-  mpfr_srcptr of(const Rational& q) {
-    if (compare(q, last_) == 0) return value;
-    last_ = q;
-    mpfr_set_q(value, (q - Rational(1.0)).get(), MPFR_RNDN);
-    mpfr_log1p(value, value, MPFR_RNDN);
-    return value;
-  }
-  Logarithm(const Logarithm&) = delete;
-  Logarithm& operator=(const Logarithm&) = delete;
-  ~Logarithm() { mpfr_clear(value); }
+  explicit Mpfr(long bits) { mpfr_init2(value_, bits); }
+  Mpfr(const Mpfr&) = delete;
+  Mpfr& operator=(const Mpfr&) = delete;
+  ~Mpfr() { mpfr_clear(value_); }
+  operator mpfr_ptr() { return value_; }
 
  private:
-  mpfr_t value;
+  mpfr_t value_;
+};
+
+/// log q; of q − 1, so that nothing is lost where q is near 1.
+class Logarithm {
+ public:
+  explicit Logarithm(long bits) : value_(bits) {}
+  /// Works it out again where q is not that of the last time.
+  mpfr_ptr of(const Rational& q) {
+    if (compare(q, last_) == 0) return value_;
+    last_ = q;
+    mpfr_set_q(value_, (q - Rational(1.0)).get(), MPFR_RNDN);
+    mpfr_log1p(value_, value_, MPFR_RNDN);
+    return value_;
+  }
+
+ private:
+  Mpfr value_;
   Rational last_ = 0.0;
 };
 
-/// A number of 300 bits.
-class Product {
- public:
-  Product(mpfr_srcptr x, mpz_srcptr y) {
-    mpfr_init2(value, 300);
-    mpfr_mul_z(value, x, y, MPFR_RNDN);
-  }
-  Product(const Product&) = delete;
-  Product& operator=(const Product&) = delete;
-  ~Product() { mpfr_clear(value); }
-  mpfr_t value;
-};
+/// compare_logarithms() with so many bits; 0 where all but 50 of them agree.
+int compare_logarithms(Logarithm& log_a, Logarithm& log_b, const Rational& a, const Rational& b,
+                       const Rational& s, long bits) {
+  Mpfr left(bits), right(bits);
+  mpfr_mul_z(left, log_a.of(a), mpq_denref(s.get()), MPFR_RNDN);
+  mpfr_mul_z(right, log_b.of(b), mpq_numref(s.get()), MPFR_RNDN);
+  if (mpfr_eq(left, right, static_cast<unsigned long>(bits - 50)) != 0) return 0;
+  return sign(mpfr_cmp(left, right));
+}
 
 /// The sign of log a / log b − s.
 int compare_logarithms(const Rational& a, const Rational& b, const Rational& s) {
-  static Logarithm log_a, log_b;  // one of two is asked for again and again
-  const Product left(log_a.of(a), mpq_denref(s.get()));
-  const Product right(log_b.of(b), mpq_numref(s.get()));
-  if (mpfr_eq(left.value, right.value, 250) != 0) return 0;
-  return sign(mpfr_cmp(left.value, right.value));
+  static Logarithm log_a(300), log_b(300);  // one of two is asked for again and again
+  if (const int sign = compare_logarithms(log_a, log_b, a, b, s, 300)) return sign;
+  Logarithm finer_a(5000), finer_b(5000);
+  return compare_logarithms(finer_a, finer_b, a, b, s, 5000);
 }
 
 }  // namespace
@@ -131,9 +137,10 @@ int compare_map(const DepthFormat& format, const Rational& depth, const Rational
   return 0;
 }
 
-bool is_rounded_correctly(const DepthFormat& format, double depth, std::uint64_t bits) {
+bool is_rounded_correctly(const DepthFormat& format, const Rational& depth, std::uint64_t bits) {
   const bool even = bits % 2 == 0;
-  const Rational D = depth, half = 0.5, here = number(format.storage, bits);
+  const Rational& D = depth;
+  const Rational half = 0.5, here = number(format.storage, bits);
   if (bits > greatest(format.storage)) return false;
   if (bits > 0) {
     const Rational below = (here + number(format.storage, bits - 1)) * half;
@@ -149,21 +156,22 @@ bool is_rounded_correctly(const DepthFormat& format, double depth, std::uint64_t
 }
 
 bool is_decoded_correctly(const DepthFormat& format, std::uint64_t bits, double depth) {
-  const bool falls =
-      format.mapping == Mapping::reversed || format.mapping == Mapping::reversed_infinite;
+  const int rising = is_reversed(format.mapping) ? -1 : 1;
   const Rational value = number(format.storage, bits);
-  if (std::isinf(depth)) {
-    const int greatest = compare_map(format, std::numeric_limits<double>::max(), value);
-    return falls ? greatest > 0 : greatest < 0;
-  }
-  if (depth == 0) return compare(value, 0.0) == 0;
+  const auto against = [&](const Rational& D) { return rising * compare_map(format, D, value); };
+  // Where rounding steps from the greatest number to infinity, a tie, which goes there.
+  constexpr double greatest = std::numeric_limits<double>::max();
+  const Rational half = 0.5, end = Rational(greatest) + Rational(0x1p970) * half;
+  if (std::isinf(depth)) return against(end) <= 0;
   const bool even = std::bit_cast<std::uint64_t>(depth) % 2 == 0;
-  const Rational half = 0.5;
-  const Rational below = (Rational(depth) + Rational(std::nextafter(depth, -infinity))) * half;
-  const Rational above = (Rational(depth) + Rational(std::nextafter(depth, infinity))) * half;
-  const int low = compare_map(format, below, value) * (falls ? -1 : 1);
-  const int high = compare_map(format, above, value) * (falls ? -1 : 1);
-  return even ? low <= 0 && high >= 0 : low < 0 && high > 0;
+  const Rational D = depth;
+  const Rational above =
+      depth == greatest ? end : (D + Rational(std::nextafter(depth, infinity))) * half;
+  const int high = against(above);
+  if (high < 0 || (high == 0 && !even)) return false;
+  if (depth == 0) return true;  // no value stands for a negative depth
+  const int low = against((D + Rational(std::nextafter(depth, -infinity))) * half);
+  return even ? low <= 0 : low < 0;
 }
 
 }  // namespace fathom::test

@@ -7,7 +7,7 @@
 #include "fathom/numeric/ratio.h"
 
 /// An independent judge of depth formats: the formulas of the specification over GMP's rationals,
-/// logarithms by MPFR in one fixed precision, values of stored numbers by ldexp. It answers one
+/// logarithms by MPFR in fixed precisions, values of stored numbers by ldexp. It answers one
 /// question, the sign of f(D) − s, by cross-multiplication; no rounding and no inverse of ours.
 namespace fathom::test {
 
@@ -52,16 +52,17 @@ class Rational {
 /// The number that a stored value is.
 Rational number(Storage storage, std::uint64_t bits);
 
-/// The sign of f(depth) − value. Logarithms are compared with 300 bits, and are equal where they
-/// agree to 250: for binary64 depths and the boundaries of rounding asked about here, no two
-/// different ones come near to that.
+/// The sign of f(depth) − value. Logarithms are equal where they agree to 4950 bits. With binary64
+/// near, far and C, and the boundaries of rounding asked about here, no two different ones come near
+/// to that: they do most where C·far is tiny, and then f(D) is D/far up to a factor of 1 + C·far/2,
+/// which is above 2⁻²¹⁵⁰.
 int compare_map(const DepthFormat& format, const Rational& depth, const Rational& value);
 
 /// Whether `bits` is f(depth) rounded to nearest, ties to even.
-bool is_rounded_correctly(const DepthFormat& format, double depth, std::uint64_t bits);
+bool is_rounded_correctly(const DepthFormat& format, const Rational& depth, std::uint64_t bits);
 
-/// Whether `depth` is the binary64 number nearest to the depth that `bits` stands for. An infinite
-/// one is right only where f(the greatest binary64 number) still has not reached the value.
+/// Whether `depth` is the binary64 number nearest to the depth that `bits` stands for, which may be
+/// infinite.
 bool is_decoded_correctly(const DepthFormat& format, std::uint64_t bits, double depth);
 
 }  // namespace fathom::test
