@@ -169,7 +169,8 @@ void expect_encoded(const DepthFormat& format, const Ratio& depth, Draw& draw, S
   std::optional<testing::InMode> in_mode(std::in_place, mode);
   const StoredDepth stored = encode(format, depth);
   in_mode.reset();
-  EXPECT_TRUE(test::is_rounded_correctly(format, Rational(depth), stored.bits)) << stored.bits;
+  EXPECT_TRUE(test::is_rounded_correctly(format, Rational(depth), stored.bits))
+      << stored.bits << (mode ? mode->name : "standard");
 
   settled.asked += 1;
   if (std::isinf(round_to_binary64(depth))) return;

@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <vector>
+
+#include "fathom/numeric/logarithm.h"
+#include "tests/inputs/floating_point_modes.h"
 
 namespace fathom {
 namespace {
@@ -60,6 +64,19 @@ TEST(Real, BitsAreDoubledUntilTheyTell) {
   ASSERT_EQ(asked.size(), 4U);
   for (std::size_t i = 1; i < asked.size(); ++i) EXPECT_EQ(asked[i], 2 * asked[i - 1]);
   EXPECT_EQ(decisions, 1);
+}
+
+/// Found by DepthFormatAdversaries: log(1 + C·D) / log(1 + C·far) just above D/far = 2⁻¹⁵⁰, halfway
+/// between 0 and the least subnormal number, which some modes take for equal.
+TEST(Real, TiesOfSubnormalNumbersAreSettledInEveryMode) {
+  const auto one_and = [](double x) { return Ratio(Dyadic(1.0) + Dyadic(x)); };
+  const Ratio a = one_and(0x1p-520), b = one_and(0x1p-370);
+  for (const testing::FloatingPointMode& mode : testing::other_modes) {
+    std::optional<testing::InMode> in_mode(std::in_place, mode);
+    const float single = round_to_binary32(quotient_of_logarithms(a, b));
+    in_mode.reset();
+    EXPECT_EQ(single, 0x1p-149F) << mode.name;
+  }
 }
 
 TEST(Real, ComparisonsAndAffineMapsKeepTheNumber) {

@@ -1,5 +1,7 @@
 #include "fathom/numeric/real.h"
 
+#include <bit>
+
 namespace fathom {
 
 std::optional<Ratio> Real::rational() const {
@@ -10,12 +12,16 @@ Enclosure Real::enclose(long bits) const {
   return rational_ ? Enclosure{*rational_, *rational_} : enclose_(bits);
 }
 
+// The ends of an enclosure are compared as bits: where a thread takes subnormal numbers for 0, two
+// different ones are equal.
 float round_to_binary32(const Real& x) {
-  return x.rounded([](const Ratio& r) { return round_to_binary32(r); });
+  return std::bit_cast<float>(
+      x.rounded([](const Ratio& r) { return std::bit_cast<std::uint32_t>(round_to_binary32(r)); }));
 }
 
 double round_to_binary64(const Real& x) {
-  return x.rounded([](const Ratio& r) { return round_to_binary64(r); });
+  return std::bit_cast<double>(
+      x.rounded([](const Ratio& r) { return std::bit_cast<std::uint64_t>(round_to_binary64(r)); }));
 }
 
 Binary16 round_to_binary16(const Real& x) {
