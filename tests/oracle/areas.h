@@ -17,7 +17,8 @@ struct Piece {
   std::uint32_t triangle = 0;
   /// Convex, with an area.
   std::vector<Point> corners;
-  /// key[0]·u + key[1]·v + key[2] orders the triangles at a point, the least is the nearest.
+  /// key[0]·u + key[1]·v + key[2] orders the triangles at a point, the least is the nearest: −1/D
+  /// under perspective, D under an orthographic projection.
   std::array<Q, 3> key;
 };
 
@@ -31,9 +32,10 @@ class Areas {
   [[nodiscard]] std::map<std::uint32_t, Q> visible(int x, int y) const;
   /// The area of what one triangle covers of pixel (x, y).
   [[nodiscard]] Q unoccluded(std::uint32_t triangle, int x, int y) const;
+  /// All triangles that cover a part of pixel (x, y), in the order of their numbers.
+  [[nodiscard]] std::vector<Piece> pieces(int x, int y) const;
 
  private:
-  [[nodiscard]] std::vector<Piece> pieces(int x, int y) const;
   [[nodiscard]] std::vector<Point> project(const Triangle& t, int x, int y) const;
   [[nodiscard]] bool key_of(const Triangle& t, std::array<Q, 3>& key) const;
 
