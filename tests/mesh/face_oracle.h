@@ -9,12 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "fathom/geometry/frames.h"
+#include "tests/inputs/hard_faces.h"
 
 namespace fathom::testing {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-using Ring = std::vector<MeshPoint>;
 
 /// The rule of the specification, section 3, once more: rational numbers, every step from scratch,
 /// nothing shared with what is tested.
