@@ -64,11 +64,13 @@ bool share_a_corner(const TriangleSource& triangles, std::uint32_t s, std::uint3
 }
 
 /// What lies behind what is visible, without pairs that share a corner.
-std::vector<Behind> truth_of(const Case& c) {
+std::vector<Behind> truth_of(const Case& c, Cull cull) {
   const TriangleSource triangles(c.scene);
+  // v grows downwards: a front, which turns against the clock, has a negative area.
+  const int way = cull == Cull::back ? -1 : cull == Cull::front ? 1 : 0;
   std::vector<Behind> all = oracle::behind_visible(
       testing::areas_at(c.scene, c.camera), c.camera.projection == Projection::perspective,
-      static_cast<int>(c.camera.width), static_cast<int>(c.camera.height));
+      static_cast<int>(c.camera.width), static_cast<int>(c.camera.height), way);
   std::erase_if(all, [&](const Behind& pair) {
     return share_a_corner(triangles, pair.visible, pair.behind);
   });
@@ -102,8 +104,9 @@ bool is_nearest(const Behind& behind, double separation) {
   return behind.reaches(above, even);
 }
 
-std::vector<CoplanarPair> pairs_of(const Case& c, double within, Draw& draw) {
+std::vector<CoplanarPair> pairs_of(const Case& c, Cull cull, double within, Draw& draw) {
   RenderOptions options;
+  options.cull = cull;
   options.threads = draw.between(1, 3);
   const testing::InMode mode(testing::any_mode(draw.generator()));
   return coplanar_pairs(TriangleSource(c.scene), c.camera, within, options);
@@ -117,7 +120,7 @@ std::string text_of(const CoplanarPair& p) {
 }
 
 /// The pairs that were found, if they are the right ones.
-std::vector<CoplanarPair> expect_pairs(const Case& c, const std::vector<Behind>& truth,
+std::vector<CoplanarPair> expect_pairs(const Case& c, Cull cull, const std::vector<Behind>& truth,
                                        double within, Draw& draw) {
   ::testing::Message trace;
   trace << "within " << std::hexfloat << within;
@@ -130,7 +133,7 @@ std::vector<CoplanarPair> expect_pairs(const Case& c, const std::vector<Behind>&
     expected.push_back(text_of(pair));
     close.push_back(&behind);
   }
-  const std::vector<CoplanarPair> pairs = pairs_of(c, within, draw);
+  const std::vector<CoplanarPair> pairs = pairs_of(c, cull, within, draw);
   for (const CoplanarPair& pair : pairs) found.push_back(text_of(pair));
   EXPECT_EQ(found, expected);
   if (found != expected) return pairs;
@@ -149,15 +152,16 @@ TEST_P(CoplanarAdversaries, AreThoseOfRationalNumbers) {
   testing::for_each_adversary(scenes, [&](std::uint64_t seed) {
     Draw draw(seed);
     const Case c = scene_of(GetParam(), seed, draw);
-    const std::vector<Behind> truth = truth_of(c);
-    const auto found = expect_pairs(c, truth, draw.one_in(2) ? 0x1p1000 : 4, draw);
-    expect_pairs(c, truth, 0, draw);
+    const Cull cull = draw.one_in(5) ? Cull::back : draw.one_in(5) ? Cull::front : Cull::none;
+    const std::vector<Behind> truth = truth_of(c, cull);
+    const auto found = expect_pairs(c, cull, truth, draw.one_in(2) ? 0x1p1000 : 4, draw);
+    expect_pairs(c, cull, truth, 0, draw);
     pairs += found.size();
     if (found.empty()) return;
     const double one = found[draw.bits() % found.size()].separation;
     for (const double within :
          {one, std::nextafter(one, infinity), std::nextafter(one, -infinity)}) {
-      if (within >= 0 && std::isfinite(within)) expect_pairs(c, truth, within, draw);
+      if (within >= 0 && std::isfinite(within)) expect_pairs(c, cull, truth, within, draw);
     }
   });
   // Of two families next to nothing is seen.

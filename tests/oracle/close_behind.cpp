@@ -121,11 +121,15 @@ bool Behind::is_close(const InPixel& pixel, const Q& limit) const {
   });
 }
 
-std::vector<Behind> behind_visible(const Areas& areas, bool perspective, int width, int height) {
+std::vector<Behind> behind_visible(const Areas& areas, bool perspective, int width, int height,
+                                   int way) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, Behind> found;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const std::vector<Piece> pieces = areas.pieces(x, y);
+      std::vector<Piece> pieces = areas.pieces(x, y);
+      std::erase_if(pieces, [&](const Piece& piece) {
+        return way != 0 && sgn(twice_area(piece.corners)) != way;
+      });
       for (const Piece& t : pieces) {
         const std::vector<Polygon> visible = visible_parts(t, pieces);
         for (const Piece& s : pieces) {

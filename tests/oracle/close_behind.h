@@ -31,7 +31,9 @@ struct Behind {
   [[nodiscard]] bool is_constantly(const Polygon& part, const Q& limit) const;
 };
 
-/// All of them, in the order of their numbers, whatever corners they share.
-std::vector<Behind> behind_visible(const Areas& areas, bool perspective, int width, int height);
+/// All of them, in the order of their numbers, whatever corners they share. Where `way` is not 0,
+/// there are only triangles that turn that way in the image.
+std::vector<Behind> behind_visible(const Areas& areas, bool perspective, int width, int height,
+                                   int way);
 
 }  // namespace fathom::oracle
