@@ -147,7 +147,7 @@ std::vector<CoplanarPair> expect_pairs(const Case& c, Cull cull, const std::vect
 class CoplanarAdversaries : public ::testing::TestWithParam<Family> {};
 
 TEST_P(CoplanarAdversaries, AreThoseOfRationalNumbers) {
-  const std::uint64_t scenes = GetParam() == Family::coplanar_heaps ? 120 : 30;
+  const std::uint64_t scenes = GetParam() == Family::coplanar_heaps ? 60 : 30;
   std::size_t pairs = 0;
   testing::for_each_adversary(scenes, [&](std::uint64_t seed) {
     Draw draw(seed);
