@@ -1,12 +1,11 @@
 #include "tests/depth_format/exact_map.h"
 
-#include <mpfr.h>
-
 #include <bit>
 #include <cmath>
 #include <limits>
 
 #include "tests/numeric/random_numbers.h"
+#include "tests/oracle/mpfr_number.h"
 
 namespace fathom::test {
 namespace {
@@ -35,20 +34,7 @@ std::uint64_t greatest(Storage storage) {
   return 0;
 }
 
-/// An mpfr_t that cleans up after itself.
-class Mpfr {
- public:
-  explicit Mpfr(long bits) { mpfr_init2(value_, bits); }
-  Mpfr(const Mpfr&) = delete;
-  Mpfr& operator=(const Mpfr&) = delete;
-  ~Mpfr() { mpfr_clear(value_); }
-  operator mpfr_ptr() { return value_; }
-
- private:
-  mpfr_t value_;
-};
-
-/// log q; of q − 1, so that nothing is lost where q is near 1.
+/// log q.
 class Logarithm {
  public:
   explicit Logarithm(long bits) : value_(bits) {}
@@ -56,20 +42,19 @@ class Logarithm {
   mpfr_ptr of(const Rational& q) {
     if (compare(q, last_) == 0) return value_;
     last_ = q;
-    mpfr_set_q(value_, (q - Rational(1.0)).get(), MPFR_RNDN);
-    mpfr_log1p(value_, value_, MPFR_RNDN);
+    oracle::set_log1p(value_, (q - Rational(1.0)).get());
     return value_;
   }
 
  private:
-  Mpfr value_;
+  oracle::MpfrNumber value_;
   Rational last_ = 0.0;
 };
 
 /// compare_logarithms() with so many bits; 0 where all but 50 of them agree.
 int compare_logarithms(Logarithm& log_a, Logarithm& log_b, const Rational& a, const Rational& b,
                        const Rational& s, long bits) {
-  Mpfr left(bits), right(bits);
+  oracle::MpfrNumber left(bits), right(bits);
   mpfr_mul_z(left, log_a.of(a), mpq_denref(s.get()), MPFR_RNDN);
   mpfr_mul_z(right, log_b.of(b), mpq_numref(s.get()), MPFR_RNDN);
   if (mpfr_eq(left, right, static_cast<unsigned long>(bits - 50)) != 0) return 0;

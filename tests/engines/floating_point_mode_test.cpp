@@ -142,19 +142,11 @@ std::map<std::string, Door> doors_of(const Scene& scene, const Camera& camera) {
 
 void expect_same_in_all_modes(const std::string& name, const Door& door) {
   SCOPED_TRACE(name);
-  Bytes truth;
-  door(truth);
-  for (const testing::FloatingPointMode& mode : testing::other_modes) {
-    SCOPED_TRACE(mode.name);
+  testing::expect_same_in_all_modes([&] {
     Bytes bytes;
-    {
-      const testing::InMode here(mode);
-      const unsigned before = testing::current_mode();
-      door(bytes);
-      EXPECT_EQ(testing::current_mode(), before);
-    }
-    EXPECT_TRUE(bytes.text() == truth.text());
-  }
+    door(bytes);
+    return bytes.text();
+  });
 }
 
 TEST(FloatingPointMode, ChangesNothingInRandomScenes) {

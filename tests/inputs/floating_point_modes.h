@@ -74,7 +74,7 @@ void expect_same_in_all_modes(const Compute& compute) {
       found = compute();
       EXPECT_EQ(current_mode(), before);
     }
-    EXPECT_EQ(found, truth);
+    EXPECT_TRUE(found == truth);  // what has been computed may be long, and nothing to be read
   }
 }
 

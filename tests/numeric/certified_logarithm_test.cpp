@@ -1,31 +1,19 @@
 #include "fathom/numeric/certified_logarithm.h"
 
 #include <gtest/gtest.h>
-#include <mpfr.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "tests/adversaries.h"
 #include "tests/inputs/draw.h"
+#include "tests/oracle/mpfr_number.h"
 
 namespace fathom {
 namespace {
 
+using oracle::MpfrNumber;
 using testing::Draw;
-
-/// An mpfr_t that cleans up after itself.
-class Mpfr {
- public:
-  explicit Mpfr(long bits) { mpfr_init2(value_, bits); }
-  Mpfr(const Mpfr&) = delete;
-  Mpfr& operator=(const Mpfr&) = delete;
-  ~Mpfr() { mpfr_clear(value_); }
-  operator mpfr_ptr() { return value_; }
-
- private:
-  mpfr_t value_;
-};
 
 /// Enough for any sum of binary64 numbers, exactly.
 constexpr long wide = 2200;
@@ -44,7 +32,7 @@ template <class Wide>
 void expect_encloses(Function function, const Certified<Wide>& computed, const WordPair& y,
                      double error) {
   for (const double end : {-error, error}) {
-    Mpfr argument(wide), value(400), difference(wide);
+    MpfrNumber argument(wide), value(400), difference(wide);
     set_sum(argument, y, end);
     function(value, argument, MPFR_RNDN);
     set_sum(difference, computed.value, 0);

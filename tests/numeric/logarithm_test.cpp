@@ -13,6 +13,7 @@
 #include "tests/inputs/draw.h"
 #include "tests/inputs/floating_point_modes.h"
 #include "tests/numeric/random_numbers.h"
+#include "tests/oracle/mpfr_number.h"
 #include "tests/oracle/mpfr_rounding.h"
 
 namespace fathom {
@@ -59,8 +60,7 @@ TEST(Logarithm, RationalResultsRoundAsTies) {
 
 TEST(Logarithm, RandomQuotientsAgreeWithMpfr) {
   std::mt19937_64 random(21);
-  mpfr_t x, y;
-  mpfr_inits2(2000, x, y, nullptr);
+  oracle::MpfrNumber x(2000), y(2000);
   for (int i = 0; i < 3000; ++i) {
     // 1 + tiny, moderate and huge.
     const double p = 1 + std::ldexp(1 + random() % 1000, static_cast<int>(random() % 100) - 52);
@@ -76,13 +76,11 @@ TEST(Logarithm, RandomQuotientsAgreeWithMpfr) {
     ASSERT_EQ(oracle::round_with(oracle::binary64, copy), round_to_binary64(ours)) << p << " " << q;
     ASSERT_EQ(oracle::round_with(oracle::binary32, copy), round_to_binary32(ours)) << p << " " << q;
   }
-  mpfr_clears(x, y, nullptr);
 }
 
 TEST(Logarithm, RandomPowersAgreeWithMpfr) {
   std::mt19937_64 random(22);
-  mpfr_t x, y;
-  mpfr_inits2(2000, x, y, nullptr);
+  oracle::MpfrNumber x(2000), y(2000);
   for (int i = 0; i < 3000; ++i) {
     const double b = 1 + std::ldexp(1 + random() % 1000, static_cast<int>(random() % 100) - 52);
     const double p = random() % 65536, q = 65535;
@@ -94,30 +92,20 @@ TEST(Logarithm, RandomPowersAgreeWithMpfr) {
     const auto copy = [&](mpfr_ptr r) { return mpfr_set(r, x, MPFR_RNDN); };
     ASSERT_EQ(oracle::round_with(oracle::binary64, copy), round_to_binary64(ours)) << b << " " << p;
   }
-  mpfr_clears(x, y, nullptr);
 }
 
 using testing::Draw;
 using testing::Rational;
 
-/// An mpfr_t of 3000 bits that cleans up after itself.
-class Wide {
+/// A number of 3000 bits.
+class Wide : public oracle::MpfrNumber {
  public:
-  Wide() { mpfr_init2(value_, 3000); }
-  Wide(const Wide&) = delete;
-  Wide& operator=(const Wide&) = delete;
-  ~Wide() { mpfr_clear(value_); }
-  operator mpfr_ptr() { return value_; }
-
- private:
-  mpfr_t value_;
+  Wide() : MpfrNumber(3000) {}
 };
 
-/// log a; from a − 1, so that no bit is lost near 1.
+/// log a.
 void set_logarithm(mpfr_ptr result, const Ratio& a) {
-  const Rational beyond_one(a - Dyadic(1.0));
-  mpfr_set_q(result, beyond_one.q, MPFR_RNDN);
-  mpfr_log1p(result, result, MPFR_RNDN);
+  oracle::set_log1p(result, Rational(a - Dyadic(1.0)).q);
 }
 
 /// A number in all formats, and as codes where it is one.

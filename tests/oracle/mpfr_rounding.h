@@ -1,9 +1,6 @@
 #pragma once
 
-#include <gmp.h>
-#include <mpfr.h>
-
-#include <cstdint>
+#include "tests/oracle/mpfr_number.h"
 
 /// Rounding by MPFR, for holding ours against: the quotient is computed by MPFR itself in the
 /// target's precision and exponent range, then mpfr_subnormalize keeps double rounding out.
@@ -23,13 +20,11 @@ double round_with(const Range& range, const Compute& compute) {
   const mpfr_exp_t old_emin = mpfr_get_emin(), old_emax = mpfr_get_emax();
   mpfr_set_emin(range.emin);
   mpfr_set_emax(range.emax);
-  mpfr_t result;
-  mpfr_init2(result, range.precision);
+  MpfrNumber result(range.precision);
   const int ternary = compute(result);
   mpfr_check_range(result, ternary, MPFR_RNDN);
   mpfr_subnormalize(result, ternary, MPFR_RNDN);
   const double value = mpfr_get_d(result, MPFR_RNDN);
-  mpfr_clear(result);
   mpfr_set_emin(old_emin);
   mpfr_set_emax(old_emax);
   return value;
@@ -42,14 +37,11 @@ inline double quotient(const Range& range, const mpq_t q) {
 /// √q: q is first squeezed into more bits than could matter. A root of a rational is rational or
 /// irrational; at 4000 bits a sticky last bit (rounding to odd) keeps ties and near-ties apart.
 inline double root(const Range& range, const mpq_t q) {
-  mpfr_t wide;
-  mpfr_init2(wide, 4000);
+  MpfrNumber wide(4000);
   const int inexact = mpfr_set_q(wide, q, MPFR_RNDZ);
   if (inexact != 0)
     mpfr_nextabove(wide);  // half an ulp of 4000 bits above, never a square of few bits
-  const double value = round_with(range, [&](mpfr_ptr r) { return mpfr_sqrt(r, wide, MPFR_RNDN); });
-  mpfr_clear(wide);
-  return value;
+  return round_with(range, [&](mpfr_ptr r) { return mpfr_sqrt(r, wide, MPFR_RNDN); });
 }
 
 }  // namespace fathom::oracle
