@@ -4,7 +4,34 @@
 # std::fma is written. fast-math is never used. Flags are private, so users of fathom::fathom keep theirs.
 include(GNUInstallDirs)
 
+# What keeps a mistake of ours from becoming the execution of someone else's code: canaries on the stack,
+# checked calls of the C library, tables of addresses that are read-only before main() starts, checked
+# indices of the standard library. Sanitizers see more and have functions of their own in its place.
+option(FATHOM_HARDENING "Compile and link with the compiler's protections" ON)
+function(fathom_harden target)
+  if(NOT FATHOM_HARDENING OR FATHOM_SANITIZERS)
+    return()
+  endif()
+  target_compile_options(${target} PRIVATE -fstack-clash-protection)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    target_compile_options(${target} PRIVATE -fcf-protection)
+  endif()
+  # Where all time is spent, only functions with arrays have canaries, and indices go unchecked: with them,
+  # reading takes 3 % longer, and a render with areas 2 %.
+  if(target MATCHES "_(numeric|geometry|mesh|mesh_files|triangle|fast|area)$")
+    target_compile_options(${target} PRIVATE -fstack-protector)
+  else()
+    target_compile_options(${target} PRIVATE -fstack-protector-strong)
+    target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
+  endif()
+  # The C library checks nothing without optimisation, and says so with a warning.
+  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE>
+                                           $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
+  target_link_options(${target} PRIVATE -Wl,-z,relro,-z,now)
+endfunction()
+
 function(fathom_target_options target)
+  fathom_harden(${target})
   target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow
                                            -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual
                                            # designated initializers leave out what has a default
