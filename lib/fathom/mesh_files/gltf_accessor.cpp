@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/mesh_files/gltf_references.h"
 
 namespace fathom::mesh_files {
 using namespace text;
@@ -69,78 +69,68 @@ unsigned read_width(const JsonValue& type) {
   type.fail("expected SCALAR, VEC2, VEC3 or VEC4");
 }
 
-std::uint64_t optional_integer(const JsonValue& object, const char* key, std::uint64_t otherwise) {
-  const auto value = object.find(key);
-  return value ? value->integer(0, largest_integer) : otherwise;
-}
-
-/// The element of a top-level list that an index refers to.
-JsonValue referred(const JsonValue& root, const char* list, const JsonValue& reference) {
-  const std::uint64_t index = reference.integer(0, largest_integer);
-  const auto entries = root.find(list);
-  if (!entries || index >= entries->size())
-    reference.fail("there is no entry " + std::to_string(index) + " in " + list);
-  return entries->element(index);
-}
-
-}  // namespace
-
-GltfAccessor::GltfAccessor(const JsonValue& root, GltfBuffers& buffers, const JsonValue& reference,
-                           std::uint64_t most_zeros)
-    : description_(referred(root, "accessors", reference)) {
-  // Indices have 32 bits, and the index 2³²−1 restarts a primitive.
-  count_ = description_.at("count").integer(1, std::numeric_limits<std::uint32_t>::max());
-  component_ = read_component_type(description_.at("componentType"));
-  width_ = read_width(description_.at("type"));
-  if (const auto normalized = description_.find("normalized")) normalized_ = normalized->boolean();
-  const std::uint64_t element_size = std::uint64_t{width_} * size_of(component_);
-  if (description_.find("bufferView"))
-    elements_ = lay_out(root, buffers, description_, count_, element_size, true);
-  else if (count_ > most_zeros)
-    description_.fail("has " + std::to_string(count_) + " elements but no bufferView");
-  if (const auto sparse = description_.find("sparse")) read_sparse(root, buffers, *sparse);
-}
-
-GltfAccessor::Layout GltfAccessor::lay_out(const JsonValue& root, GltfBuffers& buffers,
-                                           const JsonValue& holder, std::uint64_t count,
-                                           std::uint64_t element_size, bool strided) const {
-  const JsonValue view = referred(root, "bufferViews", holder.at("bufferView"));
-  const JsonValue buffer_index = view.at("buffer");
-  const Bytes buffer = buffers.at(buffer_index.integer(0, largest_integer), buffer_index);
-  const std::uint64_t view_offset = optional_integer(view, "byteOffset", 0);
-  const std::uint64_t view_length = view.at("byteLength").integer(1, largest_integer);
-  if (view_offset > buffer.size() || view_length > buffer.size() - view_offset)
-    view.fail("reaches beyond the end of its buffer of " + std::to_string(buffer.size()) +
-              " bytes");
+/// Where the `count` elements lie that `holder`, an accessor or a part of one, describes.
+GltfLayout lay_out(GltfBufferViews& views, const JsonValue& holder, std::uint64_t count,
+                   std::uint64_t element_size, bool strided) {
+  const GltfBufferView view = views.at(holder.at("bufferView"));
   std::uint64_t stride = element_size;
-  if (const auto byte_stride = view.find("byteStride"); byte_stride && strided) {
-    stride = byte_stride->integer(4, 252);
+  if (view.stride && strided) {
+    stride = view.stride->integer(4, 252);
     if (stride < element_size)
-      byte_stride->fail("is less than the size of an element of " + std::to_string(element_size) +
+      view.stride->fail("is less than the size of an element of " + std::to_string(element_size) +
                         " bytes");
   }
   // The last element need not be followed by a whole stride. count < 2³² and stride < 2⁸: this
   // cannot overflow.
   const std::uint64_t offset = optional_integer(holder, "byteOffset", 0);
   const std::uint64_t needed = stride * (count - 1) + element_size;
-  if (offset > view_length || needed > view_length - offset)
+  if (offset > view.bytes.size() || needed > view.bytes.size() - offset)
     holder.fail("its " + std::to_string(count) +
                 " elements reach beyond the end of their bufferView of " +
-                std::to_string(view_length) + " bytes");
-  return {buffer.subspan(view_offset + offset, needed), stride};
+                std::to_string(view.bytes.size()) + " bytes");
+  return {view.bytes.subspan(offset, needed), stride};
 }
 
-void GltfAccessor::read_sparse(const JsonValue& root, GltfBuffers& buffers,
-                               const JsonValue& sparse) {
+}  // namespace
+
+GltfAccessor::GltfAccessor(const JsonValue& description) : description_(description) {
+  // Indices have 32 bits, and the index 2³²−1 restarts a primitive.
+  count_ = description_.at("count").integer(1, std::numeric_limits<std::uint32_t>::max());
+  component_ = read_component_type(description_.at("componentType"));
+  width_ = read_width(description_.at("type"));
+  if (const auto normalized = description_.find("normalized")) normalized_ = normalized->boolean();
+}
+
+GltfAccessor::GltfAccessor(const JsonValue& description, GltfBufferViews& views,
+                           std::uint64_t most_zeros)
+    : GltfAccessor(description) {
+  if (description_.find("bufferView"))
+    elements_ = lay_out(views, description_, count_, element_size(), true);
+  else if (count_ > most_zeros)
+    description_.fail("has " + std::to_string(count_) + " elements but no bufferView");
+  if (const auto sparse = description_.find("sparse")) read_sparse(views, *sparse);
+}
+
+GltfAccessor::GltfAccessor(const JsonValue& description, Bytes bytes) : GltfAccessor(description) {
+  if (bytes.size() < count_ * element_size())
+    description_.fail("its " + std::to_string(count_) + " elements do not fit into the " +
+                      std::to_string(bytes.size()) + " bytes that were decoded");
+  elements_ = GltfLayout{bytes, element_size()};
+}
+
+std::uint64_t GltfAccessor::element_size() const {
+  return std::uint64_t{width_} * size_of(component_);
+}
+
+void GltfAccessor::read_sparse(GltfBufferViews& views, const JsonValue& sparse) {
   const std::uint64_t count = sparse.at("count").integer(1, count_);
   const JsonValue indices = sparse.at("indices");
   const GltfComponent type = read_component_type(indices.at("componentType"));
   if (type != GltfComponent::uint8 && type != GltfComponent::uint16 &&
       type != GltfComponent::uint32)
     indices.fail("expected unsigned integers");
-  const Layout layout = lay_out(root, buffers, indices, count, size_of(type), false);
-  replacements_ = lay_out(root, buffers, sparse.at("values"), count,
-                          std::uint64_t{width_} * size_of(component_), false);
+  const GltfLayout layout = lay_out(views, indices, count, size_of(type), false);
+  replacements_ = lay_out(views, sparse.at("values"), count, element_size(), false);
   replaced_.reserve(count);
   for (std::uint64_t i = 0; i < count; ++i) {
     const double index = read_component(type, layout.bytes.data() + i * layout.stride);
@@ -178,6 +168,17 @@ double GltfAccessor::value(std::uint64_t i, unsigned k) const {
     default:
       return number;
   }
+}
+
+std::shared_ptr<const GltfAccessor> GltfAccessors::at(const JsonValue& reference) {
+  std::shared_ptr<const GltfAccessor>& accessor = opened_[reference.integer(0, largest_integer)];
+  if (!accessor)
+    accessor = std::make_shared<const GltfAccessor>(description(reference), views_, most_zeros_);
+  return accessor;
+}
+
+JsonValue GltfAccessors::description(const JsonValue& reference) const {
+  return referred(root_, "accessors", reference);
 }
 
 }  // namespace fathom::mesh_files

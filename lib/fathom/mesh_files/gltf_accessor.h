@@ -1,19 +1,17 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
+#include <memory>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
-#include "fathom/mesh_files/gltf_buffers.h"
+#include "fathom/mesh_files/gltf_buffer_views.h"
 #include "fathom/text/json_value.h"
 
 /// The numbers of a glTF asset. For this room's .cpp files only.
 /// Source   [GLTF20] 3.6.2 (accessors), 3.6.2.3 (sparse)
 namespace fathom::mesh_files {
-
-/// Of the integers of a glTF file, if nothing else limits one.
-inline constexpr std::uint64_t largest_integer = std::numeric_limits<std::uint64_t>::max();
 
 /// The numeric types of accessors, with glTF's codes.
 enum class GltfComponent {
@@ -25,14 +23,24 @@ enum class GltfComponent {
   float32 = 5126
 };
 
+/// Elements in a buffer view, `stride` bytes apart.
+struct GltfLayout {
+  Bytes bytes;
+  std::uint64_t stride = 0;
+};
+
 /// An accessor's elements. That each of them lies inside its buffer is checked when the accessor is
 /// opened, before anything is allocated.
 class GltfAccessor {
  public:
-  /// Fails with InputError if it is malformed or reaches beyond its buffer. An accessor without a
-  /// bufferView is all zeros; it may have at most `most_zeros` elements.
-  GltfAccessor(const text::JsonValue& root, GltfBuffers& buffers, const text::JsonValue& reference,
+  /// Fails with InputError if it is malformed or reaches beyond its buffer view. An accessor without
+  /// a bufferView is all zeros; it may have at most `most_zeros` elements.
+  GltfAccessor(const text::JsonValue& description, GltfBufferViews& views,
                std::uint64_t most_zeros);
+  /// Of elements that follow each other closely in `bytes`, whatever bufferView the description
+  /// names: for what a decoder has made. `bytes` must outlive this.
+  /// Fails with InputError if it is malformed, or there are too few bytes.
+  GltfAccessor(const text::JsonValue& description, Bytes bytes);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] GltfComponent component() const { return component_; }
@@ -50,15 +58,9 @@ class GltfAccessor {
   }
 
  private:
-  /// Elements in a buffer, `stride` bytes apart.
-  struct Layout {
-    Bytes bytes;
-    std::uint64_t stride = 0;
-  };
-  Layout lay_out(const text::JsonValue& root, GltfBuffers& buffers, const text::JsonValue& holder,
-                 std::uint64_t count, std::uint64_t element_size, bool strided) const;
-  void read_sparse(const text::JsonValue& root, GltfBuffers& buffers,
-                   const text::JsonValue& sparse);
+  explicit GltfAccessor(const text::JsonValue& description);
+  [[nodiscard]] std::uint64_t element_size() const;
+  void read_sparse(GltfBufferViews& views, const text::JsonValue& sparse);
   [[nodiscard]] const std::byte* find(std::uint64_t i) const;
 
   text::JsonValue description_;
@@ -66,10 +68,30 @@ class GltfAccessor {
   GltfComponent component_ = GltfComponent::float32;
   unsigned width_ = 1;
   bool normalized_ = false;
-  std::optional<Layout> elements_;
+  std::optional<GltfLayout> elements_;
   /// Elements that are given separately, in increasing order.
   std::vector<std::uint32_t> replaced_;
-  Layout replacements_;
+  GltfLayout replacements_;
+};
+
+/// The accessors of an asset, each opened when it is first asked for.
+class GltfAccessors {
+ public:
+  /// `root` and `views` must outlive this.
+  GltfAccessors(const text::JsonValue& root, GltfBufferViews& views, std::uint64_t most_zeros)
+      : root_(root), views_(views), most_zeros_(most_zeros) {}
+
+  /// The accessor that `reference` names by its number.
+  std::shared_ptr<const GltfAccessor> at(const text::JsonValue& reference);
+  /// An accessor's JSON alone: of what is compressed, the accessor may have no bytes.
+  [[nodiscard]] text::JsonValue description(const text::JsonValue& reference) const;
+  [[nodiscard]] GltfBufferViews& views() const { return views_; }
+
+ private:
+  text::JsonValue root_;
+  GltfBufferViews& views_;
+  std::uint64_t most_zeros_;
+  std::unordered_map<std::uint64_t, std::shared_ptr<const GltfAccessor>> opened_;
 };
 
 }  // namespace fathom::mesh_files

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "fathom/numeric/errors.h"
@@ -11,8 +10,6 @@ namespace fathom::mesh_files {
 using namespace text;
 
 namespace {
-
-constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
 
 enum class Mode { triangles = 4, strip = 5, fan = 6 };
 
@@ -100,13 +97,14 @@ void GltfPrimitives::read_primitive(const JsonValue& primitive, Mesh& mesh) {
     return;
   }
   const auto mode = static_cast<Mode>(code);
-  const JsonValue attributes = primitive.at("attributes");
-  if (!attributes.find("POSITION")) {
+  const GltfPrimitiveAccessors accessors = open_primitive(primitive, accessors_, attributes_);
+  if (!accessors.positions) {
     ++without_positions_;
     return;
   }
-  const Vertices vertices = vertices_of(attributes, mesh);
-  const std::vector<std::uint32_t> corners = read_indices(primitive, vertices);
+  const Vertices vertices = vertices_of(accessors, mesh);
+  const std::vector<std::uint32_t> corners =
+      read_indices(primitive, accessors.indices.get(), vertices);
   const std::size_t count = triangles_in(mode, corners.size());
   if (mode == Mode::triangles) leftover_corners_ += corners.size() % 3;
   if (count > no_index - 1 - mesh.triangles.size())
@@ -121,24 +119,20 @@ void GltfPrimitives::read_primitive(const JsonValue& primitive, Mesh& mesh) {
     runs_.push_back({mesh.triangles.size(), vertices.has_texture, vertices.has_normals});
 }
 
-const GltfPrimitives::Vertices& GltfPrimitives::vertices_of(const JsonValue& attributes,
+const GltfPrimitives::Vertices& GltfPrimitives::vertices_of(const GltfPrimitiveAccessors& accessors,
                                                             Mesh& mesh) {
-  const auto accessor = [&](const char* name) {
-    const auto reference = attributes.find(name);
-    return reference ? reference->integer(0, none - 1) : none;
-  };
-  std::array<std::uint64_t, 4> key{accessor("POSITION"), none, none, none};
-  if (attributes_) key = {key[0], accessor("TEXCOORD_0"), accessor("NORMAL"), accessor("COLOR_0")};
-  if (const auto known = vertices_.find(key); known != vertices_.end()) return known->second;
-  const GltfAccessor positions = open(attributes.at("POSITION"));
+  const auto [known, is_new] = vertices_.try_emplace(
+      {accessors.positions, accessors.texture_coordinates, accessors.normals, accessors.colours});
+  Vertices& vertices = known->second;
+  if (!is_new) return vertices;
+  const GltfAccessor& positions = *accessors.positions;
   if (positions.count() > no_index - mesh.vertices.size())
     positions.description().fail("the mesh has more than 4294967295 vertices");
-  Vertices vertices;
   vertices.first = static_cast<std::uint32_t>(mesh.vertices.size());
   vertices.count = static_cast<std::uint32_t>(positions.count());
   read_positions(positions, mesh);
-  if (attributes_) read_attributes(attributes, vertices, mesh);
-  return vertices_.emplace(key, vertices).first->second;
+  if (attributes_) read_attributes(accessors, vertices, mesh);
+  return vertices;
 }
 
 void GltfPrimitives::read_positions(const GltfAccessor& positions, Mesh& mesh) const {
@@ -153,62 +147,59 @@ void GltfPrimitives::read_positions(const GltfAccessor& positions, Mesh& mesh) c
 /// The lists of attributes stay as long as the list of vertices: what a primitive lacks is filled
 /// in, texture coordinates and normals with zeros to which no corner refers, colours with white,
 /// which is what glTF means by none.
-void GltfPrimitives::read_attributes(const JsonValue& attributes, Vertices& vertices, Mesh& mesh) {
+void GltfPrimitives::read_attributes(const GltfPrimitiveAccessors& accessors, Vertices& vertices,
+                                     Mesh& mesh) const {
   const auto size = mesh.vertices.size();
   const auto first = vertices.first;
   mesh.texture_coordinates.resize(size);
-  if (const auto reference = attributes.find("TEXCOORD_0")) {
-    const GltfAccessor texture = open(*reference);
-    if (texture.width() != 2) texture.description().fail("expected texture coordinates in VEC2");
-    expect_fractions(texture);
-    expect_count(texture, vertices.count);
-    for (std::uint64_t i = 0; i < texture.count(); ++i)
-      mesh.texture_coordinates[first + i] = {finite(texture, i, 0), finite(texture, i, 1)};
+  if (const GltfAccessor* texture = accessors.texture_coordinates.get()) {
+    if (texture->width() != 2) texture->description().fail("expected texture coordinates in VEC2");
+    expect_fractions(*texture);
+    expect_count(*texture, vertices.count);
+    for (std::uint64_t i = 0; i < texture->count(); ++i)
+      mesh.texture_coordinates[first + i] = {finite(*texture, i, 0), finite(*texture, i, 1)};
     vertices.has_texture = true;
   }
   mesh.normals.resize(size);
-  if (const auto reference = attributes.find("NORMAL")) {
-    const GltfAccessor normals = open(*reference);
-    if (normals.width() != 3 || normals.component() != GltfComponent::float32)
-      normals.description().fail("expected normals to be VEC3 of floats");
-    expect_count(normals, vertices.count);
-    for (std::uint64_t i = 0; i < normals.count(); ++i)
-      mesh.normals[first + i] = {finite(normals, i, 0), finite(normals, i, 1),
-                                 finite(normals, i, 2)};
+  if (const GltfAccessor* normals = accessors.normals.get()) {
+    if (normals->width() != 3 || normals->component() != GltfComponent::float32)
+      normals->description().fail("expected normals to be VEC3 of floats");
+    expect_count(*normals, vertices.count);
+    for (std::uint64_t i = 0; i < normals->count(); ++i)
+      mesh.normals[first + i] = {finite(*normals, i, 0), finite(*normals, i, 1),
+                                 finite(*normals, i, 2)};
     vertices.has_normals = true;
   }
-  const auto reference = attributes.find("COLOR_0");
-  if (!reference && mesh.colours.empty()) return;
+  const GltfAccessor* colours = accessors.colours.get();
+  if (!colours && mesh.colours.empty()) return;
   mesh.colours.resize(size, {1, 1, 1, 1});
-  if (!reference) return;
-  const GltfAccessor colours = open(*reference);
-  if (colours.width() != 3 && colours.width() != 4)
-    colours.description().fail("expected colours in VEC3 or VEC4");
-  expect_fractions(colours);
-  expect_count(colours, vertices.count);
-  for (std::uint64_t i = 0; i < colours.count(); ++i)
-    for (unsigned k = 0; k < colours.width(); ++k)
-      mesh.colours[first + i][k] = static_cast<float>(std::clamp(finite(colours, i, k), 0.0, 1.0));
+  if (!colours) return;
+  if (colours->width() != 3 && colours->width() != 4)
+    colours->description().fail("expected colours in VEC3 or VEC4");
+  expect_fractions(*colours);
+  expect_count(*colours, vertices.count);
+  for (std::uint64_t i = 0; i < colours->count(); ++i)
+    for (unsigned k = 0; k < colours->width(); ++k)
+      mesh.colours[first + i][k] = static_cast<float>(std::clamp(finite(*colours, i, k), 0.0, 1.0));
 }
 
 std::vector<std::uint32_t> GltfPrimitives::read_indices(const JsonValue& primitive,
-                                                        const Vertices& vertices) {
-  const auto reference = primitive.find("indices");
-  if (!reference) {
+                                                        const GltfAccessor* indices,
+                                                        const Vertices& vertices) const {
+  if (!indices) {
     std::vector<std::uint32_t> all(vertices.count);
     std::iota(all.begin(), all.end(), 0U);
     return all;
   }
-  const GltfAccessor indices = open(*reference);
-  if (indices.width() != 1 || indices.normalized() ||
-      (indices.component() != GltfComponent::uint8 &&
-       indices.component() != GltfComponent::uint16 &&
-       indices.component() != GltfComponent::uint32))
-    indices.description().fail("expected indices to be SCALAR unsigned integers");
+  if (indices->width() != 1 || indices->normalized() ||
+      (indices->component() != GltfComponent::uint8 &&
+       indices->component() != GltfComponent::uint16 &&
+       indices->component() != GltfComponent::uint32))
+    indices->description().fail("expected indices to be SCALAR unsigned integers");
   std::vector<std::uint32_t> result;
-  result.reserve(indices.count());
-  for (std::uint64_t i = 0; i < indices.count(); ++i) {
-    const std::uint32_t index = indices.index(i);
+  result.reserve(indices->count());
+  for (std::uint64_t i = 0; i < indices->count(); ++i) {
+    const std::uint32_t index = indices->index(i);
     if (index >= vertices.count)
       primitive.fail("index " + std::to_string(index) + " at place " + std::to_string(i) +
                      " is out of range, the primitive has " + std::to_string(vertices.count) +

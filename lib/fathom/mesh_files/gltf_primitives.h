@@ -3,11 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "fathom/mesh/mesh.h"
-#include "fathom/mesh_files/gltf_accessor.h"
+#include "fathom/mesh_files/gltf_primitive_accessors.h"
 #include "fathom/text/warnings.h"
 
 /// Triangles of glTF meshes. For this room's .cpp files only.
@@ -16,13 +17,11 @@ namespace fathom::mesh_files {
 
 class GltfPrimitives {
  public:
-  /// `root` and `buffers` must outlive this.
-  GltfPrimitives(const text::JsonValue& root, GltfBuffers& buffers, bool attributes,
-                 std::uint64_t file_size)
-      : root_(root), buffers_(buffers), attributes_(attributes), file_size_(file_size) {}
+  /// `accessors` must outlive this.
+  GltfPrimitives(GltfAccessors& accessors, bool attributes)
+      : accessors_(accessors), attributes_(attributes) {}
 
-  /// All primitives of a glTF mesh in order. Primitives that name the same attributes share their
-  /// vertices.
+  /// All primitives of a glTF mesh in order. Primitives of the same accessors share their vertices.
   Mesh read(const text::JsonValue& mesh);
 
   /// Warns of what was skipped.
@@ -35,22 +34,19 @@ class GltfPrimitives {
     bool has_texture = false, has_normals = false;
   };
   void read_primitive(const text::JsonValue& primitive, Mesh& mesh);
-  const Vertices& vertices_of(const text::JsonValue& attributes, Mesh& mesh);
+  const Vertices& vertices_of(const GltfPrimitiveAccessors& accessors, Mesh& mesh);
   void read_positions(const GltfAccessor& positions, Mesh& mesh) const;
-  void read_attributes(const text::JsonValue& attributes, Vertices& vertices, Mesh& mesh);
-  std::vector<std::uint32_t> read_indices(const text::JsonValue& primitive,
-                                          const Vertices& vertices);
-  GltfAccessor open(const text::JsonValue& reference) {
-    return {root_, buffers_, reference, file_size_};
-  }
+  void read_attributes(const GltfPrimitiveAccessors& accessors, Vertices& vertices,
+                       Mesh& mesh) const;
+  [[nodiscard]] std::vector<std::uint32_t> read_indices(const text::JsonValue& primitive,
+                                                        const GltfAccessor* indices,
+                                                        const Vertices& vertices) const;
 
-  text::JsonValue root_;
-  GltfBuffers& buffers_;
+  GltfAccessors& accessors_;
   bool attributes_;
-  std::uint64_t file_size_;
 
   // For the mesh that is being read: vertices by the accessors of their attributes.
-  std::map<std::array<std::uint64_t, 4>, Vertices> vertices_;
+  std::map<std::array<std::shared_ptr<const GltfAccessor>, 4>, Vertices> vertices_;
   // For each run of triangles, where it ends and which attributes it has.
   struct Run {
     std::size_t end = 0;

@@ -8,6 +8,7 @@
 #include "fathom/mesh_files/gltf_accessor.h"
 #include "fathom/mesh_files/gltf_buffers.h"
 #include "fathom/mesh_files/gltf_primitives.h"
+#include "fathom/mesh_files/gltf_references.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/sha256.h"
@@ -216,10 +217,10 @@ GltfAsset read_gltf(std::span<const std::byte> bytes, const std::filesystem::pat
   check_version(root);
   check_required_extensions(root);
   GltfBuffers buffers(container, root, path);
+  GltfBufferViews views(root, buffers);
+  GltfAccessors accessors(root, views, bytes.size());
   GltfAsset asset =
-      GltfReader(root, GltfPrimitives(root, buffers, options.attributes, bytes.size()), file,
-                 warnings)
-          .read();
+      GltfReader(root, GltfPrimitives(accessors, options.attributes), file, warnings).read();
   for (const auto& [name, contents] : buffers.external_files())
     asset.buffers.push_back({name.string(), options.hash ? sha256(contents) : std::string()});
   return asset;

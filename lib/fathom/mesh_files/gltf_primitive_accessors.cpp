@@ -1,0 +1,24 @@
+#include "fathom/mesh_files/gltf_primitive_accessors.h"
+
+namespace fathom::mesh_files {
+using namespace text;
+
+GltfPrimitiveAccessors open_primitive(const JsonValue& primitive, GltfAccessors& accessors,
+                                      bool attributes) {
+  const auto open = [&](const JsonValue& object, const char* key) {
+    const auto reference = object.find(key);
+    return reference ? accessors.at(*reference) : nullptr;
+  };
+  const JsonValue named = primitive.at("attributes");
+  GltfPrimitiveAccessors result;
+  result.positions = open(named, "POSITION");
+  if (!result.positions) return result;
+  result.indices = open(primitive, "indices");
+  if (!attributes) return result;
+  result.texture_coordinates = open(named, "TEXCOORD_0");
+  result.normals = open(named, "NORMAL");
+  result.colours = open(named, "COLOR_0");
+  return result;
+}
+
+}  // namespace fathom::mesh_files

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "fathom/text/json_value.h"
+
+/// How the parts of a glTF asset refer to each other: by the numbers of entries in the asset's
+/// lists. For this room's .cpp files only.
+namespace fathom::mesh_files {
+
+/// Of the integers of a glTF file, if nothing else limits one.
+inline constexpr std::uint64_t largest_integer = std::numeric_limits<std::uint64_t>::max();
+
+inline std::uint64_t optional_integer(const text::JsonValue& object, const char* key,
+                                      std::uint64_t otherwise) {
+  const auto value = object.find(key);
+  return value ? value->integer(0, largest_integer) : otherwise;
+}
+
+/// The entry of a top-level list that `reference` names by its number.
+inline text::JsonValue referred(const text::JsonValue& root, const char* list,
+                                const text::JsonValue& reference) {
+  const std::uint64_t index = reference.integer(0, largest_integer);
+  const auto entries = root.find(list);
+  if (!entries || index >= entries->size())
+    reference.fail("there is no entry " + std::to_string(index) + " in " + list);
+  return entries->element(index);
+}
+
+}  // namespace fathom::mesh_files
