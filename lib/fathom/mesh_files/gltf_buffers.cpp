@@ -116,8 +116,8 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri) {
 }
 
 GltfBuffers::GltfBuffers(const GltfContainer& container, const JsonValue& root,
-                         std::filesystem::path path)
-    : binary_(container.binary), path_(std::move(path)) {
+                         std::filesystem::path path, std::vector<Boundary> boundaries)
+    : binary_(container.binary), path_(std::move(path)), boundaries_(std::move(boundaries)) {
   if (const auto buffers = root.find("buffers")) descriptions_ = buffers->elements();
 }
 
@@ -159,7 +159,7 @@ Bytes GltfBuffers::load(const JsonValue& buffer, bool may_be_binary_chunk) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     uri->fail("there is no file " + file.string());
-  files_.push_back(std::make_unique<InputFile>(file));
+  files_.push_back(std::make_unique<InputFile>(file, boundaries_));
   external_files_.push_back({file, files_.back()->bytes()});
   return cut(files_.back()->bytes());
 }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fathom/text/confinement.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
@@ -35,9 +36,10 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
 /// The buffers of an asset, loaded when they are asked for.
 class GltfBuffers {
  public:
-  /// `container` must outlive this; relative URIs start from the folder of `path`.
+  /// `container` must outlive this; relative URIs start from the folder of `path`, and must
+  /// keep within the boundaries.
   GltfBuffers(const GltfContainer& container, const text::JsonValue& root,
-              std::filesystem::path path);
+              std::filesystem::path path, std::vector<text::Boundary> boundaries);
 
   /// Buffer `index`, exactly as long as the asset says; memory is taken only for bytes that are
   /// there. `reference` is blamed if there is no such buffer.
@@ -56,6 +58,7 @@ class GltfBuffers {
   std::optional<Bytes> binary_;
   std::vector<text::JsonValue> descriptions_;
   std::filesystem::path path_;
+  std::vector<text::Boundary> boundaries_;
   std::map<std::uint64_t, Bytes> loaded_;
   std::vector<std::vector<std::byte>> storage_;
   std::vector<std::unique_ptr<text::InputFile>> files_;

@@ -9,6 +9,7 @@
 #include "fathom/mesh_files/gltf_buffers.h"
 #include "fathom/mesh_files/gltf_primitives.h"
 #include "fathom/mesh_files/gltf_references.h"
+#include "fathom/mesh_files/named_files.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/sha256.h"
@@ -216,7 +217,7 @@ GltfAsset read_gltf(std::span<const std::byte> bytes, const std::filesystem::pat
   const JsonValue root = document.root();
   check_version(root);
   check_required_extensions(root);
-  GltfBuffers buffers(container, root, path);
+  GltfBuffers buffers(container, root, path, boundaries_of(options));
   GltfBufferViews views(root, buffers);
   GltfAccessors accessors(root, views, bytes.size());
   GltfAsset asset =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include "fathom/text/warnings.h"
@@ -18,6 +19,9 @@ struct ReadOptions {
   bool attributes = false;
   /// Compute Source::sha256.
   bool hash = true;
+  /// Files that are named by other files (a scene file's meshes, a glTF asset's buffers) must lie in
+  /// this folder, where their symbolic links have led; empty: anywhere.
+  std::filesystem::path confine;
 };
 
 }  // namespace fathom

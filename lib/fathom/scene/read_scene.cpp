@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh_files/named_files.h"
 #include "fathom/mesh_files/read_gltf.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/recognise_format.h"
@@ -133,7 +134,7 @@ class SceneReader {
       scene_.objects.insert(scene_.objects.end(), found->second.begin(), found->second.end());
       expect_countable(triangle_count(scene_), "triangles in all", file);
     } else {
-      const InputFile input(placed.file);
+      const InputFile input(placed.file, boundaries_of(options_));
       const FileFormat kind = recognise(input, placed.file);
       if (kind == FileFormat::scene_json)
         throw InputError(file + ": is no mesh, expected OBJ, PLY, STL, OFF or glTF");

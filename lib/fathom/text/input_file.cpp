@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/text/descriptor.h"
 #include "fathom/text/system_failure.h"
 
 namespace fathom::text {
@@ -17,33 +18,34 @@ namespace {
 /// while it is being read, ours would be killed, and below this size memory is no concern.
 constexpr std::size_t largest_read = std::size_t{64} << 20;
 
-/// A file descriptor that closes itself; standard input stays open.
-struct Descriptor {
-  int number;
-  ~Descriptor() {
-    if (number > STDIN_FILENO) ::close(number);
-  }
-};
-
 }  // namespace
 
 InputFile::InputFile(const std::filesystem::path& path) {
   const std::string name = path.string();
   const Descriptor file{name == "-" ? STDIN_FILENO : ::open(name.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.number < 0) fail_with_errno(name, "cannot be opened");
+  take(file.number, name, name != "-");
+}
+
+InputFile::InputFile(const std::filesystem::path& path, const std::vector<Boundary>& boundaries) {
+  const Descriptor file{open_confined(path, boundaries)};
+  take(file.number, path.string(), true);
+}
+
+void InputFile::take(int descriptor, const std::string& name, bool may_be_mapped) {
   struct stat status {};
-  if (::fstat(file.number, &status) != 0) fail_with_errno(name, "cannot be examined");
+  if (::fstat(descriptor, &status) != 0) fail_with_errno(name, "cannot be examined");
   if (S_ISDIR(status.st_mode)) throw InputError(name + ": is a directory, expected a file");
   const auto size = static_cast<std::size_t>(status.st_size);
-  if (S_ISREG(status.st_mode) && size > largest_read && name != "-") {
-    void* mapping = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number, 0);
+  if (S_ISREG(status.st_mode) && size > largest_read && may_be_mapped) {
+    void* mapping = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
     if (mapping != MAP_FAILED) {
       mapping_ = mapping;
       bytes_ = {static_cast<const std::byte*>(mapping), size};
       return;
     }
   }
-  read(file.number, S_ISREG(status.st_mode) ? size + 1 : std::size_t{1} << 16, name);
+  read(descriptor, S_ISREG(status.st_mode) ? size + 1 : std::size_t{1} << 16, name);
 }
 
 void InputFile::read(int descriptor, std::size_t capacity, const std::string& name) {

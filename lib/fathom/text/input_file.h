@@ -6,6 +6,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "fathom/text/confinement.h"
 
 namespace fathom::text {
 
@@ -17,6 +20,8 @@ class InputFile {
  public:
   /// Fails    InputError "PATH: why": missing, not readable, or a directory.
   explicit InputFile(const std::filesystem::path& path);
+  /// A file that another file names; "-" is an ordinary name. Fails    as open_confined().
+  InputFile(const std::filesystem::path& path, const std::vector<Boundary>& boundaries);
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
   ~InputFile();
@@ -27,6 +32,7 @@ class InputFile {
   }
 
  private:
+  void take(int descriptor, const std::string& name, bool may_be_mapped);
   void read(int descriptor, std::size_t capacity, const std::string& name);
 
   std::span<const std::byte> bytes_;
