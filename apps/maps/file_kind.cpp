@@ -4,6 +4,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "fathom/text/input_file.h"
+#include "fathom/text/parse_json.h"
+
 namespace fathom::app {
 
 FileKind kind_of(const std::string& file) {
@@ -20,11 +23,15 @@ FileKind kind_of(const std::string& file) {
   if (first == std::string::npos || (start[first] != '{' && start[first] != '['))
     return FileKind::mesh;
   if (start[first] == '[') return FileKind::camera;
-  stream.clear();
-  stream.seekg(0);
-  const auto json = nlohmann::ordered_json::parse(stream, nullptr, false);
-  if (json.is_object() && json.contains("asset")) return FileKind::mesh;
-  if (json.is_object() && json.contains("meshes")) return FileKind::scene;
+  // What is no JSON is told by the reader of cameras.
+  nlohmann::json json;
+  try {
+    text::parse_json(text::InputFile(file).text(), json);
+  } catch (const text::JsonFault&) {
+    return FileKind::camera;
+  }
+  if (json.contains("asset")) return FileKind::mesh;
+  if (json.contains("meshes")) return FileKind::scene;
   return FileKind::camera;
 }
 

@@ -8,6 +8,7 @@
 #include "apps/maps/map_view.h"
 #include "apps/shell/json_answer.h"
 #include "fathom/camera/camera_files.h"
+#include "fathom/text/parse_json.h"
 
 namespace fathom::app {
 namespace {
@@ -34,7 +35,7 @@ double degrees_of(double extent, double focal) {
 }
 
 Json describe(const Camera& camera) {
-  Json answer = Json::parse(fathom::to_json(camera));
+  Json answer = text::parse_json<Json>(fathom::to_json(camera));
   const Pose pose = pose_of(camera);
   answer["eye"] = pose.eye;
   answer["forward"] = pose.forward;

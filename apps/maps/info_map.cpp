@@ -8,6 +8,7 @@
 #include "apps/shell/json_answer.h"
 #include "apps/shell/values.h"
 #include "fathom/image/surface.h"
+#include "fathom/text/parse_json.h"
 
 namespace fathom::app {
 namespace {
@@ -72,6 +73,16 @@ std::string figure(const ChannelSummary& summary, double value) {
                                    : fmt::format("{}", value);
 }
 
+/// Camera and sources are JSON themselves; any other text, and what is nested too deep, is a string.
+Json as_json(const std::string& value) {
+  try {
+    Json parsed = text::parse_json<Json>(value);
+    if (parsed.is_structured()) return parsed;
+  } catch (const text::JsonFault&) {
+  }
+  return value;
+}
+
 Json describe(const DepthMap& map, const std::string& file) {
   Json channels = Json::object();
   for (const ImageChannel& channel : map.channels) {
@@ -82,7 +93,7 @@ Json describe(const DepthMap& map, const std::string& file) {
                {"max", summary.finite > 0 ? Json(summary.greatest) : Json(nullptr)},
                {"infinite", summary.infinite},
                {"nan", summary.nan}};
-    channels[channel.name] = std::move(entry);
+    text::append_member(channels, channel.name, std::move(entry));
   }
   Json answer{{"file", file},
               {"kind", "map"},
@@ -92,10 +103,8 @@ Json describe(const DepthMap& map, const std::string& file) {
   if (map.png_scale) answer["png_scale"] = *map.png_scale;
   if (!map.object_names.empty()) answer["objects"] = map.object_names;
   Json attributes = Json::object();
-  for (const auto& [name, text] : map.texts) {
-    // Camera and sources are JSON themselves.
-    Json parsed = Json::parse(text, nullptr, false);
-    attributes[name] = parsed.is_structured() ? std::move(parsed) : Json(text);
+  for (const auto& [name, value] : map.texts) {
+    text::append_member(attributes, name, as_json(value));
   }
   if (!attributes.empty()) answer["attributes"] = std::move(attributes);
   return answer;

@@ -33,6 +33,7 @@ void redirect(const std::string& file, int flags, int to) {
   if (::chdir(options.folder.c_str()) != 0) ::_exit(126);
   limit(RLIMIT_FSIZE, options.file_size);
   limit(RLIMIT_AS, options.memory);
+  limit(RLIMIT_CPU, options.seconds);
   if (options.as_nobody && ::geteuid() == 0) {
     if (::setgroups(0, nullptr) != 0 || ::setgid(nobody) != 0 || ::setuid(nobody) != 0) {
       ::_exit(126);

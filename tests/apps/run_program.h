@@ -22,6 +22,8 @@ struct RunOptions {
   std::string input;
   /// Limits of the process in bytes: the size of files, the address space.
   std::optional<rlim_t> file_size, memory;
+  /// A limit of its processor time; status 152 is that it was ended for it.
+  std::optional<rlim_t> seconds;
   /// Run as the user nobody where the test is root, whom permissions do not hold.
   bool as_nobody = false;
 };

@@ -132,6 +132,8 @@ TEST(Answers, CutShortAreRefused) {
 TEST(Answers, OfOthersAreRefused) {
   const std::string understood = "opengl: its answer is not understood: ";
   EXPECT_EQ(complaint("depths: 1 2 3\n"), understood + "it is cut short or in another format");
+  EXPECT_EQ(complaint(std::string(1'000'000, '\x81')),
+            understood + "it is cut short or in another format");
   EXPECT_EQ(complaint(to_bytes(some_drawing())), understood + "ending is missing");
   EXPECT_EQ(complaint(to_bytes(answer_of([] { return 1; }))),
             understood + "result is not an object");

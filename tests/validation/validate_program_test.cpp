@@ -82,6 +82,9 @@ TEST_F(ValidateProgram, RefusesInOneLine) {
   expect_refused(validate("none.exr"), 3, "none.exr");
   folder.write("report.json", "{}");
   expect_refused(validate("map.exr", {"--baseline", "report.json"}), 3, "not a report.json");
+  folder.write("report.json", "{\"results\":" + std::string(100'000, '['));
+  expect_refused(validate("map.exr", {"--baseline", "report.json"}), 3,
+                 "not a report.json of fathom validate: nested more than 100 deep");
   folder.write("file", "");
   expect_refused(validate("map.exr", {"--out", "file"}), 4, "file: cannot make this folder");
   const auto run = [&](std::vector<std::string> arguments) {

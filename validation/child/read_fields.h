@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "fathom/text/parse_json.h"
 #include "validation/child/fields.h"
 
 namespace fathom::validation {
@@ -136,8 +137,12 @@ void read(const Json& json, T& value, const std::string& where) {
 /// Fails    ForeignAnswer, in one line, where the bytes are not those of such a value, whole.
 template <class T>
 T from_bytes(const std::string& bytes) {
-  const nlohmann::json json = nlohmann::json::from_cbor(bytes, true, false);
-  if (json.is_discarded()) throw ForeignAnswer("it is cut short or in another format");
+  nlohmann::json json;
+  try {
+    json = text::parse_cbor(bytes);
+  } catch (const text::JsonFault&) {
+    throw ForeignAnswer("it is cut short or in another format");
+  }
   T value{};
   fields_detail::read(json, value, "");
   return value;

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/text/input_file.h"
+#include "fathom/text/parse_json.h"
 
 namespace fathom::validation {
 namespace {
@@ -56,18 +57,22 @@ void compare(const ValidationCase& now, const Json& then, const std::string& key
 
 std::vector<std::string> regressions(const std::vector<ValidationCase>& cases,
                                      const std::filesystem::path& baseline) {
-  std::ifstream file(baseline);
-  if (!file) throw InputError(baseline.string() + ": cannot be opened");
+  const text::InputFile file(baseline);
+  const auto refuse = [&](const char* why) {
+    throw InputError(baseline.string() + ": is not a report.json of fathom validate: " + why);
+  };
   std::vector<std::string> lines;
   try {
-    const Json results = Json::parse(file).at("results");
+    const auto report = text::parse_json<Json>(file.text());
+    const Json& results = report.at("results");
     for (const ValidationCase& now : cases) {
       const std::string key = key_of(now.scene, now.renderer, now.variant);
       if (const Json* then = find(results, key)) compare(now, *then, key, lines);
     }
+  } catch (const text::JsonFault& fault) {
+    refuse(fault.what());
   } catch (const Json::exception& error) {
-    throw InputError(baseline.string() +
-                     ": is not a report.json of fathom validate: " + error.what());
+    refuse(error.what());
   }
   return lines;
 }

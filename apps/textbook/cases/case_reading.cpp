@@ -6,65 +6,24 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <functional>
 #include <limits>
-#include <set>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/text/parse_json.h"
 
 namespace fathom::app::cases {
 namespace {
 
-/// Where the parser is, so that a number that is none can be named by its place.
-class Place {
- public:
-  explicit Place(Json& name) : name_(name) {}
-
-  bool operator()(int, Json::parse_event_t event, const Json& parsed) {
-    using Event = Json::parse_event_t;
-    switch (event) {
-      case Event::object_start:
-      case Event::array_start:
-        steps_.push_back({event == Event::array_start, 0, "", {}});
-        break;
-      case Event::key:
-        steps_.back().key = parsed.get<std::string>();
-        if (!steps_.back().keys.insert(steps_.back().key).second)
-          throw InputError(fmt::format("the key {} stands twice", parsed.dump()));
-        break;
-      case Event::object_end:
-      case Event::array_end:
-        steps_.pop_back();
-        [[fallthrough]];
-      case Event::value:
-        if (steps_.size() == 1 && steps_[0].key == "name") name_ = parsed;
-        if (!steps_.empty()) ++steps_.back().index;
-        break;
-    }
-    return true;
-  }
-
-  /// "subject ring 0 has … at corner 2" where the parser stands in a ring, else "clip[0]".
-  [[nodiscard]] std::string not_finite() const {
-    if (steps_.size() == 4 && (steps_[0].key == "subject" || steps_[0].key == "clip"))
-      return fmt::format("{} ring {} has a coordinate that is not finite, at corner {}",
-                         steps_[0].key, steps_[1].index, steps_[2].index);
-    std::string path;
-    for (const Step& step : steps_)
-      path += step.in_array ? fmt::format("[{}]", step.index) : step.key;
-    return path + " is not finite; expected a finite number";
-  }
-
- private:
-  struct Step {
-    bool in_array;
-    std::size_t index;
-    std::string key;
-    std::set<std::string> keys;
-  };
-  std::vector<Step> steps_;
-  Json& name_;
-};
+/// "subject ring 0 has … at corner 2" where the fault lies in a ring, else "clip[0]".
+std::string not_finite(const std::vector<text::JsonStep>& path) {
+  if (path.size() == 4 && (path[0].key == "subject" || path[0].key == "clip"))
+    return fmt::format("{} ring {} has a coordinate that is not finite, at corner {}", path[0].key,
+                       path[1].index, path[2].index);
+  std::string place;
+  for (const text::JsonStep& step : path)
+    place += step.in_list ? fmt::format("[{}]", step.index) : step.key;
+  return place + " is not finite; expected a finite number";
+}
 
 /// Whether NaN or Infinity stands where the parser stopped; `byte` counts from 1.
 bool is_not_finite_at(std::string_view line, std::size_t byte) {
@@ -86,17 +45,24 @@ std::string at(const std::string& where, std::size_t i) {
 }  // namespace
 
 Json parse_case(std::string_view line, Json& name) {
-  Place place(name);
-  try {
-    Json value = Json::parse(line.begin(), line.end(), std::ref(place));
-    if (!value.is_object()) throw InputError("expected a JSON object");
+  using Kind = text::JsonFault::Kind;
+  Json value;
+  const auto take_name = [&] {
+    if (!value.is_object()) return;
     if (const auto found = value.find("name"); found != value.end()) name = *found;
+  };
+  try {
+    text::parse_json(line, value);
+    if (!value.is_object()) throw InputError("expected a JSON object");
+    take_name();
     return value;
-  } catch (const Json::parse_error& error) {
-    if (is_not_finite_at(line, error.byte)) throw InputError(place.not_finite());
-    throw InputError(fmt::format("not JSON at character {}", error.byte));
-  } catch (const Json::out_of_range&) {
-    throw InputError(place.not_finite());
+  } catch (const text::JsonFault& fault) {
+    // A name that was not read to its end is none.
+    if (fault.path().size() < 2 || fault.path()[0].key != "name") take_name();
+    if (fault.kind() == Kind::not_finite) throw InputError(not_finite(fault.path()));
+    if (fault.kind() != Kind::syntax) throw;
+    if (is_not_finite_at(line, fault.byte())) throw InputError(not_finite(fault.path()));
+    throw InputError(fmt::format("not JSON at character {}", fault.byte()));
   }
 }
 

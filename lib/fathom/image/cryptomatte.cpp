@@ -5,6 +5,10 @@
 #include <bit>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+
+#include "fathom/text/parse_json.h"
 
 namespace fathom {
 namespace {
@@ -21,7 +25,11 @@ std::uint32_t mixed(std::uint32_t k) {
 
 std::string manifest_of(const std::vector<std::string>& names) {
   nlohmann::ordered_json manifest = nlohmann::ordered_json::object();
-  for (const std::string& name : names) manifest[name] = in_hexadecimal(cryptomatte_id(name));
+  std::set<std::string_view> known;
+  for (const std::string& name : names) {
+    if (known.insert(name).second)
+      text::append_member(manifest, name, in_hexadecimal(cryptomatte_id(name)));
+  }
   return manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -7,6 +7,7 @@
 
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/parse_json.h"
 
 namespace fathom {
 using namespace image;
@@ -96,7 +97,12 @@ std::string image::object_names_as_json(const std::vector<std::string>& names) {
 }
 
 std::vector<std::string> image::object_names_from_json(const std::string& text) {
-  const auto list = nlohmann::json::parse(text, nullptr, false);
+  nlohmann::json list;
+  try {
+    parse_json(text, list);
+  } catch (const JsonFault&) {
+    return {};
+  }
   if (!list.is_array()) return {};
   std::vector<std::string> names;
   for (const auto& entry : list) {

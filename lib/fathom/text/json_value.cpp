@@ -2,77 +2,55 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/text/parse_json.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::text {
 namespace {
 
 using nlohmann::json;
 
-constexpr int deepest_nesting = 100;
-
 std::string in_quotes(const std::string& key) {
   // dump() escapes what would break the line; keys that are not UTF-8 never get here.
   return json(key).dump();
 }
-
-/// Builds a document, refusing what nlohmann::json would accept: a key twice in one object, and
-/// nesting so deep that walking it could exhaust the stack.
-class StrictBuilder {
- public:
-  bool operator()(int depth, json::parse_event_t event, json& parsed) {
-    using Event = json::parse_event_t;
-    if (depth > deepest_nesting)
-      throw InputError("nested more than " + std::to_string(deepest_nesting) + " deep");
-    if (event == Event::object_start) keys_.emplace_back();
-    if (event == Event::object_end) keys_.pop_back();
-    if (event != Event::key) return true;
-    last_key_ = parsed.get<std::string>();
-    if (!keys_.back().insert(last_key_).second)
-      throw InputError("the key " + in_quotes(last_key_) + " stands twice in one object");
-    return true;
-  }
-
-  /// The key that was read last; empty before the first.
-  [[nodiscard]] const std::string& last_key() const { return last_key_; }
-
- private:
-  std::vector<std::set<std::string>> keys_;
-  std::string last_key_;
-};
 
 std::size_t line_of(std::string_view text, std::size_t byte) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
   return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
 }
 
-/// What is wrong, without nlohmann's "[json.exception.…] parse error at line 1, column 2: ".
-std::string reason(const json::exception& e) {
-  std::string text = e.what();
-  for (const char* mark : {"] ", "column "})
-    if (const auto at = text.find(mark); at != std::string::npos)
-      text.erase(0, at + std::string_view(mark).size());
-  if (const auto at = text.find(": "); at != std::string::npos) text.erase(0, at + 2);
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+/// "a.b[2]: ", or nothing at the root.
+std::string place_of(const std::vector<JsonStep>& path) {
+  std::string place;
+  for (const JsonStep& step : path) {
+    if (step.in_list) {
+      place += "[" + std::to_string(step.index) + "]";
+    } else {
+      place += (place.empty() ? "" : ".") + step.key;
+    }
+  }
+  return place.empty() ? "" : printable(place) + ": ";
 }
 
 json parse_strictly(std::string_view text, const std::string& file) {
-  StrictBuilder builder;
   try {
-    return json::parse(text.begin(), text.end(), std::ref(builder));
-  } catch (const json::parse_error& e) {
-    // `byte` counts from 1 and refers to the last character read.
-    const std::size_t before = e.byte == 0 ? 0 : e.byte - 1;
-    throw InputError(file + ": line " + std::to_string(line_of(text, before)) +
-                     ": not JSON: " + reason(e));
-  } catch (const json::exception& e) {  // a number beyond binary64
-    throw InputError(file + ": " + builder.last_key() + ": " + reason(e));
-  } catch (const InputError& e) {
-    throw InputError(file + ": " + e.what());
+    return parse_json<json>(text);
+  } catch (const JsonFault& fault) {
+    const std::string reason = fault.what();
+    switch (fault.kind()) {
+      case JsonFault::Kind::syntax:
+        throw InputError(file + ": line " +
+                         std::to_string(line_of(text, fault.byte() == 0 ? 0 : fault.byte() - 1)) +
+                         ": not JSON: " + reason);
+      case JsonFault::Kind::not_finite:
+        throw InputError(file + ": " + place_of(fault.path()) + reason);
+      default:
+        throw InputError(file + ": " + reason);
+    }
   }
 }
 

@@ -63,7 +63,8 @@ class JsonValue {
 class JsonDocument {
  public:
   /// Fails with InputError: syntax ("FILE: line N: …"), a key twice in one object, a number beyond
-  /// binary64, nesting deeper than 100. `file` is the name for messages.
+  /// binary64, nesting deeper than `deepest_json`
+  /// (parse_json.h). `file` is the name for messages.
   JsonDocument(std::string_view text, std::string file);
 
   [[nodiscard]] JsonValue root() const { return {value_, file_, ""}; }
