@@ -15,15 +15,17 @@
 namespace fathom::app {
 namespace {
 
-const std::vector<Companion> companions{
-    {"clip", "fathom-textbook", "Clip polygons and segments given as JSON lines"},
-    {"scan", "fathom-textbook", "Rasterize lines, polygons and triangles given as JSON lines"},
-    {"pipeline", "fathom-textbook", "Look into the graphics pipeline"},
-    {"study", "fathom-study",
-     "Precision of depth buffers, measured: figures, plots and a page that explains them"},
-    {"bench", "fathom-bench", "Time and memory beside VTK, Embree and the reference engine"},
-    {"validate", "fathom-validate",
-     "Check another renderer's maps against the truth and explain every difference"}};
+std::vector<Companion> companions() {
+  return {
+      {"clip", "fathom-textbook", "Clip polygons and segments given as JSON lines"},
+      {"scan", "fathom-textbook", "Rasterize lines, polygons and triangles given as JSON lines"},
+      {"pipeline", "fathom-textbook", "Look into the graphics pipeline"},
+      {"study", "fathom-study",
+       "Precision of depth buffers, measured: figures, plots and a page that explains them"},
+      {"bench", "fathom-bench", "Time and memory beside VTK, Embree and the reference engine"},
+      {"validate", "fathom-validate",
+       "Check another renderer's maps against the truth and explain every difference"}};
+}
 
 /// `render --engine pipeline` is carried out by fathom-textbook, which gets the same arguments.
 Render by_textbook(const std::vector<std::string>& arguments) {
@@ -34,17 +36,17 @@ Render by_textbook(const std::vector<std::string>& arguments) {
   };
 }
 
+std::vector<AddCommand> commands(const std::vector<std::string>& arguments) {
+  const auto add_render_command = [arguments](Command& program) {
+    add_render(program, render_exactly, by_textbook(arguments));
+  };
+  return {add_render_command, add_probe,  add_info,    add_preview,  add_compare,
+          add_convert,        add_camera, add_visible, add_coplanar, add_depth};
+}
+
 }  // namespace
 }  // namespace fathom::app
 
 int main(int argc, char** argv) {
-  using namespace fathom::app;
-  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
-  const auto add_render_command = [&arguments](Command& program) {
-    add_render(program, render_exactly, by_textbook(arguments));
-  };
-  return program_main(argc, argv,
-                      {add_render_command, add_probe, add_info, add_preview, add_compare,
-                       add_convert, add_camera, add_visible, add_coplanar, add_depth},
-                      companions);
+  return fathom::app::program_main(argc, argv, fathom::app::commands, fathom::app::companions);
 }

@@ -1,8 +1,6 @@
 #include "apps/maps/map_view.h"
 
 #include <fmt/core.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <optional>
 
@@ -13,37 +11,11 @@
 namespace fathom::app {
 namespace {
 
-/// A file in memory, for readers that take a path.
-class MemoryFile {
- public:
-  explicit MemoryFile(const std::string& text) : descriptor_(::memfd_create("text", MFD_CLOEXEC)) {
-    const auto size = static_cast<ssize_t>(text.size());
-    if (descriptor_ < 0 || ::write(descriptor_, text.data(), text.size()) != size) {
-      throw OutputError("no room for a file in memory");
-    }
-  }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  ~MemoryFile() { ::close(descriptor_); }
-  [[nodiscard]] std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
-
- private:
-  int descriptor_;
-};
-
 /// The camera that a map carries; nullopt if it carries none.
 std::optional<Camera> camera_of(const DepthMap& map, const std::string& file) {
   const auto text = map.texts.find("fathom.camera");
   if (text == map.texts.end()) return std::nullopt;
-  const MemoryFile memory(text->second);
-  std::vector<Camera> cameras;
-  try {
-    cameras = read_cameras(memory.path());
-  } catch (const InputError& error) {
-    std::string message = error.what();
-    if (message.starts_with(memory.path())) message.erase(0, memory.path().size());
-    throw InputError(file + ": fathom.camera" + message);
-  }
+  const std::vector<Camera> cameras = parse_cameras(text->second, file + ": fathom.camera");
   if (cameras.size() != 1) throw InputError(file + ": fathom.camera does not hold one camera");
   return cameras[0];
 }

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <new>
 #include <stdexcept>
 #include <string>
 
 #include "apps/shell/exit_status.h"
+#include "apps/shell/last_resort.h"
 #include "apps/shell/output_file.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom::app {
 namespace {
@@ -27,12 +30,10 @@ std::string message_of(const Error& error) {
   return option + message.substr(error.setting().size());
 }
 
-int run_reporting(const std::vector<std::string>& arguments,
-                  const std::vector<AddCommand>& commands,
-                  const std::vector<Companion>& companions) {
+int run_reporting(const std::function<int()>& run) {
   try {
     remove_outputs_when_interrupted();
-    return run_arguments(arguments, commands, companions);
+    return run();
   } catch (const UsageError& error) {
     return report(wrong_usage, message_of(error));
   } catch (const InputError& error) {
@@ -40,25 +41,44 @@ int run_reporting(const std::vector<std::string>& arguments,
   } catch (const OutputError& error) {
     return report(unwritable_output, message_of(error));
   } catch (const std::bad_alloc&) {
-    return report(unusable_input, "out of memory: the input or the image is too large");
+    throw;
   } catch (const std::length_error&) {
-    return report(unusable_input, "out of memory: the input or the image is too large");
+    throw;
   } catch (const std::exception& error) {
+    if (is_lack_of_threads(error)) return report_lack_of_threads();
     return report(internal_error, std::string("unexpected: ") + error.what());
+  }
+}
+
+/// Also a message takes memory: where there is none left for it, that is the message.
+int run_to_the_end(const std::function<int()>& run) {
+  try {
+    return run_reporting(run);
+  } catch (const std::bad_alloc&) {
+    return report_out_of_memory();
+  } catch (const std::length_error&) {
+    return report_out_of_memory();
   }
 }
 
 }  // namespace
 
-int program_main(int argc, char** argv, const std::vector<AddCommand>& commands,
-                 const std::vector<Companion>& companions) {
-  return run_reporting({argv + std::min(argc, 1), argv + argc}, commands, companions);
+int program_main(int argc, char** argv, CommandsFor* commands, CompanionsOf* companions) {
+  prepare_last_resort();
+  return run_to_the_end([&] {
+    const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    return run_arguments(arguments, commands(arguments),
+                         companions ? companions() : std::vector<Companion>());
+  });
 }
 
-int companion_main(int argc, char** argv, const char* name, const AddCommand& command) {
-  std::vector<std::string> arguments{name};
-  arguments.insert(arguments.end(), argv + std::min(argc, 1), argv + argc);
-  return run_reporting(arguments, {command}, {});
+int companion_main(int argc, char** argv, const char* name, void (*command)(Command&)) {
+  prepare_last_resort();
+  return run_to_the_end([&] {
+    std::vector<std::string> arguments{name};
+    arguments.insert(arguments.end(), argv + std::min(argc, 1), argv + argc);
+    return run_arguments(arguments, {command}, {});
+  });
 }
 
 }  // namespace fathom::app

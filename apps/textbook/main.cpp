@@ -13,13 +13,16 @@ int refuse_exact_engines(const RenderArguments&, const Console&) {
   throw UsageError("fathom-textbook renders with --engine pipeline alone; fathom has the others");
 }
 
+std::vector<AddCommand> commands(const std::vector<std::string>&) {
+  const auto add_render_by_pipeline = [](Command& program) {
+    add_render(program, refuse_exact_engines, render_by_pipeline);
+  };
+  return {add_render_by_pipeline, add_clip, add_scan, add_pipeline};
+}
+
 }  // namespace
 }  // namespace fathom::app
 
 int main(int argc, char** argv) {
-  using namespace fathom::app;
-  const auto add_render_by_pipeline = [](Command& program) {
-    add_render(program, refuse_exact_engines, render_by_pipeline);
-  };
-  return program_main(argc, argv, {add_render_by_pipeline, add_clip, add_scan, add_pipeline});
+  return fathom::app::program_main(argc, argv, fathom::app::commands);
 }

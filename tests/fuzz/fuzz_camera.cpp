@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fathom/camera/camera_files.h"
-#include "fathom/camera/camera_files_internal.h"
+#include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"

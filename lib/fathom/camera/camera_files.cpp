@@ -6,14 +6,12 @@
 #include <limits>
 #include <string>
 
-#include "fathom/camera/camera_files_internal.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
 namespace fathom {
-using namespace camera;
 using namespace text;
 
 namespace {
@@ -74,7 +72,8 @@ std::string to_json(double number) {
 
 }  // namespace
 
-std::vector<Camera> camera::parse_cameras(std::string_view text, const std::string& name) {
+std::vector<Camera> parse_cameras(std::string_view text, const std::string& name) {
+  const StandardArithmetic standard;
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   if (!root.is_list()) return {read_camera(root)};
@@ -85,7 +84,6 @@ std::vector<Camera> camera::parse_cameras(std::string_view text, const std::stri
 }
 
 std::vector<Camera> read_cameras(const std::filesystem::path& file) {
-  const StandardArithmetic standard;
   return parse_cameras(InputFile(file).text(), file.string());
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fathom/camera/camera.h"
@@ -11,6 +12,9 @@ namespace fathom {
 /// Reads a camera file: one camera, or a list of them (a camera path).
 /// Fails    InputError, naming the key; unknown keys are errors.
 std::vector<Camera> read_cameras(const std::filesystem::path& file);
+
+/// read_cameras() of a file's text; `name` is the file's name for messages.
+std::vector<Camera> parse_cameras(std::string_view text, const std::string& name);
 
 /// The JSON of camera files with every number to 17 significant digits, so that reading it back
 /// gives the same camera bit for bit. Ends without a newline.

@@ -58,10 +58,12 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
                                                      Warnings& warnings) {
   auto file = std::make_unique<RandomAccessFile>(path);
   const FileFormat kind = kind_of(*file, path, options);
-  // The hash is computed during the reading, in a thread of its own, from a file of its own.
+  // The hash is computed during the reading, in a thread of its own if the system gives one, from
+  // a file of its own.
   std::future<std::string> hash;
   if (options.hash) {
-    hash = std::async(std::launch::async, [&path] { return sha256(RandomAccessFile(path)); });
+    hash = std::async(std::launch::async | std::launch::deferred,
+                      [&path] { return sha256(RandomAccessFile(path)); });
   }
   std::unique_ptr<TriangleStream> stream = open(std::move(file), kind, warnings);
   stream->source.path = path.string();

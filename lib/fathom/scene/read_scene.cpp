@@ -94,10 +94,13 @@ class SceneReader {
     scene_.sources.push_back({path, std::move(hash)});
   }
 
-  /// The hash is computed during the reading, in a thread of its own.
+  /// The hash is computed during the reading, in a thread of its own if the system gives one.
   void add_mesh_file(FileFormat kind, const InputFile& input, const std::filesystem::path& path) {
     std::future<std::string> hash;
-    if (options_.hash) hash = std::async(std::launch::async, [&] { return sha256(input.bytes()); });
+    if (options_.hash) {
+      hash = std::async(std::launch::async | std::launch::deferred,
+                        [&] { return sha256(input.bytes()); });
+    }
     const std::string file = path.string();
     const std::size_t source = scene_.sources.size(), first = scene_.objects.size();
     scene_.sources.push_back({file, ""});

@@ -69,7 +69,8 @@ std::array<WorldPoint, 3> TriangleSource::world_corners(std::uint32_t number) co
 
 namespace {
 
-/// Calls visit(chunk) for the chunks of a file that are wanted, reading the next one meanwhile.
+/// Calls visit(chunk) for the chunks of a file that are wanted, reading the next one meanwhile, or
+/// then, where the system gives no thread for it.
 template <class Wanted, class Visit>
 void for_each_chunk(const TriangleStream& stream, std::uint32_t triangles, const Wanted& wanted,
                     const Visit& visit) {
@@ -78,7 +79,7 @@ void for_each_chunk(const TriangleStream& stream, std::uint32_t triangles, const
   const auto read = [&](std::uint64_t first) -> std::future<TriangleChunk> {
     while (first < end && !wanted(static_cast<std::uint32_t>(first))) first += triangles;
     if (first >= end) return {};
-    return std::async(std::launch::async, [&stream, first, triangles] {
+    return std::async(std::launch::async | std::launch::deferred, [&stream, first, triangles] {
       return stream.read(static_cast<std::uint32_t>(first), triangles);
     });
   };

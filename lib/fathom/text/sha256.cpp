@@ -1,10 +1,12 @@
 #include "fathom/text/sha256.h"
 
+#include <openssl/err.h>
 #include <openssl/evp.h>
 
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <vector>
 
@@ -14,7 +16,10 @@ namespace {
 
 using Digest = std::array<unsigned char, 32>;
 
+/// OpenSSL says nothing at all where it has no memory to say it.
 [[noreturn]] void fail() {
+  const unsigned long error = ERR_peek_last_error();
+  if (error == 0 || ERR_GET_REASON(error) == ERR_R_MALLOC_FAILURE) throw std::bad_alloc();
   throw std::runtime_error("SHA-256 is not available in this libcrypto");
 }
 

@@ -4,6 +4,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <string_view>
+#include <system_error>
+
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
@@ -25,6 +28,14 @@ void run_with_threads(int threads, const std::function<void()>& work) {
     const StandardArithmetic standard;
     work();
   });
+}
+
+bool is_lack_of_threads(const std::exception& failure) {
+  if (const auto* error = dynamic_cast<const std::system_error*>(&failure)) {
+    return error->code() == std::errc::resource_unavailable_try_again;
+  }
+  // TBB has no type for it.
+  return std::string_view(failure.what()).starts_with("pthread_create has failed");
 }
 
 }  // namespace fathom

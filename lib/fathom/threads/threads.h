@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -37,6 +38,9 @@ auto with_threads(int threads, const Work& work) {
     return std::move(*result);
   }
 }
+
+/// Whether this is how the standard library or TBB says that the system starts no more threads.
+bool is_lack_of_threads(const std::exception& failure);
 
 /// Reports the fraction of equal parts that are done, from one thread at a time.
 class Progress {

@@ -64,6 +64,8 @@ DepthMap decode_exr(ByteView bytes, const std::string& name) {
     return read_part(part, name);
   } catch (const Error&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& failure) {
     throw InputError(name + ": corrupt or truncated EXR file: " + exr_reason(failure));
   }

@@ -61,7 +61,8 @@ class ByteOutput : public Imf::OStream {
   std::size_t position_ = 0;
 };
 
-/// Lets OpenEXR use so many threads, 0 meaning all of the machine's, and returns their number.
+/// Lets OpenEXR use so many threads, 0 meaning all of the machine's, and returns their number,
+/// which is less where the system gives no more.
 /// OpenEXR has one pool for the whole process, which grows to that number and never shrinks.
 int reserve_exr_threads(int threads);
 

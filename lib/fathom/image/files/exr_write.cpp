@@ -4,6 +4,8 @@
 #include <ImfThreading.h>
 
 #include <algorithm>
+#include <mutex>
+#include <system_error>
 #include <thread>
 
 #include "fathom/image/files/exr_attributes.h"
@@ -39,7 +41,13 @@ int reserve_exr_threads(int threads) {
   const std::lock_guard lock(growing);
   const int wanted =
       threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  if (Imf::globalThreadCount() < wanted) Imf::setGlobalThreadCount(wanted);
+  // One by one: where the system gives no more, OpenEXR's pool is left with those that it has. It
+  // would end with those of one call running on a pool that is gone.
+  try {
+    for (int n = Imf::globalThreadCount(); n < wanted; ++n) Imf::setGlobalThreadCount(n + 1);
+  } catch (const std::system_error&) {
+    return std::min(wanted, Imf::globalThreadCount());
+  }
   return wanted;
 }
 

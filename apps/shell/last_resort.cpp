@@ -1,0 +1,91 @@
+#include "apps/shell/last_resort.h"
+
+#include <gmp.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include "apps/shell/pending_files.h"
+#include "fathom/threads/threads.h"
+
+namespace fathom::app {
+namespace {
+
+/// A line on standard error, without stdio, which might need memory or hold a lock.
+void say(const char* text) noexcept {
+  std::size_t size = std::strlen(text);
+  while (size > 0) {
+    const ssize_t written = ::write(STDERR_FILENO, text, size);
+    if (written <= 0) return;
+    text += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+ExitStatus report_unexpected(const char* what) noexcept {
+  say("fathom: error: unexpected: ");
+  say(what);
+  say("\n");
+  return internal_error;
+}
+
+/// Several threads may come here at the same time: one speaks, the others wait for the end.
+template <class Report>
+[[noreturn]] void end(const Report& report) noexcept {
+  static std::atomic_flag ends;
+  while (ends.test_and_set()) ::pause();
+  remove_all_pending();
+  ::_exit(report());
+}
+
+[[noreturn]] void end_terminated() noexcept {
+  try {
+    if (std::current_exception()) throw;
+  } catch (const std::bad_alloc&) {
+    end(report_out_of_memory);
+  } catch (const std::exception& failure) {
+    if (is_lack_of_threads(failure)) end(report_lack_of_threads);
+    end([&] { return report_unexpected(failure.what()); });
+  } catch (...) {
+  }
+  end([] { return report_unexpected("std::terminate was called"); });
+}
+
+void* allocate(std::size_t size) {
+  void* block = std::malloc(size);
+  if (block == nullptr) end(report_out_of_memory);
+  return block;
+}
+
+void* reallocate(void* block, std::size_t, std::size_t size) {
+  void* larger = std::realloc(block, size);
+  if (larger == nullptr) end(report_out_of_memory);
+  return larger;
+}
+
+void deallocate(void* block, std::size_t) {
+  std::free(block);
+}
+
+}  // namespace
+
+ExitStatus report_out_of_memory() noexcept {
+  say("fathom: error: out of memory: the input or the image is too large\n");
+  return unusable_input;
+}
+
+ExitStatus report_lack_of_threads() noexcept {
+  say("fathom: error: the system starts no more threads; --threads N asks for fewer\n");
+  return unusable_input;
+}
+
+void prepare_last_resort() {
+  std::set_terminate(end_terminated);
+  mp_set_memory_functions(allocate, reallocate, deallocate);
+}
+
+}  // namespace fathom::app

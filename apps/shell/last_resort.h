@@ -1,0 +1,25 @@
+#pragma once
+
+#include "apps/shell/exit_status.h"
+
+namespace fathom::app {
+
+/// Says "fathom: error: out of memory: …" and returns the exit status; takes no memory for it.
+ExitStatus report_out_of_memory() noexcept;
+/// Says that the system starts no more threads.
+ExitStatus report_lack_of_threads() noexcept;
+
+/// What becomes of a failure that no `catch` can get hold of: from now on it ends the program as any
+/// other failure does, with one line, no temporary file left, and its exit status.
+///
+///   std::terminate   an exception in a function that must not throw, or in a thread of a library's
+///   GMP, MPFR        out of memory, they print a line of their own and abort. Their allocation
+///                    functions cannot throw instead: mpz_mul, to take one, frees the old limbs of
+///                    its result before it allocates new ones, so that a destructor on the way of
+///                    an exception would free them again; GMP's manual rules exceptions out
+///
+/// A choice for the whole process, so the programs make it, not the library. Called first of all:
+/// what GMP has allocated by then, its own functions gave.
+void prepare_last_resort();
+
+}  // namespace fathom::app
