@@ -22,11 +22,12 @@ std::vector<Companion> companions() {
       {"pipeline", "fathom-textbook", "Look into the graphics pipeline"},
       {"study", "fathom-study",
        "Precision of depth buffers, measured: figures, plots and a page that explains them"},
+      {"formats", "fathom-formats",
+       "Which libraries read meshes of foreign formats (FBX, COLLADA, 3DS, 3MF, …)"},
       {"bench", "fathom-bench", "Time and memory beside VTK, Embree and the reference engine"},
       {"validate", "fathom-validate",
        "Check another renderer's maps against the truth and explain every difference"}};
 }
-
 /// `render --engine pipeline` is carried out by fathom-textbook, which gets the same arguments.
 Render by_textbook(const std::vector<std::string>& arguments) {
   return [arguments](const RenderArguments&, const Console&) -> int {

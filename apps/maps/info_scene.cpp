@@ -60,6 +60,7 @@ Json describe(const Scene& scene, FileKind kind, const std::string& file) {
   Json sources = Json::array();
   for (const Source& source : scene.sources) {
     sources.push_back({{"path", source.path}, {"sha256", source.sha256}});
+    if (!source.reader.empty()) sources.back()["reader"] = source.reader;
   }
   answer["sources"] = std::move(sources);
   return answer;
@@ -84,7 +85,8 @@ std::string describe_as_text(const Scene& scene, FileKind kind, const std::strin
     }
   }
   for (const Source& source : scene.sources) {
-    text += fmt::format("  source     {} (SHA-256 {})\n", source.path, source.sha256);
+    text += fmt::format("  source     {} (SHA-256 {}){}\n", source.path, source.sha256,
+                        source.reader.empty() ? "" : ", read by " + source.reader);
   }
   return text;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/options/formats_program.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/values.h"
 #include "fathom/numeric/errors.h"
@@ -29,9 +30,10 @@ MeshFormat parse_mesh_format(const std::string& text) {
 
 void SceneOptions::add_to(Command& command) {
   command
-      .arguments("SCENE", files,
-                 "Meshes (OBJ, PLY, STL, OFF, glTF/GLB) and scene files (JSON); - is a mesh on "
-                 "standard input")
+      .arguments(
+          "SCENE", files,
+          "Meshes (OBJ, PLY, STL, OFF, glTF/GLB; FBX, COLLADA, 3DS, 3MF and others by assimp) "
+          "and scene files (JSON); - is a mesh on standard input")
       .required();
   command.option("--mesh-format", "NAME", into(mesh_format, parse_mesh_format),
                  "Format of the meshes: obj, ply, stl, off, gltf or glb (default: by content; "
@@ -43,6 +45,7 @@ ReadOptions SceneOptions::read_options() const {
   ReadOptions options;
   options.format = mesh_format;
   options.threads = threads;
+  options.formats_program = formats_program;
   return options;
 }
 

@@ -11,13 +11,17 @@
 
 namespace fathom::app {
 
-void start_companion(const std::string& program, const std::vector<std::string>& arguments) {
-  if (program.find('/') != std::string::npos) return;
+std::filesystem::path companion_path(const std::string& program) {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) return;
-  const std::string path = self.parent_path() / program;
-  if (!std::filesystem::exists(path, error)) return;
+  return error ? std::filesystem::path() : self.parent_path() / program;
+}
+
+void start_companion(const std::string& program, const std::vector<std::string>& arguments) {
+  if (program.find('/') != std::string::npos) return;
+  const std::string path = companion_path(program);
+  std::error_code error;
+  if (path.empty() || !std::filesystem::exists(path, error)) return;
 
   std::vector<char*> list{const_cast<char*>(path.c_str())};
   for (const std::string& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));

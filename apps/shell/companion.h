@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ struct Companion {
   /// A program with a single command does not take that command's name: its own name says it.
   [[nodiscard]] bool takes_name() const { return program != "fathom-" + command; }
 };
+
+/// Where the program of this name would lie: beside this one, whichever way this one was started.
+/// Empty where the system does not tell.
+std::filesystem::path companion_path(const std::string& program);
 
 /// Starts the program of this name that lies beside this one, in place of this process. Returns
 /// where there is no such program.

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/options/camera_options.h"
+#include "apps/options/formats_program.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/folder.h"
 #include "apps/shell/known_files.h"
@@ -56,7 +57,9 @@ studies::SceneView read_view(const StudyArguments& arguments, const Console& con
   Warnings warnings;
   const std::vector<std::filesystem::path> files(arguments.scene.begin(), arguments.scene.end());
   for (const auto& file : files) note_input(file);
-  studies::SceneView view{files.front().filename().string(), read_scene(files, {}, warnings), {}};
+  studies::SceneView view{files.front().filename().string(),
+                          read_scene(files, {.formats_program = formats_program}, warnings),
+                          {}};
   console.warn(warnings);
   if (triangle_count(view.scene) == 0) {
     throw InputError(files.front().string() + ": the scene has no triangle");

@@ -1,5 +1,6 @@
 #include "apps/validate/validate_input.h"
 
+#include "apps/options/formats_program.h"
 #include "apps/shell/known_files.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
@@ -21,7 +22,8 @@ Scene read_files(const std::vector<std::string>& files, const Console& console) 
   if (files.empty()) throw UsageError("SCENE is missing: what the map shows");
   for (const std::string& file : files) note_input(file);
   Warnings warnings;
-  Scene scene = read_scene({files.begin(), files.end()}, {.hash = false}, warnings);
+  Scene scene = read_scene({files.begin(), files.end()},
+                           {.hash = false, .formats_program = formats_program}, warnings);
   console.warn(warnings);
   return scene;
 }

@@ -53,6 +53,7 @@ std::string sources_as_json(const std::vector<Source>& sources) {
   nlohmann::json list = nlohmann::json::array();
   for (const Source& source : sources) {
     list.push_back({{"file", source.path}, {"sha256", source.sha256}});
+    if (!source.reader.empty()) list.back()["reader"] = source.reader;
   }
   return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

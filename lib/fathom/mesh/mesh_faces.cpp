@@ -66,8 +66,7 @@ void warn_of_faces(std::uint64_t skipped, std::uint64_t odd, const std::string& 
                 "faces that are not simple polygons or have no normal are cut into fans"));
 }
 
-void cut_polygons(Mesh& mesh, std::uint64_t skipped_faces, const std::string& file,
-                  Warnings& warnings) {
+std::uint64_t cut_polygons(Mesh& mesh) {
   const auto& faces = mesh.face_of_triangle;
   std::uint64_t odd_shapes = 0;
   std::vector<std::uint32_t> ring;
@@ -88,7 +87,12 @@ void cut_polygons(Mesh& mesh, std::uint64_t skipped_faces, const std::string& fi
     write_cut(mesh.texture_triangles, fan, cut, ring);
     write_cut(mesh.normal_triangles, fan, cut, ring);
   }
-  warn_of_faces(skipped_faces, odd_shapes, file, warnings);
+  return odd_shapes;
+}
+
+void cut_polygons(Mesh& mesh, std::uint64_t skipped_faces, const std::string& file,
+                  Warnings& warnings) {
+  warn_of_faces(skipped_faces, cut_polygons(mesh), file, warnings);
 }
 
 }  // namespace fathom::mesh

@@ -52,8 +52,11 @@ class FaceCollector {
 };
 
 /// Cuts the faces of more than three corners, which are in the mesh as fans (0, k, k+1), as section
-/// 3 of the specification says, and warns of those skipped or cut in spite of their shape.
-/// Texture and normal triangles, laid out in the same way, are cut like them.
+/// 3 of the specification says. Texture and normal triangles, laid out in the same way, are cut
+/// like them. Returns how many were cut in spite of their shape.
+std::uint64_t cut_polygons(Mesh& mesh);
+
+/// The same, with warnings of those and of the faces that were skipped.
 void cut_polygons(Mesh& mesh, std::uint64_t skipped_faces, const std::string& file,
                   Warnings& warnings);
 

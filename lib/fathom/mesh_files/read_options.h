@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "fathom/text/warnings.h"
@@ -22,6 +23,9 @@ struct ReadOptions {
   /// Files that are named by other files (a scene file's meshes, a glTF asset's buffers) must lie in
   /// this folder, where their symbolic links have led; empty: anywhere.
   std::filesystem::path confine;
+  /// Gives the path of the program fathom-formats, which reads what others' libraries read; called
+  /// when a file first needs it. Without this function it is looked for beside the running program.
+  std::function<std::filesystem::path()> formats_program;
 };
 
 }  // namespace fathom

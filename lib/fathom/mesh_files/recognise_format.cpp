@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "fathom/mesh_files/foreign_formats.h"
 #include "fathom/text/text_cursor.h"
 
 namespace fathom::mesh_files {
@@ -28,6 +29,7 @@ std::optional<FileFormat> kind_by_suffix(const std::filesystem::path& path) {
   if (suffix == ".off" || suffix == ".coff" || suffix == ".noff") return FileFormat::off;
   if (suffix == ".gltf" || suffix == ".glb") return FileFormat::gltf;
   if (suffix == ".json") return FileFormat::scene_json;
+  if (!suffix.empty() && is_foreign_suffix(suffix.substr(1))) return FileFormat::foreign;
   return std::nullopt;
 }
 

@@ -8,10 +8,11 @@
 
 namespace fathom::mesh_files {
 
-enum class FileFormat { obj, ply, stl, off, gltf, scene_json };
+enum class FileFormat { obj, ply, stl, off, gltf, foreign, scene_json };
 
 /// What a file is: by its content or, if that does not tell (an OBJ or OFF without a word that
 /// gives it away, an STL whose header is arbitrary), by the suffix of its path, in any case.
+/// Foreign formats (foreign_formats.h) are recognised by their suffix alone.
 /// nullopt if neither tells. `bytes` is the whole file of `size` bytes, or its beginning if only
 /// binary formats matter.
 std::optional<FileFormat> recognise_format(std::span<const std::byte> bytes, std::uint64_t size,

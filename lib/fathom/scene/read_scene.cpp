@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh_files/foreign_formats.h"
 #include "fathom/mesh_files/named_files.h"
 #include "fathom/mesh_files/read_gltf.h"
 #include "fathom/mesh_files/read_mesh.h"
@@ -84,8 +85,9 @@ class SceneReader {
       throw InputError(path.string() + ": is empty, expected a mesh or a scene file");
     if (const auto kind = recognise_format(input.bytes(), path)) return *kind;
     throw InputError(path.string() +
-                     ": its format is not recognised, expected OBJ, PLY, STL, OFF, glTF or a scene "
-                     "file (JSON)");
+                     ": its format is not recognised, expected OBJ, PLY, STL, OFF, glTF, a scene "
+                     "file (JSON), or the suffix of a format that assimp reads (.fbx, .dae, .3ds, "
+                     ".3mf, …)");
   }
 
   void add_source(const std::string& path, std::string hash) {
@@ -106,6 +108,10 @@ class SceneReader {
     scene_.sources.push_back({file, ""});
     if (kind == FileFormat::gltf) {
       append(read_gltf(input.bytes(), path, options_, warnings_));
+    } else if (kind == FileFormat::foreign) {
+      ForeignMeshes foreign = read_by_assimp(input.bytes(), path, options_, warnings_);
+      append({std::move(foreign.meshes), std::move(foreign.objects), {}});
+      scene_.sources[source].reader = std::move(foreign.reader);
     } else {
       if (input.bytes().empty()) throw InputError(file + ": is empty, expected a mesh");
       Mesh mesh = read_mesh(kind, input, file, options_, warnings_);
@@ -140,7 +146,7 @@ class SceneReader {
       const InputFile input(placed.file, boundaries_of(options_));
       const FileFormat kind = recognise(input, placed.file);
       if (kind == FileFormat::scene_json)
-        throw InputError(file + ": is no mesh, expected OBJ, PLY, STL, OFF or glTF");
+        throw InputError(file + ": is no mesh, expected a mesh file");
       add_mesh_file(kind, input, placed.file);
       known[file].assign(scene_.objects.begin() + static_cast<std::ptrdiff_t>(first),
                          scene_.objects.end());

@@ -1,0 +1,31 @@
+// fathom formats
+
+#include "apps/formats/formats_command.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include "apps/formats/tasks.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/output_file.h"
+#include "fathom/mesh_files/foreign_formats.h"
+
+namespace fathom::app {
+namespace {
+
+int show_formats(const Console&) {
+  print(fmt::format("{}: {}\n", assimp_version(), fmt::join(mesh_files::foreign_suffixes, " ")));
+  return done;
+}
+
+}  // namespace
+
+void add_formats(Command& program) {
+  Command& command =
+      program.command("formats", "Show by which libraries meshes of foreign formats are read",
+                      "  fathom formats\n"
+                      "  fathom info model.fbx");
+  command.runs(show_formats);
+}
+
+}  // namespace fathom::app

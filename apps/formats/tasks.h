@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fathom/mesh_files/formats_program/messages.h"
+
+/// What fathom-formats is asked to do. Each takes the parameters and the bytes of a request and
+/// returns the bytes of the answer; what std::exception says is the reason where there is none.
+namespace fathom::app {
+
+/// Reads a file of any of the formats that assimp knows; the parameters are its name. The answer is
+/// laid out as lib/fathom/mesh_files/formats_program/read_by_assimp.cpp reads it.
+std::vector<std::byte> read_by_assimp(std::span<const std::byte> parameters,
+                                      std::span<const std::byte> bytes);
+
+/// "assimp 5.2.4"
+std::string assimp_version();
+
+}  // namespace fathom::app

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "fathom/mesh_files/formats_program/messages.h"
+#include "fathom/mesh_files/read_options.h"
+
+/// The program fathom-formats, which reads what others' libraries read. They run in a process of
+/// their own, with limits on its memory and its time, because a file can make them crash, loop or
+/// eat all memory: here that becomes the reason for an InputError.
+namespace fathom::mesh_files::formats_program {
+
+/// What reading `bytes` bytes may cost.
+struct Limits {
+  std::uint64_t memory = 0;
+  std::uint32_t seconds = 0;
+};
+Limits limits_of(std::uint64_t bytes);
+
+/// Why there is no answer: "it crashed (Segmentation fault)". Callers name the file.
+class Refusal : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class Process {
+ public:
+  /// Starts the program that the options name, or the one beside the running program. `file` is
+  /// what needs it, for messages.
+  /// Fails    InputError: it is not there, or cannot be started.
+  Process(const ReadOptions& options, const std::string& file);
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+  ~Process();
+
+  /// The answer to one request.
+  /// Fails    Refusal.
+  std::vector<std::byte> ask(Task task, std::span<const std::byte> parameters,
+                             std::span<const std::byte> bytes);
+
+ private:
+  bool send(std::span<const std::byte> bytes) const;
+  bool receive(std::span<std::byte> bytes) const;
+  [[noreturn]] void fail_as_ended(const Limits& limits);
+
+  std::filesystem::path program_;
+  int socket_ = -1;
+  pid_t process_ = -1;
+};
+
+}  // namespace fathom::mesh_files::formats_program
