@@ -28,6 +28,7 @@ std::vector<Companion> companions() {
       {"validate", "fathom-validate",
        "Check another renderer's maps against the truth and explain every difference"}};
 }
+
 /// `render --engine pipeline` is carried out by fathom-textbook, which gets the same arguments.
 Render by_textbook(const std::vector<std::string>& arguments) {
   return [arguments](const RenderArguments&, const Console&) -> int {

@@ -6,10 +6,13 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/reference.h"
-#include "fathom/scene/read_scene.h"
+#include "fathom/scene/scene_fault.h"
+#include "fathom/threads/threads.h"
+#include "fathom/triangle/map_of_camera.h"
 
 namespace fathom {
 using namespace area;
+using namespace triangle;
 
 namespace {
 
@@ -25,7 +28,6 @@ void describe(const Scene& scene, const Camera& camera, const RenderOptions& opt
 
 DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& options) {
   const StandardArithmetic standard;
-  require_valid(camera);
   DepthMap map = options.engine == Engine::fast ? render_fast(scene, camera, options)
                                                 : render_reference(scene, camera, options);
   describe(scene, camera, options, map);
@@ -35,7 +37,6 @@ DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& o
 DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options,
                 const StreamLimits& limits) {
   const StandardArithmetic standard;
-  require_valid(camera);
   if (options.engine != Engine::fast) {
     throw UsageError("only the fast engine renders a scene that stays in its files");
   }
@@ -46,7 +47,8 @@ DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOp
 
 DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options) {
   const StandardArithmetic standard;
-  require_valid(camera);
+  require_thread_count(options.threads);
+  require_renderable(scene, camera);
   DeepMap map = visible_in_pixels(scene, camera, options);
   describe(scene, camera, options, map.description);
   map.description.texts.erase("fathom.engine");
@@ -56,6 +58,9 @@ DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOption
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
                      const RenderOptions& options) {
   const StandardArithmetic standard;
+  require_thread_count(options.threads);
+  require_map_of(camera, map);
+  require_renderable(scene, camera);
   std::vector<std::uint32_t> ids;
   for (const Object& object : scene.objects) ids.push_back(cryptomatte_id(object.name));
   const TriangleSource triangles(scene);

@@ -15,8 +15,9 @@ namespace fathom {
 /// Renders `scene` as `camera` sees it. The map carries what is needed to recompute it: camera,
 /// sources, object names, engine.
 /// Exact    every value is the exact number of the specification rounded once (section 6).
-/// Fails    InputError if the camera is refused (find_fault); OutputError if a depth does not fit
-///          the encoding asked for.
+/// Fails    InputError if the scene or the camera has a fault (find_fault) or the image more than
+///          2⁴⁴ pixels; UsageError for options that mean nothing (require_meaningful); OutputError
+///          if a depth does not fit the encoding asked for.
 DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
 
 /// The same map of a scene whose meshes stay in their files, by the fast engine.
@@ -26,13 +27,14 @@ DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOp
 
 /// The visible fragments of every pixel with their exact areas (specification, section 8). Of the
 /// options culling, threads and progress count.
-/// Fails    InputError if the camera is refused.
+/// Fails    InputError and UsageError as render().
 DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
 
 /// Adds Cryptomatte channels by object, CryptoObject00.R and so on, with the exact visible area of
 /// each object in each pixel rounded once. Objects of the same name are one. The map is one of this
 /// scene and camera; of the options culling, threads and progress count.
-/// Needs    a camera without fault (find_fault()), which is not asked again here.
+/// Fails    InputError and UsageError as render(); InputError also if the map has a fault or is not
+///          of the camera's size.
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
                      const RenderOptions& options = {});
 

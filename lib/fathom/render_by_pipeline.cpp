@@ -38,7 +38,6 @@ PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
                                      const pipeline::PipelineOptions& options,
                                      const std::vector<Channel>& channels, bool with_picture) {
   const StandardArithmetic standard;
-  require_valid(camera);
   require_pipeline_channels(channels);
   const pipeline::PipelineFrame frame =
       pipeline::render_frame(scene, camera, options, with_picture);

@@ -28,7 +28,8 @@ struct PipelineRendering {
 void require_pipeline_channels(const std::vector<Channel>& channels);
 
 /// Rounded   every value, as the options say (pipeline/); nothing here is exact.
-/// Fails     InputError if the camera is refused (find_fault) or the texture cannot be read;
+/// Fails     InputError if the scene or the camera has a fault (find_fault), the image has more than
+///           2⁴⁴ pixels, or the texture cannot be read;
 ///           UsageError as require_pipeline_channels and pipeline::require_meaningful.
 PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
                                      const pipeline::PipelineOptions& options,

@@ -1,13 +1,18 @@
 #include "fathom/threads/threads.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <atomic>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/threads/per_thread.h"
 
 namespace fathom {
 namespace {
@@ -53,6 +58,91 @@ TEST(WithThreads, UsesAsManyAsAskedForAndGivesTheResult) {
     });
   });
   EXPECT_EQ(seen.size(), 1U);
+}
+
+/// A library does not change what belongs to the process.
+TEST(WithThreads, LeavesTheProcessAsItIs) {
+  const auto most = [] {
+    return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  };
+  const std::size_t before = most();
+  with_threads(3, [&] { EXPECT_EQ(most(), before); });
+  EXPECT_EQ(most(), before);
+}
+
+/// TBB would say on standard error that it ignores such a request.
+TEST(WithThreads, MoreThanTheProcessHasAreNotAskedFor) {
+  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
+  ::testing::internal::CaptureStderr();
+  std::atomic<int> done = 0;
+  with_threads(most_threads, [&] { in_parallel(100, [&](std::size_t) { ++done; }); });
+  EXPECT_EQ(done, 100);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(WithThreads, RefusesNumbersThatNobodyHas) {
+  for (const int threads : {-1, std::numeric_limits<int>::min(), most_threads + 1}) {
+    EXPECT_THROW(with_threads(threads, [] { FAIL(); }), UsageError);
+  }
+}
+
+/// Threads of the program ask at the same time, and their work asks again.
+TEST(WithThreads, MayBeCalledBySeveralThreadsAndWithinItself) {
+  std::atomic<int> done = 0;
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < 4; ++caller) {
+    callers.emplace_back([&done, caller] {
+      with_threads(caller, [&] {
+        in_parallel(20, [&](std::size_t i) {
+          with_threads(static_cast<int>(i % 3),
+                       [&] { in_parallel(20, [&](std::size_t) { ++done; }); });
+          in_parallel(5, [&](std::size_t) { ++done; });
+        });
+      });
+    });
+  }
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(done, 4 * 20 * 25);
+}
+
+TEST(WithThreads, AFailureWithinComesOutOfAllOfIt) {
+  const auto nested = [] {
+    in_parallel(8, [](std::size_t) {
+      with_threads(2, [] {
+        in_parallel(8, [](std::size_t i) {
+          if (i == 5) throw std::runtime_error("5");
+        });
+      });
+    });
+  };
+  EXPECT_THROW(with_threads(4, nested), std::runtime_error);
+}
+
+TEST(PerThread, EachThreadHasItsOwnAndAllAreThereInTheEnd) {
+  PerThread<std::pair<std::thread::id, int>> counts(
+      [] { return std::pair(std::this_thread::get_id(), 0); });
+  with_threads(7, [&] {
+    in_parallel(1000, [&](std::size_t) {
+      auto& [thread, count] = counts.local();
+      EXPECT_EQ(thread, std::this_thread::get_id());
+      ++count;
+    });
+  });
+  int sum = 0;
+  counts.for_each([&](const auto& value) { sum += value.second; });
+  EXPECT_EQ(sum, 1000);
+}
+
+TEST(PerThread, AValueThatCannotBeMadeIsMadeAgain) {
+  int tries = 0;
+  PerThread<int> value([&] {
+    if (++tries == 1) throw std::runtime_error("not yet");
+    return tries;
+  });
+  EXPECT_THROW(value.local(), std::runtime_error);
+  value.for_each([](int) { FAIL() << "there is none"; });
+  EXPECT_EQ(value.local(), 2);
+  EXPECT_EQ(value.local(), 2);
 }
 
 TEST(Progress, CountsPartsOneAtATimeAndToTheEnd) {

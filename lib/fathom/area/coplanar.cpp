@@ -9,7 +9,9 @@
 #include "fathom/area/scene_surfaces.h"
 #include "fathom/area/separation.h"
 #include "fathom/area/visible_fragments.h"
+#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 
 // How to read this file: coplanar_pairs() at the end. For each triangle, within its box, each
@@ -235,7 +237,11 @@ class PairFinder {
 std::vector<CoplanarPair> coplanar_pairs(const TriangleSource& triangles, const Camera& camera,
                                          double within, const RenderOptions& options) {
   const StandardArithmetic standard;
+  if (!(within >= 0) || !std::isfinite(within)) {
+    throw UsageError(Setting{"within"}, "expected a distance of 0 or more");
+  }
   return with_threads(options.threads, [&] {
+    require_renderable(triangles, camera);
     const PairFinder finder({triangles, camera, options.cull}, within);
     std::vector<std::vector<CoplanarPair>> found(finder.count());
     constexpr std::uint32_t chunk = 8;

@@ -27,7 +27,8 @@ struct CoplanarPair {
 /// Exact    every decision. On a line D_s − D_t ≤ δ is a quadratic inequality, because D is a
 ///          quotient of affine forms; the least separation lies on the rim of the region, where the
 ///          inequality is decided for any δ, and so it is rounded by bisection.
-/// Needs    a camera without fault (find_fault()); a finite distance.
+/// Fails    InputError where scene or camera has a fault (find_fault); UsageError for a distance
+///          that is negative or not finite.
 std::vector<CoplanarPair> coplanar_pairs(const TriangleSource& triangles, const Camera& camera,
                                          double within, const RenderOptions& options);
 

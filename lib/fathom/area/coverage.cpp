@@ -13,6 +13,7 @@ namespace {
 /// Adds what the triangles cover of the pixel, until nothing is left to cover.
 void add(const CoverageFrame& frame, std::span<const std::uint32_t> triangles,
          CellCoverage& coverage) {
+  require_valid(frame.camera);
   TierCounts counts;
   EqualTriangles equal(frame.triangles);
   for (const std::uint32_t number : triangles) {

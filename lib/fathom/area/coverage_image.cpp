@@ -1,9 +1,8 @@
 #include "fathom/area/coverage_image.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "fathom/area/cell_coverage.h"
 #include "fathom/area/equal_triangles.h"
+#include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::area {
@@ -64,7 +63,7 @@ void for_each_pixel(const CoverageFrame& frame, const VisitPixel& visit,
 
 TierCounts write_coverage(const CoverageFrame& frame, float* values,
                           const std::function<void()>& part_done) {
-  tbb::enumerable_thread_specific<TierCounts> counts;
+  PerThread<TierCounts> counts;
   const auto write = [&](std::uint32_t column, std::uint32_t row,
                          std::span<const SurfaceRegion* const> triangles) {
     ImageCell pixel(column, row);
@@ -75,7 +74,7 @@ TierCounts write_coverage(const CoverageFrame& frame, float* values,
   };
   for_each_pixel(frame, write, part_done);
   TierCounts sum;
-  for (const TierCounts& part : counts) sum += part;
+  counts.for_each([&](const TierCounts& part) { sum += part; });
   return sum;
 }
 

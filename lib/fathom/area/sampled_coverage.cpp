@@ -1,14 +1,15 @@
 #include "fathom/area/sampled_coverage.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <bitset>
 
 #include "fathom/area/triangle_bands.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/scene_fault.h"
+#include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/certified_surfaces.h"
+#include "fathom/triangle/map_of_camera.h"
 #include "fathom/triangle/referee.h"
 #include "fathom/triangle/sampling.h"
 
@@ -115,11 +116,15 @@ void fill(const TriangleBands::Band& band, const Camera& camera, const SamplePat
 void add_sampled_coverage(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                           const SamplePattern& pattern, const RenderOptions& options) {
   const StandardArithmetic standard;
+  require_thread_count(options.threads);
+  require_map_of(camera, map);
+  require_renderable(triangles, camera);
+  require_valid(pattern);
   Samples<float> shares(static_cast<std::size_t>(map.width) * map.height);
   with_threads(options.threads, [&] {
     const TriangleBands bands({triangles, camera, options.cull});
     const SceneRays rays(triangles, camera);
-    tbb::enumerable_thread_specific<CertifiedSamples> certified(
+    PerThread<CertifiedSamples> certified(
         [&] { return CertifiedSamples(triangles, camera, options.cull, rays); });
     parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {
       if (options.engine == Engine::fast) {

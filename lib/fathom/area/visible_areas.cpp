@@ -1,7 +1,5 @@
 #include "fathom/area/visible_areas.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "fathom/area/cell_division.h"
 #include "fathom/area/covered_parts.h"
 #include "fathom/area/scene_surfaces.h"
@@ -9,6 +7,8 @@
 #include "fathom/numeric/enclosed_sum.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/scene_fault.h"
+#include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
@@ -169,8 +169,7 @@ VisibleAreas areas_in_arena(const CoverageFrame& frame, const RenderOptions& opt
   const std::size_t objects = frame.triangles.objects().size();
   VisibleAreas result;
   result.triangles.resize(areas.count());
-  tbb::enumerable_thread_specific<std::vector<ObjectSums>> parts(
-      [&] { return std::vector<ObjectSums>(objects); });
+  PerThread<std::vector<ObjectSums>> parts([&] { return std::vector<ObjectSums>(objects); });
   constexpr std::uint32_t chunk = 64;
   const std::uint32_t chunks = areas.count() / chunk + 1;
   Progress progress(options.progress, chunks);
@@ -186,12 +185,12 @@ VisibleAreas areas_in_arena(const CoverageFrame& frame, const RenderOptions& opt
     progress.part_done();
   });
   std::vector<ObjectSums> sums(objects);
-  for (const auto& part : parts) {
+  parts.for_each([&](const std::vector<ObjectSums>& part) {
     for (std::size_t object = 0; object < objects; ++object) {
       sums[object].visible.add(part[object].visible);
       sums[object].in_object.add(part[object].in_object);
     }
-  }
+  });
   for (std::uint32_t object = 0; object < objects; ++object) {
     result.objects.push_back(rounded(areas, sums[object], object));
   }
@@ -204,6 +203,7 @@ VisibleAreas visible_areas(const TriangleSource& triangles, const Camera& camera
                            const RenderOptions& options) {
   const StandardArithmetic standard;
   return with_threads(options.threads, [&] {
+    require_renderable(triangles, camera);
     return areas_in_arena({triangles, camera, options.cull}, options);
   });
 }

@@ -29,7 +29,7 @@ struct VisibleAreas {
 /// Computed from the triangles' outlines as a whole, not pixel by pixel: the size of the image does
 /// not matter. Of the options, only culling, threads and progress matter.
 /// Exact    every area, and the ratio of exact areas; each rounded once.
-/// Needs    a camera without fault (find_fault()).
+/// Fails    InputError where scene or camera has a fault (find_fault).
 VisibleAreas visible_areas(const TriangleSource& triangles, const Camera& camera,
                            const RenderOptions& options);
 

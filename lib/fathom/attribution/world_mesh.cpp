@@ -6,6 +6,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/scene_fault.h"
 
 namespace fathom::attribution {
 namespace {
@@ -20,6 +21,7 @@ std::array<double, 3> place(const Object& object, const MeshPoint& p) {
 
 WorldMesh world_mesh(const Scene& scene) {
   const StandardArithmetic standard;
+  require_valid(scene);
   std::size_t points = 0;
   for (const Object& object : scene.objects) points += scene.meshes[object.mesh].vertices.size();
   if (points > std::numeric_limits<std::uint32_t>::max()) {

@@ -20,7 +20,7 @@ struct WorldMesh {
   std::vector<CornerIndices> triangles;
 };
 
-/// Fails    InputError if the scene has more than 2³² − 1 corners in all.
+/// Fails    InputError if the scene has a fault (find_fault), or more than 2³² − 1 corners in all.
 WorldMesh world_mesh(const Scene& scene);
 
 /// The smallest box that contains every point, whether a triangle uses it or not. nullopt if there

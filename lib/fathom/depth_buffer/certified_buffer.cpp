@@ -1,5 +1,3 @@
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -9,6 +7,7 @@
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/mapping.h"
 #include "fathom/numeric/certified_rounding.h"
+#include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/certified_surfaces.h"
 #include "fathom/triangle/referee.h"
@@ -199,8 +198,7 @@ class CertifiedBand {
 DepthBufferStatistics fill_certified(const BufferWork& work) {
   const CertifiedFormat format(work.options.format);
   const SceneRays rays(work.triangles, work.camera);
-  tbb::enumerable_thread_specific<Worker> workers(
-      [&] { return Worker(work.triangles, work.camera, rays); });
+  PerThread<Worker> workers([&] { return Worker(work.triangles, work.camera, rays); });
   const BufferBands bands(work);
   std::vector<DepthBufferStatistics> parts(bands.count());
   parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t i) {

@@ -6,11 +6,14 @@
 #include "fathom/depth_buffer/buffer_work.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
+#include "fathom/triangle/map_of_camera.h"
 
 namespace fathom {
 using namespace area;
 using namespace depth_buffer;
+using namespace triangle;
 
 DepthFormat depth_format_of(const Camera& camera, Mapping mapping, Storage storage, double c) {
   const StandardArithmetic standard;
@@ -50,11 +53,28 @@ DepthBufferStatistics depth_buffer::sum_of(const std::vector<DepthBufferStatisti
   return sum;
 }
 
+namespace {
+
+void require_known_triangles(const Samples<std::uint32_t>& ids, std::uint64_t count) {
+  for (const std::uint32_t id : ids) {
+    if (id != no_surface && id >= count) {
+      throw InputError("map: channel 'id' holds " + std::to_string(id) + ", and the scene has " +
+                       std::to_string(count) + " triangles");
+    }
+  }
+}
+
+}  // namespace
+
 DepthBufferStatistics add_depth_buffer(DepthMap& map, const TriangleSource& triangles,
                                        const Camera& camera, const DepthBufferOptions& options) {
   const StandardArithmetic standard;
   require_meaningful(options.format);
   if (!map.values<std::uint32_t>("id")) throw UsageError("a depth buffer needs the channel id");
+  require_thread_count(options.render.threads);
+  require_map_of(camera, map);
+  require_renderable(triangles, camera);
+  require_known_triangles(*map.values<std::uint32_t>("id"), triangles.count());
   BufferChannels channels(map, options.format, options.against_exact);
   return with_threads(options.render.threads, [&] {
     const BufferWork work{channels, triangles, camera, options};

@@ -66,7 +66,7 @@ void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bi
 RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles) {
   RenderStatistics statistics;
   statistics.triangles = triangles;
-  for (const FastWorker& worker : workers) add(statistics, worker.statistics);
+  workers.for_each([&](const FastWorker& worker) { add(statistics, worker.statistics); });
   count_intervals(statistics);
   return statistics;
 }
@@ -74,11 +74,11 @@ RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles) {
 void collect_doubtful(const FastWorkers& workers, const Camera& camera,
                       const RenderOptions& options) {
   if (!options.fast.doubtful) return;
-  for (const FastWorker& worker : workers) {
+  workers.for_each([&](const FastWorker& worker) {
     for (const auto& [column, row] : worker.doubtful) {
       options.fast.doubtful->push_back(std::uint64_t{row} * camera.width + column);
     }
-  }
+  });
 }
 
 bool FastOutput::writes_whole_tiles(const RenderOptions& options) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -10,6 +8,7 @@
 #include "fathom/fast/bins.h"
 #include "fathom/fast/certified_writer.h"
 #include "fathom/fast/tile.h"
+#include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 
 /// What the fast engine works with, whether its scene is in memory or in files.
@@ -23,7 +22,7 @@ struct FastWorker {
   RenderStatistics statistics;
   std::vector<DoubtfulPixel> doubtful;
 };
-using FastWorkers = tbb::enumerable_thread_specific<FastWorker>;
+using FastWorkers = PerThread<FastWorker>;
 
 /// The sum of the statistics of all threads.
 RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles);
@@ -90,7 +89,7 @@ class FastOutput {
   }
 
  private:
-  tbb::enumerable_thread_specific<CertifiedWriter> certified_;
+  PerThread<CertifiedWriter> certified_;
   /// The values of Z, if it is the only channel besides A, and binary32.
   float* depths_ = nullptr;
 };

@@ -4,6 +4,7 @@
 
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/frame.h"
+#include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 
 // How to read this file: render_in_arena() is the whole story. Vertices are transformed to the
@@ -32,8 +33,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   const TriangleSource triangles(scene);
   const SceneRays rays(triangles, camera);
   FastWorkers workers([&] { return FastWorker(triangles, camera, rays); });
-  tbb::enumerable_thread_specific<std::unique_ptr<Tile>> tiles(
-      [] { return std::make_unique<Tile>(); });
+  PerThread<std::unique_ptr<Tile>> tiles([] { return std::make_unique<Tile>(); });
 
   frame.by_area = std::count(options.channels.begin(), options.channels.end(), Channel::A) != 0;
 
@@ -47,9 +47,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   ChannelWriter writer(map, triangles, camera, options);
   float* const coverage = writer.values().coverage;
   const CoverageFrame coverage_frame{triangles, camera, options.cull};
-  tbb::enumerable_thread_specific<TileCoverage> coverages([&] {
-    return TileCoverage({coverage_frame, objects, bins});
-  });
+  PerThread<TileCoverage> coverages([&] { return TileCoverage({coverage_frame, objects, bins}); });
   FastOutput output(map, writer, rays);
   FirstFault fault;
   Progress progress(options.progress, frame.grid.count());
@@ -76,7 +74,11 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
 }  // namespace
 
 DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options) {
-  return with_threads(options.threads, [&] { return render_in_arena(scene, camera, options); });
+  require_meaningful(options);
+  return with_threads(options.threads, [&] {
+    require_renderable(scene, camera);
+    return render_in_arena(scene, camera, options);
+  });
 }
 
 }  // namespace fathom

@@ -13,7 +13,6 @@ namespace fathom {
 ///
 /// Unit     depths in scene units, of planar depth in the camera frame (specification, section 6).
 /// Exact    every value is the exact number rounded once.
-/// Needs    a camera without fault (find_fault()) and a valid scene.
 /// Fails    as render_reference().
 DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options);
 

@@ -5,6 +5,8 @@
 
 #include "fathom/area/coverage_image.h"
 #include "fathom/fast/frame.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 
 // How to read this file: render_in_arena() is the whole story. The image is rendered in bands of
@@ -177,8 +179,14 @@ DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
 
 DepthMap render_streamed(const StreamedScene& scene, const Camera& camera,
                          const RenderOptions& options, const StreamLimits& limits) {
-  return with_threads(options.threads,
-                      [&] { return render_in_arena(scene, camera, options, limits); });
+  require_meaningful(options);
+  if (limits.triangles_at_once == 0) {
+    throw UsageError(Setting{"triangles_at_once"}, "expected at least 1");
+  }
+  return with_threads(options.threads, [&] {
+    require_renderable(scene, camera);
+    return render_in_arena(scene, camera, options, limits);
+  });
 }
 
 }  // namespace fathom

@@ -210,6 +210,11 @@ ChannelPair image::make_pair(const DepthMap& truth, const ImageChannel& a, const
 
 PairedNames image::paired_channels(const DepthMap& truth, const DepthMap& other,
                                    const CompareOptions& options) {
+  require_valid(truth);
+  require_valid(other);
+  if (!(options.tolerance_ulp >= 0)) {
+    throw UsageError(Setting{"tolerance_ulp"}, "expected a number of 0 or more");
+  }
   if (truth.width != other.width || truth.height != other.height)
     throw InputError("the maps differ in size: " + std::to_string(truth.width) + "×" +
                      std::to_string(truth.height) + " and " + std::to_string(other.width) + "×" +

@@ -91,14 +91,16 @@ struct CompareOptions {
 };
 
 /// Compares the channels of two maps, pixel by pixel.
-/// Fails    InputError if the sizes differ or there is nothing in common to compare; UsageError if
-///          a channel that was asked for is missing.
+/// Fails    InputError if a map has a fault (find_fault), the sizes differ or there is nothing in
+///          common to compare; UsageError if a channel that was asked for is missing, or for a
+///          tolerance that is negative or NaN.
 MapComparison compare_maps(const DepthMap& truth, const DepthMap& other,
                            const CompareOptions& options = {});
 
 /// A picture of the differences in one channel (empty: the first that compare_maps() compares):
 /// equal pixels dark, differing ones coloured by the logarithm of their ulp difference; surfaces in
 /// only one map, and values that cannot be compared, have colours of their own. With a legend.
+/// Fails    as compare_maps(); OutputError if the font is missing.
 RgbImage draw_differences(const DepthMap& truth, const DepthMap& other,
                           const CompareOptions& options = {});
 

@@ -22,9 +22,13 @@ struct MapView {
   std::array<std::array<double, 4>, 3> world_to_camera{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 };
 
+/// Refuses a view that is not one.
+/// Fails    InputError, "view: …", where a number is not finite, or fx or fy is 0.
+void require_valid(const MapView& view);
+
 /// The inverse [R⁻¹ | −R⁻¹·t], camera frame to world.
 /// Exact    every entry is the exact one rounded once to binary64.
-/// Fails    InputError if det R = 0, tested exactly.
+/// Fails    InputError if det R = 0, tested exactly, or the view is not one (require_valid).
 std::array<std::array<double, 4>, 3> camera_to_world(const MapView& view);
 
 /// The point seen at the centre of pixel (i, j) at planar depth `z`; camera frame, scene units.
@@ -48,8 +52,8 @@ struct StereoRig {
 /// depth of +∞ (overflow) stays +∞, and NaN becomes background.
 ///   ray distance   Z·√(1 + x'² + y'²) with x', y' as in point_at() (Z itself if orthographic)
 /// Fails    UsageError if the channel `from` is missing or holds codes, or if disparity is asked
-///          for without a rig, with baseline ≤ 0, or with an orthographic view; InputError, naming
-///          the pixel, if a disparity plus doffs is negative (no point has it).
+///          for without a rig, with baseline ≤ 0, or with an orthographic view; InputError if the map or
+///          the view has a fault, and, naming the pixel, if a disparity plus doffs is negative (no point has it).
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
                           const MapView& view, const std::optional<StereoRig>& rig = std::nullopt);
 
@@ -60,7 +64,8 @@ DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity
 ///                         `scale` is required.
 /// Fails    OutputError, naming the pixel, if a depth's code would be 0 or above 65535 (as for an
 ///          overflowed depth); UsageError if the channel is missing or ambiguous or does not hold
-///          depth, or scale is not a positive number; InputError if codes carry no scale.
+///          depth, or scale is not a positive number; InputError if the map has a fault or codes
+///          carry no scale.
 DepthMap with_storage(const DepthMap& map, const std::string& channel, StoredType type,
                       std::optional<double> scale = std::nullopt);
 

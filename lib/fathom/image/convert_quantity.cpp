@@ -85,6 +85,8 @@ std::string channel_of(DepthQuantity quantity) {
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
                           const MapView& view, const std::optional<StereoRig>& rig) {
   const StandardArithmetic standard;
+  require_valid(map);
+  require_valid(view);
   const std::string name = channel_of(from);
   const ImageChannel* source = map.find(name);
   if (!source) throw UsageError("the map has no channel '" + name + "' to convert from");

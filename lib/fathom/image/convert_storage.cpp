@@ -76,6 +76,7 @@ Samples<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, 
 DepthMap with_storage(const DepthMap& map, const std::string& asked, StoredType type,
                       std::optional<double> scale) {
   const StandardArithmetic standard;
+  require_valid(map);
   const ImageChannel& channel = depth_channel(map, asked);
   DepthMap result = map;
   result.channels.clear();

@@ -5,9 +5,12 @@
 #include <bit>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <set>
 #include <string_view>
+#include <utility>
 
+#include "fathom/numeric/errors.h"
 #include "fathom/text/parse_json.h"
 
 namespace fathom {
@@ -68,6 +71,14 @@ std::uint32_t cryptomatte_id(const std::string& name) {
 }
 
 void add_mattes(DepthMap& map, const Mattes& mattes) {
+  require_valid(map);
+  if (mattes.counts.size() != std::size_t{map.width} * map.height ||
+      std::accumulate(mattes.counts.begin(), mattes.counts.end(), std::size_t{0}) !=
+          mattes.shares.size()) {
+    throw InputError(
+        "mattes: expected a count for each pixel of the map, and as many shares as the "
+        "counts say");
+  }
   std::uint32_t ranks = 6;
   for (const std::uint32_t count : mattes.counts) ranks = std::max(ranks, count);
   const std::size_t levels = (ranks + 1) / 2;

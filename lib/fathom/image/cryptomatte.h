@@ -41,7 +41,8 @@ struct Mattes {
 /// Adds the layer to a map: binary32 channels LAYERnn.R, .G, .B, .A (id and coverage of two ranks
 /// each), six ranks or as many as the fullest pixel has, and the texts "cryptomatte/…" with the
 /// manifest.
-/// Needs    a count for each pixel of the map.
+/// Fails    InputError where the map has a fault (find_fault), or there is not a count for each of
+///          its pixels and a share for each that is counted.
 void add_mattes(DepthMap& map, const Mattes& mattes);
 
 }  // namespace fathom

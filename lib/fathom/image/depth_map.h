@@ -66,4 +66,13 @@ struct DepthMap {
   }
 };
 
+/// What is wrong with a map, in one line, or nothing if it has pixels and channels; these have names
+/// of their own, without NUL, and a value for each pixel; and the scale of codes is a positive
+/// number.
+std::optional<std::string> find_fault(const DepthMap& map);
+
+/// Refuses a map that is not valid.
+/// Fails    InputError, "map: " and what find_fault() says.
+void require_valid(const DepthMap& map);
+
 }  // namespace fathom

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/parse_json.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom {
 using namespace image;
@@ -24,15 +24,6 @@ const ImageChannel& channel_to_write(const DepthMap& map, const std::string& ask
     throw UsageError("this format holds one channel, and the map has " +
                      std::to_string(map.channels.size()) + ": name the one to write");
   return map.channels.front();
-}
-
-void require_consistent(const DepthMap& map) {
-  const std::size_t pixels = std::size_t{map.width} * map.height;
-  if (pixels == 0 || map.channels.empty())
-    throw std::invalid_argument("a map to be written needs pixels and channels");
-  for (const ImageChannel& channel : map.channels)
-    if (std::visit([](const auto& values) { return values.size(); }, channel.values) != pixels)
-      throw std::invalid_argument("channel '" + channel.name + "' does not have the map's size");
 }
 
 bool starts_with(ByteView bytes, std::string_view magic) {
@@ -65,7 +56,8 @@ void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
 
 void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat format,
                const WriteOptions& options) {
-  require_consistent(map);
+  require_valid(map);
+  require_thread_count(options.threads);
   const std::string name = path.string();
   const auto one = [&]() -> const ImageChannel& { return channel_to_write(map, options.channel); };
   switch (format) {

@@ -36,7 +36,8 @@ struct WriteOptions {
 ///         `fathom:scale`, attributes as text chunks; or identifiers up to 65534.
 ///   NPY   one channel, C order, shape (height, width), version 1.0.
 /// Fails    OutputError: "PATH: why" (disk full, not writable), or if the format cannot hold what
-///          the map has; UsageError if the channel is missing or ambiguous.
+///          the map has; InputError where the map has a fault (find_fault); UsageError if the
+///          channel is missing or ambiguous, or the number of threads is out of range.
 void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat format,
                const WriteOptions& options = {});
 

@@ -135,6 +135,8 @@ std::string header_of(std::size_t points, const PointCloudOptions& options, bool
 void write_point_cloud(const DepthMap& map, const MapView& view, const std::filesystem::path& path,
                        const PointCloudOptions& options) {
   const StandardArithmetic standard;
+  require_valid(map);
+  require_valid(view);
   const Points points(map, view, options.frame);
   std::vector<std::string> identifiers;
   for (const char* name : {"id", "face", "object"})

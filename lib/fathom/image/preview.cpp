@@ -187,6 +187,7 @@ void draw_normals(Sheet& sheet, const DepthMap& map, const PreviewOptions& optio
 
 RgbImage draw_preview(const DepthMap& map, const PreviewOptions& options) {
   const StandardArithmetic standard;
+  require_valid(map);
   Sheet sheet;
   sheet.picture = RgbImage(map.width, map.height);
   if (options.channel == "N") {

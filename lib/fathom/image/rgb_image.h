@@ -31,7 +31,7 @@ struct RgbImage {
 
 /// Writes `image` as an 8-bit RGB PNG to `path` itself, in place. The bytes depend only on the
 /// image.
-/// Fails    OutputError: "PATH: why".
+/// Fails    OutputError: "PATH: why"; InputError if there is no pixel, or not a colour for each.
 void write_png(const RgbImage& image, const std::filesystem::path& path);
 
 }  // namespace fathom

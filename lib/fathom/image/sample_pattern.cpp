@@ -1,6 +1,8 @@
 #include "fathom/image/sample_pattern.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "fathom/numeric/errors.h"
@@ -80,6 +82,17 @@ SampleOffset SamplePattern::at(std::size_t k, std::uint32_t column, std::uint32_
     return static_cast<double>(bits >> shift & 0xFFFF) * 0x1p-16;
   };
   return {least[0] + share(0) * cell, least[1] + share(16) * cell};
+}
+
+void require_valid(const SamplePattern& pattern) {
+  constexpr std::size_t most = 256;
+  const auto is_within = [](const SampleOffset& offset) {
+    return std::abs(offset[0]) <= 0.5 && std::abs(offset[1]) <= 0.5;
+  };
+  if (pattern.count() == 0 || pattern.count() > most || !(pattern.cell >= 0 && pattern.cell <= 1) ||
+      !std::all_of(pattern.offsets.begin(), pattern.offsets.end(), is_within)) {
+    throw UsageError(Setting{"pattern"}, "expected 1 to 256 samples within the pixel");
+  }
 }
 
 SamplePattern sample_pattern(const std::string& name) {

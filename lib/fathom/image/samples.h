@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <iterator>
+#include <new>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -29,8 +31,9 @@ class Samples {
   using const_iterator = const T*;
 
   Samples() = default;
+  /// Fails    std::bad_alloc, also where the bytes are too many to count.
   explicit Samples(std::size_t count)
-      : data_(static_cast<T*>(allocate_zeros(count * sizeof(T)))), size_(count) {}
+      : data_(static_cast<T*>(allocate_zeros(bytes_of(count)))), size_(count) {}
   Samples(std::size_t count, T value) : Samples(count) { std::fill(begin(), end(), value); }
   template <std::forward_iterator Iterator>
   Samples(Iterator first, Iterator last)
@@ -73,6 +76,11 @@ class Samples {
   }
 
  private:
+  static std::size_t bytes_of(std::size_t count) {
+    if (count > SIZE_MAX / sizeof(T)) throw std::bad_alloc();
+    return count * sizeof(T);
+  }
+
   T* data_ = nullptr;
   std::size_t size_ = 0;
 };

@@ -135,6 +135,7 @@ BackgroundRule detect_background(const ImageChannel& channel) {
 std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& channel,
                                        const std::optional<BackgroundRule>& rule,
                                        bool by_identifiers) {
+  require_valid(map);
   std::vector<std::uint8_t> everywhere(std::size_t{map.width} * map.height, 1);
   // `A` itself says how much of a pixel is covered: none of its pixels is background.
   if (channel.name == "A") return everywhere;

@@ -40,6 +40,7 @@ const Samples<std::uint32_t>* identifiers_of(const DepthMap& map);
 /// `by_identifiers` is false), which distinguishes a depth that overflowed to +∞ from background.
 /// Otherwise the channel's own background decides (the rule for depths, given or detected); a
 /// channel without one follows the map's `Z`, if there is one; else every pixel counts.
+/// Fails    InputError if the map has a fault (find_fault).
 std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& channel,
                                        const std::optional<BackgroundRule>& rule = std::nullopt,
                                        bool by_identifiers = true);

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
 #include "fathom/image/convert.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/errors.h"
@@ -6,9 +10,21 @@
 
 namespace fathom {
 
+void require_valid(const MapView& view) {
+  const auto finite = [](double x) { return std::isfinite(x); };
+  const double numbers[] = {view.fx, view.fy, view.cx, view.cy, view.skew, view.pixel_centre};
+  bool valid = std::all_of(std::begin(numbers), std::end(numbers), finite);
+  for (const auto& row : view.world_to_camera) {
+    valid = valid && std::all_of(row.begin(), row.end(), finite);
+  }
+  if (!valid) throw InputError("view: a number is not finite");
+  if (view.fx == 0 || view.fy == 0) throw InputError("view: fx or fy is 0");
+}
+
 /// By Cramer's rule: the rows of R⁻¹·det R are the cross products of the columns of R.
 std::array<std::array<double, 4>, 3> camera_to_world(const MapView& view) {
   const StandardArithmetic standard;
+  require_valid(view);
   const auto column = [&](std::size_t k) {
     return ExactVector3{view.world_to_camera[0][k], view.world_to_camera[1][k],
                         view.world_to_camera[2][k]};

@@ -12,7 +12,8 @@ void require_rectangle(const std::optional<WindowRectangle>& r, const Setting& s
   if (r && (r->width < 1 || r->height < 1))
     throw UsageError(setting, "a size of 0; expected at least 1x1");
   constexpr std::int64_t most = 1 << 20;
-  if (r && (r->width > most || r->height > most || std::abs(r->x) > most || std::abs(r->y) > most))
+  if (r && (r->width > most || r->height > most || r->x > most || r->x < -most || r->y > most ||
+            r->y < -most))
     throw UsageError(setting, "beyond 1048576 pixels");
 }
 
@@ -54,6 +55,13 @@ void require_meaningful(const PipelineOptions& o) {
   if (o.hidden_surface == HiddenSurface::painter && !has_areas)
     throw UsageError(Setting{"hidden_surface"},
                      "painter draws areas; points and wireframe have none");
+  for (const double component : o.background)
+    if (!std::isfinite(component))
+      throw UsageError(Setting{"background"}, "expected three finite numbers");
+  // A clamp that is NaN is none.
+  if (!std::isfinite(o.polygon_offset.slope_factor) ||
+      !std::isfinite(o.polygon_offset.constant_factor))
+    throw UsageError(Setting{"polygon_offset"}, "expected finite numbers");
   if (o.blend_alpha && !(*o.blend_alpha >= 0 && *o.blend_alpha <= 1))
     throw UsageError(Setting{"blend_alpha"}, "expected 0 to 1");
 }

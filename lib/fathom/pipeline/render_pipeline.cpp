@@ -10,6 +10,7 @@
 #include "fathom/pipeline/output/area_sampling.h"
 #include "fathom/pipeline/output/fxaa.h"
 #include "fathom/pipeline/rasterization/rasterizer.h"
+#include "fathom/scene/scene_fault.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -183,6 +184,7 @@ PipelineFrame render_frame(const Scene& scene, const Camera& camera, const Pipel
                            bool with_picture) {
   const StandardArithmetic standard;
   require_meaningful(options);
+  require_renderable(scene, camera);
   PipelineOptions complete = options;
   fill_in_range(scene, camera, complete.depth_format);
   require_meaningful(complete.depth_format);

@@ -22,7 +22,8 @@ struct PipelineFrame {
 };
 
 /// Renders a scene. The picture is what takes most of the time.
-/// Fails    UsageError for options that do not go together; InputError for a texture that cannot be
+/// Fails    UsageError for options that do not go together; InputError where the scene or the
+///          camera has a fault (find_fault), for more than 2⁴⁴ pixels, a texture that cannot be
 ///          used, or a scene without texture coordinates.
 PipelineFrame render_frame(const Scene& scene, const Camera& camera, const PipelineOptions& options,
                            bool with_picture);

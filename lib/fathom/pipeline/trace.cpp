@@ -5,6 +5,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/fragments/shading.h"
+#include "fathom/scene/scene_fault.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -133,6 +134,7 @@ TriangleTrace trace_triangle(const Scene& scene, const Camera& camera,
                              const std::optional<Pixel>& pixel) {
   const StandardArithmetic standard;
   require_meaningful(options);
+  require_renderable(scene, camera);
   PipelineOptions complete = options;
   fill_in_range(scene, camera, complete.depth_format);
   require_meaningful(complete.depth_format);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/scene_fault.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/sampling.h"
 
@@ -30,6 +31,7 @@ bool covers(const std::array<Sign, 3>& signs, const std::array<bool, 3>& left_or
 std::vector<CoveringTriangle> probe(const Scene& scene, const Camera& camera, std::uint32_t x,
                                     std::uint32_t y, Cull cull) {
   const StandardArithmetic standard;
+  require_renderable(scene, camera);
   const ImagePoint s = centre_of_pixel(x, y);
   std::vector<CoveringTriangle> covering;
   TierCounts counts;

@@ -30,7 +30,7 @@ struct CoveringTriangle {
 /// left: nearest first, ties by number, and last those that do not count. Brute force.
 ///
 /// Exact    everything, without an interval filter for the edges.
-/// Needs    a valid scene and a camera without fault (find_fault()).
+/// Fails    InputError where scene or camera has a fault (find_fault).
 std::vector<CoveringTriangle> probe(const Scene& scene, const Camera& camera, std::uint32_t x,
                                     std::uint32_t y, Cull cull = Cull::none);
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "fathom/area/coverage_image.h"
+#include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/projected_triangle.h"
@@ -245,7 +246,11 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
 }  // namespace
 
 DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options) {
-  return with_threads(options.threads, [&] { return render_in_arena(scene, camera, options); });
+  require_meaningful(options);
+  return with_threads(options.threads, [&] {
+    require_renderable(scene, camera);
+    return render_in_arena(scene, camera, options);
+  });
 }
 
 }  // namespace fathom

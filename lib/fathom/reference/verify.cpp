@@ -9,10 +9,13 @@
 #include <random>
 
 #include "fathom/area/coverage.h"
+#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/verify_samples.h"
+#include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"
+#include "fathom/triangle/map_of_camera.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/sampling.h"
 #include "fathom/triangle/triangle_boxes.h"
@@ -266,6 +269,18 @@ void compare(const Frame& frame, const ChosenRows& chosen, const ExactRow& exact
   }
 }
 
+/// Refuses a map that lacks a channel of the options, or has it stored in another way.
+void require_channels(const DepthMap& map, Camera camera, const RenderOptions& options) {
+  camera.width = camera.height = 1;
+  for (const ImageChannel& expected : make_background(camera, options).channels) {
+    const ImageChannel* channel = map.find(expected.name);
+    if (!channel) throw UsageError("the map has no channel '" + expected.name + "' to verify");
+    if (channel->values.index() != expected.values.index()) {
+      throw UsageError("channel '" + expected.name + "' of the map is stored in another way");
+    }
+  }
+}
+
 Verification verify_in_arena(const Frame& frame, const PixelChoice& chosen) {
   Verification result;
   const Camera& camera = frame.camera;
@@ -303,7 +318,14 @@ PixelChoice choose_pixels(std::uint32_t width, std::uint32_t height, std::uint64
 Verification verify(const DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                     const RenderOptions& options, const PixelChoice& chosen) {
   const StandardArithmetic standard;
+  require_meaningful(options);
+  require_map_of(camera, map);
+  require_channels(map, camera, options);
+  if (chosen.size() != std::size_t{map.width} * map.height) {
+    throw UsageError(Setting{"chosen"}, "expected one choice for each pixel of the map");
+  }
   return with_threads(options.threads, [&] {
+    require_renderable(triangles, camera);
     return verify_in_arena({map, triangles, camera, options}, chosen);
   });
 }

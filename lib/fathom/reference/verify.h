@@ -48,9 +48,11 @@ struct Verification {
 /// Cost     the corners of every triangle are looked at once (per 4 million chosen pixels) for a
 ///          box that certainly contains it; only triangles whose box contains a chosen pixel are
 ///          looked at exactly.
-/// Needs    a map of the camera's size with every channel of `options`; in `options` also the
-///          culling and encoding with which it was rendered; threads and progress are this call's
-///          own.
+/// Needs    in `options` the channels, culling and encoding with which the map was rendered;
+///          threads and progress are this call's own.
+/// Fails    InputError where map, scene or camera has a fault (find_fault), or the map is not of the
+///          camera's size; UsageError for options that mean nothing (require_meaningful), a channel
+///          of theirs that the map does not have so, or another number of choices than pixels.
 Verification verify(const DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                     const RenderOptions& options, const PixelChoice& chosen);
 

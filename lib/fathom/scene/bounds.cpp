@@ -6,6 +6,7 @@
 
 #include "fathom/geometry/approximate_row.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/scene_fault.h"
 
 namespace fathom {
 namespace {
@@ -62,6 +63,7 @@ void include_placed(WorldBounds& bounds, int axis, const Object& object, const M
 
 std::optional<WorldBounds> world_bounds(const Scene& scene) {
   const StandardArithmetic standard;
+  require_valid(scene);
   WorldBounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   bool empty = true;
   for (const Object& object : scene.objects) {

@@ -19,6 +19,7 @@ struct WorldBounds {
 ///
 /// Exact    corners are placed exactly; the exact extremes are rounded outwards, once. An end
 ///          beyond the largest binary64 number is infinite.
+/// Fails    InputError where the scene has a fault (find_fault).
 std::optional<WorldBounds> world_bounds(const Scene& scene);
 
 }  // namespace fathom

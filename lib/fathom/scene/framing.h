@@ -26,7 +26,8 @@ std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBou
                           const Lens& lens = {});
 
 /// The camera that frames a scene: frame() on its world_bounds().
-/// Fails    UsageError as frame(); InputError also if the scene has no triangle.
+/// Fails    UsageError as frame(); InputError also if the scene has a fault (find_fault) or no
+///          triangle.
 Camera frame_scene(const Scene& scene, const View& view = {}, const Lens& lens = {});
 
 }  // namespace fathom

@@ -16,6 +16,7 @@
 #include "fathom/scene/scene_json.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/sha256.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom {
 using namespace mesh;
@@ -176,6 +177,7 @@ class SceneReader {
 Scene read_scene(const std::vector<std::filesystem::path>& files, const ReadOptions& options,
                  Warnings& warnings) {
   const StandardArithmetic standard;
+  require_thread_count(options.threads);
   SceneReader reader(options, warnings);
   for (const std::filesystem::path& file : files) reader.add_file(file);
   return reader.finish();

@@ -13,6 +13,7 @@ namespace fathom {
 /// input.
 /// Fails    InputError: one line, "FILE: line N: what is wrong and what was expected" (text), or
 ///          "FILE: byte N: …" (binary). More than 2³² − 2 triangles in all are an error.
+///          UsageError for a number of threads that is out of range.
 Scene read_scene(const std::vector<std::filesystem::path>& files, const ReadOptions& options,
                  Warnings& warnings);
 

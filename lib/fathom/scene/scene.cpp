@@ -1,10 +1,12 @@
 #include "fathom/scene/scene.h"
 
+#include "fathom/scene/object_fault.h"
 #include "fathom/scene/triangle_source.h"
 
 namespace fathom {
 
 std::uint64_t triangle_count(const Scene& scene) {
+  scene::require(scene::find_fault_of_objects(scene));
   std::uint64_t count = 0;
   for (const Object& object : scene.objects) count += scene.meshes[object.mesh].triangles.size();
   return count;

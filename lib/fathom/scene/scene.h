@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-/// Everything that is rendered. Triangles are numbered from 0 over all objects in order
+/// Everything that is rendered. Anybody may fill it in; find_fault() says whether it is valid. Triangles are numbered from 0 over all objects in order
 /// (specification, section 3), at most 2³² − 2 in all.
 struct Scene {
   std::vector<Mesh> meshes;
@@ -18,6 +18,7 @@ struct Scene {
 };
 
 /// The number of triangles in all objects.
+/// Fails    InputError where an object names no mesh, or there are more than can be numbered.
 std::uint64_t triangle_count(const Scene& scene);
 
 /// Where triangle `number` of the scene comes from.

@@ -2,6 +2,8 @@
 
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/object_fault.h"
+#include "fathom/scene/scene_fault.h"
 #include "fathom/scene/triangle_source.h"
 
 namespace fathom {
@@ -26,6 +28,7 @@ StreamedScene stream_scene(const std::vector<std::filesystem::path>& files,
 }
 
 std::uint64_t triangle_count(const StreamedScene& scene) {
+  scene::require(scene::find_fault_of_objects(scene));
   std::uint64_t count = 0;
   for (const Object& object : scene.objects) count += scene.streams[object.mesh]->triangle_count();
   return count;
@@ -36,6 +39,7 @@ TriangleOrigin origin_of(const StreamedScene& scene, std::uint32_t number) {
 }
 
 Scene outline_of(const StreamedScene& scene) {
+  require_valid(scene);
   Scene outline;
   outline.objects = scene.objects;
   outline.sources = scene.sources;

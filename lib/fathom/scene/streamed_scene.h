@@ -24,12 +24,13 @@ struct StreamedScene {
 StreamedScene stream_scene(const std::vector<std::filesystem::path>& files,
                            const ReadOptions& options, Warnings& warnings);
 
-std::uint64_t triangle_count(const StreamedScene& scene);
 /// As of a Scene.
+std::uint64_t triangle_count(const StreamedScene& scene);
 TriangleOrigin origin_of(const StreamedScene& scene, std::uint32_t number);
 
 /// A scene in memory with the same objects, sources and world_bounds(), in which each mesh is a
 /// single triangle that spans its bounds, or empty if it has none: enough to make cameras from.
+/// Fails    InputError where the scene has a fault (find_fault).
 Scene outline_of(const StreamedScene& scene);
 
 }  // namespace fathom

@@ -1,27 +1,54 @@
 #include "fathom/scene/triangle_source.h"
 
 #include <algorithm>
+#include <cmath>
 #include <future>
 #include <stdexcept>
 #include <string>
 
-#include "fathom/mesh/mesh_faces.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/scene/object_fault.h"
 
 namespace fathom {
 
 TriangleSource::TriangleSource(const Scene& scene) : scene_(&scene) {
+  scene::require(scene::find_fault_of_objects(scene));
   for (const Object& object : scene.objects) {
     first_numbers_.push_back(count() + scene.meshes[object.mesh].triangles.size());
   }
-  mesh::expect_countable(count(), "triangles in all", "the scene");
 }
 
 TriangleSource::TriangleSource(const StreamedScene& scene) : streamed_(&scene) {
+  scene::require(scene::find_fault_of_objects(scene));
   for (const Object& object : scene.objects) {
     first_numbers_.push_back(count() + scene.streams[object.mesh]->triangle_count());
   }
-  mesh::expect_countable(count(), "triangles in all", "the scene");
 }
+
+namespace {
+
+std::uint32_t face_of(const Mesh& mesh, std::uint32_t triangle) {
+  if (!mesh.face_of_triangle.empty() && mesh.face_of_triangle.size() != mesh.triangles.size()) {
+    throw InputError("scene: face_of_triangle has not one element for each triangle");
+  }
+  return mesh.face_of(triangle);
+}
+
+/// A corner as an index into the vertices, which the scene's maker may have got wrong.
+const MeshPoint& corner_of(const Mesh& mesh, std::uint32_t vertex) {
+  if (vertex >= mesh.vertices.size()) {
+    throw InputError("scene: there is no vertex " + std::to_string(vertex) + " among " +
+                     std::to_string(mesh.vertices.size()));
+  }
+  const MeshPoint& point = mesh.vertices[vertex];
+  if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
+    throw InputError("scene: vertex " + std::to_string(vertex) +
+                     " has a number that is not finite");
+  }
+  return point;
+}
+
+}  // namespace
 
 TriangleSource::Place TriangleSource::place_of(std::uint32_t number) const {
   if (number >= count()) throw std::out_of_range("there is no triangle " + std::to_string(number));
@@ -35,7 +62,7 @@ TriangleSource::Place TriangleSource::place_of(std::uint32_t number) const {
 TriangleOrigin TriangleSource::origin(std::uint32_t number) const {
   const Place place = place_of(number);
   const Object& object = objects()[place.object];
-  const std::uint32_t face = scene_ ? scene_->meshes[object.mesh].face_of(place.triangle)
+  const std::uint32_t face = scene_ ? face_of(scene_->meshes[object.mesh], place.triangle)
                                     : stream(place.object).face_of(place.triangle);
   return {place.object, place.triangle, static_cast<std::uint32_t>(object.first_face + face)};
 }
@@ -47,10 +74,10 @@ TriangleSource::Triangle TriangleSource::triangle(std::uint32_t number) const {
   if (scene_) {
     const Mesh& mesh = scene_->meshes[object.mesh];
     for (std::size_t i = 0; i < 3; ++i) {
-      result.corners[i] = mesh.vertices[mesh.triangles[place.triangle][i]];
+      result.corners[i] = corner_of(mesh, mesh.triangles[place.triangle][i]);
     }
     result.origin.face =
-        static_cast<std::uint32_t>(object.first_face + mesh.face_of(place.triangle));
+        static_cast<std::uint32_t>(object.first_face + face_of(mesh, place.triangle));
   } else {
     const TriangleStream::Triangle read = stream(place.object).triangle(place.triangle);
     result.corners = read.corners;

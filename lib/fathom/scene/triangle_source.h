@@ -13,10 +13,12 @@ namespace fathom {
 /// Triangles by number, whether the scene is in memory or in files. A view: the scene must outlive
 /// it unchanged. Several threads may ask at the same time.
 /// Fails    std::out_of_range where `number` is not below count(); InputError where a file of a
-///          StreamedScene has changed or cannot be read any more.
+///          StreamedScene has changed or cannot be read any more, and where a triangle that is asked
+///          for has a fault. The whole scene is looked at by require_valid() (scene_fault.h).
 class TriangleSource {
  public:
-  /// Fails    InputError if there are more than 2³² − 2 triangles: one mesh may be placed often.
+  /// Fails    InputError if an object names no mesh, or there are more than 2³² − 2 triangles: one
+  ///          mesh may be placed often.
   TriangleSource(const Scene& scene);          // implicit: a scene is a source,
   TriangleSource(const StreamedScene& scene);  // and so is this one
 
@@ -49,6 +51,8 @@ class TriangleSource {
   void for_each_part(
       std::uint32_t triangles_of_file, const std::function<void(const Part&)>& visit,
       const std::function<bool(std::uint32_t)>& wanted = [](std::uint32_t) { return true; }) const;
+
+  friend void require_valid(const TriangleSource& triangles);
 
  private:
   /// An object, and the number of a triangle within it.

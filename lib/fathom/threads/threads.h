@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -24,8 +25,18 @@ void parallel_for(Index first, Index end, const Work& work) {
               [&](std::size_t i) { work(static_cast<Index>(first + static_cast<Index>(i))); });
 }
 
-/// Runs `work` with as many threads as asked for; 0: all. There may be more threads than the
-/// machine has: TBB's own limit is lifted meanwhile.
+/// The most threads that can be asked for.
+inline constexpr int most_threads = 1024;
+
+/// Refuses a number of threads that cannot be asked for.
+/// Fails    UsageError "threads: expected …" unless 0 ≤ threads ≤ most_threads.
+void require_thread_count(int threads);
+
+/// Runs `work` with as many threads as asked for; 0: all. Several threads may call at the same time,
+/// and `work` may call again; nothing of the process is changed, so that there are no more threads
+/// than TBB has for it: the machine's, unless the program that this is part of says otherwise
+/// (tbb::global_control).
+/// Fails    UsageError as require_thread_count().
 void run_with_threads(int threads, const std::function<void()>& work);
 
 template <class Work>

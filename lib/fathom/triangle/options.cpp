@@ -1,5 +1,10 @@
 #include "fathom/triangle/options.h"
 
+#include <cmath>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/threads/threads.h"
+
 namespace fathom {
 
 std::string_view name_of(Engine engine) {
@@ -24,6 +29,19 @@ void add(RenderStatistics& sum, const RenderStatistics& part) {
   sum.same_plane += part.same_plane;
   sum.double_words += part.double_words;
   sum.grid_setups += part.grid_setups;
+}
+
+void require_meaningful(const RenderOptions& options) {
+  require_thread_count(options.threads);
+  if (options.channels.empty()) throw UsageError(Setting{"channels"}, "expected at least one");
+  const DepthEncoding& encoding = options.depth_encoding;
+  if (encoding.type == StoredType::scaled_unorm16 &&
+      !(encoding.scale > 0 && std::isfinite(encoding.scale))) {
+    throw UsageError(Setting{"depth_encoding.scale"}, "expected a positive number");
+  }
+  if (!(options.fast.widening >= 1 && std::isfinite(options.fast.widening))) {
+    throw UsageError(Setting{"fast.widening"}, "expected a number from 1 on");
+  }
 }
 
 }  // namespace fathom

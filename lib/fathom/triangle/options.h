@@ -89,4 +89,9 @@ struct RenderOptions {
   RenderStatistics* statistics = nullptr;
 };
 
+/// Refuses options that mean nothing: no channel, a scale that is not a positive number
+/// for scaled_unorm16, a widening that is not a number from 1 on, a negative number of threads.
+/// Fails    UsageError.
+void require_meaningful(const RenderOptions& options);
+
 }  // namespace fathom

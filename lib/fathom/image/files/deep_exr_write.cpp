@@ -7,12 +7,14 @@
 
 #include <array>
 #include <cstddef>
+#include <numeric>
 
 #include "fathom/image/deep_map.h"
 #include "fathom/image/files/exr_attributes.h"
 #include "fathom/image/files/exr_streams.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/file_bytes.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom {
 using namespace image;
@@ -87,6 +89,12 @@ void check_deep_compression(Compression compression) {
 
 void write_deep_map(const DeepMap& map, const std::filesystem::path& path, Compression compression,
                     int threads) {
+  const std::size_t pixels = std::size_t{map.description.width} * map.description.height;
+  if (pixels == 0 || map.counts.size() != pixels ||
+      std::accumulate(map.counts.begin(), map.counts.end(), std::size_t{0}) != map.samples.size()) {
+    throw InputError("deep map: expected a count for each pixel, and as many samples as they say");
+  }
+  require_thread_count(threads);
   Bytes bytes;
   try {
     bytes = encode(map, compression, threads, path.string());

@@ -154,6 +154,10 @@ Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::st
 namespace fathom {
 
 void write_png(const RgbImage& image, const std::filesystem::path& path) {
+  if (image.width == 0 || image.height == 0 ||
+      image.pixels.size() != std::size_t{image.width} * image.height) {
+    throw InputError("picture: expected a colour for each of its pixels, and at least one");
+  }
   image::Picture picture{image.width, image.height, 8, PNG_COLOR_TYPE_RGB, {}, {}};
   const auto bytes = std::as_bytes(std::span(image.pixels));
   picture.pixels.assign(bytes.begin(), bytes.end());

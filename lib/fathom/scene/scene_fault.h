@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fathom/camera/camera.h"
+#include "fathom/scene/scene.h"
+#include "fathom/scene/streamed_scene.h"
+#include "fathom/scene/triangle_source.h"
+
+/// Whether a scene that anybody may have filled in is one, as find_fault() of a camera says whether
+/// that is a camera. Every function that takes a scene asks, once per call.
+namespace fathom {
+
+/// What is wrong with a scene, in one line, or nothing if
+///   objects      name meshes of the scene; one that is placed as it is has the identity as its
+///                transform; faces are numbered below 2³² − 1
+///   meshes       have at most 2³² − 2 vertices and triangles; all coordinates are finite; corners
+///                are numbers of vertices; face_of_triangle is empty or as long as `triangles`
+///   attributes   are finite; those of vertices are as many as these; texture_triangles and
+///                normal_triangles are empty or as long as `triangles`, of numbers of the list that
+///                they are for, or no_index
+///   in all       there are at most 2³² − 2 triangles.
+/// A transform may be singular, a mesh empty or placed by no object.
+/// Cost     one look at every number, by all threads of with_threads().
+std::optional<std::string> find_fault(const Scene& scene);
+
+/// The same of its objects; that streams are there. What is in the files was checked when they were
+/// opened.
+std::optional<std::string> find_fault(const StreamedScene& scene);
+
+/// Refuses a scene that is not valid.
+/// Fails    InputError, "scene: " and what find_fault() says.
+void require_valid(const Scene& scene);
+void require_valid(const StreamedScene& scene);
+/// The scene that the triangles are from.
+void require_valid(const TriangleSource& triangles);
+
+/// What every way to render asks of what it is given.
+/// Fails    InputError where scene or camera has a fault, or the image has more than 2⁴⁴ pixels.
+void require_renderable(const TriangleSource& triangles, const Camera& camera);
+
+}  // namespace fathom

@@ -1,0 +1,97 @@
+// Parallel work by the standard library alone (FATHOM_THREADS=std): threads that are started for
+// each piece of parallel work. Slower than oneTBB where there are many short ones; but nothing is
+// hidden from a thread sanitizer.
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/threads/threads.h"
+
+namespace fathom {
+namespace {
+
+/// How many threads the parallel work of this thread may use; 0: as many as the machine has.
+thread_local int threads_here = 0;
+
+class ThreadsHere {
+ public:
+  explicit ThreadsHere(int threads) : before_(std::exchange(threads_here, threads)) {}
+  ThreadsHere(const ThreadsHere&) = delete;
+  ThreadsHere& operator=(const ThreadsHere&) = delete;
+  ~ThreadsHere() { threads_here = before_; }
+
+ private:
+  int before_;
+};
+
+/// Pieces of work that several threads take, each the next one.
+class Pieces {
+ public:
+  Pieces(std::size_t count, const std::function<void(std::size_t)>& work)
+      : count_(count), work_(work) {}
+
+  /// Works until nothing is left or a piece has failed. What a piece does in parallel is done by
+  /// its thread: the others are here.
+  void take() {
+    const ThreadsHere one(1);
+    for (std::size_t i = next_++; i < count_; i = next_++) {
+      try {
+        const StandardArithmetic standard;
+        work_(i);
+      } catch (...) {
+        fail(std::current_exception());
+      }
+    }
+  }
+
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void fail(std::exception_ptr failure) {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = std::move(failure);
+    next_ = count_;
+  }
+
+  std::size_t count_;
+  const std::function<void(std::size_t)>& work_;
+  std::atomic<std::size_t> next_ = 0;
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
+  const auto machine = std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t most = threads_here > 0 ? static_cast<std::size_t>(threads_here) : machine;
+  Pieces pieces(count, work);
+  std::vector<std::thread> others;
+  others.reserve(most);
+  try {
+    while (others.size() + 1 < std::min(most, count)) {
+      others.emplace_back([&pieces] { pieces.take(); });
+    }
+  } catch (const std::system_error&) {
+    // The machine gives no more: those that are there do the work.
+  }
+  pieces.take();
+  for (std::thread& thread : others) thread.join();
+  pieces.rethrow();
+}
+
+void run_with_threads(int threads, const std::function<void()>& work) {
+  require_thread_count(threads);
+  const ThreadsHere here(threads);
+  const StandardArithmetic standard;
+  work();
+}
+
+}  // namespace fathom
