@@ -4,12 +4,11 @@
 
 #include "apps/maps/comparison_report.h"
 #include "apps/maps/map_commands.h"
+#include "apps/options/map_argument.h"
 #include "apps/shell/exit_status.h"
-#include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
 #include "fathom/image/compare.h"
-#include "fathom/image/map_files.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -29,10 +28,8 @@ double parse_tolerance(const std::string& text) {
 
 int run_compare(const CompareArguments& arguments) {
   const CompareOptions& options = arguments.options;
-  note_input(arguments.truth);
-  note_input(arguments.other);
-  const DepthMap truth = read_map(arguments.truth);
-  const DepthMap other = read_map(arguments.other);
+  const DepthMap truth = read_map_argument(arguments.truth);
+  const DepthMap other = read_map_argument(arguments.other);
   const Comparison comparison{arguments.truth, arguments.other, options.tolerance_ulp,
                               compare_maps(truth, other, options)};
 

@@ -6,9 +6,9 @@
 
 #include "apps/maps/map_commands.h"
 #include "apps/maps/map_view.h"
+#include "apps/options/map_argument.h"
 #include "apps/options/storage_options.h"
 #include "apps/shell/exit_status.h"
-#include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
 #include "fathom/image/convert.h"
@@ -121,12 +121,12 @@ DepthMap stored(DepthMap map, const ConvertArguments& arguments, MapFormat forma
 }
 
 int run_convert(const ConvertArguments& arguments) {
-  note_input(arguments.map);
   if (ends_with_ply(arguments.output)) {
-    return write_points(read_map(arguments.map), arguments);
+    return write_points(read_map_argument(arguments.map), arguments);
   }
   const MapFormat format = arguments.storage.format_of(arguments.output);
-  const DepthMap map = stored(converted(read_map(arguments.map), arguments), arguments, format);
+  const DepthMap map =
+      stored(converted(read_map_argument(arguments.map), arguments), arguments, format);
   OutputFile output(arguments.output);
   output.write(
       [&](const auto& path) { write_map(map, path, format, arguments.storage.write_options(0)); });

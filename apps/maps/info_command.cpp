@@ -4,10 +4,10 @@
 
 #include "apps/maps/info.h"
 #include "apps/maps/map_commands.h"
+#include "apps/options/map_argument.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
-#include "fathom/image/map_files.h"
 
 namespace fathom::app {
 namespace {
@@ -31,8 +31,9 @@ int run_info(const InfoArguments& arguments, const Console& console) {
   const FileKind kind = arguments.mesh_format ? FileKind::mesh : kind_of(arguments.file);
   const AnswerForm form = arguments.json ? AnswerForm::json : AnswerForm::text;
   print(kind == FileKind::camera ? info_of_cameras(arguments.file, form)
-        : kind == FileKind::map  ? info_of_map(read_map(arguments.file), arguments.file, form)
-                                 : info_of_meshes(arguments, kind, form, console));
+        : kind == FileKind::map
+            ? info_of_map(read_map_argument(arguments.file), arguments.file, form)
+            : info_of_meshes(arguments, kind, form, console));
   return done;
 }
 

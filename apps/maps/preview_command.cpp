@@ -3,11 +3,10 @@
 #include <memory>
 
 #include "apps/maps/map_commands.h"
+#include "apps/options/map_argument.h"
 #include "apps/shell/exit_status.h"
-#include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
-#include "fathom/image/map_files.h"
 #include "fathom/image/preview.h"
 #include "fathom/numeric/errors.h"
 
@@ -25,8 +24,7 @@ ColourMap parse_colour_map(const std::string& text) {
 }
 
 int run_preview(const PreviewArguments& arguments) {
-  note_input(arguments.map);
-  const DepthMap map = read_map(arguments.map);
+  const DepthMap map = read_map_argument(arguments.map);
   const RgbImage picture = draw_preview(map, arguments.options);
   OutputFile output(arguments.output);
   output.write([&](const auto& path) { write_png(picture, path); });

@@ -1,13 +1,11 @@
 #include "apps/render/render_memory.h"
 
 #include <fmt/core.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 
 #include "apps/options/channel_list.h"
-#include "fathom/numeric/errors.h"
+#include "apps/shell/max_memory.h"
 
 namespace fathom::app {
 namespace {
@@ -21,28 +19,15 @@ double size_of_map(const Camera& camera, const RenderOptions& options,
   return 1.0 * camera.width * camera.height * channels * bytes_per_value;
 }
 
-double memory_of_machine() {
-  return 1.0 * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<double>(::sysconf(_SC_PAGESIZE));
-}
-
 }  // namespace
 
 void check_size(const Camera& camera, const RenderOptions& options, std::size_t more_channels) {
-  const double needed = size_of_map(camera, options, more_channels), memory = memory_of_machine();
-  if (needed > memory) {
-    throw InputError(fmt::format(
-        "an image of {}x{} pixels needs {:.1f} GB for its channels; this machine has {:.1f} GB",
-        camera.width, camera.height, needed / 1e9, memory / 1e9));
-  }
+  require_memory(fmt::format("an image of {}x{} pixels", camera.width, camera.height),
+                 size_of_map(camera, options, more_channels), memory_allowance());
 }
 
 StreamLimits stream_limits(const Camera& camera, const RenderOptions& options) {
-  double memory = memory_of_machine();
-  rlimit allowed{};
-  if (::getrlimit(RLIMIT_AS, &allowed) == 0 && allowed.rlim_cur != RLIM_INFINITY) {
-    memory = std::min(memory, static_cast<double>(allowed.rlim_cur));
-  }
+  const auto memory = static_cast<double>(memory_allowance().bytes);
   const double left = std::max(memory - size_of_map(camera, options), 0x1p28);
   StreamLimits limits;
   limits.tile_bytes = static_cast<std::uint64_t>(left / 4);

@@ -6,12 +6,11 @@
 
 namespace fathom::app {
 
-/// Refuses an image that this machine cannot hold, before it tries. `more_channels` are added to
+/// Refuses an image that takes more memory than there is or --max-memory allows, before it tries. `more_channels` are added to
 /// those of the options. Fails with InputError.
 void check_size(const Camera& camera, const RenderOptions& options, std::size_t more_channels);
 
-/// Of the memory that the map leaves over, of this machine or allowed to this process, a quarter
-/// for tiles, a sixteenth for triangles.
+/// Of the memory that the map leaves over of what is allowed, a quarter for tiles, a sixteenth for triangles.
 StreamLimits stream_limits(const Camera& camera, const RenderOptions& options);
 
 }  // namespace fathom::app

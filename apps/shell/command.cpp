@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "apps/shell/about_option.h"
+#include "apps/shell/max_memory.h"
+#include "apps/shell/values.h"
 
 namespace fathom::app {
 namespace {
@@ -52,8 +54,12 @@ Command::~Command() = default;
 
 Command& Command::command(const std::string& name, const std::string& description,
                           const std::string& examples) {
-  CLI::App& below = *app_.add_subcommand(name, description);
-  return *commands_.emplace_back(std::make_unique<Command>(below, console_, examples));
+  CLI::App& app = *app_.add_subcommand(name, description);
+  Command& below = *commands_.emplace_back(std::make_unique<Command>(app, console_, examples));
+  below.option(
+      "--max-memory", "SIZE", [](const std::string& text) { set_max_memory(parse_bytes(text)); },
+      "Memory that it may take, as 512M or 2G (default: all that there is)");
+  return below;
 }
 
 void Command::requires_command() {
@@ -100,12 +106,12 @@ Option Command::arguments(const std::string& name, std::vector<std::string>& val
 }
 
 int Command::run_named(const Console& console) const {
-  for (const auto& below : commands_) {
-    if (below->app_.parsed()) return below->run_named(console);
-  }
   for (const Taken& taken : taken_) {
     if (taken.option->count() == 0) continue;
     about_option(taken.option->get_name(), [&] { taken.take(taken.option->results()); });
+  }
+  for (const auto& below : commands_) {
+    if (below->app_.parsed()) return below->run_named(console);
   }
   return run_(console);
 }

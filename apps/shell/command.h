@@ -56,7 +56,7 @@ class Command {
   Command& operator=(const Command&) = delete;
   ~Command();
 
-  /// A command below this one; `examples` end its help.
+  /// A command below this one, with --max-memory; `examples` end its help.
   Command& command(const std::string& name, const std::string& description,
                    const std::string& examples);
   /// For a family: one of the commands below has to be named.
@@ -77,7 +77,7 @@ class Command {
 
   void runs(Run run) { run_ = std::move(run); }
 
-  /// Writes what was given to its places, then runs the innermost command that was named.
+  /// Writes what was given to its places, then runs the command below that was named, or itself.
   int run_named(const Console& console) const;
 
  private:

@@ -3,7 +3,9 @@
 #include <gmp.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -55,6 +57,8 @@ template <class Report>
   end([] { return report_unexpected("std::terminate was called"); });
 }
 
+std::array<char, 120> memory_limit{};
+
 void* allocate(std::size_t size) {
   void* block = std::malloc(size);
   if (block == nullptr) end(report_out_of_memory);
@@ -74,8 +78,14 @@ void deallocate(void* block, std::size_t) {
 }  // namespace
 
 ExitStatus report_out_of_memory() noexcept {
-  say("fathom: error: out of memory: the input or the image is too large\n");
+  say("fathom: error: out of memory: the input or the image is too large");
+  say(memory_limit.data());
+  say("\n");
   return unusable_input;
+}
+
+void name_memory_limit(const char* text) noexcept {
+  std::snprintf(memory_limit.data(), memory_limit.size(), "; %s", text);
 }
 
 ExitStatus report_lack_of_threads() noexcept {

@@ -6,6 +6,8 @@ namespace fathom::app {
 
 /// Says "fathom: error: out of memory: …" and returns the exit status; takes no memory for it.
 ExitStatus report_out_of_memory() noexcept;
+/// Adds to that line what sets the limit of memory. For one thread.
+void name_memory_limit(const char* text) noexcept;
 /// Says that the system starts no more threads.
 ExitStatus report_lack_of_threads() noexcept;
 

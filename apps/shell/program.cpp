@@ -9,6 +9,7 @@
 
 #include "apps/shell/exit_status.h"
 #include "apps/shell/last_resort.h"
+#include "apps/shell/max_memory.h"
 #include "apps/shell/output_file.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/threads/threads.h"
@@ -33,6 +34,7 @@ std::string message_of(const Error& error) {
 int run_reporting(const std::function<int()>& run) {
   try {
     remove_outputs_when_interrupted();
+    stay_within_control_group();
     return run();
   } catch (const UsageError& error) {
     return report(wrong_usage, message_of(error));

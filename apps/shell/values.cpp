@@ -57,6 +57,19 @@ std::int64_t parse_whole(const std::string& text) {
   return static_cast<std::int64_t>(x);
 }
 
+std::uint64_t parse_bytes(const std::string& text) {
+  constexpr std::string_view units = "KMGT";
+  const std::size_t unit = text.empty() ? units.npos : units.find(text.back());
+  const bool has_unit = unit != units.npos;
+  const int bits = has_unit ? 10 * (static_cast<int>(unit) + 1) : 0;
+  std::uint64_t number = 0;
+  const std::string_view digits(text.data(), text.size() - (has_unit ? 1 : 0));
+  if (!read_whole(digits, number) || number == 0 || number > (std::uint64_t{1} << 62) >> bits) {
+    refuse(text, "a size, such as 512M or 2G");
+  }
+  return number << bits;
+}
+
 std::uint32_t parse_count_from(std::uint32_t least, std::string_view text) {
   std::uint32_t value = 0;
   if (!read_whole(text, value) || value < least) {

@@ -27,6 +27,9 @@ inline std::uint32_t parse_positive(const std::string& text) {
   return parse_count_from(1, text);
 }
 
+/// A size in bytes, at least 1: "1000000", "512M", "2G"; K, M, G and T are powers of 1024.
+std::uint64_t parse_bytes(const std::string& text);
+
 using Size = std::array<std::uint32_t, 2>;
 /// "1280x720".
 Size parse_size(const std::string& text);

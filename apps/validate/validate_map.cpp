@@ -8,13 +8,12 @@
 #include <variant>
 #include <vector>
 
+#include "apps/options/map_argument.h"
 #include "apps/shell/about_option.h"
-#include "apps/shell/known_files.h"
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/attribution/attribute_and_name.h"
 #include "fathom/attribution/model/named_models.h"
-#include "fathom/image/map_files.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -38,8 +37,7 @@ ValidationCase judge_map(const ValidateArguments& arguments, const Console& cons
   made.model = about_option("--model", [&] { return attribution::model_named(arguments.model); });
   const Camera camera = read_camera(arguments.camera);
   require_clip_planes(made.model, camera);
-  note_input(arguments.map);
-  made.other = attribution::other_map(read_map(arguments.map), arguments.channel);
+  made.other = attribution::other_map(read_map_argument(arguments.map), arguments.channel);
   if (made.other.width != camera.width || made.other.height != camera.height) {
     throw InputError(fmt::format("{}: has {}x{} pixels, the camera {}x{}", arguments.map,
                                  made.other.width, made.other.height, camera.width, camera.height));

@@ -72,16 +72,19 @@ void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat
   }
 }
 
-DepthMap image::decode_map(ByteView bytes, const std::string& name) {
-  if (starts_with(bytes, "\x76\x2f\x31\x01")) return decode_exr(bytes, name);
-  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return decode_png(bytes, name);
+DepthMap image::decode_map(ByteView bytes, const std::string& name, const MapMemory& memory) {
+  if (starts_with(bytes, "\x76\x2f\x31\x01")) return decode_exr(bytes, name, memory);
+  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return decode_png(bytes, name, memory);
   if (starts_with(bytes, "\x93NUMPY")) return decode_npy(bytes, name);
   if (starts_with(bytes, "Pf") || starts_with(bytes, "PF")) return decode_pfm(bytes, name);
   throw InputError(name + ": not a map: expected an OpenEXR, PFM, PNG or NPY file");
 }
 
-DepthMap read_map(const std::filesystem::path& path) {
-  return decode_map(read_file(path), path.string());
+DepthMap read_map(const std::filesystem::path& path, const MapMemory& memory) {
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(path, unknown);
+  if (!unknown) require_memory(path.string() + ": this file", 1.0 * size, memory.allowance);
+  return decode_map(read_file(path), path.string(), memory);
 }
 
 std::string image::object_names_as_json(const std::vector<std::string>& names) {

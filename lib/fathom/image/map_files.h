@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fathom/image/depth_map.h"
+#include "fathom/memory/available_memory.h"
 
 namespace fathom {
 
@@ -41,10 +42,21 @@ struct WriteOptions {
 void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat format,
                const WriteOptions& options = {});
 
+/// What a map may take in memory when it is read. A constant image is compressed a thousandfold, so
+/// what a small file unpacks to says nothing against it; but it is more than its reader may expect.
+struct MapMemory {
+  MemoryAllowance allowance = available_memory();
+  /// A file that unpacks to more than so many times its size is a small one.
+  static constexpr double usual_ratio = 100;
+  /// The limit of those; nullopt: none but `allowance`. One channel of 16384×16384 binary32 values.
+  std::optional<MemoryAllowance> of_small_file =
+      MemoryAllowance{std::uint64_t{1} << 30, "such a small file may unpack to", ""};
+};
+
 /// Reads a map back, recognising its format by content. Also EXR files of other programs: HALF
 /// channels are widened to binary32; a layered name is kept in full. Nothing is allocated for a
-/// size that the file cannot fill.
+/// size that the file cannot fill, or that takes more than `memory`.
 /// Fails    InputError: "PATH: what is wrong and what was expected".
-DepthMap read_map(const std::filesystem::path& path);
+DepthMap read_map(const std::filesystem::path& path, const MapMemory& memory = {});
 
 }  // namespace fathom

@@ -6,6 +6,7 @@
 #include "fathom/image/files/exr_attributes.h"
 #include "fathom/image/files/exr_streams.h"
 #include "fathom/image/files/map_codecs.h"
+#include "fathom/image/files/map_memory.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::image {
@@ -18,7 +19,9 @@ std::string in_words(const Imath::Box2i& box) {
          std::to_string(box.max.x) + ", " + std::to_string(box.max.y) + ")";
 }
 
-DepthMap read_part(Imf::InputPart& part, const std::string& name) {
+/// `file_bytes` is the size of the file.
+DepthMap read_part(Imf::InputPart& part, std::size_t file_bytes, const MapMemory& memory,
+                   const std::string& name) {
   const Imf::Header& header = part.header();
   const Imath::Box2i window = header.dataWindow();
   if (window != header.displayWindow())
@@ -28,13 +31,17 @@ DepthMap read_part(Imf::InputPart& part, const std::string& name) {
   DepthMap map;
   map.width = static_cast<std::uint32_t>(window.max.x - window.min.x + 1);
   map.height = static_cast<std::uint32_t>(window.max.y - window.min.y + 1);
+  const auto& channels = header.channels();
+  std::uint64_t bytes_per_pixel = 0;
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) bytes_per_pixel += 4;
+  require_map_memory(map.width, map.height, bytes_per_pixel, file_bytes, memory, name);
   const std::size_t pixels = std::size_t{map.width} * map.height;
   Imf::FrameBuffer target;
   const auto add = [&](const char* channel, Imf::PixelType type, void* values) {
     target.insert(channel,
                   Imf::Slice::Make(type, values, window, sizeof(float), sizeof(float) * map.width));
   };
-  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
     if (channel.channel().type == Imf::UINT) {
       Samples<std::uint32_t> values(pixels);
       add(channel.name(), Imf::UINT, values.data());
@@ -53,7 +60,7 @@ DepthMap read_part(Imf::InputPart& part, const std::string& name) {
 
 }  // namespace
 
-DepthMap decode_exr(ByteView bytes, const std::string& name) {
+DepthMap decode_exr(ByteView bytes, const std::string& name, const MapMemory& memory) {
   std::vector<std::size_t> defused = check_exr_claims(bytes, name);
   try {
     ByteInput stream(bytes, name, std::move(defused));
@@ -61,7 +68,7 @@ DepthMap decode_exr(ByteView bytes, const std::string& name) {
     const int threads = bytes.size() < (std::size_t{1} << 18) ? 0 : reserve_exr_threads(0);
     Imf::MultiPartInputFile file(stream, threads, false);
     Imf::InputPart part(file, 0);
-    return read_part(part, name);
+    return read_part(part, bytes.size(), memory, name);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -9,24 +9,25 @@
 #include "fathom/text/file_bytes.h"
 
 /// The formats as pure functions between maps and bytes, for map_files.cpp, tests and fuzzers.
-/// `name` is the file's name for messages. Decoders throw InputError, encoders OutputError.
+/// `name` is the file's name for messages. PFM and NPY take as much as their files; the others may
+/// take many times that, within `memory`. Decoders throw InputError, encoders OutputError.
 namespace fathom::image {
 
 text::Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
                        const std::string& name);
-DepthMap decode_exr(text::ByteView bytes, const std::string& name);
+DepthMap decode_exr(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 
 text::Bytes encode_pfm(const DepthMap& map, const ImageChannel& channel, const std::string& name);
 DepthMap decode_pfm(text::ByteView bytes, const std::string& name);
 
 text::Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::string& name);
-DepthMap decode_png(text::ByteView bytes, const std::string& name);
+DepthMap decode_png(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 
 text::Bytes encode_npy(const DepthMap& map, const ImageChannel& channel, const std::string& name);
 DepthMap decode_npy(text::ByteView bytes, const std::string& name);
 
 /// Recognises the format by the first bytes and decodes.
-DepthMap decode_map(text::ByteView bytes, const std::string& name);
+DepthMap decode_map(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 
 /// Fails    InputError if an OpenEXR file's header (its first part) claims more than the file can
 ///          hold, is not that of a plain image, or cannot be followed. See exr_claims.cpp.

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "fathom/image/files/map_codecs.h"
+#include "fathom/image/files/map_memory.h"
 #include "fathom/image/files/png_stream.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
@@ -109,7 +110,7 @@ ImageChannel channel_from(Samples<std::uint16_t> codes, DepthMap& map) {
 
 }  // namespace
 
-DepthMap decode_png(ByteView bytes, const std::string& name) {
+DepthMap decode_png(ByteView bytes, const std::string& name, const MapMemory& memory) {
   Reading reading(bytes);
   const auto fail = [&](const std::string& reason) {
     throw InputError(name + ": corrupt or truncated PNG file: " + reason);
@@ -128,6 +129,8 @@ DepthMap decode_png(ByteView bytes, const std::string& name) {
     fail("its header claims " + std::to_string(map.width) + "×" + std::to_string(map.height) +
          " pixels, more than " + std::to_string(bytes.size()) + " bytes can hold");
 
+  // Rows as libpng gives them, the same as codes, and identifiers.
+  require_map_memory(map.width, map.height, 2 + 2 + 4, bytes.size(), memory, name);
   reading.pixels.resize(2 * pixels);
   reading.rows.resize(map.height);
   for (std::size_t y = 0; y < map.height; ++y) reading.rows[y] = &reading.pixels[y * 2 * map.width];

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "fathom/image/depth_map.h"
+
+namespace fathom::app {
+
+/// Reads the map that a command was given, within --max-memory; no output may take its place.
+/// Fails    InputError.
+DepthMap read_map_argument(const std::string& file);
+
+}  // namespace fathom::app
