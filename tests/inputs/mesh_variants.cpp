@@ -1,43 +1,19 @@
 #include "tests/inputs/mesh_variants.h"
 
-#include <algorithm>
+#include <cctype>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
 #include <functional>
 
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/recognise_format.h"
 #include "fathom/numeric/errors.h"
+#include "tests/inputs/mesh_habits.h"
+#include "tests/inputs/mesh_text.h"
 
 namespace fathom::test {
 namespace {
 
 using namespace mesh_files;
-
-std::string decimal(double x, const char* format = "%.9g") {
-  char text[64];
-  std::snprintf(text, sizeof text, format, x);
-  return text;
-}
-
-std::string point(const MeshPoint& p, const char* format = "%.9g") {
-  return decimal(p.x, format) + " " + decimal(p.y, format) + " " + decimal(p.z, format);
-}
-
-template <class T>
-std::string raw(T value, bool big = false) {
-  std::string bytes(sizeof(T), '\0');
-  std::memcpy(bytes.data(), &value, sizeof(T));
-  if (big) std::reverse(bytes.begin(), bytes.end());
-  return bytes;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
 
 using CornerText = std::function<std::string(std::uint32_t)>;
 
@@ -288,6 +264,7 @@ std::vector<MeshFile> variants_of(const Mesh& mesh) {
   add_ply(mesh, files);
   add_stl(mesh, files);
   add_off(mesh, files);
+  add_habits(mesh, files);
   return files;
 }
 

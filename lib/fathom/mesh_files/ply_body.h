@@ -29,6 +29,9 @@ using PlyVertex = std::array<double, slot_count>;
 ///   vertex(values)
 ///   begin_faces(element, indices, most, rows)   `most` faces of three corners fit into the file
 ///   face(ring, rows)                        after its row
+///   begin_strips(element, indices)
+///   strip_corner(strip, row, rows)          before a corner of a strip is read
+///   strip_triangle(triangle)                a face of its own
 template <class Rows, class Sink>
 class PlyBody {
  public:
@@ -40,6 +43,15 @@ class PlyBody {
         reader_(std::move(rows), vertices_of(header, file)) {}
 
   void read(Warnings& warnings) {
+    try {
+      read_elements(warnings);
+    } catch (const InputError& failure) {
+      throw InputError(rows().explained(failure.what()));
+    }
+  }
+
+ private:
+  void read_elements(Warnings& warnings) {
     for (const PlyElement& element : header_.elements) {
       if (element.properties.empty()) continue;
       expect_room(element);
@@ -47,15 +59,21 @@ class PlyBody {
         read_vertices(element);
       } else if (element.name == "face") {
         read_faces(element);
+      } else if (element.name == "tristrips") {
+        read_strips(element);
       } else {
         skip_rows(element);
       }
     }
     if (rows().has_more())
       warnings.push_back(file_ + ": " + rows().place() + ": what follows the last row is ignored");
+    if (short_strips_ > 0)
+      warnings.push_back(file_ + ": " + std::to_string(short_strips_) +
+                         (short_strips_ == 1
+                              ? " triangle strip of fewer than three corners is skipped"
+                              : " triangle strips of fewer than three corners are skipped"));
   }
 
- private:
   static constexpr int skipped = -1;
 
   Rows& rows() { return reader_.rows(); }
@@ -64,10 +82,6 @@ class PlyBody {
     const PlyElement* vertices = header.find("vertex");
     if (!vertices) throw InputError(file + ": has no element vertex, expected one");
     if (vertices->properties.empty() && vertices->count > 0) fail_lacks_coordinates(file);
-    if (header.find("tristrips"))
-      throw InputError(file +
-                       ": triangle strips (element tristrips) are not supported, expected "
-                       "element face");
     return vertices->count;
   }
 
@@ -137,17 +151,59 @@ class PlyBody {
   }
 
   void read_faces(const PlyElement& element) {
-    const auto indices = element.find({"vertex_indices", "vertex_index"});
-    if (!indices || !element.properties[*indices].count_type)
-      throw InputError(file_ + ": element face lacks the list vertex_indices, expected it");
-    const std::uint64_t least = Rows::least_triangle_size(element, element.properties[*indices]);
-    sink_.begin_faces(element, *indices, std::min(element.count, rows().rest() / least), rows());
+    const std::size_t indices = indices_of(element);
+    const std::uint64_t least = Rows::least_triangle_size(element, element.properties[indices]);
+    sink_.begin_faces(element, indices, std::min(element.count, rows().rest() / least), rows());
     for (std::uint64_t i = 0; i < element.count; ++i) {
       rows().begin_row(element, i);
-      reader_.read_face(element, *indices, ring_);
+      reader_.read_face(element, indices, ring_);
       rows().end_row();
       sink_.face(ring_, rows());
     }
+  }
+
+  /// The place of the list of corners among the properties.
+  std::size_t indices_of(const PlyElement& element) const {
+    const auto indices = element.find({"vertex_indices", "vertex_index"});
+    if (!indices || !element.properties[*indices].count_type)
+      throw InputError(file_ + ": element " + element.name +
+                       " lacks the list vertex_indices, expected it");
+    return *indices;
+  }
+
+  void read_strips(const PlyElement& element) {
+    const std::size_t indices = indices_of(element);
+    if (!is_integer(element.properties[indices].type))
+      throw InputError(file_ + ": element " + element.name +
+                       " lacks the list vertex_indices of integers, expected it");
+    sink_.begin_strips(element, indices);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      rows().begin_row(element, i);
+      for (std::size_t k = 0; k < element.properties.size(); ++k) {
+        if (k == indices) {
+          read_strip(element.properties[k], i);
+        } else {
+          reader_.skip(element.properties[k]);
+        }
+      }
+      rows().end_row();
+    }
+  }
+
+  void read_strip(const PlyProperty& indices, std::uint64_t row) {
+    PlyStrip strip = reader_.begin_strip(indices);
+    while (strip.left > 0) {
+      const std::uint64_t corners = strip.corners;
+      sink_.strip_corner(strip, row, rows());
+      if (const auto triangle = reader_.next_corner(indices, strip))
+        sink_.strip_triangle(*triangle);
+      if (strip.corners == 0) note_end_of_strip(corners);
+    }
+    note_end_of_strip(strip.corners);
+  }
+
+  void note_end_of_strip(std::uint64_t corners) {
+    if (corners == 1 || corners == 2) ++short_strips_;
   }
 
   void skip_rows(const PlyElement& element) {
@@ -164,6 +220,7 @@ class PlyBody {
   Sink& sink_;
   PlyRowReader<Rows> reader_;
   std::vector<std::uint32_t> ring_;
+  std::uint64_t short_strips_ = 0;
 };
 
 }  // namespace fathom::mesh_files

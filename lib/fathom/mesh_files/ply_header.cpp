@@ -116,7 +116,8 @@ const PlyElement* PlyHeader::find(std::string_view name) const {
 
 PlyHeader read_ply_header(std::string_view text, const std::string& file) {
   PlyHeader header;
-  TextCursor cursor(text.substr(0, longest_ply_header), file, {}, line_end_of_first(text));
+  TextCursor cursor(TextCursor::without_mark(text.substr(0, longest_ply_header)), file, {},
+                    line_end_of_first(text));
   if (cursor.word() != "ply") cursor.fail("expected ply");
   bool has_format = false;
   while (true) {

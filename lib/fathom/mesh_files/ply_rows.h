@@ -6,83 +6,22 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "fathom/mesh/mesh.h"
 #include "fathom/mesh_files/ply_header.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_window.h"
-#include "fathom/text/text_cursor.h"
 
 static_assert(std::endian::native == std::endian::little, "little endian PLY is read as it lies");
 
-/// The values of the rows of a PLY file, one after another, whatever its encoding.
+/// The values of the rows of a PLY file, one after another, whatever its encoding. (ply_text.h has
+/// those of text.)
 namespace fathom::mesh_files {
-
-/// The values of a body that is text. Every row is on a line of its own.
-class AsciiRows {
- public:
-  AsciiRows(std::string_view body, const std::string& file, const PlyHeader& header)
-      : cursor_(body, file, {}, text::TextCursor::line_end_of(body), header.lines + 1) {}
-
-  static std::uint64_t least_row_size(const PlyElement& element) {
-    return 2 * element.properties.size();  // a digit and what separates it from the next
-  }
-  static std::uint64_t least_triangle_size(const PlyElement& element, const PlyProperty&) {
-    return least_row_size(element) + 6;
-  }
-  [[nodiscard]] std::uint64_t rest() const { return cursor_.rest() + 1; }
-
-  void begin_row(const PlyElement& element, std::uint64_t row) {
-    if (!cursor_.next_line_with_words())
-      cursor_.fail("the file ends after " + std::to_string(row) + " of " +
-                   std::to_string(element.count) + " rows of element " + element.name);
-  }
-  void end_row() {
-    if (!cursor_.at_line_end()) cursor_.fail_here("expected the line to end");
-  }
-
-  /// A coordinate: rounded once to the type that the file declares.
-  double finite(PlyType type, const char* what) {
-    if (type == PlyType::float64) return cursor_.number<double>(what);
-    if (type == PlyType::float32) return static_cast<double>(cursor_.number<float>(what));
-    return static_cast<double>(integer(type, what));
-  }
-  double attribute(PlyType type) {
-    if (type == PlyType::float64) return cursor_.attribute<double>("a number");
-    if (type == PlyType::float32) return static_cast<double>(cursor_.attribute<float>("a number"));
-    return static_cast<double>(integer(type, "an integer"));
-  }
-  std::int64_t integer(PlyType type, const char* what) {
-    const std::int64_t value = cursor_.integer(what);
-    const bool is_signed =
-        type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32;
-    const auto bits = static_cast<int>(8 * size_of(type));
-    const std::int64_t least = is_signed ? -(std::int64_t{1} << (bits - 1)) : 0;
-    const std::int64_t greatest = (std::int64_t{1} << (is_signed ? bits - 1 : bits)) - 1;
-    if (value < least || value > greatest)
-      cursor_.fail(std::string(what) + " " + std::to_string(value) +
-                   " does not fit the type of its property, expected " + std::to_string(least) +
-                   " to " + std::to_string(greatest));
-    return value;
-  }
-  void skip(PlyType) {
-    if (cursor_.word().empty()) cursor_.fail("expected a value, found the end of the line");
-  }
-  void skip(PlyType type, std::uint64_t count) {
-    for (std::uint64_t i = 0; i < count; ++i) skip(type);
-  }
-  /// Only for binary rows.
-  [[nodiscard]] static std::uint64_t position() { return 0; }
-  [[nodiscard]] bool has_more() { return cursor_.next_line_with_words(); }
-  [[nodiscard]] std::string place() const { return "line " + std::to_string(cursor_.line()); }
-  [[noreturn]] void fail(const std::string& message) const { cursor_.fail(message); }
-
- private:
-  text::TextCursor cursor_;
-};
 
 /// The values of a binary body, one after another.
 template <bool big_endian>
@@ -140,6 +79,8 @@ class BinaryRows {
     bytes_.skip(count * size_of(type));
   }
   [[nodiscard]] bool has_more() const { return rest() > 0; }
+  /// What more there is to say of a failure: nothing.
+  [[nodiscard]] static std::string explained(const std::string& message) { return message; }
   [[nodiscard]] std::string place() const { return "byte " + std::to_string(position()); }
   [[noreturn]] void fail(const std::string& message) const {
     throw InputError(file_ + ": " + place() + ": " + message);
@@ -162,6 +103,15 @@ class BinaryRows {
   const std::string& file_;
 };
 
+/// Where reading has got to in a list of triangle strips.
+struct PlyStrip {
+  /// Indices that are left in the list.
+  std::uint64_t left = 0;
+  /// Corners since the strip began, and the last two of them.
+  std::uint64_t corners = 0;
+  std::array<std::uint32_t, 2> last{};
+};
+
 /// What faces consist of: lists of indices of vertices, and properties that nobody asked for.
 template <class Rows>
 class PlyRowReader {
@@ -180,6 +130,31 @@ class PlyRowReader {
         skip(element.properties[k]);
       }
     }
+  }
+
+  /// The list of a row of element tristrips begins.
+  PlyStrip begin_strip(const PlyProperty& indices) {
+    return {.left = read_list_count(indices), .corners = 0, .last = {}};
+  }
+
+  /// Reads the next index of a strip: a corner, or −1, which begins another strip. The triangle, if
+  /// the corner completes one; every other one is turned round, as in [GLTF20] 3.7.2.1.
+  std::optional<CornerIndices> next_corner(const PlyProperty& indices, PlyStrip& strip) {
+    --strip.left;
+    const std::int64_t index = rows_.integer(indices.type, "the index of a vertex");
+    if (index == -1) {
+      strip.corners = 0;
+      return std::nullopt;
+    }
+    if (static_cast<std::uint64_t>(index) >= vertex_count_)
+      fail_index(std::to_string(index), " or -1");
+    const auto corner = static_cast<std::uint32_t>(index);
+    const auto [a, b] = strip.last;
+    strip.last = {b, corner};
+    ++strip.corners;
+    if (strip.corners < 3) return std::nullopt;
+    if (strip.corners % 2 == 0) return CornerIndices{a, corner, b};
+    return CornerIndices{a, b, corner};
   }
 
   void skip(const PlyProperty& property) {
@@ -213,10 +188,10 @@ class PlyRowReader {
     }
   }
 
-  [[noreturn]] void fail_index(const std::string& index) const {
+  [[noreturn]] void fail_index(const std::string& index, const char* other = "") const {
     if (vertex_count_ == 0) rows_.fail("index " + index + " is out of range, there is no vertex");
     rows_.fail("index " + index + " is out of range, expected 0 to " +
-               std::to_string(vertex_count_ - 1));
+               std::to_string(vertex_count_ - 1) + other);
   }
 
   Rows rows_;

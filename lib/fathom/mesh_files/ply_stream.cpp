@@ -4,6 +4,7 @@
 
 #include "fathom/mesh/triangulate_face.h"
 #include "fathom/mesh_files/ply_body.h"
+#include "fathom/mesh_files/ply_face_index.h"
 #include "fathom/mesh_files/ply_vertices.h"
 #include "fathom/mesh_files/streams.h"
 
@@ -16,68 +17,6 @@ using namespace text;
 namespace {
 
 constexpr std::size_t window_size = std::size_t{1} << 20;
-constexpr std::uint64_t faces_per_entry = 256;
-
-/// A face, and the first triangle that comes from it or a later one.
-struct FacePlace {
-  std::uint64_t triangle = 0, face = 0, offset = 0;
-};
-
-std::uint64_t triangles_of(std::size_t corners) {
-  return corners < 3 ? 0 : corners - 2;
-}
-
-/// Where the faces are.
-class FaceIndex {
- public:
-  void begin(std::uint64_t offset) { end_.offset = start_ = offset; }
-
-  /// The next face has so many corners, and its row ends before `offset`.
-  void add(std::size_t corners, std::uint64_t offset) {
-    const std::uint64_t size = offset - end_.offset;
-    if (end_.face == 0) row_size_ = size;
-    if (even_ && (corners != 3 || size != row_size_)) note_uneven();
-    if (!even_ && end_.face % faces_per_entry == 0) entries_.push_back(end_);
-    triangles_only_ = triangles_only_ && corners == 3;
-    has_polygons_ = has_polygons_ || corners > 3;
-    end_.triangle += triangles_of(corners);
-    ++end_.face;
-    end_.offset = offset;
-  }
-
-  /// A face at or before the one that triangle `number` comes from, less than 256 faces before it
-  /// or with no triangle in between.
-  [[nodiscard]] FacePlace before(std::uint64_t number) const {
-    if (even_) return {number, number, start_ + number * row_size_};
-    const auto after = std::upper_bound(
-        entries_.begin(), entries_.end(), number,
-        [](std::uint64_t n, const FacePlace& place) { return n < place.triangle; });
-    return *(after - 1);
-  }
-
-  /// The place after the last face.
-  [[nodiscard]] const FacePlace& end() const { return end_; }
-  [[nodiscard]] bool triangles_only() const { return triangles_only_; }
-  [[nodiscard]] bool has_polygons() const { return has_polygons_; }
-  /// Bytes to read for one triangle.
-  [[nodiscard]] std::size_t reach() const {
-    return even_ ? std::max<std::size_t>(row_size_, 8) : std::size_t{1} << 12;
-  }
-
- private:
-  /// Until now every face had three corners and a row of the same size.
-  void note_uneven() {
-    even_ = false;
-    for (std::uint64_t face = 0; face < end_.face; face += faces_per_entry) {
-      entries_.push_back({face, face, start_ + face * row_size_});
-    }
-  }
-
-  std::uint64_t start_ = 0, row_size_ = 0;
-  FacePlace end_;
-  bool even_ = true, triangles_only_ = true, has_polygons_ = false;
-  std::vector<FacePlace> entries_;
-};
 
 /// What reading the file through leaves behind.
 struct Scan {
@@ -90,6 +29,11 @@ struct Scan {
   std::size_t indices = 0;
   FaceIndex faces;
   std::uint64_t skipped = 0;
+
+  PlyElement strip_element;
+  std::size_t strip_indices = 0;
+  StripIndex strips;
+  bool strips_first = false;
   /// Which vertices belong to a triangle; those beyond its end do not.
   std::vector<bool> used;
 };
@@ -118,9 +62,7 @@ class ScanSink {
   template <class Rows>
   void face(const std::vector<std::uint32_t>& ring, const Rows& rows) {
     scan_.faces.add(ring.size(), rows.position());
-    const FacePlace& end = scan_.faces.end();
-    if (end.triangle > most_elements || end.face > most_elements)
-      fail_too_many_triangles(file_.name());
+    expect_numbers();
     if (ring.size() < 3) {
       ++scan_.skipped;
       return;
@@ -128,7 +70,29 @@ class ScanSink {
     for (const std::uint32_t vertex : ring) note_used(vertex);
   }
 
+  void begin_strips(const PlyElement& element, std::size_t indices) {
+    scan_.strip_element = element;
+    scan_.strip_indices = indices;
+    scan_.strips_first = scan_.face_element.name.empty();
+  }
+  template <class Rows>
+  void strip_corner(const PlyStrip& strip, std::uint64_t row, const Rows& rows) {
+    scan_.strips.add_corner(strip, row, rows.position());
+  }
+  void strip_triangle(const CornerIndices& corners) {
+    scan_.strips.add_triangle();
+    expect_numbers();
+    for (const std::uint32_t vertex : corners) note_used(vertex);
+  }
+
  private:
+  void expect_numbers() const {
+    const FacePlace& end = scan_.faces.end();
+    if (scan_.strips.triangles() + end.triangle > most_elements ||
+        scan_.strips.triangles() + end.face > most_elements)
+      fail_too_many_triangles(file_.name());
+  }
+
   void note_used(std::uint32_t vertex) {
     // A vertex takes at least three bytes: one that cannot be there will be noticed when it is
     // read.
@@ -180,9 +144,11 @@ class PlyStream : public TriangleStream {
   }
 
   [[nodiscard]] std::uint32_t triangle_count() const override {
-    return static_cast<std::uint32_t>(scan_.faces.end().triangle);
+    return static_cast<std::uint32_t>(scan_.faces.end().triangle + scan_.strips.triangles());
   }
-  [[nodiscard]] std::uint64_t face_count() const override { return scan_.faces.end().face; }
+  [[nodiscard]] std::uint64_t face_count() const override {
+    return scan_.faces.end().face + scan_.strips.triangles();
+  }
   [[nodiscard]] std::optional<Bounds> bounds() const override { return bounds_; }
 
   [[nodiscard]] TriangleChunk read(std::uint32_t first, std::uint32_t count) const override {
@@ -192,7 +158,7 @@ class PlyStream : public TriangleStream {
     Mesh& mesh = chunk.mesh;
     mesh.triangles.reserve(count);
     ChunkVertices vertices(*vertices_, mesh.vertices);
-    walk(first, count, window_size, [&](std::uint32_t face, const CornerIndices& t) {
+    walk(first, count, Reading::many, [&](std::uint32_t face, const CornerIndices& t) {
       mesh.triangles.push_back(
           {vertices.number_of(t[0]), vertices.number_of(t[1]), vertices.number_of(t[2])});
       if (!scan_.faces.triangles_only()) mesh.face_of_triangle.push_back(face);
@@ -202,7 +168,7 @@ class PlyStream : public TriangleStream {
 
   [[nodiscard]] Triangle triangle(std::uint32_t number) const override {
     Triangle result;
-    walk(number, 1, scan_.faces.reach(), [&](std::uint32_t face, const CornerIndices& t) {
+    walk(number, 1, Reading::one, [&](std::uint32_t face, const CornerIndices& t) {
       result = {{(*vertices_)[t[0]], (*vertices_)[t[1]], (*vertices_)[t[2]]}, face};
     });
     return result;
@@ -231,7 +197,7 @@ class PlyStream : public TriangleStream {
     if (!scan_.faces.has_polygons()) return 0;
     std::uint64_t odd = 0;
     std::vector<CornerIndices> cut;
-    walk_faces(0, triangle_count(), window_size,
+    walk_faces(0, scan_.faces.end().triangle, window_size,
                [&](std::uint64_t, std::uint64_t, const std::vector<std::uint32_t>& ring) {
                  if (cut_face(ring, cut) == Triangulation::fallback_fan) ++odd;
                });
@@ -253,54 +219,123 @@ class PlyStream : public TriangleStream {
     return triangulate_face(points, cut);
   }
 
+  enum class Reading { one, many };
+
   /// Calls visit(face, corners) for `count` triangles from `first` on, corners being numbers of
-  /// vertices.
+  /// vertices: those of the faces and those of the strips, in the order of the file.
   template <class Visit>
-  void walk(std::uint32_t first, std::uint32_t count, std::size_t window,
-            const Visit& visit) const {
-    const std::uint64_t end = std::uint64_t{first} + count;
+  void walk(std::uint32_t first, std::uint32_t count, Reading reading, const Visit& visit) const {
+    const FacePlace& faces = scan_.faces.end();
+    const std::uint64_t strips = scan_.strips.triangles(), end = std::uint64_t{first} + count;
+    const auto walk_strips_from = [&](std::uint64_t triangle, std::uint64_t face) {
+      walk_strips(part_of(first, end, triangle, strips), reading,
+                  [&](std::uint64_t t, const CornerIndices& corners) {
+                    visit(static_cast<std::uint32_t>(face + t), corners);
+                  });
+    };
+    if (scan_.strips_first) walk_strips_from(0, 0);
+    const std::uint64_t before = scan_.strips_first ? strips : 0;
+    walk_cut_faces(part_of(first, end, before, faces.triangle), reading,
+                   [&](std::uint64_t face, const CornerIndices& corners) {
+                     visit(static_cast<std::uint32_t>(before + face), corners);
+                   });
+    if (!scan_.strips_first) walk_strips_from(faces.triangle, faces.face);
+  }
+
+  struct Part {
+    std::uint64_t first = 0, end = 0;
+    [[nodiscard]] bool empty() const { return first >= end; }
+  };
+
+  /// What triangles [first, end) have in common with `count` ones from `start` on, as numbers
+  /// among those.
+  static Part part_of(std::uint64_t first, std::uint64_t end, std::uint64_t start,
+                      std::uint64_t count) {
+    return {std::max(first, start) - start, std::min(std::max(end, start) - start, count)};
+  }
+
+  template <class Visit>
+  void walk_cut_faces(Part part, Reading reading, const Visit& visit) const {
+    if (part.empty()) return;
+    const std::size_t window = reading == Reading::one ? scan_.faces.reach() : window_size;
     std::vector<CornerIndices> cut;
     walk_faces(
-        first, count, window,
+        part.first, part.end, window,
         [&](std::uint64_t triangle, std::uint64_t face, const std::vector<std::uint32_t>& ring) {
-          if (triangle + triangles_of(ring.size()) <= first) return;
+          if (triangle + triangles_of(ring.size()) <= part.first) return;
           cut_face(ring, cut);
           for (const auto& [a, b, c] : cut) {
-            if (triangle >= first && triangle < end)
-              visit(static_cast<std::uint32_t>(face), {ring[a], ring[b], ring[c]});
+            if (triangle >= part.first && triangle < part.end)
+              visit(face, {ring[a], ring[b], ring[c]});
             ++triangle;
           }
         });
   }
 
-  /// Calls visit(first triangle, face, ring) for the faces that triangles [first, first + count)
-  /// come from, and for some before them.
+  /// Calls visit(first triangle, face, ring) for the faces that triangles [first, end) come from,
+  /// and for some before them.
   template <class Visit>
-  void walk_faces(std::uint32_t first, std::uint32_t count, std::size_t window,
+  void walk_faces(std::uint64_t first, std::uint64_t end, std::size_t window,
                   const Visit& visit) const {
-    if (count == 0) return;
+    if (first == end) return;
     if (scan_.big_endian) {
-      walk_rows<true>(first, count, window, visit);
+      walk_rows<true>(first, end, window, visit);
     } else {
-      walk_rows<false>(first, count, window, visit);
+      walk_rows<false>(first, end, window, visit);
     }
   }
 
   template <bool big_endian, class Visit>
-  void walk_rows(std::uint32_t first, std::uint32_t count, std::size_t window,
+  void walk_rows(std::uint64_t first, std::uint64_t end, std::size_t window,
                  const Visit& visit) const {
-    using Rows = BinaryRows<big_endian>;
-    const std::uint64_t end = std::uint64_t{first} + count;
     FacePlace here = scan_.faces.before(first);
-    PlyRowReader<Rows> reader(
-        Rows(ByteWindow(*file_, here.offset, scan_.faces.end().offset, window), file_->name()),
-        vertex_count_);
+    auto reader = reader_at<big_endian>(here.offset, scan_.faces.end().offset, window);
     std::vector<std::uint32_t> ring;
     while (here.triangle < end) {
       reader.read_face(scan_.face_element, scan_.indices, ring);
       visit(here.triangle, here.face, ring);
       here.triangle += triangles_of(ring.size());
       ++here.face;
+    }
+  }
+
+  template <bool big_endian>
+  [[nodiscard]] PlyRowReader<BinaryRows<big_endian>> reader_at(std::uint64_t offset,
+                                                               std::uint64_t end,
+                                                               std::size_t window) const {
+    return {BinaryRows<big_endian>(ByteWindow(*file_, offset, end, window), file_->name()),
+            vertex_count_};
+  }
+
+  /// Calls visit(triangle, corners) for these triangles of the strips.
+  template <class Visit>
+  void walk_strips(Part part, Reading reading, const Visit& visit) const {
+    if (part.empty()) return;
+    const std::size_t window = reading == Reading::one ? std::size_t{1} << 12 : window_size;
+    if (scan_.big_endian) {
+      walk_strip_rows<true>(part, window, visit);
+    } else {
+      walk_strip_rows<false>(part, window, visit);
+    }
+  }
+
+  template <bool big_endian, class Visit>
+  void walk_strip_rows(Part part, std::size_t window, const Visit& visit) const {
+    const auto& properties = scan_.strip_element.properties;
+    StripPlace here = scan_.strips.before(part.first);
+    auto reader = reader_at<big_endian>(here.offset, file_->size(), window);
+    while (here.triangle < part.end) {
+      if (here.strip.left == 0) {
+        for (std::size_t k = scan_.strip_indices + 1; k < properties.size(); ++k)
+          reader.skip(properties[k]);
+        for (std::size_t k = 0; k < scan_.strip_indices; ++k) reader.skip(properties[k]);
+        here.strip = reader.begin_strip(properties[scan_.strip_indices]);
+        continue;
+      }
+      const auto triangle = reader.next_corner(properties[scan_.strip_indices], here.strip);
+      if (!triangle) continue;
+      if (here.triangle >= part.first) visit(here.triangle, *triangle);
+      ++here.triangle;
     }
   }
 

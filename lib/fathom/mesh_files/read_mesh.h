@@ -15,27 +15,30 @@ namespace fathom::mesh_files {
 
 /// Wavefront OBJ: v, vt, vn and f lines; o, g, s, usemtl, mtllib and the like are ignored, other
 /// keywords are ignored with a warning. Indices count from 1, negative ones backwards from the last
-/// one read; positive ones may point forward. `v x y z w` is accepted if w is 1; another w, which
-/// belongs to rational curves, is refused, because programs differ in what they make of it. `v x y
-/// z r g b [a]` has a colour; vertices without one are white. Read in parallel, with a result that
-/// does not depend on it.
+/// one read; positive ones may point forward. `v x y z w` is the point (x/w, y/w, z/w), with a
+/// warning unless w is 1. `v x y z r g b [a]` has a colour; vertices without one are white. Where
+/// no vertex has a z it is 0, with a warning. A corner whose texture coordinate or normal is not in
+/// the file has none, with a warning. Read in parallel, with a result that does not depend on it.
 Mesh read_obj(std::string_view text, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 
 /// PLY 1.0: ascii, binary little and big endian. Elements `vertex` (x, y, z and, if asked for,
-/// nx ny nz, s t / u v / texture_u texture_v, red green blue alpha of any type) and `face`
-/// (vertex_indices or vertex_index); other elements and properties are skipped. In ascii each row
-/// of an element is on a line of its own. Refused: tristrips.
+/// nx ny nz, s t / u v / texture_u texture_v, red green blue alpha of any type), `face` and
+/// `tristrips` (vertex_indices or vertex_index); other elements and properties are skipped. In
+/// ascii rows are lines or, if exactly as many words are there, a stream of words (ply_text.h).
 Mesh read_ply(std::span<const std::byte> bytes, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 
-/// STL, ascii (several solids, any case) and binary, distinguished by content. Each triangle has
-/// three vertices of its own: STL does not say which are shared.
+/// STL, ascii (several solids, any case, comments) and binary, distinguished by content. Each
+/// triangle has three vertices of its own: STL does not say which are shared. With a warning:
+/// facets without a normal, no endsolid, bytes after the last triangle.
 Mesh read_stl(std::span<const std::byte> bytes, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 
-/// Object File Format, ascii: OFF with the prefixes ST, C and N, one vertex and one face per line,
-/// comments; the word OFF is optional. Face colours are ignored. Refused: binary, 4OFF, nOFF.
+/// Object File Format, ascii: OFF with the prefixes ST, C and N, comments; the word OFF is optional.
+/// One vertex and one face per line, with or without a colour behind it, or words that come out
+/// exactly (docs/conventions.md has the rule). Face colours are ignored. Refused: binary, 4OFF,
+/// nOFF.
 Mesh read_off(std::string_view text, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 

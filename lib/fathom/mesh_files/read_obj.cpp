@@ -1,13 +1,17 @@
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <map>
 
 #include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh_files/occurrences.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/printable.h"
 #include "fathom/text/text_chunks.h"
 #include "fathom/text/text_cursor.h"
+#include "fathom/text/text_ends.h"
 
 /// Read in two passes over pieces of the file, each in parallel: first count what each piece has,
 /// so that the place of everything is known; then read every piece into its place.
@@ -39,6 +43,7 @@ Statement statement_named(std::string_view keyword) {
 struct ObjCounts {
   std::uint64_t lines = 0;
   std::uint64_t vertices = 0, textures = 0, normals = 0;
+  std::uint64_t short_points = 0;  // of at most two numbers, counted up to the first colour
   std::uint64_t faces = 0, triangles = 0;
   std::uint64_t skipped_faces = 0, not_faces = 0;
   bool polygons = false;  // a face that does not have three corners
@@ -50,6 +55,7 @@ struct ObjCounts {
     vertices += other.vertices;
     textures += other.textures;
     normals += other.normals;
+    short_points += other.short_points;
     faces += other.faces;
     triangles += other.triangles;
     skipped_faces += other.skipped_faces;
@@ -59,6 +65,21 @@ struct ObjCounts {
     face_textures |= other.face_textures;
     face_normals |= other.face_normals;
     for (const auto& [keyword, count] : other.unknown) unknown[keyword] += count;
+  }
+
+  /// No vertex has a z: a drawing in the plane z = 0. Where others have one, it is missing.
+  [[nodiscard]] bool in_the_plane() const { return vertices > 0 && short_points == vertices; }
+};
+
+/// What a piece of the file has that cannot be used or is not usual, though its geometry is clear.
+struct ObjOddities {
+  Occurrences textures, normals, colours, weights;
+
+  void add(const ObjOddities& later) {
+    textures.add(later.textures);
+    normals.add(later.normals);
+    colours.add(later.colours);
+    weights.add(later.weights);
   }
 };
 
@@ -96,6 +117,7 @@ ObjCounts count_statements(std::string_view text, const std::string& file, char 
         int words = 0;
         while (words < 6 && !cursor.word().empty()) ++words;
         counts.colours = words == 6;
+        if (words < 3) ++counts.short_points;
         break;
       }
       case Statement::texture:
@@ -130,9 +152,10 @@ class ObjChunk {
       : cursor_(text, file, obj_syntax, line_end, before.lines + 1),
         at_(before),
         total_(total),
+        in_the_plane_(total.in_the_plane()),
         mesh_(mesh) {}
 
-  void read() {
+  ObjOddities read() {
     for (; cursor_.next_line_with_words(); cursor_.skip_line()) {
       switch (statement_named(cursor_.word())) {
         case Statement::vertex:
@@ -153,6 +176,7 @@ class ObjChunk {
           break;
       }
     }
+    return odd_;
   }
 
  private:
@@ -166,26 +190,42 @@ class ObjChunk {
     MeshPoint& p = mesh_.vertices[at_.vertices];
     p.x = cursor_.number<double>("coordinate x");
     p.y = cursor_.number<double>("coordinate y");
-    p.z = cursor_.number<double>("coordinate z");
-    if (!cursor_.at_line_end()) read_weight_or_colour();
+    if (!in_the_plane_) p.z = cursor_.number<double>("coordinate z");
+    if (!cursor_.at_line_end()) read_weight_or_colour(p);
     ++at_.vertices;
   }
 
-  void read_weight_or_colour() {
+  void read_weight_or_colour(MeshPoint& p) {
     std::array<double, 4> more{0, 0, 0, 1};
     std::size_t count = 0;
-    for (; count < 4 && !cursor_.at_line_end(); ++count)
-      more[count] = cursor_.number<double>("a fourth coordinate or a colour");
-    if (count == 2 || !cursor_.at_line_end())
-      cursor_.fail("expected 3 coordinates, with w = 1 or a colour of 3 or 4 components behind");
-    if (count == 1) {
-      if (more[0] != 1)
-        cursor_.fail("a vertex with weight w other than 1, expected a polygonal mesh");
-      return;
+    bool finite = true;
+    for (; !cursor_.at_line_end(); ++count) {
+      const double number = cursor_.attribute<double>("a weight or a colour");
+      finite = finite && std::isfinite(number);
+      if (count < more.size()) more[count] = number;
     }
+    if (count == 1) return divide(p, more[0]);
+    if (!finite || count == 2 || count > 4) return odd_.colours.note(cursor_.line());
     if (mesh_.colours.empty()) return;
     for (std::size_t i = 0; i < 4; ++i)
       mesh_.colours[at_.vertices][i] = static_cast<float>(std::clamp(more[i], 0.0, 1.0));
+  }
+
+  /// The homogeneous point (x, y, z, w): each quotient of two binary64 numbers is rounded once, as
+  /// IEEE 754 divides.
+  void divide(MeshPoint& p, double w) {
+    if (w == 1) return;
+    if (!std::isfinite(w)) cursor_.fail("weight w is not finite, expected a finite number");
+    if (w == 0) cursor_.fail("a weight w of 0 leaves no point, expected another");
+    p = {p.x / w, p.y / w, p.z / w};
+    if (!std::isfinite(p.x)) fail_quotient("x/w");
+    if (!std::isfinite(p.y)) fail_quotient("y/w");
+    if (!std::isfinite(p.z)) fail_quotient("z/w");
+    odd_.weights.note(cursor_.line());
+  }
+
+  [[noreturn]] void fail_quotient(const char* what) {
+    cursor_.fail(std::string(what) + " is too large, expected a finite number");
   }
 
   void read_texture() {
@@ -224,16 +264,16 @@ class ObjChunk {
   Corner read_corner() {
     Corner corner;
     const char* at = cursor_.position();
-    corner.vertex = read_index(at, at_.vertices, total_.vertices, "vertex");
+    corner.vertex = read_vertex_index(at);
     if (at != cursor_.limit() && *at == '/') {
       ++at;
       const bool skipped = at != cursor_.limit() && *at == '/';
       if (!skipped && !cursor_.at_word_end(at))
-        corner.texture = read_index(at, at_.textures, total_.textures, "texture coordinate");
+        corner.texture = read_attribute_index(at, at_.textures, total_.textures, odd_.textures);
       if (at != cursor_.limit() && *at == '/') {
         ++at;
         if (!cursor_.at_word_end(at))
-          corner.normal = read_index(at, at_.normals, total_.normals, "normal");
+          corner.normal = read_attribute_index(at, at_.normals, total_.normals, odd_.normals);
       }
     }
     if (!cursor_.at_word_end(at)) fail_corner();
@@ -241,24 +281,47 @@ class ObjChunk {
     return corner;
   }
 
-  /// Reads an index and moves `at` past it; from 1 or, if negative, back from the last of `so_far`.
-  std::uint32_t read_index(const char*& at, std::uint64_t so_far, std::uint64_t count,
-                           const char* what) {
+  /// The place that an index means, from 1 or, if negative, back from the last of `so_far`;
+  /// no_index if there is none.
+  static std::uint32_t place_of(std::int64_t index, std::uint64_t so_far, std::uint64_t count) {
+    if (index > 0 && static_cast<std::uint64_t>(index) <= count)
+      return static_cast<std::uint32_t>(index - 1);
+    const auto forward = static_cast<std::int64_t>(so_far) + index;
+    if (index < 0 && index >= -static_cast<std::int64_t>(so_far))
+      return static_cast<std::uint32_t>(forward);
+    return no_index;
+  }
+
+  /// Reads an index and moves `at` past it.
+  std::uint32_t read_vertex_index(const char*& at) {
     std::int64_t index = 0;
     const char* end = TextCursor::parse_integer(at, cursor_.limit(), index);
     if (!end) fail_corner();
-    const auto forward = static_cast<std::uint64_t>(index);
-    if (index > 0 && forward <= count) {
-      at = end;
-      return static_cast<std::uint32_t>(forward - 1);
+    at = end;
+    const std::uint32_t place = place_of(index, at_.vertices, total_.vertices);
+    if (place == no_index)
+      cursor_.fail("vertex index " + std::to_string(index) + " is out of range, expected 1 to " +
+                   std::to_string(total_.vertices) + " or -" + std::to_string(at_.vertices) +
+                   " to -1");
+    return place;
+  }
+
+  /// The same for what a corner can do without: an index of nothing is noted, however long it is.
+  std::uint32_t read_attribute_index(const char*& at, std::uint64_t so_far, std::uint64_t count,
+                                     Occurrences& missing) {
+    std::int64_t index = 0;
+    const char* end = TextCursor::parse_integer(at, cursor_.limit(), index);
+    if (!end) {
+      index = 0;
+      end = *at == '-' || *at == '+' ? at + 1 : at;
+      const char* digits = end;
+      while (end != cursor_.limit() && std::isdigit(static_cast<unsigned char>(*end)) != 0) ++end;
+      if (end == digits) fail_corner();
     }
-    if (index < 0 && 0 - forward <= so_far) {
-      at = end;
-      return static_cast<std::uint32_t>(so_far + forward);
-    }
-    cursor_.fail(std::string(what) + " index " + std::to_string(index) +
-                 " is out of range, expected 1 to " + std::to_string(count) + " or -" +
-                 std::to_string(so_far) + " to -1");
+    at = end;
+    const std::uint32_t place = place_of(index, so_far, count);
+    if (place == no_index) missing.note(cursor_.line());
+    return place;
   }
 
   [[noreturn]] void fail_corner() {
@@ -280,7 +343,9 @@ class ObjChunk {
   TextCursor cursor_;
   ObjCounts at_;
   const ObjCounts& total_;
+  bool in_the_plane_;
   Mesh& mesh_;
+  ObjOddities odd_;
 };
 
 void make_room(const ObjCounts& total, bool attributes, const std::string& file, Mesh& mesh) {
@@ -297,15 +362,32 @@ void make_room(const ObjCounts& total, bool attributes, const std::string& file,
   if (total.colours) mesh.colours.assign(total.vertices, {1, 1, 1, 1});
   mesh.texture_coordinates.resize(total.textures);
   mesh.normals.resize(total.normals);
-  if (total.face_textures) mesh.texture_triangles.resize(total.triangles);
-  if (total.face_normals) mesh.normal_triangles.resize(total.triangles);
+  if (total.face_textures && total.textures > 0) mesh.texture_triangles.resize(total.triangles);
+  if (total.face_normals && total.normals > 0) mesh.normal_triangles.resize(total.triangles);
   // If no face refers to them they belong to nobody; without indices, those of the vertices would
   // be used.
   if (!total.face_textures) mesh.texture_coordinates.clear();
   if (!total.face_normals) mesh.normals.clear();
 }
 
-void warn(const ObjCounts& total, const std::string& file, Warnings& warnings) {
+void warn(const ObjCounts& total, const ObjOddities& odd, const std::string& file,
+          Warnings& warnings) {
+  if (total.in_the_plane())
+    warnings.push_back(file + ": its " + std::to_string(total.vertices) +
+                       " vertices have two coordinates: read with z = 0");
+  odd.weights.warn(file, "vertex has a weight w other than 1",
+                   "vertices have a weight w other than 1", "read as x/w, y/w, z/w", warnings);
+  odd.colours.warn(file,
+                   "vertex has numbers behind x, y, z that are neither a weight nor a colour of 3 "
+                   "or 4 finite components",
+                   "vertices have numbers behind x, y, z that are neither a weight nor a colour of "
+                   "3 or 4 finite components",
+                   "ignored", warnings);
+  odd.textures.warn(file, "corner names a texture coordinate that is not in the file",
+                    "corners name a texture coordinate that is not in the file", "they have none",
+                    warnings);
+  odd.normals.warn(file, "corner names a normal that is not in the file",
+                   "corners name a normal that is not in the file", "they have none", warnings);
   if (total.not_faces > 0)
     warnings.push_back(file + ": " + std::to_string(total.not_faces) +
                        " lines and points (l, p) are ignored");
@@ -316,8 +398,10 @@ void warn(const ObjCounts& total, const std::string& file, Warnings& warnings) {
 
 }  // namespace
 
-Mesh read_obj(std::string_view text, const std::string& file, const ReadOptions& options,
+Mesh read_obj(std::string_view bytes, const std::string& file, const ReadOptions& options,
               Warnings& warnings) {
+  expect_no_utf16(bytes, file);
+  const std::string_view text = without_padding(bytes);
   const char line_end = TextCursor::line_end_of(text);
   const std::vector<std::string_view> chunks =
       cut_into_chunks(TextCursor::without_mark(text), line_end, chunk_size);
@@ -338,10 +422,13 @@ Mesh read_obj(std::string_view text, const std::string& file, const ReadOptions&
     throw InputError(file + ": holds neither vertices nor faces, expected an OBJ file");
   Mesh mesh;
   make_room(total, options.attributes, file, mesh);
+  std::vector<ObjOddities> odd(chunks.size());
   for_each_chunk(chunks.size(), options.threads, [&](std::size_t i) {
-    ObjChunk(chunks[i], file, line_end, before[i], total, mesh).read();
+    odd[i] = ObjChunk(chunks[i], file, line_end, before[i], total, mesh).read();
   });
-  warn(total, file, warnings);
+  ObjOddities all;
+  for (const ObjOddities& of_piece : odd) all.add(of_piece);
+  warn(total, all, file, warnings);
   cut_polygons(mesh, total.skipped_faces, file, warnings);
   return mesh;
 }

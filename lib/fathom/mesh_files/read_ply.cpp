@@ -1,8 +1,11 @@
 #include "fathom/mesh_files/ply_body.h"
+#include "fathom/mesh_files/ply_text.h"
 #include "fathom/mesh_files/read_mesh.h"
+#include "fathom/text/text_ends.h"
 
 namespace fathom::mesh_files {
 using namespace mesh;
+using namespace text;
 
 namespace {
 
@@ -39,6 +42,11 @@ class MeshSink {
     faces_.add(ring);
   }
 
+  void begin_strips(const PlyElement&, std::size_t) {}
+  template <class Rows>
+  void strip_corner(const PlyStrip&, std::uint64_t, const Rows&) {}
+  void strip_triangle(const CornerIndices& corners) { faces_.add(corners); }
+
   Mesh finish(const std::string& file, Warnings& warnings) {
     cut_polygons(mesh_, faces_.skipped(), file, warnings);
     return std::move(mesh_);
@@ -70,10 +78,12 @@ Mesh read_body(std::string_view text, const PlyHeader& header, const std::string
 Mesh read_ply(std::span<const std::byte> bytes, const std::string& file, const ReadOptions& options,
               Warnings& warnings) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  expect_no_utf16(text, file);
   const PlyHeader header = read_ply_header(text, file);
   switch (header.encoding) {
     case PlyHeader::Encoding::ascii:
-      return read_body<AsciiRows>(text, header, file, options.attributes, warnings);
+      return read_body<PlyTextRows>(without_padding(text), header, file, options.attributes,
+                                    warnings);
     case PlyHeader::Encoding::little_endian:
       return read_body<BinaryRows<false>>(text, header, file, options.attributes, warnings);
     default:

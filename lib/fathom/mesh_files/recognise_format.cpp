@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 
 #include "fathom/mesh_files/foreign_formats.h"
+#include "fathom/mesh_files/off_keyword.h"
+#include "fathom/mesh_files/stl_binary.h"
 #include "fathom/text/text_cursor.h"
 
 namespace fathom::mesh_files {
@@ -33,23 +34,10 @@ std::optional<FileFormat> kind_by_suffix(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
-bool is_off_keyword(std::string_view word) {
-  for (const std::string_view prefix : {"ST", "C", "N", "4", "n"})
-    if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
-  return word == "OFF";
-}
-
 bool is_obj_keyword(std::string_view word) {
   static constexpr std::string_view known[] = {"v", "vt", "vn", "vp",     "f",
                                                "o", "g",  "s",  "usemtl", "mtllib"};
   return std::find(std::begin(known), std::end(known), word) != std::end(known);
-}
-
-bool is_binary_stl_by_size(std::span<const std::byte> bytes, std::uint64_t size) {
-  if (bytes.size() < 84) return false;
-  std::uint32_t count = 0;
-  std::memcpy(&count, bytes.data() + 80, sizeof count);
-  return size == 84 + 50 * std::uint64_t{count};
 }
 
 /// An asset has the key "asset", which a scene file must not have. (A mesh may have that name, but
@@ -83,7 +71,7 @@ std::optional<FileFormat> recognise_format(std::span<const std::byte> bytes, std
     return has_asset_key(text) ? FileFormat::gltf : FileFormat::scene_json;
   }
   const std::string_view word = cursor.word();
-  if (is_off_keyword(word)) return FileFormat::off;
+  if (read_off_keyword(word)) return FileFormat::off;
   if (in_small_letters(word.substr(0, 6)) == "solid") return FileFormat::stl;
   if (is_obj_keyword(word)) return FileFormat::obj;
   return kind_by_suffix(path);

@@ -9,6 +9,7 @@
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/text_cursor.h"
+#include "fathom/text/text_ends.h"
 
 static_assert(std::endian::native == std::endian::little, "binary STL is read as it lies");
 
@@ -55,16 +56,24 @@ std::array<float, 12> read_stl_triangle(const std::byte* record, std::uint64_t n
   return values;
 }
 
+bool is_binary_stl_by_size(std::span<const std::byte> head, std::uint64_t size) {
+  return head.size() >= stl_header_size &&
+         size == stl_header_size + stl_triangle_size * std::uint64_t{claimed_triangles(head)};
+}
+
 bool is_binary_stl(std::span<const std::byte> head, std::uint64_t size) {
-  if (head.size() >= stl_header_size &&
-      size == stl_header_size + stl_triangle_size * std::uint64_t{claimed_triangles(head)})
-    return true;
-  const std::string_view text(reinterpret_cast<const char*>(head.data()),
-                              std::min<std::size_t>(head.size(), 512));
+  if (is_binary_stl_by_size(head, size)) return true;
+  std::string_view text(reinterpret_cast<const char*>(head.data()),
+                        std::min<std::size_t>(head.size(), 512));
+  if (text.size() == size) text = without_padding(text);
   const std::string no_name;
-  TextCursor cursor(text, no_name, {});
-  if (!cursor.next_line_with_words()) return true;
-  std::string word(cursor.word().substr(0, 6));
+  TextCursor cursor(text, no_name, {.comments = true, .continuation = false});
+  std::string word;
+  while (cursor.next_line_with_words()) {
+    word = cursor.word().substr(0, 6);
+    if (!word.starts_with(';') && !word.starts_with("//")) break;
+    cursor.skip_line();
+  }
   for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return word != "solid" || text.find('\0') != text.npos;
 }

@@ -25,8 +25,12 @@ std::uint64_t count_binary_stl(std::span<const std::byte> head, std::uint64_t si
 std::array<float, 12> read_stl_triangle(const std::byte* record, std::uint64_t number,
                                         const std::string& file);
 
-/// Whether STL is binary: its size matches its count of triangles, or it does not begin with
-/// "solid" followed by text. `head` has the first 512 bytes or all.
+/// Whether the size of a file is that of a binary STL of as many triangles as it counts. `head` has
+/// the first 84 bytes or all.
+bool is_binary_stl_by_size(std::span<const std::byte> head, std::uint64_t size);
+
+/// Whether STL is binary: its size matches its count of triangles, or it does not begin, after
+/// comments, with "solid" followed by text. `head` has the first 512 bytes or all.
 bool is_binary_stl(std::span<const std::byte> head, std::uint64_t size);
 
 }  // namespace fathom::mesh_files
