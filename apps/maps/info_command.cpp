@@ -14,21 +14,21 @@ namespace {
 
 struct InfoArguments {
   std::string file;
-  std::optional<MeshFormat> mesh_format;
+  /// Without its list of files.
+  SceneOptions scene;
   bool json = false;
 };
 
 std::string info_of_meshes(const InfoArguments& arguments, FileKind kind, AnswerForm form,
                            const Console& console) {
-  SceneOptions options;
+  SceneOptions options = arguments.scene;
   options.files = {arguments.file};
-  options.mesh_format = arguments.mesh_format;
   const Scene scene = options.read(console, {.hash = true});
   return info_of_scene(scene, kind, arguments.file, form);
 }
 
 int run_info(const InfoArguments& arguments, const Console& console) {
-  const FileKind kind = arguments.mesh_format ? FileKind::mesh : kind_of(arguments.file);
+  const FileKind kind = arguments.scene.mesh_format ? FileKind::mesh : kind_of(arguments.file);
   const AnswerForm form = arguments.json ? AnswerForm::json : AnswerForm::text;
   print(kind == FileKind::camera ? info_of_cameras(arguments.file, form)
         : kind == FileKind::map
@@ -45,8 +45,9 @@ void add_info(Command& program) {
                                      "  fathom info data/meshes/spot.obj\n"
                                      "  fathom info spot.exr --json");
   command.argument("FILE", arguments->file, "A mesh, scene, camera or map").required();
-  command.option("--mesh-format", "NAME", into(arguments->mesh_format, parse_mesh_format),
+  command.option("--mesh-format", "NAME", into(arguments->scene.mesh_format, parse_mesh_format),
                  "Take FILE for a mesh: obj, ply, stl, off, gltf or glb");
+  arguments->scene.add_limits_to(command);
   command.flag("--json", arguments->json, "Answer in JSON");
   command.runs([arguments](const Console& console) { return run_info(*arguments, console); });
 }

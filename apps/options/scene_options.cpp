@@ -39,6 +39,15 @@ void SceneOptions::add_to(Command& command) {
                  "Format of the meshes: obj, ply, stl, off, gltf or glb (default: by content; "
                  "needed for -)");
   command.option("--threads", "N", into(threads, parse_threads), "Threads to use (default 0: all)");
+  add_limits_to(command);
+}
+
+void SceneOptions::add_limits_to(Command& command) {
+  command.flag("--outside-files", outside_files, "A glTF asset may name files outside its folder");
+  command.option(
+      "--max-expansion", "N", into(max_expansion, parse_count),
+      "A mesh may take 64 MiB and N times the bytes of its files in memory (default 64); "
+      "glTF that shares its data among many primitives and nodes may need more");
 }
 
 ReadOptions SceneOptions::read_options() const {
@@ -46,6 +55,8 @@ ReadOptions SceneOptions::read_options() const {
   options.format = mesh_format;
   options.threads = threads;
   options.formats_program = formats_program;
+  options.outside_files = outside_files;
+  options.max_expansion = max_expansion;
   return options;
 }
 

@@ -12,13 +12,17 @@ namespace fathom::app {
 /// "obj", "ply", … ; fails with UsageError.
 MeshFormat parse_mesh_format(const std::string& text);
 
-/// `SCENE… --mesh-format --threads`: what every command that reads a scene takes.
+/// `SCENE… --mesh-format --threads …`: what every command that reads a scene takes.
 struct SceneOptions {
   std::vector<std::string> files;
   std::optional<MeshFormat> mesh_format;
   int threads = 0;
+  bool outside_files = false;
+  std::uint64_t max_expansion = ReadOptions().max_expansion;
 
   void add_to(Command& command);
+  /// Only what limits the files that are read, for a command with arguments of its own.
+  void add_limits_to(Command& command);
 
   /// What else a reader may keep of a scene.
   struct Extras {

@@ -12,7 +12,7 @@ GltfBufferView GltfBufferViews::at(const JsonValue& reference) {
   const JsonValue buffer_index = view.at("buffer");
   const Bytes buffer = buffers_.at(buffer_index.integer(0, largest_integer), buffer_index);
   const std::uint64_t offset = optional_integer(view, "byteOffset", 0);
-  const std::uint64_t length = view.at("byteLength").integer(1, largest_integer);
+  const std::uint64_t length = view.at("byteLength").integer(0, largest_integer);
   if (offset > buffer.size() || length > buffer.size() - offset)
     view.fail("reaches beyond the end of its buffer of " + std::to_string(buffer.size()) +
               " bytes");

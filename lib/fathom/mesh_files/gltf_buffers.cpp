@@ -5,6 +5,8 @@
 #include <limits>
 #include <system_error>
 
+#include "fathom/mesh_files/gltf_uri.h"
+#include "fathom/mesh_files/named_files.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::mesh_files {
@@ -56,28 +58,6 @@ std::optional<std::vector<std::byte>> decode_base64(std::string_view text) {
   return bytes;
 }
 
-/// A relative URI as a path: %XX stands for a byte.
-std::optional<std::string> percent_decoded(const std::string& uri) {
-  const auto hex = [](char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-  };
-  std::string path;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] != '%') {
-      path.push_back(uri[i]);
-      continue;
-    }
-    if (i + 2 >= uri.size() || hex(uri[i + 1]) < 0 || hex(uri[i + 2]) < 0) return std::nullopt;
-    path.push_back(static_cast<char>(hex(uri[i + 1]) * 16 + hex(uri[i + 2])));
-    i += 2;
-  }
-  if (path.empty() || path.find('\0') != std::string::npos) return std::nullopt;
-  return path;
-}
-
 }  // namespace
 
 GltfContainer split_gltf(Bytes file, const std::string& name) {
@@ -97,7 +77,7 @@ GltfContainer split_gltf(Bytes file, const std::string& name) {
   for (std::size_t at = 12; at + 8 <= length; first = false) {
     const std::size_t size = word_at(file, at);
     const std::uint32_t type = word_at(file, at + 4);
-    if (size > length - at - 8) fail(at, "a chunk reaches beyond the end of the file");
+    if (size > file.size() - at - 8) fail(at, "a chunk reaches beyond the end of the file");
     const Bytes chunk = file.subspan(at + 8, size);
     if (first && type != json_chunk) fail(at + 4, "expected the first chunk to be JSON");
     if (first) container.json = as_text(chunk);
@@ -116,23 +96,31 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri) {
 }
 
 GltfBuffers::GltfBuffers(const GltfContainer& container, const JsonValue& root,
-                         std::filesystem::path path, std::vector<Boundary> boundaries)
-    : binary_(container.binary), path_(std::move(path)), boundaries_(std::move(boundaries)) {
-  if (const auto buffers = root.find("buffers")) descriptions_ = buffers->elements();
+                         const std::filesystem::path& path, const ReadOptions& options,
+                         ExpansionBudget& budget)
+    : binary_(container.binary),
+      descriptions_(root.find("buffers")),
+      folder_(path.parent_path()),
+      outside_files_(options.outside_files),
+      boundaries_(boundaries_of(options)),
+      budget_(budget) {
+  if (!outside_files_)
+    boundaries_.push_back({folder_, "the folder of the asset, which --outside-files allows"});
 }
 
 Bytes GltfBuffers::at(std::uint64_t index, const JsonValue& reference) {
-  if (index >= descriptions_.size()) reference.fail("there is no buffer " + std::to_string(index));
+  if (!descriptions_ || index >= descriptions_->size())
+    reference.fail("there is no buffer " + std::to_string(index));
   const auto known = loaded_.find(index);
   if (known != loaded_.end()) return known->second;
-  const Bytes bytes = load(descriptions_[index], index == 0);
+  const Bytes bytes = load(descriptions_->element(index), index == 0);
   loaded_.emplace(index, bytes);
   return bytes;
 }
 
 Bytes GltfBuffers::load(const JsonValue& buffer, bool may_be_binary_chunk) {
   const std::uint64_t length =
-      buffer.at("byteLength").integer(1, std::numeric_limits<std::uint64_t>::max());
+      buffer.at("byteLength").integer(0, std::numeric_limits<std::uint64_t>::max());
   const auto cut = [&](Bytes bytes) {
     if (bytes.size() < length)
       buffer.fail("is said to have " + std::to_string(length) + " bytes, found " +
@@ -145,23 +133,28 @@ Bytes GltfBuffers::load(const JsonValue& buffer, bool may_be_binary_chunk) {
       buffer.fail("the key \"uri\" is missing, and there is no binary chunk for this buffer");
     return cut(*binary_);
   }
-  if (uri->string().starts_with("data:")) {
-    auto decoded = decode_data_uri(uri->string());
-    if (!decoded) uri->fail("expected a data URI in base64");
-    storage_.push_back(*std::move(decoded));
-    return cut(storage_.back());
-  }
-  const auto relative = percent_decoded(uri->string());
-  if (!relative || relative->find("://") != std::string::npos)
-    uri->fail("expected a file's relative URI or a data URI");
-  const std::filesystem::path file = path_.parent_path() / *relative;
+  if (!uri->string().starts_with("data:")) return cut(load_file(*uri));
+  auto decoded = decode_data_uri(uri->string());
+  if (!decoded) uri->fail("expected a data URI in base64");
+  storage_.push_back(*std::move(decoded));
+  return cut(storage_.back());
+}
+
+Bytes GltfBuffers::load_file(const JsonValue& uri) {
+  const std::filesystem::path file = file_of_uri(uri, folder_, outside_files_);
   // What went into a scene is recorded with its hash, so it must be there to be read again.
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-    uri->fail("there is no file " + file.string());
+  if (!std::filesystem::exists(file, error)) uri.fail("there is no file " + file.string());
+  auto place = std::filesystem::canonical(file, error);
+  if (error) place = file;
+  const auto known = loaded_files_.find(place);
+  if (known != loaded_files_.end()) return known->second;
   files_.push_back(std::make_unique<InputFile>(file, boundaries_));
-  external_files_.push_back({file, files_.back()->bytes()});
-  return cut(files_.back()->bytes());
+  const Bytes bytes = files_.back()->bytes();
+  external_files_.push_back({file, bytes});
+  loaded_files_.emplace(place, bytes);
+  budget_.add_input(bytes.size());
+  return bytes;
 }
 
 }  // namespace fathom::mesh_files

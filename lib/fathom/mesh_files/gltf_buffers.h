@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "fathom/mesh_files/expansion_budget.h"
+#include "fathom/mesh_files/read_options.h"
 #include "fathom/text/confinement.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
@@ -27,7 +29,8 @@ struct GltfContainer {
   std::optional<Bytes> binary;
 };
 
-/// Splits a file. Fails with InputError "FILE: byte N: …".
+/// Splits a file. Bytes after the last chunk and chunks of other kinds are ignored.
+/// Fails    InputError "FILE: byte N: …".
 GltfContainer split_gltf(Bytes file, const std::string& name);
 
 /// The decoded bytes of a "data:…;base64,…" URI, or nullopt if it is not one or is damaged.
@@ -36,10 +39,11 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
 /// The buffers of an asset, loaded when they are asked for.
 class GltfBuffers {
  public:
-  /// `container` must outlive this; relative URIs start from the folder of `path`, and must
-  /// keep within the boundaries.
+  /// `container`, `root` and `budget` must outlive this. Relative URIs start from the folder of
+  /// `path`, and must keep within it unless `options` say otherwise.
   GltfBuffers(const GltfContainer& container, const text::JsonValue& root,
-              std::filesystem::path path, std::vector<text::Boundary> boundaries);
+              const std::filesystem::path& path, const ReadOptions& options,
+              ExpansionBudget& budget);
 
   /// Buffer `index`, exactly as long as the asset says; memory is taken only for bytes that are
   /// there. `reference` is blamed if there is no such buffer.
@@ -49,17 +53,22 @@ class GltfBuffers {
     std::filesystem::path path;
     Bytes contents;
   };
-  /// External files that have been loaded, in the order of loading.
+  /// External files that have been loaded, in the order of loading, each once.
   [[nodiscard]] const std::vector<ExternalFile>& external_files() const { return external_files_; }
 
  private:
   Bytes load(const text::JsonValue& buffer, bool may_be_binary_chunk);
+  Bytes load_file(const text::JsonValue& uri);
 
   std::optional<Bytes> binary_;
-  std::vector<text::JsonValue> descriptions_;
-  std::filesystem::path path_;
+  std::optional<text::JsonValue> descriptions_;
+  std::filesystem::path folder_;
+  bool outside_files_;
   std::vector<text::Boundary> boundaries_;
+  ExpansionBudget& budget_;
   std::map<std::uint64_t, Bytes> loaded_;
+  /// By where they lie: many buffers may name the same file.
+  std::map<std::filesystem::path, Bytes> loaded_files_;
   std::vector<std::vector<std::byte>> storage_;
   std::vector<std::unique_ptr<text::InputFile>> files_;
   std::vector<ExternalFile> external_files_;

@@ -9,8 +9,10 @@ GltfPrimitiveAccessors open_primitive(const JsonValue& primitive, GltfAccessors&
     const auto reference = object.find(key);
     return reference ? accessors.at(*reference) : nullptr;
   };
-  const JsonValue named = primitive.at("attributes");
   GltfPrimitiveAccessors result;
+  const auto attributes_object = primitive.find("attributes");
+  if (!attributes_object) return result;
+  const JsonValue& named = *attributes_object;
   result.positions = open(named, "POSITION");
   if (!result.positions) return result;
   result.indices = open(primitive, "indices");

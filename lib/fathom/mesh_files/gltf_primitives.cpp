@@ -1,10 +1,8 @@
 #include "fathom/mesh_files/gltf_primitives.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/mesh_files/gltf_references.h"
 
 namespace fathom::mesh_files {
 using namespace text;
@@ -44,11 +42,43 @@ void expect_fractions(const GltfAccessor& accessor) {
     accessor.description().fail("expected floats or normalized unsigned integers");
 }
 
-double finite(const GltfAccessor& accessor, std::uint64_t i, unsigned k) {
-  const double value = accessor.value(i, k);
-  if (!std::isfinite(value))
-    accessor.description().fail("element " + std::to_string(i) + " is not finite");
-  return value;
+bool is_of_bytes_or_shorts(const GltfAccessor& accessor) {
+  return accessor.component() != GltfComponent::float32 &&
+         accessor.component() != GltfComponent::uint32;
+}
+
+void expect_positions(const GltfAccessor& accessor) {
+  if (accessor.width() != 3 ||
+      !(accessor.component() == GltfComponent::float32 || is_of_bytes_or_shorts(accessor)))
+    accessor.description().fail("expected positions to be VEC3 of floats, bytes or shorts");
+}
+
+void expect_texture_coordinates(const GltfAccessor& accessor) {
+  if (accessor.width() != 2) accessor.description().fail("expected texture coordinates in VEC2");
+  if (accessor.component() == GltfComponent::uint32)
+    accessor.description().fail("expected texture coordinates to be floats, bytes or shorts");
+}
+
+void expect_normals(const GltfAccessor& accessor) {
+  const bool fractions = accessor.normalized() && (accessor.component() == GltfComponent::int8 ||
+                                                   accessor.component() == GltfComponent::int16);
+  if (accessor.width() != 3 || !(accessor.component() == GltfComponent::float32 || fractions))
+    accessor.description().fail(
+        "expected normals to be VEC3 of floats, or of normalized bytes or shorts");
+}
+
+void expect_colours(const GltfAccessor& accessor) {
+  if (accessor.width() != 3 && accessor.width() != 4)
+    accessor.description().fail("expected colours in VEC3 or VEC4");
+  expect_fractions(accessor);
+}
+
+void expect_indices(const GltfAccessor& accessor) {
+  if (accessor.width() != 1 || accessor.normalized() ||
+      (accessor.component() != GltfComponent::uint8 &&
+       accessor.component() != GltfComponent::uint16 &&
+       accessor.component() != GltfComponent::uint32))
+    accessor.description().fail("expected indices to be SCALAR unsigned integers");
 }
 
 /// The indices of the corners that have an attribute, if not all have it.
@@ -67,16 +97,30 @@ Mesh GltfPrimitives::read(const JsonValue& description) {
   Mesh mesh;
   vertices_.clear();
   runs_.clear();
-  for (const JsonValue& primitive : description.at("primitives").elements())
-    read_primitive(primitive, mesh);
+  for_each_entry(description.at("primitives"),
+                 [&](const JsonValue& primitive) { read_primitive(primitive, mesh); });
   mesh.face_count = mesh.triangles.size();
-  // Per vertex if all have an attribute, per corner if only some do, nothing if none do.
+  settle_attributes(mesh);
+  return mesh;
+}
+
+template <class T>
+void GltfPrimitives::make_room(std::vector<T>& list, std::uint64_t more) {
+  accessors_.budget().take(more, sizeof(T));
+  const std::size_t needed = list.size() + more;
+  if (needed > list.capacity()) list.reserve(std::max(needed, 2 * list.capacity()));
+}
+
+/// An attribute is per vertex if all triangles have it, per corner if only some do, and nothing if
+/// none do.
+void GltfPrimitives::settle_attributes(Mesh& mesh) {
   const auto settle = [&](auto has_it, auto& values, std::vector<CornerIndices>& corners) {
     if (std::all_of(runs_.begin(), runs_.end(), has_it)) return;
     if (std::none_of(runs_.begin(), runs_.end(), has_it)) {
       values.clear();
       return;
     }
+    accessors_.budget().take(mesh.triangles.size(), sizeof(CornerIndices));
     auto run = runs_.begin();
     corners = only_where(mesh.triangles, [&](std::size_t triangle) {
       while (triangle >= run->end) ++run;
@@ -86,7 +130,6 @@ Mesh GltfPrimitives::read(const JsonValue& description) {
   settle([](const Run& run) { return run.has_texture; }, mesh.texture_coordinates,
          mesh.texture_triangles);
   settle([](const Run& run) { return run.has_normals; }, mesh.normals, mesh.normal_triangles);
-  return mesh;
 }
 
 void GltfPrimitives::read_primitive(const JsonValue& primitive, Mesh& mesh) {
@@ -103,17 +146,20 @@ void GltfPrimitives::read_primitive(const JsonValue& primitive, Mesh& mesh) {
     return;
   }
   const Vertices vertices = vertices_of(accessors, mesh);
-  const std::vector<std::uint32_t> corners =
-      read_indices(primitive, accessors.indices.get(), vertices);
-  const std::size_t count = triangles_in(mode, corners.size());
-  if (mode == Mode::triangles) leftover_corners_ += corners.size() % 3;
+  const bool indexed = accessors.indices != nullptr;
+  if (indexed) read_indices(primitive, *accessors.indices, vertices);
+  const std::size_t corners = indexed ? corners_.size() : vertices.count;
+  const std::size_t count = triangles_in(mode, corners);
+  if (mode == Mode::triangles) leftover_corners_ += corners % 3;
   if (count > no_index - 1 - mesh.triangles.size())
     primitive.fail("the mesh has more than 4294967294 triangles");
-  mesh.triangles.reserve(mesh.triangles.size() + count);
+  make_room(mesh.triangles, count);
+  const auto vertex = [&](std::size_t corner) {
+    return vertices.first + (indexed ? corners_[corner] : static_cast<std::uint32_t>(corner));
+  };
   for (std::size_t i = 0; i < count; ++i) {
     const auto [a, b, c] = corners_of(mode, i);
-    mesh.triangles.push_back(
-        {vertices.first + corners[a], vertices.first + corners[b], vertices.first + corners[c]});
+    mesh.triangles.push_back({vertex(a), vertex(b), vertex(c)});
   }
   if (count > 0)
     runs_.push_back({mesh.triangles.size(), vertices.has_texture, vertices.has_normals});
@@ -135,78 +181,68 @@ const GltfPrimitives::Vertices& GltfPrimitives::vertices_of(const GltfPrimitiveA
   return vertices;
 }
 
-void GltfPrimitives::read_positions(const GltfAccessor& positions, Mesh& mesh) const {
-  if (positions.width() != 3 || positions.component() != GltfComponent::float32)
-    positions.description().fail("expected positions to be VEC3 of floats");
-  mesh.vertices.reserve(mesh.vertices.size() + positions.count());
-  for (std::uint64_t i = 0; i < positions.count(); ++i)
-    mesh.vertices.push_back(
-        {finite(positions, i, 0), finite(positions, i, 1), finite(positions, i, 2)});
+void GltfPrimitives::read_positions(const GltfAccessor& positions, Mesh& mesh) {
+  expect_positions(positions);
+  quantized_positions_ |= is_of_bytes_or_shorts(positions);
+  make_room(mesh.vertices, positions.count());
+  positions.for_each_finite([&](std::uint64_t, const GltfAccessor::Element& p) {
+    mesh.vertices.push_back({p[0], p[1], p[2]});
+  });
 }
 
 /// The lists of attributes stay as long as the list of vertices: what a primitive lacks is filled
 /// in, texture coordinates and normals with zeros to which no corner refers, colours with white,
 /// which is what glTF means by none.
 void GltfPrimitives::read_attributes(const GltfPrimitiveAccessors& accessors, Vertices& vertices,
-                                     Mesh& mesh) const {
+                                     Mesh& mesh) {
+  using Element = GltfAccessor::Element;
   const auto size = mesh.vertices.size();
   const auto first = vertices.first;
+  make_room(mesh.texture_coordinates, vertices.count);
   mesh.texture_coordinates.resize(size);
   if (const GltfAccessor* texture = accessors.texture_coordinates.get()) {
-    if (texture->width() != 2) texture->description().fail("expected texture coordinates in VEC2");
-    expect_fractions(*texture);
+    expect_texture_coordinates(*texture);
     expect_count(*texture, vertices.count);
-    for (std::uint64_t i = 0; i < texture->count(); ++i)
-      mesh.texture_coordinates[first + i] = {finite(*texture, i, 0), finite(*texture, i, 1)};
+    texture->for_each_finite([&](std::uint64_t i, const Element& t) {
+      mesh.texture_coordinates[first + i] = {t[0], t[1]};
+    });
     vertices.has_texture = true;
   }
+  make_room(mesh.normals, vertices.count);
   mesh.normals.resize(size);
   if (const GltfAccessor* normals = accessors.normals.get()) {
-    if (normals->width() != 3 || normals->component() != GltfComponent::float32)
-      normals->description().fail("expected normals to be VEC3 of floats");
+    expect_normals(*normals);
     expect_count(*normals, vertices.count);
-    for (std::uint64_t i = 0; i < normals->count(); ++i)
-      mesh.normals[first + i] = {finite(*normals, i, 0), finite(*normals, i, 1),
-                                 finite(*normals, i, 2)};
+    normals->for_each_finite([&](std::uint64_t i, const Element& n) {
+      mesh.normals[first + i] = {n[0], n[1], n[2]};
+    });
     vertices.has_normals = true;
   }
   const GltfAccessor* colours = accessors.colours.get();
   if (!colours && mesh.colours.empty()) return;
+  make_room(mesh.colours, size - mesh.colours.size());
   mesh.colours.resize(size, {1, 1, 1, 1});
   if (!colours) return;
-  if (colours->width() != 3 && colours->width() != 4)
-    colours->description().fail("expected colours in VEC3 or VEC4");
-  expect_fractions(*colours);
+  expect_colours(*colours);
   expect_count(*colours, vertices.count);
-  for (std::uint64_t i = 0; i < colours->count(); ++i)
+  colours->for_each_finite([&](std::uint64_t i, const Element& colour) {
     for (unsigned k = 0; k < colours->width(); ++k)
-      mesh.colours[first + i][k] = static_cast<float>(std::clamp(finite(*colours, i, k), 0.0, 1.0));
+      mesh.colours[first + i][k] = static_cast<float>(std::clamp(colour[k], 0.0, 1.0));
+  });
 }
 
-std::vector<std::uint32_t> GltfPrimitives::read_indices(const JsonValue& primitive,
-                                                        const GltfAccessor* indices,
-                                                        const Vertices& vertices) const {
-  if (!indices) {
-    std::vector<std::uint32_t> all(vertices.count);
-    std::iota(all.begin(), all.end(), 0U);
-    return all;
-  }
-  if (indices->width() != 1 || indices->normalized() ||
-      (indices->component() != GltfComponent::uint8 &&
-       indices->component() != GltfComponent::uint16 &&
-       indices->component() != GltfComponent::uint32))
-    indices->description().fail("expected indices to be SCALAR unsigned integers");
-  std::vector<std::uint32_t> result;
-  result.reserve(indices->count());
-  for (std::uint64_t i = 0; i < indices->count(); ++i) {
-    const std::uint32_t index = indices->index(i);
+void GltfPrimitives::read_indices(const JsonValue& primitive, const GltfAccessor& indices,
+                                  const Vertices& vertices) {
+  expect_indices(indices);
+  corners_.clear();
+  make_room(corners_, indices.count());
+  indices.for_each_index([&](std::uint64_t i, std::uint32_t index) {
     if (index >= vertices.count)
       primitive.fail("index " + std::to_string(index) + " at place " + std::to_string(i) +
                      " is out of range, the primitive has " + std::to_string(vertices.count) +
                      " vertices");
-    result.push_back(index);
-  }
-  return result;
+    corners_.push_back(index);
+  });
 }
 
 void GltfPrimitives::report(const std::string& file, Warnings& warnings) const {

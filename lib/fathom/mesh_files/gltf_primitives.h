@@ -12,7 +12,7 @@
 #include "fathom/text/warnings.h"
 
 /// Triangles of glTF meshes. For this room's .cpp files only.
-/// Source   [GLTF20] 3.7.2 (geometry)
+/// Source   [GLTF20] 3.7.2 (geometry); [GLTFQUANT]
 namespace fathom::mesh_files {
 
 class GltfPrimitives {
@@ -24,6 +24,8 @@ class GltfPrimitives {
   /// All primitives of a glTF mesh in order. Primitives of the same accessors share their vertices.
   Mesh read(const text::JsonValue& mesh);
 
+  /// Whether positions were read that are integers.
+  [[nodiscard]] bool has_quantized_positions() const { return quantized_positions_; }
   /// Warns of what was skipped.
   void report(const std::string& file, Warnings& warnings) const;
 
@@ -35,12 +37,15 @@ class GltfPrimitives {
   };
   void read_primitive(const text::JsonValue& primitive, Mesh& mesh);
   const Vertices& vertices_of(const GltfPrimitiveAccessors& accessors, Mesh& mesh);
-  void read_positions(const GltfAccessor& positions, Mesh& mesh) const;
-  void read_attributes(const GltfPrimitiveAccessors& accessors, Vertices& vertices,
-                       Mesh& mesh) const;
-  [[nodiscard]] std::vector<std::uint32_t> read_indices(const text::JsonValue& primitive,
-                                                        const GltfAccessor* indices,
-                                                        const Vertices& vertices) const;
+  void read_positions(const GltfAccessor& positions, Mesh& mesh);
+  void read_attributes(const GltfPrimitiveAccessors& accessors, Vertices& vertices, Mesh& mesh);
+  void read_indices(const text::JsonValue& primitive, const GltfAccessor& indices,
+                    const Vertices& vertices);
+  void settle_attributes(Mesh& mesh);
+  /// Makes room for `more` elements, if the budget allows it. Many primitives are appended to one
+  /// list: it at least doubles when it grows, so that this takes linear time.
+  template <class T>
+  void make_room(std::vector<T>& list, std::uint64_t more);
 
   GltfAccessors& accessors_;
   bool attributes_;
@@ -53,7 +58,10 @@ class GltfPrimitives {
     bool has_texture = false, has_normals = false;
   };
   std::vector<Run> runs_;
+  // For the primitive that is being read.
+  std::vector<std::uint32_t> corners_;
 
+  bool quantized_positions_ = false;
   std::uint64_t not_triangles_ = 0, without_positions_ = 0, leftover_corners_ = 0;
 };
 

@@ -29,4 +29,11 @@ inline text::JsonValue referred(const text::JsonValue& root, const char* list,
   return entries->element(index);
 }
 
+/// Calls visit(entry) for each entry of a list. (JsonValue::elements() copies a long one.)
+template <class Visit>
+void for_each_entry(const text::JsonValue& list, const Visit& visit) {
+  if (!list.is_list()) list.fail("expected a list");
+  for (std::size_t i = 0; i < list.size(); ++i) visit(list.element(i));
+}
+
 }  // namespace fathom::mesh_files

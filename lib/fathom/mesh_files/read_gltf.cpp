@@ -1,17 +1,16 @@
 #include "fathom/mesh_files/read_gltf.h"
 
-#include <map>
-#include <set>
 #include <string>
-#include <string_view>
+#include <unordered_map>
 
 #include "fathom/mesh_files/gltf_accessor.h"
 #include "fathom/mesh_files/gltf_buffers.h"
+#include "fathom/mesh_files/gltf_extensions.h"
+#include "fathom/mesh_files/gltf_instances.h"
 #include "fathom/mesh_files/gltf_primitives.h"
 #include "fathom/mesh_files/gltf_references.h"
-#include "fathom/mesh_files/named_files.h"
-#include "fathom/numeric/certified.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/mesh_files/gltf_transform.h"
+#include "fathom/text/printable.h"
 #include "fathom/text/sha256.h"
 
 namespace fathom::mesh_files {
@@ -25,88 +24,32 @@ constexpr int deepest_node = 200;
 void check_version(const JsonValue& root) {
   const JsonValue version = root.at("asset").at("version");
   if (!version.string().starts_with("2."))
-    version.fail("expected glTF 2, found " + version.string());
-}
-
-/// Required extensions that change how things look, but not where they are.
-void check_required_extensions(const JsonValue& root) {
-  static const std::set<std::string_view> harmless{
-      "KHR_texture_transform", "KHR_texture_basisu", "KHR_lights_punctual", "KHR_xmp_json_ld",
-      "EXT_texture_webp",      "EXT_texture_avif",   "MSFT_texture_dds"};
-  const auto required = root.find("extensionsRequired");
-  if (!required) return;
-  for (const JsonValue& extension : required->elements())
-    if (!harmless.contains(extension.string()) && !extension.string().starts_with("KHR_materials_"))
-      extension.fail("the required extension " + extension.string() + " is not supported");
-}
-
-using Transform = WorldFromMesh;
-
-bool is_identity(const Transform& transform) {
-  const Transform identity;
-  return transform.rows == identity.rows;
-}
-
-/// Sixteen numbers, column by column.
-Transform read_matrix(const JsonValue& value) {
-  const auto m = value.numbers(16);
-  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
-    value.fail("expected the last row of the matrix to be 0 0 0 1");
-  Transform transform;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < 4; ++k) transform.rows[i][k] = m[4 * k + i];
-  return transform;
-}
-
-/// T·R·S, R being the polynomial matrix of the quaternion (x, y, z, w), whatever its length.
-Transform read_parts(const JsonValue& node) {
-  const auto numbers = [&](const char* key, const std::vector<double>& otherwise) {
-    const auto value = node.find(key);
-    return value ? value->numbers(otherwise.size()) : otherwise;
-  };
-  const auto t = numbers("translation", {0, 0, 0});
-  const auto q = numbers("rotation", {0, 0, 0, 1});
-  const auto s = numbers("scale", {1, 1, 1});
-  const Dyadic x = q[0], y = q[1], z = q[2], w = q[3], one = 1.0;
-  const auto twice = [](const Dyadic& a) { return a + a; };
-  const std::array<ExactVector3, 3> R{
-      {{one - twice(y * y + z * z), twice(x * y - w * z), twice(x * z + w * y)},
-       {twice(x * y + w * z), one - twice(x * x + z * z), twice(y * z - w * x)},
-       {twice(x * z - w * y), twice(y * z + w * x), one - twice(x * x + y * y)}}};
-  Transform transform;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) transform.rows[i][k] = R[i][k] * s[k];
-    transform.rows[i][3] = t[i];
-  }
-  return transform;
-}
-
-Transform read_transform(const JsonValue& node) {
-  const auto matrix = node.find("matrix");
-  if (!matrix) return read_parts(node);
-  for (const char* key : {"translation", "rotation", "scale"})
-    if (const auto part = node.find(key)) part->fail("stands beside a matrix, expected only one");
-  return read_matrix(*matrix);
+    version.fail("expected glTF 2, found " + printable(version.string().substr(0, 20)));
 }
 
 /// Walks the nodes of an asset and places their meshes.
 class GltfReader {
  public:
-  GltfReader(const JsonValue& root, GltfPrimitives primitives, std::string file, Warnings& warnings)
+  GltfReader(const JsonValue& root, GltfAccessors& accessors, bool attributes, std::string file,
+             Warnings& warnings)
       : root_(root),
-        primitives_(std::move(primitives)),
+        accessors_(accessors),
+        primitives_(accessors, attributes),
         file_(std::move(file)),
-        warnings_(warnings) {
-    if (const auto nodes = root.find("nodes")) nodes_ = nodes->elements();
-    if (const auto meshes = root.find("meshes")) meshes_ = meshes->elements();
-    visited_.resize(nodes_.size());
-  }
+        warnings_(warnings),
+        nodes_(root.find("nodes")),
+        meshes_(root.find("meshes")),
+        visited_(nodes_ ? nodes_->size() : 0) {}
 
   GltfAsset read() {
-    for (const std::size_t node : root_nodes()) visit(node, Transform(), 0);
+    for (const std::size_t node : root_nodes()) visit(node, WorldFromMesh(), 0);
     warn("skin", skins_, "the vertices are taken as the mesh has them");
     warn("morph targets", morphs_, "the vertices are taken as the mesh has them");
     primitives_.report(file_, warnings_);
+    if (primitives_.has_quantized_positions() && !uses_extension(root_, "KHR_mesh_quantization"))
+      warnings_.push_back(file_ +
+                          ": has positions that are integers, but does not say that it uses "
+                          "KHR_mesh_quantization; they are read as if it did");
     return std::move(asset_);
   }
 
@@ -119,7 +62,7 @@ class GltfReader {
 
   std::vector<std::size_t> root_nodes() {
     const auto scenes = root_.find("scenes");
-    if (!scenes || scenes->elements().empty()) return parentless_nodes();
+    if (!scenes || scenes->size() == 0) return parentless_nodes();
     const auto chosen = root_.find("scene");
     const std::uint64_t index = chosen ? chosen->integer(0, largest_integer) : 0;
     if (index >= scenes->size()) chosen->fail("there is no scene " + std::to_string(index));
@@ -129,35 +72,37 @@ class GltfReader {
 
   /// An asset without scenes is a library of its nodes: all are taken.
   std::vector<std::size_t> parentless_nodes() {
-    std::vector<bool> has_parent(nodes_.size());
-    for (const JsonValue& node : nodes_)
-      if (const auto children = node.find("children"))
+    std::vector<bool> has_parent(visited_.size());
+    for (std::size_t i = 0; i < has_parent.size(); ++i)
+      if (const auto children = nodes_->element(i).find("children"))
         for (const std::size_t child : node_indices(*children)) has_parent[child] = true;
     std::vector<std::size_t> roots;
-    for (std::size_t i = 0; i < nodes_.size(); ++i)
+    for (std::size_t i = 0; i < has_parent.size(); ++i)
       if (!has_parent[i]) roots.push_back(i);
-    if (!nodes_.empty())
+    if (!has_parent.empty())
       warnings_.push_back(file_ + ": the asset has no scene; all its nodes are taken");
     return roots;
   }
 
   [[nodiscard]] std::vector<std::size_t> node_indices(const JsonValue& list) const {
     std::vector<std::size_t> indices;
-    for (const JsonValue& reference : list.elements()) {
+    for_each_entry(list, [&](const JsonValue& reference) {
       const std::uint64_t index = reference.integer(0, largest_integer);
-      if (index >= nodes_.size()) reference.fail("there is no node " + std::to_string(index));
+      if (index >= visited_.size()) reference.fail("there is no node " + std::to_string(index));
       indices.push_back(index);
-    }
+    });
     return indices;
   }
 
-  void visit(std::size_t index, const Transform& world_from_parent, int depth) {
-    const JsonValue& node = nodes_[index];
+  void visit(std::size_t index, const WorldFromMesh& world_from_parent, int depth) {
+    const JsonValue node = nodes_->element(index);
     if (depth > deepest_node)
       node.fail("nodes are nested more than " + std::to_string(deepest_node) + " deep");
     if (visited_[index]) node.fail("the node is reached twice: a cycle, or two parents");
     visited_[index] = true;
-    const Transform world_from_node = compose(world_from_parent, read_transform(node));
+    const WorldFromMesh world_from_node = compose(world_from_parent, read_transform_of_node(node));
+    // Transforms grow with every level, and there may be many nodes at the deepest.
+    accessors_.budget().take(1, bytes_of(world_from_node));
     if (const auto mesh = node.find("mesh")) place(node, index, *mesh, world_from_node);
     if (const auto children = node.find("children"))
       for (const std::size_t child : node_indices(*children))
@@ -165,26 +110,46 @@ class GltfReader {
   }
 
   void place(const JsonValue& node, std::size_t node_index, const JsonValue& reference,
-             const Transform& world_from_node) {
+             const WorldFromMesh& world_from_node) {
     const std::uint64_t index = reference.integer(0, largest_integer);
-    if (index >= meshes_.size()) reference.fail("there is no mesh " + std::to_string(index));
-    const JsonValue& mesh = meshes_[index];
-    const auto known = read_meshes_.find(index);
-    if (known == read_meshes_.end()) {
-      read_meshes_.emplace(index, asset_.meshes.size());
-      asset_.meshes.push_back(primitives_.read(mesh));
-    }
-    Object object;
-    object.mesh = read_meshes_.at(index);
-    object.world_from_mesh = world_from_node;
-    object.placed_as_is = is_identity(world_from_node);
-    object.name = name_of(node, node_index, mesh);
-    object.first_face = next_face_;
-    next_face_ += asset_.meshes[object.mesh].face_count;
-    if (next_face_ > no_index) node.fail("the asset has more than 4294967294 triangles");
-    asset_.objects.push_back(std::move(object));
+    if (!meshes_ || index >= meshes_->size())
+      reference.fail("there is no mesh " + std::to_string(index));
+    const JsonValue mesh = meshes_->element(index);
+    const auto [known, is_new] = read_meshes_.try_emplace(index, asset_.meshes.size());
+    if (is_new) asset_.meshes.push_back(primitives_.read(mesh));
+    const std::string name = name_of(node, node_index, mesh);
+    if (const auto instances = GltfInstances::of(node, accessors_))
+      place_instances(node, known->second, *instances, world_from_node, name);
+    else
+      add_object(node, known->second, world_from_node, name);
     skins_ += node.find("skin") ? 1 : 0;
     morphs_ += mesh.find("weights") || node.find("weights") ? 1 : 0;
+  }
+
+  void place_instances(const JsonValue& node, std::size_t mesh, const GltfInstances& instances,
+                       const WorldFromMesh& world_from_node, const std::string& name) {
+    accessors_.budget().take(instances.count(), sizeof(GltfPlacement));
+    std::uint64_t number = 0;
+    for (const GltfPlacement& placement : instances.placements()) {
+      const WorldFromMesh world_from_mesh = compose(world_from_node, transform_of(placement));
+      accessors_.budget().take(1, bytes_of(world_from_mesh));
+      add_object(node, mesh, world_from_mesh, name + "[" + std::to_string(number++) + "]");
+    }
+  }
+
+  void add_object(const JsonValue& node, std::size_t mesh, const WorldFromMesh& world_from_mesh,
+                  const std::string& name) {
+    // Many nodes may have the name of one mesh.
+    accessors_.budget().take(1, sizeof(Object) + name.size());
+    Object object;
+    object.mesh = mesh;
+    object.world_from_mesh = world_from_mesh;
+    object.placed_as_is = world_from_mesh.rows == WorldFromMesh().rows;
+    object.name = name;
+    object.first_face = next_face_;
+    next_face_ += asset_.meshes[mesh].face_count;
+    if (next_face_ > no_index) node.fail("the asset has more than 4294967294 triangles");
+    asset_.objects.push_back(std::move(object));
   }
 
   static std::string name_of(const JsonValue& node, std::size_t index, const JsonValue& mesh) {
@@ -194,15 +159,15 @@ class GltfReader {
   }
 
   JsonValue root_;
+  GltfAccessors& accessors_;
   GltfPrimitives primitives_;
   std::string file_;
   Warnings& warnings_;
   GltfAsset asset_;
-  std::vector<JsonValue> nodes_;
-  std::vector<JsonValue> meshes_;
+  std::optional<JsonValue> nodes_, meshes_;
   std::vector<bool> visited_;
   /// For each glTF mesh that has been read, its place among the asset's.
-  std::map<std::uint64_t, std::size_t> read_meshes_;
+  std::unordered_map<std::uint64_t, std::size_t> read_meshes_;
   std::uint64_t next_face_ = 0;
   std::uint64_t skins_ = 0, morphs_ = 0;
 };
@@ -216,12 +181,13 @@ GltfAsset read_gltf(std::span<const std::byte> bytes, const std::filesystem::pat
   const JsonDocument document(container.json, file);
   const JsonValue root = document.root();
   check_version(root);
-  check_required_extensions(root);
-  GltfBuffers buffers(container, root, path, boundaries_of(options));
+  check_required_extensions(root, options.attributes, file, warnings);
+  ExpansionBudget budget(file, options.max_expansion);
+  budget.add_input(bytes.size());
+  GltfBuffers buffers(container, root, path, options, budget);
   GltfBufferViews views(root, buffers);
-  GltfAccessors accessors(root, views, bytes.size());
-  GltfAsset asset =
-      GltfReader(root, GltfPrimitives(accessors, options.attributes), file, warnings).read();
+  GltfAccessors accessors(root, views, budget);
+  GltfAsset asset = GltfReader(root, accessors, options.attributes, file, warnings).read();
   for (const auto& [name, contents] : buffers.external_files())
     asset.buffers.push_back({name.string(), options.hash ? sha256(contents) : std::string()});
   return asset;

@@ -24,12 +24,16 @@ struct GltfAsset {
 /// Reads a glTF 2.0 asset (.gltf or .glb): one object per node with a mesh, depth first, of the
 /// default scene, or of the first if none is named; an asset without scenes gives all its nodes,
 /// with a warning. Nodes that show the same glTF mesh share a Mesh. Faces are numbered over all
-/// objects of the asset. No image is opened.
+/// objects of the asset. No image is opened. A node with EXT_mesh_gpu_instancing gives an object
+/// for each instance, with the node's name and its number: "tree[7]".
 ///
 /// `path` names the file in messages; buffers beside it are looked for from its folder.
-/// Exact    positions are binary32, widened; node transforms are composed exactly, and a quaternion
-///          means the polynomial matrix of the glTF specification.
-/// Fails    InputError: one line that names the file and the key or byte.
+/// Exact    positions are binary32, widened, or integers (KHR_mesh_quantization), which are
+///          rounded once where they are normalized; transforms of nodes and instances are composed
+///          exactly, and a quaternion means the polynomial matrix of the glTF specification.
+/// Fails    InputError: one line that names the file and the key or byte; also where buffers lie
+///          outside the asset's folder, or more would be read than the files are worth: see
+///          ReadOptions::outside_files and max_expansion.
 /// Ignored  with a warning: points, lines, skins, morph targets; silently: animations and cameras.
 /// Source   [GLTF20]
 GltfAsset read_gltf(std::span<const std::byte> bytes, const std::filesystem::path& path,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -26,6 +27,12 @@ struct ReadOptions {
   /// Gives the path of the program fathom-formats, which reads what others' libraries read; called
   /// when a file first needs it. Without this function it is looked for beside the running program.
   std::function<std::filesystem::path()> formats_program;
+  /// A glTF asset may name files outside the folder in which it lies; by default none, since an
+  /// asset that comes from elsewhere could name anything that its reader may read.
+  bool outside_files = false;
+  /// How many times the bytes of its files a mesh may take in memory, beside 64 MiB; more is an
+  /// error. See expansion_budget.h.
+  std::uint64_t max_expansion = 64;
 };
 
 }  // namespace fathom

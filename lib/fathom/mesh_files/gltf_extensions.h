@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "fathom/text/json_value.h"
+#include "fathom/text/warnings.h"
+
+namespace fathom::mesh_files {
+
+/// Refuses an asset that requires an extension which could put its triangles elsewhere than where
+/// they are read. Warns of those that change textures if `attributes` were asked for: no image of
+/// an asset is opened.
+/// Fails    InputError that names the extension.
+/// Source   [GLTF20] 3.12 (extensions)
+void check_required_extensions(const text::JsonValue& root, bool attributes,
+                               const std::string& file, Warnings& warnings);
+
+/// Whether the asset says that it uses an extension.
+bool uses_extension(const text::JsonValue& root, const char* name);
+
+}  // namespace fathom::mesh_files
