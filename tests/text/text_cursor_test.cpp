@@ -79,6 +79,35 @@ TEST(TextCursor, AttributesMayBeNoNumber) {
   EXPECT_EQ(cursor.attribute<double>("normal"), 2);
 }
 
+/// The exponent letter of Fortran's double precision; each is rounded once all the same.
+TEST(TextCursor, ExponentsMayHaveTheLetterD) {
+  TextCursor cursor("1.5D+01 -2d-2 1D5 0.1D0 1D999 1D 1Dx 1D5x 1D1D1", file, plain);
+  EXPECT_EQ(cursor.number<double>("x"), 15);
+  EXPECT_EQ(cursor.number<double>("x"), -0.02);
+  EXPECT_EQ(cursor.attribute<float>("x"), 100000);
+  EXPECT_EQ(cursor.number<double>("x"), 0.1);
+  for (const std::string word : {"1D999", "1D", "1Dx", "1D5x", "1D1D1"}) {
+    EXPECT_THAT(message_of<InputError>([&] { TextCursor(cursor).number<double>("x"); }),
+                HasSubstr("'" + word + "'"));
+    cursor.word();
+  }
+}
+
+TEST(TextCursor, NumbersOfWindowsThatAreNone) {
+  TextCursor cursor("1.#IND -1.#IND00 1.#QNAN 1.#snan0 1.#INF -1.#INF00 1.#INFx 1.#", file, plain);
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(std::isnan(cursor.attribute<double>("x"))) << i;
+  EXPECT_EQ(TextCursor(cursor).attribute<float>("x"), std::numeric_limits<float>::infinity());
+  EXPECT_THAT(message_of<InputError>([&] { TextCursor(cursor).number<double>("x"); }),
+              HasSubstr("x is not finite, expected a finite number, found '1.#INF'"));
+  cursor.word();
+  EXPECT_EQ(cursor.attribute<double>("x"), -std::numeric_limits<double>::infinity());
+  for (const std::string word : {"1.#INFx", "1.#"}) {
+    EXPECT_THAT(message_of<InputError>([&] { TextCursor(cursor).attribute<double>("x"); }),
+                HasSubstr("expected x, found '" + word + "'"));
+    cursor.word();
+  }
+}
+
 TEST(TextCursor, FaultsNameFileLineAndWord) {
   const auto fault = [](std::string_view text, auto read) {
     TextCursor cursor(text, file, full);

@@ -1,12 +1,65 @@
 #include "fathom/text/text_cursor.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <limits>
 #include <system_error>
 
 #include "fathom/numeric/errors.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::text {
+namespace {
+
+std::string in_capitals(std::string_view word) {
+  std::string result(word);
+  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return result;
+}
+
+/// "1.#INF", "-1.#IND00": what the C library of Windows used to write for numbers that are not
+/// finite.
+template <class Real>
+DecimalResult<Real> windows_number(std::string_view word) {
+  constexpr DecimalResult<Real> none{0, nullptr, DecimalFault::malformed};
+  const bool negative = word.starts_with('-');
+  if (negative) word.remove_prefix(1);
+  if (!word.starts_with("1.#")) return none;
+  const std::string name = in_capitals(word.substr(3, word.find_last_not_of('0') - 2));
+  using Limits = std::numeric_limits<Real>;
+  Real value = Limits::quiet_NaN();
+  if (name == "INF") {
+    value = negative ? -Limits::infinity() : Limits::infinity();
+  } else if (name != "IND" && name != "QNAN" && name != "SNAN") {
+    return none;
+  }
+  return {value, nullptr, DecimalFault::not_finite};
+}
+
+}  // namespace
+
+template <class Real>
+DecimalResult<Real> TextCursor::reread() const {
+  const char* end = at_;
+  while (!at_word_end(end)) ++end;
+  const std::string_view word(at_, static_cast<std::size_t>(end - at_));
+  DecimalResult<Real> result = parse_decimal<Real>(at_, end);
+  if (result.end == end) return result;
+  result = windows_number<Real>(word);
+  const std::size_t letter = word.find_first_of("dD");
+  if (result.fault == DecimalFault::malformed && letter != word.npos) {
+    std::string usual(word);
+    usual[letter] = 'e';
+    result = parse_decimal<Real>(usual.data(), usual.data() + usual.size());
+    if (result.end != usual.data() + usual.size()) result = {0, nullptr, DecimalFault::malformed};
+  }
+  result.end = end;
+  return result;
+}
+
+template DecimalResult<float> TextCursor::reread<float>() const;
+template DecimalResult<double> TextCursor::reread<double>() const;
 
 const char* TextCursor::parse_integer(const char* first, const char* last, std::int64_t& value) {
   if (first != last && *first == '+') {

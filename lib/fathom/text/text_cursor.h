@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -91,25 +92,37 @@ class TextCursor {
     return {first, static_cast<std::size_t>(at_ - first)};
   }
 
-  /// The next word as a finite decimal, rounded once to Real. `what` names it in the error.
+  /// The next word as a finite decimal, rounded once to Real; an exponent may have the letter D, as
+  /// Fortran writes it. `what` names it in the error.
   template <class Real>
   Real number(const char* what) {
     if (at_line_end()) fail_missing(what);
-    const DecimalResult<Real> result = parse_decimal<Real>(at_, end_);
-    if (result.fault != DecimalFault::none || !at_word_end(result.end))
-      fail_number(what, result.fault);
+    DecimalResult<Real> result = parse_decimal<Real>(at_, end_);
+    if (result.fault != DecimalFault::none || !at_word_end(result.end)) {
+      result = reread<Real>();
+      if (result.fault != DecimalFault::none) fail_number(what, result.fault);
+    }
     at_ = result.end;
     return result.value;
   }
 
-  /// number() for attributes, where "nan" and "inf" are accepted: programs write them for the
-  /// normals of degenerate triangles.
+  /// number() for attributes, where "nan" and "inf" are accepted, and "1.#IND" and the like as
+  /// Windows writes them: programs have them for the normals of degenerate triangles.
   template <class Real>
   Real attribute(const char* what) {
     if (at_line_end()) fail_missing(what);
-    const DecimalResult<Real> result = parse_decimal<Real>(at_, end_);
-    if (result.fault != DecimalFault::not_finite || !at_word_end(result.end))
-      return number<Real>(what);
+    const DecimalResult<Real> result = parse_attribute<Real>();
+    if (result.fault != DecimalFault::none) fail_number(what, result.fault);
+    at_ = result.end;
+    return result.value;
+  }
+
+  /// attribute() if the next word of the line is one; otherwise nothing, and nothing is read.
+  template <class Real>
+  std::optional<Real> optional_attribute() {
+    if (at_line_end()) return std::nullopt;
+    const DecimalResult<Real> result = parse_attribute<Real>();
+    if (result.fault != DecimalFault::none) return std::nullopt;
     at_ = result.end;
     return result.value;
   }
@@ -151,6 +164,18 @@ class TextCursor {
   /// At a '\': skips it and the line end after it, if there is one.
   bool skip_line_join();
   void skip_rest_of_comment();
+  template <class Real>
+  [[nodiscard]] DecimalResult<Real> parse_attribute() const {
+    DecimalResult<Real> result = parse_decimal<Real>(at_, end_);
+    if (result.fault != DecimalFault::none || !at_word_end(result.end)) {
+      result = reread<Real>();
+      if (result.fault == DecimalFault::not_finite) result.fault = DecimalFault::none;
+    }
+    return result;
+  }
+  /// The whole word at the cursor as a number in any of the ways in which programs write it.
+  template <class Real>
+  [[nodiscard]] DecimalResult<Real> reread() const;
   [[noreturn]] void fail_missing(const char* what) const;
   [[noreturn]] void fail_number(const char* what, DecimalFault fault);
   [[noreturn]] void fail_integer(const char* what);
@@ -162,5 +187,8 @@ class TextCursor {
   char line_end_;
   std::uint64_t line_;
 };
+
+extern template DecimalResult<float> TextCursor::reread<float>() const;
+extern template DecimalResult<double> TextCursor::reread<double>() const;
 
 }  // namespace fathom::text
