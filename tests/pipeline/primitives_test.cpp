@@ -49,6 +49,20 @@ std::set<Pixel> drawn(const PipelineFrame& frame) {
   return pixels;
 }
 
+/// A file may have normals for some of its corners only, or name some that it does not have.
+TEST(PrimitiveAssembly, CornersWithoutANormalGetTheirVertexs) {
+  Scene scene = scene_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}});
+  scene.meshes[0].normals = {{0, 1, 0}};
+  scene.meshes[0].normal_triangles = {{0, no_index, 0}, {no_index, 0, no_index}};
+  const std::vector<InputTriangle> triangles = assemble_triangles(scene, 0, 0);
+  using Normal = std::array<double, 3>;
+  EXPECT_EQ(triangles[0].corners[0].normal, (Normal{0, 1, 0}));
+  EXPECT_EQ(triangles[0].corners[1].normal, (Normal{0, 0, 1}));
+  EXPECT_EQ(triangles[1].corners[0].normal, (Normal{1 / std::sqrt(2), 0, 1 / std::sqrt(2)}));
+  EXPECT_EQ(triangles[1].corners[1].normal, (Normal{0, 1, 0}));
+  EXPECT_EQ(triangles[1].corners[2].normal, (Normal{1, 0, 0}));
+}
+
 TEST(PrimitiveAssembly, JoinsByOnesTwosAndThrees) {
   const std::vector<std::uint32_t> indices{4, 1, 0, 2, 3, 7, 5};
   EXPECT_EQ(assemble<1>(indices).size(), 7u);

@@ -38,13 +38,21 @@ std::uint32_t index_of(const std::vector<CornerIndices>& own, const Mesh& mesh, 
   return own.empty() ? mesh.triangles[t][corner] : own[t][corner];
 }
 
+bool lacks_normals(const Mesh& mesh) {
+  const auto lacks = [](const CornerIndices& t) {
+    return std::find(t.begin(), t.end(), no_index) != t.end();
+  };
+  return mesh.normals.empty() ||
+         std::any_of(mesh.normal_triangles.begin(), mesh.normal_triangles.end(), lacks);
+}
+
 }  // namespace
 
 std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
                                               std::uint32_t first_number) {
   const Mesh& mesh = scene.meshes[scene.objects[object].mesh];
   const std::vector<Vector> smooth =
-      mesh.normals.empty() ? smooth_normals(mesh) : std::vector<Vector>();
+      lacks_normals(mesh) ? smooth_normals(mesh) : std::vector<Vector>();
   std::vector<InputTriangle> triangles(mesh.triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     triangles[t].number = first_number + static_cast<std::uint32_t>(t);
@@ -53,11 +61,10 @@ std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t 
       InputVertex& corner = triangles[t].corners[k];
       const std::uint32_t v = mesh.triangles[t][k];
       corner.position = mesh.vertices[v];
-      if (mesh.normals.empty()) {
-        corner.normal = smooth[v];
-      } else if (const auto n = index_of(mesh.normal_triangles, mesh, t, k);
-                 n < mesh.normals.size()) {
+      if (const auto n = index_of(mesh.normal_triangles, mesh, t, k); n < mesh.normals.size()) {
         corner.normal = mesh.normals[n];
+      } else if (!smooth.empty()) {
+        corner.normal = smooth[v];
       }
       if (const auto u = index_of(mesh.texture_triangles, mesh, t, k);
           u < mesh.texture_coordinates.size())
