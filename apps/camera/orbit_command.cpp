@@ -34,11 +34,11 @@ std::vector<Camera> orbit_cameras(const OrbitArguments& a, const Console& consol
   if (a.distance || a.centre) {
     throw UsageError("--centre and --distance do not go with a SCENE, which decides them");
   }
-  const std::optional<WorldBounds> bounds = world_bounds(a.scene.read(console));
-  if (!bounds) {
+  const Scene scene = a.scene.read(console);
+  if (triangle_count(scene) == 0) {
     throw InputError(a.scene.files[0] + ": no triangle; expected something to frame");
   }
-  return orbit(a.first, a.views, *bounds, a.lens);
+  return orbit_scene(a.first, a.views, scene, a.lens);
 }
 
 int run_orbit(const OrbitArguments& arguments, const Console& console) {

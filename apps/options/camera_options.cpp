@@ -19,7 +19,7 @@ Camera framing_camera(const Scene& scene, const View& view, const Lens& lens) {
   try {
     return frame_scene(scene, view, lens);
   } catch (const InputError& error) {
-    throw InputError(file + ": " + error.what() + "; give --camera");
+    throw InputError(std::string(error.what()) + "; give --camera");
   }
 }
 

@@ -7,9 +7,11 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/farthest_object.h"
 
 namespace fathom {
 using namespace camera;
+using namespace scene;
 
 namespace {
 
@@ -99,6 +101,12 @@ double larger(double x) {
   return std::max(1.25 * x, std::nextafter(x, std::numeric_limits<double>::infinity()));
 }
 
+bool are_finite(const WorldBounds& bounds) {
+  const auto is_finite = [](double x) { return std::isfinite(x); };
+  return std::all_of(bounds.lower.begin(), bounds.lower.end(), is_finite) &&
+         std::all_of(bounds.upper.begin(), bounds.upper.end(), is_finite);
+}
+
 Camera place(const Box& box, const Matrix3& R, const Lens& lens, double distance) {
   Camera camera = with_lens(lens);
   camera.world_to_camera = pose_that_takes(R, box.middle, {0.0, 0.0, distance});
@@ -146,10 +154,22 @@ Camera frame(const WorldBounds& bounds, const View& view, const Lens& lens) {
   return orbit(view, 1, bounds, lens).front();
 }
 
-Camera frame_scene(const Scene& scene, const View& view, const Lens& lens) {
+std::vector<Camera> orbit_scene(const View& first, std::uint32_t count, const Scene& scene,
+                                const Lens& lens) {
   const auto bounds = world_bounds(scene);
   if (!bounds) throw InputError("the scene has no triangle that a camera could frame");
-  return frame(*bounds, view, lens);
+  if (!are_finite(*bounds))
+    throw InputError(name_of_farthest_object(scene) +
+                     ": reaches beyond the largest binary64 number, where no camera frames it");
+  try {
+    return orbit(first, count, *bounds, lens);
+  } catch (const InputError& error) {
+    throw InputError(name_of_farthest_object(scene) + ": " + error.what());
+  }
+}
+
+Camera frame_scene(const Scene& scene, const View& view, const Lens& lens) {
+  return orbit_scene(view, 1, scene, lens).front();
 }
 
 }  // namespace fathom
