@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "fathom/image/map_files.h"
@@ -132,6 +133,56 @@ TEST(CameraPathCost, OutputsAreClaimedInLinearTime) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(std::filesystem::exists(folder / "maps/3999.pfm"));
 }
+
+/// Corners of faces whose triangles hold many others.
+struct Outline {
+  std::string name;
+  void (*corner)(int k, int n, double& x, double& y);
+};
+
+void star_corner(int k, int n, double& x, double& y) {
+  const double angle = 6.283185307179586 * k / n, radius = 1 + (k * 7919LL) % 1000 / 250.0;
+  x = radius * std::cos(angle);
+  y = radius * std::sin(angle);
+}
+
+void comb_corner(int k, int n, double& x, double& y) {
+  x = k < n - 2 ? k : k == n - 2 ? n : -1;
+  y = k >= n - 2 ? -1 : k % 2 == 0 ? 0 : 1000 + (k * 7919LL) % 13;
+}
+
+/// A road that winds inwards, and out again along its other side.
+void spiral_corner(int k, int n, double& x, double& y) {
+  const bool back = k >= n / 2;
+  const double angle = 0.05 * (back ? n - 1 - k : k), radius = 100 + 0.2 * angle + (back ? 0.5 : 0);
+  x = radius * std::cos(angle);
+  y = radius * std::sin(angle);
+}
+
+class FaceCost : public ::testing::TestWithParam<Outline> {};
+
+TEST_P(FaceCost, ManyCornersAreCut) {
+  constexpr int corners = 200'000;
+  std::string vertices, face = "f";
+  for (int k = 0; k < corners; ++k) {
+    double x = 0, y = 0;
+    GetParam().corner(k, corners, x, y);
+    vertices += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
+    face += " " + std::to_string(k + 1);
+  }
+  const TestFolder folder;
+  folder.write("face.obj", vertices + face + "\n");
+  const Outcome outcome = run_fathom({"info", "face.obj"}, at_small_cost(folder));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("triangles  199998"));
+}
+
+INSTANTIATE_TEST_SUITE_P(EachOutline, FaceCost,
+                         ::testing::Values(Outline{"Star", star_corner},
+                                           Outline{"Comb", comb_corner},
+                                           Outline{"Spiral", spiral_corner}),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace fathom::test

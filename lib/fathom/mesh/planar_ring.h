@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "fathom/numeric/certified.h"
+#include "fathom/numeric/unit_roundoff.h"
+
+/// A face in its plane of projection, and what is asked of its shape. Every test is exact.
+namespace fathom::mesh {
+
+using Point2 = std::array<double, 2>;
+/// The number of a corner in the face.
+using Corner = std::uint32_t;
+
+/// The sign of the turn a → b → c, as orientation() gives it, which is asked where binary64 does not
+/// settle it.
+///
+/// Bound. Each difference is rounded once, and each product, so that `left` and `right` carry
+/// relative errors of at most (1+u)³ − 1 < 3.01u, u = 2⁻⁵³; their difference is rounded once more.
+/// With S = |left| + |right| as computed, |error| < 3.02u·S + 1.01u·S < 5u·S. An underflowing
+/// product adds at most 2⁻¹⁰⁷⁵, which S ≥ 2⁻⁹⁰⁰ makes less than u·S·2⁻¹⁰⁰; an overflow makes S
+/// infinite, and no comparison holds.
+inline Sign turn_of(const Point2& a, const Point2& b, const Point2& c) {
+  const double left = (a[0] - c[0]) * (b[1] - c[1]), right = (a[1] - c[1]) * (b[0] - c[0]);
+  const double determinant = left - right, size = std::abs(left) + std::abs(right);
+  if (size >= 0x1p-900) {
+    const double bound = 5 * unit_roundoff<double> * size;
+    if (determinant > bound) return Sign::positive;
+    if (determinant < -bound) return Sign::negative;
+  }
+  return orientation(a, b, c);
+}
+
+/// Numbers of the corners that differ from the one before them; they trace the same curve.
+std::vector<Corner> without_repeats(const std::vector<Point2>& points);
+
+/// Whether the ring turns only one way or goes straight, and winds once.
+/// Cost     n
+bool is_convex(const std::vector<Point2>& points, const std::vector<Corner>& ring);
+
+/// Whether the ring, in which neighbours differ, is a simple closed curve: neighbouring edges share
+/// only their corner, others nothing.
+/// Cost     n log n
+bool is_simple(const std::vector<Point2>& points, const std::vector<Corner>& ring);
+
+/// The way a simple ring turns.
+Sign way_of(const std::vector<Point2>& points, const std::vector<Corner>& ring);
+
+}  // namespace fathom::mesh
