@@ -2,6 +2,8 @@
 
 #include <oneapi/tbb/global_control.h>
 
+#include <exception>
+
 namespace fathom::app {
 
 struct ThreadLimit::Control {
@@ -14,6 +16,10 @@ ThreadLimit::ThreadLimit(int threads) {
       {tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)}});
 }
 
-ThreadLimit::~ThreadLimit() = default;
+ThreadLimit::~ThreadLimit() {
+  // A failure ends the program, and where TBB had no memory to set itself up, lifting the limit would
+  // wait for ever.
+  if (std::uncaught_exceptions() > 0) (void)control_.release();
+}
 
 }  // namespace fathom::app

@@ -6,6 +6,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "apps/shell/exit_status.h"
 #include "apps/shell/last_resort.h"
@@ -31,6 +32,12 @@ std::string message_of(const Error& error) {
   return option + message.substr(error.setting().size());
 }
 
+/// Also functions on files need memory.
+bool is_lack_of_memory(const std::exception& failure) {
+  const auto* error = dynamic_cast<const std::system_error*>(&failure);
+  return error != nullptr && error->code() == std::errc::not_enough_memory;
+}
+
 int run_reporting(const std::function<int()>& run) {
   try {
     remove_outputs_when_interrupted();
@@ -48,6 +55,7 @@ int run_reporting(const std::function<int()>& run) {
     throw;
   } catch (const std::exception& error) {
     if (is_lack_of_threads(error)) return report_lack_of_threads();
+    if (is_lack_of_memory(error)) return report_out_of_memory();
     return report(internal_error, std::string("unexpected: ") + error.what());
   }
 }

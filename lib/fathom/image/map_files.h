@@ -48,9 +48,9 @@ struct MapMemory {
   MemoryAllowance allowance = available_memory();
   /// A file that unpacks to more than so many times its size is a small one.
   static constexpr double usual_ratio = 100;
-  /// The limit of those; nullopt: none but `allowance`. One channel of 16384×16384 binary32 values.
+  /// The limit of those; nullopt: none but `allowance`. Two channels of 8192×8192 binary32 values.
   std::optional<MemoryAllowance> of_small_file =
-      MemoryAllowance{std::uint64_t{1} << 30, "such a small file may unpack to", ""};
+      MemoryAllowance{std::uint64_t{1} << 29, "such a small file may unpack to", ""};
 };
 
 /// Reads a map back, recognising its format by content. Also EXR files of other programs: HALF

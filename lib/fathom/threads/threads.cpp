@@ -1,7 +1,6 @@
 #include "fathom/threads/threads.h"
 
 #include <string>
-
 #include <string_view>
 #include <system_error>
 

@@ -2,7 +2,9 @@
 #include <charconv>
 #include <cmath>
 #include <csetjmp>
+#include <cstdlib>
 #include <cstring>
+#include <new>
 
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/map_memory.h"
@@ -21,6 +23,16 @@ void png_fail(png_structp png, png_const_charp reason) {
 
 void png_ignore_warning(png_structp, png_const_charp) {}
 
+png_voidp png_allocate(png_structp png, png_alloc_size_t size) {
+  void* block = std::malloc(size);
+  if (block == nullptr) static_cast<PngFailure*>(png_get_mem_ptr(png))->out_of_memory = true;
+  return block;
+}
+
+void png_deallocate(png_structp, png_voidp block) {
+  std::free(block);
+}
+
 namespace {
 
 /// Everything that a read holds, so that nothing is lost when libpng jumps.
@@ -34,7 +46,8 @@ struct Reading {
   std::vector<png_bytep> rows;
 
   explicit Reading(ByteView file) : bytes(file) {
-    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, png_fail, png_ignore_warning);
+    png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &failure, png_fail, png_ignore_warning,
+                                   &failure, png_allocate, png_deallocate);
     info = png ? png_create_info_struct(png) : nullptr;
     if (!info) {
       png_destroy_read_struct(&png, nullptr, nullptr);
@@ -116,7 +129,9 @@ DepthMap decode_png(ByteView bytes, const std::string& name, const MapMemory& me
     throw InputError(name + ": corrupt or truncated PNG file: " + reason);
   };
   if (!chunks_fit(bytes)) fail("a chunk is longer than the file");
-  if (!read_header(reading)) fail(reading.failure.reason);
+  const bool has_header = read_header(reading);
+  if (reading.failure.out_of_memory) throw std::bad_alloc();
+  if (!has_header) fail(reading.failure.reason);
   DepthMap map;
   map.width = png_get_image_width(reading.png, reading.info);
   map.height = png_get_image_height(reading.png, reading.info);
@@ -134,7 +149,9 @@ DepthMap decode_png(ByteView bytes, const std::string& name, const MapMemory& me
   reading.pixels.resize(2 * pixels);
   reading.rows.resize(map.height);
   for (std::size_t y = 0; y < map.height; ++y) reading.rows[y] = &reading.pixels[y * 2 * map.width];
-  if (!read_pixels(reading)) fail(reading.failure.reason);
+  const bool has_pixels = read_pixels(reading);
+  if (reading.failure.out_of_memory) throw std::bad_alloc();
+  if (!has_pixels) fail(reading.failure.reason);
 
   Samples<std::uint16_t> codes(pixels);
   const auto* data = reinterpret_cast<const std::byte*>(reading.pixels.data());

@@ -11,8 +11,13 @@ namespace fathom::image {
 /// libpng's message when it gives up; libpng then jumps back to setjmp.
 struct PngFailure {
   char reason[160] = "";
+  /// It got no memory, which for some chunks it thinks worth no more than a warning.
+  bool out_of_memory = false;
 };
 [[noreturn]] void png_fail(png_structp png, png_const_charp reason);
+/// Allocates for libpng, which has been given a PngFailure for this too.
+png_voidp png_allocate(png_structp png, png_alloc_size_t size);
+void png_deallocate(png_structp png, png_voidp block);
 void png_ignore_warning(png_structp png, png_const_charp reason);
 
 }  // namespace fathom::image

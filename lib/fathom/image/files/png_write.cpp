@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <csetjmp>
+#include <new>
 #include <utility>
 
 #include "fathom/image/files/map_codecs.h"
@@ -32,7 +33,8 @@ struct Writing {
   std::vector<png_bytep> rows;
 
   Writing() {
-    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, png_fail, png_ignore_warning);
+    png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &failure, png_fail, png_ignore_warning,
+                                    &failure, png_allocate, png_deallocate);
     info = png ? png_create_info_struct(png) : nullptr;
     if (!info) {
       png_destroy_write_struct(&png, nullptr);
@@ -88,7 +90,9 @@ Bytes encode(Picture& picture, const std::string& name) {
   const std::size_t row_bytes = picture.pixels.size() / picture.height;
   for (std::size_t y = 0; y < picture.height; ++y)
     writing.rows.push_back(reinterpret_cast<png_bytep>(&picture.pixels[y * row_bytes]));
-  if (!write_all(writing, picture))
+  const bool is_written = write_all(writing, picture);
+  if (writing.failure.out_of_memory) throw std::bad_alloc();
+  if (!is_written)
     throw OutputError(name + ": cannot be written as PNG: " + writing.failure.reason);
   return std::move(writing.bytes);
 }

@@ -3,6 +3,8 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
+#include <new>
+
 #include "fathom/numeric/errors.h"
 
 namespace fathom::image {
@@ -48,6 +50,13 @@ void stamp(RgbImage& image, const FT_Bitmap& glyph, int left, int top, Rgb colou
     }
 }
 
+/// Whether FreeType says that something failed. Fails with std::bad_alloc where that was for want of
+/// memory: a picture would lack letters.
+bool is_failure(FT_Error error) {
+  if (FT_ERROR_BASE(error) == FT_Err_Out_Of_Memory) throw std::bad_alloc();
+  return error != 0;
+}
+
 }  // namespace
 
 struct Lettering::Font {
@@ -55,9 +64,11 @@ struct Lettering::Font {
   FT_Face face = nullptr;
 
   Font() {
-    if (FT_Init_FreeType(&library) != 0) throw OutputError("FreeType cannot be started");
-    if (FT_New_Face(library, FATHOM_FONT, 0, &face) != 0) {
+    if (is_failure(FT_Init_FreeType(&library))) throw OutputError("FreeType cannot be started");
+    const FT_Error error = FT_New_Face(library, FATHOM_FONT, 0, &face);
+    if (error != 0) {
       FT_Done_FreeType(library);
+      (void)is_failure(error);
       throw OutputError(FATHOM_FONT
                         ": the font of pictures cannot be read: expected the package "
                         "fonts-dejavu-core to be installed");
@@ -71,8 +82,8 @@ struct Lettering::Font {
   }
   /// Makes `character` the current glyph; false if the font has none.
   bool load(char32_t character, int size) const {
-    FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(size));
-    return FT_Load_Char(face, character, FT_LOAD_RENDER) == 0;
+    (void)is_failure(FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(size)));
+    return !is_failure(FT_Load_Char(face, character, FT_LOAD_RENDER));
   }
 };
 
