@@ -95,6 +95,7 @@ ExitStatus report_lack_of_threads() noexcept {
 
 void prepare_last_resort() {
   std::set_terminate(end_terminated);
+  std::set_new_handler([] { end(report_out_of_memory); });
   mp_set_memory_functions(allocate, reallocate, deallocate);
 }
 

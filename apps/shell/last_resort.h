@@ -11,17 +11,20 @@ void name_memory_limit(const char* text) noexcept;
 /// Says that the system starts no more threads.
 ExitStatus report_lack_of_threads() noexcept;
 
-/// What becomes of a failure that no `catch` can get hold of: from now on it ends the program as any
-/// other failure does, with one line, no temporary file left, and its exit status.
+/// What becomes of a failure that no `catch` can get hold of, or should: from now on it ends the
+/// program as any other failure does, with one line, no temporary file left, and its exit status.
 ///
 ///   std::terminate   an exception in a function that must not throw, or in a thread of a library's
+///   operator new     out of memory, it would throw through libraries that are not made for it:
+///                    writing a deep map, OpenEXR 3.1 then destroys what it has not constructed, and
+///                    leaves out what a task of its pool could not write
 ///   GMP, MPFR        out of memory, they print a line of their own and abort. Their allocation
 ///                    functions cannot throw instead: mpz_mul, to take one, frees the old limbs of
 ///                    its result before it allocates new ones, so that a destructor on the way of
 ///                    an exception would free them again; GMP's manual rules exceptions out
 ///
-/// A choice for the whole process, so the programs make it, not the library. Called first of all:
-/// what GMP has allocated by then, its own functions gave.
+/// Allocations that fail otherwise (Samples, TBB, libpng) throw std::bad_alloc. A choice for the
+/// whole process, so the programs make it, not the library. Called first of all.
 void prepare_last_resort();
 
 }  // namespace fathom::app
