@@ -26,16 +26,32 @@ constexpr std::size_t chunk_size = std::size_t{1} << 20;
 
 enum class Statement { vertex, texture, normal, face, ignored, not_a_face, unknown };
 
+/// Nearly all keywords are one letter long: they are told apart first, without comparing strings.
+Statement statement_named(char keyword) {
+  switch (keyword) {
+    case 'v':
+      return Statement::vertex;
+    case 'f':
+      return Statement::face;
+    case 'o':
+    case 'g':
+    case 's':
+      return Statement::ignored;
+    case 'l':
+    case 'p':
+      return Statement::not_a_face;
+    default:
+      return Statement::unknown;
+  }
+}
+
 Statement statement_named(std::string_view keyword) {
-  if (keyword == "v") return Statement::vertex;
-  if (keyword == "f") return Statement::face;
+  if (keyword.size() == 1) return statement_named(keyword[0]);
   if (keyword == "vt") return Statement::texture;
   if (keyword == "vn") return Statement::normal;
-  for (const std::string_view known :
-       {"o", "g", "s", "usemtl", "mtllib", "usemap", "maplib", "mg", "lod", "bevel", "c_interp",
-        "d_interp", "shadow_obj", "trace_obj"})
+  for (const std::string_view known : {"usemtl", "mtllib", "usemap", "maplib", "mg", "lod", "bevel",
+                                       "c_interp", "d_interp", "shadow_obj", "trace_obj"})
     if (keyword == known) return Statement::ignored;
-  if (keyword == "l" || keyword == "p") return Statement::not_a_face;
   return Statement::unknown;
 }
 
@@ -91,11 +107,11 @@ std::string shown(std::string_view keyword) {
 void count_face(TextCursor& cursor, ObjCounts& counts) {
   std::uint64_t corners = 0;
   for (std::string_view word = cursor.word(); !word.empty(); word = cursor.word(), ++corners) {
-    const std::size_t slash = word.find('/');
-    if (slash == word.npos) continue;
-    const std::size_t second = word.find('/', slash + 1);
-    counts.face_normals |= second != word.npos;
-    counts.face_textures |= second != slash + 1 && slash + 1 != word.size();
+    const auto slash = std::find(word.begin(), word.end(), '/');
+    if (slash == word.end()) continue;
+    const auto second = std::find(slash + 1, word.end(), '/');
+    counts.face_normals |= second != word.end();
+    counts.face_textures |= second != slash + 1 && slash + 1 != word.end();
   }
   ++counts.faces;
   counts.polygons |= corners != 3;

@@ -48,7 +48,7 @@ class TextCursor {
   [[nodiscard]] std::size_t rest() const { return static_cast<std::size_t>(end_ - at_); }
 
   /// Skips blanks; true if nothing more is on the line (a comment is nothing).
-  bool at_line_end() {
+  [[gnu::always_inline]] bool at_line_end() {  // once a word: 8 % of the time to read an OBJ
     while (at_ != end_) {
       const char c = *at_;
       if (c == line_end_ || (c == '#' && syntax_.comments)) return true;
@@ -85,7 +85,7 @@ class TextCursor {
   }
 
   /// The next word of this line; empty at its end.
-  std::string_view word() {
+  [[gnu::always_inline]] std::string_view word() {
     if (at_line_end()) return {};
     const char* first = at_;
     while (at_ != end_ && !ends_word(*at_)) ++at_;
@@ -175,7 +175,7 @@ class TextCursor {
   }
   /// The whole word at the cursor as a number in any of the ways in which programs write it.
   template <class Real>
-  [[nodiscard]] DecimalResult<Real> reread() const;
+  [[nodiscard]] [[gnu::cold]] DecimalResult<Real> reread() const;
   [[noreturn]] void fail_missing(const char* what) const;
   [[noreturn]] void fail_number(const char* what, DecimalFault fault);
   [[noreturn]] void fail_integer(const char* what);
