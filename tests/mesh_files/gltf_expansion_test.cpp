@@ -169,6 +169,20 @@ TEST(GltfExpansion, NodesOfOneMeshShareIt) {
   EXPECT_EQ(scene.meshes.size(), 1U);
 }
 
+TEST(GltfExpansion, TrianglesThatNodesShareAreCounted) {
+  const auto placed = [](std::size_t times) {
+    json tree = forest(times);
+    Asset asset = five({{"indices", 1}});
+    asset.add(std::vector<std::uint8_t>(60000, 3), "SCALAR", 5121);
+    const json mesh = asset.done();
+    for (const char* key : {"accessors", "bufferViews", "buffers", "meshes"}) tree[key] = mesh[key];
+    return tree;
+  };
+  const Scene scene = read(placed(1000)).scene;
+  EXPECT_EQ(triangle_count(scene), 20000000U);
+  EXPECT_THAT(fault_of(placed(2000)), is_over_budget);
+}
+
 TEST(GltfExpansion, NamesThatNodesShareAreCounted) {
   json tree = forest(10000);
   tree["meshes"][0]["name"] = std::string(100000, 'x');

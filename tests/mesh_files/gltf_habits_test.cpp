@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 
 #include "tests/mesh_files/gltf_asset.h"
 
@@ -83,6 +84,58 @@ TEST(GltfHabits, BoundsOfAccessorsAreNotTrusted) {
   asset.tree["accessors"][0]["min"] = {100, 100, 100};
   asset.tree["accessors"][0]["max"] = {-1e300, 0};
   EXPECT_EQ(read(asset.done()).scene.meshes[0].vertices[4], (MeshPoint{4, 16, 0}));
+}
+
+TEST(GltfHabits, AttributesThatCannotBeUsedAreLeftOut) {
+  const auto with = [](const char* name, std::vector<float> numbers, const char* type) {
+    Asset asset = five({{"mode", 5}});
+    json& primitives = asset.tree["meshes"][0]["primitives"];
+    primitives[0]["attributes"][name] = asset.add(numbers, type, 5126);
+    // Another primitive, of which the same is in order.
+    primitives.push_back(primitives[0]);
+    primitives[1]["attributes"] = {
+        {"POSITION", asset.positions({7, 7, 7, 8, 8, 8, 9, 9, 9})},
+        {"TEXCOORD_0", asset.add<float>({1, 2, 3, 4, 5, 6}, "VEC2", 5126)},
+        {"NORMAL", asset.positions({0, 0, 1, 0, 1, 0, 1, 0, 0})},
+        {"COLOR_0", asset.add<float>({1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3", 5126)}};
+    return asset.done();
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const CornerIndices none{no_index, no_index, no_index};
+  struct Case {
+    const char* name;
+    std::vector<float> numbers;
+    const char* type;
+  };
+  for (const Case& bad :
+       {Case{"NORMAL", std::vector<float>(12, 1), "VEC3"},  // one too few
+        Case{"NORMAL", std::vector<float>(10, 1), "VEC2"},  // of the wrong type
+        Case{"NORMAL", {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, nan, 1}, "VEC3"},
+        Case{"TEXCOORD_0", std::vector<float>(12, 1), "VEC2"},
+        Case{"TEXCOORD_0", {1, 1, 1, 1, 1, 1, 1, 1, 1, nan}, "VEC2"},
+        Case{"COLOR_0", std::vector<float>(18, 1), "VEC3"},
+        Case{"COLOR_0", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, nan, 1}, "VEC3"}}) {
+    const Read one = read(with(bad.name, bad.numbers, bad.type));
+    EXPECT_THAT(one.warnings,
+                ElementsAre(HasSubstr("1 lists of normals, texture coordinates or colours")));
+    const Mesh& mesh = one.scene.meshes[0];
+    ASSERT_EQ(mesh.triangles.size(), 4U);
+    EXPECT_EQ(mesh.texture_triangles.at(0), none);
+    EXPECT_EQ(mesh.normal_triangles.at(0), none);
+    EXPECT_EQ(mesh.normal_triangles.at(3), (CornerIndices{5, 6, 7}));
+    // What no corner refers to is finite all the same, and colours are white.
+    EXPECT_EQ(mesh.normals.at(4), (std::array<double, 3>{}));
+    EXPECT_EQ(mesh.texture_coordinates.at(4), (std::array<double, 2>{}));
+    EXPECT_EQ(mesh.colours.at(0), (std::array<float, 4>{1, 1, 1, 1}));
+    EXPECT_EQ(mesh.colours.at(5), (std::array<float, 4>{1, 0, 0, 1}));
+    // Depth maps do not ask.
+    EXPECT_THAT(
+        read_bytes(with(bad.name, bad.numbers, bad.type).dump(), "test.gltf", false).warnings,
+        IsEmpty());
+  }
+  json tree = with("COLOR_0", std::vector<float>(18, 1), "VEC3");
+  tree["meshes"][0]["primitives"].erase(1);
+  EXPECT_TRUE(read(tree).scene.meshes[0].colours.empty());
 }
 
 TEST(GltfHabits, PrimitivesWithoutPositionsAreSkipped) {

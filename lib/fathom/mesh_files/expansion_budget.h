@@ -20,6 +20,9 @@ namespace fathom::mesh_files {
 class ExpansionBudget {
  public:
   static constexpr std::uint64_t free_bytes = std::uint64_t{64} << 20;
+  /// What a triangle counts for each time that its mesh is placed. It takes no memory then, but
+  /// 35 bytes and a microsecond when it is rendered: the smallest file may place 33 million.
+  static constexpr std::uint64_t bytes_of_placed_triangle = 2;
 
   /// `file` is the name for messages.
   ExpansionBudget(std::string file, std::uint64_t factor)

@@ -1,6 +1,7 @@
 #include "fathom/mesh_files/gltf_primitives.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fathom/mesh_files/gltf_references.h"
 
@@ -28,20 +29,6 @@ std::array<std::size_t, 3> corners_of(Mode mode, std::size_t i) {
   }
 }
 
-void expect_count(const GltfAccessor& accessor, std::uint64_t count) {
-  if (accessor.count() != count)
-    accessor.description().fail("has " + std::to_string(accessor.count()) + " elements, expected " +
-                                std::to_string(count) + " as the positions have");
-}
-
-/// Expects binary32 numbers, or integers that mean fractions.
-void expect_fractions(const GltfAccessor& accessor) {
-  const bool integers =
-      accessor.component() == GltfComponent::uint8 || accessor.component() == GltfComponent::uint16;
-  if (accessor.component() != GltfComponent::float32 && !(integers && accessor.normalized()))
-    accessor.description().fail("expected floats or normalized unsigned integers");
-}
-
 bool is_of_bytes_or_shorts(const GltfAccessor& accessor) {
   return accessor.component() != GltfComponent::float32 &&
          accessor.component() != GltfComponent::uint32;
@@ -53,24 +40,25 @@ void expect_positions(const GltfAccessor& accessor) {
     accessor.description().fail("expected positions to be VEC3 of floats, bytes or shorts");
 }
 
-void expect_texture_coordinates(const GltfAccessor& accessor) {
-  if (accessor.width() != 2) accessor.description().fail("expected texture coordinates in VEC2");
-  if (accessor.component() == GltfComponent::uint32)
-    accessor.description().fail("expected texture coordinates to be floats, bytes or shorts");
+bool are_texture_coordinates(const GltfAccessor& accessor) {
+  return accessor.width() == 2 && accessor.component() != GltfComponent::uint32;
 }
 
-void expect_normals(const GltfAccessor& accessor) {
+bool are_normals(const GltfAccessor& accessor) {
   const bool fractions = accessor.normalized() && (accessor.component() == GltfComponent::int8 ||
                                                    accessor.component() == GltfComponent::int16);
-  if (accessor.width() != 3 || !(accessor.component() == GltfComponent::float32 || fractions))
-    accessor.description().fail(
-        "expected normals to be VEC3 of floats, or of normalized bytes or shorts");
+  return accessor.width() == 3 && (accessor.component() == GltfComponent::float32 || fractions);
 }
 
-void expect_colours(const GltfAccessor& accessor) {
-  if (accessor.width() != 3 && accessor.width() != 4)
-    accessor.description().fail("expected colours in VEC3 or VEC4");
-  expect_fractions(accessor);
+bool are_colours(const GltfAccessor& accessor) {
+  const bool fractions = accessor.normalized() && (accessor.component() == GltfComponent::uint8 ||
+                                                   accessor.component() == GltfComponent::uint16);
+  return (accessor.width() == 3 || accessor.width() == 4) &&
+         (accessor.component() == GltfComponent::float32 || fractions);
+}
+
+bool is_finite(const GltfAccessor::Element& element) {
+  return std::all_of(element.begin(), element.end(), [](double x) { return std::isfinite(x); });
 }
 
 void expect_indices(const GltfAccessor& accessor) {
@@ -196,39 +184,50 @@ void GltfPrimitives::read_positions(const GltfAccessor& positions, Mesh& mesh) {
 void GltfPrimitives::read_attributes(const GltfPrimitiveAccessors& accessors, Vertices& vertices,
                                      Mesh& mesh) {
   using Element = GltfAccessor::Element;
-  const auto size = mesh.vertices.size();
-  const auto first = vertices.first;
-  make_room(mesh.texture_coordinates, vertices.count);
-  mesh.texture_coordinates.resize(size);
-  if (const GltfAccessor* texture = accessors.texture_coordinates.get()) {
-    expect_texture_coordinates(*texture);
-    expect_count(*texture, vertices.count);
-    texture->for_each_finite([&](std::uint64_t i, const Element& t) {
-      mesh.texture_coordinates[first + i] = {t[0], t[1]};
-    });
-    vertices.has_texture = true;
-  }
-  make_room(mesh.normals, vertices.count);
-  mesh.normals.resize(size);
-  if (const GltfAccessor* normals = accessors.normals.get()) {
-    expect_normals(*normals);
-    expect_count(*normals, vertices.count);
-    normals->for_each_finite([&](std::uint64_t i, const Element& n) {
-      mesh.normals[first + i] = {n[0], n[1], n[2]};
-    });
-    vertices.has_normals = true;
-  }
+  vertices.has_texture =
+      read_attribute(accessors.texture_coordinates.get(), are_texture_coordinates, vertices, {},
+                     mesh.texture_coordinates, [](const Element& t) {
+                       return std::array{t[0], t[1]};
+                     });
+  vertices.has_normals = read_attribute(accessors.normals.get(), are_normals, vertices, {},
+                                        mesh.normals, [](const Element& n) {
+                                          return std::array{n[0], n[1], n[2]};
+                                        });
   const GltfAccessor* colours = accessors.colours.get();
-  if (!colours && mesh.colours.empty()) return;
-  make_room(mesh.colours, size - mesh.colours.size());
-  mesh.colours.resize(size, {1, 1, 1, 1});
-  if (!colours) return;
-  expect_colours(*colours);
-  expect_count(*colours, vertices.count);
-  colours->for_each_finite([&](std::uint64_t i, const Element& colour) {
-    for (unsigned k = 0; k < colours->width(); ++k)
-      mesh.colours[first + i][k] = static_cast<float>(std::clamp(colour[k], 0.0, 1.0));
-  });
+  const bool had_colours = !mesh.colours.empty();
+  if (!colours && !had_colours) return;
+  const bool has_alpha = colours && colours->width() == 4;
+  const bool has_colours = read_attribute(
+      colours, are_colours, vertices, {1, 1, 1, 1}, mesh.colours, [&](const Element& c) {
+        const auto part = [&](std::size_t k) {
+          return static_cast<float>(std::clamp(c[k], 0.0, 1.0));
+        };
+        return std::array{part(0), part(1), part(2), has_alpha ? part(3) : 1};
+      });
+  if (!has_colours && !had_colours) mesh.colours.clear();
+}
+
+template <class Value, class Convert>
+bool GltfPrimitives::read_attribute(const GltfAccessor* accessor,
+                                    bool (*is_of_type)(const GltfAccessor&),
+                                    const Vertices& vertices, const Value& missing,
+                                    std::vector<Value>& values, const Convert& convert) {
+  const std::size_t size = std::size_t{vertices.first} + vertices.count;
+  make_room(values, size - values.size());
+  values.resize(size, missing);
+  if (!accessor) return false;
+  bool is_usable = accessor->count() == vertices.count && is_of_type(*accessor);
+  if (is_usable) {
+    accessor->for_each([&](std::uint64_t i, const GltfAccessor::Element& element) {
+      is_usable = is_usable && is_finite(element);
+      if (is_usable) values[vertices.first + i] = convert(element);
+    });
+  }
+  if (is_usable) return true;
+  ++unusable_attributes_;
+  const auto first = values.begin() + static_cast<std::ptrdiff_t>(vertices.first);
+  std::fill(first, values.end(), missing);
+  return false;
 }
 
 void GltfPrimitives::read_indices(const JsonValue& primitive, const GltfAccessor& indices,
@@ -252,6 +251,9 @@ void GltfPrimitives::report(const std::string& file, Warnings& warnings) const {
   warn(not_triangles_, " primitives are points or lines; they are skipped");
   warn(without_positions_, " primitives have no positions; they are skipped");
   warn(leftover_corners_, " indices are left over after the last whole triangle");
+  warn(unusable_attributes_,
+       " lists of normals, texture coordinates or colours are of the wrong type or length, or not "
+       "finite; they are left out");
 }
 
 }  // namespace fathom::mesh_files

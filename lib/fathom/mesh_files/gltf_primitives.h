@@ -39,6 +39,11 @@ class GltfPrimitives {
   const Vertices& vertices_of(const GltfPrimitiveAccessors& accessors, Mesh& mesh);
   void read_positions(const GltfAccessor& positions, Mesh& mesh);
   void read_attributes(const GltfPrimitiveAccessors& accessors, Vertices& vertices, Mesh& mesh);
+  /// Appends an attribute of the vertices; false if there is none that can be used.
+  template <class Value, class Convert>
+  bool read_attribute(const GltfAccessor* accessor, bool (*is_of_type)(const GltfAccessor&),
+                      const Vertices& vertices, const Value& missing, std::vector<Value>& values,
+                      const Convert& convert);
   void read_indices(const text::JsonValue& primitive, const GltfAccessor& indices,
                     const Vertices& vertices);
   void settle_attributes(Mesh& mesh);
@@ -63,6 +68,7 @@ class GltfPrimitives {
 
   bool quantized_positions_ = false;
   std::uint64_t not_triangles_ = 0, without_positions_ = 0, leftover_corners_ = 0;
+  std::uint64_t unusable_attributes_ = 0;
 };
 
 }  // namespace fathom::mesh_files

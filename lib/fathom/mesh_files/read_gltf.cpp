@@ -139,8 +139,10 @@ class GltfReader {
 
   void add_object(const JsonValue& node, std::size_t mesh, const WorldFromMesh& world_from_mesh,
                   const std::string& name) {
-    // Many nodes may have the name of one mesh.
+    // Many nodes may have the name of one mesh, and its triangles.
     accessors_.budget().take(1, sizeof(Object) + name.size());
+    accessors_.budget().take(asset_.meshes[mesh].triangles.size(),
+                             ExpansionBudget::bytes_of_placed_triangle);
     Object object;
     object.mesh = mesh;
     object.world_from_mesh = world_from_mesh;
