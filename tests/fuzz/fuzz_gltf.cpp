@@ -9,6 +9,7 @@
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/framing.h"
 #include "fathom/text/warnings.h"
+#include "tests/fuzz/fuzz_mesh.h"
 
 /// Any bytes as a glTF asset: an InputError of one line, or a scene that keeps its promises.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -28,10 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   for (const Object& object : scene.objects)
     if (object.mesh >= scene.meshes.size()) std::abort();
-  for (const Mesh& mesh : scene.meshes)
-    for (const CornerIndices& triangle : mesh.triangles)
-      for (const std::uint32_t corner : triangle)
-        if (corner >= mesh.vertices.size()) std::abort();
+  for (const Mesh& mesh : scene.meshes) fuzz::check(mesh);
   world_bounds(scene);
   return 0;
 }

@@ -9,7 +9,7 @@
 
 /// The places where a node shows its mesh, of the extension EXT_mesh_gpu_instancing. For this
 /// room's .cpp files only.
-/// Source   [GLTFINST]
+/// Source   [EMGI19]
 namespace fathom::mesh_files {
 
 class GltfInstances {

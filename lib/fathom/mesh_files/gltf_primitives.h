@@ -12,7 +12,7 @@
 #include "fathom/text/warnings.h"
 
 /// Triangles of glTF meshes. For this room's .cpp files only.
-/// Source   [GLTF20] 3.7.2 (geometry); [GLTFQUANT]
+/// Source   [GLTF20] 3.7.2 (geometry); [KMQ22]
 namespace fathom::mesh_files {
 
 class GltfPrimitives {
