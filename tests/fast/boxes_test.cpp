@@ -8,6 +8,7 @@
 #include <set>
 
 #include "fathom/fast/tile.h"
+#include "fathom/scene/element_checks.h"
 #include "fathom/triangle/sampling.h"
 #include "tests/inputs/random_scenes.h"
 
@@ -31,9 +32,10 @@ void check(const testing::Case& c, Cull cull, Tally& tally) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   const TileGrid grid(c.camera.width, c.camera.height);
   const auto boxes = std::make_unique<BoxBatch>();
-  box_triangles({vertices.get(), mesh.triangles.data(), count, 100, cull, false, c.camera.width,
-                 c.camera.height, grid.columns},
-                *boxes);
+  box_triangles(
+      {vertices.get(), static_cast<std::uint32_t>(mesh.vertices.size()), mesh.triangles.data(),
+       count, 100, cull, false, c.camera.width, c.camera.height, grid.columns},
+      *boxes);
   const std::set<std::uint32_t> unsettled(
       boxes->unsettled_number.begin(),
       boxes->unsettled_number.begin() + static_cast<std::ptrdiff_t>(boxes->unsettled));
@@ -87,6 +89,33 @@ TEST(Boxes, WhatIsSettledIsSo) {
   EXPECT_GT(tally.covered, 200);
 }
 
+/// Wherever in a batch of whatever size a corner is that indexes no vertex.
+TEST(Boxes, CornersThatAreNoVerticesAreFound) {
+  const std::vector<MeshPoint> points{{1, 1, 1}, {3, 1, 1}, {1, 3, 1}};
+  Camera camera = testing::camera_of(6, 5, 1);
+  camera.projection = Projection::orthographic;
+  const VertexTransform transform(Object{}, camera);
+  std::array<ImageVertex, 3> vertices;
+  transform(points, vertices.data());
+  const auto boxes = std::make_unique<BoxBatch>();
+  for (std::uint32_t count = 1; count < 40; ++count) {
+    std::vector<CornerIndices> triangles(count, {0, 1, 2});
+    const auto box = [&] {
+      box_triangles({vertices.data(), 3, triangles.data(), count, 0, Cull::none, false, 6, 5, 1},
+                    *boxes);
+    };
+    EXPECT_NO_THROW(box());
+    for (std::uint32_t i = 0; i < 3 * count; ++i) {
+      std::uint32_t& corner = triangles[i / 3][i % 3];
+      for (const std::uint32_t wrong : {3U, 0x80000000U, 0xFFFFFFFFU}) {
+        const std::uint32_t right = std::exchange(corner, wrong);
+        EXPECT_THROW(box(), scene::ElementFault) << i << " of " << count;
+        corner = right;
+      }
+    }
+  }
+}
+
 /// A batch that is as large as it may be: each triangle where it is on paper.
 TEST(Boxes, AFullBatchOnPaper) {
   constexpr std::uint32_t width = 256;
@@ -110,8 +139,8 @@ TEST(Boxes, AFullBatchOnPaper) {
   const auto vertices = std::make_unique<ImageVertex[]>(points.size());
   transform(points, vertices.get());
   const auto boxes = std::make_unique<BoxBatch>();
-  box_triangles({vertices.get(), triangles.data(), BoxBatch::most, 0, Cull::none, false, width, 64,
-                 TileGrid(width, 64).columns},
+  box_triangles({vertices.get(), static_cast<std::uint32_t>(points.size()), triangles.data(),
+                 BoxBatch::most, 0, Cull::none, false, width, 64, TileGrid(width, 64).columns},
                 *boxes);
   EXPECT_EQ(boxes->unsettled, 0U);
   EXPECT_EQ(boxes->in_more_tiles, BoxBatch::most / 8);

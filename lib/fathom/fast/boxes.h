@@ -13,6 +13,7 @@ struct ImageVertex;
 /// Consecutive triangles of one object; corners index `vertices`.
 struct BoxRequest {
   const ImageVertex* vertices;
+  std::uint32_t vertex_count;
   const CornerIndices* triangles;
   std::uint32_t count;  // at most BoxBatch::most
   std::uint32_t first_number;
@@ -41,6 +42,7 @@ struct BoxBatch {
   std::uint64_t degenerate = 0, culled = 0;
 };
 
+/// Fails    scene::ElementFault if a corner is none of the vertices.
 void box_triangles(const BoxRequest& request, BoxBatch& boxes);
 
 }  // namespace fathom::fast

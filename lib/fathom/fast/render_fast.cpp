@@ -4,6 +4,7 @@
 
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/frame.h"
+#include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 
@@ -76,8 +77,13 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
 DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options) {
   require_meaningful(options);
   return with_threads(options.threads, [&] {
-    require_renderable(scene, camera);
-    return render_in_arena(scene, camera, options);
+    scene::require_renderable_but_elements(scene, camera);
+    try {
+      return render_in_arena(scene, camera, options);
+    } catch (const scene::ElementFault&) {
+      require_valid(scene);
+      throw;
+    }
   });
 }
 

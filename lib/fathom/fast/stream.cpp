@@ -6,6 +6,7 @@
 #include "fathom/area/coverage_image.h"
 #include "fathom/fast/frame.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 
@@ -185,7 +186,11 @@ DepthMap render_streamed(const StreamedScene& scene, const Camera& camera,
   }
   return with_threads(options.threads, [&] {
     require_renderable(scene, camera);
-    return render_in_arena(scene, camera, options, limits);
+    try {
+      return render_in_arena(scene, camera, options, limits);
+    } catch (const scene::ElementFault&) {
+      throw InputError("scene: a file has changed since it was opened");
+    }
   });
 }
 

@@ -2,22 +2,37 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "fathom/geometry/approximate_row.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
 
 namespace fathom {
+using namespace scene;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// A part of a list at a time, which is looked at and then read again while it is at hand.
+template <class T, class Visit>
+void for_each_part(std::span<const T> list, const Visit& visit) {
+  constexpr std::size_t part = 1024;
+  for (std::size_t first = 0; first < list.size(); first += part)
+    visit(list.subspan(first, std::min(part, list.size() - first)));
+}
+
 /// The vertices that at least one triangle uses.
 std::vector<bool> used_vertices(const Mesh& mesh) {
   std::vector<bool> used(mesh.vertices.size());
-  for (const CornerIndices& triangle : mesh.triangles)
-    for (const std::uint32_t corner : triangle) used[corner] = true;
+  for_each_part(std::span(mesh.triangles), [&](std::span<const CornerIndices> part) {
+    if (!all_below(part, used.size())) throw ElementFault();
+    for (const CornerIndices& triangle : part)
+      for (const std::uint32_t corner : triangle) used[corner] = true;
+  });
   return used;
 }
 
@@ -27,13 +42,16 @@ void include(WorldBounds& bounds, int axis, const Interval& value) {
 }
 
 void include_as_is(WorldBounds& bounds, const Mesh& mesh, const std::vector<bool>& used) {
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (!used[i]) continue;
-    const auto& [x, y, z] = mesh.vertices[i];
-    include(bounds, 0, {x, x});
-    include(bounds, 1, {y, y});
-    include(bounds, 2, {z, z});
-  }
+  std::size_t i = 0;
+  for_each_part(std::span(mesh.vertices), [&](std::span<const MeshPoint> part) {
+    if (!all_finite(part)) throw ElementFault();
+    for (const auto& [x, y, z] : part) {
+      if (!used[i++]) continue;
+      include(bounds, 0, {x, x});
+      include(bounds, 1, {y, y});
+      include(bounds, 2, {z, z});
+    }
+  });
 }
 
 /// Widens one axis of the bounds to the placed vertices: exactly, but only for those that the
@@ -59,11 +77,8 @@ void include_placed(WorldBounds& bounds, int axis, const Object& object, const M
   }
 }
 
-}  // namespace
-
-std::optional<WorldBounds> world_bounds(const Scene& scene) {
-  const StandardArithmetic standard;
-  require_valid(scene);
+/// Looks at what require_valid_but_elements() leaves out. Throws ElementFault.
+std::optional<WorldBounds> bounds_of(const Scene& scene) {
   WorldBounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   bool empty = true;
   for (const Object& object : scene.objects) {
@@ -74,6 +89,7 @@ std::optional<WorldBounds> world_bounds(const Scene& scene) {
     if (object.placed_as_is) {
       include_as_is(bounds, mesh, used);
     } else {
+      if (!all_finite(mesh.vertices)) throw ElementFault();
       for (int axis = 0; axis < 3; ++axis) include_placed(bounds, axis, object, mesh, used);
     }
   }
@@ -84,6 +100,19 @@ std::optional<WorldBounds> world_bounds(const Scene& scene) {
     bounds.upper[axis] += 0.0;
   }
   return bounds;
+}
+
+}  // namespace
+
+std::optional<WorldBounds> world_bounds(const Scene& scene) {
+  const StandardArithmetic standard;
+  require_valid_but_elements(scene);
+  try {
+    return bounds_of(scene);
+  } catch (const ElementFault&) {
+    require_valid(scene);
+    throw;
+  }
 }
 
 }  // namespace fathom

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
-#include <cstring>
-#include <limits>
 #include <map>
 #include <span>
 
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/element_checks.h"
 #include "fathom/scene/object_fault.h"
 #include "fathom/threads/threads.h"
 
@@ -28,94 +26,51 @@ std::string count_of(std::uint64_t count, const char* what) {
   return std::to_string(count) + " " + what;
 }
 
-/// Whether `is_bad` says so of a part of a list.
-template <class T, class IsBad>
-bool any_part(const std::vector<T>& list, const IsBad& is_bad) {
+/// Whether `is_good` says so of all parts of a list.
+template <class T, class IsGood>
+bool all_parts(const std::vector<T>& list, const IsGood& is_good) {
   constexpr std::size_t part = 1U << 14;
   const std::span<const T> all(list);
   const std::size_t parts = (all.size() + part - 1) / part;
-  if (parts <= 1) return is_bad(all);
-  std::atomic<bool> found = false;
+  if (parts <= 1) return is_good(all);
+  std::atomic<bool> all_good = true;
   in_parallel(parts, [&](std::size_t i) {
     const std::size_t first = i * part;
-    if (is_bad(all.subspan(first, std::min(part, all.size() - first)))) found = true;
+    if (!is_good(all.subspan(first, std::min(part, all.size() - first)))) all_good = false;
   });
-  return found;
+  return all_good;
 }
 
-/// The elements as numbers, a block at a time: visit(numbers, count).
-template <class Number, class T, class Visit>
-void for_each_block(std::span<const T> elements, const Visit& visit) {
-  static_assert(sizeof(T) % sizeof(Number) == 0 && std::is_trivially_copyable_v<T>);
-  constexpr std::size_t block = 64, numbers_each = sizeof(T) / sizeof(Number);
-  std::array<Number, block * numbers_each> numbers;
-  for (std::size_t first = 0; first < elements.size(); first += block) {
-    const std::size_t count = std::min(block, elements.size() - first);
-    std::memcpy(numbers.data(), &elements[first], count * sizeof(T));
-    visit(numbers, count * numbers_each);
-  }
+/// Whether every index is below `end` or none.
+bool all_below_or_none(std::span<const CornerIndices> triangles, std::uint64_t end) {
+  bool all = true;
+  for (const CornerIndices& triangle : triangles)
+    for (const std::uint32_t index : triangle) all = all && (index < end || index == no_index);
+  return all;
 }
 
-/// Whether a number is infinite or NaN: its exponent is the greatest, and adding 1 to it carries
-/// into the sign's place.
-template <class Real, class T>
-bool has_number_that_is_not_finite(std::span<const T> elements) {
-  using Bits = std::conditional_t<sizeof(Real) == 8, std::uint64_t, std::uint32_t>;
-  constexpr int fraction = std::numeric_limits<Real>::digits - 1;
-  constexpr Bits sign = Bits{1} << (8 * sizeof(Real) - 1), one = Bits{1} << fraction;
-  Bits carries = 0;
-  for_each_block<Bits>(elements, [&](const auto& bits, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) carries |= (bits[i] & ~sign) + one;
-  });
-  return (carries & sign) != 0;
-}
-
-/// Whether an index is not below `end`, `none` aside where it is allowed.
-bool has_index_beyond(std::span<const CornerIndices> triangles, std::uint64_t end, bool none) {
-  if (end > no_index) end = no_index;
-  std::uint32_t greatest = 0;
-  for_each_block<std::uint32_t>(triangles, [&](const auto& indices, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t index = none && indices[i] == no_index ? 0 : indices[i];
-      greatest = std::max(greatest, index);
-    }
-  });
-  // An index that is 0 for want of another is none at all where nothing is indexed.
-  if (end == 0 && none) {
-    return std::any_of(triangles.begin(), triangles.end(), [](const CornerIndices& t) {
-      return std::any_of(t.begin(), t.end(), [](std::uint32_t i) { return i != no_index; });
-    });
-  }
-  return !triangles.empty() && greatest >= end;
-}
-
-/// The number of the first element of which `is_bad` holds; there is one.
-template <class T, class IsBad>
-std::uint64_t first_bad(const std::vector<T>& list, const IsBad& is_bad) {
-  const auto bad = std::find_if(list.begin(), list.end(),
-                                [&](const T& element) { return is_bad(std::span(&element, 1)); });
-  return static_cast<std::uint64_t>(bad - list.begin());
-}
-
-/// Names the first element of a list of which `is_bad` says so.
-template <class T, class IsBad>
+/// Names the first element of a list of which `is_good` does not hold.
+template <class T, class IsGood>
 Fault find_bad(const std::vector<T>& list, const char* element, const std::string& what,
-               const IsBad& is_bad) {
-  if (!any_part(list, is_bad)) return std::nullopt;
-  return std::string(element) + " " + std::to_string(first_bad(list, is_bad)) + what;
+               const IsGood& is_good) {
+  if (all_parts(list, is_good)) return std::nullopt;
+  const auto bad = std::find_if_not(list.begin(), list.end(),
+                                    [&](const T& each) { return is_good(std::span(&each, 1)); });
+  return std::string(element) + " " + std::to_string(bad - list.begin()) + what;
 }
 
 template <class Real, class T>
 Fault find_not_finite(const std::vector<T>& list, const char* element) {
-  return find_bad(list, element, " has a number that is not finite",
-                  has_number_that_is_not_finite<Real, T>);
+  return find_bad(list, element, " has a number that is not finite", all_finite<Real, T>);
 }
 
-Fault find_index_beyond(const std::vector<CornerIndices>& triangles, std::uint64_t end, bool none,
-                        const char* element, const char* of) {
-  return find_bad(
-      triangles, element, ": a corner is beyond the " + count_of(end, of),
-      [&](std::span<const CornerIndices> part) { return has_index_beyond(part, end, none); });
+/// Names the first triangle with a corner that is none of so many; no_index is one where it is
+/// allowed.
+template <class IsGood>
+Fault find_index_beyond(const std::vector<CornerIndices>& triangles, std::uint64_t end,
+                        const char* element, const char* of, const IsGood& is_good) {
+  return find_bad(triangles, element, ": a corner is beyond the " + count_of(end, of),
+                  [&](std::span<const CornerIndices> part) { return is_good(part, end); });
 }
 
 /// A list that is empty or has one element for each of `count`.
@@ -133,7 +88,7 @@ Fault find_fault_of_attribute(const Mesh& mesh, std::size_t size,
   if (auto fault =
           find_wrong_size(triangles.size(), mesh.triangles.size(), name_of_triangles, "triangles"))
     return fault;
-  return find_index_beyond(triangles, size, true, name_of_triangles, name);
+  return find_index_beyond(triangles, size, name_of_triangles, name, all_below_or_none);
 }
 
 Fault find_fault_of_faces(const Mesh& mesh) {
@@ -146,18 +101,10 @@ Fault find_too_many(std::uint64_t count, const char* what) {
   return count_of(count, what) + " are more than " + std::to_string(mesh::most_elements);
 }
 
-Fault find_fault(const Mesh& mesh) {
-  Fault fault = find_too_many(mesh.vertices.size(), "vertices");
-  if (!fault) fault = find_too_many(mesh.triangles.size(), "triangles");
-  if (!fault) fault = find_fault_of_faces(mesh);
-  if (!fault) fault = find_not_finite<double>(mesh.vertices, "vertex");
-  if (!fault) {
-    fault = find_index_beyond(mesh.triangles, mesh.vertices.size(), false, "triangle", "vertices");
-  }
-  if (!fault) {
-    fault = find_fault_of_attribute(mesh, mesh.texture_coordinates.size(), mesh.texture_triangles,
-                                    "texture_coordinates", "texture_triangles");
-  }
+Fault find_fault_of_attributes(const Mesh& mesh) {
+  Fault fault =
+      find_fault_of_attribute(mesh, mesh.texture_coordinates.size(), mesh.texture_triangles,
+                              "texture_coordinates", "texture_triangles");
   if (!fault) {
     fault = find_fault_of_attribute(mesh, mesh.normals.size(), mesh.normal_triangles, "normals",
                                     "normal_triangles");
@@ -167,6 +114,19 @@ Fault find_fault(const Mesh& mesh) {
   if (!fault) fault = find_not_finite<double>(mesh.normals, "normals");
   if (!fault) fault = find_not_finite<float>(mesh.colours, "colours");
   return fault;
+}
+
+Fault find_fault_but_elements(const Mesh& mesh) {
+  Fault fault = find_too_many(mesh.vertices.size(), "vertices");
+  if (!fault) fault = find_too_many(mesh.triangles.size(), "triangles");
+  if (!fault) fault = find_fault_of_faces(mesh);
+  if (!fault) fault = find_fault_of_attributes(mesh);
+  return fault;
+}
+
+Fault find_fault_of_elements(const Mesh& mesh) {
+  if (auto fault = find_not_finite<double>(mesh.vertices, "vertex")) return fault;
+  return find_index_beyond(mesh.triangles, mesh.vertices.size(), "triangle", "vertices", all_below);
 }
 
 /// The number of a mesh's last face in its file.
@@ -233,7 +193,41 @@ Fault find_fault_among(const std::vector<Object>& objects, const Meshes& meshes)
   return fault;
 }
 
+/// With the vertices and triangles of those meshes where `looked_at` says so.
+Fault find_fault(const Scene& scene, const std::vector<bool>& looked_at) {
+  if (auto fault = find_fault_of_objects(scene)) return fault;
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    Fault fault = find_fault_but_elements(scene.meshes[i]);
+    if (!fault && looked_at[i]) fault = find_fault_of_elements(scene.meshes[i]);
+    if (fault) return in("mesh", i, *fault);
+  }
+  return find_fault_of_placements(scene);
+}
+
+void require_camera(const Camera& camera) {
+  require_valid(camera);
+  if (std::uint64_t{camera.width} * camera.height > std::uint64_t{1} << 44) {
+    throw InputError("an image of more than 2^44 pixels cannot be rendered");
+  }
+}
+
 }  // namespace
+
+bool scene::all_below(std::span<const CornerIndices> triangles, std::uint64_t end) {
+  if (end == 0) return triangles.empty();
+  // Compared as signed numbers, of which every processor can compare several at a time.
+  const auto place = [](std::uint32_t index) {
+    return static_cast<std::int32_t>(index ^ 0x80000000U);
+  };
+  const std::int32_t last =
+      place(static_cast<std::uint32_t>(std::min<std::uint64_t>(end, no_index) - 1));
+  const std::size_t count = 3 * triangles.size();
+  std::int32_t beyond = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    beyond |= place(number_at<std::uint32_t>(triangles, i)) > last ? -1 : 0;
+  }
+  return beyond == 0;
+}
 
 Fault scene::find_fault_of_objects(const Scene& scene) {
   return find_fault_among(scene.objects, scene.meshes);
@@ -251,10 +245,7 @@ void scene::require(const Fault& no_fault) {
 
 Fault find_fault(const Scene& scene) {
   const StandardArithmetic standard;
-  if (auto fault = find_fault_of_objects(scene)) return fault;
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i)
-    if (const auto fault = find_fault(scene.meshes[i])) return in("mesh", i, *fault);
-  return find_fault_of_placements(scene);
+  return find_fault(scene, std::vector<bool>(scene.meshes.size(), true));
 }
 
 Fault find_fault(const StreamedScene& scene) {
@@ -272,16 +263,26 @@ void require_valid(const StreamedScene& scene) {
 }
 
 void require_valid(const TriangleSource& triangles) {
-  if (triangles.scene_) require_valid(*triangles.scene_);
-  if (triangles.streamed_) require_valid(*triangles.streamed_);
+  if (triangles.scene()) require_valid(*triangles.scene());
+  if (triangles.streamed_scene()) require_valid(*triangles.streamed_scene());
 }
 
 void require_renderable(const TriangleSource& triangles, const Camera& camera) {
-  require_valid(camera);
-  if (std::uint64_t{camera.width} * camera.height > std::uint64_t{1} << 44) {
-    throw InputError("an image of more than 2^44 pixels cannot be rendered");
-  }
+  require_camera(camera);
   require_valid(triangles);
+}
+
+void scene::require_valid_but_elements(const TriangleSource& triangles) {
+  if (triangles.streamed_scene()) return require_valid(*triangles.streamed_scene());
+  const Scene& scene = *triangles.scene();
+  std::vector<bool> not_placed(scene.meshes.size(), true);
+  for (const Object& object : scene.objects) not_placed[object.mesh] = false;
+  require(find_fault(scene, not_placed));
+}
+
+void scene::require_renderable_but_elements(const TriangleSource& triangles, const Camera& camera) {
+  require_camera(camera);
+  require_valid_but_elements(triangles);
 }
 
 }  // namespace fathom

@@ -22,6 +22,10 @@ class TriangleSource {
   TriangleSource(const Scene& scene);          // implicit: a scene is a source,
   TriangleSource(const StreamedScene& scene);  // and so is this one
 
+  /// The scene that the triangles are from: one of these two, the other is null.
+  [[nodiscard]] const Scene* scene() const { return scene_; }
+  [[nodiscard]] const StreamedScene* streamed_scene() const { return streamed_; }
+
   /// The number of triangles.
   [[nodiscard]] std::uint64_t count() const { return first_numbers_.back(); }
   [[nodiscard]] const std::vector<Object>& objects() const {
@@ -51,8 +55,6 @@ class TriangleSource {
   void for_each_part(
       std::uint32_t triangles_of_file, const std::function<void(const Part&)>& visit,
       const std::function<bool(std::uint32_t)>& wanted = [](std::uint32_t) { return true; }) const;
-
-  friend void require_valid(const TriangleSource& triangles);
 
  private:
   /// An object, and the number of a triangle within it.
