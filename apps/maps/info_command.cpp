@@ -47,7 +47,7 @@ void add_info(Command& program) {
   command.argument("FILE", arguments->file, "A mesh, scene, camera or map").required();
   command.option("--mesh-format", "NAME", into(arguments->scene.mesh_format, parse_mesh_format),
                  "Take FILE for a mesh: obj, ply, stl, off, gltf or glb");
-  arguments->scene.add_limits_to(command);
+  arguments->scene.limits.add_to(command);
   command.flag("--json", arguments->json, "Answer in JSON");
   command.runs([arguments](const Console& console) { return run_info(*arguments, console); });
 }

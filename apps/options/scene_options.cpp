@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "apps/options/formats_program.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/values.h"
 #include "fathom/numeric/errors.h"
@@ -39,24 +38,13 @@ void SceneOptions::add_to(Command& command) {
                  "Format of the meshes: obj, ply, stl, off, gltf or glb (default: by content; "
                  "needed for -)");
   command.option("--threads", "N", into(threads, parse_threads), "Threads to use (default 0: all)");
-  add_limits_to(command);
-}
-
-void SceneOptions::add_limits_to(Command& command) {
-  command.flag("--outside-files", outside_files, "A glTF asset may name files outside its folder");
-  command.option(
-      "--max-expansion", "N", into(max_expansion, parse_count),
-      "A mesh may take 64 MiB and N times the bytes of its files in memory (default 64); "
-      "glTF that shares its data among many primitives and nodes may need more");
+  limits.add_to(command);
 }
 
 ReadOptions SceneOptions::read_options() const {
-  ReadOptions options;
+  ReadOptions options = limits.read_options();
   options.format = mesh_format;
   options.threads = threads;
-  options.formats_program = formats_program;
-  options.outside_files = outside_files;
-  options.max_expansion = max_expansion;
   return options;
 }
 

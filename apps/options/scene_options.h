@@ -1,8 +1,10 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "apps/options/read_limits.h"
 #include "apps/shell/command.h"
 #include "fathom/mesh_files/read_options.h"
 #include "fathom/scene/scene.h"
@@ -17,12 +19,9 @@ struct SceneOptions {
   std::vector<std::string> files;
   std::optional<MeshFormat> mesh_format;
   int threads = 0;
-  bool outside_files = false;
-  std::uint64_t max_expansion = ReadOptions().max_expansion;
+  ReadLimits limits;
 
   void add_to(Command& command);
-  /// Only what limits the files that are read, for a command with arguments of its own.
-  void add_limits_to(Command& command);
 
   /// What else a reader may keep of a scene.
   struct Extras {
@@ -33,7 +32,7 @@ struct SceneOptions {
   [[nodiscard]] Scene read(const Console& console, const Extras& extras) const;
   [[nodiscard]] Scene read(const Console& console) const { return read(console, Extras()); }
 
-  /// With the format and the threads that were asked for.
+  /// With the format, the threads and the folder that were asked for.
   [[nodiscard]] ReadOptions read_options() const;
 };
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "apps/options/camera_options.h"
-#include "apps/options/formats_program.h"
+#include "apps/options/read_limits.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/folder.h"
 #include "apps/shell/known_files.h"
@@ -29,6 +29,7 @@ using studies::StudyFile;
 struct StudyArguments {
   std::string name, out, camera;
   std::vector<std::string> scene;
+  ReadLimits limits;
   /// All but the scene, which is read when everything else is in order.
   studies::StudyOptions options;
   bool list = false;
@@ -58,7 +59,7 @@ studies::SceneView read_view(const StudyArguments& arguments, const Console& con
   const std::vector<std::filesystem::path> files(arguments.scene.begin(), arguments.scene.end());
   for (const auto& file : files) note_input(file);
   studies::SceneView view{files.front().filename().string(),
-                          read_scene(files, {.formats_program = formats_program}, warnings),
+                          read_scene(files, arguments.limits.read_options(), warnings),
                           {}};
   console.warn(warnings);
   if (triangle_count(view.scene) == 0) {
@@ -137,6 +138,7 @@ void add_study(Command& program) {
       "--scene", "FILE", arguments->scene,
       "Meshes or scene files to study, for antialiasing, mitigation, subpixel and z-fighting; "
       "without it each study uses its own scene");
+  arguments->limits.add_to(command);
   command.option("--camera", "FILE", arguments->camera,
                  "Camera file (JSON) for --scene; without it, one that frames the scene");
   command.option("--near", "D", into(options.near, parse_number),

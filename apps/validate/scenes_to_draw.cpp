@@ -19,7 +19,7 @@ using validation::ValidationScene;
 
 /// The scene of the command line, with near and far.
 ValidationScene named_by_files(const ValidateArguments& arguments, const Console& console) {
-  Scene scene = read_files(arguments.scenes, console);
+  Scene scene = read_files(arguments.scenes, arguments.limits, console);
   Camera camera;
   if (arguments.camera.empty()) {
     const auto [width, height] = arguments.size;

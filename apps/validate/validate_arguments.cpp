@@ -12,6 +12,7 @@ void ValidateArguments::add_to(Command& command) {
                  "Scenes of ours instead of SCENE (default: all, see below)");
   command.option("--variants", "NAME", variants,
                  "Only these variants of the renderers: unorm24, robust, … (default: all)");
+  limits.add_to(command);
   command.option("--size", "WxH", into(size, parse_size),
                  "Image size without --camera (default 320x240)");
   command.option("--time-limit", "SECONDS", into(seconds, parse_positive),

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/options/read_limits.h"
 #include "apps/shell/command.h"
 #include "apps/shell/values.h"
 
@@ -14,6 +15,7 @@ struct ValidateArguments {
   std::vector<std::string> scenes;
   std::string map, camera, model, channel, out, baseline;
   std::string against, scene_names, variants, render, output;
+  ReadLimits limits;
   Size size{320, 240};
   std::uint32_t seconds = 300;
 

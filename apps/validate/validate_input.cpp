@@ -1,6 +1,5 @@
 #include "apps/validate/validate_input.h"
 
-#include "apps/options/formats_program.h"
 #include "apps/shell/known_files.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
@@ -18,12 +17,14 @@ Camera read_camera(const std::string& file) {
   return cameras.front();
 }
 
-Scene read_files(const std::vector<std::string>& files, const Console& console) {
+Scene read_files(const std::vector<std::string>& files, const ReadLimits& limits,
+                 const Console& console) {
   if (files.empty()) throw UsageError("SCENE is missing: what the map shows");
   for (const std::string& file : files) note_input(file);
   Warnings warnings;
-  Scene scene = read_scene({files.begin(), files.end()},
-                           {.hash = false, .formats_program = formats_program}, warnings);
+  ReadOptions options = limits.read_options();
+  options.hash = false;
+  Scene scene = read_scene({files.begin(), files.end()}, options, warnings);
   console.warn(warnings);
   return scene;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/options/read_limits.h"
 #include "apps/shell/console.h"
 #include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
@@ -16,6 +17,7 @@ Camera read_camera(const std::string& file);
 
 /// The scene of SCENE…; warnings go to the console.
 /// Fails    UsageError where there is none; InputError.
-Scene read_files(const std::vector<std::string>& files, const Console& console);
+Scene read_files(const std::vector<std::string>& files, const ReadLimits& limits,
+                 const Console& console);
 
 }  // namespace fathom::app

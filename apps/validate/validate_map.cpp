@@ -42,7 +42,7 @@ ValidationCase judge_map(const ValidateArguments& arguments, const Console& cons
     throw InputError(fmt::format("{}: has {}x{} pixels, the camera {}x{}", arguments.map,
                                  made.other.width, made.other.height, camera.width, camera.height));
   }
-  const Scene scene = read_files(arguments.scenes, console);
+  const Scene scene = read_files(arguments.scenes, arguments.limits, console);
   made.scene = std::filesystem::path(arguments.scenes.front()).stem();
   const auto truth = std::make_shared<Truth>(attribution::make_truth(scene, camera));
   for (const std::uint32_t triangle : made.other.triangles) {

@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include <atomic>
+#include <chrono>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -126,6 +127,8 @@ TEST(PerThread, EachThreadHasItsOwnAndAllAreThereInTheEnd) {
       auto& [thread, count] = counts.local();
       EXPECT_EQ(thread, std::this_thread::get_id());
       ++count;
+      // Or else the first thread has done it all before the second begins.
+      std::this_thread::sleep_for(std::chrono::microseconds(10));
     });
   });
   int sum = 0;
