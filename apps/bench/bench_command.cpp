@@ -12,6 +12,7 @@
 #include "apps/shell/output_file.h"
 #include "apps/shell/program.h"
 #include "apps/shell/progress.h"
+#include "apps/shell/standard_streams.h"
 #include "validation/bench/renderers.h"
 #include "validation/bench/report.h"
 
@@ -141,6 +142,7 @@ void add_bench(Command& program) {
       "without embree-build.");
   const auto arguments = std::make_shared<BenchArguments>();
   arguments->add_to(command);
+  command.answers_on_standard_output();
   command.runs([arguments](const Console& console) { return run_bench(*arguments, console); });
 }
 

@@ -8,11 +8,12 @@
 
 #include "apps/camera/camera_command.h"
 #include "apps/shell/exit_status.h"
-#include "apps/shell/output_file.h"
+#include "apps/shell/text_output.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::app {
 namespace {
@@ -40,7 +41,7 @@ struct Source {
 int write_imported(const Cameras& imported, const ImportArguments& arguments) {
   if (arguments.list) {
     std::string text;
-    for (const ImportedCamera& entry : imported) text += entry.name + "\n";
+    for (const ImportedCamera& entry : imported) text += text::printable(entry.name) + "\n";
     write_text(arguments.output, text);
     return done;
   }

@@ -10,7 +10,7 @@
 #include "apps/depth/depth_answers.h"
 #include "apps/options/depth_format_options.h"
 #include "apps/shell/exit_status.h"
-#include "apps/shell/output_file.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -46,14 +46,25 @@ std::string trimmed(const std::string& line) {
 /// A binary64 number needs 1074 digits at most; no sane text is longer.
 constexpr std::size_t longest_value = 4096;
 
+/// The next line of standard input, or its beginning where it is too long for a value.
+bool read_line(std::string& line) {
+  line.clear();
+  for (int c = std::cin.get(); c != std::char_traits<char>::eof(); c = std::cin.get()) {
+    if (c == '\n') return true;
+    line += static_cast<char>(c);
+    if (line.size() > longest_value) return true;
+  }
+  return !line.empty();
+}
+
 /// One value a line from standard input, one answer a line, as they come.
 void answer_lines(const DepthFormat& format, const DepthArguments& arguments, Ask ask) {
   std::string line;
-  for (std::size_t number = 1; std::getline(std::cin, line); ++number) {
+  for (std::size_t number = 1; read_line(line); ++number) {
     const std::string text = trimmed(line);
     std::string answer;
     try {
-      if (text.size() > longest_value) throw UsageError("VALUE: longer than any number");
+      if (line.size() > longest_value) throw UsageError("VALUE: longer than any number");
       answer = line_of(ask({format, arguments.clamp, text}), arguments.json);
     } catch (const Error& error) {
       throw InputError(fmt::format("standard input: line {}: {}", number, error.what()));
@@ -85,6 +96,7 @@ void add_question(Command& depth, const DepthCommand& question) {
   command.flag("--json", arguments->json,
                "One JSON object a line, with all that is known; null is infinity");
   command.arguments("VALUE", arguments->values, question.values);
+  command.answers_on_standard_output();
   command.runs(
       [arguments, ask = question.ask](const Console&) { return answer_all(*arguments, ask); });
 }

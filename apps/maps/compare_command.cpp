@@ -1,12 +1,16 @@
 // fathom compare TRUTH OTHER
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "apps/maps/comparison_report.h"
 #include "apps/maps/map_commands.h"
 #include "apps/options/map_argument.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
+#include "apps/shell/standard_streams.h"
+#include "apps/shell/text_output.h"
 #include "apps/shell/values.h"
 #include "fathom/image/compare.h"
 #include "fathom/numeric/errors.h"
@@ -28,23 +32,27 @@ double parse_tolerance(const std::string& text) {
 
 int run_compare(const CompareArguments& arguments) {
   const CompareOptions& options = arguments.options;
+  note_input(arguments.truth);
+  note_input(arguments.other);
+  TextOutput json(arguments.json);
+  std::optional<OutputFile> heatmap;
+  if (!arguments.heatmap.empty()) heatmap.emplace(arguments.heatmap);
   const DepthMap truth = read_map_argument(arguments.truth);
   const DepthMap other = read_map_argument(arguments.other);
   const Comparison comparison{arguments.truth, arguments.other, options.tolerance_ulp,
                               compare_maps(truth, other, options)};
 
-  std::vector<OutputFile> outputs;
-  outputs.reserve(2);
-  const bool writes_json = !arguments.json.empty() && arguments.json != "-";
-  if (writes_json) outputs.emplace_back(arguments.json).write(as_json(comparison));
-  if (!arguments.heatmap.empty()) {
+  std::vector<OutputFile*> outputs;
+  json.write(as_json(comparison));
+  if (json.file() != nullptr) outputs.push_back(json.file());
+  if (heatmap) {
     const RgbImage picture = draw_differences(truth, other, options);
-    outputs.emplace_back(arguments.heatmap).write([&](const std::filesystem::path& path) {
-      write_png(picture, path);
-    });
+    heatmap->write([&](const std::filesystem::path& path) { write_png(picture, path); });
+    outputs.push_back(&*heatmap);
   }
-  for (OutputFile& output : outputs) output.commit();
-  print(arguments.json == "-" ? as_json(comparison) : as_text(comparison));
+  OutputFile::commit_together(outputs);
+  json.print();
+  if (arguments.json != "-") print(as_text(comparison));
   return comparison.maps.within_tolerance() ? done : answer_is_no;
 }
 
@@ -73,6 +81,7 @@ void add_compare(Command& program) {
                  "The depth that means background in TRUTH (default: detected)");
   command.option("--other-background", "D", into(options.other_background, parse_number),
                  "The depth that means background in OTHER (default: detected)");
+  command.answers_on_standard_output();
   command.runs([arguments](const Console&) { return run_compare(*arguments); });
 }
 

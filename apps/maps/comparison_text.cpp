@@ -2,6 +2,7 @@
 
 #include "apps/maps/comparison_report.h"
 #include "apps/shell/values.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::app {
 namespace {
@@ -17,8 +18,9 @@ std::string figures_line(const char* name, const DifferenceSummary& s) {
 
 std::string to_text(const ChannelComparison& c) {
   std::string text = c.truth_channel == c.other_channel
-                         ? fmt::format("channel {}\n", c.truth_channel)
-                         : fmt::format("channel {} against {}\n", c.truth_channel, c.other_channel);
+                         ? fmt::format("channel {}\n", text::printable(c.truth_channel))
+                         : fmt::format("channel {} against {}\n", text::printable(c.truth_channel),
+                                       text::printable(c.other_channel));
   text += fmt::format(
       "  surface   in both {}, in neither {}, in the first only {}, in the other only {}{}\n",
       c.both, c.neither, c.only_truth, c.only_other,
@@ -40,7 +42,7 @@ std::string to_text(const ChannelComparison& c) {
                           to_text(c.first_mismatch, "first"));
     }
   }
-  for (const std::string& note : c.notes) text += "  note: " + note + "\n";
+  for (const std::string& note : c.notes) text += "  note: " + text::printable(note) + "\n";
   return text;
 }
 
@@ -51,12 +53,14 @@ std::string as_text(const Comparison& comparison) {
   std::string text;
   for (const ChannelComparison& channel : maps.channels) text += to_text(channel);
   if (!maps.only_in_truth.empty()) {
-    text += fmt::format("only in the first: {}\n", joined(maps.only_in_truth, ", "));
+    text +=
+        fmt::format("only in the first: {}\n", text::printable(joined(maps.only_in_truth, ", ")));
   }
   if (!maps.only_in_other.empty()) {
-    text += fmt::format("only in the other: {}\n", joined(maps.only_in_other, ", "));
+    text +=
+        fmt::format("only in the other: {}\n", text::printable(joined(maps.only_in_other, ", ")));
   }
-  for (const std::string& note : maps.notes) text += "note: " + note + "\n";
+  for (const std::string& note : maps.notes) text += "note: " + text::printable(note) + "\n";
   return text + fmt::format("the maps {} within {} ulp\n",
                             maps.within_tolerance() ? "agree" : "do not agree",
                             comparison.tolerance_ulp);

@@ -1,32 +1,27 @@
 #include "apps/maps/file_kind.h"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "fathom/text/input_file.h"
 #include "fathom/text/parse_json.h"
+#include "fathom/text/text_cursor.h"
 
 namespace fathom::app {
-
-FileKind kind_of(const std::string& file) {
-  if (file == "-") return FileKind::mesh;
-  std::ifstream stream(file, std::ios::binary);
-  std::string start(16, '\0');
-  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
-  if (start.starts_with("\x76\x2f\x31\x01") || start.starts_with("\x89PNG") ||
-      start.starts_with("\x93NUMPY") || start.starts_with("Pf") || start.starts_with("PF")) {
-    return FileKind::map;
+FileKind kind_of(std::string_view content) {
+  for (const std::string_view magic : {"\x76\x2f\x31\x01", "\x89PNG", "\x93NUMPY", "Pf", "PF"}) {
+    if (content.starts_with(magic)) return FileKind::map;
   }
-  const std::size_t first = start.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos || (start[first] != '{' && start[first] != '['))
+  const std::string_view text = text::TextCursor::without_mark(content);
+  const std::size_t first = text.substr(0, 16).find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos || (text[first] != '{' && text[first] != '['))
     return FileKind::mesh;
-  if (start[first] == '[') return FileKind::camera;
+  if (text[first] == '[') return FileKind::camera;
   // What is no JSON is told by the reader of cameras.
   nlohmann::json json;
   try {
-    text::parse_json(text::InputFile(file).text(), json);
+    text::parse_json(content, json);
   } catch (const text::JsonFault&) {
     return FileKind::camera;
   }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "apps/maps/file_kind.h"
+#include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/scene.h"
 
@@ -20,6 +22,7 @@ std::string info_of_scene(const Scene& scene, FileKind kind, const std::string& 
                           AnswerForm form);
 
 /// Where each camera of the file stands and looks, and its numbers.
-std::string info_of_cameras(const std::string& file, AnswerForm form);
+std::string info_of_cameras(const std::vector<Camera>& cameras, const std::string& file,
+                            AnswerForm form);
 
 }  // namespace fathom::app

@@ -9,6 +9,7 @@
 #include "apps/shell/json_answer.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/text/parse_json.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::app {
 namespace {
@@ -70,15 +71,15 @@ std::string describe_as_text(const Camera& camera) {
 
 }  // namespace
 
-std::string info_of_cameras(const std::string& file, AnswerForm form) {
-  const std::vector<Camera> cameras = read_cameras(file);
+std::string info_of_cameras(const std::vector<Camera>& cameras, const std::string& file,
+                            AnswerForm form) {
   if (form == AnswerForm::json) {
     Json list = Json::array();
     for (const Camera& camera : cameras) list.push_back(describe(camera));
     return json_answer({{"kind", "camera"}, {"file", file}, {"cameras", list}});
   }
   std::string text = fmt::format(
-      "{}: {}\n", file,
+      "{}: {}\n", text::printable(file),
       cameras.size() == 1 ? "a camera" : fmt::format("a path of {} cameras", cameras.size()));
   for (const Camera& camera : cameras) text += describe_as_text(camera);
   return text;

@@ -8,6 +8,10 @@
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
+#include "apps/shell/standard_streams.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/scene/read_scene.h"
+#include "fathom/text/input_file.h"
 
 namespace fathom::app {
 namespace {
@@ -19,21 +23,25 @@ struct InfoArguments {
   bool json = false;
 };
 
-std::string info_of_meshes(const InfoArguments& arguments, FileKind kind, AnswerForm form,
-                           const Console& console) {
-  SceneOptions options = arguments.scene;
-  options.files = {arguments.file};
-  const Scene scene = options.read(console, {.hash = true});
+std::string info_of_meshes(const InfoArguments& arguments, const text::InputFile& input,
+                           FileKind kind, AnswerForm form, const Console& console) {
+  ReadOptions options = arguments.scene.read_options();
+  options.hash = true;
+  Warnings warnings;
+  const Scene scene = read_scene(input.bytes(), arguments.file, options, warnings);
+  console.warn(warnings);
   return info_of_scene(scene, kind, arguments.file, form);
 }
 
+/// The file is read once, so that it can be a pipe.
 int run_info(const InfoArguments& arguments, const Console& console) {
-  const FileKind kind = arguments.scene.mesh_format ? FileKind::mesh : kind_of(arguments.file);
+  const std::string& file = arguments.file;
+  const text::InputFile input(file);
+  const FileKind kind = arguments.scene.mesh_format ? FileKind::mesh : kind_of(input.text());
   const AnswerForm form = arguments.json ? AnswerForm::json : AnswerForm::text;
-  print(kind == FileKind::camera ? info_of_cameras(arguments.file, form)
-        : kind == FileKind::map
-            ? info_of_map(read_map_argument(arguments.file), arguments.file, form)
-            : info_of_meshes(arguments, kind, form, console));
+  print(kind == FileKind::camera ? info_of_cameras(read_cameras(input.text(), file), file, form)
+        : kind == FileKind::map  ? info_of_map(read_map_argument(input.bytes(), file), file, form)
+                                 : info_of_meshes(arguments, input, kind, form, console));
   return done;
 }
 
@@ -44,11 +52,13 @@ void add_info(Command& program) {
   Command& command = program.command("info", "Describe a mesh, scene, camera or map",
                                      "  fathom info data/meshes/spot.obj\n"
                                      "  fathom info spot.exr --json");
-  command.argument("FILE", arguments->file, "A mesh, scene, camera or map").required();
+  command.argument("FILE", arguments->file, "A mesh, scene, camera or map; - is standard input")
+      .required();
   command.option("--mesh-format", "NAME", into(arguments->scene.mesh_format, parse_mesh_format),
                  "Take FILE for a mesh: obj, ply, stl, off, gltf or glb");
   arguments->scene.limits.add_to(command);
   command.flag("--json", arguments->json, "Answer in JSON");
+  command.answers_on_standard_output();
   command.runs([arguments](const Console& console) { return run_info(*arguments, console); });
 }
 

@@ -6,6 +6,7 @@
 #include "apps/maps/info.h"
 #include "apps/shell/json_answer.h"
 #include "fathom/scene/bounds.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::app {
 namespace {
@@ -74,19 +75,21 @@ std::string to_text(const std::optional<WorldBounds>& bounds) {
 
 std::string describe_as_text(const Scene& scene, FileKind kind, const std::string& file) {
   const SceneTotals totals = totals_of(scene);
-  std::string text = fmt::format(
-      "{}: a {}\n  vertices   {}\n  faces      {}\n  triangles  {}\n  bounds     {}\n", file,
-      name_of(kind), totals.vertices, totals.faces, totals.triangles, to_text(world_bounds(scene)));
+  std::string text =
+      fmt::format("{}: a {}\n  vertices   {}\n  faces      {}\n  triangles  {}\n  bounds     {}\n",
+                  text::printable(file), name_of(kind), totals.vertices, totals.faces,
+                  totals.triangles, to_text(world_bounds(scene)));
   if (scene.objects.size() > 1 || kind == FileKind::scene) {
     for (const Object& object : scene.objects) {
-      text += fmt::format("  object     {}: {} triangles, {}\n", object.name,
+      text += fmt::format("  object     {}: {} triangles, {}\n", text::printable(object.name),
                           scene.meshes[object.mesh].triangles.size(),
                           to_text(bounds_of(scene, object)));
     }
   }
   for (const Source& source : scene.sources) {
-    text += fmt::format("  source     {} (SHA-256 {}){}\n", source.path, source.sha256,
-                        source.reader.empty() ? "" : ", read by " + source.reader);
+    text +=
+        fmt::format("  source     {} (SHA-256 {}){}\n", text::printable(source.path), source.sha256,
+                    source.reader.empty() ? "" : ", read by " + text::printable(source.reader));
   }
   return text;
 }

@@ -32,11 +32,10 @@ void SceneOptions::add_to(Command& command) {
       .arguments(
           "SCENE", files,
           "Meshes (OBJ, PLY, STL, OFF, glTF/GLB; FBX, COLLADA, 3DS, 3MF and others by assimp) "
-          "and scene files (JSON); - is a mesh on standard input")
+          "and scene files (JSON); - is standard input")
       .required();
   command.option("--mesh-format", "NAME", into(mesh_format, parse_mesh_format),
-                 "Format of the meshes: obj, ply, stl, off, gltf or glb (default: by content; "
-                 "needed for -)");
+                 "Format of the meshes: obj, ply, stl, off, gltf or glb (default: by content)");
   command.option("--threads", "N", into(threads, parse_threads), "Threads to use (default 0: all)");
   limits.add_to(command);
 }
@@ -51,9 +50,6 @@ ReadOptions SceneOptions::read_options() const {
 Scene SceneOptions::read(const Console& console, const Extras& extras) const {
   const auto standard_inputs = std::count(files.begin(), files.end(), "-");
   if (standard_inputs > 1) throw UsageError("SCENE: '-', standard input, can be read only once");
-  if (standard_inputs == 1 && !mesh_format) {
-    throw UsageError("SCENE: '-', standard input, needs --mesh-format");
-  }
   ReadOptions options = read_options();
   options.hash = extras.hash;
   options.attributes = extras.attributes;

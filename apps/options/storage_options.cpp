@@ -1,7 +1,6 @@
 #include "apps/options/storage_options.h"
 
-#include <filesystem>
-
+#include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/numeric/errors.h"
 
@@ -29,12 +28,6 @@ double parse_scale(const std::string& text) {
 StorageOptions::Float parse_dtype(const std::string& text) {
   return parse_word<StorageOptions::Float>(text, {{"float32", StorageOptions::Float::binary32},
                                                   {"float64", StorageOptions::Float::binary64}});
-}
-
-/// A device or a pipe, which is written through and need not have a suffix.
-bool is_written_through(const std::string& target) {
-  std::error_code error;
-  return std::filesystem::is_other(std::filesystem::status(target, error));
 }
 
 }  // namespace

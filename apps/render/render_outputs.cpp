@@ -4,23 +4,6 @@
 
 namespace fathom::app {
 
-RenderOutputs::Note::Note(const std::string& name) : printed_(name == "-") {
-  if (!name.empty() && !printed_) file_.emplace(name);
-}
-
-void RenderOutputs::Note::write(const std::string& text) {
-  if (file_) file_->write(text);
-  if (printed_) text_ = text;
-}
-
-void RenderOutputs::Note::commit() {
-  if (file_) file_->commit();
-}
-
-void RenderOutputs::Note::print() const {
-  if (printed_) app::print(text_);
-}
-
 RenderOutputs::RenderOutputs(const RenderArguments& arguments, std::size_t cameras)
     : names_(names_of_outputs("-o", arguments.output, cameras)),
       maps_(names_.begin(), names_.end()),
@@ -33,10 +16,13 @@ RenderOutputs::RenderOutputs(const RenderArguments& arguments, std::size_t camer
 }
 
 void RenderOutputs::commit() {
-  cameras_.commit();
-  statistics_.commit();
-  for (OutputFile& output : pictures_) output.commit();
-  for (OutputFile& output : maps_) output.commit();
+  std::vector<OutputFile*> files;
+  for (TextOutput* text : {&cameras_, &statistics_}) {
+    if (text->file() != nullptr) files.push_back(text->file());
+  }
+  for (OutputFile& output : pictures_) files.push_back(&output);
+  for (OutputFile& output : maps_) files.push_back(&output);
+  OutputFile::commit_together(files);
   cameras_.print();
   statistics_.print();
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/render/render_arguments.h"
 #include "apps/shell/output_file.h"
+#include "apps/shell/text_output.h"
 
 namespace fathom::app {
 
@@ -28,23 +28,9 @@ class RenderOutputs {
   void commit();
 
  private:
-  /// A text for a file, for standard output, or for nothing.
-  class Note {
-   public:
-    explicit Note(const std::string& name);
-    void write(const std::string& text);
-    void commit();
-    void print() const;
-
-   private:
-    std::optional<OutputFile> file_;
-    bool printed_ = false;
-    std::string text_;
-  };
-
   std::vector<std::string> names_;
   std::vector<OutputFile> maps_, pictures_;
-  Note cameras_, statistics_;
+  TextOutput cameras_, statistics_;
 };
 
 }  // namespace fathom::app

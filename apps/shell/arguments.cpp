@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "apps/shell/exit_status.h"
-#include "apps/shell/output_file.h"
+#include "apps/shell/standard_streams.h"
 #include "apps/shell/unknown_command.h"
 #include "fathom/numeric/errors.h"
 

@@ -5,6 +5,7 @@
 
 #include "apps/shell/about_option.h"
 #include "apps/shell/max_memory.h"
+#include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 
 namespace fathom::app {
@@ -110,6 +111,7 @@ int Command::run_named(const Console& console) const {
     if (taken.option->count() == 0) continue;
     about_option(taken.option->get_name(), [&] { taken.take(taken.option->results()); });
   }
+  if (answers_on_standard_output_) expect_standard_output();
   for (const auto& below : commands_) {
     if (below->app_.parsed()) return below->run_named(console);
   }

@@ -75,6 +75,8 @@ class Command {
   Option arguments(const std::string& name, std::vector<std::string>& values,
                    const std::string& help);
 
+  /// It prints what it finds: where that cannot be, it fails before any work.
+  void answers_on_standard_output() { answers_on_standard_output_ = true; }
   void runs(Run run) { run_ = std::move(run); }
 
   /// Writes what was given to its places, then runs the command below that was named, or itself.
@@ -92,6 +94,7 @@ class Command {
   std::vector<Taken> taken_;
   std::vector<std::unique_ptr<Command>> commands_;
   Run run_;
+  bool answers_on_standard_output_ = false;
 };
 
 }  // namespace fathom::app

@@ -11,13 +11,13 @@
 namespace fathom::app {
 namespace {
 
-/// One line whatever the text, which may hold a file's name: control characters become '?'.
+/// One line whatever the text, which may hold a file's name.
 void say(const std::string& text) {
   std::string line = "fathom: " + text;
   for (char& c : line) {
     if (c == '\n' || c == '\r' || c == '\t') c = ' ';
   }
-  line = text::printable(std::move(line));
+  line = text::printable(line);
   while (line.ends_with(' ')) line.pop_back();
   line += '\n';
   std::fwrite(line.data(), 1, line.size(), stderr);

@@ -10,6 +10,7 @@ enum ExitStatus : int {
   unusable_input = 3,
   unwritable_output = 4,
   internal_error = 70,
+  interrupted = 130,
 };
 
 }  // namespace fathom::app

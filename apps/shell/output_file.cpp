@@ -6,15 +6,14 @@
 
 #include <array>
 #include <cerrno>
-#include <csignal>
-#include <cstdio>
-#include <optional>
-#include <random>
+#include <set>
 #include <system_error>
 #include <utility>
 
 #include "apps/shell/known_files.h"
-#include "apps/shell/pending_files.h"
+#include "apps/shell/output_place.h"
+#include "apps/shell/standard_streams.h"
+#include "apps/shell/write_all.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -26,92 +25,33 @@ namespace fs = std::filesystem;
   throw OutputError(target.string() + ": " + why);
 }
 
-[[noreturn]] void fail_with_errno(const fs::path& target, int error) {
-  fail(target, std::generic_category().message(error));
-}
-
-/// A descriptor that is closed at the end of its scope.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  [[nodiscard]] int get() const { return number_; }
-  /// Closes now; false where data were lost.
-  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
-
- private:
-  int number_;
-};
-
-/// Follows symbolic links to the file that is meant, which need not exist. nullopt where they lead
-/// into /proc: /dev/stdout names an open file, which has no place of its own.
-std::optional<fs::path> follow_links(const fs::path& target) {
-  fs::path place = target;
-  std::error_code ignored;
-  for (int links = 0; fs::is_symlink(place, ignored); ++links) {
-    if (links == 40) fail_with_errno(target, ELOOP);
-    const fs::path next = fs::read_symlink(place, ignored);
-    place = next.is_absolute() ? next : place.parent_path() / next;
-    if (fs::absolute(place).native().starts_with("/proc/")) return std::nullopt;
-  }
-  return place;
-}
-
 fs::path folder_of(const fs::path& place) {
   return place.has_parent_path() ? place.parent_path() : fs::path(".");
 }
 
-/// ".fathom-" and 16 hexadecimal digits that no other process has drawn.
-std::string temporary_name() {
-  std::random_device device;
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), ".fathom-%08x%08x.part", device(), device());
-  return text.data();
-}
-
-void write_all(int descriptor, const char* data, std::size_t size, const fs::path& target) {
-  while (size > 0) {
-    const ssize_t written = ::write(descriptor, data, size);
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      fail_with_errno(target, errno);
-    }
-    data += written;
-    size -= static_cast<std::size_t>(written);
+[[noreturn]] void fail_to_stage(const fs::path& target, const fs::path& place, int error) {
+  const fs::path folder = folder_of(place);
+  if (error == ENOENT && folder == ".") fail(target, "the working directory is gone");
+  if (error == ENOENT) fail(target, "there is no directory " + folder.string());
+  if (error == EMFILE) {
+    fail(target, "too many outputs at once; 'ulimit -n' raises how many files may be open");
   }
+  fail_with_errno(target, error);
 }
 
-void copy_through(const char* source, const fs::path& target) {
-  Descriptor in(::open(source, O_RDONLY | O_CLOEXEC));
-  if (in.get() < 0) fail_with_errno(target, errno);
-  Descriptor out(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
-  if (out.get() < 0) fail_with_errno(target, errno);
-  std::array<char, 65536> buffer{};
-  while (true) {
-    const ssize_t count = ::read(in.get(), buffer.data(), buffer.size());
-    if (count < 0) fail_with_errno(target, errno);
-    if (count == 0) break;
-    write_all(out.get(), buffer.data(), static_cast<std::size_t>(count), target);
-  }
-  if (!out.close()) fail_with_errno(target, errno);
-}
-
-std::string with_target_for(const std::string& temporary, const fs::path& target,
+std::string with_target_for(const std::string& staged, const fs::path& target,
                             std::string message) {
-  for (std::size_t at = message.find(temporary); at != std::string::npos;
-       at = message.find(temporary, at + target.native().size())) {
-    message.replace(at, temporary.size(), target.native());
+  for (std::size_t at = message.find(staged); at != std::string::npos;
+       at = message.find(staged, at + target.native().size())) {
+    message.replace(at, staged.size(), target.native());
   }
   return message;
 }
 
-extern "C" void remove_and_end(int) {
-  remove_all_pending();
-  ::_exit(130);
+/// Waits until the names in a folder are on the disk. Some systems cannot tell.
+void sync_folder(const fs::path& folder) {
+  const Descriptor open(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (open.is_open()) ::fsync(open.get());
 }
 
 }  // namespace
@@ -124,96 +64,125 @@ OutputFile::OutputFile(fs::path target) : target_(std::move(target)) {
   if (exists && S_ISDIR(status.st_mode)) fail(target_, "is a directory; the output is a file");
   if (!exists && !target_.has_filename()) fail(target_, "names a directory; the output is a file");
 
-  const std::optional<fs::path> place = follow_links(target_);
-  write_through_ = !place || (exists && !S_ISREG(status.st_mode));
-  if (exists && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) {
+  find_place(exists, status.st_mode);
+  if (exists && !through_.is_open() &&
+      ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) {
     fail_with_errno(target_, errno);
   }
-  place_ = write_through_ ? fs::temp_directory_path() / "output" : *place;
-  if (!write_through_) claim_output(target_, place_);
-  create_temporary();
+  if (!place_.empty()) {
+    claim_output(target_, place_);
+    if (exists) existing_ = {status.st_mode, status.st_uid, status.st_gid};
+  }
+  stage();
+}
 
-  if (exists && !write_through_) {
-    // The owner can be kept only by root; the permissions always.
-    if (::chown(pending_->path, status.st_uid, status.st_gid) != 0) errno = 0;
-    ::chmod(pending_->path, status.st_mode & 07777);
+/// Where it goes: into an open file, through a device or a pipe, or to a place of its own.
+void OutputFile::find_place(bool exists, mode_t mode) {
+  const OutputPlace place = place_of(target_);
+  if (place.open_file) {
+    expect_writable(*place.open_file, target_.string());
+    through_ = Descriptor(::fcntl(*place.open_file, F_DUPFD_CLOEXEC, 0));
+    if (!through_.is_open()) fail_with_errno(target_, errno);
+  } else if (exists && S_ISCHR(mode)) {
+    through_ = Descriptor(::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
+    if (!through_.is_open()) fail_with_errno(target_, errno);
+    expect_writable(through_.get(), target_.string());
+  } else if (!place.is_foreign && (!exists || S_ISREG(mode))) {
+    place_ = place.path;
   }
 }
 
-void OutputFile::create_temporary() {
-  const fs::path folder = folder_of(place_);
-  while (true) {
-    pending_ = note_pending(folder / temporary_name());
-    const Descriptor file(::open(pending_->path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-    if (file.get() >= 0) return;
-    const int error = errno;
-    forget_pending(std::exchange(pending_, nullptr));
-    if (error == ENOENT) fail(target_, "there is no directory " + folder.string());
-    if (error != EEXIST) fail_with_errno(target_, error);
+void OutputFile::stage() {
+  try {
+    staged_.emplace(place_.empty() ? StagedFile::nowhere()
+                                   : StagedFile::in_folder(folder_of(place_)));
+  } catch (const std::system_error& error) {
+    fail_to_stage(target_, place_, error.code().value());
   }
-}
-
-OutputFile::OutputFile(OutputFile&& other) noexcept
-    : target_(std::move(other.target_)),
-      place_(std::move(other.place_)),
-      write_through_(other.write_through_),
-      pending_(std::exchange(other.pending_, nullptr)) {}
-
-OutputFile::~OutputFile() {
-  if (pending_ != nullptr) remove_pending(pending_);
 }
 
 void OutputFile::write(const std::function<void(const fs::path&)>& writer) const {
-  const std::string temporary = pending_->path;
+  const std::string staged = staged_->path();
   try {
-    writer(temporary);
+    writer(staged);
   } catch (const OutputError& error) {
-    throw OutputError(with_target_for(temporary, target_, error.what()));
+    throw OutputError(with_target_for(staged, target_, error.what()));
   } catch (const UsageError& error) {
-    throw UsageError(with_target_for(temporary, target_, error.what()));
+    throw UsageError(with_target_for(staged, target_, error.what()));
   }
 }
 
 void OutputFile::write(const std::string& text) const {
-  Descriptor file(::open(pending_->path, O_WRONLY | O_TRUNC | O_CLOEXEC));
-  if (file.get() < 0) fail_with_errno(target_, errno);
-  write_all(file.get(), text.data(), text.size(), target_);
-  if (!file.close()) fail_with_errno(target_, errno);
+  const int file = staged_->descriptor();
+  if (::ftruncate(file, 0) != 0 || ::lseek(file, 0, SEEK_SET) != 0) fail_with_errno(target_, errno);
+  write_all(file, text.data(), text.size(), target_);
 }
 
-void OutputFile::commit() {
-  if (write_through_) {
-    copy_through(pending_->path, target_);
-    remove_pending(std::exchange(pending_, nullptr));
-    return;
+/// The permissions of what it replaces, or those of a new file.
+void OutputFile::take_permissions() const {
+  const int file = staged_->descriptor();
+  mode_t mode = staged_->ordinary_mode();
+  if (existing_) {
+    // Only root can give a file away. What runs as its owner or group does so for no other.
+    const bool is_theirs = ::fchown(file, existing_->owner, existing_->group) == 0 ||
+                           ::fchown(file, static_cast<uid_t>(-1), existing_->group) == 0;
+    mode = existing_->mode & (is_theirs ? 07777 : 0777);
   }
-  if (::rename(pending_->path, place_.c_str()) != 0) fail_with_errno(target_, errno);
-  forget_pending(std::exchange(pending_, nullptr));
+  if (::fchmod(file, mode) != 0) fail_with_errno(target_, errno);
 }
 
-void write_text(const fs::path& target, const std::string& text) {
-  if (target == "-") return print(text);
-  OutputFile output(target);
-  output.write(text);
-  output.commit();
-}
-
-void print(const std::string& text) {
-  write_all(STDOUT_FILENO, text.data(), text.size(), "standard output");
-}
-
-void remove_outputs_when_interrupted() {
-  struct sigaction action {};
-  action.sa_handler = remove_and_end;
-  sigfillset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    // A program that was started with nohup keeps ignoring SIGHUP.
-    struct sigaction before {};
-    sigaction(signal, nullptr, &before);
-    if (signal != SIGHUP || before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+void OutputFile::sync() const {
+  // Some systems cannot tell, and say so.
+  if (::fsync(staged_->descriptor()) != 0 && errno != EINVAL && errno != ENOSYS) {
+    fail_with_errno(target_, errno);
   }
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void OutputFile::write_through() {
+  if (!through_.is_open()) {
+    through_ = Descriptor(::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
+    if (!through_.is_open()) fail_with_errno(target_, errno);
+  }
+  std::array<char, 65536> buffer{};
+  for (off_t at = 0;;) {
+    const ssize_t count = ::pread(staged_->descriptor(), buffer.data(), buffer.size(), at);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail_with_errno(target_, errno);
+    if (count == 0) break;
+    write_all(through_.get(), buffer.data(), static_cast<std::size_t>(count), target_);
+    at += count;
+  }
+  if (!through_.close()) fail_with_errno(target_, errno);
+}
+
+void OutputFile::take_place() {
+  try {
+    staged_->put_at(place_);
+  } catch (const std::system_error& error) {
+    fail_with_errno(target_, error.code().value());
+  }
+  staged_.reset();
+}
+
+void OutputFile::commit_together(const std::vector<OutputFile*>& outputs) {
+  std::set<fs::path> folders;
+  for (const OutputFile* output : outputs) {
+    if (output->place_.empty()) continue;
+    output->take_permissions();
+    // All disks begin to write before the first is waited for.
+    ::sync_file_range(output->staged_->descriptor(), 0, 0, SYNC_FILE_RANGE_WRITE);
+    folders.insert(folder_of(output->place_));
+  }
+  for (const OutputFile* output : outputs) {
+    if (!output->place_.empty()) output->sync();
+  }
+  for (OutputFile* output : outputs) {
+    if (output->place_.empty()) output->write_through();
+  }
+  for (OutputFile* output : outputs) {
+    if (!output->place_.empty()) output->take_place();
+  }
+  for (const fs::path& folder : folders) sync_folder(folder);
 }
 
 }  // namespace fathom::app

@@ -1,59 +1,71 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "apps/shell/descriptor.h"
+#include "apps/shell/staged_file.h"
 
 namespace fathom::app {
 
-struct PendingFile;
-
-/// One output of a command. It is written under a temporary name and put in its place by commit();
-/// until then an older file of that name is untouched, and what is not committed leaves nothing
-/// behind, also when the program is interrupted (see remove_outputs_when_interrupted).
+/// One output of a command. It is written beside its place, without a name or under a temporary one
+/// (staged_file.h), and put there by commit(); until then an older file of that name is untouched,
+/// and what is not committed leaves nothing behind, however the program ends.
 ///
-///   an ordinary or a new file   the temporary lies beside it and is renamed; an existing file's
-///                               permissions are kept, a new one has those that open(2) gives
+///   an ordinary or a new file   is replaced at once; an existing file's permissions are kept, a
+///                               new one has those that open(2) gives. Its bytes are on the disk
+///                               before its name is
 ///   a symbolic link             is followed: the file it names is replaced, the link stays
-///   anything else that exists   (a device, a pipe) is written through, never replaced; the
-///                               temporary lies in the folder for temporary files
+///   anything else that exists   (a device, a pipe, /dev/stdout) is written through, never replaced
 ///
 /// Fails    OutputError: "PATH: why"; from the constructor where that can be told before the work.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path target);
-  OutputFile(OutputFile&& other) noexcept;
+  OutputFile(OutputFile&&) noexcept = default;
   OutputFile& operator=(OutputFile&&) = delete;
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
-  ~OutputFile();
+  ~OutputFile() = default;
 
-  /// Runs `writer` on the temporary, which exists and is empty. Where it fails with an Error, the
+  /// Runs `writer` on the staged file, which exists and is empty. Where it fails with an Error, the
   /// message names the output as the user does.
   void write(const std::function<void(const std::filesystem::path&)>& writer) const;
   void write(const std::string& text) const;
 
   /// Puts the output in its place.
-  void commit();
+  void commit() { commit_together({this}); }
+  /// Puts outputs in their places: only when all of them are on the disk or written through does the
+  /// first appear.
+  static void commit_together(const std::vector<OutputFile*>& outputs);
 
  private:
-  void create_temporary();
+  /// What there is at the place of an output already.
+  struct Existing {
+    mode_t mode;
+    uid_t owner;
+    gid_t group;
+  };
+
+  void find_place(bool exists, mode_t mode);
+  void stage();
+  void take_permissions() const;
+  void sync() const;
+  void write_through();
+  void take_place();
 
   std::filesystem::path target_;
-  /// `target_` with symbolic links followed.
+  /// `target_` with symbolic links followed; empty where it is written through.
   std::filesystem::path place_;
-  bool write_through_ = false;
-  PendingFile* pending_ = nullptr;
+  std::optional<Existing> existing_;
+  /// What is written through, where that is open already.
+  Descriptor through_;
+  std::optional<StagedFile> staged_;
 };
-
-/// Writes a text as an output of its own; "-" is standard output.
-void write_text(const std::filesystem::path& target, const std::string& text);
-
-/// Writes to standard output. Fails with OutputError where that is closed or full.
-void print(const std::string& text);
-
-/// From now on SIGINT, SIGTERM and SIGHUP remove the temporaries and end the program with 130;
-/// a closed pipe and a file that grows beyond the limit are errors of writing, not signals.
-void remove_outputs_when_interrupted();
 
 }  // namespace fathom::app

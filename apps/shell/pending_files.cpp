@@ -22,6 +22,7 @@ PendingFile* note_pending(const std::filesystem::path& path) {
   const bool fresh = file == nullptr;
   if (fresh) file = new PendingFile;
   std::memcpy(file->path, text.c_str(), text.size() + 1);
+  file->owner = ::getpid();
   file->active.store(true);
   if (fresh) {
     file->next = first_pending.load();
@@ -40,8 +41,9 @@ void remove_pending(PendingFile* file) {
 }
 
 void remove_all_pending() {
+  const pid_t self = ::getpid();
   for (PendingFile* file = first_pending.load(); file != nullptr; file = file->next) {
-    if (file->active.load()) ::unlink(file->path);
+    if (file->active.load() && file->owner == self) ::unlink(file->path);
   }
 }
 

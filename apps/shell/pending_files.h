@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <atomic>
 #include <climits>
 #include <filesystem>
@@ -11,6 +13,8 @@ namespace fathom::app {
 struct PendingFile {
   std::atomic<bool> active{false};
   char path[PATH_MAX] = {};
+  /// The process that the file belongs to: one that forked off it leaves the file alone.
+  pid_t owner = 0;
   PendingFile* next = nullptr;
 };
 
@@ -21,7 +25,7 @@ void forget_pending(PendingFile* file);
 /// Removes the file and forgets it.
 void remove_pending(PendingFile* file);
 
-/// Removes every noted file. Calls only what is safe in a signal handler.
+/// Removes every noted file of this process. Calls only what is safe in a signal handler.
 void remove_all_pending();
 
 }  // namespace fathom::app

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <stdexcept>
@@ -12,6 +13,8 @@
 #include "apps/shell/last_resort.h"
 #include "apps/shell/max_memory.h"
 #include "apps/shell/output_file.h"
+#include "apps/shell/signals.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/threads/threads.h"
 
@@ -32,15 +35,28 @@ std::string message_of(const Error& error) {
   return option + message.substr(error.setting().size());
 }
 
-/// Also functions on files need memory.
-bool is_lack_of_memory(const std::exception& failure) {
-  const auto* error = dynamic_cast<const std::system_error*>(&failure);
-  return error != nullptr && error->code() == std::errc::not_enough_memory;
+/// What the machine refuses is nobody's bug. Where it is not known what was asked of it, an output
+/// is to blame for what only outputs meet with.
+ExitStatus status_of(const std::error_code& code) {
+  for (const std::errc refusal : {std::errc::no_space_on_device, std::errc::read_only_file_system,
+                                  std::errc::file_too_large, std::errc::broken_pipe}) {
+    if (code == refusal) return unwritable_output;
+  }
+  return unusable_input;
+}
+
+/// "PATH: why", where a path is known.
+std::string said_by(const std::system_error& error) {
+  const std::string why = error.code().message();
+  const auto* const about = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
+  if (about != nullptr && !about->path1().empty()) return about->path1().string() + ": " + why;
+  return "the system refuses: " + why;
 }
 
 int run_reporting(const std::function<int()>& run) {
   try {
-    remove_outputs_when_interrupted();
+    open_missing_streams();
+    handle_signals();
     stay_within_control_group();
     return run();
   } catch (const UsageError& error) {
@@ -53,6 +69,10 @@ int run_reporting(const std::function<int()>& run) {
     throw;
   } catch (const std::length_error&) {
     throw;
+  } catch (const std::system_error& error) {  // filesystem_error is one
+    if (is_lack_of_threads(error)) return report_lack_of_threads();
+    if (error.code() == std::errc::not_enough_memory) return report_out_of_memory();
+    return report(status_of(error.code()), said_by(error));
   } catch (const std::exception& error) {
     if (is_lack_of_threads(error)) return report_lack_of_threads();
     if (is_lack_of_memory(error)) return report_out_of_memory();

@@ -4,13 +4,15 @@
 
 #include <cstdio>
 
+#include "fathom/text/printable.h"
+
 namespace fathom::app {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-Progress::Progress(const Console& console, std::string work)
-    : work_(std::move(work)),
+Progress::Progress(const Console& console, const std::string& work)
+    : work_(text::printable(work)),
       enabled_(console.shows_progress()),
       next_(steady_clock::now() + milliseconds(1000)) {}
 

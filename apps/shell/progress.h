@@ -11,7 +11,7 @@ namespace fathom::app {
 /// A line of progress on standard error for work that lasts more than a second, wiped at the end.
 class Progress {
  public:
-  Progress(const Console& console, std::string work);
+  Progress(const Console& console, const std::string& work);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();

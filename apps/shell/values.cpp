@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "apps/shell/output_place.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -109,9 +110,7 @@ std::vector<std::string> parse_list(const std::string& text) {
 
 std::string parse_png_name(const std::string& text) {
   const std::string suffix = std::filesystem::path(text).extension().string();
-  std::error_code error;
-  if (suffix == ".png" || suffix == ".PNG") return text;
-  if (std::filesystem::is_other(std::filesystem::status(text, error))) return text;
+  if (suffix == ".png" || suffix == ".PNG" || is_written_through(text)) return text;
   throw UsageError("'" + text + "' does not end in .png");
 }
 

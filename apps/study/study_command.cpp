@@ -14,6 +14,7 @@
 #include "apps/shell/output_file.h"
 #include "apps/shell/program.h"
 #include "apps/shell/progress.h"
+#include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/framing.h"
@@ -78,7 +79,9 @@ void write_files(const std::filesystem::path& folder, const std::vector<StudyFil
     outputs.emplace_back(folder / file.name);
     outputs.back().write(file.content);
   }
-  for (OutputFile& output : outputs) output.commit();
+  std::vector<OutputFile*> together;
+  for (OutputFile& output : outputs) together.push_back(&output);
+  OutputFile::commit_together(together);
 }
 
 /// The study that the arguments name. Fails with UsageError where they do not fit it.

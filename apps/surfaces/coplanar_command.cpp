@@ -10,12 +10,13 @@
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/json_answer.h"
-#include "apps/shell/output_file.h"
 #include "apps/shell/progress.h"
+#include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 #include "apps/surfaces/surface_commands.h"
 #include "fathom/area/coplanar.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::app {
 namespace {
@@ -33,7 +34,8 @@ struct CoplanarArguments {
 /// "TRIANGLE (face FACE of OBJECT)"
 std::string in_words(const Scene& scene, std::uint32_t number) {
   const TriangleOrigin origin = origin_of(scene, number);
-  return fmt::format("{} (face {} of {})", number, origin.face, scene.objects[origin.object].name);
+  return fmt::format("{} (face {} of {})", number, origin.face,
+                     text::printable(scene.objects[origin.object].name));
 }
 
 std::string as_text(const Scene& scene, const std::vector<CoplanarPair>& pairs, double within) {
@@ -110,6 +112,7 @@ void add_coplanar(Command& program) {
                  "0: only surfaces that coincide)");
   add_cull_option(command, arguments->cull);
   command.flag("--json", arguments->json, "Answer in JSON");
+  command.answers_on_standard_output();
   command.runs([arguments](const Console& console) { return run_coplanar(*arguments, console); });
 }
 

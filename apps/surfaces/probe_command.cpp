@@ -8,7 +8,7 @@
 #include "apps/options/cull_option.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
-#include "apps/shell/output_file.h"
+#include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 #include "apps/surfaces/probe_report.h"
 #include "apps/surfaces/surface_commands.h"
@@ -54,6 +54,7 @@ void add_probe(Command& program) {
       .required();
   add_cull_option(command, arguments->cull);
   command.flag("--json", arguments->json, "Answer in JSON");
+  command.answers_on_standard_output();
   command.runs([arguments](const Console& console) { return run_probe(*arguments, console); });
 }
 

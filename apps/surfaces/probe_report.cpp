@@ -7,6 +7,7 @@
 
 #include "apps/shell/json_answer.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::app {
 namespace {
@@ -112,7 +113,7 @@ std::string as_text(const Probe& probe) {
   for (std::size_t i = 0; i < probe.triangles.size(); ++i) {
     const CoveringTriangle& triangle = probe.triangles[i];
     text += fmt::format("\ntriangle {}: face {} of {}, {}-facing\n", triangle.number,
-                        triangle.origin.face, file_of(probe.scene, triangle),
+                        triangle.origin.face, text::printable(file_of(probe.scene, triangle)),
                         triangle.front_facing ? "front" : "back");
     const auto corners = corners_of(probe.scene, triangle);
     for (int corner = 0; corner < 3; ++corner) {

@@ -10,12 +10,13 @@
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/json_answer.h"
-#include "apps/shell/output_file.h"
 #include "apps/shell/progress.h"
+#include "apps/shell/text_output.h"
 #include "apps/surfaces/surface_commands.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/triangle_source.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::app {
 namespace {
@@ -69,10 +70,11 @@ std::string as_json(const Answer& answer) {
   return json_answer(json, 1);
 }
 
-/// A text as a field of CSV (RFC 4180).
-std::string quoted(const std::string& text) {
+/// A name as a field of CSV (RFC 4180).
+std::string quoted(const std::string& name) {
   std::string field = "\"";
-  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
+  for (const char c : text::printable(name))
+    field += c == '"' ? std::string("\"\"") : std::string(1, c);
   return field + "\"";
 }
 
@@ -103,9 +105,9 @@ std::string as_text(const Answer& answer) {
                   answer.camera.height, "object", "visible area", "unoccluded area", "ratio");
   for (std::size_t i = 0; i < answer.areas.objects.size(); ++i) {
     const VisibleArea& area = answer.areas.objects[i];
-    text += fmt::format("{:<32} {:>22.17g} {:>22.17g} {:>10}\n", answer.scene.objects[i].name,
-                        area.visible, area.unoccluded,
-                        area.ratio ? fmt::format("{:.6g}", *area.ratio) : "-");
+    text += fmt::format("{:<32} {:>22.17g} {:>22.17g} {:>10}\n",
+                        text::printable(answer.scene.objects[i].name), area.visible,
+                        area.unoccluded, area.ratio ? fmt::format("{:.6g}", *area.ratio) : "-");
   }
   std::size_t wholly = 0, partly = 0, hidden = 0, outside = 0;
   for (const VisibleArea& area : answer.areas.triangles) {
@@ -124,6 +126,7 @@ int run_visible(const VisibleArguments& arguments, const Console& console) {
   options.threads = arguments.scene.threads;
   const Scene scene = arguments.scene.read(console);
   const Camera camera = arguments.camera.get_one(scene, "visible");
+  TextOutput output(arguments.output);
   VisibleAreas areas;
   {
     Progress progress(console, "measuring");
@@ -131,9 +134,9 @@ int run_visible(const VisibleArguments& arguments, const Console& console) {
     areas = visible_areas(scene, camera, options);
   }
   const Answer answer{scene, camera, areas};
-  write_text(arguments.output, arguments.json  ? as_json(answer)
-                               : arguments.csv ? as_csv(answer)
-                                               : as_text(answer));
+  output.finish(arguments.json  ? as_json(answer)
+                : arguments.csv ? as_csv(answer)
+                                : as_text(answer));
   return done;
 }
 

@@ -12,6 +12,7 @@
 #include "apps/shell/folder.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/numeric/errors.h"
 #include "validation/report/baseline.h"
 #include "validation/report/report_html.h"
@@ -49,6 +50,7 @@ std::string line_of(const ValidationCase& c) {
 }  // namespace
 
 void prepare(const ReportPlaces& places) {
+  expect_standard_output();
   if (!places.baseline.empty()) {
     note_input(places.baseline);
     validation::regressions({}, places.baseline);
@@ -66,8 +68,11 @@ int report_cases(const std::vector<ValidationCase>& cases, const ReportPlaces& p
     worse = validation::regressions(cases, places.baseline);
   }
   if (!places.out.empty()) {
-    write_text(std::filesystem::path(places.out) / "report.json", validation::to_json(cases));
-    write_text(std::filesystem::path(places.out) / "report.html", validation::to_html(cases));
+    OutputFile json(std::filesystem::path(places.out) / "report.json");
+    OutputFile html(std::filesystem::path(places.out) / "report.html");
+    json.write(validation::to_json(cases));
+    html.write(validation::to_html(cases));
+    OutputFile::commit_together({&json, &html});
   }
   std::string text;
   for (const ValidationCase& c : cases) text += line_of(c);

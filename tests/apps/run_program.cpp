@@ -41,6 +41,7 @@ void redirect(const std::string& file, int flags, int to) {
   }
   // A test runner in the background ignores SIGINT; the program under test must not inherit that.
   for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
+  if (options.prepare) options.prepare();
   std::vector<char*> arguments;
   for (const std::string& argument : command) {
     arguments.push_back(const_cast<char*>(argument.c_str()));

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ struct RunOptions {
   std::optional<rlim_t> file_size, memory;
   /// A limit of its processor time; status 152 is that it was ended for it.
   std::optional<rlim_t> seconds;
+  /// Called in the process before it becomes the program.
+  std::function<void()> prepare;
   /// Run as the user nobody where the test is root, whom permissions do not hold.
   bool as_nobody = false;
 };

@@ -93,7 +93,6 @@ std::vector<Usage> wrong_usages() {
       {"ThreadsNegative", render({"--threads", "-1"}), "--threads"},
       {"ThreadsText", render({"--threads", "all"}), "--threads"},
       {"CameraWithView", render({"--camera", "camera.json", "--view", "0,0"}), "--camera"},
-      {"StandardInputWithoutFormat", {"render", "-", "-o", "map.exr"}, "--mesh-format"},
       {"StandardInputTwice", {"render", "-", "-", "--mesh-format", "obj", "-o", "map.exr"}, "once"},
       {"MeshFormatUnknown", render({"--mesh-format", "fbx"}), "--mesh-format"},
       {"PathWithoutPattern", render({"--camera", "path.json"}), "{index"},

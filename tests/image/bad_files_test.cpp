@@ -16,6 +16,7 @@
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/input_file.h"
 #include "tests/image/map_samples.h"
 #include "tests/places.h"
 
@@ -267,7 +268,8 @@ TEST(OtherExr, CroppedAndSubsampledAreRefused) {
 TEST(Png, PicturesAreNoMaps) {
   const Folder folder;
   write_png(RgbImage(3, 3, {1, 2, 3}), folder / "a.png");
-  EXPECT_THAT(refusal_of(read_file(folder / "a.png")), HasSubstr("a picture, not a depth map"));
+  EXPECT_THAT(refusal_of(InputFile(folder / "a.png").bytes()),
+              HasSubstr("a picture, not a depth map"));
 }
 
 TEST(Outputs, OfAFullDiskAreErrors) {

@@ -8,7 +8,7 @@ namespace {
 TEST(Printable, ControlCharactersBecomeQuestionMarks) {
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a?b");
   EXPECT_EQ(printable("\x1F\n\t\x7F~ "), "????~ ");
-  EXPECT_EQ(printable("é…\x80\xFF"), "é…\x80\xFF");
+  EXPECT_EQ(printable("é…\x80\xFF"), "é…\xEF\xBF\xBD\xEF\xBF\xBD");
 }
 
 }  // namespace

@@ -1,12 +1,10 @@
 #include "validation/blender/blender_renderer.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 #include "fathom/attribution/model/named_models.h"
@@ -15,6 +13,7 @@
 #include "validation/blender/blender_camera.h"
 #include "validation/blender/blender_script.h"
 #include "validation/blender/workplace.h"
+#include "validation/child/run_command.h"
 
 namespace fathom::validation {
 namespace {
@@ -24,27 +23,8 @@ using attribution::other_map;
 using attribution::RayModel;
 using attribution::WorldMesh;
 
-/// What a command prints, and its exit status as a shell gives it.
-struct Answer {
-  std::string text;
-  int status = 0;
-};
-
-Answer run(const std::string& command) {
-  std::FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) throw InputError("blender: cannot be started");
-  Answer answer;
-  std::array<char, 4096> part{};
-  for (std::size_t n = 0; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;) {
-    answer.text.append(part.data(), n);
-  }
-  const int status = ::pclose(pipe);
-  answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return answer;
-}
-
 std::string version() {
-  const Answer answer = run("blender --version");
+  const Said answer = run_command({"blender", "--version"});
   if (answer.status == 127) {
     throw InputError("blender is not installed: the package blender provides it");
   }
@@ -129,14 +109,14 @@ DrawnMap draw_blender(const WorldMesh& mesh, const Camera& camera) {
   model.shift = middle_of(mesh);
   hand_over(place, mesh, model.shift, camera);
   // Whoever ends this process ends Blender with it.
-  const Answer answer = run(fmt::format(
-      "exec setpriv --pdeathsig KILL blender -b --factory-startup -noaudio --python-exit-code 1 "
-      "--python '{}'",
-      (place / "render.py").string()));
+  const Said answer = run_command({"setpriv", "--pdeathsig", "KILL", "blender", "-b",
+                                   "--factory-startup", "-noaudio", "--python-exit-code", "1",
+                                   "--python", (place / "render.py").string()});
   if (answer.status > 128) {
     throw InputError(fmt::format("blender: ended by signal {}", answer.status - 128));
   }
-  if (answer.status != 0 || !std::filesystem::exists(place / "depth.exr")) {
+  std::error_code error;
+  if (answer.status != 0 || !std::filesystem::exists(place / "depth.exr", error)) {
     throw InputError("blender: failed: " + complaint(answer.text));
   }
   drawn.map = other_map(read_map(place / "depth.exr"), "ViewLayer.Depth.Z");

@@ -30,11 +30,13 @@ namespace {
 }  // namespace
 
 Workplace::Workplace() {
-  std::string name = (std::filesystem::temp_directory_path() / "fathom-validate-XXXXXX").string();
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (error) throw InputError("the folder for temporary files, TMPDIR: " + error.message());
+  std::string name = (folder / "fathom-validate-XXXXXX").string();
   std::array<int, 2> ends{};
   if (::mkdtemp(name.data()) == nullptr || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
-    throw InputError("cannot make a folder for a renderer's files in " +
-                     std::filesystem::temp_directory_path().string());
+    throw InputError("cannot make a folder for a renderer's files in " + folder.string());
   }
   path_ = name;
   remover_ = ::fork();

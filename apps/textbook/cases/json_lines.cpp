@@ -8,7 +8,7 @@
 #include "apps/shell/exit_status.h"
 #include "apps/shell/json_answer.h"
 #include "apps/shell/known_files.h"
-#include "apps/shell/output_file.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/input_file.h"
 

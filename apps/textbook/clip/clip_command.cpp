@@ -75,6 +75,7 @@ void add_clip(Command& program) {
   command.flag("--trace", arguments->form.trace, "Add the steps that led to the answer");
   command.argument("FILE", arguments->file,
                    "Cases, one a line; standard input where it is - or missing");
+  command.answers_on_standard_output();
   command.runs([arguments](const Console&) { return run_clip(*arguments); });
 }
 

@@ -9,7 +9,7 @@
 #include "apps/options/pipeline_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
-#include "apps/shell/output_file.h"
+#include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 #include "apps/textbook/pipeline/trace_report.h"
 #include "apps/textbook/textbook_commands.h"
@@ -83,6 +83,7 @@ void add_trace(Command& family) {
   add_cull_option(command, arguments->cull);
   arguments->pipeline.add_to(command, "Pipeline");
   add_depth_format(command, arguments->depth_format, "Pipeline");
+  command.answers_on_standard_output();
   command.runs([arguments](const Console& console) { return run_trace(*arguments, console); });
 }
 

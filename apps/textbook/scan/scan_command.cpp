@@ -120,6 +120,7 @@ void add_scan(Command& program) {
                "Add decision variables, crossings, slopes and ends of spans");
   command.argument("FILE", arguments->file,
                    "Cases, one a line; standard input where it is - or missing");
+  command.answers_on_standard_output();
   command.runs([arguments](const Console&) { return run_scan(*arguments); });
 }
 

@@ -87,6 +87,11 @@ std::vector<Camera> read_cameras(const std::filesystem::path& file) {
   return parse_cameras(InputFile(file).text(), file.string());
 }
 
+std::vector<Camera> read_cameras(std::string_view text, const std::string& name) {
+  const StandardArithmetic standard;
+  return parse_cameras(text, name);
+}
+
 std::string to_json(const Camera& camera) {
   std::string text;
   const auto member = [&](const char* key, const std::string& value) {

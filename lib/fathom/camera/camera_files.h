@@ -12,6 +12,8 @@ namespace fathom {
 /// Reads a camera file: one camera, or a list of them (a camera path).
 /// Fails    InputError, naming the key; unknown keys are errors.
 std::vector<Camera> read_cameras(const std::filesystem::path& file);
+/// The same of a file's text; `name` is the file's name for messages.
+std::vector<Camera> read_cameras(std::string_view text, const std::string& name);
 
 /// read_cameras() of a file's text; `name` is the file's name for messages.
 std::vector<Camera> parse_cameras(std::string_view text, const std::string& name);

@@ -6,6 +6,7 @@
 
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/input_file.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/threads/threads.h"
 
@@ -84,7 +85,13 @@ DepthMap read_map(const std::filesystem::path& path, const MapMemory& memory) {
   std::error_code unknown;
   const auto size = std::filesystem::file_size(path, unknown);
   if (!unknown) require_memory(path.string() + ": this file", 1.0 * size, memory.allowance);
-  return decode_map(read_file(path), path.string(), memory);
+  const InputFile input(path, InputFile::Reading::copied);
+  return decode_map(input.bytes(), path.string(), memory);
+}
+
+DepthMap read_map(std::span<const std::byte> bytes, const std::string& name,
+                  const MapMemory& memory) {
+  return decode_map(bytes, name, memory);
 }
 
 std::string image::object_names_as_json(const std::vector<std::string>& names) {

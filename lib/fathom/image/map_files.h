@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "fathom/image/depth_map.h"
@@ -55,8 +57,11 @@ struct MapMemory {
 
 /// Reads a map back, recognising its format by content. Also EXR files of other programs: HALF
 /// channels are widened to binary32; a layered name is kept in full. Nothing is allocated for a
-/// size that the file cannot fill, or that takes more than `memory`.
+/// size that the file cannot fill, or that takes more than `memory`. "-" is standard input.
 /// Fails    InputError: "PATH: what is wrong and what was expected".
 DepthMap read_map(const std::filesystem::path& path, const MapMemory& memory = {});
+/// The same of a file that has been read already; `name` is its name for messages.
+DepthMap read_map(std::span<const std::byte> bytes, const std::string& name,
+                  const MapMemory& memory = {});
 
 }  // namespace fathom

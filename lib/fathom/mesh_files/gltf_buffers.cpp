@@ -100,9 +100,10 @@ GltfBuffers::GltfBuffers(const GltfContainer& container, const JsonValue& root,
                          ExpansionBudget& budget)
     : binary_(container.binary),
       descriptions_(root.find("buffers")),
-      folder_(path.parent_path()),
+      folder_(folder_of_input(path)),
       outside_files_(options.outside_files),
       boundaries_(boundaries_of(options)),
+      reading_(reading_of(options)),
       budget_(budget) {
   if (!outside_files_)
     boundaries_.push_back({folder_, "the folder of the asset, which --outside-files allows"});
@@ -149,7 +150,7 @@ Bytes GltfBuffers::load_file(const JsonValue& uri) {
   if (error) place = file;
   const auto known = loaded_files_.find(place);
   if (known != loaded_files_.end()) return known->second;
-  files_.push_back(std::make_unique<InputFile>(file, boundaries_));
+  files_.push_back(std::make_unique<InputFile>(file, boundaries_, reading_));
   const Bytes bytes = files_.back()->bytes();
   external_files_.push_back({file, bytes});
   loaded_files_.emplace(place, bytes);

@@ -65,6 +65,7 @@ class GltfBuffers {
   std::filesystem::path folder_;
   bool outside_files_;
   std::vector<text::Boundary> boundaries_;
+  text::InputFile::Reading reading_;
   ExpansionBudget& budget_;
   std::map<std::uint64_t, Bytes> loaded_;
   /// By where they lie: many buffers may name the same file.

@@ -163,6 +163,7 @@ class PlyStream : public TriangleStream {
           {vertices.number_of(t[0]), vertices.number_of(t[1]), vertices.number_of(t[2])});
       if (!scan_.faces.triangles_only()) mesh.face_of_triangle.push_back(face);
     });
+    file_->expect_unchanged();
     return chunk;
   }
 

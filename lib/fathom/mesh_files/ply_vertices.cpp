@@ -1,11 +1,9 @@
 #include "fathom/mesh_files/ply_vertices.h"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <system_error>
 
@@ -64,24 +62,15 @@ PlyVertexLayout layout_of_vertices(const PlyElement& element, std::uint64_t offs
 }
 
 PlyVertices::PlyVertices(const RandomAccessFile& file, const PlyVertexLayout& layout)
-    : layout_(layout) {
+    : layout_(layout), name_(file.name()) {
   if (layout.count == 0) return;
-  const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-  const std::uint64_t start = layout.offset / page * page;
-  mapped_ = static_cast<std::size_t>(layout.offset - start + layout.count * layout.row_size);
-  void* mapping = ::mmap(nullptr, mapped_, PROT_READ, MAP_PRIVATE, file.descriptor(),
-                         static_cast<off_t>(start));
-  if (mapping == MAP_FAILED) {
-    throw InputError(file.name() + ": its vertices, " +
-                     std::to_string(layout.count * layout.row_size) +
+  const std::uint64_t size = layout.count * layout.row_size;
+  mapped_ = MappedFile(file.descriptor(), layout.offset, static_cast<std::size_t>(size), name_);
+  if (!mapped_.is_mapped()) {
+    throw InputError(name_ + ": its vertices, " + std::to_string(size) +
                      " bytes, cannot be mapped: " + std::generic_category().message(errno));
   }
-  mapping_ = mapping;
-  rows_ = static_cast<const char*>(mapping) + (layout.offset - start);
-}
-
-PlyVertices::~PlyVertices() {
-  if (mapping_) ::munmap(mapping_, mapped_);
+  rows_ = reinterpret_cast<const char*>(mapped_.data());
 }
 
 MeshPoint PlyVertices::operator[](std::uint32_t vertex) const {
@@ -90,7 +79,12 @@ MeshPoint PlyVertices::operator[](std::uint32_t vertex) const {
   const auto coordinate = [&](std::size_t i) {
     return value_at(row + layout_.places[i], layout_.types[i], layout_.big_endian);
   };
-  return {coordinate(0), coordinate(1), coordinate(2)};
+  const MeshPoint point{coordinate(0), coordinate(1), coordinate(2)};
+  if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
+    throw InputError(name_ + ": vertex " + std::to_string(vertex) +
+                     " is not finite any more: the file has been written to since it was opened");
+  }
+  return point;
 }
 
 }  // namespace fathom::mesh_files

@@ -3,10 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "fathom/geometry/frames.h"
 #include "fathom/mesh_files/ply_header.h"
+#include "fathom/text/mapped_file.h"
 #include "fathom/text/random_access_file.h"
 
 namespace fathom::mesh_files {
@@ -36,15 +38,15 @@ class PlyVertices {
   explicit PlyVertices(std::vector<MeshPoint> list) : list_(std::move(list)) {}
   PlyVertices(const PlyVertices&) = delete;
   PlyVertices& operator=(const PlyVertices&) = delete;
-  ~PlyVertices();
 
+  /// Fails    InputError if the vertex is not finite, which it was when the file was checked.
   [[nodiscard]] MeshPoint operator[](std::uint32_t vertex) const;
 
  private:
   PlyVertexLayout layout_;
   std::vector<MeshPoint> list_;
-  void* mapping_ = nullptr;
-  std::size_t mapped_ = 0;
+  std::string name_;
+  text::MappedFile mapped_;
   const char* rows_ = nullptr;
 };
 

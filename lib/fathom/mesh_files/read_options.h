@@ -13,7 +13,7 @@ enum class MeshFormat { obj, ply, stl, off, gltf };
 
 /// What a reader is asked for.
 struct ReadOptions {
-  /// Takes precedence over recognition by content and suffix; needed for standard input.
+  /// Takes precedence over recognition by content and suffix; tells what its content does not.
   std::optional<MeshFormat> format;
   /// Threads to use; 0: all.
   int threads = 0;
@@ -33,6 +33,9 @@ struct ReadOptions {
   /// How many times the bytes of its files a mesh may take in memory, beside 64 MiB; more is an
   /// error. See expansion_budget.h.
   std::uint64_t max_expansion = 64;
+  /// Map files of more than 64 MiB instead of reading them into memory. Where another program cuts
+  /// a mapped file short meanwhile, this one gets the signal SIGBUS (text/mapped_file.h).
+  bool map_large_files = true;
 };
 
 }  // namespace fathom

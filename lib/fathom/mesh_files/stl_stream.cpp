@@ -46,6 +46,7 @@ class StlStream : public TriangleStream {
       chunk.mesh.vertices.insert(chunk.mesh.vertices.end(), corners.begin(), corners.end());
       chunk.mesh.triangles.push_back({vertex, vertex + 1, vertex + 2});
     });
+    file_->expect_unchanged();
     return chunk;
   }
 

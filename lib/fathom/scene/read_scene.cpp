@@ -62,8 +62,11 @@ class SceneReader {
       : options_(options), warnings_(warnings) {}
 
   void add_file(const std::filesystem::path& path) {
+    add_input(InputFile(path, reading_of(options_)), path);
+  }
+
+  void add_input(const InputFile& input, const std::filesystem::path& path) {
     const std::string file = path.string();
-    const InputFile input(path);
     const FileFormat kind = options_.format ? kind_of(*options_.format) : recognise(input, path);
     if (kind != FileFormat::scene_json) {
       add_mesh_file(kind, input, path);
@@ -144,7 +147,7 @@ class SceneReader {
       scene_.objects.insert(scene_.objects.end(), found->second.begin(), found->second.end());
       expect_countable(triangle_count(scene_), "triangles in all", file);
     } else {
-      const InputFile input(placed.file, boundaries_of(options_));
+      const InputFile input(placed.file, boundaries_of(options_), reading_of(options_));
       const FileFormat kind = recognise(input, placed.file);
       if (kind == FileFormat::scene_json)
         throw InputError(file + ": is no mesh, expected a mesh file");
@@ -180,6 +183,15 @@ Scene read_scene(const std::vector<std::filesystem::path>& files, const ReadOpti
   require_thread_count(options.threads);
   SceneReader reader(options, warnings);
   for (const std::filesystem::path& file : files) reader.add_file(file);
+  return reader.finish();
+}
+
+Scene read_scene(std::span<const std::byte> bytes, const std::filesystem::path& name,
+                 const ReadOptions& options, Warnings& warnings) {
+  const StandardArithmetic standard;
+  require_thread_count(options.threads);
+  SceneReader reader(options, warnings);
+  reader.add_input(InputFile(bytes), name);
   return reader.finish();
 }
 

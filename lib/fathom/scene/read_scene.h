@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "fathom/mesh_files/read_options.h"
@@ -16,5 +18,9 @@ namespace fathom {
 ///          UsageError for a number of threads that is out of range.
 Scene read_scene(const std::vector<std::filesystem::path>& files, const ReadOptions& options,
                  Warnings& warnings);
+/// The same of a file that has been read already; `name` is its path, for messages and to find the
+/// files that it names.
+Scene read_scene(std::span<const std::byte> bytes, const std::filesystem::path& name,
+                 const ReadOptions& options, Warnings& warnings);
 
 }  // namespace fathom

@@ -1,5 +1,6 @@
 #include "fathom/scene/scene_json.h"
 
+#include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
 namespace fathom::scene {
@@ -31,6 +32,7 @@ std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesy
   const JsonValue root = document.root();
   if (!root.is_object()) root.fail("is no object, expected a scene file: {\"meshes\": […]}");
   root.expect_only({"meshes"});
+  const std::filesystem::path folder = folder_of_input(path);
   std::vector<PlacedFile> result;
   for (const JsonValue& mesh : root.at("meshes").elements()) {
     mesh.expect_only({"file", "transform", "name"});
@@ -38,7 +40,7 @@ std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesy
     const std::string& file = mesh.at("file").string();
     if (file.empty() || file == "-") mesh.at("file").fail("expected the path of a mesh file");
     if (file.find('\0') != file.npos) mesh.at("file").fail("holds a NUL, expected a path");
-    placed.file = path.parent_path() / file;
+    placed.file = folder / file;
     if (const auto name = mesh.find("name")) placed.name = name->string();
     if (const auto transform = mesh.find("transform"))
       placed.transform = read_transform(*transform);

@@ -21,24 +21,6 @@ std::string why(const std::filesystem::path& path, int error) {
 
 }  // namespace
 
-Bytes read_file(const std::filesystem::path& path) {
-  const File file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw InputError(why(path, errno));
-  std::error_code unknown;
-  const auto size = std::filesystem::file_size(path, unknown);
-  // One byte more than the file has, so that its end is reached without growing. Pipes grow.
-  Bytes bytes(unknown || size == 0 ? std::size_t{1} << 16 : size + 1);
-  std::size_t length = 0;
-  while (const std::size_t n =
-             std::fread(bytes.data() + length, 1, bytes.size() - length, file.get())) {
-    length += n;
-    if (length == bytes.size()) bytes.resize(2 * bytes.size());
-  }
-  if (std::ferror(file.get())) throw InputError(why(path, errno));
-  bytes.resize(length);
-  return bytes;
-}
-
 void write_file(const std::filesystem::path& path, ByteView bytes) {
   File file(std::fopen(path.c_str(), "wb"));
   if (!file) throw OutputError(why(path, errno));

@@ -13,10 +13,6 @@ namespace fathom::text {
 using Bytes = std::vector<std::byte>;
 using ByteView = std::span<const std::byte>;
 
-/// Reads a whole file.
-/// Fails    InputError: "PATH: why".
-Bytes read_file(const std::filesystem::path& path);
-
 /// Writes to the file itself, in place (a device or a pipe is written through).
 /// Fails    OutputError: "PATH: why"; what has been written by then stays.
 void write_file(const std::filesystem::path& path, ByteView bytes);

@@ -1,11 +1,12 @@
 #include "fathom/text/input_file.h"
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <new>
 
 #include "fathom/numeric/errors.h"
 #include "fathom/text/descriptor.h"
@@ -14,49 +15,90 @@
 namespace fathom::text {
 namespace {
 
-/// Files up to this size are read rather than mapped: if another program truncated a mapped file
-/// while it is being read, ours would be killed, and below this size memory is no concern.
+/// Files up to this size are read rather than mapped: below it memory is no concern, and what is
+/// read cannot be taken away again.
 constexpr std::size_t largest_read = std::size_t{64} << 20;
+
+bool is_device(const struct stat& status) {
+  return S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode);
+}
+
+/// Whether a device is /dev/null, which is empty, or the one that standard input is: a terminal.
+bool is_harmless(const struct stat& status) {
+  struct stat standard {};
+  const bool is_standard_input = ::fstat(STDIN_FILENO, &standard) == 0 && is_device(standard) &&
+                                 standard.st_rdev == status.st_rdev;
+  return is_standard_input || (S_ISCHR(status.st_mode) && status.st_rdev == ::makedev(1, 3));
+}
+
+/// Told before it is opened, which alone makes some devices do something.
+void refuse_folders_and_devices(const std::string& name) {
+  struct stat status {};
+  if (::stat(name.c_str(), &status) != 0) fail_with_errno(name, "cannot be opened");
+  if (S_ISDIR(status.st_mode)) throw InputError(name + ": is a directory, expected a file");
+  if (is_device(status) && !is_harmless(status)) {
+    throw InputError(name + ": is a device, expected a file or a pipe");
+  }
+}
+
+int opened(const std::string& name) {
+  if (name == "-") return STDIN_FILENO;
+  refuse_folders_and_devices(name);
+  const int descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
+  if (descriptor < 0) fail_with_errno(name, "cannot be opened");
+  return descriptor;
+}
 
 }  // namespace
 
-InputFile::InputFile(const std::filesystem::path& path) {
+InputFile::InputFile(const std::filesystem::path& path, Reading reading) {
   const std::string name = path.string();
-  const Descriptor file{name == "-" ? STDIN_FILENO : ::open(name.c_str(), O_RDONLY | O_CLOEXEC)};
-  if (file.number < 0) fail_with_errno(name, "cannot be opened");
-  take(file.number, name, name != "-");
+  const Descriptor file{opened(name)};
+  take(file.number, name, name == "-" ? Reading::copied : reading);
 }
 
-InputFile::InputFile(const std::filesystem::path& path, const std::vector<Boundary>& boundaries) {
+InputFile::InputFile(const std::filesystem::path& path, const std::vector<Boundary>& boundaries,
+                     Reading reading) {
   const Descriptor file{open_confined(path, boundaries)};
-  take(file.number, path.string(), true);
+  take(file.number, path.string(), reading);
 }
 
-void InputFile::take(int descriptor, const std::string& name, bool may_be_mapped) {
+void InputFile::take(int descriptor, const std::string& name, Reading reading) {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) fail_with_errno(name, "cannot be examined");
   if (S_ISDIR(status.st_mode)) throw InputError(name + ": is a directory, expected a file");
-  const auto size = static_cast<std::size_t>(status.st_size);
-  if (S_ISREG(status.st_mode) && size > largest_read && may_be_mapped) {
-    void* mapping = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-    if (mapping != MAP_FAILED) {
-      mapping_ = mapping;
-      bytes_ = {static_cast<const std::byte*>(mapping), size};
-      return;
-    }
+  const auto size = S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
+  if (size > largest_read && reading == Reading::mapped_where_large) {
+    mapped_ = MappedFile(descriptor, 0, size, name);
+    bytes_ = {mapped_.data(), size};
+    if (mapped_.is_mapped()) return;
   }
-  read(descriptor, S_ISREG(status.st_mode) ? size + 1 : std::size_t{1} << 16, name);
+  read(descriptor, size, name);
 }
 
-void InputFile::read(int descriptor, std::size_t capacity, const std::string& name) {
-  buffer_ = std::make_unique_for_overwrite<std::byte[]>(capacity);
+void InputFile::resize(std::size_t capacity) {
+  // Large blocks move without being copied.
+  auto* const bytes = static_cast<std::byte*>(std::realloc(buffer_.get(), capacity));
+  if (bytes == nullptr) throw std::bad_alloc();
+  static_cast<void>(buffer_.release());
+  buffer_.reset(bytes);
+}
+
+void InputFile::read(int descriptor, std::uint64_t size, const std::string& name) {
+  // One byte more than the file has, so that its end is reached without growing.
+  const std::uint64_t most = std::max(size, largest_unsized_input) + 1;
+  std::size_t capacity = size > 0 ? static_cast<std::size_t>(size) + 1 : std::size_t{1} << 16;
   std::size_t filled = 0;
+  resize(capacity);
   while (true) {
+    if (filled == most) {
+      throw InputError(name + ": has no end after " + std::to_string(most - 1) +
+                       " bytes, the most that is read from what is no regular file; expected a "
+                       "file");
+    }
     if (filled == capacity) {
-      auto larger = std::make_unique_for_overwrite<std::byte[]>(2 * capacity);
-      std::copy_n(buffer_.get(), filled, larger.get());
-      buffer_ = std::move(larger);
-      capacity *= 2;
+      capacity = static_cast<std::size_t>(std::min<std::uint64_t>(2 * capacity, most));
+      resize(capacity);
     }
     const ssize_t got = ::read(descriptor, buffer_.get() + filled, capacity - filled);
     if (got < 0 && errno == EINTR) continue;
@@ -67,8 +109,13 @@ void InputFile::read(int descriptor, std::size_t capacity, const std::string& na
   bytes_ = {buffer_.get(), filled};
 }
 
-InputFile::~InputFile() {
-  if (mapping_) ::munmap(mapping_, bytes_.size());
+std::filesystem::path folder_of_input(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_type type = std::filesystem::status(path, error).type();
+  const bool lies_nowhere = type == std::filesystem::file_type::fifo ||
+                            type == std::filesystem::file_type::socket ||
+                            type == std::filesystem::file_type::character;
+  return lies_nowhere ? std::filesystem::path() : path.parent_path();
 }
 
 }  // namespace fathom::text

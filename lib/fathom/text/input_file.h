@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -9,22 +11,34 @@
 #include <vector>
 
 #include "fathom/text/confinement.h"
+#include "fathom/text/mapped_file.h"
 
 namespace fathom::text {
 
+/// As many bytes are read from what is no regular file: a pipe, standard input, a file of /proc.
+/// These do not say how large they are, and some have no end.
+inline constexpr std::uint64_t largest_unsized_input = std::uint64_t{1} << 30;
+
 /// The bytes of an input file, or of standard input if the path is "-".
 ///
-/// Large regular files are mapped, so that they take no memory of ours; small ones, pipes and
-/// standard input are read into memory, up to their end.
+/// Large regular files are mapped, so that they take no memory of ours (see MappedFile for what
+/// that means where they are cut short meanwhile); small ones, pipes and standard input are read
+/// into memory, up to their end.
 class InputFile {
  public:
-  /// Fails    InputError "PATH: why": missing, not readable, or a directory.
-  explicit InputFile(const std::filesystem::path& path);
+  enum class Reading { mapped_where_large, copied };
+
+  /// Fails    InputError "PATH: why": missing, not readable, a directory, a device other than what
+  ///          standard input is, or more than largest_unsized_input from what is no regular file.
+  explicit InputFile(const std::filesystem::path& path,
+                     Reading reading = Reading::mapped_where_large);
   /// A file that another file names; "-" is an ordinary name. Fails    as open_confined().
-  InputFile(const std::filesystem::path& path, const std::vector<Boundary>& boundaries);
+  InputFile(const std::filesystem::path& path, const std::vector<Boundary>& boundaries,
+            Reading reading = Reading::mapped_where_large);
+  /// Bytes that are there already; they must outlive this.
+  explicit InputFile(std::span<const std::byte> bytes) : bytes_(bytes) {}
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
-  ~InputFile();
 
   [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
   [[nodiscard]] std::string_view text() const {
@@ -32,12 +46,22 @@ class InputFile {
   }
 
  private:
-  void take(int descriptor, const std::string& name, bool may_be_mapped);
-  void read(int descriptor, std::size_t capacity, const std::string& name);
+  struct Free {
+    void operator()(std::byte* bytes) const { std::free(bytes); }
+  };
+
+  void take(int descriptor, const std::string& name, Reading reading);
+  /// Makes the buffer larger or smaller; what it holds stays.
+  void resize(std::size_t capacity);
+  void read(int descriptor, std::uint64_t size, const std::string& name);
 
   std::span<const std::byte> bytes_;
-  std::unique_ptr<std::byte[]> buffer_;
-  void* mapping_ = nullptr;
+  std::unique_ptr<std::byte, Free> buffer_;
+  MappedFile mapped_;
 };
+
+/// The folder in which an input looks for the files that it names: its own; for standard input or a
+/// pipe, which lie in none, the working directory.
+std::filesystem::path folder_of_input(const std::filesystem::path& path);
 
 }  // namespace fathom::text

@@ -8,6 +8,7 @@
 #include "fathom/text/system_failure.h"
 
 namespace fathom::text {
+
 RandomAccessFile::RandomAccessFile(const std::filesystem::path& path) : name_(path.string()) {
   struct stat status {};
   if (::stat(name_.c_str(), &status) != 0) fail_with_errno(name_, "cannot be opened");
@@ -17,7 +18,9 @@ RandomAccessFile::RandomAccessFile(const std::filesystem::path& path) : name_(pa
   }
   descriptor_ = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) fail_with_errno(name_, "cannot be opened");
+  if (::fstat(descriptor_, &status) != 0) fail_with_errno(name_, "cannot be examined");
   size_ = static_cast<std::uint64_t>(status.st_size);
+  written_ = status.st_mtim;
 }
 
 RandomAccessFile::~RandomAccessFile() {
@@ -37,6 +40,17 @@ void RandomAccessFile::read(std::uint64_t offset, std::span<std::byte> bytes) co
     }
     bytes = bytes.subspan(static_cast<std::size_t>(got));
     offset += static_cast<std::uint64_t>(got);
+  }
+}
+
+void RandomAccessFile::expect_unchanged() const {
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) fail_with_errno(name_, "cannot be examined");
+  if (static_cast<std::uint64_t>(status.st_size) != size_ ||
+      status.st_mtim.tv_sec != written_.tv_sec || status.st_mtim.tv_nsec != written_.tv_nsec) {
+    throw InputError(name_ +
+                     ": has been written to since it was opened, expected a file that stays as it "
+                     "is while it is read");
   }
 }
 

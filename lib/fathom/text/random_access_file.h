@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ctime>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -28,10 +29,15 @@ class RandomAccessFile {
   ///          read.
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
 
+  /// Fails    InputError where the file has been written to or cut since it was opened.
+  void expect_unchanged() const;
+
  private:
   std::string name_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
+  /// When it was last written to, as it was opened.
+  timespec written_{};
 };
 
 }  // namespace fathom::text

@@ -12,6 +12,7 @@
 #include "fathom/image/files/exr_streams.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/threads/startable_threads.h"
 
 namespace fathom::image {
 using namespace text;

@@ -1,0 +1,56 @@
+#include "apps/shell/output_place.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <string>
+#include <system_error>
+
+#include "apps/shell/write_all.h"
+
+namespace fathom::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder that a file lies in, with no link in its path; empty where there is none.
+fs::path true_folder_of(const fs::path& file) {
+  std::error_code error;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const fs::path found = fs::canonical(folder, error);
+  return error ? fs::path() : found;
+}
+
+std::optional<int> number_in(const std::string& text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+OutputPlace place_of(const fs::path& target) {
+  const fs::path own_files = "/proc/" + std::to_string(::getpid()) + "/fd";
+  OutputPlace place{.path = target};
+  for (int links = 0;; ++links) {
+    const fs::path folder = true_folder_of(place.path);
+    if (folder == own_files) {
+      place.open_file = number_in(place.path.filename().string());
+    }
+    place.is_foreign = place.open_file || folder.native().starts_with("/proc/");
+    std::error_code error;
+    const fs::path next = fs::read_symlink(place.path, error);
+    if (error || place.is_foreign) return place;
+    if (links == 40) fail_with_errno(target, ELOOP);
+    place.path = next.is_absolute() ? next : place.path.parent_path() / next;
+  }
+}
+
+bool is_written_through(const fs::path& target) {
+  std::error_code error;
+  return fs::is_other(fs::status(target, error)) || place_of(target).open_file.has_value();
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,15 @@
+#pragma once
+
+namespace fathom::app {
+
+/// From now on
+///   SIGINT, SIGTERM and SIGHUP      end the program with 130, and nothing of its outputs is left;
+///   every other signal that ends a  does so, and nothing of its outputs is left, be it one that was
+///   program                         sent or a crash;
+///   SIGBUS of a mapped file that    is an error of reading: one line that names the file, and 3;
+///   has been cut short meanwhile
+///   a closed pipe and a file that   are errors of writing, not signals.
+///   grows beyond the limit
+void handle_signals();
+
+}  // namespace fathom::app

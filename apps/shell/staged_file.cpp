@@ -1,0 +1,172 @@
+#include "apps/shell/staged_file.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/sendfile.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <cerrno>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "apps/shell/part_names.h"
+#include "apps/shell/pending_files.h"
+#include "apps/shell/stale_parts.h"
+
+namespace fathom::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(int error) {
+  throw std::system_error(error, std::generic_category());
+}
+
+std::string path_of(int descriptor) {
+  return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+/// Each output that waits for its place takes a descriptor; where these run short, as many as the
+/// system allows.
+void make_room_for_more(int descriptor) {
+  constexpr rlim_t spare = 64;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= limit.rlim_max) return;
+  if (static_cast<rlim_t>(descriptor) + spare < limit.rlim_cur) return;
+  limit.rlim_cur = limit.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+/// The permissions of a new file in this folder: they depend on the umask or on the folder's
+/// default ACL. Told by one that is made and removed.
+mode_t mode_of_new_file(const fs::path& folder) {
+  PendingFile* const name = note_pending(folder / new_part_name());
+  const Descriptor file(::open(name->path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  const int error = errno;
+  struct stat status {};
+  if (file.is_open()) ::fstat(file.get(), &status);
+  remove_pending(name);
+  if (!file.is_open()) fail(error);
+  return status.st_mode & 07777;
+}
+
+/// Locks a file that is new under its name. False where another program took it for one that was
+/// left behind, and removes it.
+bool is_ours(int descriptor) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
+}
+
+}  // namespace
+
+StagedFile StagedFile::in_folder(const fs::path& folder) {
+  remove_stale_parts(folder);
+  StagedFile staged;
+  if (!staged.open_without_name(folder)) staged.open_with_name(folder);
+  make_room_for_more(staged.descriptor());
+  return staged;
+}
+
+StagedFile StagedFile::nowhere() {
+  StagedFile staged;
+  std::error_code error;
+  const fs::path chosen = fs::temp_directory_path(error);
+  for (const fs::path& folder : {chosen, fs::path("/tmp"), fs::path("/var/tmp")}) {
+    if (!folder.empty() && staged.open_without_name(folder)) return staged;
+  }
+  staged.file_ = Descriptor(::memfd_create("fathom-output", MFD_CLOEXEC));
+  if (staged.file_.is_open() && ::access(staged.path().c_str(), F_OK) == 0) return staged;
+  staged.open_with_name(chosen.empty() ? fs::path("/tmp") : chosen);
+  return staged;
+}
+
+StagedFile::StagedFile(StagedFile&& other) noexcept
+    : file_(std::move(other.file_)),
+      ordinary_mode_(other.ordinary_mode_),
+      name_(std::exchange(other.name_, nullptr)) {}
+
+StagedFile::~StagedFile() {
+  if (name_ != nullptr) remove_pending(name_);
+}
+
+bool StagedFile::open_without_name(const fs::path& folder) {
+  Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666));
+  struct stat status {};
+  if (!file.is_open() || ::fstat(file.get(), &status) != 0) return false;
+  // Without /proc it could neither be opened again nor get a name.
+  if (::access(path_of(file.get()).c_str(), F_OK) != 0) return false;
+  ordinary_mode_ = status.st_mode & 07777;
+  if (::fchmod(file.get(), 0600) != 0) return false;
+  // Whoever sees the name that it may have for a moment sees that it is in use.
+  ::flock(file.get(), LOCK_EX | LOCK_NB);
+  file_ = std::move(file);
+  return true;
+}
+
+void StagedFile::open_with_name(const fs::path& folder) {
+  ordinary_mode_ = mode_of_new_file(folder);
+  while (true) {
+    PendingFile* const name = note_pending(folder / new_part_name());
+    Descriptor file(::open(name->path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+    const int error = errno;
+    if (file.is_open() && is_ours(file.get())) {
+      file_ = std::move(file);
+      name_ = name;
+      return;
+    }
+    if (file.is_open()) {
+      remove_pending(name);
+    } else {
+      forget_pending(name);
+      if (error != EEXIST) fail(error);
+    }
+  }
+}
+
+std::string StagedFile::path() const {
+  return name_ != nullptr ? std::string(name_->path) : path_of(descriptor());
+}
+
+void StagedFile::put_at(const fs::path& place) {
+  if (name_ == nullptr) {
+    const std::string self = path_of(descriptor());
+    if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, place.c_str(), AT_SYMLINK_FOLLOW) == 0) return;
+    // A link cannot take the place of a file: it gets a name, and then that file's.
+    PendingFile* const name = note_pending(place.parent_path() / new_part_name());
+    if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name->path, AT_SYMLINK_FOLLOW) == 0) {
+      name_ = name;
+    } else {
+      // Some systems let a file have no name, and then refuse to give it one.
+      forget_pending(name);
+      StagedFile copy;
+      copy.open_with_name(place.has_parent_path() ? place.parent_path() : fs::path("."));
+      copy_to(copy);
+      return copy.put_at(place);
+    }
+  }
+  if (::rename(name_->path, place.c_str()) != 0) fail(errno);
+  forget_pending(std::exchange(name_, nullptr));
+}
+
+void StagedFile::copy_to(const StagedFile& other) const {
+  struct stat status {};
+  if (::fstat(descriptor(), &status) != 0) fail(errno);
+  off_t at = 0;
+  while (at < status.st_size) {
+    const ssize_t copied = ::sendfile(other.descriptor(), descriptor(), &at,
+                                      static_cast<std::size_t>(status.st_size - at));
+    if (copied < 0 && errno == EINTR) continue;
+    if (copied <= 0) fail(copied == 0 ? EIO : errno);
+  }
+  if (::fchown(other.descriptor(), status.st_uid, status.st_gid) != 0) errno = 0;
+  if (::fchmod(other.descriptor(), status.st_mode & 07777) != 0) fail(errno);
+  if (::fsync(other.descriptor()) != 0 && errno != EINVAL) fail(errno);
+}
+
+}  // namespace fathom::app

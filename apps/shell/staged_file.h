@@ -1,0 +1,58 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+
+#include "apps/shell/descriptor.h"
+
+namespace fathom::app {
+
+struct PendingFile;
+
+/// A file that is being written and has no place yet. Until it is put somewhere, only its owner can
+/// read it, and nothing is left of it however the program ends:
+///
+///   where the system can    it has no name at all (O_TMPFILE)
+///   elsewhere               its name is .fathom-XXXXXXXXXXXXXXXX.part; what a program that was
+///                           killed has left of these, the next one to write there removes. A lock
+///                           that ends with its process tells the living from the dead.
+///
+/// Fails    std::system_error with the reason.
+class StagedFile {
+ public:
+  /// A file that is to be put into this folder.
+  static StagedFile in_folder(const std::filesystem::path& folder);
+  /// A file whose content goes elsewhere, in the folder for temporary files or, without one, in
+  /// memory.
+  static StagedFile nowhere();
+  StagedFile(StagedFile&& other) noexcept;
+  StagedFile& operator=(StagedFile&&) = delete;
+  StagedFile(const StagedFile&) = delete;
+  StagedFile& operator=(const StagedFile&) = delete;
+  ~StagedFile();
+
+  [[nodiscard]] int descriptor() const { return file_.get(); }
+  /// A path under which it can be opened once more, as long as it is neither put in its place nor
+  /// gone.
+  [[nodiscard]] std::string path() const;
+  /// The permissions that an ordinary new file would have in its folder.
+  [[nodiscard]] mode_t ordinary_mode() const { return ordinary_mode_; }
+
+  /// Puts it at `place` in its folder, instead of what may be there; until then that is untouched.
+  void put_at(const std::filesystem::path& place);
+
+ private:
+  StagedFile() = default;
+  bool open_without_name(const std::filesystem::path& folder);
+  void open_with_name(const std::filesystem::path& folder);
+  void copy_to(const StagedFile& other) const;
+
+  Descriptor file_;
+  mode_t ordinary_mode_ = 0;
+  /// The name it has, if it has one.
+  PendingFile* name_ = nullptr;
+};
+
+}  // namespace fathom::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+namespace fathom::app {
+
+/// Opens /dev/null for those of the standard streams that the program was started without, so that
+/// no file it opens takes their number and is written to by mistake. They stay unusable: the input
+/// cannot be read, the outputs cannot be written.
+void open_missing_streams();
+
+/// Fails    OutputError "NAME: why" where an open file is not open for writing, where nobody reads
+///          the pipe that it is, or where a device is full.
+void expect_writable(int descriptor, const std::string& name);
+
+/// Called before the work by what will print its answer. Fails as expect_writable().
+void expect_standard_output();
+
+/// Writes a text to standard output. What could have effects on a terminal is made harmless
+/// (fathom/text/printable.h): names of files and objects are not ours.
+/// Fails    OutputError where standard output is closed or full.
+void print(const std::string& text);
+
+}  // namespace fathom::app
