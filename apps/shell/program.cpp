@@ -75,7 +75,6 @@ int run_reporting(const std::function<int()>& run) {
     return report(status_of(error.code()), said_by(error));
   } catch (const std::exception& error) {
     if (is_lack_of_threads(error)) return report_lack_of_threads();
-    if (is_lack_of_memory(error)) return report_out_of_memory();
     return report(internal_error, std::string("unexpected: ") + error.what());
   }
 }
