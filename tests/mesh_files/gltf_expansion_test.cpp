@@ -137,13 +137,12 @@ TEST(GltfExpansion, SparseIndicesThatAccessorsShareAreCounted) {
                      {{"count", count},
                       {"indices", {{"bufferView", 1}, {"componentType", 5125}}},
                       {"values", {{"bufferView", 2}}}}}};
-  // Normals of the wrong number are opened, at the cost of a look at all indices, and not read.
-  json accessors = json::array(), primitives = json::array();
-  for (int i = 0; i < 1000; ++i) {
+  // Normals that are too many are opened, at the cost of a look at all indices, and not read.
+  json accessors{asset.tree["accessors"][0]}, primitives = json::array();
+  for (int i = 1; i <= 1000; ++i) {
     accessors.push_back(sparse);
-    primitives.push_back({{"attributes", {{"POSITION", i}}}, {"indices", 1000}});
+    primitives.push_back({{"attributes", {{"POSITION", 0}, {"NORMAL", i}}}});
   }
-  accessors.push_back({{"componentType", 5121}, {"type", "SCALAR"}, {"count", 3}});
   asset.tree["accessors"] = accessors;
   asset.tree["meshes"][0]["primitives"] = primitives;
   EXPECT_THAT(fault_of(asset.done()), is_over_budget);

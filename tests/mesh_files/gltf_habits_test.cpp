@@ -123,9 +123,9 @@ TEST(GltfHabits, AttributesThatCannotBeUsedAreLeftOut) {
     EXPECT_EQ(mesh.texture_triangles.at(0), none);
     EXPECT_EQ(mesh.normal_triangles.at(0), none);
     EXPECT_EQ(mesh.normal_triangles.at(3), (CornerIndices{5, 6, 7}));
-    // What no corner refers to is finite all the same, and colours are white.
-    EXPECT_EQ(mesh.normals.at(4), (std::array<double, 3>{}));
-    EXPECT_EQ(mesh.texture_coordinates.at(4), (std::array<double, 2>{}));
+    // Nothing is left of the elements before the one at fault, and colours are white.
+    EXPECT_EQ(mesh.normals.at(0), (std::array<double, 3>{}));
+    EXPECT_EQ(mesh.texture_coordinates.at(0), (std::array<double, 2>{}));
     EXPECT_EQ(mesh.colours.at(0), (std::array<float, 4>{1, 1, 1, 1}));
     EXPECT_EQ(mesh.colours.at(5), (std::array<float, 4>{1, 0, 0, 1}));
     // Depth maps do not ask.
