@@ -1,30 +1,42 @@
-#!/bin/sh
-# Runs each fuzzer for SECONDS, starting from its corpus; fails on any finding.
-#   tests/fuzz/run.sh SECONDS [BUILD_FOLDER [NAME…]]     (default build/sanitize, see the preset, and all)
-set -eu
-seconds=${1:?usage: tests/fuzz/run.sh SECONDS [BUILD_FOLDER]}
+#!/usr/bin/env bash
+# Runs each fuzzer from its corpus, for some seconds or so many executions; fails on any finding. The executions
+# of each, and of all, are told at the end.
+#   tests/fuzz/run.sh SECONDS|-runs=N [BUILD_FOLDER [NAME…]]     (default build/sanitize, see the preset, and all)
+set -euo pipefail
+limit=${1:?usage: tests/fuzz/run.sh SECONDS|-runs=N [BUILD_FOLDER [NAME…]]}
+[[ $limit == -runs=* ]] || limit=-max_total_time=$limit
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${2:-$root/build/sanitize}
-shift $(($# < 2 ? $# : 2))
-if [ $# -eq 0 ]; then
+names=("${@:3}")
+if ((!${#names[@]})); then
   for source in "$root"/tests/fuzz/fuzz_*.cpp; do
-    name=$(basename "$source" .cpp)
-    set -- "$@" "${name#fuzz_}"
+    name=${source##*/fuzz_}
+    names+=("${name%.cpp}")
   done
 fi
+
+# Inputs grow to a megabyte where larger ones reach more code.
+options=(-rss_limit_mb=2048 -timeout=25 -max_len=1048576 -len_control=100 -print_final_stats=1 -verbosity=0)
 found=0
-for name; do
-  fuzzer=fuzz_$name
+all=0
+table=
+for name in "${names[@]}"; do
   scratch=$(mktemp -d)
   corpus=$root/tests/fuzz/corpus/$name
-  [ -d "$corpus" ] || corpus=
-  echo "== $fuzzer"
-  # What a run finds new goes to the scratch folder, not into the repository.
-  if ! "$build/bin/$fuzzer" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=25 -max_len=8192 \
-      -artifact_prefix="$build/finding-$fuzzer-" -print_final_stats=0 -verbosity=0 \
-      "$scratch" $corpus; then
-    found=1
-  fi
-  rm -rf "$scratch"
+  dictionary=$root/tests/fuzz/dictionaries/$name.dict
+  arguments=("$limit" "${options[@]}" "-artifact_prefix=$build/finding-fuzz_$name-")
+  if [[ -e $dictionary ]]; then arguments+=("-dict=$dictionary"); fi
+  # What a run finds new goes to the scratch folder, not into the repository; scripts/grow-corpus keeps it.
+  arguments+=("$scratch")
+  if [[ -d $corpus ]]; then arguments+=("$corpus"); fi
+  echo "== fuzz_$name"
+  status=0
+  "$build/bin/fuzz_$name" "${arguments[@]}" 2>&1 | tee "$scratch.log" || status=$?
+  ((status == 0)) || found=1
+  count=$(sed -n 's/^stat::number_of_executed_units: *//p' "$scratch.log")
+  table+=$(printf '%-14s %12d%s' "$name" "${count:-0}" "$( ((status)) && echo '  FINDING')")$'\n'
+  all=$((all + ${count:-0}))
+  rm -rf "$scratch" "$scratch.log"
 done
-exit $found
+printf '\nexecutions\n%s%-14s %12d\n' "$table" 'in all' "$all"
+exit "$found"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/text/input_file.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -16,6 +17,11 @@ Colour mix(const Colour& a, const Colour& b, double t) {
 
 std::int64_t wrapped(std::int64_t i, std::int64_t size) {
   return (i % size + size) % size;
+}
+
+/// The place within the repeated picture.
+double fraction(double x) {
+  return std::isfinite(x) ? x - std::floor(x) : 0;
 }
 
 constexpr std::uint32_t greatest_size = 8192;
@@ -58,14 +64,14 @@ Texture Texture::checker() {
 }
 
 Colour Texture::nearest(const Level& level, const std::array<double, 2>& uv) {
-  const double u = uv[0] - std::floor(uv[0]), v = uv[1] - std::floor(uv[1]);
+  const double u = fraction(uv[0]), v = fraction(uv[1]);
   return level.at(
       static_cast<std::int64_t>(u * static_cast<double>(level.width)),
       level.height - 1 - static_cast<std::int64_t>(v * static_cast<double>(level.height)));
 }
 
 Colour Texture::bilinear(const Level& level, const std::array<double, 2>& uv) {
-  const double u = uv[0] - std::floor(uv[0]), v = uv[1] - std::floor(uv[1]);
+  const double u = fraction(uv[0]), v = fraction(uv[1]);
   const double x = u * static_cast<double>(level.width) - 0.5;
   const double y = (1 - v) * static_cast<double>(level.height) - 0.5;
   const auto i = static_cast<std::int64_t>(std::floor(x)),
@@ -119,15 +125,14 @@ Colour Texture::sample(const TextureFootprint& f, TextureFilter filter) const {
   }
 }
 
-RgbImage read_rgb_png(const std::filesystem::path& path) {
+RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& name) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   const auto fail = [&](const std::string& why) {
     png_image_free(&png);
-    throw InputError(path.string() + ": " + why);
+    throw InputError(name + ": " + why);
   };
-  if (!std::filesystem::exists(path)) fail("does not exist; a texture is a PNG file or 'checker'");
-  if (png_image_begin_read_from_file(&png, path.c_str()) == 0)
+  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0)
     fail(std::string("no PNG file: ") + png.message);
   if (png.width > greatest_size || png.height > greatest_size)
     fail(std::to_string(png.width) + "x" + std::to_string(png.height) +
@@ -138,6 +143,13 @@ RgbImage read_rgb_png(const std::filesystem::path& path) {
   if (png_image_finish_read(&png, &black, image.pixels.data(), 0, nullptr) == 0)
     fail(std::string("broken PNG file: ") + png.message);
   return image;
+}
+
+RgbImage read_rgb_png(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (!std::filesystem::exists(path))
+    throw InputError(name + ": does not exist; a texture is a PNG file or 'checker'");
+  return decode_rgb_png(text::InputFile(path).bytes(), name);
 }
 
 }  // namespace fathom::pipeline

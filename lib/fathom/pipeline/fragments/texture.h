@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "fathom/image/rgb_image.h"
@@ -10,7 +13,7 @@
 namespace fathom::pipeline {
 
 /// Where a fragment looks into a texture: coordinates, (0, 0) being the lower left corner,
-/// repeated, and their changes to the next pixel.
+/// repeated, and their changes to the next pixel. A coordinate that is no finite number is 0.
 struct TextureFootprint {
   std::array<double, 2> uv{}, duv_dx{}, duv_dy{};
 };
@@ -48,5 +51,7 @@ class Texture {
 /// Reads an 8 or 16 bit PNG as 8-bit colours.
 /// Fails    InputError: missing, not a PNG, or larger than 8192 × 8192.
 RgbImage read_rgb_png(const std::filesystem::path& path);
+/// The same of the bytes of a file; `name` is for messages.
+RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace fathom::pipeline
