@@ -32,8 +32,6 @@ double parse_tolerance(const std::string& text) {
 
 int run_compare(const CompareArguments& arguments) {
   const CompareOptions& options = arguments.options;
-  note_input(arguments.truth);
-  note_input(arguments.other);
   TextOutput json(arguments.json);
   std::optional<OutputFile> heatmap;
   if (!arguments.heatmap.empty()) heatmap.emplace(arguments.heatmap);

@@ -82,63 +82,64 @@ Json as_json(const std::string& value) {
   } catch (const text::JsonFault&) {
   }
   return value;
-  /// A text of several lines, none of which can be taken for one of ours.
-  std::string indented(const std::string& value) {
-    std::string text;
-    for (const char c : value) text += c == '\n' ? std::string("\n    ") : std::string(1, c);
-    return text;
-  }
+}
 
-  Json describe(const DepthMap& map, const std::string& file) {
-    Json channels = Json::object();
-    for (const ImageChannel& channel : map.channels) {
-      const ChannelSummary summary = summarise(map, channel);
-      Json entry{{"type", summary.type},
-                 {"surface_pixels", summary.surface},
-                 {"min", summary.finite > 0 ? Json(summary.least) : Json(nullptr)},
-                 {"max", summary.finite > 0 ? Json(summary.greatest) : Json(nullptr)},
-                 {"infinite", summary.infinite},
-                 {"nan", summary.nan}};
-      text::append_member(channels, channel.name, std::move(entry));
-    }
-    Json answer{{"file", file},
-                {"kind", "map"},
-                {"width", map.width},
-                {"height", map.height},
-                {"channels", std::move(channels)}};
-    if (map.png_scale) answer["png_scale"] = *map.png_scale;
-    if (!map.object_names.empty()) answer["objects"] = map.object_names;
-    Json attributes = Json::object();
-    for (const auto& [name, value] : map.texts) {
-      text::append_member(attributes, name, as_json(value));
-    }
-    if (!attributes.empty()) answer["attributes"] = std::move(attributes);
-    return answer;
-  }
+/// A text of several lines, none of which can be taken for one of ours.
+std::string indented(const std::string& value) {
+  std::string text;
+  for (const char c : value) text += c == '\n' ? std::string("\n    ") : std::string(1, c);
+  return text;
+}
 
-  std::string describe_as_text(const DepthMap& map, const std::string& file) {
-    std::string text =
-        fmt::format("{}: a map of {}x{} pixels\n", text::printable(file), map.width, map.height);
-    text += fmt::format("  {:<10} {:<8} {:>14} {:>24} {:>24}\n", "channel", "type",
-                        "surface pixels", "least", "greatest");
-    for (const ImageChannel& channel : map.channels) {
-      const ChannelSummary s = summarise(map, channel);
-      text +=
-          fmt::format("  {:<10} {:<8} {:>14} ", text::printable(channel.name), s.type, s.surface);
-      text += fmt::format("{:>24} {:>24}", figure(s, s.least), figure(s, s.greatest));
-      if (s.infinite > 0) text += fmt::format("  {} infinite", s.infinite);
-      if (s.nan > 0) text += fmt::format("  {} NaN", s.nan);
-      text += "\n";
-    }
-    if (map.png_scale) text += fmt::format("  scale      {} codes per unit\n", *map.png_scale);
-    if (!map.object_names.empty()) {
-      text += fmt::format("  objects    {}\n", text::printable(joined(map.object_names, ", ")));
-    }
-    for (const auto& [name, value] : map.texts) {
-      text += fmt::format("  {}: {}\n", text::printable(name), indented(value));
-    }
-    return text;
+Json describe(const DepthMap& map, const std::string& file) {
+  Json channels = Json::object();
+  for (const ImageChannel& channel : map.channels) {
+    const ChannelSummary summary = summarise(map, channel);
+    Json entry{{"type", summary.type},
+               {"surface_pixels", summary.surface},
+               {"min", summary.finite > 0 ? Json(summary.least) : Json(nullptr)},
+               {"max", summary.finite > 0 ? Json(summary.greatest) : Json(nullptr)},
+               {"infinite", summary.infinite},
+               {"nan", summary.nan}};
+    text::append_member(channels, channel.name, std::move(entry));
   }
+  Json answer{{"file", file},
+              {"kind", "map"},
+              {"width", map.width},
+              {"height", map.height},
+              {"channels", std::move(channels)}};
+  if (map.png_scale) answer["png_scale"] = *map.png_scale;
+  if (!map.object_names.empty()) answer["objects"] = map.object_names;
+  Json attributes = Json::object();
+  for (const auto& [name, value] : map.texts) {
+    text::append_member(attributes, name, as_json(value));
+  }
+  if (!attributes.empty()) answer["attributes"] = std::move(attributes);
+  return answer;
+}
+
+std::string describe_as_text(const DepthMap& map, const std::string& file) {
+  std::string text =
+      fmt::format("{}: a map of {}x{} pixels\n", text::printable(file), map.width, map.height);
+  text += fmt::format("  {:<10} {:<8} {:>14} {:>24} {:>24}\n", "channel", "type", "surface pixels",
+                      "least", "greatest");
+  for (const ImageChannel& channel : map.channels) {
+    const ChannelSummary s = summarise(map, channel);
+    text += fmt::format("  {:<10} {:<8} {:>14} ", text::printable(channel.name), s.type, s.surface);
+    text += fmt::format("{:>24} {:>24}", figure(s, s.least), figure(s, s.greatest));
+    if (s.infinite > 0) text += fmt::format("  {} infinite", s.infinite);
+    if (s.nan > 0) text += fmt::format("  {} NaN", s.nan);
+    text += "\n";
+  }
+  if (map.png_scale) text += fmt::format("  scale      {} codes per unit\n", *map.png_scale);
+  if (!map.object_names.empty()) {
+    text += fmt::format("  objects    {}\n", text::printable(joined(map.object_names, ", ")));
+  }
+  for (const auto& [name, value] : map.texts) {
+    text += fmt::format("  {}: {}\n", text::printable(name), indented(value));
+  }
+  return text;
+}
 
 }  // namespace
 
