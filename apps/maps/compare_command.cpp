@@ -8,6 +8,7 @@
 #include "apps/maps/map_commands.h"
 #include "apps/options/map_argument.h"
 #include "apps/shell/exit_status.h"
+#include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/text_output.h"
@@ -32,6 +33,8 @@ double parse_tolerance(const std::string& text) {
 
 int run_compare(const CompareArguments& arguments) {
   const CompareOptions& options = arguments.options;
+  note_input(arguments.truth);
+  note_input(arguments.other);
   TextOutput json(arguments.json);
   std::optional<OutputFile> heatmap;
   if (!arguments.heatmap.empty()) heatmap.emplace(arguments.heatmap);
