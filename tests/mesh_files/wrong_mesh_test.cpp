@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fathom/numeric/errors.h"
+#include "tests/inputs/mesh_text.h"
 #include "tests/inputs/mesh_variants.h"
 #include "tests/scratch_folder.h"
 
@@ -75,32 +76,42 @@ const WrongMesh wrong_meshes[] = {
     {"UTF-16.off", utf16(off_head, false, true), "is text in UTF-16"},
     {"UTF-16.ply", utf16(plane_head, true, true), "is text in UTF-16"},
     {"UTF-16.stl", utf16("solid\n" + facet + facet, false, true), "is text in UTF-16"},
-    // PLY: rows that are no lines, and do not add up as words
+    // PLY: as many lines as rows, one of which is not as long as it should be
     {"value missing.ply", plane_head + "0 0 0\n1 0\n0 1 0\n3 0 1 2\n3 0 1 2\n",
-     "line 11: expected coordinate z, found the end of the line; nor is the body a stream of as "
-     "many words as the header says: line 14: "},
+     "line 11: expected coordinate z, found the end of the line"},
     {"value too many.ply", plane_head + "0 0 0\n1 0 0 7\n0 1 0\n3 0 1 2\n3 0 1 2\n",
-     "line 11: expected the line to end, found '7'; nor is the body a stream of as many words as "
-     "the header says: line "},
+     "line 11: expected the line to end, found '7'"},
+    {"index missing.ply", plane_head + square + "3 0 1\n3 0 1 2\n",
+     "line 13: expected the index of a vertex, found the end of the line"},
     {"row missing.ply", plane_head + square + "3 0 1 2\n",
      "the file ends after 1 of 2 rows of element face"},
-    {"index in a stream.ply", plane_head + "0 0\n0 1 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n",
-     "line 14: index 3 is out of range"},
-    {"nan in a stream.ply", plane_head + "0 0\n0 1 0 0\n0 nan 0\n3 0 1 2\n3 0 1 2\n",
+    // PLY: words that do not add up
+    {"value missing in a stream.ply", plane_head + "0 0 0 1 0\n0 1 0\n3 0 1 2\n3 0 1 2\n",
+     "line 10: expected the line to end, found '1'; nor is the body a stream of as many words as "
+     "the header says: line 12: expected a face of at least three corners, found 0"},
+    {"index in a stream.ply", plane_head + "0 0\n0 1 0 0\n0 1 0\n3 0 1 2 3 0 1 3\n",
+     "line 13: index 3 is out of range"},
+    {"nan in a stream.ply", plane_head + "0 0\n0 1 0 0\n0 nan 0\n3 0 1 2 3 0 1 2\n",
      "line 12: coordinate y is not finite"},
     {"words left over.ply", plane_head + "0 0 0 1 0 0 0 1 0\n3 0 1 2 3 0 1 2\n1 2 3\n",
-     "line 10: expected the line to end, found '1'"},
+     "line 10: expected the line to end, found '1'; nor is the body a stream of as many words as "
+     "the header says: line 12: there are more words"},
+    {"words missing.ply", plane_head + "0 0 0 1 0 0 0 1 0\n3 0 1 2 3 0 1\n",
+     "line 12: the file ends"},
     // OFF
     {"vertex cut short.off", off_head + "0 0 0\n1 0\n0 1 0\n3 0 1 2\n3 0 1 2\n",
      "line 4: expected coordinate z, found the end of the line"},
     {"face cut short.off", off_head + square + "3 0 1 2\n3 0 1\n",
      "line 7: expected the index of a vertex, found the end of the line"},
     {"words left over.off", off_head + square + "3 0 1\n2 3 0 1\n2 7\n",
-     "line 6: expected the index of a vertex, found the end of the line"},
-    {"index in a stream.off", off_head + "0 0\n0 1 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n",
-     "line 7: index 3 is out of range, expected 0 to 2"},
-    {"nan in a stream.off", off_head + "0 0\n0 1 0 nan\n0 1 0\n3 0 1 2\n3 0 1 2\n",
-     "line 4: coordinate z is not finite"},
+     "line 6: expected the index of a vertex, found the end of the line; nor is the body a stream "
+     "of as many words as the counts say: line 8: expected the file to end, found '7'"},
+    {"index in a stream.off", off_head + "0 0\n0 1\n0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n",
+     "line 8: index 3 is out of range, expected 0 to 2"},
+    {"nan in a stream.off", off_head + "0 0\n0 1\n0 nan\n0 1 0\n3 0 1 2\n3 0 1 2\n",
+     "line 5: coordinate z is not finite"},
+    {"two corners in a stream.off", off_head + square + "3\n0 1 2\n2 0 1\n",
+     "line 8: expected at least three corners, found 2"},
     {"colour of words.off", "OFF\n1 0 0\n0 0 0 red 0 0\n", "line 3: expected a number"},
     {"colours over lines.off",
      off_head + "0 0 0\n9 9 9\n1 0 0\n9 9 9\n0 1 0\n9 9 9\n3 0 1 2\n"
@@ -129,6 +140,47 @@ INSTANTIATE_TEST_SUITE_P(All, WrongMeshCase, testing::ValuesIn(wrong_meshes), []
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   return name;
 });
+
+/// A coordinate or an index too few is never made up for by the next row, nor is one too many.
+TEST(WrongMesh, AWordTooFewOrTooMany) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 5\nproperty list uchar int vertex_indices\nend_header\n";
+  const Mesh mesh = test::sample_mesh();
+  std::vector<std::string> rows;
+  for (const MeshPoint& p : mesh.vertices) rows.push_back(test::point(p));
+  for (const auto& [a, b, c] : mesh.triangles)
+    rows.push_back("3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c));
+  int files = 0;
+  for (const std::string& head : {ply, std::string("OFF\n6 5 0\n")}) {
+    for (const char between : {'\n', ' '}) {
+      for (std::size_t row = 0; row < rows.size(); ++row) {
+        for (std::size_t at = rows[row].find(' '); at != std::string::npos;
+             at = rows[row].find(' ', at + 1)) {
+          for (const bool few : {false, true}) {
+            std::string body;
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+              std::string text = rows[i];
+              const std::size_t end = text.find(' ', at + 1);
+              if (i == row && few) text.erase(at, end == text.npos ? end : end - at);
+              if (i == row && !few) text.insert(at, " 0");
+              body += text + between;
+            }
+            // Behind the words of its line, a word is no coordinate and no index in an OFF.
+            if (!few && head != ply && between == '\n') continue;
+            Warnings warnings;
+            EXPECT_THROW(
+                test::read_variant({head == ply ? "a.ply" : "a.off", head + body}, warnings),
+                InputError)
+                << body;
+            ++files;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_EQ(files, 189);
+}
 
 }  // namespace
 }  // namespace fathom

@@ -157,6 +157,7 @@ class PlyBody {
     for (std::uint64_t i = 0; i < element.count; ++i) {
       rows().begin_row(element, i);
       reader_.read_face(element, indices, ring_);
+      rows().expect_face(ring_.size());
       rows().end_row();
       sink_.face(ring_, rows());
     }

@@ -44,6 +44,7 @@ class BinaryRows {
 
   void begin_row(const PlyElement&, std::uint64_t) {}
   void end_row() {}
+  void expect_face(std::size_t) const {}
 
   double finite(PlyType type, const char* what) {
     const double value = attribute(type);

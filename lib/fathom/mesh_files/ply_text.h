@@ -12,15 +12,20 @@ namespace fathom::mesh_files {
 
 /// The values of a PLY body that is text.
 ///
-/// Rows are lines, as in nearly all files. Where the first row is longer or shorter than its line,
-/// the rest is read as a stream of words, whatever lines they are on, which is what the readers of
-/// other programs do; but then there must be exactly as many words as the header says. A value that
-/// is missing or too many in a file of lines is thus a failure, at its place.
+/// Rows are lines, as in nearly all files. A file that has another number of lines than of rows may
+/// be a stream of words, whatever lines they are on, which is how other programs read all files;
+/// but then there must be exactly as many words as the header says, and no face of fewer than three
+/// corners. A value that is missing or too many in a file of lines is thus a failure, at its place,
+/// and not made up for by the next row.
 class PlyTextRows {
  public:
   PlyTextRows(std::string_view body, const std::string& file, const PlyHeader& header)
       : cursor_(body, file, {}, text::TextCursor::line_end_of(body), header.lines + 1),
-        file_(file) {}
+        start_(cursor_),
+        file_(file) {
+    for (const PlyElement& element : header.elements)
+      if (!element.properties.empty()) rows_ += element.count;
+  }
 
   static std::uint64_t least_row_size(const PlyElement& element) {
     return 2 * element.properties.size();  // a digit and what separates it from the next
@@ -37,6 +42,13 @@ class PlyTextRows {
   }
   void end_row() {
     if (!cursor_.at_line_end() && break_.empty()) note_long_row();
+  }
+
+  /// The corners of a face that has been read: in a stream of words, where a count may be something
+  /// else if a word is missing, there are three.
+  void expect_face(std::size_t corners) const {
+    if (corners < 3 && !break_.empty())
+      fail("expected a face of at least three corners, found " + std::to_string(corners));
   }
 
   /// A coordinate: rounded once to the type that the file declares.
@@ -99,8 +111,12 @@ class PlyTextRows {
   }
   void go_to_next_line(const char* what);
   void note_long_row();
+  /// The first row that is no line.
+  void note_break(const std::string& message);
 
-  text::TextCursor cursor_;
+  text::TextCursor cursor_, start_;
+  /// In the whole body.
+  std::uint64_t rows_ = 0;
   const std::string& file_;
   /// What is wrong with the first row that is no line; empty while rows are lines.
   std::string break_;

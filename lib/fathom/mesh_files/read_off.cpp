@@ -179,6 +179,9 @@ class OffReader {
     go_to_row("faces", i, header_.faces);
     const std::int64_t corners = cursor_.integer("a number of corners");
     if (corners < 0) cursor_.fail("expected a number of corners, found a negative one");
+    // In a stream of words a count may be something else if a word is missing.
+    if (corners < 3 && faces_ == OffLayout::words)
+      cursor_.fail("expected at least three corners, found " + std::to_string(corners));
     ring_.clear();
     for (std::int64_t k = 0; k < corners; ++k) {
       go_to_word(faces_);
@@ -248,6 +251,13 @@ OffHeader read_off_header(TextCursor& cursor, const std::string& file) {
   return header;
 }
 
+/// Whether there is a line for every vertex and every face, and no other.
+bool has_a_line_each(TextCursor body, const OffHeader& header) {
+  std::uint64_t lines = 0;
+  for (; body.next_line_with_words(); body.skip_line()) ++lines;
+  return lines == header.vertices + header.faces;
+}
+
 /// Whether there are enough lines, and enough words on each, for a vertex or a face a line.
 bool has_line_structure(TextCursor body, const OffHeader& header) {
   const auto words_of_line = [&](std::uint64_t enough) {
@@ -289,7 +299,7 @@ Mesh read_off(std::string_view bytes, const std::string& file, const ReadOptions
   try {
     return reader_by(lines, lines).read(warnings);
   } catch (const InputError& by_lines) {
-    if (has_line_structure(cursor, header)) throw;
+    if (has_line_structure(cursor, header) || has_a_line_each(cursor, header)) throw;
     failure = by_lines.what();
   }
   // The way that gets furthest is the likeliest, and its failure the one to tell.
