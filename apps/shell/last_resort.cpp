@@ -17,6 +17,8 @@
 namespace fathom::app {
 namespace {
 
+std::atomic<pid_t> speaker{0};
+
 /// A line on standard error, without stdio, which might need memory or hold a lock.
 void say(const char* text) noexcept {
   std::size_t size = std::strlen(text);
@@ -35,11 +37,9 @@ ExitStatus report_unexpected(const char* what) noexcept {
   return internal_error;
 }
 
-/// Several threads may come here at the same time: one speaks, the others wait for the end.
 template <class Report>
 [[noreturn]] void end(const Report& report) noexcept {
-  static std::atomic_flag ends;
-  while (ends.test_and_set()) ::pause();
+  have_the_last_word();
   remove_all_pending();
   ::_exit(report());
 }
@@ -77,7 +77,16 @@ void deallocate(void* block, std::size_t) {
 
 }  // namespace
 
+void have_the_last_word() noexcept {
+  const pid_t self = ::gettid();
+  pid_t none = 0;
+  if (speaker.compare_exchange_strong(none, self) || none == self) return;
+  ::sleep(2);  // its end may wait for this thread's
+  ::_exit(unusable_input);
+}
+
 ExitStatus report_out_of_memory() noexcept {
+  have_the_last_word();
   say("fathom: error: out of memory: the input or the image is too large");
   say(memory_limit.data());
   say("\n");
@@ -89,6 +98,7 @@ void name_memory_limit(const char* text) noexcept {
 }
 
 ExitStatus report_lack_of_threads() noexcept {
+  have_the_last_word();
   say("fathom: error: the system starts no more threads; --threads N asks for fewer\n");
   return unusable_input;
 }

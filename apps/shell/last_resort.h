@@ -4,6 +4,10 @@
 
 namespace fathom::app {
 
+/// From now on only the calling thread speaks of failures; another one that would, waits for
+/// the end.
+void have_the_last_word() noexcept;
+
 /// Says "fathom: error: out of memory: …" and returns the exit status; takes no memory for it.
 ExitStatus report_out_of_memory() noexcept;
 /// Adds to that line what sets the limit of memory. For one thread.

@@ -22,6 +22,7 @@ namespace fathom::app {
 namespace {
 
 int report(ExitStatus status, const std::string& message) {
+  have_the_last_word();
   Console::error(message);
   return status;
 }

@@ -6,12 +6,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <optional>
-#include <sstream>
+#include <span>
 #include <string>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/text/file_bytes.h"
 #include "validation/studies/plot.h"
 
 extern char** environ;
@@ -32,10 +32,8 @@ class MemoryFile {
 
   [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
   [[nodiscard]] std::string content() const {
-    std::ifstream file(path(), std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
+    const text::Bytes bytes = text::read_file(path());
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   }
 
  private:
@@ -95,7 +93,8 @@ std::vector<StudyFile> run_gnuplot(const std::string& name, const std::string& s
     return terminal("pngcairo", png) + script + terminal("svg", svg) + "replot\nset output\n";
   };
   const MemoryFile input, said, png, svg;
-  std::ofstream(input.path()) << twice(png.path(), svg.path());
+  const std::string commands = twice(png.path(), svg.path());
+  text::write_file(input.path(), std::as_bytes(std::span(commands)));
   const std::optional<int> status = run(input.path(), said);
   if (!status) refuse_missing();
   std::vector<StudyFile> files{{name + ".gp", twice(name + ".png", name + ".svg")},

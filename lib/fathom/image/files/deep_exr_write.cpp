@@ -74,9 +74,11 @@ Bytes encode(const DeepMap& map, Compression compression, int threads, const std
   ByteOutput stream(name);
   {
     Imf::DeepScanLineOutputFile file(stream, header, reserve_exr_threads(threads));
+    stream.table_of_chunks_ends_here();
     file.setFrameBuffer(pixels);
     file.writePixels(static_cast<int>(description.height));
   }
+  stream.require_chunks(description.height);  // of one row each
   return stream.take();
 }
 

@@ -104,6 +104,11 @@ Imf::Compression compression_of(Compression compression) {
   return Imf::ZIP_COMPRESSION;
 }
 
+std::uint32_t rows_of_a_chunk(Compression compression) {
+  if (compression == Compression::zip) return 16;
+  return compression == Compression::piz ? 32 : 1;
+}
+
 void set_attributes(Imf::Header& header, const DepthMap& map) {
   set_window(header, map);
   for (const auto& [name, text] : map.texts)

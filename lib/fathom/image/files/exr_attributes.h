@@ -9,6 +9,8 @@ namespace fathom::image {
 
 /// What the format calls it.
 Imf::Compression compression_of(Compression compression);
+/// How many rows of pixels are compressed together.
+std::uint32_t rows_of_a_chunk(Compression compression);
 
 /// Puts the map's camera matrices, texts, object names and window into an EXR header. Numbers that
 /// EXR cannot hold there (a mirrored screen window, a matrix beyond binary32) are left out or

@@ -4,9 +4,11 @@
 #include <ImfIO.h>
 
 #include <cstring>
+#include <new>
 #include <utility>
 #include <vector>
 
+#include "fathom/text/byte_order.h"
 #include "fathom/text/file_bytes.h"
 
 namespace fathom::image {
@@ -54,11 +56,25 @@ class ByteOutput : public Imf::OStream {
   std::uint64_t tellp() override { return position_; }
   void seekp(std::uint64_t position) override { position_ = position; }
 
+  /// The table of chunks, before which all else was written, ends here: the position just after the
+  /// file has been opened.
+  void table_of_chunks_ends_here() { end_of_table_ = position_; }
+  /// Makes sure that the file, which has been closed by now, has all its chunks.
+  /// Fails    std::bad_alloc where chunks are missing: if a task of OpenEXR's pool cannot compress
+  ///          one, for want of memory, OpenEXR 3.1 takes it for incomplete, stops, and says nothing.
+  void require_chunks(std::size_t chunks) const {
+    constexpr std::size_t entry = sizeof(std::uint64_t);
+    for (std::size_t i = 0; i < chunks; ++i) {
+      const std::size_t at = end_of_table_ - entry * (i + 1);
+      if (load<std::uint64_t>(&bytes_[at], std::endian::little) == 0) throw std::bad_alloc();
+    }
+  }
+
   [[nodiscard]] text::Bytes take() { return std::move(bytes_); }
 
  private:
   text::Bytes bytes_;
-  std::size_t position_ = 0;
+  std::size_t position_ = 0, end_of_table_ = 0;
 };
 
 /// Lets OpenEXR use so many threads, 0 meaning all of the machine's, and returns their number,

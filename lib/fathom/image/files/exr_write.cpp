@@ -78,9 +78,12 @@ Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
     ByteOutput stream(name);
     {
       Imf::OutputFile file(stream, header, reserve_exr_threads(threads));
+      stream.table_of_chunks_ends_here();
       file.setFrameBuffer(pixels);
       file.writePixels(static_cast<int>(map.height));
     }
+    const std::uint32_t rows = rows_of_a_chunk(compression);
+    stream.require_chunks((map.height + rows - 1) / rows);
     return stream.take();
   } catch (const Error&) {
     throw;
