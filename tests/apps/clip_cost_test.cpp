@@ -46,5 +46,100 @@ TEST(ClipCost, ManyKeysAreRead) {
   EXPECT_THAT(outcome.err, HasSubstr("\"clip\" is missing"));
 }
 
+/// "[[x,y],…]": a square.
+std::string square(int x, int y, int side) {
+  const auto corner = [](int u, int v) {
+    return "[" + std::to_string(u) + "," + std::to_string(v) + "]";
+  };
+  return "[" + corner(x, y) + "," + corner(x + side, y) + "," + corner(x + side, y + side) + "," +
+         corner(x, y + side) + "]";
+}
+
+/// Rows of squares that are apart.
+std::string squares(int a_side, int offset = 0) {
+  std::string rings;
+  for (int i = 0; i < a_side * a_side; ++i)
+    rings += (rings.empty() ? "[" : ",") +
+             square(3 * (i % a_side) + offset, 3 * (i / a_side) + offset, 2);
+  return rings + "]";
+}
+
+std::string case_of(const std::string& subject, const std::string& clip) {
+  return "{\"subject\":" + subject + ",\"clip\":" + clip + "}\n";
+}
+
+TEST(ClipCost, ManySquaresAreClipped) {
+  const Outcome outcome = clip("weiler-atherton", case_of(squares(50), squares(50, 1)));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out)["polygons"].size(), 2500U);
+}
+
+TEST(ClipCost, ManyHolesGoToTheirOutline) {
+  const std::string holes = squares(50);
+  const Outcome outcome = clip(
+      "weiler-atherton",
+      case_of("[" + square(-1, -1, 160) + "," + holes.substr(1), "[" + square(-5, -5, 500) + "]"));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out)["polygons"][0].size(), 2501U);
+}
+
+TEST(ClipCost, ManyNestedSquaresAreClipped) {
+  std::string rings;
+  for (int i = 0; i < 1000; ++i) rings += (rings.empty() ? "[" : ",") + square(i, i, 4000 - 2 * i);
+  const Outcome outcome =
+      clip("weiler-atherton", case_of(rings + "]", "[[[1.5,1.5],[9e3,0],[0,9e3]]]"));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out)["polygons"].size(), 500U);
+}
+
+/// Slanted teeth side by side: all their boxes meet.
+TEST(ClipCost, ManySlantedTeethAreClipped) {
+  std::string ring = "[[";
+  const int teeth = 800;
+  for (int k = 0; k < teeth; ++k)
+    ring += "[" + std::to_string(2 * k) + ",0],[" + std::to_string(2 * k + 10000) + ",10000],";
+  ring += "[30000,10000],[30000,-10],[-10,-10]]]";
+  const Outcome outcome = clip("weiler-atherton", case_of(ring, "[" + square(-20, 20, 5000) + "]"));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+/// Triangles that have one corner in common.
+TEST(ClipCost, ManyRingsMeetInAPoint) {
+  std::string rings;
+  const int side = 1000;
+  for (int k = 0; k < side; ++k)
+    rings += std::string(rings.empty() ? "[" : ",") + "[[0,0],[" + std::to_string(side) + "," +
+             std::to_string(2 * k) + "],[" + std::to_string(side) + "," +
+             std::to_string(2 * k + 1) + "]]";
+  const Outcome outcome =
+      clip("weiler-atherton", case_of(rings + "]", "[" + square(-1, -1, 500) + "]"));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_GT(Json::parse(outcome.out)["polygons"].size(), 200U);
+}
+
+TEST(ClipCost, TooManyContactsAreRefused) {
+  std::string upright, flat;
+  for (int k = 0; k < 600; ++k) {
+    const std::string u = std::to_string(2 * k), v = std::to_string(2 * k + 1);
+    upright += "[" + u + ",0],[" + v + ",5000],";
+    flat += "[0," + u + "],[5000," + v + "],";
+  }
+  const Outcome outcome = clip("weiler-atherton", case_of("[[" + upright + "[1200,-5],[-1,-5]]]",
+                                                          "[[" + flat + "[-5,1200],[-5,-1]]]"));
+  expect_one_line(outcome, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("the rings meet in more than 262144 points"));
+}
+
+TEST(ClipCost, ManyCornersAreDecomposed) {
+  std::string ring;
+  for (int k = 0; k < 1500; ++k)
+    ring += "[" + std::to_string(2 * k) + ",0],[" + std::to_string(2 * k + 1) + "," +
+            std::to_string(100 + k * 7919 % 13) + "],";
+  const Outcome outcome = clip("sutherland-hodgman", "{\"decompose\":true,\"subject\":[[" + ring +
+                                                         "[3000,-5],[-1,-5]]],\"clip\":[" +
+                                                         square(-10, -10, 50) + "]}\n");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
 }  // namespace
 }  // namespace fathom::test

@@ -104,8 +104,8 @@ Json sutherland_hodgman_2(const Json& object, Form form) {
   Json trace = Json::array();
   for (std::size_t r = 0; r < subject.size(); ++r) {
     clipping::ClipStages<clipping::Point2, Number> stages;
-    const auto corners =
-        clipping::sutherland_hodgman(clipping::corners_of(subject[r]), clip[0], &stages);
+    const auto corners = clipping::sutherland_hodgman(clipping::corners_of(subject[r]), clip[0],
+                                                      form.trace ? &stages : nullptr);
     if (!corners.empty()) clipped.push_back(clipping::ring_of(corners));
     for (std::size_t i = 0; i < stages.size(); ++i)
       trace.push_back({{decompose ? "piece" : "ring", r},

@@ -136,7 +136,8 @@ Json clip_in_space(const Json& object, Form form) {
   for (const auto& p : points(object, "planes", 4, 4)) planes.push_back(plane_of<Number>(p));
   clipping::ClipStages<clipping::Point3, Number> stages;
   const auto polygon = clipping::sutherland_hodgman(
-      corners<clipping::Point3, Number>(object, "polygon3", 3, point3<Number>), planes, &stages);
+      corners<clipping::Point3, Number>(object, "polygon3", 3, point3<Number>), planes,
+      form.trace ? &stages : nullptr);
   Json result;
   put_polygon(result, object, "polygon3", polygon, form);
   if (form.trace) {

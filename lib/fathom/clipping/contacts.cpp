@@ -1,7 +1,15 @@
 #include "fathom/clipping/contacts.h"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_2_algorithms.h>
+#include <CGAL/Simple_cartesian.h>
+
 #include <algorithm>
+#include <type_traits>
 #include <utility>
+
+#include "fathom/clipping/boxes.h"
+#include "fathom/numeric/errors.h"
 
 namespace fathom::clipping {
 namespace {
@@ -15,38 +23,121 @@ bool is_between(const Number& x, const Number& a, const Number& b) {
 template <class Number>
 struct PlacedEdge {
   Segment2<Number> segment;
-  Number xmin, xmax;
+  Box at_start, at_end;
   std::size_t ring, edge;
+
+  [[nodiscard]] Box box() const {
+    Box box = at_start;
+    box.include(at_end);
+    return box;
+  }
 };
 
+/// The edges, by their least abscissas.
 template <class Number>
 std::vector<PlacedEdge<Number>> edges_by_xmin(const Rings<Number>& rings) {
   std::vector<PlacedEdge<Number>> edges;
   for (std::size_t r = 0; r < rings.size(); ++r)
     for (std::size_t i = 0; i < rings[r].size(); ++i) {
       const Point2<Number>&a = rings[r][i], &b = rings[r][(i + 1) % rings[r].size()];
-      edges.push_back({{a, b}, std::min(a.x, b.x), std::max(a.x, b.x), r, i});
+      edges.push_back({{a, b}, box_of(a), box_of(b), r, i});
     }
-  std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) {
-    return a.xmin < b.xmin ||
-           (a.xmin == b.xmin && std::pair(a.ring, a.edge) < std::pair(b.ring, b.edge));
+  const auto xmin = [](const Segment2<Number>& s) -> const Number& {
+    return std::min(s.start.x, s.end.x);
+  };
+  std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) {
+    const Number &a_min = xmin(a.segment), &b_min = xmin(b.segment);
+    return a_min < b_min ||
+           (a_min == b_min && std::pair(a.ring, a.edge) < std::pair(b.ring, b.edge));
   });
   return edges;
 }
 
 template <class Number>
-bool y_ranges_meet(const Segment2<Number>& a, const Segment2<Number>& b) {
-  return !(std::max(a.start.y, a.end.y) < std::min(b.start.y, b.end.y)) &&
-         !(std::max(b.start.y, b.end.y) < std::min(a.start.y, a.end.y));
+bool is_one_sided(const PlacedEdge<Number>& a, const PlacedEdge<Number>& b) {
+  const auto start = settled_sign_of_cross(a.at_start, a.at_end, b.at_start);
+  const auto end = settled_sign_of_cross(a.at_start, a.at_end, b.at_end);
+  return start && end && *start * *end > 0;
 }
 
-/// Calls visit(a, b) for every pair of edges whose bounding boxes meet.
-template <class Number, class Visit>
-void visit_neighbours(const Rings<Number>& rings, const Visit& visit) {
+/// Whether one lies strictly on one side of the other, as far as that is told quickly.
+template <class Number>
+bool are_apart(const PlacedEdge<Number>& a, const PlacedEdge<Number>& b) {
+  return is_one_sided(a, b) || is_one_sided(b, a);
+}
+
+/// contacts(a, b) of edges whose boxes meet. Over double it is decided by rounded numbers whether
+/// they meet, as where they do.
+template <class Number>
+std::vector<Point2<Number>> contacts_of(const PlacedEdge<Number>& a, const PlacedEdge<Number>& b) {
+  if (std::is_same_v<Number, Rational> && are_apart(a, b)) return {};
+  return contacts(a.segment, b.segment);
+}
+
+/// Whether edges that begin or end in one corner have no more in common, as far as that is told
+/// quickly.
+template <class Number>
+bool meet_in_an_end_at_most(const PlacedEdge<Number>& a, const PlacedEdge<Number>& b) {
+  const auto is_at = [](const Box& p, const Box& q) {
+    return p.is_exact() && p.x == q.x && p.y == q.y;
+  };
+  const auto turns = [&](const Box& other) {
+    return settled_sign_of_cross(a.at_start, a.at_end, other).value_or(0) != 0;
+  };
+  if (is_at(a.at_start, b.at_start) || is_at(a.at_end, b.at_start)) return turns(b.at_end);
+  if (is_at(a.at_start, b.at_end) || is_at(a.at_end, b.at_end)) return turns(b.at_start);
+  return false;
+}
+
+/// Whether the ring meets itself nowhere.
+template <class Kernel, class ToPoint>
+bool is_simple(const Ring<Rational>& ring, const ToPoint& to_point) {
+  std::vector<typename Kernel::Point_2> corners;
+  corners.reserve(ring.size());
+  for (const Point2<Rational>& p : ring) corners.push_back(to_point(p));
+  return CGAL::is_simple_2(corners.begin(), corners.end(), Kernel());
+}
+
+bool is_simple(const Ring<Rational>& ring) {
+  using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Exact = CGAL::Simple_cartesian<Rational>;
+  const bool known =
+      std::all_of(ring.begin(), ring.end(), [](const auto& p) { return box_of(p).is_exact(); });
+  if (known)
+    return is_simple<Filtered>(ring, [](const auto& p) {
+      const Box at = box_of(p);
+      return Filtered::Point_2(at.x.least, at.y.least);
+    });
+  return is_simple<Exact>(ring, [](const auto& p) { return Exact::Point_2(p.x, p.y); });
+}
+
+/// For each edge of each ring its contacts with other rings.
+template <class Number>
+std::vector<Rings<Number>> contacts_on_edges(const Rings<Number>& rings) {
+  std::vector<Rings<Number>> on_edge(rings.size());
+  for (std::size_t r = 0; r < rings.size(); ++r) on_edge[r].resize(rings[r].size());
   const auto edges = edges_by_xmin(rings);
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    for (std::size_t j = i + 1; j < edges.size() && edges[j].xmin <= edges[i].xmax; ++j)
-      if (y_ranges_meet(edges[i].segment, edges[j].segment)) visit(edges[i], edges[j]);
+  std::vector<Box> boxes;
+  boxes.reserve(edges.size());
+  for (const auto& edge : edges) boxes.push_back(edge.box());
+  std::size_t count = 0;
+  visit_meeting_boxes(boxes, [&](std::size_t i, std::size_t k) {
+    // Over double it matters which comes first.
+    const PlacedEdge<Number>&a = edges[std::min(i, k)], &b = edges[std::max(i, k)];
+    if (a.ring == b.ring) return;
+    if (std::is_same_v<Number, Rational> && meet_in_an_end_at_most(a, b)) return;
+    for (const Point2<Number>& p : contacts_of(a, b)) {
+      for (const auto* edge : {&a, &b}) {
+        // At its ends it is divided already.
+        if (p == edge->segment.start || p == edge->segment.end) continue;
+        if (++count > most_contacts)
+          throw InputError("the rings meet in more than " + std::to_string(most_contacts) +
+                           " points");
+        on_edge[edge->ring][edge->edge].push_back(p);
+      }
+    }
+  });
+  return on_edge;
 }
 
 /// Appends the start of an edge and the contacts strictly inside it, in order along it.
@@ -104,16 +195,7 @@ std::vector<Point2<Number>> contacts(const Segment2<Number>& a, const Segment2<N
 
 template <class Number>
 Rings<Number> enter_contacts(const Rings<Number>& rings) {
-  std::vector<Rings<Number>> on_edge(rings.size());
-  for (std::size_t r = 0; r < rings.size(); ++r) on_edge[r].resize(rings[r].size());
-  visit_neighbours(rings, [&](const PlacedEdge<Number>& a, const PlacedEdge<Number>& b) {
-    if (a.ring == b.ring) return;
-    for (const Point2<Number>& p : contacts(a.segment, b.segment)) {
-      on_edge[a.ring][a.edge].push_back(p);
-      on_edge[b.ring][b.edge].push_back(p);
-    }
-  });
-
+  std::vector<Rings<Number>> on_edge = contacts_on_edges(rings);
   Rings<Number> split(rings.size());
   for (std::size_t r = 0; r < rings.size(); ++r)
     for (std::size_t i = 0; i < rings[r].size(); ++i)
@@ -123,17 +205,24 @@ Rings<Number> enter_contacts(const Rings<Number>& rings) {
 }
 
 std::optional<SelfContact> self_contact(const Ring<Rational>& ring) {
-  std::optional<SelfContact> found;
+  if (is_simple(ring)) return std::nullopt;
   const std::size_t n = ring.size();
-  visit_neighbours(Rings<Rational>{ring}, [&](const auto& a, const auto& b) {
-    if (found) return;
-    const bool neighbours = (a.edge + 1) % n == b.edge || (b.edge + 1) % n == a.edge;
-    if (neighbours && is_plain_turn(a.segment, b.segment)) return;
-    const auto points = contacts(a.segment, b.segment);
-    if (!points.empty())
-      found = {std::min(a.edge, b.edge), std::max(a.edge, b.edge), points.front()};
-  });
-  return found;
+  const auto edges = edges_by_xmin(Rings<Rational>{ring});
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Box box = edges[i].box();
+    for (std::size_t k = i + 1; k < edges.size(); ++k) {
+      const Box other = edges[k].box();
+      if (box.x.is_below(other.x)) break;
+      if (!box.meets(other)) continue;
+      const auto &a = edges[i], &b = edges[k];
+      const bool neighbours = (a.edge + 1) % n == b.edge || (b.edge + 1) % n == a.edge;
+      if (neighbours && is_plain_turn(a.segment, b.segment)) continue;
+      const auto points = contacts_of(a, b);
+      if (!points.empty())
+        return SelfContact{std::min(a.edge, b.edge), std::max(a.edge, b.edge), points.front()};
+    }
+  }
+  return std::nullopt;
 }
 
 std::string to_text(const Point2<Rational>& point) {

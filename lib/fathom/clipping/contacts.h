@@ -16,8 +16,13 @@ namespace fathom::clipping {
 template <class Number>
 std::vector<Point2<Number>> contacts(const Segment2<Number>& a, const Segment2<Number>& b);
 
+/// More points of contact are refused: each is a corner of the result, and n edges can meet in n²/4.
+inline constexpr std::size_t most_contacts = std::size_t{1} << 18;
+
 /// The rings, with every contact between different rings entered in both as a corner. Each ring by
 /// itself must be simple.
+/// Cost     n log n, and the pairs of edges whose boxes meet
+/// Fails    InputError where there are more than `most_contacts`
 /// Exact    over Rational. Over double a crossing is rounded, to the same point in both rings.
 template <class Number>
 Rings<Number> enter_contacts(const Rings<Number>& rings);
@@ -27,6 +32,7 @@ struct SelfContact {
   std::size_t first_edge, second_edge;
   Point2<Rational> point;
 };
+/// nullopt where there are none, by a sweep; else the first pair from the left.
 std::optional<SelfContact> self_contact(const Ring<Rational>& ring);
 
 /// "(1/3, 2)", with long fractions to 17 digits: for messages.

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "fathom/clipping/boxes.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
@@ -16,7 +17,10 @@ using Piece = std::vector<std::size_t>;
 
 class Decomposition {
  public:
-  explicit Decomposition(const Ring<Rational>& ring) : ring_(ring) {}
+  explicit Decomposition(const Ring<Rational>& ring) : ring_(ring) {
+    boxes_.reserve(ring.size());
+    for (const Point2<Rational>& p : ring) boxes_.push_back(box_of(p));
+  }
 
   std::vector<Piece> run() {
     cut_ears();
@@ -25,24 +29,39 @@ class Decomposition {
   }
 
  private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
   int turn(std::size_t a, std::size_t b, std::size_t c) const {
-    return sign_of(cross(ring_[a], ring_[b], ring_[c]));
+    const auto settled = settled_sign_of_cross(boxes_[a], boxes_[b], boxes_[c]);
+    return settled ? *settled : sign_of(cross(ring_[a], ring_[b], ring_[c]));
   }
 
-  /// Whether corner i of what remains turns left and no other corner lies in the closed triangle.
-  bool is_ear(const Piece& rest, std::size_t i) const {
+  /// Whether corner i of what remains turns left and no other corner lies in the closed triangle;
+  /// remembers one that does.
+  bool is_ear(const Piece& rest, std::size_t i) {
     const std::size_t n = rest.size();
     const std::size_t a = rest[(i + n - 1) % n], b = rest[i], c = rest[(i + 1) % n];
-    if (turn(a, b, c) <= 0) return false;
-    return std::none_of(rest.begin(), rest.end(), [&](std::size_t p) {
+    const Blocked& known = blocked_[b];
+    if (known.before == a && known.behind == c && (known.by == none || !is_cut_[known.by]))
+      return false;
+    if (turn(a, b, c) <= 0) {
+      blocked_[b] = {a, c, none};
+      return false;
+    }
+    const auto obstacle = std::find_if(rest.begin(), rest.end(), [&](std::size_t p) {
       return p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
              turn(c, a, p) >= 0;
     });
+    if (obstacle == rest.end()) return true;
+    blocked_[b] = {a, c, *obstacle};
+    return false;
   }
 
   void cut_ears() {
     Piece rest(ring_.size());
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = i;
+    blocked_.assign(rest.size(), {none, none, none});
+    is_cut_.assign(rest.size(), false);
     while (rest.size() > 3) {
       std::size_t i = 0;
       while (i < rest.size() && !is_ear(rest, i)) ++i;
@@ -52,6 +71,7 @@ class Decomposition {
       const std::size_t a = rest[(i + n - 1) % n], c = rest[(i + 1) % n];
       pieces_.push_back({a, rest[i], c});
       diagonals_.emplace_back(a, c);
+      is_cut_[rest[i]] = true;
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
     }
     pieces_.push_back(rest);
@@ -84,7 +104,16 @@ class Decomposition {
     }
   }
 
+  /// Between which neighbours a corner was found to be no ear, and the corner in its triangle; none
+  /// where it does not turn left.
+  struct Blocked {
+    std::size_t before, behind, by;
+  };
+
   const Ring<Rational>& ring_;
+  std::vector<Box> boxes_;
+  std::vector<Blocked> blocked_;
+  std::vector<bool> is_cut_;
   std::vector<Piece> pieces_;
   std::vector<std::pair<std::size_t, std::size_t>> diagonals_;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <type_traits>
 
 #include "fathom/clipping/contacts.h"
 #include "fathom/clipping/exact_kernel.h"
@@ -59,19 +61,34 @@ void check_simple(const Ring<Rational>& ring, const std::string& side, std::size
 }  // namespace
 
 template <class Number>
+Number sum_of(std::vector<Number> terms) {
+  const StandardArithmetic standard;
+  if constexpr (std::is_same_v<Number, Rational>) {
+    for (; terms.size() > 1; terms.resize((terms.size() + 1) / 2))
+      for (std::size_t i = 0; 2 * i < terms.size(); ++i)
+        terms[i] =
+            2 * i + 1 < terms.size() ? Rational(terms[2 * i] + terms[2 * i + 1]) : terms[2 * i];
+    return terms.empty() ? Rational(0) : terms[0];
+  } else {
+    return std::accumulate(terms.begin(), terms.end(), Number(0));
+  }
+}
+
+template <class Number>
 Number signed_area(const Ring<Number>& ring) {
   const StandardArithmetic standard;
-  Number twice(0);
-  for (std::size_t i = 2; i < ring.size(); ++i) twice += cross(ring[0], ring[i - 1], ring[i]);
-  return twice / 2;
+  std::vector<Number> terms;
+  for (std::size_t i = 2; i < ring.size(); ++i)
+    terms.push_back(cross(ring[0], ring[i - 1], ring[i]));
+  return sum_of(std::move(terms)) / 2;
 }
 
 template <class Number>
 Number signed_area(const Rings<Number>& rings) {
   const StandardArithmetic standard;
-  Number area(0);
-  for (const Ring<Number>& ring : rings) area += signed_area(ring);
-  return area;
+  std::vector<Number> areas;
+  for (const Ring<Number>& ring : rings) areas.push_back(signed_area(ring));
+  return sum_of(std::move(areas));
 }
 
 template <class Number>
@@ -118,6 +135,7 @@ Ring<Number> canonical(const Ring<Number>& ring) {
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Number)                                                \
+  template Number sum_of(std::vector<Number>);                                    \
   template Number signed_area(const Ring<Number>&);                               \
   template Number signed_area(const Rings<Number>&);                              \
   template Rings<Number> checked_rings(const Rings<Number>&, const std::string&); \

@@ -1,11 +1,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "fathom/clipping/points.h"
 
 /// Rings: their area, and what the polygon clippers ask of them.
 namespace fathom::clipping {
+
+/// The sum, over double from the first to the last. Over Rational neighbours are added first: the
+/// denominators of n fractions become n times as long, and most of the sums stay short that way.
+template <class Number>
+Number sum_of(std::vector<Number> terms);
 
 /// Half the sum of cross products: positive for counter-clockwise simple rings.
 template <class Number>

@@ -1,10 +1,12 @@
 #include "fathom/clipping/weiler_atherton.h"
 
 #include <algorithm>
+#include <deque>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "fathom/clipping/boxes.h"
 #include "fathom/clipping/contacts.h"
 #include "fathom/clipping/even_odd.h"
 #include "fathom/clipping/exact_kernel.h"
@@ -65,30 +67,52 @@ std::vector<BorderEdge<Number>> border_of(const std::vector<LabelledEdge<Number>
   return border;
 }
 
+/// A ring that holes may lie in.
 template <class Number>
-bool lies_in(const Ring<Number>& hole, const Ring<Number>& outline) {
-  const Rings<Number> rings{outline};
-  return EvenOdd<Number>(rings).beside(hole[0], hole[1]).left;
-}
+class Outline {
+ public:
+  explicit Outline(const Ring<Number>& ring, Number area)
+      : rings_{ring}, area_(std::move(area)), box_(box_of(ring)) {}
+
+  [[nodiscard]] const Ring<Number>& ring() const { return rings_[0]; }
+  [[nodiscard]] const Number& area() const { return area_; }
+  bool contains(const Ring<Number>& hole, const Box& hole_box) {
+    if (!box_.may_contain(hole_box)) return false;
+    if (!inside_) inside_.emplace(rings_);
+    return inside_->beside(hole[0], hole[1]).left;
+  }
+
+ private:
+  Rings<Number> rings_;
+  Number area_;
+  Box box_;
+  std::optional<EvenOdd<Number>> inside_;
+};
 
 /// Step 4: each hole goes to the least outline that contains it. The rings still have the corners
 /// at which they touch others, so the middle of a hole's edge lies on no outline.
 template <class Number>
 std::vector<Polygon<Number>> nest(const Rings<Number>& rings) {
-  std::vector<Polygon<Number>> polygons;
-  for (const Ring<Number>& ring : rings)
-    if (signed_area(ring) > 0) polygons.push_back({ring, {}});
+  std::deque<Outline<Number>> outlines;  // each keeps its place
+  std::vector<const Ring<Number>*> holes;
   for (const Ring<Number>& ring : rings) {
-    if (!(signed_area(ring) < 0)) continue;
-    Polygon<Number>* around = nullptr;
-    for (Polygon<Number>& polygon : polygons)
-      if (lies_in(ring, polygon.outline) &&
-          (around == nullptr || signed_area(polygon.outline) < signed_area(around->outline)))
-        around = &polygon;
-    if (around == nullptr)
+    Number area = signed_area(ring);
+    if (area < 0) holes.push_back(&ring);
+    if (area > 0) outlines.emplace_back(ring, std::move(area));
+  }
+  std::vector<Polygon<Number>> polygons;
+  for (const Outline<Number>& outline : outlines) polygons.push_back({outline.ring(), {}});
+  for (const Ring<Number>* hole : holes) {
+    const Box box = box_of(*hole);
+    std::optional<std::size_t> around;
+    for (std::size_t i = 0; i < outlines.size(); ++i)
+      if (outlines[i].contains(*hole, box) &&
+          (!around || outlines[i].area() < outlines[*around].area()))
+        around = i;
+    if (!around)
       throw InputError(
           "rounding to binary64 has left a hole without an outline; the exact kernel does it");
-    around->holes.push_back(ring);
+    polygons[*around].holes.push_back(*hole);
   }
   return polygons;
 }
@@ -142,10 +166,10 @@ std::vector<Polygon<Number>> weiler_atherton(const Rings<Number>& subject_rings,
 template <class Number>
 Number area_of(const std::vector<Polygon<Number>>& polygons) {
   const StandardArithmetic standard;
-  Number area(0);
+  std::vector<Number> areas;
   for (const Polygon<Number>& polygon : polygons)
-    area += signed_area(polygon.outline) + signed_area(polygon.holes);
-  return area;
+    areas.push_back(signed_area(polygon.outline) + signed_area(polygon.holes));
+  return sum_of(std::move(areas));
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none

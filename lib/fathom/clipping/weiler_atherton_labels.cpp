@@ -37,12 +37,18 @@ ContactKind kind_of(Relation came_from, Relation after) {
   return after == Relation::inside ? ContactKind::entering : ContactKind::leaving;
 }
 
-/// The last relation before edge `i` of a closed list that is not along; along if there is none.
-Relation last_side(const std::vector<Relation>& relations, std::size_t i) {
-  const std::size_t n = relations.size();
-  for (std::size_t back = 1; back <= n; ++back)
-    if (relations[(i + n - back) % n] != Relation::along) return relations[(i + n - back) % n];
-  return Relation::along;
+/// For each edge of a closed list the last relation before it that is not along; along if there is
+/// none.
+std::vector<Relation> last_sides(const std::vector<Relation>& relations) {
+  std::vector<Relation> result(relations.size());
+  Relation last = Relation::along;
+  for (int round = 0; round < 2; ++round) {  // the second knows how the first ended
+    for (std::size_t i = 0; i < relations.size(); ++i) {
+      result[i] = last;
+      if (relations[i] != Relation::along) last = relations[i];
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -81,10 +87,11 @@ std::vector<Contact<Number>> label_contacts(const ContactLists<Number>& lists) {
     std::vector<Relation> relations;
     for (std::size_t i = 0; i < n; ++i)
       relations.push_back(relation_of(clip.beside(ring[i], ring[(i + 1) % n])));
+    const std::vector<Relation> came_from = last_sides(relations);
     for (std::size_t i = 0; i < n; ++i)
       if (clip_points.contains(ring[i]))
         contacts.push_back({r, ring[i], relations[(i + n - 1) % n], relations[i],
-                            kind_of(last_side(relations, i), relations[i])});
+                            kind_of(came_from[i], relations[i])});
   }
   return contacts;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/numeric/errors.h"
@@ -24,12 +25,74 @@ bool comes_before(const Point2<Number>& P, const Point2<Number>& reference, cons
   return turns_a != turns_b ? turns_a < turns_b : cross(P, a, b) < 0;
 }
 
+/// The edges that leave a point and have not been walked, by their numbers.
+template <class Number>
+class Leaving {
+ public:
+  [[nodiscard]] bool is_empty() const { return edges_.empty(); }
+  void add(const BorderEdge<Number>& edge, std::size_t number) {
+    edges_.push_back({&edge, number});
+  }
+  void remove(const BorderEdge<Number>&, std::size_t number) {
+    std::erase_if(edges_, [&](const Leaver& leaver) { return leaver.number == number; });
+  }
+  /// The first one clockwise from the point → reference.
+  [[nodiscard]] std::size_t first_from(const Point2<Number>& reference) const {
+    return std::min_element(edges_.begin(), edges_.end(),
+                            [&](const Leaver& a, const Leaver& b) {
+                              return comes_before(a.edge->from, reference, a.edge->to, b.edge->to);
+                            })
+        ->number;
+  }
+
+ private:
+  struct Leaver {
+    const BorderEdge<Number>* edge;
+    std::size_t number;
+  };
+  std::vector<Leaver> edges_;
+};
+
+/// Over Rational in order, clockwise from the direction +x: many rings can meet in one point. (By
+/// rounded numbers there need not be an order.)
+template <>
+class Leaving<Rational> {
+ public:
+  [[nodiscard]] bool is_empty() const { return edges_.empty(); }
+  void add(const BorderEdge<Rational>& edge, std::size_t number) {
+    edges_.insert({&edge.from, &edge.to, number});
+  }
+  void remove(const BorderEdge<Rational>& edge, std::size_t number) {
+    auto [first, last] = edges_.equal_range({&edge.from, &edge.to, number});
+    edges_.erase(std::find_if(first, last, [&](const Leaver& l) { return l.number == number; }));
+  }
+  [[nodiscard]] std::size_t first_from(const Point2<Rational>& reference) const {
+    const auto next = edges_.upper_bound({edges_.begin()->from, &reference, 0});
+    return (next == edges_.end() ? edges_.begin() : next)->number;
+  }
+
+ private:
+  struct Leaver {
+    const Point2<Rational>*from, *to;
+    std::size_t number;
+
+    [[nodiscard]] int half_turn() const {
+      return to->y < from->y || (to->y == from->y && to->x > from->x) ? 0 : 1;
+    }
+    friend bool operator<(const Leaver& a, const Leaver& b) {
+      const int half_a = a.half_turn(), half_b = b.half_turn();
+      return half_a != half_b ? half_a < half_b : cross(*a.from, *a.to, *b.to) < 0;
+    }
+  };
+  std::multiset<Leaver> edges_;
+};
+
 /// The edges that have not been walked, by the point where they begin.
 template <class Number>
 class OpenEdges {
  public:
   explicit OpenEdges(const std::vector<BorderEdge<Number>>& edges) : edges_(edges) {
-    for (std::size_t i = 0; i < edges.size(); ++i) leaving_[edges[i].from].push_back(i);
+    for (std::size_t i = 0; i < edges.size(); ++i) leaving_[edges[i].from].add(edges[i], i);
     walked_.resize(edges.size(), false);
   }
 
@@ -37,24 +100,22 @@ class OpenEdges {
 
   const BorderEdge<Number>& take(std::size_t i) {
     walked_[i] = true;
-    std::erase(leaving_[edges_[i].from], i);
+    leaving_[edges_[i].from].remove(edges_[i], i);
     return edges_[i];
   }
 
   /// The edge that continues from the end of `edge`.
   const BorderEdge<Number>& take_next(const BorderEdge<Number>& edge) {
-    const std::vector<std::size_t>& choices = leaving_[edge.to];
-    if (choices.empty())
+    const Leaving<Number>& choices = leaving_[edge.to];
+    if (choices.is_empty())
       throw InputError(
           "rounding to binary64 has broken the walk along the rings; the exact kernel does it");
-    return take(*std::min_element(choices.begin(), choices.end(), [&](auto a, auto b) {
-      return comes_before(edge.to, edge.from, edges_[a].to, edges_[b].to);
-    }));
+    return take(choices.first_from(edge.from));
   }
 
  private:
   const std::vector<BorderEdge<Number>>& edges_;
-  std::map<Point2<Number>, std::vector<std::size_t>> leaving_;
+  std::map<Point2<Number>, Leaving<Number>> leaving_;
   std::vector<bool> walked_;
 };
 

@@ -1,0 +1,58 @@
+#include "fathom/clipping/boxes.h"
+
+#include <CGAL/Interval_nt.h>
+#include <CGAL/box_intersection_d.h>
+
+#include "fathom/numeric/certified.h"
+
+namespace fathom::clipping {
+namespace {
+
+/// For use while a Protector lives: the processor then rounds upwards.
+using FilterInterval = CGAL::Interval_nt<false>;
+
+}  // namespace
+
+Bounds bounds_of(const Rational& x) {
+  const auto [least, greatest] = CGAL::to_interval(x);
+  return {least, greatest};
+}
+
+std::optional<int> settled_sign_of_cross(const Box& a, const Box& b, const Box& c) {
+  if (a.is_exact() && b.is_exact() && c.is_exact())
+    return static_cast<int>(
+        orientation({a.x.least, a.y.least}, {b.x.least, b.y.least}, {c.x.least, c.y.least}));
+  // Below that no product overflows, so that ∞ − ∞ and 0·∞ do not arise.
+  constexpr double greatest = 0x1p500;
+  for (const Box* box : {&a, &b, &c})
+    for (const Bounds& bounds : {box->x, box->y})
+      if (!(bounds.least > -greatest && bounds.greatest < greatest)) return std::nullopt;
+  const FilterInterval::Protector upwards;
+  const auto interval = [](const Bounds& bounds) {
+    return FilterInterval(bounds.least, bounds.greatest);
+  };
+  const FilterInterval ax = interval(a.x), ay = interval(a.y);
+  const FilterInterval left = (interval(b.x) - ax) * (interval(c.y) - ay);
+  const FilterInterval right = (interval(b.y) - ay) * (interval(c.x) - ax);
+  if (left.inf() > right.sup()) return 1;
+  if (left.sup() < right.inf()) return -1;
+  return std::nullopt;
+}
+
+void visit_meeting_boxes(const std::vector<Box>& boxes,
+                         const std::function<void(std::size_t, std::size_t)>& visit) {
+  using Handle = std::vector<Box>::const_iterator;
+  using Numbered = CGAL::Box_intersection_d::Box_with_handle_d<double, 2, Handle>;
+  std::vector<Numbered> numbered;
+  numbered.reserve(boxes.size());
+  for (auto box = boxes.begin(); box != boxes.end(); ++box)
+    numbered.emplace_back(
+        CGAL::Bbox_2(box->x.least, box->y.least, box->x.greatest, box->y.greatest), box);
+  CGAL::box_self_intersection_d(numbered.begin(), numbered.end(),
+                                [&](const Numbered& a, const Numbered& b) {
+                                  visit(static_cast<std::size_t>(a.handle() - boxes.begin()),
+                                        static_cast<std::size_t>(b.handle() - boxes.begin()));
+                                });
+}
+
+}  // namespace fathom::clipping
