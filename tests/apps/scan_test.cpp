@@ -119,7 +119,7 @@ TEST(Scan, CasesThatCannotBeDoneDoNotStopTheOthers) {
       {"bresenham", R"({"line": [0,0,1]})", "3 numbers where 4 are expected"},
       {"dda", R"({"line": [0,0,4294967296,3]})", "beyond 2^31"},
       {"dda", R"({"line": [0,NaN,1,3]})", "not finite"},
-      {"dda", R"({"line": [0,0,2147483648,3]})", "more than 16777216 pixels"},
+      {"dda", R"({"line": [0,0,2147483648,3]})", "2147483649 steps of the line, more than 4194304"},
       {"midpoint", R"({"line": [0,0,1,1], "width": 0, "height": 5})", "expected a whole number"},
       {"midpoint", R"({"line": [0,0,1,1], "width": 5})", "\"height\" is missing"},
       {"midpoint", R"({"lime": [0,0,1,1]})", "is no key"},

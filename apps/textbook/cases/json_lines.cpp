@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "apps/shell/exit_status.h"
 #include "apps/shell/json_answer.h"
@@ -30,8 +31,12 @@ Answer answer_to(std::string_view line, const AnswerCase& answer_case) {
     answer.error = error.what();
     body = {{"error", *answer.error}};
   }
-  if (!name.is_null()) answer.json["name"] = name;
-  answer.json.update(body);
+  if (name.is_null()) {
+    answer.json = std::move(body);
+    return answer;
+  }
+  answer.json["name"] = std::move(name);
+  for (auto& [key, value] : body.items()) answer.json[key] = std::move(value);
   return answer;
 }
 

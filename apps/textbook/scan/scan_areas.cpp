@@ -1,7 +1,9 @@
 // fathom scan: polygons and triangles by scan lines.
 
+#include <algorithm>
 #include <utility>
 
+#include "apps/textbook/scan/scan_effort.h"
 #include "apps/textbook/scan/scan_reading.h"
 #include "apps/textbook/scan/scan_writing.h"
 #include "fathom/pipeline/scan/polygon_fill.h"
@@ -55,24 +57,50 @@ FillPolygon<Number> with_attributes(const clipping::Rings<double>& rings,
   return polygon;
 }
 
+/// How often edges cross rows of the window.
+double crossings_of(const clipping::Rings<double>& rings, const pipeline::PixelWindow& window) {
+  double crossings = 0;
+  for (const auto& ring : rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const auto [top, bottom] = std::minmax(ring[i].y, ring[(i + 1) % ring.size()].y);
+      crossings += std::max(0.0, std::min(bottom + 1, static_cast<double>(window.y_end)) -
+                                     std::max(top, static_cast<double>(window.y_begin)));
+    }
+  }
+  return crossings;
+}
+
+/// How much a crossing or a span of a trace takes, in pixels.
+std::int64_t entries_of(std::size_t attributes) {
+  return 8 + 2 * static_cast<std::int64_t>(attributes);
+}
+
 template <class Number>
 Json fill(const Json& object, const clipping::Rings<double>& rings, FillRule rule,
           const Form& form) {
   std::size_t corners = 0;
   for (const auto& ring : rings) corners += ring.size();
   const CarriedAlong carried = carried_along(object, corners);
+  const pipeline::PixelWindow window = window_of(object);
+  const std::size_t attributes = carried.any() ? carried.attributes[0].size() : 0;
+  check_effort<Number>(crossings_of(rings, window) * static_cast<double>(1 + attributes),
+                       "crossings of edges and rows", window_limits_it);
   PixelList pixels(form.runs);
   Json trace = Json::array();
   pipeline::fill_polygon<Number>(
-      with_attributes<Number>(rings, carried), rule, window_of(object),
-      [&](const ScanLine<Number>& line) {
+      with_attributes<Number>(rings, carried), rule, window, [&](const ScanLine<Number>& line) {
         for (const auto& span : line.spans) {
           pixels.add(span.pixels);
-          if (!carried.any()) continue;
+          if (!carried.any() || span.pixels.x_begin >= span.pixels.x_end) continue;
+          pixels.make_room((span.pixels.x_end - span.pixels.x_begin) *
+                           static_cast<std::int64_t>(1 + attributes));
           for (auto& value : pipeline::values_along(span))
             pixels.add_values(numbers_to_json(recovered(carried, std::move(value)), form));
         }
-        if (form.numbers.trace) trace.push_back(trace_of(line, form));
+        if (!form.numbers.trace) return;
+        pixels.make_room(static_cast<std::int64_t>(line.crossings.size() + line.spans.size()) *
+                         entries_of(attributes));
+        trace.push_back(trace_of(line, form));
       });
   Json result = pixels.json(carried.any());
   if (form.numbers.trace) result["trace"] = std::move(trace);

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "apps/textbook/scan/scan_effort.h"
 #include "apps/textbook/scan/scan_reading.h"
 #include "apps/textbook/scan/scan_writing.h"
 #include "fathom/pipeline/scan/diamond_exit.h"
@@ -32,17 +34,23 @@ pipeline::LineEnds pixel_ends_of(const Json& object) {
   return {whole(0), whole(1), whole(2), whole(3)};
 }
 
-/// Draws a line; `describe` makes the trace of a step from its state.
-template <class State, class Draw, class Describe>
+/// How much a step of a trace takes, in pixels.
+constexpr std::int64_t entries_of_a_step = 8;
+
+/// Draws a line by an algorithm that computes with Number; `describe` makes the trace of a step from its state.
+template <class Number, class State, class Draw, class Describe>
 Json draw(const Json& object, const Form& form, const Draw& draw_line, const Describe& describe) {
   const pipeline::LineEnds ends = pixel_ends_of(object);
   const PixelWindow window = window_of(object);
-  if (window.is_unlimited()) PixelList::check_count(pipeline::LineAxes(ends).d_major + 1);
+  const auto [first, last] = pipeline::LineAxes(ends).steps_in(window);
+  check_effort<Number>(static_cast<double>(last) - static_cast<double>(first) + 1,
+                       "steps of the line", window_limits_it);
   PixelList pixels(form.runs);
   Json steps = Json::array();
   draw_line(ends, window, [&](const Pixel& pixel, const State& state) {
     pixels.add(pixel);
     if (form.numbers.trace) {
+      pixels.make_room(entries_of_a_step);
       Json step{{"pixel", {pixel.x, pixel.y}}};
       step.update(describe(state));
       steps.push_back(std::move(step));
@@ -54,45 +62,62 @@ Json draw(const Json& object, const Form& form, const Draw& draw_line, const Des
   return result;
 }
 
+/// How many columns, or rows, of the window the line can pass through.
+double columns_of(const std::vector<double>& ends, const PixelWindow& window) {
+  const bool steep = std::abs(ends[3] - ends[1]) > std::abs(ends[2] - ends[0]);
+  const auto [from, to] = steep ? std::minmax(ends[1], ends[3]) : std::minmax(ends[0], ends[2]);
+  const auto begin = static_cast<double>(steep ? window.y_begin : window.x_begin);
+  const auto end = static_cast<double>(steep ? window.y_end : window.x_end);
+  return std::max(0.0, std::min(to + 2, end) - std::max(from - 1, begin));
+}
+
+/// Of each column a few diamonds are tested.
+constexpr double tests_of_a_column = 8;
+
 }  // namespace
 
 template <class Number>
 Json explicit_line(const Json& object, const Form& form) {
-  return draw<Number>(object, form, pipeline::explicit_line<Number>, [&](const Number& minor) {
-    return Json{{"minor", number_to_json(minor, form)}};
-  });
+  return draw<Number, Number>(object, form, pipeline::explicit_line<Number>,
+                              [&](const Number& minor) {
+                                return Json{{"minor", number_to_json(minor, form)}};
+                              });
 }
 
 template <class Number>
 Json dda(const Json& object, const Form& form) {
-  return draw<Number>(object, form, pipeline::dda_line<Number>, [&](const Number& minor) {
+  return draw<Number, Number>(object, form, pipeline::dda_line<Number>, [&](const Number& minor) {
     return Json{{"minor", number_to_json(minor, form)}};
   });
 }
 
 template <class Number>
 Json bresenham(const Json& object, const Form& form) {
-  return draw<std::int64_t>(object, form, pipeline::bresenham_line, [](std::int64_t error) {
-    return Json{{"error", error}};
-  });
+  return draw<std::int64_t, std::int64_t>(object, form, pipeline::bresenham_line,
+                                          [](std::int64_t error) {
+                                            return Json{{"error", error}};
+                                          });
 }
 
 template <class Number>
 Json midpoint(const Json& object, const Form& form) {
   const pipeline::LineAxes axes(pixel_ends_of(object));
-  return draw<std::int64_t>(object, form, pipeline::midpoint_line, [&](std::int64_t d) {
-    const bool north_east = d > 0 || (d == 0 && axes.minor_sign > 0);
-    return Json{{"d", d}, {"choice", north_east ? "NE" : "E"}};
-  });
+  return draw<std::int64_t, std::int64_t>(
+      object, form, pipeline::midpoint_line, [&](std::int64_t d) {
+        const bool north_east = d > 0 || (d == 0 && axes.minor_sign > 0);
+        return Json{{"d", d}, {"choice", north_east ? "NE" : "E"}};
+      });
 }
 
 template <class Number>
 Json diamond_exit(const Json& object, const Form& form) {
   const std::vector<double> ends = ends_of(object);
   const auto number = [&](std::size_t i) { return pipeline::number_from<Number>(ends[i]); };
+  const PixelWindow window = window_of(object);
+  check_effort<Number>(tests_of_a_column * columns_of(ends, window), "tests of diamonds",
+                       window_limits_it);
   PixelList pixels(form.runs);
-  pipeline::diamond_exit_line<Number>({number(0), number(1), number(2), number(3)},
-                                      window_of(object),
+  pipeline::diamond_exit_line<Number>({number(0), number(1), number(2), number(3)}, window,
                                       [&](const Pixel& pixel) { pixels.add(pixel); });
   return pixels.json(false);
 }

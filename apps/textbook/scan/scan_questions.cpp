@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
+#include "apps/textbook/scan/scan_effort.h"
 #include "apps/textbook/scan/scan_reading.h"
 #include "apps/textbook/scan/scan_writing.h"
+#include "fathom/numeric/certified.h"
 #include "fathom/pipeline/scan/flood_fill.h"
 #include "fathom/pipeline/scan/polygon_tests.h"
 #include "fathom/pipeline/scan/tessellate.h"
@@ -32,6 +35,37 @@ std::vector<pipeline::Point<Number>> points_of(const Json& object) {
     points.push_back({pipeline::number_from<Number>(checked_coordinate(p[0], "points")),
                       pipeline::number_from<Number>(checked_coordinate(p[1], "points"))});
   return points;
+}
+
+std::size_t edges_of(const clipping::Rings<double>& rings) {
+  std::size_t edges = 0;
+  for (const auto& ring : rings) edges += ring.size();
+  return edges;
+}
+
+/// Refuses what takes a step for each of `rows` with each of `columns`.
+template <class Number>
+void check_pairs(std::size_t rows, std::size_t columns, const char* what) {
+  check_effort<Number>(static_cast<double>(rows) * static_cast<double>(columns), what,
+                       "fewer corners take fewer");
+}
+
+/// In how many points edges cross.
+std::size_t crossings_of(const clipping::Rings<double>& rings) {
+  std::vector<std::array<std::array<double, 2>, 2>> edges;
+  for (const auto& ring : rings)
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const auto &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      edges.push_back({{{a.x, a.y}, {b.x, b.y}}});
+    }
+  const auto divides = [](const auto& a, const auto& b) {
+    return orientation(a[0], a[1], b[0]) * orientation(a[0], a[1], b[1]) != Sign::positive;
+  };
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t k = i + 1; k < edges.size(); ++k)
+      if (divides(edges[i], edges[k]) && divides(edges[k], edges[i])) ++count;
+  return count;
 }
 
 template <class Number>
@@ -80,10 +114,14 @@ template <class Number>
 Json inside(const Json& object, const Form& form) {
   cases::expect_only(object, {"polygon", "points", "width", "height"});
   (void)form;
-  const pipeline::Rings<Number> rings = over<Number>(polygon_of(object));
+  const clipping::Rings<double> polygon = polygon_of(object);
+  const auto points = points_of<Number>(object);
+  check_pairs<Number>(points.size() + edges_of(polygon), edges_of(polygon),
+                      "pairs of points and edges");
+  const pipeline::Rings<Number> rings = over<Number>(polygon);
   Json even_odd = Json::array(), non_zero = Json::array(), crossings = Json::array(),
        windings = Json::array(), on_outline = Json::array(), one_side = Json::array();
-  for (const auto& p : points_of<Number>(object)) {
+  for (const auto& p : points) {
     const pipeline::RayCrossings ray = pipeline::ray_crossings(rings, p);
     even_odd.push_back(ray.count % 2 != 0);
     non_zero.push_back(ray.winding != 0);
@@ -108,7 +146,9 @@ template <class Number>
 Json convexity(const Json& object, const Form& form) {
   cases::expect_only(object, {"polygon", "width", "height"});
   (void)form;
-  const pipeline::Rings<Number> rings = over<Number>(polygon_of(object));
+  const clipping::Rings<double> polygon = polygon_of(object);
+  check_pairs<Number>(edges_of(polygon), edges_of(polygon), "pairs of corners and edges");
+  const pipeline::Rings<Number> rings = over<Number>(polygon);
   if (rings.size() != 1)
     throw InputError(fmt::format("polygon: {} rings; convexity is asked of one", rings.size()));
   const pipeline::Convexity c = pipeline::convexity_of(rings[0]);
@@ -130,8 +170,13 @@ Json convex_hull(const Json& object, const Form& form) {
 
 Json tessellate(const Json& object, const Form& form) {
   cases::expect_only(object, {"polygon", "width", "height"});
+  const clipping::Rings<double> polygon = polygon_of(object);
+  const std::size_t edges = edges_of(polygon);
+  check_pairs<pipeline::Exact>(2 * edges, edges, "pairs of triangles and edges");
+  check_pairs<pipeline::Exact>(2 * (edges + crossings_of(polygon)), edges,
+                               "pairs of triangles and edges");
   Json triangles = Json::array();
-  for (const auto& t : pipeline::tessellate(over<pipeline::Exact>(polygon_of(object))))
+  for (const auto& t : pipeline::tessellate(over<pipeline::Exact>(polygon)))
     triangles.push_back(ring_to_json<pipeline::Exact>({t[0], t[1], t[2]}, form));
   return {{"triangles", triangles}};
 }

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 
+#include "apps/textbook/scan/scan_effort.h"
 #include "apps/textbook/scan/scan_reading.h"
 #include "apps/textbook/scan/scan_writing.h"
 #include "fathom/pipeline/scan/edge_function.h"
 
 namespace fathom::app::scan {
 namespace {
-
-/// Centres that are tested before a case is refused.
-constexpr double most_tests = 1 << 26;
 
 template <class Number>
 Json trace_of(const std::optional<pipeline::EdgeTriangle<Number>>& triangle,
@@ -44,21 +42,20 @@ Json trace_of(const std::optional<pipeline::EdgeTriangle<Number>>& triangle,
   return trace;
 }
 
-void check_effort(const clipping::Ring<double>& t, const pipeline::PixelWindow& window) {
+/// How many centres are tested.
+double pixels_in_box(const clipping::Ring<double>& t, const pipeline::PixelWindow& window) {
   const auto [left, right] = std::minmax({t[0].x, t[1].x, t[2].x});
   const auto [top, bottom] = std::minmax({t[0].y, t[1].y, t[2].y});
   const auto overlap = [](double begin, double end, std::int64_t from, std::int64_t to) {
     return std::max(
         0.0, std::min(end, static_cast<double>(to)) - std::max(begin, static_cast<double>(from)));
   };
-  const double tests = overlap(left, right, window.x_begin, window.x_end) *
-                       overlap(top, bottom, window.y_begin, window.y_end);
-  if (tests > most_tests)
-    throw InputError(
-        fmt::format("the triangle's box holds {:.0f} pixels, more than 67108864; \"width\" and "
-                    "\"height\" limit it, scan-line needs no box",
-                    tests));
+  return overlap(left, right, window.x_begin, window.x_end) *
+         overlap(top, bottom, window.y_begin, window.y_end);
 }
+
+/// How much a sample of a trace takes, in pixels.
+constexpr std::int64_t entries_of_a_sample = 16;
 
 }  // namespace
 
@@ -68,7 +65,8 @@ Json edge_function(const Json& object, const Form& form) {
   const clipping::Ring<double> ring = triangle_of(object, form);
   const CarriedAlong carried = carried_along(object, 3);
   const pipeline::PixelWindow window = window_of(object);
-  check_effort(ring, window);
+  check_effort<Number>(pixels_in_box(ring, window), "pixels in the triangle's box",
+                       "\"width\" and \"height\" limit it, scan-line needs no box");
   std::array<pipeline::Point<Number>, 3> corners;
   std::array<std::vector<Number>, 3> attributes;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -81,6 +79,7 @@ Json edge_function(const Json& object, const Form& form) {
   const auto visit = [&](const pipeline::CoveredPixel<Number>& covered) {
     pixels.add(covered.pixel);
     if (carried.any()) {
+      pixels.make_room(static_cast<std::int64_t>(attributes[0].size()));
       std::vector<Number> value;
       for (std::size_t i = 0; i < attributes[0].size(); ++i)
         value.push_back(Number(covered.barycentric[0] * attributes[0][i] +
@@ -89,6 +88,7 @@ Json edge_function(const Json& object, const Form& form) {
       pixels.add_values(numbers_to_json(recovered(carried, std::move(value)), form));
     }
     if (form.numbers.trace) {
+      pixels.make_room(entries_of_a_sample);
       Json edges = Json::array(), weights = Json::array();
       for (std::size_t k = 0; k < 3; ++k) {
         edges.push_back(number_to_json(covered.edges[k], form));

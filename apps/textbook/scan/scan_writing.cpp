@@ -1,25 +1,24 @@
 #include "apps/textbook/scan/scan_writing.h"
 
+#include <fmt/format.h>
+
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app::scan {
 namespace {
 
-constexpr std::int64_t most_pixels = std::int64_t{1} << 24;
+constexpr std::int64_t most_entries = std::int64_t{1} << 22;
 
 }  // namespace
 
-void PixelList::check_count(std::int64_t pixels) {
-  if (pixels > most_pixels)
-    throw InputError("more than 16777216 pixels; \"width\" and \"height\" limit them");
-}
-
-void PixelList::count(std::int64_t pixels) {
-  check_count(total_ += pixels);
+void PixelList::make_room(std::int64_t entries) {
+  if ((total_ += entries) > most_entries)
+    throw InputError(
+        fmt::format("more than {} {} and numbers with them; \"width\" and \"height\" limit them{}",
+                    most_entries, runs_ ? "runs" : "pixels", runs_ ? "" : ", --runs counts runs"));
 }
 
 void PixelList::add(const pipeline::Pixel& p) {
-  count(1);
   // Neighbours along a row join to a run, in either direction.
   if (runs_ && !spans_.empty() && spans_.back().y == p.y) {
     if (spans_.back().x_end == p.x) {
@@ -31,12 +30,13 @@ void PixelList::add(const pipeline::Pixel& p) {
       return;
     }
   }
+  make_room(1);
   spans_.push_back({p.y, p.x, p.x + 1});
 }
 
 void PixelList::add(const pipeline::Span& span) {
   if (span.x_begin >= span.x_end) return;
-  count(runs_ ? 1 : span.x_end - span.x_begin);
+  make_room(runs_ ? 1 : span.x_end - span.x_begin);
   spans_.push_back(span);
 }
 

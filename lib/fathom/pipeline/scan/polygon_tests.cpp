@@ -54,9 +54,10 @@ bool all_corners_on_one_side(const Ring<Number>& ring) {
       const int side = sign_of(left_of(ring[i], ring[(i + 1) % ring.size()], p));
       some_left = some_left || side > 0;
       some_right = some_right || side < 0;
+      if (some_left && some_right) return false;
     }
   }
-  return !(some_left && some_right);
+  return true;
 }
 
 /// Whether p lies on the closed edge.
