@@ -15,7 +15,7 @@ namespace {
 std::optional<Camera> camera_of(const DepthMap& map, const std::string& file) {
   const auto text = map.texts.find("fathom.camera");
   if (text == map.texts.end()) return std::nullopt;
-  const std::vector<Camera> cameras = parse_cameras(text->second, file + ": fathom.camera");
+  const std::vector<Camera> cameras = read_cameras(text->second, file + ": fathom.camera");
   if (cameras.size() != 1) throw InputError(file + ": fathom.camera does not hold one camera");
   return cameras[0];
 }

@@ -55,7 +55,8 @@ class OutputFile {
   void find_place(bool exists, mode_t mode);
   void stage();
   void take_permissions() const;
-  void sync() const;
+  void sync(int (*sync_one)(int)) const;
+  static void sync_all(const std::vector<OutputFile*>& placed);
   void write_through();
   void take_place();
 

@@ -80,7 +80,7 @@ std::function<void()> without_links() {
 }
 
 std::function<void()> without_sync() {
-  return refusing({{.call = SYS_fsync, .error = EIO}});
+  return refusing({{.call = SYS_fsync, .error = EIO}, {.call = SYS_syncfs, .error = EIO}});
 }
 
 std::function<void()> without_streams(std::vector<int> streams) {

@@ -179,5 +179,18 @@ TEST_F(Names, WithinFilesReachNoTerminal) {
   EXPECT_EQ(info.at("objects")[0].at("name"), "x\u001b[2J\u009b\u202e\ny");
 }
 
+/// A text of a map that looks like JSON: answering in JSON does not run out of stack.
+TEST_F(Names, OfMapsMayHaveTextsThatAreNestedDeeply) {
+  ASSERT_EQ(fathom({"render", "square.obj", "--camera", "camera.json", "-o", "map.exr"}).status, 0);
+  const std::string deep = std::string(60000, '[') + std::string(60000, ']');
+  ASSERT_EQ(run({"oiiotool", "map.exr", "--attrib", "fathom.camera", deep, "-o", "deep.exr"},
+                {.folder = folder_.path()})
+                .status,
+            0);
+  const Outcome outcome = fathom({"info", "deep.exr", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out).at("attributes").at("fathom.camera"), deep);
+}
+
 }  // namespace
 }  // namespace fathom::test

@@ -194,8 +194,8 @@ INSTANTIATE_TEST_SUITE_P(Systems, Staged,
 
 class ManyOutputs : public ::testing::Test {
  protected:
-  /// Maps of a camera path, with a limit on how many files may be open.
-  Outcome render_path(int views, rlim_t soft, rlim_t hard) const {
+  /// Maps of a camera path.
+  Outcome render_path(int views, const std::function<void()>& prepare) const {
     const Outcome made =
         run_fathom({"camera", "orbit", "--views", std::to_string(views), "--centre", "0,0,2",
                     "--distance", "4", "--size", "8x6", "-o", "path.json"},
@@ -203,22 +203,26 @@ class ManyOutputs : public ::testing::Test {
     EXPECT_EQ(made.status, 0) << made.err;
     folder_.write("square.obj", square_obj);
     return run_fathom({"render", "square.obj", "--camera", "path.json", "-o", "{index:04}.pfm"},
-                      {.folder = folder_.path(), .prepare = [soft, hard] {
-                         const rlimit limit{soft, hard};
-                         ::setrlimit(RLIMIT_NOFILE, &limit);
-                       }});
+                      {.folder = folder_.path(), .prepare = prepare});
+  }
+  /// With a limit on how many files may be open.
+  static std::function<void()> files(rlim_t soft, rlim_t hard) {
+    return [soft, hard] {
+      const rlimit limit{soft, hard};
+      ::setrlimit(RLIMIT_NOFILE, &limit);
+    };
   }
   TestFolder folder_;
 };
 
 TEST_F(ManyOutputs, TakeAsManyOpenFilesAsTheSystemAllows) {
-  const Outcome outcome = render_path(300, 128, 1024);
+  const Outcome outcome = render_path(300, files(128, 1024));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(folder_.names().size(), 302U);
 }
 
 TEST_F(ManyOutputs, BeyondThatAreToldBeforeTheWork) {
-  const Outcome outcome = render_path(300, 128, 128);
+  const Outcome outcome = render_path(300, files(128, 128));
   EXPECT_EQ(outcome.status, 4);
   EXPECT_EQ(lines_of(outcome.err), 1) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("ulimit -n"));
@@ -237,6 +241,13 @@ TEST(StagedFiles, ReachTheDiskBeforeTheirNamesDo) {
   EXPECT_EQ(outcome.err, "fathom: error: map.exr: Input/output error\n");
   EXPECT_EQ(folder.read("map.exr"), "older");
   EXPECT_EQ(folder.names(), before);
+}
+
+TEST_F(ManyOutputs, ReachTheDiskBeforeTheirNamesDo) {
+  const Outcome outcome = render_path(20, without_sync());
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_EQ(outcome.err, "fathom: error: 0000.pfm: Input/output error\n");
+  EXPECT_EQ(folder_.names().size(), 2U);
 }
 
 /// All of several outputs, or none.

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "fathom/camera/camera_files.h"
-#include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
@@ -22,7 +21,7 @@ std::vector<ImportedCamera> parse(char format, const std::string& text) {
   switch (format) {
     case 'j': {
       std::vector<ImportedCamera> cameras;
-      for (const Camera& camera : parse_cameras(text, "input")) cameras.push_back({"", camera});
+      for (const Camera& camera : read_cameras(text, "input")) cameras.push_back({"", camera});
       return cameras;
     }
     case 'n':
@@ -54,7 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const ImportedCamera& imported : cameras) {
       if (find_fault(imported.camera)) std::abort();
       const std::string text = to_json(imported.camera);
-      if (to_json(parse_cameras(text, "again")) != text) std::abort();
+      if (to_json(read_cameras(text, "again")) != text) std::abort();
     }
   } catch (const InputError& e) {
     if (std::string(e.what()).find('\n') != std::string::npos) std::abort();

@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/maps/info.h"
+#include "fathom/camera/camera_files.h"
 #include "fathom/image/map_files.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
+#include "fathom/text/input_file.h"
 #include "tests/fuzz/file_in_memory.h"
 #include "tests/fuzz/one_line.h"
 
@@ -27,12 +29,14 @@ const std::filesystem::path& empty_folder() {
 }
 
 std::string describe(const std::string& file, AnswerForm form) {
-  const FileKind kind = kind_of(file);
-  if (kind == FileKind::camera) return info_of_cameras(file, form);
-  if (kind == FileKind::map) return info_of_map(read_map(file), file, form);
+  const text::InputFile input(file);
+  const FileKind kind = kind_of(input.text());
+  if (kind == FileKind::camera)
+    return info_of_cameras(read_cameras(input.text(), file), file, form);
+  if (kind == FileKind::map) return info_of_map(read_map(input.bytes(), file), file, form);
   Warnings warnings;
-  const Scene scene =
-      read_scene({file}, {.threads = 1, .hash = false, .confine = empty_folder()}, warnings);
+  const Scene scene = read_scene(
+      input.bytes(), file, {.threads = 1, .hash = false, .confine = empty_folder()}, warnings);
   for (const std::string& warning : warnings) fuzz::expect_one_line(warning);
   return info_of_scene(scene, kind, file, form);
 }

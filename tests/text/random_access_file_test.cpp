@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -41,6 +42,16 @@ TEST(RandomAccessFile, NamesTheByteAtWhichAFileEndsMeanwhile) {
   EXPECT_EQ(read(file, 2, 4), "2345");
   EXPECT_THAT(message_of<InputError>([&] { read(file, 4, 5); }),
               AllOf(HasSubstr("ten: byte 6: the file ends"), HasSubstr("10 bytes")));
+}
+
+TEST(RandomAccessFile, TellsThatOthersWriteToIt) {
+  const ScratchFolder folder;
+  const RandomAccessFile file(folder.write("ten", "0123456789"));
+  EXPECT_NO_THROW(file.expect_unchanged());
+  std::filesystem::last_write_time(
+      folder.path() / "ten", std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
+  EXPECT_THAT(message_of<InputError>([&] { file.expect_unchanged(); }),
+              HasSubstr("ten: has been written to since it was opened"));
 }
 
 TEST(RandomAccessFile, RefusesWhatCannotBeReadInParts) {

@@ -92,7 +92,7 @@ std::string to_json(const Machine& machine, const std::vector<Comparison>& compa
                                         {"system", machine.system},
                                         {"compiler", machine.compiler}}},
                                       {"results", results}};
-  return report.dump(2);
+  return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace fathom::bench

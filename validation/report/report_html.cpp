@@ -102,7 +102,8 @@ std::string to_html(const std::vector<ValidationCase>& cases) {
   std::string html;
   for (const std::string_view part : {page::head, page::style, page::body}) html += part;
   html += "<script id=\"report\" type=\"application/json\">" + in_script(to_json(cases)) +
-          "</script>\n<script id=\"maps\" type=\"application/json\">" + in_script(data.dump()) +
+          "</script>\n<script id=\"maps\" type=\"application/json\">" +
+          in_script(data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) +
           "</script>\n<script>\n";
   for (const std::string_view part :
        {page::names, page::maps, page::colours, page::result, page::plots, page::start}) {

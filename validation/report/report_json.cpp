@@ -85,7 +85,7 @@ Json result(const ValidationCase& c) {
 std::string to_json(const std::vector<ValidationCase>& cases) {
   Json json{{"fathom", FATHOM_VERSION}, {"results", Json::array()}};
   for (const ValidationCase& c : cases) json["results"].push_back(result(c));
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace fathom::validation

@@ -47,7 +47,7 @@ std::string json_of(const Summary& summary) {
   for (const auto& [key, content] : summary) {
     place_in(json, key) = std::visit([](const auto& c) { return json_of(c); }, content);
   }
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace fathom::studies

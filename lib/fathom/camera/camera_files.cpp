@@ -72,7 +72,7 @@ std::string to_json(double number) {
 
 }  // namespace
 
-std::vector<Camera> parse_cameras(std::string_view text, const std::string& name) {
+std::vector<Camera> read_cameras(std::string_view text, const std::string& name) {
   const StandardArithmetic standard;
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
@@ -84,12 +84,7 @@ std::vector<Camera> parse_cameras(std::string_view text, const std::string& name
 }
 
 std::vector<Camera> read_cameras(const std::filesystem::path& file) {
-  return parse_cameras(InputFile(file).text(), file.string());
-}
-
-std::vector<Camera> read_cameras(std::string_view text, const std::string& name) {
-  const StandardArithmetic standard;
-  return parse_cameras(text, name);
+  return read_cameras(InputFile(file).text(), file.string());
 }
 
 std::string to_json(const Camera& camera) {

@@ -15,9 +15,6 @@ std::vector<Camera> read_cameras(const std::filesystem::path& file);
 /// The same of a file's text; `name` is the file's name for messages.
 std::vector<Camera> read_cameras(std::string_view text, const std::string& name);
 
-/// read_cameras() of a file's text; `name` is the file's name for messages.
-std::vector<Camera> parse_cameras(std::string_view text, const std::string& name);
-
 /// The JSON of camera files with every number to 17 significant digits, so that reading it back
 /// gives the same camera bit for bit. Ends without a newline.
 std::string to_json(const Camera& camera);
