@@ -14,7 +14,11 @@ namespace fathom::app {
 namespace {
 
 int show_formats(const Console&) {
-  print(fmt::format("{}: {}\n", assimp_version(), fmt::join(mesh_files::foreign_suffixes, " ")));
+  print(
+      fmt::format("{}: {}\n{}: glTF with KHR_draco_mesh_compression\n"
+                  "{}: glTF with EXT_meshopt_compression or KHR_meshopt_compression\n",
+                  assimp_version(), fmt::join(mesh_files::foreign_suffixes, " "), draco_version(),
+                  meshoptimizer_version()));
   return done;
 }
 

@@ -75,6 +75,10 @@ std::vector<std::byte> carry_out(const RequestHead& request, std::span<const std
   switch (request.task) {
     case Task::assimp:
       return read_by_assimp(parameters, bytes);
+    case Task::draco:
+      return decode_by_draco(parameters, bytes);
+    case Task::meshopt:
+      return decode_by_meshoptimizer(parameters, bytes);
   }
   throw BadMessage();
 }

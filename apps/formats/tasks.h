@@ -16,7 +16,19 @@ namespace fathom::app {
 std::vector<std::byte> read_by_assimp(std::span<const std::byte> parameters,
                                       std::span<const std::byte> bytes);
 
+/// Decodes a primitive of glTF; the parameters are a list of DracoAttribute. The answer: the version,
+/// how many corners and vertices there are, then the bytes of the corners and of each attribute.
+std::vector<std::byte> decode_by_draco(std::span<const std::byte> parameters,
+                                       std::span<const std::byte> bytes);
+
+/// Decodes a buffer view of glTF; the parameters are a MeshoptView. The answer: the version and the
+/// bytes.
+std::vector<std::byte> decode_by_meshoptimizer(std::span<const std::byte> parameters,
+                                               std::span<const std::byte> bytes);
+
 /// "assimp 5.2.4"
 std::string assimp_version();
+std::string draco_version();
+std::string meshoptimizer_version();
 
 }  // namespace fathom::app

@@ -102,6 +102,7 @@ class GltfAccessors {
   std::shared_ptr<const GltfAccessor> at(const text::JsonValue& reference);
   /// An accessor's JSON alone: of what is compressed, the accessor may have no bytes.
   [[nodiscard]] text::JsonValue description(const text::JsonValue& reference) const;
+  [[nodiscard]] const text::JsonValue& root() const { return root_; }
   [[nodiscard]] GltfBufferViews& views() const { return views_; }
   /// To be asked before elements are copied anywhere.
   [[nodiscard]] ExpansionBudget& budget() const { return budget_; }

@@ -13,7 +13,9 @@ namespace {
 
 /// What is read as the extension says.
 bool is_supported(std::string_view name) {
-  static const std::set<std::string_view> names{"KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
+  static const std::set<std::string_view> names{
+      "KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression",
+      "EXT_meshopt_compression", "KHR_meshopt_compression"};
   return names.contains(name);
 }
 
@@ -42,6 +44,14 @@ bool is_not_of_geometry(std::string_view name) {
          name.starts_with("EXT_materials_") || name.starts_with("ADOBE_materials_");
 }
 
+bool lists(const JsonValue& root, const char* list, const char* name) {
+  const auto names = root.find(list);
+  bool found = false;
+  if (names)
+    for_each_entry(*names, [&](const JsonValue& entry) { found |= entry.string() == name; });
+  return found;
+}
+
 }  // namespace
 
 void check_required_extensions(const JsonValue& root, bool attributes, const std::string& file,
@@ -61,10 +71,16 @@ void check_required_extensions(const JsonValue& root, bool attributes, const std
 }
 
 bool uses_extension(const JsonValue& root, const char* name) {
-  const auto used = root.find("extensionsUsed");
-  bool found = false;
-  if (used) for_each_entry(*used, [&](const JsonValue& entry) { found |= entry.string() == name; });
-  return found;
+  return lists(root, "extensionsUsed", name);
+}
+
+bool requires_extension(const JsonValue& root, const char* name) {
+  return lists(root, "extensionsRequired", name);
+}
+
+std::optional<JsonValue> find_extension(const JsonValue& part, const char* name) {
+  const auto extensions = part.find("extensions");
+  return extensions ? extensions->find(name) : std::nullopt;
 }
 
 }  // namespace fathom::mesh_files

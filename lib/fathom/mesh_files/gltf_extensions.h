@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "fathom/text/json_value.h"
@@ -15,7 +16,11 @@ namespace fathom::mesh_files {
 void check_required_extensions(const text::JsonValue& root, bool attributes,
                                const std::string& file, Warnings& warnings);
 
-/// Whether the asset says that it uses an extension.
+/// Whether the asset says that it uses an extension, or that it cannot be read without it.
 bool uses_extension(const text::JsonValue& root, const char* name);
+bool requires_extension(const text::JsonValue& root, const char* name);
+
+/// What an extension says of a part of the asset.
+std::optional<text::JsonValue> find_extension(const text::JsonValue& part, const char* name);
 
 }  // namespace fathom::mesh_files

@@ -1,5 +1,7 @@
 #include "fathom/mesh_files/gltf_primitive_accessors.h"
 
+#include "fathom/mesh_files/gltf_draco.h"
+
 namespace fathom::mesh_files {
 using namespace text;
 
@@ -13,6 +15,8 @@ GltfPrimitiveAccessors open_primitive(const JsonValue& primitive, GltfAccessors&
   const auto attributes_object = primitive.find("attributes");
   if (!attributes_object) return result;
   const JsonValue& named = *attributes_object;
+  if (const auto draco = draco_of(primitive, accessors))
+    return decode_draco(primitive, *draco, accessors, attributes);
   result.positions = open(named, "POSITION");
   if (!result.positions) return result;
   result.indices = open(primitive, "indices");

@@ -187,9 +187,11 @@ GltfAsset read_gltf(std::span<const std::byte> bytes, const std::filesystem::pat
   ExpansionBudget budget(file, options.max_expansion);
   budget.add_input(bytes.size());
   GltfBuffers buffers(container, root, path, options, budget);
-  GltfBufferViews views(root, buffers);
+  GltfDecoders decoders(options, file, budget);
+  GltfBufferViews views(root, buffers, decoders);
   GltfAccessors accessors(root, views, budget);
   GltfAsset asset = GltfReader(root, accessors, options.attributes, file, warnings).read();
+  asset.reader = decoders.readers();
   for (const auto& [name, contents] : buffers.external_files())
     asset.buffers.push_back({name.string(), options.hash ? sha256(contents) : std::string()});
   return asset;

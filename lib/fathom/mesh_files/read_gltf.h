@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fathom/mesh/mesh.h"
@@ -19,6 +20,8 @@ struct GltfAsset {
   std::vector<Object> objects;
   /// External buffers, in the order of loading; the asset's own file is left to the caller.
   std::vector<Source> buffers;
+  /// The libraries of others that have decoded something of it: "Draco 1.5.5"; mostly empty.
+  std::string reader;
 };
 
 /// Reads a glTF 2.0 asset (.gltf or .glb): one object per node with a mesh, depth first, of the

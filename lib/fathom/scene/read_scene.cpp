@@ -111,10 +111,12 @@ class SceneReader {
     const std::size_t source = scene_.sources.size(), first = scene_.objects.size();
     scene_.sources.push_back({file, ""});
     if (kind == FileFormat::gltf) {
-      append(read_gltf(input.bytes(), path, options_, warnings_));
+      GltfAsset asset = read_gltf(input.bytes(), path, options_, warnings_);
+      scene_.sources[source].reader = asset.reader;
+      append(std::move(asset));
     } else if (kind == FileFormat::foreign) {
       ForeignMeshes foreign = read_by_assimp(input.bytes(), path, options_, warnings_);
-      append({std::move(foreign.meshes), std::move(foreign.objects), {}});
+      append({std::move(foreign.meshes), std::move(foreign.objects), {}, {}});
       scene_.sources[source].reader = std::move(foreign.reader);
     } else {
       if (input.bytes().empty()) throw InputError(file + ": is empty, expected a mesh");

@@ -66,6 +66,8 @@ Mesh ForeignMeshBuilder::build(const MessageList<std::uint32_t>& numbers) {
     if (numbers[i] >= meshes_.size()) throw BadMessage();
     const ForeignMesh& foreign = meshes_[numbers[i]];
     mesh::expect_countable(mesh.vertices.size() + foreign.vertex_count(), "vertices", file_);
+    budget_.take(foreign.vertex_count(), sizeof(MeshPoint));
+    budget_.take(foreign.corners.size(), sizeof(CornerIndices));
     parts.push_back({&foreign, mesh.vertices.size(), mesh.triangles.size()});
     add_positions(foreign, mesh);
     add_faces(foreign, parts.back().first_vertex, file_, faces);
@@ -102,6 +104,7 @@ void ForeignMeshBuilder::add_attributes(const std::vector<Part>& parts, Mesh& me
     for (const Part& part : parts) given.push_back(has(part, list, otherwise.size()));
     if (std::ranges::find(given, true) == given.end()) return;
     if (corners && std::ranges::find(given, false) != given.end()) *corners = mesh.triangles;
+    budget_.take(mesh.vertices.size(), sizeof(Value));
     values.assign(mesh.vertices.size(), otherwise);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const Part& part = parts[i];

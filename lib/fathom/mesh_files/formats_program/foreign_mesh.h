@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fathom/mesh/mesh.h"
+#include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/formats_program/messages.h"
 #include "fathom/text/warnings.h"
 
@@ -26,9 +27,10 @@ ForeignMesh read_foreign_mesh(MessageReader& answer);
 /// Makes one Mesh of some of the meshes of a file, and counts what is worth a warning.
 class ForeignMeshBuilder {
  public:
-  /// `meshes` must outlive this.
-  ForeignMeshBuilder(const std::vector<ForeignMesh>& meshes, std::string file, bool attributes)
-      : meshes_(meshes), file_(std::move(file)), attributes_(attributes) {}
+  /// `meshes` and `budget` must outlive this.
+  ForeignMeshBuilder(const std::vector<ForeignMesh>& meshes, std::string file, bool attributes,
+                     ExpansionBudget& budget)
+      : meshes_(meshes), file_(std::move(file)), attributes_(attributes), budget_(budget) {}
 
   /// Of the meshes with these numbers, one after the other.
   /// Fails    InputError: a vertex that does not exist, a coordinate that is not finite.
@@ -49,6 +51,7 @@ class ForeignMeshBuilder {
   const std::vector<ForeignMesh>& meshes_;
   std::string file_;
   bool attributes_;
+  ExpansionBudget& budget_;
   std::uint64_t skipped_faces_ = 0, odd_faces_ = 0, bad_attributes_ = 0;
 };
 

@@ -21,7 +21,23 @@ inline constexpr std::string_view serve = "--serve";
 inline constexpr std::string_view message_version = "1";
 inline constexpr int other_version = 64;
 
-enum class Task : std::uint32_t { assimp };
+enum class Task : std::uint32_t { assimp, draco, meshopt };
+
+/// The parameters of Task::meshopt: [EMC20].
+enum class MeshoptMode : std::uint32_t { attributes, triangles, indices };
+enum class MeshoptFilter : std::uint32_t { none, octahedral, quaternion, exponential };
+struct MeshoptView {
+  MeshoptMode mode = MeshoptMode::attributes;
+  MeshoptFilter filter = MeshoptFilter::none;
+  std::uint64_t count = 0, stride = 0;
+};
+
+/// The parameters of Task::draco are a list of these; the first is of the corners of triangles.
+struct DracoAttribute {
+  std::uint32_t number = 0;
+  /// The component type of glTF that its numbers are to have, and how many to a vertex.
+  std::uint32_t component = 0, width = 0;
+};
 
 struct RequestHead {
   Task task = Task::assimp;

@@ -91,15 +91,16 @@ std::string ending(int status, const Limits& limits, const std::string& program)
 
 }  // namespace
 
-Limits limits_of(std::uint64_t bytes) {
-  // 1 TiB is more than any machine has, and far from an overflow.
-  const std::uint64_t size = std::min(bytes, std::uint64_t{1} << 40);
-  return {.memory = 512 * mebibyte + 256 * size,
-          .seconds = static_cast<std::uint32_t>(20 + 4 * (size / mebibyte))};
+Limits limits_of(std::uint64_t bytes, std::uint64_t max_expansion) {
+  // 16 GiB of a file, and a millionfold expansion, are far from an overflow.
+  const std::uint64_t size = std::min(bytes, std::uint64_t{1} << 34);
+  const std::uint64_t factor = std::min<std::uint64_t>(max_expansion, 1'000'000);
+  return {.memory = 128 * mebibyte + factor * (8 * mebibyte + 4 * size),
+          .seconds = static_cast<std::uint32_t>(5 + factor * (4 + size / mebibyte) / 16)};
 }
 
 Process::Process(const ReadOptions& options, const std::string& file)
-    : program_(find_program(options, file)) {
+    : program_(find_program(options, file)), max_expansion_(options.max_expansion) {
   const auto [here, there] = socket_pair(program_);
   const StartActions actions(there);
   std::string name = program_, task(serve), version(message_version);
@@ -126,15 +127,14 @@ Process::~Process() {
 }
 
 std::vector<std::byte> Process::ask(Task task, std::span<const std::byte> parameters,
-                                    std::span<const std::byte> bytes) {
-  const Limits limits = limits_of(bytes.size());
+                                    std::span<const std::byte> bytes, ExpansionBudget& budget) {
+  const Limits limits = limits_of(bytes.size(), max_expansion_);
   const RequestHead request{task, limits.seconds, limits.memory, parameters.size(), bytes.size()};
   ReplyHead reply;
   if (!send(std::as_bytes(std::span(&request, 1))) || !send(parameters) || !send(bytes) ||
       !receive(std::as_writable_bytes(std::span(&reply, 1))))
     fail_as_ended(limits);
-  // No program has more to say than it may have in memory.
-  if (reply.bytes > limits.memory) throw Refusal(BadMessage().what());
+  budget.take(reply.bytes, 1);
   std::vector<std::byte> answer(reply.bytes);
   if (!receive(answer)) fail_as_ended(limits);
   if (reply.refused == 0) return answer;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/formats_program/messages.h"
 #include "fathom/mesh_files/read_options.h"
 
@@ -22,7 +23,8 @@ struct Limits {
   std::uint64_t memory = 0;
   std::uint32_t seconds = 0;
 };
-Limits limits_of(std::uint64_t bytes);
+/// `max_expansion` is that of ReadOptions.
+Limits limits_of(std::uint64_t bytes, std::uint64_t max_expansion);
 
 /// Why there is no answer: "it crashed (Segmentation fault)". Callers name the file.
 class Refusal : public std::runtime_error {
@@ -40,10 +42,10 @@ class Process {
   Process& operator=(const Process&) = delete;
   ~Process();
 
-  /// The answer to one request.
-  /// Fails    Refusal.
+  /// The answer to one request; its bytes are taken from the budget.
+  /// Fails    Refusal; InputError where there is too little left of the budget.
   std::vector<std::byte> ask(Task task, std::span<const std::byte> parameters,
-                             std::span<const std::byte> bytes);
+                             std::span<const std::byte> bytes, ExpansionBudget& budget);
 
  private:
   bool send(std::span<const std::byte> bytes) const;
@@ -51,6 +53,7 @@ class Process {
   [[noreturn]] void fail_as_ended(const Limits& limits);
 
   std::filesystem::path program_;
+  std::uint64_t max_expansion_;
   int socket_ = -1;
   pid_t process_ = -1;
 };

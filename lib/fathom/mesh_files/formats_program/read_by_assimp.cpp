@@ -7,6 +7,7 @@
 #include "fathom/mesh_files/foreign_formats.h"
 #include "fathom/mesh_files/formats_program/foreign_mesh.h"
 #include "fathom/mesh_files/formats_program/process.h"
+#include "fathom/mesh_files/formats_program/reasons.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/printable.h"
@@ -19,13 +20,8 @@ namespace {
 /// Transforms grow with every level that is not the identity.
 constexpr std::size_t deepest_transform = 200;
 
-/// What a library says of a file can be long.
-constexpr std::size_t longest_reason = 300;
-
-[[noreturn]] void fail_to_read(const std::string& file, std::string why) {
-  while (!why.empty() && std::isspace(static_cast<unsigned char>(why.back()))) why.pop_back();
-  if (why.size() > longest_reason) why = why.substr(0, longest_reason) + "…";
-  throw InputError(file + ": assimp could not read it: " + text::printable(std::move(why)));
+[[noreturn]] void fail_to_read(const std::string& file, const std::string& why) {
+  throw InputError(file + ": assimp could not read it: " + as_reason(why));
 }
 
 /// One node of the file as it is told, depth first.
@@ -57,8 +53,9 @@ struct Level {
 /// Makes objects of the nodes that have meshes.
 class AssimpNodes {
  public:
-  AssimpNodes(const std::vector<ForeignMesh>& meshes, const std::string& file, bool attributes)
-      : file_(file), builder_(meshes, file, attributes) {}
+  AssimpNodes(const std::vector<ForeignMesh>& meshes, const std::string& file, bool attributes,
+              ExpansionBudget& budget)
+      : file_(file), budget_(budget), builder_(meshes, file, attributes, budget) {}
 
   void add(const ForeignNode& node) {
     if (node.depth > path_.size()) throw BadMessage();
@@ -98,8 +95,11 @@ class AssimpNodes {
 
   void add_object(const ForeignNode& node) {
     if (!path_.back().fault.empty()) throw InputError(file_ + ": " + path_.back().fault);
+    budget_.take(1, sizeof(Object) + node.name.size());
     Object object;
     object.mesh = mesh_of(node.meshes);
+    budget_.take(result_.meshes[object.mesh].triangles.size(),
+                 ExpansionBudget::bytes_of_placed_triangle);
     object.world_from_mesh = path_.back().world_from_node;
     object.placed_as_is = object.world_from_mesh.rows == WorldFromMesh().rows;
     object.name = name_of(node);
@@ -119,6 +119,7 @@ class AssimpNodes {
   }
 
   const std::string& file_;
+  ExpansionBudget& budget_;
   ForeignMeshBuilder builder_;
   ForeignMeshes result_;
   std::vector<Level> path_;
@@ -128,21 +129,22 @@ class AssimpNodes {
 
 /// The answer of fathom-formats to this file.
 std::vector<std::byte> ask_assimp(std::span<const std::byte> bytes,
-                                  const std::filesystem::path& path, const ReadOptions& options) {
+                                  const std::filesystem::path& path, const ReadOptions& options,
+                                  ExpansionBudget& budget) {
   MessageWriter parameters;
   parameters.put_text(path.filename().string());
   Process program(options, path.string());
-  return program.ask(Task::assimp, parameters.bytes(), bytes);
+  return program.ask(Task::assimp, parameters.bytes(), bytes, budget);
 }
 
 ForeignMeshes read_answer(std::span<const std::byte> bytes, const std::string& file,
-                          bool attributes, Warnings& warnings) {
+                          bool attributes, ExpansionBudget& budget, Warnings& warnings) {
   MessageReader answer(bytes);
   const std::string reader = answer.get_text();
   std::vector<ForeignMesh> meshes;
   for (auto count = answer.get<std::uint64_t>(); count > 0; --count)
     meshes.push_back(read_foreign_mesh(answer));
-  AssimpNodes nodes(meshes, file, attributes);
+  AssimpNodes nodes(meshes, file, attributes, budget);
   for (auto count = answer.get<std::uint64_t>(); count > 0; --count) nodes.add(read_node(answer));
   ForeignMeshes result = nodes.finish(warnings);
   result.reader = reader;
@@ -154,8 +156,11 @@ ForeignMeshes read_answer(std::span<const std::byte> bytes, const std::string& f
 ForeignMeshes read_by_assimp(std::span<const std::byte> bytes, const std::filesystem::path& path,
                              const ReadOptions& options, Warnings& warnings) {
   const std::string file = path.string();
+  ExpansionBudget budget(file, options.max_expansion);
+  budget.add_input(bytes.size());
   try {
-    return read_answer(ask_assimp(bytes, path, options), file, options.attributes, warnings);
+    return read_answer(ask_assimp(bytes, path, options, budget), file, options.attributes, budget,
+                       warnings);
   } catch (const Refusal& refusal) {
     fail_to_read(file, refusal.what());
   } catch (const BadMessage& message) {

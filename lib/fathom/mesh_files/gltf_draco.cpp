@@ -1,0 +1,73 @@
+#include "fathom/mesh_files/gltf_draco.h"
+
+#include <span>
+
+#include "fathom/mesh_files/gltf_extensions.h"
+#include "fathom/mesh_files/gltf_references.h"
+
+namespace fathom::mesh_files {
+using namespace text;
+
+namespace {
+
+constexpr const char* draco_extension = "KHR_draco_mesh_compression";
+
+/// Of each attribute, what glTF calls it and where it is wanted.
+struct NamedAttribute {
+  const char* name;
+  std::shared_ptr<const GltfAccessor> GltfPrimitiveAccessors::*accessor;
+};
+constexpr NamedAttribute named_attributes[] = {
+    {"POSITION", &GltfPrimitiveAccessors::positions},
+    {"TEXCOORD_0", &GltfPrimitiveAccessors::texture_coordinates},
+    {"NORMAL", &GltfPrimitiveAccessors::normals},
+    {"COLOR_0", &GltfPrimitiveAccessors::colours}};
+
+/// Of programs, some take what Draco gives for triangles whatever the mode says, others for a strip.
+void expect_triangles(const JsonValue& primitive) {
+  const auto mode = primitive.find("mode");
+  if (mode && mode->integer(0, largest_integer) != 4)
+    mode->fail("expected 4, triangles, of a primitive that Draco has compressed");
+}
+
+}  // namespace
+
+std::optional<JsonValue> draco_of(const JsonValue& primitive, const GltfAccessors& accessors) {
+  const auto extension = find_extension(primitive, draco_extension);
+  if (!extension || requires_extension(accessors.root(), draco_extension)) return extension;
+  const auto positions = primitive.at("attributes").find("POSITION");
+  if (positions && accessors.description(*positions).find("bufferView")) return std::nullopt;
+  return extension;
+}
+
+GltfPrimitiveAccessors decode_draco(const JsonValue& primitive, const JsonValue& extension,
+                                    GltfAccessors& accessors, bool attributes) {
+  expect_triangles(primitive);
+  const JsonValue plain = primitive.at("attributes"), compressed = extension.at("attributes");
+  GltfPrimitiveAccessors result;
+  if (!plain.find("POSITION")) return result;
+  if (!compressed.find("POSITION")) compressed.fail("has no POSITION, expected compressed ones");
+  const JsonValue indices = accessors.description(primitive.at("indices"));
+  std::vector<GltfDecoders::Wanted> wanted;
+  std::vector<std::shared_ptr<const GltfAccessor> GltfPrimitiveAccessors::*> places;
+  for (const auto& [name, accessor] : std::span(named_attributes).first(attributes ? 4 : 1)) {
+    const auto reference = plain.find(name), number = compressed.find(name);
+    if (reference && number) {
+      wanted.push_back({static_cast<std::uint32_t>(number->integer(0, 0xFFFFFFFF)),
+                        accessors.description(*reference)});
+      places.push_back(accessor);
+    } else if (reference) {
+      result.*accessor = accessors.at(*reference);
+    }
+  }
+  GltfBufferViews& views = accessors.views();
+  const GltfDecoders::Primitive decoded = views.decoders().decode_primitive(
+      extension, indices, wanted, views.at(extension.at("bufferView")).bytes);
+  result.indices = std::make_shared<const GltfAccessor>(indices, decoded.corners);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    result.*places[i] =
+        std::make_shared<const GltfAccessor>(wanted[i].accessor, decoded.attributes[i]);
+  return result;
+}
+
+}  // namespace fathom::mesh_files

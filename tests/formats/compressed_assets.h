@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/mesh_files/gltf_asset.h"
+
+/// glTF assets of one triangle mesh, plain and compressed by the libraries themselves.
+namespace fathom::test {
+
+struct Triangulated {
+  std::vector<float> positions;
+  std::vector<std::uint32_t> indices;
+};
+
+/// Of an OBJ file of triangles.
+Triangulated read_triangulated(const std::string& obj_file);
+
+nlohmann::json plain_asset(const Triangulated& mesh);
+
+/// Draco's options: bits of the quantization of positions (0: none), and its sequential method,
+/// which keeps the order of vertices and triangles.
+struct DracoOptions {
+  int bits = 0;
+  bool sequential = true;
+};
+/// The compressed bytes.
+std::string by_draco(const Triangulated& mesh, const DracoOptions& options);
+/// What Draco itself makes of them.
+Triangulated decoded_by_draco(const std::string& bytes);
+/// An asset whose accessors have no other bytes. `mesh` says how many there are.
+nlohmann::json draco_asset(const Triangulated& mesh, const std::string& compressed);
+
+/// A buffer view in compressed form: its bytes, and what the extension says of it.
+struct CompressedView {
+  std::string bytes;
+  nlohmann::json extension;
+};
+CompressedView attributes_by_meshopt(const std::string& elements, std::size_t stride,
+                                     const std::string& filter = "");
+CompressedView indices_by_meshopt(const std::vector<std::uint32_t>& indices,
+                                  const std::string& mode);
+/// The indices that a decoder makes of those; it may turn the corners of triangles.
+std::vector<std::uint32_t> decoded_by_meshopt(const CompressedView& indices);
+/// An asset of a view of positions and one of indices, with bytes in compressed form alone.
+nlohmann::json meshopt_asset(const CompressedView& positions, const CompressedView& indices,
+                             const std::string& extension = "EXT_meshopt_compression");
+
+}  // namespace fathom::test
