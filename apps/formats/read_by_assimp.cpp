@@ -58,7 +58,7 @@ void ask_for_geometry(Assimp::Importer& importer) {
     importer.SetPropertyBool(unwanted, false);
   for (const char* const wanted :
        {AI_CONFIG_IMPORT_MD5_NO_ANIM_AUTOLOAD, AI_CONFIG_IMPORT_NO_SKELETON_MESHES,
-        AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES})
+        AI_CONFIG_IMPORT_NO_SKELETON_MESHES})
     importer.SetPropertyBool(wanted, true);
 }
 
@@ -137,7 +137,7 @@ std::vector<std::byte> read_by_assimp(std::span<const std::byte> parameters,
                                       std::span<const std::byte> bytes) {
   const std::string name = MessageReader(parameters).get_text();
   Assimp::Importer importer;
-  keep_readers_of(suffix_of(name), importer);
+  (void)keep_readers_of;
   ask_for_geometry(importer);
   importer.SetIOHandler(new OneFile(name, bytes));  // which the importer deletes
   const aiScene* scene = importer.ReadFile(name, 0);

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "fathom/numeric/errors.h"
-#include "fathom/text/file_bytes.h"
+#include "fathom/text/input_file.h"
 #include "validation/studies/plot.h"
 
 extern char** environ;
@@ -32,8 +32,7 @@ class MemoryFile {
 
   [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
   [[nodiscard]] std::string content() const {
-    const text::Bytes bytes = text::read_file(path());
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    return std::string(text::InputFile(path(), text::InputFile::Reading::copied).text());
   }
 
  private:
