@@ -96,13 +96,17 @@ StagedFile::~StagedFile() {
 }
 
 bool StagedFile::open_without_name(const fs::path& folder) {
-  Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666));
-  struct stat status {};
-  if (!file.is_open() || ::fstat(file.get(), &status) != 0) return false;
+  constexpr int flags = O_TMPFILE | O_RDWR | O_CLOEXEC;
+  struct stat ordinary {};
+  {
+    const Descriptor other(::open(folder.c_str(), flags, 0666));
+    if (!other.is_open() || ::fstat(other.get(), &ordinary) != 0) return false;
+  }
+  Descriptor file(::open(folder.c_str(), flags, 0600));
   // Without /proc it could neither be opened again nor get a name.
-  if (::access(path_of(file.get()).c_str(), F_OK) != 0) return false;
-  ordinary_mode_ = status.st_mode & 07777;
-  if (::fchmod(file.get(), 0600) != 0) return false;
+  if (!file.is_open() || ::access(path_of(file.get()).c_str(), F_OK) != 0) return false;
+  ordinary_mode_ = ordinary.st_mode & 07777;
+  if (::fchmod(file.get(), 0600) != 0) return false;  // whatever the umask has taken away
   // Whoever sees the name that it may have for a moment sees that it is in use.
   ::flock(file.get(), LOCK_EX | LOCK_NB);
   file_ = std::move(file);
@@ -115,7 +119,7 @@ void StagedFile::open_with_name(const fs::path& folder) {
     PendingFile* const name = note_pending(folder / new_part_name());
     Descriptor file(::open(name->path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
     const int error = errno;
-    if (file.is_open() && is_ours(file.get())) {
+    if (file.is_open() && is_ours(file.get()) && ::fchmod(file.get(), 0600) == 0) {
       file_ = std::move(file);
       name_ = name;
       return;

@@ -38,6 +38,10 @@ struct System {
   std::function<void()> prepare;
 };
 
+void PrintTo(const System& system, std::ostream* to) {
+  *to << system.name;
+}
+
 class Staged : public ::testing::TestWithParam<System> {
  protected:
   void SetUp() override {

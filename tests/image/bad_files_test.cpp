@@ -313,8 +313,9 @@ TEST(Paths, ThatCannotBeUsedAreNamed) {
     }
     return "it was read";
   };
-  EXPECT_EQ(reading("/nowhere/a.exr"), "/nowhere/a.exr: No such file or directory");
-  EXPECT_EQ(reading("/tmp"), "/tmp: Is a directory");
+  EXPECT_EQ(reading("/nowhere/a.exr"),
+            "/nowhere/a.exr: cannot be opened: No such file or directory");
+  EXPECT_EQ(reading("/tmp"), "/tmp: is a directory, expected a file");
   try {
     write_map(full_map(1, 1), "/nowhere/a.exr", MapFormat::exr);
     FAIL();

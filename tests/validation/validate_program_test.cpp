@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -136,6 +138,27 @@ TEST_F(ValidateProgram, RefusesVariantsThatItDoesNotUnderstand) {
   expect_refused({"--against", "embree", "--scene", "sphere", "--variants", "robust,defualt"},
                  "--variants: none of the renderers has a variant 'defualt'; there are default, "
                  "robust");
+}
+
+/// A renderer's files lie in TMPDIR, whose name no shell reads.
+TEST_F(ValidateProgram, AFolderForTemporaryFilesIsNoCommand) {
+  folder.write("rotation.json",
+               R"({"width": 40, "height": 30, "fx": 50, "fy": 50, "cx": 20, "cy": 15, "near": 1,
+ "far": 10, "world_to_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,4]]})");
+  const std::string quoted = folder / "x'; touch hacked; '";
+  std::filesystem::create_directory(quoted);
+  folder.write("blender", "#!/bin/sh\necho \"Error: $*\"\ntest \"$1\" = --version\n");
+  std::filesystem::permissions(folder / "blender", std::filesystem::perms::owner_all);
+  const Outcome outcome = run_fathom(
+      {"validate", "--render", "blender", cube, "--camera", "rotation.json", "-o", "theirs.exr"},
+      {.folder = folder.path(), .prepare = [&] {
+         ::setenv("TMPDIR", quoted.c_str(), 1);
+         ::setenv("PATH", (folder.path().string() + ":/usr/bin:/bin").c_str(), 1);
+       }});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("--python " + quoted));
+  EXPECT_FALSE(std::filesystem::exists(folder / "hacked"));
+  EXPECT_TRUE(std::filesystem::is_empty(quoted));
 }
 
 }  // namespace
