@@ -1,12 +1,11 @@
 #include <assimp/config.h>
-#include <assimp/importerdesc.h>
 #include <assimp/scene.h>
 #include <assimp/version.h>
 
 #include <assimp/Importer.hpp>
+#include <new>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
 #include "apps/formats/one_file.h"
 #include "apps/formats/tasks.h"
@@ -15,31 +14,6 @@ namespace fathom::app {
 namespace {
 
 using namespace mesh_files::formats_program;
-
-std::string suffix_of(const std::string& name) {
-  std::string suffix = name.substr(name.rfind('.') + 1);
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return suffix;
-}
-
-/// Whether a list of words with blanks between them has this one.
-bool has_word(std::string_view list, std::string_view word) {
-  while (!list.empty()) {
-    const std::size_t end = std::min(list.find(' '), list.size());
-    if (list.substr(0, end) == word) return true;
-    list.remove_prefix(std::min(end + 1, list.size()));
-  }
-  return false;
-}
-
-/// Leaves the readers of files with this suffix: or else assimp would try all of them on a file
-/// that the right one refuses.
-void keep_readers_of(const std::string& suffix, Assimp::Importer& importer) {
-  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
-    if (!has_word(importer.GetImporterInfo(i)->mFileExtensions, suffix))
-      importer.UnregisterLoader(importer.GetImporter(i));
-  }
-}
 
 /// Geometry as the file has it, and nothing else.
 void ask_for_geometry(Assimp::Importer& importer) {
@@ -58,7 +32,7 @@ void ask_for_geometry(Assimp::Importer& importer) {
     importer.SetPropertyBool(unwanted, false);
   for (const char* const wanted :
        {AI_CONFIG_IMPORT_MD5_NO_ANIM_AUTOLOAD, AI_CONFIG_IMPORT_NO_SKELETON_MESHES,
-        AI_CONFIG_IMPORT_NO_SKELETON_MESHES})
+        AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES})
     importer.SetPropertyBool(wanted, true);
 }
 
@@ -88,6 +62,12 @@ void put_mesh(const aiMesh& mesh, MessageWriter& message) {
   }
   message.put_list<std::uint32_t>(sizes);
   message.put_list<std::uint32_t>(corners);
+}
+
+/// assimp catches what is thrown in it, and keeps the text.
+[[noreturn]] void fail(const std::string& why) {
+  if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+  throw std::runtime_error(why);
 }
 
 /// A node whose turn has not come.
@@ -137,11 +117,10 @@ std::vector<std::byte> read_by_assimp(std::span<const std::byte> parameters,
                                       std::span<const std::byte> bytes) {
   const std::string name = MessageReader(parameters).get_text();
   Assimp::Importer importer;
-  (void)keep_readers_of;
   ask_for_geometry(importer);
   importer.SetIOHandler(new OneFile(name, bytes));  // which the importer deletes
   const aiScene* scene = importer.ReadFile(name, 0);
-  if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
+  if (scene == nullptr) fail(importer.GetErrorString());
   if (scene->mRootNode == nullptr) throw std::runtime_error("there is no node");
   MessageWriter message;
   message.put_text(assimp_version());

@@ -72,12 +72,13 @@ INSTANTIATE_TEST_SUITE_P(All, DamagedFiles,
                                            Kind{"x3d", "x3d"}),
                          [](const auto& tested) { return "As_" + tested.param.exporter; });
 
-// A megabyte that would be one gigabyte.
+#ifndef FATHOM_SANITIZED  // without a limit on addresses there
+// A megabyte that would be a gigabyte.
 TEST(HostileFiles, ArchivesThatGrowAreRefused) {
   const TestFolder folder;
   const Outcome made = run({python, "-c", R"(
 import zipfile
-with zipfile.ZipFile('bomb.3mf', 'w', zipfile.ZIP_DEFLATED, compresslevel=1) as z:
+with zipfile.ZipFile('bomb.3mf', 'w', zipfile.ZIP_DEFLATED) as z:
     z.writestr('[Content_Types].xml', '<?xml version="1.0"?><Types/>')
     z.writestr('_rels/.rels', '<?xml version="1.0"?><Relationships xmlns='
                '"http://schemas.openxmlformats.org/package/2006/relationships"><Relationship '
@@ -92,10 +93,11 @@ with zipfile.ZipFile('bomb.3mf', 'w', zipfile.ZIP_DEFLATED, compresslevel=1) as 
   const Outcome outcome = run_fathom({"info", folder / "bomb.3mf"});
   EXPECT_EQ(outcome.status, 3) << outcome.out;
   EXPECT_THAT(outcome.err, StartsWith("fathom: error: " + (folder / "bomb.3mf") +
-                                      ": assimp could not read it: "));
+                                      ": assimp could not read it: it takes more than "));
 }
+#endif
 
-// No reader of another suffix looks at it.
+// The suffix says what it is meant to be.
 TEST(HostileFiles, WhatIsNotOfItsSuffixIsRefused) {
   const std::string fbx = exported(read_polygons(source_dir() / "data/meshes/cube.obj"), "fbxa");
   for (const std::string suffix :
