@@ -85,17 +85,17 @@ TEST(ClipCost, ManyHolesGoToTheirOutline) {
 
 TEST(ClipCost, ManyNestedSquaresAreClipped) {
   std::string rings;
-  for (int i = 0; i < 1000; ++i) rings += (rings.empty() ? "[" : ",") + square(i, i, 4000 - 2 * i);
+  for (int i = 0; i < 2200; ++i) rings += (rings.empty() ? "[" : ",") + square(i, i, 8800 - 2 * i);
   const Outcome outcome =
-      clip("weiler-atherton", case_of(rings + "]", "[[[1.5,1.5],[9e3,0],[0,9e3]]]"));
+      clip("weiler-atherton", case_of(rings + "]", "[[[1.5,1.5],[2e4,0],[0,2e4]]]"));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(Json::parse(outcome.out)["polygons"].size(), 500U);
+  EXPECT_EQ(Json::parse(outcome.out)["polygons"].size(), 1100U);
 }
 
 /// Slanted teeth side by side: all their boxes meet.
 TEST(ClipCost, ManySlantedTeethAreClipped) {
   std::string ring = "[[";
-  const int teeth = 800;
+  const int teeth = 1500;
   for (int k = 0; k < teeth; ++k)
     ring += "[" + std::to_string(2 * k) + ",0],[" + std::to_string(2 * k + 10000) + ",10000],";
   ring += "[30000,10000],[30000,-10],[-10,-10]]]";
