@@ -36,6 +36,7 @@ constexpr Algorithm algorithms[] = {scan::explicit_line<Number>,
 /// Whether all numbers are small, or are those of attributes.
 bool is_small(const Json& value) {
   if (value.is_number()) return std::abs(value.get<double>()) <= greatest;
+  if (!value.is_structured()) return true;
   for (const auto& [key, member] : value.items()) {
     if (value.is_object() && (key == "attributes" || key == "w")) continue;
     if (!is_small(member)) return false;

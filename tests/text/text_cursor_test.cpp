@@ -53,6 +53,8 @@ TEST(TextCursor, ABackslashJoinsLines) {
   EXPECT_EQ(words_of("a \\\nb\nc", full), (Lines{{"1", "a", "b"}, {"3", "c"}}));
   EXPECT_EQ(words_of("a \\\r\nb\r\nc", full), (Lines{{"1", "a", "b"}, {"3", "c"}}));
   EXPECT_EQ(words_of("a \\\nb", plain), (Lines{{"1", "a", "\\"}, {"2", "b"}}));
+  // Elsewhere it joins nothing, and is a part of the text as others are: words go on.
+  EXPECT_EQ(words_of("a\\b \\c \\\\d", full), (Lines{{"1", "a", "\\b", "\\c", "\\", "\\d"}}));
   // In a comment it joins nothing.
   TextCursor cursor("a # \\\nb\nc", file, full);
   cursor.skip_line();

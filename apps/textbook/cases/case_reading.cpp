@@ -10,6 +10,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/text/parse_json.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::app::cases {
 namespace {
@@ -22,7 +23,7 @@ std::string not_finite(const std::vector<text::JsonStep>& path) {
   std::string place;
   for (const text::JsonStep& step : path)
     place += step.in_list ? fmt::format("[{}]", step.index) : step.key;
-  return place + " is not finite; expected a finite number";
+  return text::printable(place) + " is not finite; expected a finite number";
 }
 
 /// Whether NaN or Infinity stands where the parser stopped; `byte` counts from 1.

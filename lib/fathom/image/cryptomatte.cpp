@@ -71,7 +71,8 @@ std::uint32_t cryptomatte_id(const std::string& name) {
 }
 
 void add_mattes(DepthMap& map, const Mattes& mattes) {
-  require_valid(map);
+  // A map that is yet to get its channels has no other fault.
+  if (!map.channels.empty()) require_valid(map);
   if (mattes.counts.size() != std::size_t{map.width} * map.height ||
       std::accumulate(mattes.counts.begin(), mattes.counts.end(), std::size_t{0}) !=
           mattes.shares.size()) {

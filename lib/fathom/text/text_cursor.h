@@ -87,7 +87,8 @@ class TextCursor {
   /// The next word of this line; empty at its end.
   [[gnu::always_inline]] std::string_view word() {
     if (at_line_end()) return {};
-    const char* first = at_;
+    // A '\' that joins nothing ends a word, and begins the next: no word is empty.
+    const char* first = at_++;
     while (at_ != end_ && !ends_word(*at_)) ++at_;
     return {first, static_cast<std::size_t>(at_ - first)};
   }

@@ -137,6 +137,11 @@ RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& nam
   if (png.width > greatest_size || png.height > greatest_size)
     fail(std::to_string(png.width) + "x" + std::to_string(png.height) +
          " texels; the greatest texture is 8192x8192");
+  // Deflate makes at most 1032 bytes of one, and a byte holds at most eight texels: a small file does
+  // not make us take memory for a large picture that cannot be in it.
+  if (std::uint64_t{png.width} * png.height / 8 > 1032 * std::uint64_t{bytes.size()})
+    fail("broken PNG file: too short for " + std::to_string(png.width) + "x" +
+         std::to_string(png.height) + " texels");
   png.format = PNG_FORMAT_RGB;
   RgbImage image(png.width, png.height);
   const png_color black{0, 0, 0};
