@@ -7,7 +7,7 @@
 
 #include "apps/formats/tasks.h"
 #include "apps/shell/exit_status.h"
-#include "apps/shell/output_file.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/mesh_files/foreign_formats.h"
 
 namespace fathom::app {

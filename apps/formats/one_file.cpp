@@ -41,7 +41,7 @@ class MemoryStream final : public Assimp::IOStream {
 
 Assimp::IOStream* OneFile::Open(const char* path, const char* mode) {
   const bool writes = std::strpbrk(mode, "wa+") != nullptr;
-  return !writes ? new MemoryStream(bytes_) : nullptr;
+  return Exists(path) && !writes ? new MemoryStream(bytes_) : nullptr;
 }
 
 void OneFile::Close(Assimp::IOStream* stream) {

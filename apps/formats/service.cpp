@@ -61,7 +61,7 @@ void limit([[maybe_unused]] int resource, [[maybe_unused]] rlim_t value) {
 /// SIGALRM if it waits for what never comes.
 void set_limits(const RequestHead& request) {
 #ifndef FATHOM_SANITIZED  // their shadow memory takes all addresses
-  limit(RLIMIT_AS, 100 * request.memory);
+  limit(RLIMIT_AS, request.memory);
 #endif
   rusage used{};
   ::getrusage(RUSAGE_SELF, &used);

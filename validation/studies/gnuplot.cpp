@@ -11,6 +11,7 @@
 #include <string>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/text/file_bytes.h"
 #include "fathom/text/input_file.h"
 #include "validation/studies/plot.h"
 
