@@ -132,7 +132,7 @@ TEST(WrongArguments, ScenesWithAFaultAreRefusedAtEveryDoor) {
     for (const auto& [fault, spoil] : bad_scenes()) {
       Scene scene = triangle();
       spoil(scene);
-      EXPECT_THAT(message_of<InputError>([&] { door(scene, small_camera()); }),
+      EXPECT_THAT(message_of<InputError>([&, &door = door] { door(scene, small_camera()); }),
                   HasSubstr("scene: "))
           << name << ", " << fault;
     }
@@ -148,7 +148,8 @@ TEST(WrongArguments, CamerasWithAFaultAreRefusedAtEveryDoor) {
     for (const auto& [fault, spoil] : bad) {
       Camera camera = small_camera();
       spoil(camera);
-      EXPECT_THAT(message_of<InputError>([&] { door(triangle(), camera); }), HasSubstr("camera: "))
+      EXPECT_THAT(message_of<InputError>([&, &door = door] { door(triangle(), camera); }),
+                  HasSubstr("camera: "))
           << name << ", " << fault;
     }
     Camera camera = small_camera();
@@ -326,7 +327,7 @@ TEST(WrongArguments, MapsWithAFaultAreRefusedAtEveryDoor) {
     for (const auto& [fault, spoil] : bad) {
       DepthMap map = map_of_triangle();
       spoil(map);
-      EXPECT_THAT(message_of<InputError>([&] { door(map); }), HasSubstr("map: "))
+      EXPECT_THAT(message_of<InputError>([&, &door = door] { door(map); }), HasSubstr("map: "))
           << name << ", " << fault;
     }
   }

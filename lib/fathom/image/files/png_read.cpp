@@ -9,6 +9,7 @@
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/map_memory.h"
 #include "fathom/image/files/png_stream.h"
+#include "fathom/image/png_chunks.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
 
@@ -64,19 +65,6 @@ void read_bytes(png_structp png, png_bytep to, std::size_t count) {
   if (count > reading->bytes.size() - reading->position) png_error(png, "unexpected end of file");
   std::memcpy(to, reading->bytes.data() + reading->position, count);
   reading->position += count;
-}
-
-/// libpng allocates as much for a chunk as its header claims. Walks over the chunks (length, type,
-/// data, checksum): none may be longer than what is left of the file.
-bool chunks_fit(ByteView bytes) {
-  constexpr std::size_t signature = 8, around = 12;
-  for (std::size_t at = signature; at < bytes.size();) {
-    if (bytes.size() - at < around) return false;
-    const std::size_t length = load<std::uint32_t>(&bytes[at], std::endian::big);
-    if (length > bytes.size() - at - around) return false;
-    at += around + length;
-  }
-  return true;
 }
 
 bool read_header(Reading& reading) {

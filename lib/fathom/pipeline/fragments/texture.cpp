@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/image/png_chunks.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/input_file.h"
 
@@ -132,6 +133,7 @@ RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& nam
     png_image_free(&png);
     throw InputError(name + ": " + why);
   };
+  if (!image::chunks_fit(bytes)) fail("no PNG file: a chunk is longer than the file");
   if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0)
     fail(std::string("no PNG file: ") + png.message);
   if (png.width > greatest_size || png.height > greatest_size)
