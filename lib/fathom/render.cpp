@@ -59,7 +59,8 @@ void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
                      const RenderOptions& options) {
   const StandardArithmetic standard;
   require_thread_count(options.threads);
-  require_map_of(camera, map);
+  // A map that is yet to get its channels is of the size that its areas are computed for.
+  if (!map.channels.empty()) require_map_of(camera, map);
   require_renderable(scene, camera);
   std::vector<std::uint32_t> ids;
   for (const Object& object : scene.objects) ids.push_back(cryptomatte_id(object.name));

@@ -138,7 +138,7 @@ TEST(GltfExpansion, SparseIndicesThatAccessorsShareAreCounted) {
                       {"indices", {{"bufferView", 1}, {"componentType", 5125}}},
                       {"values", {{"bufferView", 2}}}}}};
   // Normals that are too many are opened, at the cost of a look at all indices, and not read.
-  json accessors{asset.tree["accessors"][0]}, primitives = json::array();
+  json accessors = json::array({asset.tree["accessors"][0]}), primitives = json::array();
   for (int i = 1; i <= 1000; ++i) {
     accessors.push_back(sparse);
     primitives.push_back({{"attributes", {{"POSITION", 0}, {"NORMAL", i}}}});

@@ -27,7 +27,7 @@ Asset quantized(const std::vector<T>& numbers, int component, bool normalized,
   asset.tree["extensionsRequired"] = {"KHR_mesh_quantization"};
   asset.tree["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}};
   node["mesh"] = 0;
-  asset.tree["nodes"] = {node};
+  asset.tree["nodes"] = json::array({node});
   asset.tree["scenes"] = {{{"nodes", {0}}}};
   return asset;
 }

@@ -95,13 +95,14 @@ TEST(Confinement, PipesAndDevicesAreRefusedUnopened) {
   EXPECT_THAT(places.refusal(pipe), HasSubstr("is not a regular file"));
   for (const char* device : {"/dev/zero", "/dev/stdin", "/dev/tty"}) {
     if (!std::filesystem::exists(device)) continue;
-    EXPECT_THAT(message_of<InputError>([&] { InputFile file(device, {}); }),
+    EXPECT_THAT(message_of<InputError>([&] { InputFile file(device, std::vector<Boundary>()); }),
                 HasSubstr("is not a regular file"))
         << device;
   }
   EXPECT_THAT(places.refusal(places.inside), HasSubstr("outside"));
-  EXPECT_THAT(message_of<InputError>([&] { InputFile file(places.inside, {}); }),
-              HasSubstr("is a directory"));
+  EXPECT_THAT(
+      message_of<InputError>([&] { InputFile file(places.inside, std::vector<Boundary>()); }),
+      HasSubstr("is a directory"));
 }
 
 TEST(Confinement, NamesWhatIsMissing) {

@@ -33,7 +33,7 @@ void expect_triangles(const JsonValue& primitive) {
 }  // namespace
 
 std::optional<JsonValue> draco_of(const JsonValue& primitive, const GltfAccessors& accessors) {
-  const auto extension = find_extension(primitive, draco_extension);
+  auto extension = find_extension(primitive, draco_extension);
   if (!extension || requires_extension(accessors.root(), draco_extension)) return extension;
   const auto positions = primitive.at("attributes").find("POSITION");
   if (positions && accessors.description(*positions).find("bufferView")) return std::nullopt;

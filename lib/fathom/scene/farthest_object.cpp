@@ -36,7 +36,7 @@ std::string name_of_farthest_object(const Scene& scene) {
     farthest_reach = reach_of(*bounds);
   }
   if (farthest == nullptr) return "the scene";
-  const std::string object = "object " + text::printable(farthest->name);
+  std::string object = "object " + text::printable(farthest->name);
   if (farthest->source >= scene.sources.size()) return object;
   return scene.sources[farthest->source].path + ": " + object;
 }
