@@ -115,10 +115,12 @@ bool StagedFile::open_without_name(const fs::path& folder) {
 
 void StagedFile::open_with_name(const fs::path& folder) {
   ordinary_mode_ = mode_of_new_file(folder);
-  while (true) {
+  // A sweeper may take a new file for a stale one before it is locked; but not each time.
+  constexpr int most_tries = 100;
+  for (int tries = 1;; ++tries) {
     PendingFile* const name = note_pending(folder / new_part_name());
     Descriptor file(::open(name->path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-    const int error = errno;
+    const int error = file.is_open() ? EBUSY : errno;
     if (file.is_open() && is_ours(file.get()) && ::fchmod(file.get(), 0600) == 0) {
       file_ = std::move(file);
       name_ = name;
@@ -128,8 +130,8 @@ void StagedFile::open_with_name(const fs::path& folder) {
       remove_pending(name);
     } else {
       forget_pending(name);
-      if (error != EEXIST) fail(error);
     }
+    if (tries == most_tries || (error != EEXIST && error != EBUSY)) fail(error);
   }
 }
 

@@ -115,7 +115,7 @@ TEST(Confinement, NamesWhatIsMissing) {
 
 /// The name "-" means standard input only where a user gives it.
 TEST(Confinement, AMinusIsAnOrdinaryName) {
-  EXPECT_THAT(message_of<InputError>([] { InputFile file("-", {}); }),
+  EXPECT_THAT(message_of<InputError>([] { InputFile file("-", std::vector<Boundary>()); }),
               HasSubstr("-: cannot be opened: No such file"));
 }
 
