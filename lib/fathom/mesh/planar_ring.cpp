@@ -1,8 +1,5 @@
 #include "fathom/mesh/planar_ring.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_2_algorithms.h>
-
 #include <algorithm>
 #include <cstddef>
 
@@ -60,11 +57,10 @@ bool no_edges_meet(const std::vector<Point2>& points, const std::vector<Corner>&
 
 /// The same by a sweep over the plane.
 bool no_edges_meet_in_sweep(const std::vector<Point2>& points, const std::vector<Corner>& ring) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  std::vector<Kernel::Point_2> corners;
+  std::vector<Point2> corners;
   corners.reserve(ring.size());
-  for (const Corner i : ring) corners.emplace_back(points[i][0], points[i][1]);
-  return CGAL::is_simple_2(corners.begin(), corners.end(), Kernel());
+  for (const Corner i : ring) corners.push_back(points[i]);
+  return is_simple_ring(corners);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Interval_nt.h>
+#include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/determinant.h>
 
 #include <algorithm>
@@ -94,6 +95,14 @@ Sign orientation(const std::array<double, 2>& a, const std::array<double, 2>& b,
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const auto point = [](const std::array<double, 2>& p) { return Kernel::Point_2(p[0], p[1]); };
   return sign_of(CGAL::orientation(point(a), point(b), point(c)));
+}
+
+bool is_simple_ring(const std::vector<std::array<double, 2>>& corners) {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  std::vector<Kernel::Point_2> points;
+  points.reserve(corners.size());
+  for (const auto& [x, y] : corners) points.emplace_back(x, y);
+  return CGAL::is_simple_2(points.begin(), points.end(), Kernel());
 }
 
 ImageForm::ImageForm(ExactVector3 coefficients) : coefficients_(std::move(coefficients)) {

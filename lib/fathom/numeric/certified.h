@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "fathom/numeric/dyadic.h"
 #include "fathom/numeric/ratio.h"
@@ -37,6 +38,11 @@ Sign sign_of_determinant(const ExactVector3& a, const ExactVector3& b, const Exa
 /// Decided by CGAL's filtered orientation predicate; exact for all finite coordinates.
 Sign orientation(const std::array<double, 2>& a, const std::array<double, 2>& b,
                  const std::array<double, 2>& c);
+
+/// Whether the edges of a closed ring in the plane meet nowhere but neighbours in their corner, by
+/// CGAL's sweep over the plane with that predicate.
+/// Cost     n log n of n corners
+bool is_simple_ring(const std::vector<std::array<double, 2>>& corners);
 
 /// An affine function l_u·u + l_v·v + l_w on the image (u, v in pixels), with exact coefficients
 /// and an enclosure of them for the filter. Edge functions, and the numerators and denominators of

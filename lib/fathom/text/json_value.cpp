@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "fathom/numeric/errors.h"
@@ -74,7 +75,9 @@ const char* kind_of(const json& value) {
 }  // namespace
 
 JsonDocument::JsonDocument(std::string_view text, std::string file)
-    : value_(parse_strictly(text, file)), file_(std::move(file)) {}
+    : value_(std::make_unique<const json>(parse_strictly(text, file))), file_(std::move(file)) {}
+
+JsonDocument::~JsonDocument() = default;
 
 void JsonValue::fail(const std::string& message) const {
   throw InputError(*file_ + ": " + (place_.empty() ? "" : place_ + ": ") + message);
@@ -132,6 +135,26 @@ std::vector<std::pair<std::string, JsonValue>> JsonValue::members() const {
   for (const auto& [key, member] : value_->items())
     result.emplace_back(key, JsonValue(member, *file_, place_ + (place_.empty() ? "" : ".") + key));
   return result;
+}
+
+std::size_t JsonValue::size() const {
+  return value_->size();
+}
+
+bool JsonValue::is_null() const {
+  return value_->is_null();
+}
+
+bool JsonValue::is_list() const {
+  return value_->is_array();
+}
+
+bool JsonValue::is_object() const {
+  return value_->is_object();
+}
+
+bool JsonValue::is_number() const {
+  return value_->is_number();
 }
 
 double JsonValue::number() const {

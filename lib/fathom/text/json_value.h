@@ -2,7 +2,8 @@
 
 #include <cstdint>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,7 +36,7 @@ class JsonValue {
   [[nodiscard]] std::vector<JsonValue> elements(std::size_t size) const;
   /// The members of an object, in the order of their keys.
   [[nodiscard]] std::vector<std::pair<std::string, JsonValue>> members() const;
-  [[nodiscard]] std::size_t size() const { return value_->size(); }
+  [[nodiscard]] std::size_t size() const;
 
   /// The number, its decimal text rounded once to binary64.
   [[nodiscard]] double number() const;
@@ -46,10 +47,10 @@ class JsonValue {
   [[nodiscard]] const std::string& string() const;
   [[nodiscard]] bool boolean() const;
 
-  [[nodiscard]] bool is_null() const { return value_->is_null(); }
-  [[nodiscard]] bool is_list() const { return value_->is_array(); }
-  [[nodiscard]] bool is_object() const { return value_->is_object(); }
-  [[nodiscard]] bool is_number() const { return value_->is_number(); }
+  [[nodiscard]] bool is_null() const;
+  [[nodiscard]] bool is_list() const;
+  [[nodiscard]] bool is_object() const;
+  [[nodiscard]] bool is_number() const;
 
  private:
   [[noreturn]] void fail_type(const char* expected) const;
@@ -63,14 +64,17 @@ class JsonValue {
 class JsonDocument {
  public:
   /// Fails with InputError: syntax ("FILE: line N: …"), a key twice in one object, a number beyond
-  /// binary64, nesting deeper than `deepest_json`
-  /// (parse_json.h). `file` is the name for messages.
+  /// binary64, nesting deeper than `deepest_json` (parse_json.h). `file` is the name for messages.
   JsonDocument(std::string_view text, std::string file);
+  ~JsonDocument();
+  JsonDocument(const JsonDocument&) = delete;
+  JsonDocument& operator=(const JsonDocument&) = delete;
 
-  [[nodiscard]] JsonValue root() const { return {value_, file_, ""}; }
+  [[nodiscard]] JsonValue root() const { return {*value_, file_, ""}; }
 
  private:
-  nlohmann::json value_;
+  /// By a pointer, so that whoever reads JSON by this header does not compile nlohmann's.
+  std::unique_ptr<const nlohmann::json> value_;
   std::string file_;
 };
 

@@ -22,17 +22,17 @@ std::string in_capitals(std::string_view word) {
 /// finite.
 template <class Real>
 DecimalResult<Real> windows_number(std::string_view word) {
-  constexpr DecimalResult<Real> none{0, nullptr, DecimalFault::malformed};
+  constexpr DecimalResult<Real> malformed{0, nullptr, DecimalFault::malformed};
   const bool negative = word.starts_with('-');
   if (negative) word.remove_prefix(1);
-  if (!word.starts_with("1.#")) return none;
+  if (!word.starts_with("1.#")) return malformed;
   const std::string name = in_capitals(word.substr(3, word.find_last_not_of('0') - 2));
   using Limits = std::numeric_limits<Real>;
   Real value = Limits::quiet_NaN();
   if (name == "INF") {
     value = negative ? -Limits::infinity() : Limits::infinity();
   } else if (name != "IND" && name != "QNAN" && name != "SNAN") {
-    return none;
+    return malformed;
   }
   return {value, nullptr, DecimalFault::not_finite};
 }
