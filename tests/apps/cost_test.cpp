@@ -120,6 +120,55 @@ TEST(JsonCost, ManyNodesAreRead) {
 }
 
 /// A map of a pixel for each of 4,000 cameras.
+/// A scene file that places t.obj so often.
+std::string placements(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i)
+    text += std::string(i == 0 ? R"({"meshes":[)" : ",") + R"({"file":"t.obj"})";
+  return text + "]}";
+}
+
+TEST(SceneCost, ManyPlacementsAreRead) {
+  const TestFolder folder;
+  folder.write("t.obj", "v 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n");
+  // Their triangles were counted anew with each.
+  folder.write("s.json", placements(300'000));
+  const Outcome outcome = run_fathom({"info", "s.json"}, at_small_cost(folder));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("300000"));
+}
+
+TEST(SceneCost, TrianglesThatArePlacedTooOftenAreRefused) {
+  const TestFolder folder;
+  std::string mesh = "v 0 0 1\nv 1 0 1\nv 0 1 1\n";
+  for (int i = 0; i < 10'000; ++i) mesh += "f 1 2 3\n";
+  folder.write("t.obj", mesh);
+  folder.write("s.json", placements(10'000));
+  const Outcome outcome =
+      run_fathom({"render", "s.json", "-o", "a.exr", "--size", "8x8"}, at_small_cost(folder));
+  expect_one_line(outcome, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("s.json: its "));
+  EXPECT_THAT(outcome.err, HasSubstr("a greater --max-expansion allows it"));
+}
+
+TEST(SceneCost, ObjectsWithLongNamesAreRefused) {
+  const TestFolder folder;
+  std::string nodes, roots;
+  for (int i = 0; i < 10'000; ++i) {
+    nodes += std::string(i == 0 ? "" : ",") + R"({"mesh":0})";
+    roots += (i == 0 ? "" : ",") + std::to_string(i);
+  }
+  folder.write(
+      "t.gltf",
+      R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{}}]}],"nodes":[)" +
+          nodes + R"(],"scenes":[{"nodes":[)" + roots + "]}]}");
+  folder.write("s.json",
+               R"({"meshes":[{"file":"t.gltf","name":")" + std::string(300'000, 'x') + R"("}]})");
+  const Outcome outcome = run_fathom({"info", "s.json"}, at_small_cost(folder));
+  expect_one_line(outcome, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("a greater --max-expansion allows it"));
+}
+
 TEST(CameraPathCost, OutputsAreClaimedInLinearTime) {
   const TestFolder folder;
   folder.write("square.obj", square_obj);

@@ -146,6 +146,41 @@ TEST_F(HostileGltf, AnOverflowingTransformIsRenderedWhereACameraIsGiven) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
+/// A mesh below so many nodes, each of which is placed like this in the one before.
+json nested(int count, const json& placement) {
+  json asset = triangle_asset(), nodes = json::array();
+  for (int i = 0; i < count; ++i) {
+    json node = placement;
+    if (i + 1 < count) node["children"] = {i + 1};
+    nodes.push_back(node);
+  }
+  nodes.back()["mesh"] = 0;
+  asset["nodes"] = nodes;
+  return asset;
+}
+
+TEST_F(HostileGltf, TransformsBeyondAllBoundsAreRefused) {
+  // Every pixel took milliseconds: exact numbers of 200,000 bits.
+  const auto placed = [](double size) {
+    return nested(190, {{"matrix", {size, 0, 0, 0, 0, size, 0, 0, 0, 0, size, 0, 1, 1, 1, 1}}});
+  };
+  for (const auto& command : {render, info}) {
+    expect_refusal(
+        placed(0x1p1000), command,
+        "object node 189: is placed by a transform that reaches 2^190000, beyond 2^2048");
+    expect_refusal(placed(0x1p-1000), command,
+                   "object node 189: is placed by a transform of 190001 bits, more than 40000");
+  }
+}
+
+TEST_F(HostileGltf, RotationsAndScalingsAtTheGreatestDepthAreRendered) {
+  const json placement = {{"rotation", {0.048772580504032, 0, 0, 0.998809853231821}},
+                          {"translation", {0.001, 0.002, 0.003}},
+                          {"scale", {1.01, 0.99, 1.001}}};
+  const Outcome outcome = run_on(nested(200, placement), render);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
 TEST_F(HostileGltf, NumbersOfTransformsAreFinite) {
   for (const char* key : {"scale", "translation", "rotation", "matrix"}) {
     std::string text = triangle_asset().dump();

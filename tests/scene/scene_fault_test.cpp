@@ -61,6 +61,18 @@ INSTANTIATE_TEST_SUITE_P(
                   "object 0: there is no mesh 0 among 0 meshes"},
         FaultCase{"MovedAndNot", [](Scene& s) { s.objects[0].world_from_mesh.rows[1][3] = 1.0; },
                   "object 0: is placed as it is, but its transform is not the identity"},
+        FaultCase{"LongTransform",
+                  [](Scene& s) {
+                    s.objects[0].placed_as_is = false;
+                    s.objects[0].world_from_mesh.rows[2][3] = Dyadic(1.0).scaled(-40000);
+                  },
+                  "object 0: is placed by a transform of 40001 bits, more than 40000"},
+        FaultCase{"HugeTransform",
+                  [](Scene& s) {
+                    s.objects[0].placed_as_is = false;
+                    s.objects[0].world_from_mesh.rows[0][1] = -Dyadic(1.0).scaled(2048);
+                  },
+                  "object 0: is placed by a transform that reaches 2^2048, beyond 2^2048"},
         FaultCase{"CornerBeyond", [](Scene& s) { s.meshes[0].triangles[3][1] = 7; },
                   "mesh 0: triangle 3: a corner is beyond the 7 vertices"},
         FaultCase{"CornerWithoutIndex", [](Scene& s) { s.meshes[0].triangles[4][2] = no_index; },
@@ -152,6 +164,10 @@ TEST(SceneFaults, ValidScenesHaveNone) {
   scene.meshes[0].vertices[0] = {std::numeric_limits<double>::max(),
                                  -std::numeric_limits<double>::max(),
                                  std::numeric_limits<double>::denorm_min()};
+  scene.objects[0].placed_as_is = false;
+  scene.objects[0].world_from_mesh.rows[2][3] = -Dyadic(1.0).scaled(-39999);
+  scene.objects.push_back(scene.objects[0]);
+  scene.objects[1].world_from_mesh.rows[2][3] = -Dyadic(1.0).scaled(2047);
   scene.meshes[0].texture_triangles.resize(3, {no_index, no_index, no_index});
   EXPECT_EQ(find_fault(scene), std::nullopt);
   scene.meshes[0].texture_coordinates.resize(1);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "fathom/geometry/frames.h"
@@ -21,6 +22,20 @@ struct Object {
   /// Index into Scene::sources of the file that the mesh comes from.
   std::size_t source = 0;
 };
+
+/// How much memory the numbers of a transform take, in bytes: they grow with every transform that it
+/// is composed of.
+std::uint64_t bytes_of(const WorldFromMesh& transform);
+/// The same of an object, with its name and its transform.
+std::uint64_t bytes_of(const Object& object);
+
+/// The numbers of a transform are below 2 to this power, and of so many bits from the highest of
+/// them all to the lowest that is not 0: beyond either, exact numbers take long for every pixel.
+/// Rotations and scalings in each other stay below the second as deep as glTF nodes may be, 200.
+inline constexpr long greatest_power_of_transform = 2048;
+inline constexpr long most_bits_of_transform = 40000;
+/// Which of the two a transform is beyond.
+std::optional<std::string> find_fault(const WorldFromMesh& transform);
 
 /// A point of the object's mesh in the world, exactly; scene units.
 inline WorldPoint to_world(const Object& object, const MeshPoint& p) {

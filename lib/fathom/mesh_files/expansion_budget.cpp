@@ -36,4 +36,9 @@ void ExpansionBudget::take(std::uint64_t count, std::uint64_t size) {
   taken_ = total;
 }
 
+void ExpansionBudget::take_object(std::uint64_t bytes, std::uint64_t triangles) {
+  take(1, bytes);
+  take(triangles, bytes_of_placed_triangle);
+}
+
 }  // namespace fathom::mesh_files

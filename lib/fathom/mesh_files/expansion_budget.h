@@ -34,6 +34,8 @@ class ExpansionBudget {
   /// Takes `count` times `size` bytes.
   /// Fails    InputError "FILE: …" if that is more than there is left.
   void take(std::uint64_t count, std::uint64_t size);
+  /// Takes an object of so many bytes that places so many triangles.
+  void take_object(std::uint64_t bytes, std::uint64_t triangles);
 
  private:
   [[nodiscard]] std::uint64_t allowed() const;

@@ -57,11 +57,4 @@ WorldFromMesh read_transform_of_node(const JsonValue& node) {
   return transform_of(placement);
 }
 
-std::uint64_t bytes_of(const WorldFromMesh& transform) {
-  std::uint64_t limbs = 0;
-  for (const auto& row : transform.rows)
-    for (const Dyadic& number : row) limbs += mpz_size(number.significand());
-  return limbs * sizeof(mp_limb_t);
-}
-
 }  // namespace fathom::mesh_files

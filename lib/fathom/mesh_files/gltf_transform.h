@@ -23,7 +23,4 @@ WorldFromMesh transform_of(const GltfPlacement& placement);
 /// Fails    InputError: both, or a matrix that is not affine.
 WorldFromMesh read_transform_of_node(const text::JsonValue& node);
 
-/// How many bytes the numbers of a transform take: they grow with every level of nodes.
-std::uint64_t bytes_of(const WorldFromMesh& transform);
-
 }  // namespace fathom::mesh_files

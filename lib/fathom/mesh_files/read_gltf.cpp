@@ -131,24 +131,21 @@ class GltfReader {
     accessors_.budget().take(instances.count(), sizeof(GltfPlacement));
     std::uint64_t number = 0;
     for (const GltfPlacement& placement : instances.placements()) {
-      const WorldFromMesh world_from_mesh = compose(world_from_node, transform_of(placement));
-      accessors_.budget().take(1, bytes_of(world_from_mesh));
-      add_object(node, mesh, world_from_mesh, name + "[" + std::to_string(number++) + "]");
+      add_object(node, mesh, compose(world_from_node, transform_of(placement)),
+                 name + "[" + std::to_string(number++) + "]");
     }
   }
 
   void add_object(const JsonValue& node, std::size_t mesh, const WorldFromMesh& world_from_mesh,
                   const std::string& name) {
-    // Many nodes may have the name of one mesh, and its triangles.
-    accessors_.budget().take(1, sizeof(Object) + name.size());
-    accessors_.budget().take(asset_.meshes[mesh].triangles.size(),
-                             ExpansionBudget::bytes_of_placed_triangle);
     Object object;
     object.mesh = mesh;
     object.world_from_mesh = world_from_mesh;
     object.placed_as_is = world_from_mesh.rows == WorldFromMesh().rows;
     object.name = name;
     object.first_face = next_face_;
+    // Many nodes may have the name of one mesh, and its triangles.
+    accessors_.budget().take_object(bytes_of(object), asset_.meshes[mesh].triangles.size());
     next_face_ += asset_.meshes[mesh].face_count;
     if (next_face_ > no_index) node.fail("the asset has more than 4294967294 triangles");
     asset_.objects.push_back(std::move(object));

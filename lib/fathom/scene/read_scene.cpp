@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/foreign_formats.h"
 #include "fathom/mesh_files/named_files.h"
 #include "fathom/mesh_files/read_gltf.h"
@@ -15,6 +16,7 @@
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_json.h"
 #include "fathom/text/input_file.h"
+#include "fathom/text/printable.h"
 #include "fathom/text/sha256.h"
 #include "fathom/threads/threads.h"
 
@@ -69,20 +71,28 @@ class SceneReader {
     const std::string file = path.string();
     const FileFormat kind = options_.format ? kind_of(*options_.format) : recognise(input, path);
     if (kind != FileFormat::scene_json) {
+      const std::size_t first = scene_.objects.size();
       add_mesh_file(kind, input, path);
+      check_objects(first, file);
       return;
     }
     add_source(file, options_.hash ? sha256(input.bytes()) : "");
-    const std::vector<PlacedFile> meshes = read_scene_json(input.text(), path);
-    // A mesh file that is placed more than once is read once; these are its objects as read.
-    ObjectsOfFile known;
-    for (const PlacedFile& placed : meshes) add_placed(placed, known);
+    Placements placements{{}, ExpansionBudget(file, options_.max_expansion)};
+    placements.budget.add_input(input.bytes().size());
+    for (const PlacedFile& placed : read_scene_json(input.text(), path))
+      add_placed(placed, placements);
   }
 
   Scene finish() { return std::move(scene_); }
 
  private:
-  using ObjectsOfFile = std::map<std::string, std::vector<Object>>;
+  /// What a scene file has placed so far.
+  struct Placements {
+    /// A mesh file that is placed more than once is read once; these are its objects as read.
+    std::map<std::string, std::vector<Object>> known;
+    /// What placing may cost: a few bytes of the scene file can place any number of objects.
+    ExpansionBudget budget;
+  };
 
   FileFormat recognise(const InputFile& input, const std::filesystem::path& path) const {
     if (input.bytes().empty())
@@ -130,7 +140,6 @@ class SceneReader {
     }
     for (std::size_t i = first; i < scene_.objects.size(); ++i) scene_.objects[i].source = source;
     if (hash.valid()) scene_.sources[source].sha256 = hash.get();
-    expect_countable(triangle_count(scene_), "triangles in all", file);
   }
 
   void append(GltfAsset asset) {
@@ -142,39 +151,58 @@ class SceneReader {
     std::move(asset.buffers.begin(), asset.buffers.end(), std::back_inserter(scene_.sources));
   }
 
-  void add_placed(const PlacedFile& placed, ObjectsOfFile& known) {
+  /// The objects from `first` on, which come from this file.
+  void check_objects(std::size_t first, const std::string& file) {
+    for (std::size_t i = first; i < scene_.objects.size(); ++i) {
+      const Object& object = scene_.objects[i];
+      if (const auto fault = find_fault(object.world_from_mesh))
+        throw InputError(file + ": object " + printable(object.name) + ": " + *fault);
+      triangles_ += triangles_of(object);
+      expect_countable(triangles_, "triangles in all", file);
+    }
+  }
+
+  [[nodiscard]] std::uint64_t triangles_of(const Object& object) const {
+    return scene_.meshes[object.mesh].triangles.size();
+  }
+
+  void add_placed(const PlacedFile& placed, Placements& placements) {
     const std::string file = placed.file.string();
     const std::size_t first = scene_.objects.size();
-    if (const auto found = known.find(file); found != known.end()) {
+    if (const auto found = placements.known.find(file); found != placements.known.end()) {
       scene_.objects.insert(scene_.objects.end(), found->second.begin(), found->second.end());
-      expect_countable(triangle_count(scene_), "triangles in all", file);
     } else {
       const InputFile input(placed.file, boundaries_of(options_), reading_of(options_));
       const FileFormat kind = recognise(input, placed.file);
       if (kind == FileFormat::scene_json)
         throw InputError(file + ": is no mesh, expected a mesh file");
+      placements.budget.add_input(input.bytes().size());
       add_mesh_file(kind, input, placed.file);
-      known[file].assign(scene_.objects.begin() + static_cast<std::ptrdiff_t>(first),
-                         scene_.objects.end());
+      placements.known[file].assign(scene_.objects.begin() + static_cast<std::ptrdiff_t>(first),
+                                    scene_.objects.end());
     }
-    place(placed, first);
+    place(placed, first, placements.budget);
+    check_objects(first, file);
   }
 
   /// Names and places the objects from `first` on, which come from one mesh file.
-  void place(const PlacedFile& placed, std::size_t first) {
+  void place(const PlacedFile& placed, std::size_t first, ExpansionBudget& budget) {
     const bool single = scene_.objects.size() == first + 1;
     for (std::size_t i = first; i < scene_.objects.size(); ++i) {
       Object& object = scene_.objects[i];
       if (placed.name) object.name = single ? *placed.name : *placed.name + "/" + object.name;
-      if (!placed.transform) continue;
-      object.world_from_mesh = compose(*placed.transform, object.world_from_mesh);
-      object.placed_as_is = false;
+      if (placed.transform) {
+        object.world_from_mesh = compose(*placed.transform, object.world_from_mesh);
+        object.placed_as_is = false;
+      }
+      budget.take_object(bytes_of(object), triangles_of(object));
     }
   }
 
   const ReadOptions& options_;
   Warnings& warnings_;
   Scene scene_;
+  std::uint64_t triangles_ = 0;
 };
 
 }  // namespace

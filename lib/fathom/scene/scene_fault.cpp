@@ -159,6 +159,7 @@ Fault find_fault_of_placements(const AnyScene& scene) {
     const Object& object = scene.objects[i];
     if (object.placed_as_is && object.world_from_mesh.rows != identity.rows)
       return in("object", i, "is placed as it is, but its transform is not the identity");
+    if (auto fault = find_fault(object.world_from_mesh)) return in("object", i, *fault);
     if (!last_faces.contains(object.mesh))
       last_faces[object.mesh] = last_face(mesh_of(scene, object));
     if (object.first_face > mesh::most_elements ||

@@ -14,7 +14,8 @@ namespace fathom {
 
 /// What is wrong with a scene, in one line, or nothing if
 ///   objects      name meshes of the scene; one that is placed as it is has the identity as its
-///                transform; faces are numbered below 2³² − 1
+///                transform; no transform is beyond what object.h allows; faces are numbered below
+///                2³² − 1
 ///   meshes       have at most 2³² − 2 vertices and triangles; all coordinates are finite; corners
 ///                are numbers of vertices; face_of_triangle is empty or as long as `triangles`
 ///   attributes   are finite; those of vertices are as many as these; texture_triangles and

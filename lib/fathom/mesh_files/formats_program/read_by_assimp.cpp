@@ -95,15 +95,13 @@ class AssimpNodes {
 
   void add_object(const ForeignNode& node) {
     if (!path_.back().fault.empty()) throw InputError(file_ + ": " + path_.back().fault);
-    budget_.take(1, sizeof(Object) + node.name.size());
     Object object;
     object.mesh = mesh_of(node.meshes);
-    budget_.take(result_.meshes[object.mesh].triangles.size(),
-                 ExpansionBudget::bytes_of_placed_triangle);
     object.world_from_mesh = path_.back().world_from_node;
     object.placed_as_is = object.world_from_mesh.rows == WorldFromMesh().rows;
     object.name = name_of(node);
     object.first_face = next_face_;
+    budget_.take_object(bytes_of(object), result_.meshes[object.mesh].triangles.size());
     next_face_ += result_.meshes[object.mesh].face_count;
     mesh::expect_countable(next_face_, "faces", file_);
     result_.objects.push_back(std::move(object));
