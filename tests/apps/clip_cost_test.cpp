@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "small_cost.h"
@@ -139,6 +140,45 @@ TEST(ClipCost, ManyCornersAreDecomposed) {
                                                          "[3000,-5],[-1,-5]]],\"clip\":[" +
                                                          square(-10, -10, 50) + "]}\n");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+/// A regular polygon, counter-clockwise.
+std::string circle(int corners) {
+  std::string ring;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 6.283185307179586 * k / corners;
+    ring += (ring.empty() ? "[[" : ",[") + std::to_string(100 * std::cos(angle)) + "," +
+            std::to_string(100 * std::sin(angle)) + "]";
+  }
+  return ring + "]";
+}
+
+TEST(ClipCost, ManyCornersAgainstManyEdgesAreRefused) {
+  const auto against_each_other = [](int corners) {
+    return "{\"subject\":[" + circle(corners) + "],\"clip\":[" + circle(corners) + "]}\n";
+  };
+  const Outcome exact = clip("sutherland-hodgman", against_each_other(2100));
+  expect_one_line(exact, 3);
+  EXPECT_THAT(exact.err, HasSubstr("4410000 tests of a corner against an edge, more than 4194304; "
+                                   "--kernel double does more, or clip it in parts"));
+  const Outcome doubles =
+      clip("sutherland-hodgman", against_each_other(2100), {"--kernel", "double"});
+  EXPECT_EQ(doubles.status, 0) << doubles.err;
+  const Outcome more = clip("sutherland-hodgman", against_each_other(9000), {"--kernel", "double"});
+  expect_one_line(more, 3);
+  EXPECT_THAT(more.err, HasSubstr("; clip it in parts"));
+}
+
+TEST(ClipCost, ManyCornersAgainstManyPlanesAreRefused) {
+  std::string corners, planes;
+  for (int k = 0; k < 2100; ++k) {
+    corners += (k == 0 ? "[" : ",[") + std::to_string(k) + "," + std::to_string(k * k) + ",0]";
+    planes += (k == 0 ? "[1,0,0," : ",[1,0,0,") + std::to_string(-k - 5000) + "]";
+  }
+  const Outcome outcome =
+      clip("sutherland-hodgman", "{\"polygon3\":[" + corners + "],\"planes\":[" + planes + "]}\n");
+  expect_one_line(outcome, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("4410000 tests of a corner against a plane"));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "apps/textbook/cases/case_reading.h"
 #include "apps/textbook/cases/case_writing.h"
 
@@ -9,6 +11,12 @@
 namespace fathom::app::clip {
 
 using namespace cases;
+
+/// What to do where a case takes too many operations.
+template <class Number>
+inline constexpr const char* clip_less =
+    std::is_same_v<Number, double> ? "clip it in parts"
+                                   : "--kernel double does more, or clip it in parts";
 
 /// {"segment", "window"}
 template <class Number>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/textbook/cases/case_effort.h"
 #include "apps/textbook/clip/clip_algorithms.h"
 #include "fathom/clipping/convex_pieces.h"
 #include "fathom/clipping/rings.h"
@@ -99,6 +100,12 @@ Json sutherland_hodgman_2(const Json& object, Form form) {
                      std::to_string(clip.size()));
   clipping::check_convex(clip[0], "clip ring 0");
   if (decompose) subject = pieces_of(subject);
+
+  std::size_t corners_of_all = 0;
+  for (const Ring<Number>& ring : subject) corners_of_all += ring.size();
+  cases::check_effort<Number>(
+      static_cast<double>(corners_of_all) * static_cast<double>(clip[0].size()),
+      "tests of a corner against an edge", clip_less<Number>);
 
   Rings<Number> clipped;
   Json trace = Json::array();

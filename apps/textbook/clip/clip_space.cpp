@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "apps/textbook/cases/case_effort.h"
 #include "apps/textbook/clip/clip_algorithms.h"
 #include "fathom/clipping/homogeneous.h"
 #include "fathom/clipping/plane.h"
@@ -135,9 +136,12 @@ Json clip_in_space(const Json& object, Form form) {
   std::vector<clipping::Plane<Number>> planes;
   for (const auto& p : points(object, "planes", 4, 4)) planes.push_back(plane_of<Number>(p));
   clipping::ClipStages<clipping::Point3, Number> stages;
-  const auto polygon = clipping::sutherland_hodgman(
-      corners<clipping::Point3, Number>(object, "polygon3", 3, point3<Number>), planes,
-      form.trace ? &stages : nullptr);
+  const auto subject = corners<clipping::Point3, Number>(object, "polygon3", 3, point3<Number>);
+  cases::check_effort<Number>(
+      static_cast<double>(subject.size()) * static_cast<double>(planes.size()),
+      "tests of a corner against a plane", clip_less<Number>);
+  const auto polygon =
+      clipping::sutherland_hodgman(subject, planes, form.trace ? &stages : nullptr);
   Json result;
   put_polygon(result, object, "polygon3", polygon, form);
   if (form.trace) {

@@ -14,6 +14,9 @@ namespace fathom::app::scan {
 
 using cases::Json;
 
+/// What to do where a case takes too many operations.
+inline constexpr const char* window_limits_it = "\"width\" and \"height\" limit them";
+
 struct Form {
   cases::Form numbers;
   /// Runs of pixels instead of pixels.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "apps/textbook/scan/scan_effort.h"
+#include "apps/textbook/cases/case_effort.h"
 #include "apps/textbook/scan/scan_reading.h"
 #include "apps/textbook/scan/scan_writing.h"
 #include "fathom/pipeline/scan/polygon_fill.h"
@@ -83,8 +83,8 @@ Json fill(const Json& object, const clipping::Rings<double>& rings, FillRule rul
   const CarriedAlong carried = carried_along(object, corners);
   const pipeline::PixelWindow window = window_of(object);
   const std::size_t attributes = carried.any() ? carried.attributes[0].size() : 0;
-  check_effort<Number>(crossings_of(rings, window) * static_cast<double>(1 + attributes),
-                       "crossings of edges and rows", window_limits_it);
+  cases::check_effort<Number>(crossings_of(rings, window) * static_cast<double>(1 + attributes),
+                              "crossings of edges and rows", window_limits_it);
   PixelList pixels(form.runs);
   Json trace = Json::array();
   pipeline::fill_polygon<Number>(

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/textbook/scan/scan_effort.h"
+#include "apps/textbook/cases/case_effort.h"
 #include "apps/textbook/scan/scan_reading.h"
 #include "apps/textbook/scan/scan_writing.h"
 #include "fathom/pipeline/scan/diamond_exit.h"
@@ -43,8 +43,8 @@ Json draw(const Json& object, const Form& form, const Draw& draw_line, const Des
   const pipeline::LineEnds ends = pixel_ends_of(object);
   const PixelWindow window = window_of(object);
   const auto [first, last] = pipeline::LineAxes(ends).steps_in(window);
-  check_effort<Number>(static_cast<double>(last) - static_cast<double>(first) + 1,
-                       "steps of the line", window_limits_it);
+  cases::check_effort<Number>(static_cast<double>(last) - static_cast<double>(first) + 1,
+                              "steps of the line", window_limits_it);
   PixelList pixels(form.runs);
   Json steps = Json::array();
   draw_line(ends, window, [&](const Pixel& pixel, const State& state) {
@@ -114,8 +114,8 @@ Json diamond_exit(const Json& object, const Form& form) {
   const std::vector<double> ends = ends_of(object);
   const auto number = [&](std::size_t i) { return pipeline::number_from<Number>(ends[i]); };
   const PixelWindow window = window_of(object);
-  check_effort<Number>(tests_of_a_column * columns_of(ends, window), "tests of diamonds",
-                       window_limits_it);
+  cases::check_effort<Number>(tests_of_a_column * columns_of(ends, window), "tests of diamonds",
+                              window_limits_it);
   PixelList pixels(form.runs);
   pipeline::diamond_exit_line<Number>({number(0), number(1), number(2), number(3)}, window,
                                       [&](const Pixel& pixel) { pixels.add(pixel); });

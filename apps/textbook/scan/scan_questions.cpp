@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "apps/textbook/scan/scan_effort.h"
+#include "apps/textbook/cases/case_effort.h"
 #include "apps/textbook/scan/scan_reading.h"
 #include "apps/textbook/scan/scan_writing.h"
 #include "fathom/numeric/certified.h"
@@ -46,8 +46,8 @@ std::size_t edges_of(const clipping::Rings<double>& rings) {
 /// Refuses what takes a step for each of `rows` with each of `columns`.
 template <class Number>
 void check_pairs(std::size_t rows, std::size_t columns, const char* what) {
-  check_effort<Number>(static_cast<double>(rows) * static_cast<double>(columns), what,
-                       "fewer corners take fewer");
+  cases::check_effort<Number>(static_cast<double>(rows) * static_cast<double>(columns), what,
+                              "fewer corners take fewer");
 }
 
 /// In how many points edges cross.

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "apps/textbook/scan/scan_effort.h"
+#include "apps/textbook/cases/case_effort.h"
 #include "apps/textbook/scan/scan_reading.h"
 #include "apps/textbook/scan/scan_writing.h"
 #include "fathom/pipeline/scan/edge_function.h"
@@ -65,8 +65,8 @@ Json edge_function(const Json& object, const Form& form) {
   const clipping::Ring<double> ring = triangle_of(object, form);
   const CarriedAlong carried = carried_along(object, 3);
   const pipeline::PixelWindow window = window_of(object);
-  check_effort<Number>(pixels_in_box(ring, window), "pixels in the triangle's box",
-                       "\"width\" and \"height\" limit it, scan-line needs no box");
+  cases::check_effort<Number>(pixels_in_box(ring, window), "pixels in the triangle's box",
+                              "\"width\" and \"height\" limit it, scan-line needs no box");
   std::array<pipeline::Point<Number>, 3> corners;
   std::array<std::vector<Number>, 3> attributes;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -4,17 +4,17 @@
 
 #include <type_traits>
 
+#include "fathom/clipping/exact_kernel.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/pipeline/scan/arithmetic.h"
 
 /// What one case may cost: a line of input is answered in seconds, or refused before the work.
-namespace fathom::app::scan {
+namespace fathom::app::cases {
 
 /// Steps, crossings, tests: what an algorithm does for each pixel, row or corner. Exact numbers
 /// take about a microsecond for one.
 template <class Number>
 inline constexpr double most_operations =
-    std::is_same_v<Number, pipeline::Exact> ? 1 << 22 : 1 << 26;
+    std::is_same_v<Number, clipping::Rational> ? 1 << 22 : 1 << 26;
 
 /// Refuses a case that takes `count` operations, which are `what`; `advice` says what limits them.
 template <class Number>
@@ -24,6 +24,4 @@ void check_effort(double count, const char* what, const char* advice) {
       fmt::format("{:.0f} {}, more than {:.0f}; {}", count, what, most_operations<Number>, advice));
 }
 
-inline constexpr const char* window_limits_it = "\"width\" and \"height\" limit them";
-
-}  // namespace fathom::app::scan
+}  // namespace fathom::app::cases
