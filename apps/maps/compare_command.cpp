@@ -10,6 +10,7 @@
 #include "apps/shell/exit_status.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"
+#include "apps/shell/output_place.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/text_output.h"
 #include "apps/shell/values.h"

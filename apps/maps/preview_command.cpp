@@ -6,6 +6,7 @@
 #include "apps/options/map_argument.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
+#include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/image/preview.h"
 #include "fathom/numeric/errors.h"

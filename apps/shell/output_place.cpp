@@ -4,10 +4,10 @@
 
 #include <cerrno>
 #include <charconv>
-#include <string>
 #include <system_error>
 
 #include "apps/shell/write_all.h"
+#include "fathom/numeric/errors.h"
 
 namespace fathom::app {
 namespace {
@@ -51,6 +51,12 @@ OutputPlace place_of(const fs::path& target) {
 bool is_written_through(const fs::path& target) {
   std::error_code error;
   return fs::is_other(fs::status(target, error)) || place_of(target).open_file.has_value();
+}
+
+std::string parse_png_name(const std::string& text) {
+  const std::string suffix = fs::path(text).extension().string();
+  if (suffix == ".png" || suffix == ".PNG" || is_written_through(text)) return text;
+  throw UsageError("'" + text + "' does not end in .png");
 }
 
 }  // namespace fathom::app

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace fathom::app {
 
@@ -21,5 +22,9 @@ OutputPlace place_of(const std::filesystem::path& target);
 /// Whether what is written to this name goes on at once, into a device, a pipe or an open file: it
 /// need not have the suffix of what it is.
 bool is_written_through(const std::filesystem::path& target);
+
+/// The name of a picture as an argument: it ends in .png, or is a device, a pipe or an open file.
+/// Fails    UsageError: "'text' does not end in .png".
+std::string parse_png_name(const std::string& text);
 
 }  // namespace fathom::app

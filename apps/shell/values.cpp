@@ -4,10 +4,8 @@
 
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <system_error>
 
-#include "apps/shell/output_place.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -106,12 +104,6 @@ std::vector<std::string> parse_list(const std::string& text) {
     }
   }
   return parts;
-}
-
-std::string parse_png_name(const std::string& text) {
-  const std::string suffix = std::filesystem::path(text).extension().string();
-  if (suffix == ".png" || suffix == ".PNG" || is_written_through(text)) return text;
-  throw UsageError("'" + text + "' does not end in .png");
 }
 
 std::string joined(const std::vector<std::string>& names, std::string_view last) {

@@ -43,9 +43,6 @@ std::array<double, 3> parse_vector(const std::string& text);
 /// The parts of a text between commas.
 std::vector<std::string> parse_list(const std::string& text);
 
-/// The name of a picture: it ends in .png, or is a device, a pipe or an open file.
-std::string parse_png_name(const std::string& text);
-
 /// "a, b and c"
 std::string joined(const std::vector<std::string>& names, std::string_view last = " and ");
 
