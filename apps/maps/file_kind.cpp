@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string>
 
-#include "fathom/text/input_file.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/text_cursor.h"
 
 namespace fathom::app {
+
 FileKind kind_of(std::string_view content) {
   for (const std::string_view magic : {"\x76\x2f\x31\x01", "\x89PNG", "\x93NUMPY", "Pf", "PF"}) {
     if (content.starts_with(magic)) return FileKind::map;

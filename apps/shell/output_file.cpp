@@ -50,7 +50,7 @@ std::string with_target_for(const std::string& staged, const fs::path& target,
 
 /// Waits until the names in a folder are on the disk. Some systems cannot tell.
 void sync_folder(const fs::path& folder) {
-  const Descriptor open(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const text::Descriptor open(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (open.is_open()) ::fsync(open.get());
 }
 
@@ -81,10 +81,10 @@ void OutputFile::find_place(bool exists, mode_t mode) {
   const OutputPlace place = place_of(target_);
   if (place.open_file) {
     expect_writable(*place.open_file, target_.string());
-    through_ = Descriptor(::fcntl(*place.open_file, F_DUPFD_CLOEXEC, 0));
+    through_ = text::Descriptor(::fcntl(*place.open_file, F_DUPFD_CLOEXEC, 0));
     if (!through_.is_open()) fail_with_errno(target_, errno);
   } else if (exists && S_ISCHR(mode)) {
-    through_ = Descriptor(::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
+    through_ = text::Descriptor(::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
     if (!through_.is_open()) fail_with_errno(target_, errno);
     expect_writable(through_.get(), target_.string());
   } else if (!place.is_foreign && (!exists || S_ISREG(mode))) {
@@ -157,7 +157,7 @@ void OutputFile::sync_all(const std::vector<OutputFile*>& placed) {
 
 void OutputFile::write_through() {
   if (!through_.is_open()) {
-    through_ = Descriptor(::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
+    through_ = text::Descriptor(::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
     if (!through_.is_open()) fail_with_errno(target_, errno);
   }
   std::array<char, 65536> buffer{};

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/shell/descriptor.h"
 #include "apps/shell/staged_file.h"
+#include "fathom/text/descriptor.h"
 
 namespace fathom::app {
 
@@ -65,7 +65,7 @@ class OutputFile {
   std::filesystem::path place_;
   std::optional<Existing> existing_;
   /// What is written through, where that is open already.
-  Descriptor through_;
+  text::Descriptor through_;
   std::optional<StagedFile> staged_;
 };
 

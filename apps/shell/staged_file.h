@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "apps/shell/descriptor.h"
+#include "fathom/text/descriptor.h"
 
 namespace fathom::app {
 
@@ -49,7 +49,7 @@ class StagedFile {
   void open_with_name(const std::filesystem::path& folder);
   void copy_to(const StagedFile& other) const;
 
-  Descriptor file_;
+  text::Descriptor file_;
   mode_t ordinary_mode_ = 0;
   /// The name it has, if it has one.
   PendingFile* name_ = nullptr;

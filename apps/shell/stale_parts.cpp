@@ -10,8 +10,8 @@
 #include <set>
 #include <string>
 
-#include "apps/shell/descriptor.h"
 #include "apps/shell/part_names.h"
+#include "fathom/text/descriptor.h"
 
 namespace fathom::app {
 namespace {
@@ -26,7 +26,7 @@ struct CloseFolder {
 /// Removes a part unless someone holds its lock. Its owner locks it and only then looks whether it
 /// still has a name, so that a part is lost only before anything is in it.
 void remove_if_stale(int folder, const char* name) {
-  const Descriptor file(
+  const text::Descriptor file(
       ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   struct stat opened {
   }, named{};

@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include "fathom/numeric/errors.h"
-#include "fathom/text/descriptor.h"
 #include "fathom/text/system_failure.h"
 
 namespace fathom::text {
@@ -23,7 +22,7 @@ bool lies_in(const std::filesystem::path& file, const std::filesystem::path& fol
 /// Where an open file lies, without symbolic links.
 std::filesystem::path place_of(const Descriptor& file, const std::string& name) {
   std::error_code error;
-  auto place = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file.number), error);
+  auto place = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file.get()), error);
   if (!error) return place;
   throw InputError(name + ": where it lies cannot be found out: " + error.message());
 }
@@ -41,17 +40,18 @@ void check_boundary(const std::filesystem::path& place, const Boundary& boundary
 
 struct stat examine(const Descriptor& file, const std::string& name) {
   struct stat status {};
-  if (::fstat(file.number, &status) != 0) fail_with_errno(name, "cannot be examined");
+  if (::fstat(file.get(), &status) != 0) fail_with_errno(name, "cannot be examined");
   return status;
 }
 
 }  // namespace
 
-int open_confined(const std::filesystem::path& path, const std::vector<Boundary>& boundaries) {
+Descriptor open_confined(const std::filesystem::path& path,
+                         const std::vector<Boundary>& boundaries) {
   const std::string name = path.string();
   // A handle to look at, not to read from: nothing happens to a device or a pipe.
   const Descriptor found{::open(name.c_str(), O_PATH | O_CLOEXEC)};
-  if (found.number < 0) fail_with_errno(name, "cannot be opened");
+  if (!found.is_open()) fail_with_errno(name, "cannot be opened");
   const struct stat expected = examine(found, name);
   // First where, then what: nothing is said of files outside.
   if (!boundaries.empty()) {
@@ -63,12 +63,12 @@ int open_confined(const std::filesystem::path& path, const std::vector<Boundary>
     throw InputError(name + ": is not a regular file, as a file named by another must be");
   }
   Descriptor opened{::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
-  if (opened.number < 0) fail_with_errno(name, "cannot be opened");
+  if (!opened.is_open()) fail_with_errno(name, "cannot be opened");
   const struct stat status = examine(opened, name);
   if (status.st_dev != expected.st_dev || status.st_ino != expected.st_ino) {
     throw InputError(name + ": was exchanged while it was opened");
   }
-  return opened.release();
+  return opened;
 }
 
 }  // namespace fathom::text

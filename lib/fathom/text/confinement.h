@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "fathom/text/descriptor.h"
+
 /// Which files another file may name: a scene file its meshes, a glTF asset its buffers.
 namespace fathom::text {
 
@@ -14,12 +16,13 @@ struct Boundary {
   std::string rule;
 };
 
-/// Opens a file that another file names, for reading, and returns its descriptor. It must be a
-/// regular file: no pipe, no device, which are not even opened to find out. It must lie in the
+/// Opens a file that another file names, for reading. It must be a regular
+/// file: no pipe, no device, which are not even opened to find out. It must lie in the
 /// folder of every boundary where all symbolic links have led: the file that is opened is the one
 /// that is examined, even if someone exchanges a link meanwhile.
 /// Fails    InputError "PATH: …": as above, missing or not readable; with boundaries, also where
 ///          there is no /proc to ask where a file lies.
-int open_confined(const std::filesystem::path& path, const std::vector<Boundary>& boundaries);
+Descriptor open_confined(const std::filesystem::path& path,
+                         const std::vector<Boundary>& boundaries);
 
 }  // namespace fathom::text

@@ -6,18 +6,26 @@
 
 namespace fathom::text {
 
-/// A file descriptor that closes itself; standard input stays open.
-struct Descriptor {
-  int number = -1;
-
-  explicit Descriptor(int descriptor) : number(descriptor) {}
+/// An open file by its number, closed at the end of its scope; −1 is none.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number > STDIN_FILENO) ::close(number);
-  }
-  /// The number, which is the caller's to close from now on.
-  [[nodiscard]] int release() { return std::exchange(number, -1); }
+  ~Descriptor() { close(); }
+
+  [[nodiscard]] int get() const { return number_; }
+  [[nodiscard]] bool is_open() const { return number_ >= 0; }
+  /// Closes now; false where data were lost.
+  bool close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0; }
+
+ private:
+  int number_;
 };
 
 }  // namespace fathom::text

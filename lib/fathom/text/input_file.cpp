@@ -41,26 +41,27 @@ void refuse_folders_and_devices(const std::string& name) {
   }
 }
 
-int opened(const std::string& name) {
-  if (name == "-") return STDIN_FILENO;
+Descriptor opened(const std::string& name) {
   refuse_folders_and_devices(name);
-  const int descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
-  if (descriptor < 0) fail_with_errno(name, "cannot be opened");
-  return descriptor;
+  Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+  if (!file.is_open()) fail_with_errno(name, "cannot be opened");
+  return file;
 }
 
 }  // namespace
 
 InputFile::InputFile(const std::filesystem::path& path, Reading reading) {
   const std::string name = path.string();
-  const Descriptor file{opened(name)};
-  take(file.number, name, name == "-" ? Reading::copied : reading);
+  if (name == "-") {
+    take(STDIN_FILENO, name, Reading::copied);
+  } else {
+    take(opened(name).get(), name, reading);
+  }
 }
 
 InputFile::InputFile(const std::filesystem::path& path, const std::vector<Boundary>& boundaries,
                      Reading reading) {
-  const Descriptor file{open_confined(path, boundaries)};
-  take(file.number, path.string(), reading);
+  take(open_confined(path, boundaries).get(), path.string(), reading);
 }
 
 void InputFile::take(int descriptor, const std::string& name, Reading reading) {

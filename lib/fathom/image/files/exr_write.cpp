@@ -4,7 +4,6 @@
 #include <ImfThreading.h>
 
 #include <algorithm>
-#include <mutex>
 #include <system_error>
 #include <thread>
 
@@ -12,7 +11,6 @@
 #include "fathom/image/files/exr_streams.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/threads/startable_threads.h"
 
 namespace fathom::image {
 using namespace text;
