@@ -28,7 +28,7 @@ void ReadLimits::add_to(Command& command) {
   command.option(
       "--max-expansion", "N", into(max_expansion, parse_count),
       "A mesh may take 64 MiB and N times the bytes of its files in memory (default 64); "
-      "glTF that shares its data among many primitives and nodes may need more");
+      "glTF and scene files that show the same data many times may need more");
 }
 
 ReadOptions ReadLimits::read_options() const {

@@ -7,10 +7,10 @@
 namespace fathom::mesh_files {
 
 /// Some formats can say the same bytes many times over: a glTF accessor may be part of every
-/// primitive, a mesh of every node, a list of indices may have a length that costs nothing to
-/// write. What is read then has no bound in the size of its file. A budget is one: free_bytes, and
-/// `factor` times the bytes of the files. It is asked before memory is taken, so that a file that
-/// exceeds it costs no more than its budget.
+/// primitive, a mesh of every node, a mesh file of every entry of a scene file, a list of indices
+/// may have a length that costs nothing to write. What is read then has no bound in the size of its
+/// file. A budget is one: free_bytes, and `factor` times the bytes of the files. It is asked before
+/// memory is taken, so that a file that exceeds it costs no more than its budget.
 ///
 /// The least factor that every file can do with whose bytes are used once is near 35: an instance
 /// of EXT_mesh_gpu_instancing is 12 bytes, and an Object with a transform and a name of its own.

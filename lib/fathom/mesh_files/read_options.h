@@ -30,8 +30,8 @@ struct ReadOptions {
   /// A glTF asset may name files outside the folder in which it lies; by default none, since an
   /// asset that comes from elsewhere could name anything that its reader may read.
   bool outside_files = false;
-  /// How many times the bytes of its files a mesh may take in memory, beside 64 MiB; more is an
-  /// error. See expansion_budget.h.
+  /// How many times the bytes of its files a mesh, or a scene file with its meshes, may take in
+  /// memory, beside 64 MiB; more is an error. See expansion_budget.h.
   std::uint64_t max_expansion = 64;
   /// Map files of more than 64 MiB instead of reading them into memory. Where another program cuts
   /// a mapped file short meanwhile, this one gets the signal SIGBUS (text/mapped_file.h).
