@@ -25,8 +25,8 @@ using testing::FloatingPointMode;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// near < far, of any magnitudes, next to each other, of few bits, or at the ends of what the bounds
-/// of floating point were derived for.
+/// near < far, of any magnitudes, next to each other, of few bits, or at the ends of what the
+/// bounds of floating point were derived for.
 void draw_range(Draw& draw, DepthFormat& format) {
   double& near = format.near;
   double& far = format.far;
@@ -114,7 +114,8 @@ std::optional<Ratio> if_finite(double depth) {
   return Dyadic(depth);
 }
 
-/// A depth of the format's range or next to it: at an end, anywhere, where what is stored steps, or next to that.
+/// A depth of the format's range or next to it: at an end, anywhere, where what is stored steps, or
+/// next to that.
 std::optional<Ratio> any_depth(Draw& draw, const DepthFormat& format) {
   const double far = std::isinf(format.far) ? 0x1p1000 : format.far;
   switch (draw.below(6)) {

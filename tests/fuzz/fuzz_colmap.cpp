@@ -1,5 +1,5 @@
-// Any two files as a COLMAP model, binary or text: an InputError of one line, or cameras without fault.
-// The first two bytes say how long the first file is, and the third what they are.
+// Any two files as a COLMAP model, binary or text: an InputError of one line, or cameras without
+// fault. The first two bytes say how long the first file is, and the third what they are.
 #include <cstdint>
 #include <cstdlib>
 #include <sstream>

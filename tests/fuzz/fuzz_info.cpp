@@ -1,5 +1,5 @@
-// `fathom info` of any file: its kind is told, and it is described, in text and in JSON, or there is an
-// Error of one line. Files that it names are looked for in an empty folder only.
+// `fathom info` of any file: its kind is told, and it is described, in text and in JSON, or there
+// is an Error of one line. Files that it names are looked for in an empty folder only.
 #include <cmath>
 #include <nlohmann/json.hpp>
 

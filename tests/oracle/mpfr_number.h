@@ -18,8 +18,8 @@ class MpfrNumber {
   mpfr_t value_;
 };
 
-/// log(1 + x), rounded twice, to the precision of the result: with x = q − 1, log q, of which nothing is lost
-/// where q is near 1.
+/// log(1 + x), rounded twice, to the precision of the result: with x = q − 1, log q, of which
+/// nothing is lost where q is near 1.
 inline void set_log1p(mpfr_ptr result, mpq_srcptr x) {
   mpfr_set_q(result, x, MPFR_RNDN);
   mpfr_log1p(result, result, MPFR_RNDN);

@@ -1,4 +1,5 @@
-// Prints the constants of the error bounds, one "NAME VALUE" in each line, exactly: what check-proofs proves with.
+// Prints the constants of the error bounds, one "NAME VALUE" in each line, exactly: what
+// check-proofs proves with.
 #include <cstdio>
 
 #include "fathom/fast/coverage/area_bounds.h"

@@ -37,7 +37,8 @@ pipeline::LineEnds pixel_ends_of(const Json& object) {
 /// How much a step of a trace takes, in pixels.
 constexpr std::int64_t entries_of_a_step = 8;
 
-/// Draws a line by an algorithm that computes with Number; `describe` makes the trace of a step from its state.
+/// Draws a line by an algorithm that computes with Number; `describe` makes the trace of a step
+/// from its state.
 template <class Number, class State, class Draw, class Describe>
 Json draw(const Json& object, const Form& form, const Draw& draw_line, const Describe& describe) {
   const pipeline::LineEnds ends = pixel_ends_of(object);

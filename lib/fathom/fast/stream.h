@@ -27,7 +27,8 @@ struct StreamLimits {
 ///
 /// Memory   the channels asked for, and what the limits allow; nothing that grows with the number
 ///          of triangles (but see TriangleStream).
-/// Fails    as render_reference(); UsageError for limits that allow no triangle; InputError if a file changes in the meantime.
+/// Fails    as render_reference(); UsageError for limits that allow no triangle; InputError if a
+///          file changes in the meantime.
 DepthMap render_streamed(const StreamedScene& scene, const Camera& camera,
                          const RenderOptions& options, const StreamLimits& limits = {});
 

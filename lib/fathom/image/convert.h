@@ -52,8 +52,9 @@ struct StereoRig {
 /// depth of +∞ (overflow) stays +∞, and NaN becomes background.
 ///   ray distance   Z·√(1 + x'² + y'²) with x', y' as in point_at() (Z itself if orthographic)
 /// Fails    UsageError if the channel `from` is missing or holds codes, or if disparity is asked
-///          for without a rig, with baseline ≤ 0, or with an orthographic view; InputError if the map or
-///          the view has a fault, and, naming the pixel, if a disparity plus doffs is negative (no point has it).
+///          for without a rig, with baseline ≤ 0, or with an orthographic view; InputError if the
+///          map or the view has a fault, and, naming the pixel, if a disparity plus doffs is
+///          negative (no point has it).
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
                           const MapView& view, const std::optional<StereoRig>& rig = std::nullopt);
 

@@ -21,7 +21,8 @@ struct PointCloudOptions {
 /// point_at() and camera_to_world() in binary64. Normals are the map's own (world); for the camera
 /// frame they are transformed by the inverse transpose and normalised again.
 /// Unit     scene units.
-/// Fails    InputError if the map or the view has a fault; UsageError if there is no Z, distance or P; OutputError: "PATH: why".
+/// Fails    InputError if the map or the view has a fault; UsageError if there is no Z, distance or
+///          P; OutputError: "PATH: why".
 void write_point_cloud(const DepthMap& map, const MapView& view, const std::filesystem::path& path,
                        const PointCloudOptions& options = {});
 

@@ -36,8 +36,8 @@ struct PreviewOptions {
 /// A picture of one channel, pixel by pixel (small maps are enlarged by a whole factor, very large
 /// ones show every k-th pixel and say so), beside it a colour bar with the range in figures, the
 /// channel's name, and what background, infinities and NaNs look like.
-/// Fails    InputError if the map has a fault (find_fault); UsageError if there is no such channel or if low ≥ high; OutputError if the font is
-///          missing.
+/// Fails    InputError if the map has a fault (find_fault); UsageError if there is no such channel
+///          or if low ≥ high; OutputError if the font is missing.
 RgbImage draw_preview(const DepthMap& map, const PreviewOptions& options = {});
 
 }  // namespace fathom

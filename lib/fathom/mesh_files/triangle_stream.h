@@ -24,10 +24,10 @@ struct TriangleChunk {
 /// the numbers and corners that read_scene() gives them, bit for bit.
 ///
 /// The file has been read through once and checked, with the messages of the ordinary readers; it
-/// must not change while the stream exists; where it is seen to have, reading fails. Memory: for an STL none that grows with the file; for a
-/// PLY the block of its vertices is mapped, and if not all faces have three corners, they take 24
-/// bytes for every 256 of the file's faces; strips take 48 for every 1024 corners. (If vertices have list properties: 24 bytes per vertex
-/// instead.)
+/// must not change while the stream exists; where it is seen to have, reading fails. Memory: for an
+/// STL none that grows with the file; for a PLY the block of its vertices is mapped, and if not all
+/// faces have three corners, they take 24 bytes for every 256 of the file's faces; strips take 48
+/// for every 1024 corners. (If vertices have list properties: 24 bytes per vertex instead.)
 ///
 /// Several threads may read at the same time.
 class TriangleStream {

@@ -13,8 +13,8 @@ namespace fathom {
 /// Unit     depths in scene units, of planar depth in the camera frame (specification, section 6).
 /// Exact    every value is the exact number rounded once (specification, section 6).
 /// Fails    InputError where scene or camera has a fault (find_fault); UsageError for options that
-///          mean nothing (require_meaningful); OutputError if a depth does not fit options.depth_encoding; it names the first such
-///          pixel in row order.
+///          mean nothing (require_meaningful); OutputError if a depth does not fit
+///          options.depth_encoding; it names the first such pixel in row order.
 DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options);
 
 }  // namespace fathom

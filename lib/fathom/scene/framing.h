@@ -26,9 +26,9 @@ std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBou
                           const Lens& lens = {});
 
 /// The camera that frames a scene: frame() on its world_bounds().
-/// Fails    UsageError as frame(); InputError also if the scene has a fault (find_fault), no triangle,
-///          or reaches beyond the largest binary64 number. It names the object that lies farthest
-///          out, and its file.
+/// Fails    UsageError as frame(); InputError also if the scene has a fault (find_fault), no
+///          triangle, or reaches beyond the largest binary64 number. It names the object that lies
+///          farthest out, and its file.
 Camera frame_scene(const Scene& scene, const View& view = {}, const Lens& lens = {});
 
 /// The camera path around a scene: orbit() around its world_bounds().

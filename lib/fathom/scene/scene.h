@@ -9,8 +9,9 @@
 
 namespace fathom {
 
-/// Everything that is rendered. Anybody may fill it in; find_fault() says whether it is valid. Triangles are numbered from 0 over all objects in order
-/// (specification, section 3), at most 2³² − 2 in all.
+/// Everything that is rendered. Anybody may fill it in; find_fault() says whether it is valid.
+/// Triangles are numbered from 0 over all objects in order (specification, section 3), at most
+/// 2³² − 2 in all.
 struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Object> objects;

@@ -13,17 +13,17 @@
 namespace fathom {
 namespace {
 
-/// A place for so many threads, or for all (0), or, where the process has fewer, for these: TBB would ignore a
-/// request for more, and say so on standard error.
+/// A place for so many threads, or for all (0), or, where the process has fewer, for these: TBB
+/// would ignore a request for more, and say so on standard error.
 int size_of_arena(int threads) {
   const auto most = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   if (threads == 0) return static_cast<int>(most);
   return static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads), most));
 }
 
-/// How many of so many threads there can be, the calling one among them. oneTBB does not survive that
-/// the system refuses it one (a limit on processes, or no memory for its stack), so this is found
-/// out before any are started. Once fewer can be had, it stays at these.
+/// How many of so many threads there can be, the calling one among them. oneTBB does not survive
+/// that the system refuses it one (a limit on processes, or no memory for its stack), so this is
+/// found out before any are started. Once fewer can be had, it stays at these.
 int possible_threads(int wanted) {
   static std::mutex asking;
   static int known = 1;
