@@ -146,6 +146,19 @@ const TolerantMesh meshes[] = {
      low,
      high,
      {}},
+    {"PlyOfBlender24",
+     "a.ply",
+     "ply\nformat ascii 1.0\nCreated by Blender3D 247 - www.blender.org, source file: \n"
+     "element vertex 3\n" +
+         ply_vertices +
+         "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+         "0 0 2\n1 0 2\n1 1 2\n3 0 1 2\n",
+     3,
+     1,
+     1,
+     low,
+     high,
+     {"1 line of the header is ignored, on line 3"}},
     {"PlyStripsInText",
      "a.ply",
      "ply\nformat ascii 1.0\nelement vertex 4\n" + ply_vertices +

@@ -27,7 +27,8 @@ const std::string good =
     "end_header\n";
 
 TEST(PlyHeader, SaysWhatStandsInTheBody) {
-  const PlyHeader header = read_ply_header(good + "body", "FILE");
+  Warnings warnings;
+  const PlyHeader header = read_ply_header(good + "body", "FILE", warnings);
   EXPECT_EQ(header.encoding, PlyHeader::Encoding::big_endian);
   EXPECT_EQ(header.size, good.size());
   EXPECT_EQ(header.lines, 12U);
@@ -49,10 +50,11 @@ TEST(PlyHeader, SaysWhatStandsInTheBody) {
 }
 
 TEST(PlyHeader, LinesEndAsTheFirstDoes) {
+  Warnings warnings;
   for (const std::string end : {"\r\n", "\r"}) {
     std::string text;
     for (const char c : good) text += c == '\n' ? end : std::string(1, c);
-    const PlyHeader header = read_ply_header(text + "\n\r\n", "FILE");
+    const PlyHeader header = read_ply_header(text + "\n\r\n", "FILE", warnings);
     EXPECT_EQ(header.size, text.size());
     EXPECT_EQ(header.elements.size(), 2U);
   }
@@ -61,8 +63,9 @@ TEST(PlyHeader, LinesEndAsTheFirstDoes) {
 TEST(PlyHeader, FaultsNameTheLine) {
   const auto fault = [](const std::string& from, const std::string& to) {
     std::string text = good;
+    Warnings warnings;
     text.replace(text.find(from), from.size(), to);
-    return message_of<InputError>([&] { read_ply_header(text, "FILE"); });
+    return message_of<InputError>([&] { read_ply_header(text, "FILE", warnings); });
   };
   EXPECT_THAT(fault("1.0", "1.1"), HasSubstr("FILE: line 2: expected version 1.0"));
   EXPECT_THAT(fault("binary_big", "big"), HasSubstr("line 2: expected ascii"));
@@ -74,7 +77,24 @@ TEST(PlyHeader, FaultsNameTheLine) {
   EXPECT_THAT(fault("element vertex 8\n", ""), HasSubstr("line 5: expected an element"));
   EXPECT_THAT(fault("format binary_big_endian 1.0\n", ""), HasSubstr("has no format"));
   EXPECT_THAT(fault("end_header\n", ""), HasSubstr("expected end_header"));
-  EXPECT_THAT(fault("comment", "remark"), HasSubstr("line 3: expected format"));
+  EXPECT_THAT(fault("property uchar red", "porperty uchar red"),
+              HasSubstr("line 8: expected format"));
+  EXPECT_THAT(fault("element vertex", "elment vertex"), HasSubstr("line 6: expected an element"));
+}
+
+TEST(PlyHeader, LinesBeforeTheFirstElementAreIgnoredWithAWarning) {
+  std::string text = good;
+  text.replace(text.find("comment made"), 12, "Created");
+  Warnings warnings;
+  EXPECT_EQ(read_ply_header(text, "FILE", warnings).elements.size(), 2U);
+  EXPECT_EQ(warnings,
+            Warnings{"FILE: 1 line of the header is ignored, on line 3: no keyword of PLY, "
+                     "nor a comment"});
+  text.insert(text.find("Created"), "and\nmore\n");
+  EXPECT_EQ(read_ply_header(text, "FILE", warnings).elements.size(), 2U);
+  EXPECT_EQ(warnings.back(),
+            "FILE: 3 lines of the header are ignored, on line 3 first: no keyword of "
+            "PLY, nor a comment");
 }
 
 TEST(PlyHeader, SizesOfTypes) {

@@ -114,12 +114,13 @@ const PlyElement* PlyHeader::find(std::string_view name) const {
   return nullptr;
 }
 
-PlyHeader read_ply_header(std::string_view text, const std::string& file) {
+PlyHeader read_ply_header(std::string_view text, const std::string& file, Warnings& warnings) {
   PlyHeader header;
   TextCursor cursor(TextCursor::without_mark(text.substr(0, longest_ply_header)), file, {},
                     line_end_of_first(text));
   if (cursor.word() != "ply") cursor.fail("expected ply");
   bool has_format = false;
+  std::uint64_t strays = 0, first_stray = 0;
   while (true) {
     cursor.skip_line();
     if (cursor.at_end()) cursor.fail("the header ends, expected end_header");
@@ -134,6 +135,9 @@ PlyHeader read_ply_header(std::string_view text, const std::string& file) {
       read_element(cursor, header);
     } else if (keyword == "property") {
       read_property(cursor, header);
+    } else if (header.elements.empty()) {
+      if (strays++ == 0) first_stray = cursor.line();
+      continue;
     } else {
       before.fail_here("expected format, element, property, comment or end_header");
     }
@@ -142,6 +146,11 @@ PlyHeader read_ply_header(std::string_view text, const std::string& file) {
   if (!has_format)
     cursor.fail("the header has no format, expected a line such as 'format ascii 1.0'");
   if (!cursor.at_line_end()) cursor.fail_here("expected the line to end after end_header");
+  if (strays > 0)
+    warnings.push_back(file + ": " + std::to_string(strays) +
+                       (strays == 1 ? " line of the header is" : " lines of the header are") +
+                       " ignored, on line " + std::to_string(first_stray) +
+                       (strays == 1 ? "" : " first") + ": no keyword of PLY, nor a comment");
   cursor.skip_line();
   header.size = static_cast<std::size_t>(cursor.position() - text.data());
   header.lines = cursor.line() - 1;

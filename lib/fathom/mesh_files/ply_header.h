@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "fathom/text/warnings.h"
+
 namespace fathom::mesh_files {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -51,8 +53,10 @@ struct PlyHeader {
 /// Only so many bytes of a file are searched for the end of its header.
 inline constexpr std::size_t longest_ply_header = std::size_t{128} << 10;
 
-/// Reads the header of a PLY file; lines end with LF, CR LF or CR, as the first one does.
+/// Reads the header of a PLY file; lines end with LF, CR LF or CR, as the first one does. Other lines
+/// before the first element are skipped, with a warning: Blender 2.4 forgot the word `comment`.
+/// Later ones are errors: they could be misspelt properties.
 /// Fails    InputError "FILE: line N: …".
-PlyHeader read_ply_header(std::string_view text, const std::string& file);
+PlyHeader read_ply_header(std::string_view text, const std::string& file, Warnings& warnings);
 
 }  // namespace fathom::mesh_files

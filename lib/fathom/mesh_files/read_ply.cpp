@@ -79,7 +79,7 @@ Mesh read_ply(std::span<const std::byte> bytes, const std::string& file, const R
               Warnings& warnings) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   expect_no_utf16(text, file);
-  const PlyHeader header = read_ply_header(text, file);
+  const PlyHeader header = read_ply_header(text, file, warnings);
   switch (header.encoding) {
     case PlyHeader::Encoding::ascii:
       return read_body<PlyTextRows>(without_padding(text), header, file, options.attributes,

@@ -46,7 +46,7 @@ std::unique_ptr<TriangleStream> open(std::unique_ptr<RandomAccessFile> file, Fil
   }
   const std::vector<std::byte> head = beginning_of(*file, longest_ply_header);
   const PlyHeader header =
-      read_ply_header({reinterpret_cast<const char*>(head.data()), head.size()}, name);
+      read_ply_header({reinterpret_cast<const char*>(head.data()), head.size()}, name, warnings);
   if (header.encoding == PlyHeader::Encoding::ascii) fail_format(name);
   return open_ply_stream(std::move(file), header, warnings);
 }
