@@ -17,9 +17,10 @@ extern "C" int fathom_fuzz_one_input(const std::uint8_t* data, std::size_t size)
 
 namespace {
 
-/// FATHOM_FUZZ_SECONDS is what an empty input may take.
+/// FATHOM_FUZZ_SECONDS and FATHOM_FUZZ_MEBIBYTES are what an empty input may take.
 constexpr double seconds_at_least = FATHOM_FUZZ_SECONDS, seconds_a_byte = 1e-3;
-constexpr std::size_t bytes_at_least = std::size_t{64} << 20, bytes_a_byte = 4096;
+constexpr std::size_t bytes_at_least = std::size_t{FATHOM_FUZZ_MEBIBYTES} << 20,
+                      bytes_a_byte = 4096;
 
 /// What the heap holds, and the most that it has held since the last start.
 std::atomic<std::ptrdiff_t> held{0}, most_held{0};

@@ -133,6 +133,22 @@ TEST(BadFiles, ExrOfAClaimedSizeIsRefusedBeforeAllocating) {
   }
 }
 
+/// One row is less than a chunk, which is what OpenEXR allocates.
+TEST(BadFiles, ExrOfClaimedChunksIsRefusedBeforeAllocating) {
+  [[maybe_unused]] const MemoryLimit limit{};
+  constexpr std::byte dwab{9};  // 256 lines in a chunk
+  Bytes bytes = small_exr(Compression::piz);
+  bytes[attribute_at(bytes, "compression", "compression")] = dwab;
+  const auto width = static_cast<std::int32_t>(1000 * bytes.size());
+  for (const char* window : {"dataWindow", "displayWindow"}) {
+    const std::size_t at = attribute_at(bytes, window, "box2i");
+    put_int(bytes, at + 8, width - 1);
+    put_int(bytes, at + 12, 0);
+  }
+  EXPECT_THAT(refusal_of(bytes),
+              HasSubstr("its header claims " + std::to_string(width) + "×1 pixels"));
+}
+
 TEST(BadFiles, PngPfmAndNpyOfAClaimedSizeAreRefusedBeforeAllocating) {
   [[maybe_unused]] const MemoryLimit limit{};
   DepthMap codes = map_of(5, 4, "Z", random_bits<std::uint16_t>(20, 1));

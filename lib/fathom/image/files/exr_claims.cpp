@@ -181,21 +181,28 @@ class Claims {
     if (!first) return;
 
     // width·height < 2^64 is compared with a quotient: times a pixel's bytes it might overflow.
-    const std::uint64_t most_pixels =
-        bytes_.size() * bound.ratio / bytes_of_a_pixel(attribute(part, "channels", 1));
-    if (width * height > most_pixels) refuse(width, height);
-    if (tiled) check_tiles(attribute(part, "tiles", 9), width, height, most_pixels);
+    const std::uint64_t bytes_of_pixel = bytes_of_a_pixel(attribute(part, "channels", 1));
+    const std::uint64_t most_bytes = bytes_.size() * bound.ratio;
+    if (width * height > most_bytes / bytes_of_pixel) refuse(width, height);
+    const std::uint64_t allowed = std::max(most_bytes, block_bytes) / bytes_of_pixel;
+    if (tiled) {
+      check_tiles(attribute(part, "tiles", 9), width, height, allowed);
+    } else if (width > allowed / bound.lines) {
+      refuse(width, height);
+    }
   }
 
-  /// OpenEXR allocates whole tiles even where the image ends inside them: besides the pixels that
-  /// the file can hold, up to 2^24 are allowed.
+  /// OpenEXR allocates whole chunks and rows of tiles even where the image ends inside them: these
+  /// may take so much, if the file cannot hold more.
+  static constexpr std::uint64_t block_bytes = std::uint64_t{1} << 26;
+
+  /// `allowed` pixels may be in the tiles of a row.
   void check_tiles(ByteView tiles, std::uint64_t width, std::uint64_t height,
-                   std::uint64_t most_pixels) const {
+                   std::uint64_t allowed) const {
     const std::int64_t tile_width = int_at(tiles, 0), tile_height = int_at(tiles, 4);
     if (tile_width < 1 || tile_height < 1) fail("corrupt: its tiles are empty");
     const auto w = static_cast<std::uint64_t>(tile_width),
                h = static_cast<std::uint64_t>(tile_height);
-    const std::uint64_t allowed = std::max<std::uint64_t>(most_pixels, std::uint64_t{1} << 24);
     if (w * h > allowed || (width + w) > allowed / h) refuse(width, height);
     if ((width + w - 1) / w > bytes_.size() / 8 / ((height + h - 1) / h)) refuse(width, height);
   }
