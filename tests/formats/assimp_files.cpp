@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "binary_fbx.h"
 #include "tests/apps/test_folder.h"
 
 namespace fathom::test {
@@ -61,6 +62,7 @@ Polygons read_polygons(const std::string& obj_file) {
 }
 
 std::string exported(const Polygons& polygons, const std::string& format) {
+  if (format == "fbx") return binary_fbx(polygons);
   aiScene scene;  // which deletes what it holds
   scene.mNumMaterials = 1;
   scene.mMaterials = new aiMaterial* [1] { new aiMaterial };

@@ -16,8 +16,8 @@ struct Polygons {
 /// `v` and `f` lines with one number per corner.
 Polygons read_polygons(const std::string& obj_file);
 
-/// The bytes of a file in one of assimp's formats: "collada", "3ds", "fbx", "fbxa" (text), "3mf",
-/// "x", "x3d".
+/// The bytes of a file in one of assimp's formats: "collada", "3ds", "fbxa" (text), "3mf", "x",
+/// "x3d"; or in "fbx" (binary), which it does not write.
 std::string exported(const Polygons& polygons, const std::string& format);
 
 }  // namespace fathom::test

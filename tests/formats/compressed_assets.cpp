@@ -153,6 +153,38 @@ std::vector<std::uint32_t> decoded_by_meshopt(const CompressedView& indices) {
   return result;
 }
 
+FilteredElements by_filter(const std::string& filter, std::size_t stride, int bits,
+                           const std::vector<float>& numbers) {
+  const std::size_t width = filter == "EXPONENTIAL" ? stride / 4 : 4;
+  const std::size_t count = numbers.size() / width;
+  FilteredElements elements;
+  elements.encoded.resize(count * stride);
+  const auto apply = [&](auto encode, auto decode) {
+    encode(elements.encoded.data(), count, stride, bits, numbers.data());
+    elements.decoded = elements.encoded;
+    decode(elements.decoded.data(), count, stride);
+  };
+  if (filter == "OCTAHEDRAL") apply(meshopt_encodeFilterOct, meshopt_decodeFilterOct);
+  if (filter == "QUATERNION") apply(meshopt_encodeFilterQuat, meshopt_decodeFilterQuat);
+  if (filter == "EXPONENTIAL") apply(meshopt_encodeFilterExp, meshopt_decodeFilterExp);
+  return elements;
+}
+
+void compress_view(json& asset, std::size_t number, const CompressedView& compressed) {
+  const char* const extension = "EXT_meshopt_compression";
+  json& view = asset["bufferViews"][number];
+  const std::size_t buffer = asset["buffers"].size();
+  json described = compressed.extension;
+  described.update({{"buffer", buffer}, {"byteLength", compressed.bytes.size()}});
+  view.update(
+      {{"buffer", buffer + 1}, {"byteOffset", 0}, {"extensions", {{extension, described}}}});
+  asset["buffers"].push_back(data_buffer(compressed.bytes));
+  asset["buffers"].push_back(
+      {{"byteLength", view["byteLength"]}, {"extensions", {{extension, {{"fallback", true}}}}}});
+  asset["extensionsUsed"].push_back(extension);
+  asset["extensionsRequired"].push_back(extension);
+}
+
 json meshopt_asset(const CompressedView& positions, const CompressedView& indices,
                    const std::string& extension) {
   json asset = one_primitive({{"attributes", {{"POSITION", 0}}}, {"indices", 1}});

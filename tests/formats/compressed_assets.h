@@ -43,6 +43,17 @@ CompressedView indices_by_meshopt(const std::vector<std::uint32_t>& indices,
                                   const std::string& mode);
 /// The indices that a decoder makes of those; it may turn the corners of triangles.
 std::vector<std::uint32_t> decoded_by_meshopt(const CompressedView& indices);
+/// Numbers as a filter of meshoptimizer encodes them with so many bits each, and as the library
+/// itself decodes those bytes.
+struct FilteredElements {
+  std::string encoded, decoded;
+};
+/// `filter` as in EXT_meshopt_compression. OCTAHEDRAL and QUATERNION take four numbers an element,
+/// EXPONENTIAL stride / 4.
+FilteredElements by_filter(const std::string& filter, std::size_t stride, int bits,
+                           const std::vector<float>& numbers);
+/// Lets a buffer view have its bytes in compressed form alone.
+void compress_view(nlohmann::json& asset, std::size_t number, const CompressedView& compressed);
 /// An asset of a view of positions and one of indices, with bytes in compressed form alone.
 nlohmann::json meshopt_asset(const CompressedView& positions, const CompressedView& indices,
                              const std::string& extension = "EXT_meshopt_compression");

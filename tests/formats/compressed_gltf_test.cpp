@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 
 #include "compressed_assets.h"
@@ -41,6 +42,12 @@ const Triangulated& spot() {
 
 std::string bytes_of(const std::vector<float>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float)};
+}
+
+std::vector<float> floats_of(const std::string& bytes) {
+  std::vector<float> numbers(bytes.size() / sizeof(float));
+  std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  return numbers;
 }
 
 void expect_same_geometry(const Scene& a, const Scene& b) {
@@ -196,6 +203,72 @@ TEST(Meshopt, ExponentialNumbersAreExact) {
   const std::vector<MeshPoint> expected{
       {0.75, -5, 0}, {0x1p100, -0x1p-77, 8388607 * 0x1p-23}, {14, 0x1p-126, -8}};
   EXPECT_EQ(scene.meshes.at(0).vertices, expected);
+}
+
+TEST(Meshopt, ExponentialPositionsAreWhatTheLibraryDecodes) {
+  const CompressedView indices = indices_by_meshopt(spot().indices, "TRIANGLES");
+  for (const int bits : {8, 15, 24}) {
+    const FilteredElements positions = by_filter("EXPONENTIAL", 12, bits, spot().positions);
+    const Scene scene =
+        read(meshopt_asset(attributes_by_meshopt(positions.encoded, 12, "EXPONENTIAL"), indices));
+    expect_same_geometry(
+        scene, read(plain_asset({floats_of(positions.decoded), decoded_by_meshopt(indices)})));
+    EXPECT_NEAR(scene.meshes.at(0).vertices.at(7).y, spot().positions.at(22), 0.01);
+  }
+}
+
+/// Five vertices and these elements, four normalized numbers of this component type to each, of
+/// which glTF uses `type`. Those are in buffer view 1.
+json five_with(const std::string& elements, std::size_t stride, const char* type) {
+  testing::Asset asset = testing::five({});
+  const bool are_bytes = stride == 4;
+  asset.add(std::vector<char>(elements.begin(), elements.end()), "SCALAR", are_bytes ? 5120 : 5122,
+            true);
+  asset.tree["accessors"][1].update({{"count", elements.size() / stride}, {"type", type}});
+  asset.tree["bufferViews"][1]["byteStride"] = stride;
+  return asset.done();
+}
+
+/// Directions and turns of five vertices; four numbers each.
+const std::vector<float> units{0.6F,  0.8F, 0, 0, 0, 0, -1, 0,    0.36F, -0.48F,
+                               -0.8F, 0,    1, 0, 0, 0, 0,  0.6F, -0.8F, 0};
+
+TEST(Meshopt, OctahedralNormalsAreWhatTheLibraryDecodes) {
+  const auto normals_of = [](json asset) {
+    asset["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 1;
+    Warnings warnings;
+    return read_bytes("a.gltf", asset.dump(), warnings, {.attributes = true}).meshes.at(0).normals;
+  };
+  for (const std::size_t stride : {4U, 8U}) {
+    const FilteredElements normals =
+        by_filter("OCTAHEDRAL", stride, static_cast<int>(2 * stride), units);
+    const json plain = five_with(normals.decoded, stride, "VEC3");
+    json compressed = plain;
+    compress_view(compressed, 1, attributes_by_meshopt(normals.encoded, stride, "OCTAHEDRAL"));
+    const auto read = normals_of(compressed);
+    EXPECT_EQ(read, normals_of(plain));
+    EXPECT_NEAR(read.at(2)[1], -0.48, 0.02);
+  }
+}
+
+// Of a mesh, quaternions turn nothing but its instances.
+TEST(Meshopt, RotationsOfInstancesAreWhatTheLibraryDecodes) {
+  const auto objects_of = [](json asset) {
+    asset["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["ROTATION"] = 1;
+    asset["extensionsUsed"].push_back("EXT_mesh_gpu_instancing");
+    return read(asset).objects;
+  };
+  for (const int bits : {8, 16}) {
+    const FilteredElements rotations = by_filter("QUATERNION", 8, bits, units);
+    const json plain = five_with(rotations.decoded, 8, "VEC4");
+    json compressed = plain;
+    compress_view(compressed, 1, attributes_by_meshopt(rotations.encoded, 8, "QUATERNION"));
+    const std::vector<Object> read = objects_of(compressed), expected = objects_of(plain);
+    ASSERT_EQ(read.size(), 5U);
+    for (std::size_t i = 0; i < read.size(); ++i)
+      EXPECT_EQ(read[i].world_from_mesh.rows, expected.at(i).world_from_mesh.rows);
+    EXPECT_GT(read[0].world_from_mesh.rows[0][1], Dyadic(0.95));  // 0.96 without rounding
+  }
 }
 
 TEST(Meshopt, PlainBytesAreTakenWhereTheyAreThere) {

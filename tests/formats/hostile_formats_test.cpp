@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 
 #include <random>
 
@@ -67,10 +69,31 @@ TEST_P(DamagedFiles, AreMeshesOrOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DamagedFiles,
-                         ::testing::Values(Kind{"collada", "dae"}, Kind{"fbxa", "fbx"},
-                                           Kind{"3ds", "3ds"}, Kind{"3mf", "3mf"}, Kind{"x", "x"},
-                                           Kind{"x3d", "x3d"}),
+                         ::testing::Values(Kind{"collada", "dae"}, Kind{"fbx", "fbx"},
+                                           Kind{"fbxa", "fbx"}, Kind{"3ds", "3ds"},
+                                           Kind{"3mf", "3mf"}, Kind{"x", "x"}, Kind{"x3d", "x3d"}),
                          [](const auto& tested) { return "As_" + tested.param.exporter; });
+
+/// Whether a child of this process is left: one that runs, or one whose end nobody has asked for.
+bool has_children() {
+  return ::waitpid(-1, nullptr, WNOHANG) >= 0;
+}
+
+// assimp never comes to the end of these nodes.
+TEST(HostileFiles, LoopsWithoutEndAreEnded) {
+  const TestFolder folder;
+  folder.write("loop.smd", "version 1\n\nnodes\n  0 \"TriangleTest0\"");
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // what fathom leaves behind becomes ours
+  ASSERT_FALSE(has_children());
+  // The library allows 5 s. The test's own limit, which its children have too, ends as SIGKILL.
+  const Outcome outcome =
+      run_fathom({"info", folder / "loop.smd", "--max-expansion", "1"}, {.seconds = 20});
+  EXPECT_FALSE(has_children());
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err, "fathom: error: " + (folder / "loop.smd") +
+                             ": assimp could not read it: it takes more than 5 s\n");
+}
 
 #ifndef FATHOM_SANITIZED  // without a limit on addresses there
 // A megabyte that would be a gigabyte.

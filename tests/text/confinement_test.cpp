@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cstdio>
 #include <filesystem>
+#include <thread>
 
 #include "fathom/numeric/errors.h"
 #include "fathom/text/input_file.h"
@@ -16,6 +18,7 @@ namespace fathom {
 namespace {
 
 using namespace text;
+using ::testing::AnyOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
@@ -85,6 +88,36 @@ TEST(Confinement, EveryBoundaryHolds) {
   EXPECT_THAT(
       message_of<InputError>([&] { InputFile file(places.folder.path() / "outside.txt", both); }),
       EndsWith("the inner"));
+}
+
+TEST(Confinement, AnEmptyFolderIsTheWorkingDirectory) {
+  const TwoPlaces places;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(places.inside);
+  const std::vector<Boundary> here{{"", "as this test wants"}};
+  EXPECT_EQ(InputFile("own.txt", here).text(), "own");
+  EXPECT_EQ(message_of<InputError>([&] { InputFile file("../outside.txt", here); }),
+            "../outside.txt: lies outside ., as this test wants");
+  std::filesystem::current_path(before);
+}
+
+/// Between a look at where a link leads and its opening.
+TEST(Confinement, LinksThatAreExchangedMeanwhileLeadNowhereElse) {
+  const TwoPlaces places;
+  const auto link = places.inside / "link", other = places.inside / "other";
+  std::filesystem::create_symlink("own.txt", link);
+  std::filesystem::create_symlink("../outside.txt", other);
+  const std::jthread exchanging([&](const std::stop_token& stop) {
+    while (!stop.stop_requested())
+      ::renameat2(AT_FDCWD, link.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE);
+  });
+  for (int i = 0; i < 3000; ++i) {
+    try {
+      ASSERT_EQ(places.read(link), "own");
+    } catch (const InputError& error) {
+      ASSERT_THAT(error.what(), AnyOf(HasSubstr("lies outside"), HasSubstr("was exchanged")));
+    }
+  }
 }
 
 /// Opening a pipe to find out what it is would wait for its writer, without end.

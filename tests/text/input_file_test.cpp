@@ -2,10 +2,17 @@
 // written back.
 #include "fathom/text/input_file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <thread>
 
 #include "fathom/numeric/errors.h"
 #include "fathom/text/file_bytes.h"
@@ -53,6 +60,92 @@ TEST(InputFile, NamesWhatCannotBeRead) {
               HasSubstr("none: "));
   EXPECT_THAT(message_of<InputError>([&] { InputFile file(folder.path()); }),
               HasSubstr("is a directory"));
+}
+
+/// Lets standard input be another file as long as it lives.
+class StandardInput {
+ public:
+  explicit StandardInput(const std::filesystem::path& path)
+      : StandardInput(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY)) {}
+  explicit StandardInput(int file) : before_(::dup(STDIN_FILENO)) {
+    ::dup2(file, STDIN_FILENO);
+    ::close(file);
+  }
+  StandardInput(const StandardInput&) = delete;
+  StandardInput& operator=(const StandardInput&) = delete;
+  ~StandardInput() {
+    ::dup2(before_, STDIN_FILENO);
+    ::close(before_);
+  }
+
+ private:
+  int before_;
+};
+
+TEST(InputFile, AMinusIsStandardInput) {
+  const ScratchFolder folder;
+  const auto path = folder.write("file", "some text");
+  {
+    const StandardInput from_file(path);
+    EXPECT_EQ(InputFile("-").text(), "some text");
+  }
+  const StandardInput from_folder(folder.path());
+  EXPECT_EQ(message_of<InputError>([] { InputFile file("-"); }),
+            "-: is a directory, expected a file");
+}
+
+/// More than a pipe holds, which comes in parts and says not how much it is.
+TEST(InputFile, PipesAreReadToTheirEnd) {
+  const std::string text = numbered(300'001);
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  std::signal(SIGPIPE, SIG_IGN);  // where nobody reads to the end
+  const std::jthread writer([&] {
+    EXPECT_EQ(::write(ends[1], text.data(), text.size()), std::ssize(text));
+    ::close(ends[1]);
+  });
+  const StandardInput pipe(ends[0]);
+  EXPECT_TRUE(InputFile("-").text() == text);
+}
+
+/// A terminal with one line and the end of its input.
+struct Terminal {
+  int controller = ::posix_openpt(O_RDWR | O_CLOEXEC | O_NOCTTY);
+  std::filesystem::path path;
+
+  Terminal() {
+    if (controller < 0 || ::grantpt(controller) != 0 || ::unlockpt(controller) != 0) return;
+    path = ::ptsname(controller);
+    const std::string_view line = "a line\n\x04";
+    if (::write(controller, line.data(), line.size()) < 0) path.clear();
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+  ~Terminal() { ::close(controller); }
+};
+
+TEST(InputFile, OfDevicesOnlyTheOwnTerminalAndNothingAreRead) {
+  const Terminal terminal, own;
+  if (terminal.path.empty()) GTEST_SKIP() << "no terminals";
+  {
+    const ScratchFolder folder;
+    const StandardInput no_device(folder.write("file", ""));
+    EXPECT_EQ(message_of<InputError>([&] { InputFile file(terminal.path); }),
+              terminal.path.string() + ": is a device, expected a file or a pipe");
+    EXPECT_EQ(InputFile("/dev/null").text(), "");
+  }
+  const StandardInput from_own(own.path);
+  EXPECT_EQ(InputFile(own.path).text(), "a line\n");
+}
+
+TEST(InputFile, WhatLiesInNoFolderNamesFilesOfTheWorkingDirectory) {
+  const ScratchFolder folder;
+  EXPECT_EQ(folder_of_input(folder.write("file", "")), folder.path());
+  const auto pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(folder_of_input(pipe), "");
+  EXPECT_EQ(folder_of_input("/dev/null"), "");
+  EXPECT_EQ(folder_of_input("-"), "");
 }
 
 TEST(FileBytes, WhatIsWrittenIsReadAgain) {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,6 +31,7 @@ TEST(MappedFile, HoldsTheBytesFromAnyOffset) {
   ::close(file);
   ASSERT_TRUE(mapped.is_mapped());
   EXPECT_EQ(std::memcmp(mapped.data(), "abc", 3), 0);
+  EXPECT_STREQ(mapped_file_at(mapped.data() + 2), "file");
 }
 
 TEST(MappedFile, IsFoundByItsAddressesAsLongAsItLives) {
@@ -42,12 +44,62 @@ TEST(MappedFile, IsFoundByItsAddressesAsLongAsItLives) {
     EXPECT_STREQ(mapped_file_at(begin), "a? name");
     EXPECT_STREQ(mapped_file_at(begin + 9999), "a? name");
     EXPECT_STREQ(mapped_file_at(second.data() + 5000), "another");
+    EXPECT_EQ(mapped_file_at(begin + 10000), nullptr);
     EXPECT_EQ(mapped_file_at(begin + (1U << 20U)), nullptr);
     EXPECT_EQ(mapped_file_at(nullptr), nullptr);
     const MappedFile moved = std::move(first);
     EXPECT_STREQ(mapped_file_at(begin), "a? name");
   }
   EXPECT_EQ(mapped_file_at(begin), nullptr);
+  ::close(file);
+}
+
+/// Whether something is mapped in the page of this address.
+bool is_memory(const std::byte* address) {
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const auto begin = reinterpret_cast<std::uintptr_t>(address) / page * page;
+  return ::msync(reinterpret_cast<void*>(begin), 1, MS_ASYNC) == 0;
+}
+
+TEST(MappedFile, BelongsToTheOneItWasMovedTo) {
+  const ScratchFolder folder;
+  const int file = opened(folder.write("file", "abc"));
+  const std::byte* begin = nullptr;
+  {
+    MappedFile last;
+    {
+      MappedFile first(file, 0, 3, "file");
+      begin = first.data();
+      MappedFile second = std::move(first);
+      last = std::move(second);
+    }
+    EXPECT_EQ(last.data(), begin);
+    EXPECT_STREQ(mapped_file_at(begin), "file");
+    EXPECT_TRUE(is_memory(begin));
+  }
+  EXPECT_FALSE(is_memory(begin));
+  ::close(file);
+}
+
+TEST(MappedFile, LongNamesAreCut) {
+  const ScratchFolder folder;
+  const int file = opened(folder.write("file", "abc"));
+  const MappedFile mapped(file, 0, 3, std::string(5000, 'n'));
+  EXPECT_EQ(mapped_file_at(mapped.data()), std::string(4095, 'n'));
+  ::close(file);
+}
+
+// Names are never freed, so their places are used again.
+TEST(MappedFile, NamesTakeNoMoreMemoryWithTime) {
+  const ScratchFolder folder;
+  const int file = opened(folder.write("file", "abc"));
+  const void* place = nullptr;
+  for (int i = 0; i < 3; ++i) {
+    const MappedFile mapped(file, 0, 3, "file");
+    const void* const name = mapped_file_at(mapped.data());
+    if (place == nullptr) place = name;
+    EXPECT_EQ(name, place);
+  }
   ::close(file);
 }
 

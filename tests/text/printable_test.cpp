@@ -31,6 +31,8 @@ TEST(Printable, WhatIsNotUtf8IsReplacedByteByByte) {
   EXPECT_EQ(printable("\xed\xa0\x80"), r + r + r);          // a surrogate
   EXPECT_EQ(printable("\xf4\x90\x80\x80"), r + r + r + r);  // beyond Unicode
   EXPECT_EQ(printable("\xe2\x80"), r + r);
+  EXPECT_EQ(printable("\xc2\xc2"), r + r);
+  EXPECT_EQ(printable("\xe2\x80\xe2"), r + r + r);
   EXPECT_EQ(printable("\xf5"
                       "a\xc3"
                       "b"),
@@ -44,6 +46,7 @@ TEST(Printable, LinesKeepTheirEnds) {
 TEST(Printable, JsonKeepsItsValue) {
   const std::string text = "{\n \"a\x7f\": \"\u0085é\u202e\"\n}";
   EXPECT_EQ(escaped_json(text), "{\n \"a\\u007f\": \"\\u0085é\\u202e\"\n}");
+  EXPECT_EQ(escaped_json("\"\xff\""), "\"\xff\"");
 }
 
 }  // namespace

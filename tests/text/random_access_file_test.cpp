@@ -1,11 +1,13 @@
 #include "fathom/text/random_access_file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "fathom/numeric/errors.h"
@@ -14,6 +16,7 @@
 namespace fathom {
 namespace {
 
+namespace fs = std::filesystem;
 using namespace text;
 using ::testing::HasSubstr;
 
@@ -37,7 +40,7 @@ TEST(RandomAccessFile, ReadsHereAndThere) {
 TEST(RandomAccessFile, NamesTheByteAtWhichAFileEndsMeanwhile) {
   const ScratchFolder folder;
   const RandomAccessFile file(folder.write("ten", "0123456789"));
-  std::filesystem::resize_file(folder.path() / "ten", 6);
+  fs::resize_file(folder.path() / "ten", 6);
   EXPECT_EQ(file.size(), 10U);
   EXPECT_EQ(read(file, 2, 4), "2345");
   EXPECT_THAT(message_of<InputError>([&] { read(file, 4, 5); }),
@@ -46,12 +49,35 @@ TEST(RandomAccessFile, NamesTheByteAtWhichAFileEndsMeanwhile) {
 
 TEST(RandomAccessFile, TellsThatOthersWriteToIt) {
   const ScratchFolder folder;
-  const RandomAccessFile file(folder.write("ten", "0123456789"));
+  const auto path = folder.write("ten", "0123456789");
+  const auto now = std::chrono::floor<std::chrono::seconds>(fs::file_time_type::clock::now());
+  fs::last_write_time(path, now);
+  const RandomAccessFile file(path);
   EXPECT_NO_THROW(file.expect_unchanged());
-  std::filesystem::last_write_time(
-      folder.path() / "ten", std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
-  EXPECT_THAT(message_of<InputError>([&] { file.expect_unchanged(); }),
-              HasSubstr("ten: has been written to since it was opened"));
+  const auto expect_told = [&] {
+    EXPECT_THAT(message_of<InputError>([&] { file.expect_unchanged(); }),
+                HasSubstr("ten: has been written to since it was opened"));
+  };
+  fs::last_write_time(path, now + std::chrono::hours(1));
+  expect_told();
+  fs::last_write_time(path, now + std::chrono::microseconds(1));
+  expect_told();
+  // Cut short by who also turns the clock back.
+  fs::resize_file(path, 9);
+  fs::last_write_time(path, now);
+  expect_told();
+  folder.write("ten", "0123456789");
+  fs::last_write_time(path, now);
+  EXPECT_NO_THROW(file.expect_unchanged());
+}
+
+TEST(RandomAccessFile, IsClosedAtItsEnd) {
+  const ScratchFolder folder;
+  std::optional<RandomAccessFile> file(folder.write("ten", "0123456789"));
+  const int descriptor = file->descriptor();
+  EXPECT_NE(::fcntl(descriptor, F_GETFD), -1);
+  file.reset();
+  EXPECT_EQ(::fcntl(descriptor, F_GETFD), -1);
 }
 
 TEST(RandomAccessFile, RefusesWhatCannotBeReadInParts) {
@@ -60,7 +86,7 @@ TEST(RandomAccessFile, RefusesWhatCannotBeReadInParts) {
     return message_of<InputError>([&] { RandomAccessFile file(folder.path() / name); });
   };
   EXPECT_THAT(fault("none"), HasSubstr("none: cannot be opened: No such file"));
-  std::filesystem::create_directory(folder.path() / "folder");
+  fs::create_directory(folder.path() / "folder");
   EXPECT_THAT(fault("folder"), HasSubstr("is a directory"));
   ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
   EXPECT_THAT(fault("pipe"), HasSubstr("not a regular file"));
