@@ -1,6 +1,7 @@
 // Parallel work by oneTBB (FATHOM_THREADS=tbb).
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/scalable_allocator.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -12,6 +13,10 @@
 
 namespace fathom {
 namespace {
+
+/// oneTBB would load its allocator when it starts. dlopen() of glibc 2.36 crashes where memory runs
+/// out while a library that it loads loads others; one that the program names is there before.
+[[gnu::used]] const auto allocator_of_tbb = &scalable_msize;
 
 /// A place for so many threads, or for all (0), or, where the process has fewer, for these: TBB
 /// would ignore a request for more, and say so on standard error.
