@@ -131,11 +131,12 @@ class Builder {
   std::optional<JsonFault> fault_;
 };
 
-template <class Json>
-void parse(std::string_view bytes, Json& root, nlohmann::detail::input_format_t format) {
+/// Fills `root` by what `parse` tells a builder.
+template <class Json, class Parse>
+void build(Json& root, const Parse& parse) {
   root = nullptr;
   Builder<Json> builder(root);
-  Json::sax_parse(bytes.begin(), bytes.end(), &builder, format);
+  parse(builder);
   if (builder.fault()) throw *builder.fault();
 }
 
@@ -143,7 +144,11 @@ void parse(std::string_view bytes, Json& root, nlohmann::detail::input_format_t 
 
 template <class Json>
 void parse_json(std::string_view text, Json& root) {
-  parse(text, root, json::input_format_t::json);
+  // Json::sax_parse() does the same, but compiles all binary formats with it.
+  build(root, [&](auto& builder) {
+    auto input = nlohmann::detail::input_adapter(text.begin(), text.end());
+    nlohmann::detail::parser<Json, decltype(input)>(std::move(input)).sax_parse(&builder);
+  });
 }
 
 template void parse_json(std::string_view, json&);
@@ -151,7 +156,9 @@ template void parse_json(std::string_view, ordered_json&);
 
 json parse_cbor(std::string_view bytes) {
   json root;
-  parse(bytes, root, json::input_format_t::cbor);
+  build(root, [&](auto& builder) {
+    json::sax_parse(bytes.begin(), bytes.end(), &builder, json::input_format_t::cbor);
+  });
   return root;
 }
 
