@@ -1,11 +1,13 @@
 #include "fathom/map_description.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "fathom/camera/camera_files.h"
+#include "fathom/text/json_text.h"
 
 namespace fathom {
+using namespace text;
+
 namespace {
 
 using Matrix4 = std::array<double, 16>;
@@ -50,12 +52,14 @@ void describe_screen_window(const Camera& camera, DepthMap& map) {
 }
 
 std::string sources_as_json(const std::vector<Source>& sources) {
-  nlohmann::json list = nlohmann::json::array();
+  std::vector<std::string> list;
   for (const Source& source : sources) {
-    list.push_back({{"file", source.path}, {"sha256", source.sha256}});
-    if (!source.reader.empty()) list.back()["reader"] = source.reader;
+    std::vector<std::string> members{"\"file\":" + json_string(source.path)};
+    if (!source.reader.empty()) members.push_back("\"reader\":" + json_string(source.reader));
+    members.push_back("\"sha256\":" + json_string(source.sha256));
+    list.push_back(joined_in('{', members, '}'));
   }
-  return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return joined_in('[', list, ']');
 }
 
 }  // namespace

@@ -4,14 +4,13 @@
 #include <array>
 #include <bit>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "fathom/numeric/errors.h"
-#include "fathom/text/parse_json.h"
+#include "fathom/text/json_text.h"
 
 namespace fathom {
 namespace {
@@ -27,13 +26,14 @@ std::uint32_t mixed(std::uint32_t k) {
 }
 
 std::string manifest_of(const std::vector<std::string>& names) {
-  nlohmann::ordered_json manifest = nlohmann::ordered_json::object();
+  std::vector<std::string> members;
   std::set<std::string_view> known;
   for (const std::string& name : names) {
     if (known.insert(name).second)
-      text::append_member(manifest, name, in_hexadecimal(cryptomatte_id(name)));
+      members.push_back(text::json_string(name) + ":\"" + in_hexadecimal(cryptomatte_id(name)) +
+                        '"');
   }
-  return manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return text::joined_in('{', members, '}');
 }
 
 /// LAYER00 holds the ranks 0 and 1, LAYER01 the ranks 2 and 3, ….

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
-#include <nlohmann/json.hpp>
 
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/input_file.h"
-#include "fathom/text/parse_json.h"
+#include "fathom/text/json_text.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
@@ -95,23 +94,14 @@ DepthMap read_map(std::span<const std::byte> bytes, const std::string& name,
 }
 
 std::string image::object_names_as_json(const std::vector<std::string>& names) {
-  return nlohmann::json(names).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::vector<std::string> strings;
+  strings.reserve(names.size());
+  for (const std::string& name : names) strings.push_back(json_string(name));
+  return joined_in('[', strings, ']');
 }
 
 std::vector<std::string> image::object_names_from_json(const std::string& text) {
-  nlohmann::json list;
-  try {
-    parse_json(text, list);
-  } catch (const JsonFault&) {
-    return {};
-  }
-  if (!list.is_array()) return {};
-  std::vector<std::string> names;
-  for (const auto& entry : list) {
-    if (!entry.is_string()) return {};
-    names.push_back(entry.get<std::string>());
-  }
-  return names;
+  return strings_of_json(text).value_or(std::vector<std::string>());
 }
 
 }  // namespace fathom

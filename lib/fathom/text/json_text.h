@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The little JSON that maps carry as texts, without nlohmann's header for those who need no more.
+/// Only for .cpp files.
+namespace fathom::text {
+
+/// A string as JSON, in its quotes. Bytes that are not UTF-8 become U+FFFD.
+std::string json_string(std::string_view text);
+
+/// Texts between commas, in brackets: "[a,b]". They must be JSON, or members of an object where the
+/// brackets are those of one.
+std::string joined_in(char open, const std::vector<std::string>& parts, char close);
+
+/// The strings of a list, or nothing where the text is not JSON of that kind.
+std::optional<std::vector<std::string>> strings_of_json(std::string_view text);
+
+}  // namespace fathom::text
