@@ -158,7 +158,7 @@ const TolerantMesh meshes[] = {
      1,
      low,
      high,
-     {"1 line of the header is ignored, on line 3"}},
+     {"1 line of the header begins with no keyword and is ignored, the first is line 3"}},
     {"PlyStripsInText",
      "a.ply",
      "ply\nformat ascii 1.0\nelement vertex 4\n" + ply_vertices +

@@ -87,14 +87,13 @@ TEST(PlyHeader, LinesBeforeTheFirstElementAreIgnoredWithAWarning) {
   text.replace(text.find("comment made"), 12, "Created");
   Warnings warnings;
   EXPECT_EQ(read_ply_header(text, "FILE", warnings).elements.size(), 2U);
-  EXPECT_EQ(warnings,
-            Warnings{"FILE: 1 line of the header is ignored, on line 3: no keyword of PLY, "
-                     "nor a comment"});
+  EXPECT_EQ(warnings, Warnings{"FILE: 1 line of the header begins with no keyword and is ignored, "
+                               "the first is line 3"});
   text.insert(text.find("Created"), "and\nmore\n");
   EXPECT_EQ(read_ply_header(text, "FILE", warnings).elements.size(), 2U);
-  EXPECT_EQ(warnings.back(),
-            "FILE: 3 lines of the header are ignored, on line 3 first: no keyword of "
-            "PLY, nor a comment");
+  EXPECT_EQ(
+      warnings.back(),
+      "FILE: 3 lines of the header begin with no keyword and are ignored, the first is line 3");
 }
 
 TEST(PlyHeader, SizesOfTypes) {

@@ -148,9 +148,9 @@ PlyHeader read_ply_header(std::string_view text, const std::string& file, Warnin
   if (!cursor.at_line_end()) cursor.fail_here("expected the line to end after end_header");
   if (strays > 0)
     warnings.push_back(file + ": " + std::to_string(strays) +
-                       (strays == 1 ? " line of the header is" : " lines of the header are") +
-                       " ignored, on line " + std::to_string(first_stray) +
-                       (strays == 1 ? "" : " first") + ": no keyword of PLY, nor a comment");
+                       (strays == 1 ? " line of the header begins with no keyword and is"
+                                    : " lines of the header begin with no keyword and are") +
+                       " ignored, the first is line " + std::to_string(first_stray));
   cursor.skip_line();
   header.size = static_cast<std::size_t>(cursor.position() - text.data());
   header.lines = cursor.line() - 1;
