@@ -83,6 +83,7 @@ std::vector<std::set<std::size_t>> rings_in_contact(const Rings<Rational>& split
 std::vector<std::vector<std::size_t>> rings_to_place(
     const std::vector<BoxedRing>& rings, const std::vector<std::set<std::size_t>>& in_contact) {
   std::vector<Box> boxes;
+  boxes.reserve(rings.size());
   for (const BoxedRing& ring : rings) boxes.push_back(ring.box);
   std::vector<std::vector<std::size_t>> result(rings.size());
   for (std::size_t j = 0; j < rings.size(); ++j)
