@@ -172,29 +172,47 @@ void OutputFile::write_through() {
   if (!through_.close()) fail_with_errno(target_, errno);
 }
 
-void OutputFile::take_place() {
+void OutputFile::take_place(bool is_last) {
   try {
-    staged_->put_at(place_);
+    // Once the last one is in its place nothing can fail any more.
+    if (is_last) {
+      staged_->put_at(place_);
+    } else {
+      staged_->put_for_now_at(place_);
+    }
   } catch (const std::system_error& error) {
     fail_with_errno(target_, error.code().value());
   }
-  staged_.reset();
+}
+
+/// All of them, or none.
+void OutputFile::take_places(const std::vector<OutputFile*>& outputs) {
+  std::size_t placed = 0;
+  try {
+    for (; placed < outputs.size(); ++placed) {
+      outputs[placed]->take_place(placed + 1 == outputs.size());
+    }
+  } catch (...) {
+    while (placed-- > 0) outputs[placed]->staged_->take_back_from(outputs[placed]->place_);
+    throw;
+  }
+  for (OutputFile* output : outputs) output->staged_.reset();
 }
 
 void OutputFile::commit_together(const std::vector<OutputFile*>& outputs) {
-  std::vector<OutputFile*> placed;
+  std::vector<OutputFile*> to_place;
   std::set<fs::path> folders;
   for (OutputFile* output : outputs) {
     if (output->place_.empty()) continue;
     output->take_permissions();
-    placed.push_back(output);
+    to_place.push_back(output);
     folders.insert(folder_of(output->place_));
   }
-  sync_all(placed);
+  sync_all(to_place);
   for (OutputFile* output : outputs) {
     if (output->place_.empty()) output->write_through();
   }
-  for (OutputFile* output : placed) output->take_place();
+  take_places(to_place);
   for (const fs::path& folder : folders) sync_folder(folder);
 }
 

@@ -41,7 +41,7 @@ class OutputFile {
   /// Puts the output in its place.
   void commit() { commit_together({this}); }
   /// Puts outputs in their places: only when all of them are on the disk or written through does the
-  /// first appear.
+  /// first appear. Where one cannot take its place, those before it give theirs back.
   static void commit_together(const std::vector<OutputFile*>& outputs);
 
  private:
@@ -58,7 +58,8 @@ class OutputFile {
   void sync(int (*sync_one)(int)) const;
   static void sync_all(const std::vector<OutputFile*>& placed);
   void write_through();
-  void take_place();
+  void take_place(bool is_last);
+  static void take_places(const std::vector<OutputFile*>& outputs);
 
   std::filesystem::path target_;
   /// `target_` with symbolic links followed; empty where it is written through.

@@ -31,6 +31,15 @@ std::string path_of(int descriptor) {
   return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
+fs::path folder_of(const fs::path& place) {
+  return place.has_parent_path() ? place.parent_path() : fs::path(".");
+}
+
+/// False where the file system cannot.
+bool change_places(const char* one, const fs::path& other) {
+  return ::renameat2(AT_FDCWD, one, AT_FDCWD, other.c_str(), RENAME_EXCHANGE) == 0;
+}
+
 /// Each output that waits for its place takes a descriptor; where these run short, as many as the
 /// system allows.
 void make_room_for_more(int descriptor) {
@@ -89,7 +98,8 @@ StagedFile StagedFile::nowhere() {
 StagedFile::StagedFile(StagedFile&& other) noexcept
     : file_(std::move(other.file_)),
       ordinary_mode_(other.ordinary_mode_),
-      name_(std::exchange(other.name_, nullptr)) {}
+      name_(std::exchange(other.name_, nullptr)),
+      earlier_(other.earlier_) {}
 
 StagedFile::~StagedFile() {
   if (name_ != nullptr) remove_pending(name_);
@@ -139,25 +149,58 @@ std::string StagedFile::path() const {
   return name_ != nullptr ? std::string(name_->path) : path_of(descriptor());
 }
 
-void StagedFile::put_at(const fs::path& place) {
-  if (name_ == nullptr) {
-    const std::string self = path_of(descriptor());
-    if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, place.c_str(), AT_SYMLINK_FOLLOW) == 0) return;
-    // A link cannot take the place of a file: it gets a name, and then that file's.
-    PendingFile* const name = note_pending(place.parent_path() / new_part_name());
-    if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name->path, AT_SYMLINK_FOLLOW) == 0) {
-      name_ = name;
-    } else {
-      // Some systems let a file have no name, and then refuse to give it one.
-      forget_pending(name);
-      StagedFile copy;
-      copy.open_with_name(place.has_parent_path() ? place.parent_path() : fs::path("."));
-      copy_to(copy);
-      return copy.put_at(place);
-    }
+/// False where something is there already, or a file without a name cannot get one.
+bool StagedFile::link_to(const fs::path& place) const {
+  const std::string self = path_of(descriptor());
+  return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, place.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
+
+/// A link cannot take the place of a file: it gets a name first, beside that file.
+void StagedFile::have_name(const fs::path& place) {
+  if (name_ != nullptr) return;
+  PendingFile* const name = note_pending(place.parent_path() / new_part_name());
+  if (link_to(name->path)) {
+    name_ = name;
+    return;
   }
+  // Some systems let a file have no name, and then refuse to give it one.
+  forget_pending(name);
+  StagedFile copy;
+  copy.open_with_name(folder_of(place));
+  copy_to(copy);
+  file_ = std::move(copy.file_);
+  name_ = std::exchange(copy.name_, nullptr);
+}
+
+void StagedFile::put_at(const fs::path& place) {
+  if (name_ == nullptr && link_to(place)) return;
+  have_name(place);
+  rename_to(place);
+}
+
+void StagedFile::rename_to(const fs::path& place) {
   if (::rename(name_->path, place.c_str()) != 0) fail(errno);
   forget_pending(std::exchange(name_, nullptr));
+}
+
+void StagedFile::put_for_now_at(const fs::path& place) {
+  earlier_ = Earlier::nothing;
+  if (name_ == nullptr && link_to(place)) return;
+  have_name(place);
+  struct stat status {};
+  const bool is_free = ::lstat(place.c_str(), &status) != 0 && errno == ENOENT;
+  if (!is_free && S_ISREG(status.st_mode) && change_places(name_->path, place)) {
+    earlier_ = Earlier::kept;
+    return;
+  }
+  earlier_ = is_free ? Earlier::nothing : Earlier::lost;
+  rename_to(place);
+}
+
+void StagedFile::take_back_from(const fs::path& place) noexcept {
+  if (earlier_ == Earlier::nothing) ::unlink(place.c_str());
+  if (earlier_ == Earlier::kept) change_places(name_->path, place);
+  earlier_ = Earlier::lost;
 }
 
 void StagedFile::copy_to(const StagedFile& other) const {

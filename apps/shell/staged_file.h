@@ -42,17 +42,29 @@ class StagedFile {
 
   /// Puts it at `place` in its folder, instead of what may be there; until then that is untouched.
   void put_at(const std::filesystem::path& place);
+  /// The same, but what was there is kept until this object ends, so that take_back() can restore it
+  /// (unless the file system cannot let two files change places).
+  void put_for_now_at(const std::filesystem::path& place);
+  /// Restores what was at `place` before put_for_now_at(), or that nothing was, if it can.
+  void take_back_from(const std::filesystem::path& place) noexcept;
 
  private:
+  /// What stood at the place before this file did.
+  enum class Earlier { nothing, kept, lost };
+
   StagedFile() = default;
   bool open_without_name(const std::filesystem::path& folder);
   void open_with_name(const std::filesystem::path& folder);
+  bool link_to(const std::filesystem::path& place) const;
+  void have_name(const std::filesystem::path& place);
+  void rename_to(const std::filesystem::path& place);
   void copy_to(const StagedFile& other) const;
 
   text::Descriptor file_;
   mode_t ordinary_mode_ = 0;
-  /// The name it has, if it has one.
+  /// The name it has, if it has one; once it is put somewhere for now, that of the earlier file.
   PendingFile* name_ = nullptr;
+  Earlier earlier_ = Earlier::lost;
 };
 
 }  // namespace fathom::app

@@ -79,6 +79,10 @@ std::function<void()> without_links() {
   return refusing({{.call = SYS_linkat, .error = EPERM}});
 }
 
+std::function<void()> without_renames() {
+  return refusing({{.call = SYS_rename, .error = EIO}});
+}
+
 std::function<void()> without_sync() {
   return refusing({{.call = SYS_fsync, .error = EIO}, {.call = SYS_syncfs, .error = EIO}});
 }

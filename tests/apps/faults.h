@@ -30,6 +30,8 @@ std::function<void()> without_threads();
 std::function<void()> without_nameless_files();
 /// Files without a name cannot be given one.
 std::function<void()> without_links();
+/// No file takes another one's name; two can change places.
+std::function<void()> without_renames();
 /// Nothing reaches the disk.
 std::function<void()> without_sync();
 

@@ -272,5 +272,16 @@ TEST(StagedFiles, APipeThatNobodyReadsTakesTheOthersAlong) {
   EXPECT_EQ(folder.read("map.exr"), "older");
 }
 
+TEST_F(ManyOutputs, GiveTheirPlacesBackWhereOneCannotTakeItsOwn) {
+  for (const char* name : {"0000.pfm", "0002.pfm", "0003.pfm"}) folder_.write(name, "older");
+  const Outcome outcome = render_path(4, without_renames());
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_EQ(outcome.err, "fathom: error: 0003.pfm: Input/output error\n");
+  for (const char* name : {"0000.pfm", "0002.pfm", "0003.pfm"}) {
+    EXPECT_EQ(folder_.read(name), "older") << name;
+  }
+  EXPECT_EQ(folder_.names().size(), 5U);
+}
+
 }  // namespace
 }  // namespace fathom::test
