@@ -52,9 +52,9 @@ int run_compare(const CompareArguments& arguments) {
     heatmap->write([&](const std::filesystem::path& path) { write_png(picture, path); });
     outputs.push_back(&*heatmap);
   }
-  OutputFile::commit_together(outputs);
   json.print();
   if (arguments.json != "-") print(as_text(comparison));
+  OutputFile::commit_together(outputs);
   return comparison.maps.within_tolerance() ? done : answer_is_no;
 }
 

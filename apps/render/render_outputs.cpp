@@ -22,9 +22,9 @@ void RenderOutputs::commit() {
   }
   for (OutputFile& output : pictures_) files.push_back(&output);
   for (OutputFile& output : maps_) files.push_back(&output);
-  OutputFile::commit_together(files);
   cameras_.print();
   statistics_.print();
+  OutputFile::commit_together(files);
 }
 
 }  // namespace fathom::app

@@ -205,6 +205,8 @@ void OutputFile::commit_together(const std::vector<OutputFile*>& outputs) {
   for (OutputFile* output : outputs) {
     if (output->place_.empty()) continue;
     output->take_permissions();
+    // Where several take their places, none may want memory any more.
+    output->staged_->prepare_for(output->place_);
     to_place.push_back(output);
     folders.insert(folder_of(output->place_));
   }

@@ -99,10 +99,13 @@ StagedFile::StagedFile(StagedFile&& other) noexcept
     : file_(std::move(other.file_)),
       ordinary_mode_(other.ordinary_mode_),
       name_(std::exchange(other.name_, nullptr)),
+      spare_name_(std::exchange(other.spare_name_, nullptr)),
+      self_(std::move(other.self_)),
       earlier_(other.earlier_) {}
 
 StagedFile::~StagedFile() {
   if (name_ != nullptr) remove_pending(name_);
+  if (spare_name_ != nullptr) forget_pending(spare_name_);
 }
 
 bool StagedFile::open_without_name(const fs::path& folder) {
@@ -149,22 +152,25 @@ std::string StagedFile::path() const {
   return name_ != nullptr ? std::string(name_->path) : path_of(descriptor());
 }
 
+void StagedFile::prepare_for(const fs::path& place) {
+  if (name_ != nullptr || spare_name_ != nullptr) return;
+  self_ = path_of(descriptor());
+  spare_name_ = note_pending(place.parent_path() / new_part_name());
+}
+
 /// False where something is there already, or a file without a name cannot get one.
-bool StagedFile::link_to(const fs::path& place) const {
-  const std::string self = path_of(descriptor());
-  return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, place.c_str(), AT_SYMLINK_FOLLOW) == 0;
+bool StagedFile::link_to(const char* place) const {
+  return ::linkat(AT_FDCWD, self_.c_str(), AT_FDCWD, place, AT_SYMLINK_FOLLOW) == 0;
 }
 
 /// A link cannot take the place of a file: it gets a name first, beside that file.
 void StagedFile::have_name(const fs::path& place) {
   if (name_ != nullptr) return;
-  PendingFile* const name = note_pending(place.parent_path() / new_part_name());
-  if (link_to(name->path)) {
-    name_ = name;
+  if (link_to(spare_name_->path)) {
+    name_ = std::exchange(spare_name_, nullptr);
     return;
   }
   // Some systems let a file have no name, and then refuse to give it one.
-  forget_pending(name);
   StagedFile copy;
   copy.open_with_name(folder_of(place));
   copy_to(copy);
@@ -173,7 +179,8 @@ void StagedFile::have_name(const fs::path& place) {
 }
 
 void StagedFile::put_at(const fs::path& place) {
-  if (name_ == nullptr && link_to(place)) return;
+  prepare_for(place);
+  if (name_ == nullptr && link_to(place.c_str())) return;
   have_name(place);
   rename_to(place);
 }
@@ -185,7 +192,8 @@ void StagedFile::rename_to(const fs::path& place) {
 
 void StagedFile::put_for_now_at(const fs::path& place) {
   earlier_ = Earlier::nothing;
-  if (name_ == nullptr && link_to(place)) return;
+  prepare_for(place);
+  if (name_ == nullptr && link_to(place.c_str())) return;
   have_name(place);
   struct stat status {};
   const bool is_free = ::lstat(place.c_str(), &status) != 0 && errno == ENOENT;

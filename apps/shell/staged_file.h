@@ -40,6 +40,8 @@ class StagedFile {
   /// The permissions that an ordinary new file would have in its folder.
   [[nodiscard]] mode_t ordinary_mode() const { return ordinary_mode_; }
 
+  /// Takes the memory that putting it at `place` needs.
+  void prepare_for(const std::filesystem::path& place);
   /// Puts it at `place` in its folder, instead of what may be there; until then that is untouched.
   void put_at(const std::filesystem::path& place);
   /// The same, but what was there is kept until this object ends, so that take_back() can restore it
@@ -55,7 +57,7 @@ class StagedFile {
   StagedFile() = default;
   bool open_without_name(const std::filesystem::path& folder);
   void open_with_name(const std::filesystem::path& folder);
-  bool link_to(const std::filesystem::path& place) const;
+  bool link_to(const char* place) const;
   void have_name(const std::filesystem::path& place);
   void rename_to(const std::filesystem::path& place);
   void copy_to(const StagedFile& other) const;
@@ -64,6 +66,9 @@ class StagedFile {
   mode_t ordinary_mode_ = 0;
   /// The name it has, if it has one; once it is put somewhere for now, that of the earlier file.
   PendingFile* name_ = nullptr;
+  /// One that it can get beside its place, and where it is without one.
+  PendingFile* spare_name_ = nullptr;
+  std::string self_;
   Earlier earlier_ = Earlier::lost;
 };
 

@@ -67,6 +67,10 @@ int report_cases(const std::vector<ValidationCase>& cases, const ReportPlaces& p
   if (!places.baseline.empty()) {
     worse = validation::regressions(cases, places.baseline);
   }
+  std::string text;
+  for (const ValidationCase& c : cases) text += line_of(c);
+  for (const std::string& line : worse) text += "worse than the baseline: " + line + "\n";
+  print(text);
   if (!places.out.empty()) {
     OutputFile json(std::filesystem::path(places.out) / "report.json");
     OutputFile html(std::filesystem::path(places.out) / "report.html");
@@ -74,10 +78,6 @@ int report_cases(const std::vector<ValidationCase>& cases, const ReportPlaces& p
     html.write(validation::to_html(cases));
     OutputFile::commit_together({&json, &html});
   }
-  std::string text;
-  for (const ValidationCase& c : cases) text += line_of(c);
-  for (const std::string& line : worse) text += "worse than the baseline: " + line + "\n";
-  print(text);
   const bool all_good = std::all_of(cases.begin(), cases.end(), [](const ValidationCase& c) {
     return !c.is_done() || c.is_good();
   });

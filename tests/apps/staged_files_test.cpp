@@ -254,6 +254,14 @@ TEST_F(ManyOutputs, ReachTheDiskBeforeTheirNamesDo) {
   EXPECT_EQ(folder_.names().size(), 2U);
 }
 
+/// Whoever reads standard output is gone already.
+void answer_into_a_broken_pipe() {
+  std::array<int, 2> ends{};
+  if (::pipe(ends.data()) != 0) ::_exit(125);
+  ::close(ends[0]);
+  ::dup2(ends[1], STDOUT_FILENO);
+}
+
 /// All of several outputs, or none.
 TEST(StagedFiles, APipeThatNobodyReadsTakesTheOthersAlong) {
   const TestFolder folder;
@@ -261,15 +269,29 @@ TEST(StagedFiles, APipeThatNobodyReadsTakesTheOthersAlong) {
   folder.write("map.exr", "older");
   const Outcome outcome = run_fathom(
       {"render", "square.obj", "--size", "8x6", "-o", "map.exr", "--stats", "/dev/stdout"},
-      {.folder = folder.path(), .prepare = [] {
-         std::array<int, 2> ends{};
-         if (::pipe(ends.data()) != 0) ::_exit(125);
-         ::close(ends[0]);
-         ::dup2(ends[1], STDOUT_FILENO);
-       }});
+      {.folder = folder.path(), .prepare = answer_into_a_broken_pipe});
   EXPECT_EQ(outcome.status, 4);
   EXPECT_EQ(outcome.err, "fathom: error: /dev/stdout: Broken pipe\n");
   EXPECT_EQ(folder.read("map.exr"), "older");
+}
+
+/// The answer on standard output is one of them.
+TEST(StagedFiles, AnAnswerThatNobodyReadsTakesTheOthersAlong) {
+  const TestFolder folder;
+  folder.write("square.obj", square_obj);
+  const Outcome rendered = run_fathom({"render", "square.obj", "--size", "8x6", "-o", "map.pfm"},
+                                      {.folder = folder.path()});
+  ASSERT_EQ(rendered.status, 0) << rendered.err;
+  folder.write("older.json", "older");
+  for (const char* output : {"older.json", "new.json"}) {
+    const Outcome outcome =
+        run_fathom({"compare", "map.pfm", "map.pfm", "--json", output},
+                   {.folder = folder.path(), .prepare = answer_into_a_broken_pipe});
+    EXPECT_EQ(outcome.status, 4);
+    EXPECT_EQ(outcome.err, "fathom: error: standard output: Broken pipe\n");
+  }
+  EXPECT_EQ(folder.read("older.json"), "older");
+  EXPECT_EQ(folder.names().size(), 3U);
 }
 
 TEST_F(ManyOutputs, GiveTheirPlacesBackWhereOneCannotTakeItsOwn) {

@@ -2,7 +2,10 @@
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
+#include FT_MODULE_H
 
+#include <algorithm>
+#include <cstring>
 #include <new>
 
 #include "fathom/numeric/errors.h"
@@ -50,40 +53,82 @@ void stamp(RgbImage& image, const FT_Bitmap& glyph, int left, int top, Rgb colou
     }
 }
 
-/// Whether FreeType says that something failed. Fails with std::bad_alloc where that was for want of
-/// memory: a picture would lack letters.
-bool is_failure(FT_Error error) {
-  if (FT_ERROR_BASE(error) == FT_Err_Out_Of_Memory) throw std::bad_alloc();
-  return error != 0;
-}
+/// FreeType's memory, from operator new. FreeType goes on without some of what it finds no memory
+/// for (modules, hinting), or crashes; so here it is noted that there was none. (Where a program
+/// ends when operator new finds nothing, this one ends there.)
+struct FontMemory {
+  FT_MemoryRec_ functions{.user = this, .alloc = allocate, .free = release, .realloc = reallocate};
+  bool exhausted = false;
+
+  FontMemory() = default;
+  FontMemory(const FontMemory&) = delete;
+  FontMemory& operator=(const FontMemory&) = delete;
+
+ private:
+  static void* allocate(FT_Memory memory, long size) noexcept {
+    try {
+      return ::operator new(static_cast<std::size_t>(size));
+    } catch (const std::bad_alloc&) {
+      static_cast<FontMemory*>(memory->user)->exhausted = true;
+      return nullptr;
+    }
+  }
+  static void release(FT_Memory /*memory*/, void* block) noexcept { ::operator delete(block); }
+  static void* reallocate(FT_Memory memory, long size, long new_size, void* block) noexcept {
+    void* const larger = allocate(memory, new_size);
+    if (larger == nullptr) return nullptr;
+    if (block != nullptr) {
+      std::memcpy(larger, block, static_cast<std::size_t>(std::min(size, new_size)));
+    }
+    release(memory, block);
+    return larger;
+  }
+};
 
 }  // namespace
 
 struct Lettering::Font {
+  FontMemory memory;
   FT_Library library = nullptr;
   FT_Face face = nullptr;
 
   Font() {
-    if (is_failure(FT_Init_FreeType(&library))) throw OutputError("FreeType cannot be started");
-    const FT_Error error = FT_New_Face(library, FATHOM_FONT, 0, &face);
-    if (error != 0) {
-      FT_Done_FreeType(library);
-      (void)is_failure(error);
-      throw OutputError(FATHOM_FONT
-                        ": the font of pictures cannot be read: expected the package "
-                        "fonts-dejavu-core to be installed");
+    const bool starts = !is_failure(FT_New_Library(&memory.functions, &library));
+    if (starts) {
+      FT_Add_Default_Modules(library);
+      FT_Set_Default_Properties(library);
     }
+    const bool has_face = starts && !is_failure(FT_New_Face(library, FATHOM_FONT, 0, &face));
+    if (has_face && !memory.exhausted) return;
+    close();
+    if (memory.exhausted) throw std::bad_alloc();
+    throw OutputError(starts ? FATHOM_FONT
+                          ": the font of pictures cannot be read: expected the package "
+                          "fonts-dejavu-core to be installed"
+                             : "FreeType cannot be started");
   }
   Font(const Font&) = delete;
   Font& operator=(const Font&) = delete;
-  ~Font() {
-    FT_Done_Face(face);
-    FT_Done_FreeType(library);
+  ~Font() { close(); }
+
+  /// Makes `character` the current glyph; false if the font has none. Fails with std::bad_alloc: a
+  /// picture would lack letters.
+  bool load(char32_t character, int size) {
+    const bool sized = !is_failure(FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(size)));
+    const bool loaded = sized && !is_failure(FT_Load_Char(face, character, FT_LOAD_RENDER));
+    if (memory.exhausted) throw std::bad_alloc();
+    return loaded;
   }
-  /// Makes `character` the current glyph; false if the font has none.
-  bool load(char32_t character, int size) const {
-    (void)is_failure(FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(size)));
-    return !is_failure(FT_Load_Char(face, character, FT_LOAD_RENDER));
+
+ private:
+  bool is_failure(FT_Error error) {
+    // FreeType is out of memory, too, where a table would be too large.
+    memory.exhausted = memory.exhausted || FT_ERROR_BASE(error) == FT_Err_Out_Of_Memory;
+    return error != 0;
+  }
+  void close() {
+    FT_Done_Face(face);
+    if (library != nullptr) FT_Done_Library(library);
   }
 };
 
