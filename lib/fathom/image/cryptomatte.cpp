@@ -38,9 +38,7 @@ std::string manifest_of(const std::vector<std::string>& names) {
 
 /// LAYER00 holds the ranks 0 and 1, LAYER01 the ranks 2 and 3, ….
 std::string channel_name(const std::string& layer, std::size_t level, char component) {
-  std::array<char, 16> number{};
-  std::snprintf(number.data(), number.size(), "%02zu", level);
-  return layer + number.data() + "." + component;
+  return layer + (level < 10 ? "0" : "") + std::to_string(level) + "." + component;
 }
 
 }  // namespace
