@@ -12,7 +12,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "faults.h"
 #include "run_program.h"
@@ -75,6 +77,18 @@ class Staged : public ::testing::TestWithParam<System> {
     return status.st_mode & 07777;
   }
 
+  /// Whether what a process has staged has these permissions. Before it there may be an empty file
+  /// for a moment, which shows what permissions a new one has here.
+  [[nodiscard]] bool staged_with(mode_t mode, pid_t process) const {
+    for (int tries = 0; tries < 1000; ++tries) {
+      struct stat status {};
+      const std::string staged = staged_by(process, folder_);
+      if (::stat(staged.c_str(), &status) == 0 && (status.st_mode & 07777) == mode) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
+  }
+
   TestFolder folder_;
 };
 
@@ -92,7 +106,7 @@ TEST_P(Staged, AreReplacedAndMadeAsEver) {
 TEST_P(Staged, HaveThePermissionsOfTheUmaskOnlyAtTheEnd) {
   const mode_t before = ::umask(0);
   const pid_t process = start_long_render("map.exr");
-  EXPECT_EQ(mode_of(staged_by(process, folder_)), 0600U);
+  EXPECT_TRUE(staged_with(0600, process));
   ::kill(process, SIGTERM);
   EXPECT_EQ(wait_for(process), 130);
   EXPECT_EQ(render_to("map.exr").status, 0);
@@ -254,14 +268,6 @@ TEST_F(ManyOutputs, ReachTheDiskBeforeTheirNamesDo) {
   EXPECT_EQ(folder_.names().size(), 2U);
 }
 
-/// Whoever reads standard output is gone already.
-void answer_into_a_broken_pipe() {
-  std::array<int, 2> ends{};
-  if (::pipe(ends.data()) != 0) ::_exit(125);
-  ::close(ends[0]);
-  ::dup2(ends[1], STDOUT_FILENO);
-}
-
 /// All of several outputs, or none.
 TEST(StagedFiles, APipeThatNobodyReadsTakesTheOthersAlong) {
   const TestFolder folder;
@@ -269,14 +275,28 @@ TEST(StagedFiles, APipeThatNobodyReadsTakesTheOthersAlong) {
   folder.write("map.exr", "older");
   const Outcome outcome = run_fathom(
       {"render", "square.obj", "--size", "8x6", "-o", "map.exr", "--stats", "/dev/stdout"},
-      {.folder = folder.path(), .prepare = answer_into_a_broken_pipe});
+      {.folder = folder.path(), .prepare = [] {
+         std::array<int, 2> ends{};
+         if (::pipe(ends.data()) != 0) ::_exit(125);
+         ::close(ends[0]);
+         ::dup2(ends[1], STDOUT_FILENO);
+       }});
   EXPECT_EQ(outcome.status, 4);
   EXPECT_EQ(outcome.err, "fathom: error: /dev/stdout: Broken pipe\n");
   EXPECT_EQ(folder.read("map.exr"), "older");
 }
 
+/// Standard output is a file that is as large as files may be: told only when it is written.
+void answer_into_a_full_file() {
+  const rlimit most{65536, 65536};
+  ::setrlimit(RLIMIT_FSIZE, &most);
+  const int file = ::open("answer.txt", O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  ::lseek(file, 65536, SEEK_SET);
+  ::dup2(file, STDOUT_FILENO);
+}
+
 /// The answer on standard output is one of them.
-TEST(StagedFiles, AnAnswerThatNobodyReadsTakesTheOthersAlong) {
+TEST(StagedFiles, AnAnswerThatFindsNoRoomTakesTheOthersAlong) {
   const TestFolder folder;
   folder.write("square.obj", square_obj);
   const Outcome rendered = run_fathom({"render", "square.obj", "--size", "8x6", "-o", "map.pfm"},
@@ -286,12 +306,13 @@ TEST(StagedFiles, AnAnswerThatNobodyReadsTakesTheOthersAlong) {
   for (const char* output : {"older.json", "new.json"}) {
     const Outcome outcome =
         run_fathom({"compare", "map.pfm", "map.pfm", "--json", output},
-                   {.folder = folder.path(), .prepare = answer_into_a_broken_pipe});
+                   {.folder = folder.path(), .prepare = answer_into_a_full_file});
     EXPECT_EQ(outcome.status, 4);
-    EXPECT_EQ(outcome.err, "fathom: error: standard output: Broken pipe\n");
+    EXPECT_EQ(outcome.err, "fathom: error: standard output: File too large\n");
   }
   EXPECT_EQ(folder.read("older.json"), "older");
-  EXPECT_EQ(folder.names().size(), 3U);
+  EXPECT_EQ(folder.read("answer.txt"), "");
+  EXPECT_EQ(folder.names().size(), 4U);
 }
 
 TEST_F(ManyOutputs, GiveTheirPlacesBackWhereOneCannotTakeItsOwn) {

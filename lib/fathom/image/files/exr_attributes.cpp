@@ -1,6 +1,5 @@
 #include "fathom/image/files/exr_attributes.h"
 
-#include <ImfIDManifest.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "fathom/image/files/exr_id_manifest.h"
 #include "fathom/image/files/map_codecs.h"
 
 namespace fathom::image {
@@ -74,16 +74,7 @@ void set_window(Imf::Header& header, const DepthMap& map) {
 
 void set_object_names(Imf::Header& header, const DepthMap& map) {
   header.insert(objects_attribute, Imf::StringAttribute(object_names_as_json(map.object_names)));
-  if (!map.find("object")) return;
-  Imf::IDManifest manifest;
-  Imf::IDManifest::ChannelGroupManifest& group = manifest.add("object");
-  group.setLifetime(Imf::IDManifest::LIFETIME_FRAME);
-  group.setHashScheme(Imf::IDManifest::NOTHASHED);
-  group.setEncodingScheme(Imf::IDManifest::ID_SCHEME);
-  group.setComponent("name");
-  for (std::size_t id = 0; id < map.object_names.size(); ++id)
-    group.insert(id, map.object_names[id]);
-  Imf::addIDManifest(header, Imf::CompressedIDManifest(manifest));
+  if (map.find("object")) header.insert("idManifest", id_manifest("object", map.object_names));
 }
 
 }  // namespace
