@@ -10,6 +10,13 @@
 namespace fathom::app {
 namespace {
 
+/// The shadow memory of the sanitizers takes more than anyone allows.
+#ifdef FATHOM_SANITIZED
+constexpr bool is_sanitized = true;
+#else
+constexpr bool is_sanitized = false;
+#endif
+
 std::optional<MemoryAllowance> given;
 
 /// The stacks of the pools of TBB and of OpenEXR: little of them is ever touched, but all is counted.
@@ -23,6 +30,7 @@ std::uint64_t bytes_of_stacks() {
 /// Lets allocations fail beyond so many bytes. Since Linux 4.7, RLIMIT_DATA counts all memory that
 /// only this process writes to.
 void limit_data(std::uint64_t bytes) {
+  if (is_sanitized) return;
   rlimit limit{};
   if (::getrlimit(RLIMIT_DATA, &limit) != 0) return;
   limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, bytes + bytes_of_stacks());

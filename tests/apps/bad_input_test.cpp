@@ -160,9 +160,7 @@ void expect_refusal(const TestFolder& folder, const std::vector<std::string>& ar
   folder.write("map.exr", "older");
   const auto before = folder.names();
   RunOptions options{.folder = folder.path()};
-#ifdef FATHOM_LIMIT_MEMORY
   options.memory = rlim_t{2} << 30;
-#endif
   const Outcome outcome = run_fathom(arguments, options);
   EXPECT_EQ(outcome.status, 3);
   EXPECT_EQ(outcome.out, "");

@@ -83,9 +83,7 @@ class BadMapFile : public ::testing::TestWithParam<BadMap> {
   void expect_refusal(std::vector<std::string> arguments) {
     const auto before = folder_.names();
     RunOptions options{.folder = folder_.path()};
-#ifdef FATHOM_LIMIT_MEMORY
     options.memory = rlim_t{2} << 30;
-#endif
     const Outcome outcome = run_fathom(arguments, options);
     EXPECT_EQ(outcome.status, 3) << arguments[0] << outcome.out;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;

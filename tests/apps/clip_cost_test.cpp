@@ -44,7 +44,7 @@ TEST(ClipCost, ManyKeysAreRead) {
   for (int i = 0; i < 200'000; ++i) keys += ",\"" + std::to_string(i) + "\":0";
   const Outcome outcome = clip("weiler-atherton", "{\"name\":{\"\":0" + keys + "}}\n");
   expect_one_line(outcome, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("\"clip\" is missing"));
+  EXPECT_THAT(outcome.err, HasSubstr("\"subject\" is missing"));
 }
 
 /// "[[x,y],…]": a square.

@@ -50,9 +50,7 @@ class HostileGltf : public ::testing::Test {
     folder.write("a.gltf", asset.dump());
     RunOptions options{.folder = folder.path()};
     options.seconds = 60;
-#ifdef FATHOM_LIMIT_MEMORY
     options.memory = rlim_t{2} << 30;
-#endif
     return run_fathom(arguments, options);
   }
   void expect_refusal(const json& asset, const std::vector<std::string>& arguments,

@@ -33,9 +33,7 @@ class Inputs : public ::testing::Test {
   /// A command line of fathom, as bash reads it; `before` comes before the program, as in "cat |".
   Outcome bash(const std::string& line, const std::string& before = "") const {
     RunOptions options{.folder = folder_.path()};
-#ifdef FATHOM_LIMIT_MEMORY
     options.memory = rlim_t{3} << 30;
-#endif
     return run({"/bin/bash", "-c", before + "\"$0\" " + line, program_path()}, options);
   }
 

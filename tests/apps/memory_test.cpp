@@ -33,9 +33,7 @@ class Memory : public ::testing::Test {
   /// One line, status 3, and nothing new in the folder.
   void expect_refusal(const std::vector<std::string>& arguments, const std::string& said) const {
     RunOptions options{.folder = folder_.path()};
-#ifdef FATHOM_LIMIT_MEMORY
     options.memory = rlim_t{512} << 20;
-#endif
     const auto before = folder_.names();
     const Outcome outcome = run_fathom(arguments, options);
     EXPECT_EQ(outcome.status, 3);
@@ -59,7 +57,7 @@ class Memory : public ::testing::Test {
 TEST_F(Memory, ASmallExrThatUnpacksToGigabytes) {
   folder_.write("black.exr", black_exr(20000, 20000));
   ASSERT_LT(folder_.read("black.exr").size(), 2000000U);
-#ifndef FATHOM_LIMIT_MEMORY
+#ifdef FATHOM_SANITIZED
   expect_refusal_by_all("black.exr",
                         "black.exr: an image of 20000×20000 pixels needs 1.6 GB; such a small file "
                         "may unpack to 536.9 MB; --max-memory SIZE allows more");
@@ -131,7 +129,7 @@ TEST_F(Memory, WhatNobodyForesawIsOutOfMemory) {
   std::string mesh = square_obj;
   for (int i = 0; i < 400000; ++i) mesh += "f 1 2 3\n";
   folder_.write("many.obj", mesh);
-#ifdef FATHOM_LIMIT_MEMORY
+#ifndef FATHOM_SANITIZED
   const auto before = folder_.names();
   const Outcome outcome = fathom({"visible", "many.obj", "--max-memory", "20M", "--threads", "1"});
   EXPECT_EQ(outcome.status, 3);
@@ -142,7 +140,7 @@ TEST_F(Memory, WhatNobodyForesawIsOutOfMemory) {
 #endif
 }
 
-#ifdef FATHOM_LIMIT_MEMORY
+#ifndef FATHOM_SANITIZED
 
 /// 400 triangles across each other, whose visible areas are long exact numbers.
 std::string crossing_triangles() {

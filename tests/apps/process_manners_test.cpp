@@ -193,7 +193,7 @@ TEST_F(Manners, WithoutThreadsItWorksAlone) {
   }
 }
 
-#ifdef FATHOM_LIMIT_MEMORY  // sanitizers have threads of their own
+#ifndef FATHOM_SANITIZED  // sanitizers have threads of their own
 /// Some threads, but not all that are wanted.
 TEST_F(Manners, WithFewThreadsItWorksWithThese) {
   if (::geteuid() != 0) GTEST_SKIP() << "needs a user of its own, to count its processes";

@@ -32,7 +32,9 @@ void redirect(const std::string& file, int flags, int to) {
 [[noreturn]] void become(const std::vector<std::string>& command, const RunOptions& options) {
   if (::chdir(options.folder.c_str()) != 0) ::_exit(126);
   limit(RLIMIT_FSIZE, options.file_size);
+#ifndef FATHOM_SANITIZED  // their shadow memory takes all addresses
   limit(RLIMIT_AS, options.memory);
+#endif
   limit(RLIMIT_CPU, options.seconds);
   if (options.as_nobody && ::geteuid() == 0) {
     if (::setgroups(0, nullptr) != 0 || ::setgid(nobody) != 0 || ::setuid(nobody) != 0) {

@@ -11,7 +11,7 @@ namespace fathom::test {
 
 inline RunOptions at_small_cost(const TestFolder& folder) {
   RunOptions options{.folder = folder.path()};
-#ifdef FATHOM_LIMIT_MEMORY
+#ifndef FATHOM_SANITIZED
   options.memory = rlim_t{2} << 30;
   options.seconds = 20;
 #else

@@ -89,7 +89,7 @@ TEST_F(Streaming, RefusesWhatCannotBeStreamed) {
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"cut.stl", "square.obj"}));
 }
 
-#ifdef FATHOM_LIMIT_MEMORY
+#ifndef FATHOM_SANITIZED
 /// A wavy sheet of 8 million triangles, 400 MB, by a process that is allowed 380 MB of addresses in
 /// all.
 TEST_F(Streaming, AFileLargerThanTheMemoryAllowed) {

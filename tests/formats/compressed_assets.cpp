@@ -107,8 +107,8 @@ json draco_asset(const Triangulated& mesh, const std::string& compressed) {
         {{"KHR_draco_mesh_compression", {{"bufferView", 0}, {"attributes", {{"POSITION", 0}}}}}}}});
   asset["accessors"] = {accessor(mesh.positions.size() / 3, "VEC3", float32),
                         accessor(mesh.indices.size(), "SCALAR", uint32)};
-  asset["bufferViews"] = {{{"buffer", 0}, {"byteLength", compressed.size()}}};
-  asset["buffers"] = {data_buffer(compressed)};
+  asset["bufferViews"] = json::array({{{"buffer", 0}, {"byteLength", compressed.size()}}});
+  asset["buffers"] = json::array({data_buffer(compressed)});
   asset["extensionsUsed"] = {"KHR_draco_mesh_compression"};
   asset["extensionsRequired"] = {"KHR_draco_mesh_compression"};
   return asset;

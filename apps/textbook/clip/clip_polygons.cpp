@@ -141,9 +141,9 @@ Json weiler_atherton(const Json& object, Form form) {
                              ? clipping::SetOperation::intersection
                              : clipping::SetOperation::difference;
   clipping::WeilerAthertonTrace<Number> trace;
-  const auto polygons =
-      clipping::weiler_atherton(over_kernel<Number>(rings(object, "subject")),
-                                over_kernel<Number>(rings(object, "clip")), operation, &trace);
+  const Rings<Number> subject = over_kernel<Number>(rings(object, "subject"));
+  const Rings<Number> clip = over_kernel<Number>(rings(object, "clip"));
+  const auto polygons = clipping::weiler_atherton(subject, clip, operation, &trace);
   Json result{{"polygons", Json::array()}};
   for (const clipping::Polygon<Number>& polygon : polygons) {
     Json all = Json::array({cases::to_json(polygon.outline, form)});

@@ -56,7 +56,7 @@ std::filesystem::path file_of_uri(const JsonValue& uri, const std::filesystem::p
       uri.fail("leads out of the folder of the asset, which --outside-files allows");
     return file;
   };
-  const std::filesystem::path file = checked(folder / *name);
+  std::filesystem::path file = checked(folder / *name);
   std::error_code error;
   if (name->find('\\') == std::string::npos || std::filesystem::exists(file, error)) return file;
   std::replace(name->begin(), name->end(), '\\', '/');
