@@ -25,10 +25,6 @@ namespace fs = std::filesystem;
   throw OutputError(target.string() + ": " + why);
 }
 
-fs::path folder_of(const fs::path& place) {
-  return place.has_parent_path() ? place.parent_path() : fs::path(".");
-}
-
 [[noreturn]] void fail_to_stage(const fs::path& target, const fs::path& place, int error) {
   const fs::path folder = folder_of(place);
   if (error == ENOENT && folder == ".") fail(target, "the working directory is gone");

@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 /// The folder that a file lies in, with no link in its path; empty where there is none.
 fs::path true_folder_of(const fs::path& file) {
   std::error_code error;
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  const fs::path found = fs::canonical(folder, error);
+  const fs::path found = fs::canonical(folder_of(file), error);
   return error ? fs::path() : found;
 }
 
@@ -30,6 +29,10 @@ std::optional<int> number_in(const std::string& text) {
 }
 
 }  // namespace
+
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
 
 OutputPlace place_of(const fs::path& target) {
   const fs::path own_files = "/proc/" + std::to_string(::getpid()) + "/fd";

@@ -6,6 +6,9 @@
 
 namespace fathom::app {
 
+/// The folder that a file's name puts it in: "." where it names none.
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
 /// What the name of an output leads to.
 struct OutputPlace {
   /// The file that is meant, which need not exist: symbolic links are followed.

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/shell/output_place.h"
 #include "apps/shell/part_names.h"
 #include "apps/shell/pending_files.h"
 #include "apps/shell/stale_parts.h"
@@ -29,10 +30,6 @@ namespace fs = std::filesystem;
 
 std::string path_of(int descriptor) {
   return fmt::format("/proc/self/fd/{}", descriptor);
-}
-
-fs::path folder_of(const fs::path& place) {
-  return place.has_parent_path() ? place.parent_path() : fs::path(".");
 }
 
 /// False where the file system cannot.

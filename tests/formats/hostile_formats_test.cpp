@@ -53,7 +53,7 @@ TEST_P(DamagedFiles, AreMeshesOrOneLine) {
       exported(read_polygons(source_dir() / "data/meshes/l-shape.obj"), exporter);
   std::mt19937_64 random(14);
   int refused = 0;
-  // Of each kind one in eight is refused, or more.
+  // A kind of which nothing is refused was not damaged, or not read.
   constexpr int cases = testing::effort == 1 ? 60 : 30;
   for (int i = 0; i < cases; ++i) {
     const std::string bytes = damaged(good, random);

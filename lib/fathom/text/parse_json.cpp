@@ -146,8 +146,9 @@ template <class Json>
 void parse_json(std::string_view text, Json& root) {
   // Json::sax_parse() does the same, but compiles all binary formats with it.
   build(root, [&](auto& builder) {
-    auto input = nlohmann::detail::input_adapter(text.begin(), text.end());
-    nlohmann::detail::parser<Json, decltype(input)>(std::move(input)).sax_parse(&builder);
+    const auto input = nlohmann::detail::input_adapter(text.begin(), text.end());
+    using Input = std::remove_const_t<decltype(input)>;
+    nlohmann::detail::parser<Json, Input>(Input(input)).sax_parse(&builder);
   });
 }
 

@@ -101,6 +101,7 @@ void ForeignMeshBuilder::add_attributes(const std::vector<Part>& parts, Mesh& me
                        std::vector<CornerIndices>* corners) {
     using Value = decltype(otherwise);
     std::vector<bool> given;
+    given.reserve(parts.size());
     for (const Part& part : parts) given.push_back(has(part, list, otherwise.size()));
     if (std::ranges::find(given, true) == given.end()) return;
     if (corners && std::ranges::find(given, false) != given.end()) *corners = mesh.triangles;
