@@ -93,6 +93,13 @@ void PipelineArguments::add_merging_options(Command& command) {
                                      "Opacity with --blend, 0 to 1 (default 0.5)"));
   declared_.push_back(command.flag(
       "--blend", blend_, "Blend every fragment over the picture, in the order of the triangles"));
+  declared_.push_back(command.option(
+      "--blend-depth", "NAME", into(stages_.blend_depth, parse_blend_depth),
+      "Depth test of --blend: off (default), on, or read-only (blended fragments write no depth)"));
+  declared_.push_back(
+      command.option("--draw-order", "NAME", into(order_, parse_draw_order),
+                     "Of triangles: file (default), front-to-back, back-to-front, random or "
+                     "random:SEED"));
   declared_.push_back(
       command.flag("--no-blocks", no_blocks_, "Test every sample; the picture does not change"));
   declared_.push_back(command.flag("--no-early-depth", no_early_depth_,
@@ -104,6 +111,10 @@ pipeline::PipelineOptions PipelineArguments::options(Cull cull) const {
   options.culling = culling_of(cull);
   options.blocks = !no_blocks_;
   options.early_depth = !no_early_depth_;
+  options.draw_order = order_.first;
+  options.draw_seed = order_.second;
+  if (!blend_ && options.blend_depth != pipeline::BlendDepth::off)
+    throw UsageError("--blend-depth belongs to --blend");
   if (!blend_) return options;
   if (!(opacity_ >= 0 && opacity_ <= 1)) throw UsageError("--opacity: expected 0 to 1");
   options.blend_alpha = opacity_;

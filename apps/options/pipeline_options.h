@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/shell/command.h"
@@ -31,6 +32,7 @@ class PipelineArguments {
 
   pipeline::PipelineOptions stages_;
   double opacity_ = 0.5;
+  std::pair<pipeline::DrawOrder, std::uint64_t> order_{};
   bool blend_ = false, no_blocks_ = false, no_early_depth_ = false;
   std::vector<Option> declared_;
 };

@@ -60,6 +60,21 @@ FrontFace parse_front_face(const std::string& text) {
       text, {{"ccw", FrontFace::counter_clockwise}, {"cw", FrontFace::clockwise}});
 }
 
+BlendDepth parse_blend_depth(const std::string& text) {
+  return parse_word<BlendDepth>(
+      text,
+      {{"off", BlendDepth::off}, {"on", BlendDepth::on}, {"read-only", BlendDepth::read_only}});
+}
+
+std::pair<DrawOrder, std::uint64_t> parse_draw_order(const std::string& text) {
+  if (text.starts_with("random:")) return {DrawOrder::random, parse_count(text.substr(7))};
+  return {parse_word<DrawOrder>(text, {{"file", DrawOrder::file},
+                                       {"front-to-back", DrawOrder::front_to_back},
+                                       {"back-to-front", DrawOrder::back_to_front},
+                                       {"random", DrawOrder::random}}),
+          0};
+}
+
 Antialias parse_antialias(const std::string& text) {
   const auto colon = text.find(':');
   Antialias antialias;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "fathom/pipeline/options.h"
 
@@ -20,6 +22,9 @@ pipeline::FrontFace parse_front_face(const std::string& text);
 
 /// "msaa:4"
 pipeline::Antialias parse_antialias(const std::string& text);
+pipeline::BlendDepth parse_blend_depth(const std::string& text);
+/// "random:7", the seed being 0 where it is not said
+std::pair<pipeline::DrawOrder, std::uint64_t> parse_draw_order(const std::string& text);
 /// "X,Y,W,H"
 std::optional<pipeline::WindowRectangle> parse_rectangle(const std::string& text);
 /// "R,G,B" from 0 to 1

@@ -1,5 +1,8 @@
 #include "apps/render/depth_buffer_channels.h"
 
+#include <nlohmann/json.hpp>
+
+#include "apps/render/depth_format_json.h"
 #include "apps/render/render_report.h"
 
 namespace fathom::app {
@@ -14,7 +17,7 @@ DepthBufferReport add_depth_buffer_channels(DepthMap& map, const DepthBufferPlan
   DepthBufferReport report{format_for(plan, camera), plan.against_exact, {}};
   report.seen =
       add_depth_buffer(map, triangles, camera, {report.format, plan.against_exact, options});
-  map.texts["fathom.depth_format"] = as_json(report.format);
+  map.texts["fathom.depth_format"] = json_of(report.format).dump();
   return report;
 }
 

@@ -1,8 +1,8 @@
 #include "apps/render/render_report.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/render/depth_format_json.h"
 #include "apps/shell/json_answer.h"
 
 namespace fathom::app {
@@ -35,17 +35,8 @@ Json to_json(const RenderStatistics& statistics) {
             {"rounding", to_json(statistics.rounding)}}}};
 }
 
-Json to_json(const DepthFormat& format) {
-  Json json{{"mapping", name_of(format.mapping)},
-            {"storage", name_of(format.storage)},
-            {"near", format.near},
-            {"far", std::isfinite(format.far) ? Json(format.far) : Json(nullptr)}};
-  if (format.mapping == Mapping::log) json["c"] = format.c;
-  return json;
-}
-
 Json to_json(const DepthBufferReport& report) {
-  Json json = to_json(report.format);
+  Json json = json_of(report.format);
   json["encoded"] = {{"binary64", report.seen.by_binary64},
                      {"double_words", report.seen.by_double_words},
                      {"exact", report.seen.by_exact_numbers}};
@@ -80,10 +71,6 @@ std::string as_json(const std::vector<MapReport>& maps) {
   Json list = Json::array();
   for (const MapReport& map : maps) list.push_back(to_json(map));
   return json_answer(list.size() == 1 ? list[0] : list);
-}
-
-std::string as_json(const DepthFormat& format) {
-  return to_json(format).dump();
 }
 
 }  // namespace fathom::app

@@ -26,7 +26,4 @@ struct MapReport {
 /// An object for a single map, a list for several.
 std::string as_json(const std::vector<MapReport>& maps);
 
-/// What a map says of its depth format in `fathom.depth_format`.
-std::string as_json(const DepthFormat& format);
-
 }  // namespace fathom::app

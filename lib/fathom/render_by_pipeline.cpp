@@ -1,5 +1,10 @@
 #include "fathom/render_by_pipeline.h"
 
+#include <algorithm>
+#include <limits>
+
+#include "fathom/depth_buffer/buffer_channels.h"
+#include "fathom/depth_format/encode.h"
 #include "fathom/map_description.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -23,7 +28,56 @@ ImageChannel channel_of(const Scene& scene, const pipeline::PipelineFrame& frame
   return {channel == Channel::face ? "face" : "object", values};
 }
 
+/// Inverts the depth range and the format.
+class Decoder {
+ public:
+  Decoder(const DepthFormat& format, const std::array<double, 2>& range)
+      : format_(format),
+        near_(Dyadic(range[0])),
+        extent_(Dyadic(range[1]) - Dyadic(range[0])),
+        known_(bits_of(format.storage) <= 16 ? std::size_t{1} << 16 : 0) {
+    if (range[0] == range[1])
+      throw UsageError(Setting{"depth_range"},
+                       "near and far have the same window depth, of which none can be decoded");
+  }
+
+  float operator()(StoredDepth stored) {
+    if (stored.bits >= known_.size()) return decoded(stored);
+    std::optional<float>& known = known_[stored.bits];
+    if (!known) known = decoded(stored);
+    return *known;
+  }
+
+ private:
+  [[nodiscard]] float decoded(StoredDepth stored) const {
+    const Ratio one = Dyadic(1.0);
+    Ratio value = quotient(value_of(format_.storage, stored) - near_, extent_);
+    if (value.sign() == Sign::negative) value = Ratio();
+    if (one < value) value = one;
+    const std::optional<Real> depth = depth_of(format_, value);
+    return depth ? round_to_binary32(*depth) : std::numeric_limits<float>::infinity();
+  }
+
+  DepthFormat format_;
+  Ratio near_, extent_;
+  /// A buffer of 16 bits holds the same values again and again.
+  std::vector<std::optional<float>> known_;
+};
+
 }  // namespace
+
+void add_depth_buffer(DepthMap& map, const PipelineDepthBuffer& buffer) {
+  const StandardArithmetic standard;
+  Decoder decoder(buffer.format, buffer.depth_range);
+  if (!buffer.stencil.empty())
+    map.channels.push_back(
+        {"stencil", Samples<std::uint32_t>(buffer.stencil.begin(), buffer.stencil.end())});
+  depth_buffer::BufferChannels channels(map, buffer.format, false);
+  for (std::size_t i = 0; i < buffer.stored.size(); ++i) {
+    channels.store(i, buffer.stored[i]);
+    if (buffer.written[i]) channels.decoded[i] = decoder(buffer.stored[i]);
+  }
+}
 
 void require_pipeline_channels(const std::vector<Channel>& channels) {
   for (const Channel channel : channels) {
@@ -39,8 +93,7 @@ PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
                                      const std::vector<Channel>& channels, bool with_picture) {
   const StandardArithmetic standard;
   require_pipeline_channels(channels);
-  const pipeline::PipelineFrame frame =
-      pipeline::render_frame(scene, camera, options, with_picture);
+  pipeline::PipelineFrame frame = pipeline::render_frame(scene, camera, options, with_picture);
   PipelineRendering result{{}, {}, frame.statistics, frame.painter, camera};
   result.camera.near = frame.statistics.near;
   result.camera.far = frame.statistics.far;
@@ -49,6 +102,16 @@ PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
   for (const Channel channel : channels) {
     result.map.channels.push_back(channel_of(scene, frame, channel));
   }
+  result.depth_buffer = {options.depth_format,
+                         options.depth_range,
+                         std::move(frame.stored),
+                         std::move(frame.depth_written),
+                         {}};
+  result.depth_buffer.format.near = result.camera.near;
+  result.depth_buffer.format.far = result.camera.far;
+  if (std::ranges::any_of(scene.draw_states,
+                          [](const DrawState& s) { return s.stencil.has_value(); }))
+    result.depth_buffer.stencil = std::move(frame.stencil);
   describe_map(scene, result.camera, "pipeline", result.map);
   if (with_picture) result.picture = pipeline::to_rgb(frame.picture);
   return result;

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "fathom/camera/camera.h"
+#include "fathom/depth_format/stored_depth.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/rgb_image.h"
@@ -13,6 +16,16 @@
 /// The front door to the pipeline of the textbooks.
 namespace fathom {
 
+/// What a pipeline's depth buffer holds at the end, pixel by pixel, row by row from the top.
+struct PipelineDepthBuffer {
+  DepthFormat format;                       ///< with the near and far that were clipped with
+  std::array<double, 2> depth_range{0, 1};  ///< what near and far become
+  std::vector<StoredDepth> stored;          ///< where nothing was written: what it was cleared to
+  std::vector<bool> written;
+  /// Empty where no object has a stencil state.
+  std::vector<std::uint8_t> stencil;
+};
+
 /// What a graphics pipeline computes of the scene, as a map and a picture.
 struct PipelineRendering {
   /// Channels Z, id, face and object, those that are asked for. Its camera has the near and far
@@ -22,6 +35,7 @@ struct PipelineRendering {
   pipeline::PipelineStatistics statistics;
   pipeline::PainterStatistics painter;
   Camera camera;
+  PipelineDepthBuffer depth_buffer;
 };
 
 /// Refuses channels that the pipeline does not give. Fails with UsageError.
@@ -34,5 +48,14 @@ void require_pipeline_channels(const std::vector<Channel>& channels);
 PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
                                      const pipeline::PipelineOptions& options,
                                      const std::vector<Channel>& channels, bool with_picture);
+
+/// Adds what the depth buffer holds as channels: `Zwindow`, or `Zwindow.high` and `Zwindow.low`, as
+/// depth_buffer/depth_buffer.h stores them; `Zdecoded`, the depth that the stored value means, in
+/// scene units, +∞ where nothing was written; `stencil` (UINT), if there is one.
+///
+/// Exact    Zdecoded: the depth range, then the format, are inverted exactly, and the result is
+///          rounded once. What polygon offset has moved beyond near or far is decoded as near or far.
+/// Fails    UsageError where near and far have the same window depth, so that none can be decoded.
+void add_depth_buffer(DepthMap& map, const PipelineDepthBuffer& buffer);
 
 }  // namespace fathom

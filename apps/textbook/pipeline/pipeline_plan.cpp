@@ -54,6 +54,12 @@ PipelinePlan plan_pipeline(const RenderArguments& a) {
   plan.writing = a.storage.write_options(a.scene.threads);
   plan.stages = stages_of(a);
   plan.with_picture = !a.image.empty();
+  plan.with_depth_buffer = a.depth_buffer.storage && plan.format == MapFormat::exr;
+  if (plan.with_depth_buffer && plan.stages.depth_range[0] == plan.stages.depth_range[1]) {
+    throw UsageError(
+        "--depth-range: near and far have the same window depth, of which --depth-format cannot "
+        "decode one");
+  }
   return plan;
 }
 

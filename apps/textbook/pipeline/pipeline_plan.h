@@ -13,6 +13,7 @@ struct PipelinePlan {
   std::vector<Channel> channels;
   pipeline::PipelineOptions stages;
   bool with_picture = false;
+  bool with_depth_buffer = false;
 };
 
 /// Fails    UsageError where the arguments contradict each other, before any work.

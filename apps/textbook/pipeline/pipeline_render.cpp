@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <nlohmann/json.hpp>
+
+#include "apps/render/depth_format_json.h"
 #include "apps/render/render_outputs.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/known_files.h"
@@ -37,6 +40,17 @@ PipelineReport report_of(const std::string& name, const PipelineRendering& rende
   return report;
 }
 
+/// Channels, and what they mean.
+void add_depth_buffer(PipelineRendering& rendering) {
+  const PipelineDepthBuffer& buffer = rendering.depth_buffer;
+  fathom::add_depth_buffer(rendering.map, buffer);
+  rendering.map.texts["fathom.depth_format"] = json_of(buffer.format).dump();
+  const auto& [near, far] = buffer.depth_range;
+  if (near != 0 || far != 1) {
+    rendering.map.texts["fathom.depth_range"] = fmt::format("[{}, {}]", near, far);
+  }
+}
+
 int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const Console& console) {
   if (plan.stages.texture != "checker") note_input(plan.stages.texture);
   const Scene scene =
@@ -51,8 +65,9 @@ int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const 
   std::vector<Camera> used;
   const Progress progress(console, "rendering");
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const PipelineRendering rendering = fathom::render_by_pipeline(
-        scene, cameras[i], plan.stages, plan.channels, plan.with_picture);
+    PipelineRendering rendering = fathom::render_by_pipeline(scene, cameras[i], plan.stages,
+                                                             plan.channels, plan.with_picture);
+    if (plan.with_depth_buffer) add_depth_buffer(rendering);
     used.push_back(rendering.camera);
     outputs.map(i).write(
         [&](const auto& path) { write_map(rendering.map, path, plan.format, plan.writing); });

@@ -35,11 +35,14 @@ Json to_json(const TriangleTrace& t) {
   }
   answer["fragments"] = t.fragments;
   if (t.sample) {
-    answer["sample"] = {
-        {"edges", t.sample->edges},       {"covered", t.sample->covered},
-        {"weights", t.sample->weights},   {"attribute_weights", t.sample->attribute_weights},
-        {"window_z", t.sample->window_z}, {"depth", t.sample->depth},
-        {"stored", t.sample->stored.bits}};
+    answer["sample"] = {{"edges", t.sample->edges},
+                        {"covered", t.sample->covered},
+                        {"drawable", t.sample->drawable},
+                        {"weights", t.sample->weights},
+                        {"attribute_weights", t.sample->attribute_weights},
+                        {"window_z", t.sample->window_z},
+                        {"depth", t.sample->depth},
+                        {"stored", t.sample->stored.bits}};
   }
   return answer;
 }
@@ -73,8 +76,10 @@ std::string as_text(const TriangleTrace& t) {
   if (!t.sample) return text;
   const auto& s = *t.sample;
   text += fmt::format("\nsample: {}\n  edge functions       {}\n  weights              {}\n",
-                      s.covered ? "covered" : "not covered", fmt::join(s.edges, ", "),
-                      fmt::join(s.weights, ", "));
+                      !s.covered   ? "not covered"
+                      : s.drawable ? "covered"
+                                   : "covered, but outside the viewport or the scissor box",
+                      fmt::join(s.edges, ", "), fmt::join(s.weights, ", "));
   text += fmt::format(
       "  attribute weights    {}\n  window depth         {}\n  depth along the view {}\n"
       "  stored               {:#x}\n",

@@ -4,6 +4,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/geometry/subpixel_grid.h"
+#include "fathom/pipeline/geometry/vertex_transform.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -33,6 +34,20 @@ void require_count(const Antialias& antialias) {
   if (n < 1 || n > 256) throw UsageError(setting, "expected 1 to 256 samples");
 }
 
+/// Polygon offset and depth range change what the projection and the viewport make of a depth;
+/// depths that fragments compute do not pass through them.
+void require_projected_depths(const PipelineOptions& o) {
+  if (!is_per_fragment(o.depth_format.mapping)) return;
+  const std::string reason =
+      "does not reach the depths of mapping " + std::string(name_of(o.depth_format.mapping)) +
+      ", which fragments compute; there are standard, reversed, infinite, reversed-infinite and "
+      "opengl";
+  if (o.polygon_offset.slope_factor != 0 || o.polygon_offset.constant_factor != 0)
+    throw UsageError(Setting{"polygon_offset"}, reason);
+  if (o.depth_range != std::array<double, 2>{0, 1})
+    throw UsageError(Setting{"depth_range"}, reason);
+}
+
 }  // namespace
 
 void require_meaningful(const PipelineOptions& o) {
@@ -43,6 +58,7 @@ void require_meaningful(const PipelineOptions& o) {
   for (const double d : o.depth_range)
     if (!(d >= 0 && d <= 1))
       throw UsageError(Setting{"depth_range"}, "expected two numbers from 0 to 1");
+  require_projected_depths(o);
   require_count(o.antialias);
   const bool one_sample =
       o.antialias.method == AntialiasMethod::none || o.antialias.method == AntialiasMethod::fxaa;
@@ -64,6 +80,10 @@ void require_meaningful(const PipelineOptions& o) {
     throw UsageError(Setting{"polygon_offset"}, "expected finite numbers");
   if (o.blend_alpha && !(*o.blend_alpha >= 0 && *o.blend_alpha <= 1))
     throw UsageError(Setting{"blend_alpha"}, "expected 0 to 1");
+  if (o.blend_alpha && o.antialias.method == AntialiasMethod::area)
+    throw UsageError(Setting{"antialias"}, "area shows the nearest surfaces; it does not blend");
+  if (o.draw_order != DrawOrder::file && o.hidden_surface == HiddenSurface::painter)
+    throw UsageError(Setting{"draw_order"}, "the painter's algorithm has an order of its own");
 }
 
 }  // namespace fathom::pipeline

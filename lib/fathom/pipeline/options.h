@@ -29,6 +29,16 @@ enum class TextureFilter { nearest, bilinear, trilinear, anisotropic };
 enum class HiddenSurface { z_buffer, painter };
 enum class WireLine { explicit_equation, dda, bresenham, midpoint, diamond_exit };
 
+/// Of blended fragments: whether the depth test may discard them, and whether they write depth.
+enum class BlendDepth {
+  off,       ///< every fragment is blended; the depth buffer keeps the nearest all the same
+  on,        ///< fragments that fail the test are not; those that pass write their depth
+  read_only  ///< fragments that fail the test are not; none writes its depth
+};
+
+/// In what order triangles are drawn. By depth: that of the mean of a triangle's corners.
+enum class DrawOrder { file, front_to_back, back_to_front, random };
+
 enum class AntialiasMethod { none, ssaa, msaa, jitter, area, fxaa, taa };
 struct Antialias {
   AntialiasMethod method = AntialiasMethod::none;
@@ -71,9 +81,13 @@ struct PipelineOptions {
   std::string texture;
   TextureFilter filter = TextureFilter::trilinear;
   HiddenSurface hidden_surface = HiddenSurface::z_buffer;
+  /// Of all objects that have none of their own (scene/draw_state.h).
   DepthBias polygon_offset;
   /// Blends each fragment over the picture with this opacity instead of selecting the nearest.
   std::optional<double> blend_alpha;
+  BlendDepth blend_depth = BlendDepth::off;
+  DrawOrder draw_order = DrawOrder::file;
+  std::uint64_t draw_seed = 0;  ///< of a random order
   Antialias antialias;
   Colour background{0, 0, 0};
 };

@@ -6,6 +6,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/pipeline/geometry/draw_order.h"
 #include "fathom/pipeline/geometry/geometry_stages.h"
 #include "fathom/pipeline/output/area_sampling.h"
 #include "fathom/pipeline/output/fxaa.h"
@@ -14,23 +15,6 @@
 
 namespace fathom::pipeline {
 namespace {
-
-/// A rectangle with its origin at the lower left corner, as pixels of the image.
-PixelWindow in_image(const WindowRectangle& r, const Camera& camera) {
-  return {r.x, camera.height - r.y - r.height, r.x + r.width, camera.height - r.y};
-}
-
-/// The pixels that can be drawn to: of the image, the viewport and the scissor box.
-PixelWindow drawable(const Camera& camera, const PipelineOptions& options) {
-  PixelWindow w{0, 0, camera.width, camera.height};
-  for (const auto& rectangle : {options.viewport, options.scissor}) {
-    if (!rectangle) continue;
-    const PixelWindow r = in_image(*rectangle, camera);
-    w = {std::max(w.x_begin, r.x_begin), std::max(w.y_begin, r.y_begin), std::min(w.x_end, r.x_end),
-         std::min(w.y_end, r.y_end)};
-  }
-  return w;
-}
 
 std::optional<Texture> texture_of(const Scene& scene, const PipelineOptions& options) {
   if (options.texture.empty()) return std::nullopt;
@@ -45,13 +29,18 @@ template <class Real>
 class Frame {
  public:
   Frame(const Scene& scene, const Camera& camera, const PipelineOptions& options)
-      : scene_(scene), camera_(camera), options_(options), window_(drawable(camera, options)) {}
+      : scene_(scene),
+        camera_(camera),
+        options_(options),
+        rules_(draw_rules_of(scene, options)),
+        window_(drawable_window(camera, options)) {}
 
   PipelineFrame run(bool with_picture) {
-    primitives_ = to_window<Real>(scene_, camera_, options_, frame_.statistics);
+    primitives_ = to_window<Real>(scene_, camera_, options_, rules_, frame_.statistics);
     std::vector<WindowTriangle<Real>>& triangles = primitives_.triangles;
     frame_.statistics.near = options_.depth_format.near;
     frame_.statistics.far = options_.depth_format.far;
+    put_into_draw_order(triangles, options_);
     if (options_.hidden_surface == HiddenSurface::painter) {
       const DepthTest test(options_);
       triangles = painters_order(std::move(triangles), test.is_nearer({1}, {0}), frame_.painter);
@@ -74,14 +63,21 @@ class Frame {
 
  private:
   [[nodiscard]] FrameBuffer buffer(std::size_t samples) const {
-    return {camera_.width, camera_.height, samples, options_.background};
+    return {camera_.width, camera_.height, samples, options_.background, 0, cleared()};
+  }
+
+  /// The farthest depth that can be stored.
+  [[nodiscard]] StoredDepth cleared() const {
+    const StoredDepth greatest = greatest_stored(options_.depth_format.storage);
+    return DepthTest(options_).is_nearer(greatest, {}) ? StoredDepth() : greatest;
   }
 
   void draw(const GridSamples& pattern, Shader<Real>* shader, FrameBuffer& target,
             PipelineStatistics& statistics, const PixelWindow& window,
             ShadingRate rate = ShadingRate::per_sample) {
-    const RasterizerSettings settings{options_, pattern, rate,
-                                      options_.hidden_surface == HiddenSurface::z_buffer, window};
+    const RasterizerSettings settings{
+        options_, rules_, pattern, rate, options_.hidden_surface == HiddenSurface::z_buffer,
+        window};
     if (options_.shading == Shading::wireframe) {
       rasterize_lines(primitives_.lines, settings, target, statistics);
     } else if (options_.shading == Shading::points) {
@@ -92,8 +88,12 @@ class Frame {
   }
 
   void take_map(const FrameBuffer& centres) {
-    frame_.depth = Samples<float>(std::size_t{centres.width()} * centres.height());
-    frame_.id = Samples<std::uint32_t>(std::size_t{centres.width()} * centres.height());
+    const std::size_t pixels = std::size_t{centres.width()} * centres.height();
+    frame_.depth = Samples<float>(pixels);
+    frame_.id = Samples<std::uint32_t>(pixels);
+    frame_.stored.resize(pixels);
+    frame_.depth_written.resize(pixels);
+    frame_.stencil.resize(pixels);
     for (std::uint32_t y = 0; y < centres.height(); ++y) {
       for (std::uint32_t x = 0; x < centres.width(); ++x) {
         const StoredSample& s = centres.at({x, y}, 0);
@@ -101,6 +101,9 @@ class Frame {
         frame_.id[i] = s.id;
         frame_.depth[i] = s.id == no_surface ? std::numeric_limits<float>::infinity()
                                              : static_cast<float>(s.depth);
+        frame_.stored[i] = s.stored;
+        frame_.depth_written[i] = s.depth_written;
+        frame_.stencil[i] = s.stencil;
       }
     }
   }
@@ -141,7 +144,7 @@ class Frame {
     ColourImage image{camera_.width, camera_.height, {}};
     for (std::uint32_t y = 0; y < camera_.height; y += rows) {
       const std::uint32_t height = std::min(rows, camera_.height - y);
-      FrameBuffer strip{camera_.width, height, pattern.size(), options_.background, y};
+      FrameBuffer strip{camera_.width, height, pattern.size(), options_.background, y, cleared()};
       PixelWindow window = window_;
       window.y_begin = std::max<std::int64_t>(window.y_begin, y);
       window.y_end = std::min<std::int64_t>(window.y_end, std::int64_t{y} + height);
@@ -173,6 +176,7 @@ class Frame {
   const Scene& scene_;
   const Camera& camera_;
   PipelineOptions options_;
+  std::vector<DrawRules> rules_;
   PixelWindow window_;
   WindowPrimitives<Real> primitives_;
   PipelineFrame frame_;

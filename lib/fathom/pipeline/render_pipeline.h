@@ -12,9 +12,15 @@ namespace fathom::pipeline {
 
 struct PipelineFrame {
   /// What is seen at each pixel's centre: planar depth in scene units, as 1 / (interpolated 1/w)
-  /// rounded to binary32, and the number of the triangle; background as in the specification.
+  /// rounded to binary32, and the number of the triangle; background as in the specification. Of
+  /// several surfaces that are drawn into a pixel, the last that passed, but for blended ones that
+  /// leave no depth.
   Samples<float> depth;
   Samples<std::uint32_t> id;
+  /// What the depth buffer holds at the end, background included; and where it was written.
+  std::vector<StoredDepth> stored;
+  std::vector<bool> depth_written;
+  std::vector<std::uint8_t> stencil;
   /// The picture, antialiased; empty if it is not asked for.
   ColourImage picture;
   PipelineStatistics statistics;

@@ -5,6 +5,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/fragments/shading.h"
+#include "fathom/pipeline/output/draw_rules.h"
 #include "fathom/scene/scene_fault.h"
 
 namespace fathom::pipeline {
@@ -40,9 +41,12 @@ class Tracer {
       : scene_(scene),
         camera_(camera),
         options_(options),
+        rules_(draw_rules_of(scene, options)),
+        window_(drawable_window(camera, options)),
         viewport_(viewport_of(camera, options)) {}
 
   TriangleTrace run(const InputTriangle& input, const std::optional<Pixel>& pixel) {
+    object_ = input.object;
     const VertexTransform<Real> transform(camera_, scene_.objects[input.object], options_);
     std::vector<ClipVertex<Real>> corners;
     std::array<WorldVertex<Real>, 3> world;
@@ -89,18 +93,18 @@ class Tracer {
     if (trace_.culled) return;
     for (std::size_t i = 2; i < window.size(); ++i) {
       WindowTriangle<Real> part{number, {window[0], window[i - 1], window[i]}};
-      part.depth_offset = depth_offset(part, options_);
+      part.depth_offset = depth_offset(part, options_.depth_format.storage, rules_[object_].offset);
       if (const auto t = Interpolator<Real>::of(part, options_)) rasterize(*t, pixel);
     }
   }
 
   void rasterize(const Interpolator<Real>& t, const std::optional<Pixel>& pixel) {
-    const PixelWindow image{0, 0, camera_.width, camera_.height};
     const PixelWindow box = t.grid().bounding_box();
-    for (std::int64_t y = std::max<std::int64_t>(0, box.y_begin);
-         y < std::min(box.y_end, image.y_end); ++y) {
-      const Span span = t.grid().span_of_row(y, image);
-      trace_.fragments += static_cast<std::uint64_t>(span.x_end - span.x_begin);
+    for (std::int64_t y = std::max(window_.y_begin, box.y_begin);
+         y < std::min(box.y_end, window_.y_end); ++y) {
+      const Span span = t.grid().span_of_row(y, window_);
+      trace_.fragments +=
+          static_cast<std::uint64_t>(std::max<std::int64_t>(0, span.x_end - span.x_begin));
     }
     if (!pixel || (trace_.sample && trace_.sample->covered)) return;
     const GridPoint sample = sample_of(*pixel);
@@ -113,6 +117,7 @@ class Tracer {
       s.attribute_weights[k] = static_cast<double>(weights[k]);
     }
     s.covered = t.grid().covers(sample);
+    s.drawable = window_.contains(*pixel);
     const Fragment fragment = t.depths_at(sample);
     s.window_z = fragment.window_z;
     s.depth = fragment.depth;
@@ -123,6 +128,9 @@ class Tracer {
   const Scene& scene_;
   const Camera& camera_;
   const PipelineOptions& options_;
+  std::vector<DrawRules> rules_;
+  PixelWindow window_;
+  std::uint32_t object_ = 0;
   Viewport viewport_;
   TriangleTrace trace_;
 };

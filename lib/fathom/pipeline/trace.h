@@ -23,6 +23,7 @@ struct WindowCornerTrace {
 struct SampleTrace {
   std::array<double, 3> edges;  ///< e_A, e_B, e_C in square pixels
   bool covered = false;
+  bool drawable = true;                     ///< within the viewport and the scissor box
   std::array<double, 3> weights;            ///< λ
   std::array<double, 3> attribute_weights;  ///< (λ/w)/Σ(λ/w), or λ where interpolation is affine
   double window_z = 0, depth = 0;
@@ -35,7 +36,8 @@ struct TriangleTrace {
   /// The three tests; for triangles that were clipped, of the first three corners that are left.
   Facing in_world{}, in_ndc{}, in_window{};
   bool culled = false;
-  std::uint64_t fragments = 0;  ///< number of centres that it covers, over all its parts
+  /// Number of centres in the viewport and the scissor box that it covers, over all its parts.
+  std::uint64_t fragments = 0;
   std::optional<SampleTrace> sample;
   double near = 0, far = 0;
 };

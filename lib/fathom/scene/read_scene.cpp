@@ -83,7 +83,10 @@ class SceneReader {
       add_placed(placed, placements);
   }
 
-  Scene finish() { return std::move(scene_); }
+  Scene finish() {
+    if (!scene_.draw_states.empty()) scene_.draw_states.resize(scene_.objects.size());
+    return std::move(scene_);
+  }
 
  private:
   /// What a scene file has placed so far.
@@ -182,6 +185,10 @@ class SceneReader {
                                     scene_.objects.end());
     }
     place(placed, first, placements.budget);
+    if (!is_default(placed.draw)) {
+      scene_.draw_states.resize(first);
+      scene_.draw_states.resize(scene_.objects.size(), placed.draw);
+    }
     check_objects(first, file);
   }
 

@@ -5,6 +5,10 @@
 
 namespace fathom {
 
+DrawState draw_state_of(const Scene& scene, std::size_t object) {
+  return scene.draw_states.empty() ? DrawState() : scene.draw_states[object];
+}
+
 std::uint64_t triangle_count(const Scene& scene) {
   scene::require(scene::find_fault_of_objects(scene));
   std::uint64_t count = 0;

@@ -5,6 +5,7 @@
 
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh/object.h"
+#include "fathom/scene/draw_state.h"
 #include "fathom/text/source.h"
 
 namespace fathom {
@@ -16,7 +17,12 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Object> objects;
   std::vector<Source> sources;
+  /// How a pipeline draws each object; empty where it draws all of them as it always does.
+  std::vector<DrawState> draw_states;
 };
+
+/// How a pipeline draws an object.
+DrawState draw_state_of(const Scene& scene, std::size_t object);
 
 /// The number of triangles in all objects.
 /// Fails    InputError where an object names no mesh, or there are more than can be numbered.

@@ -194,6 +194,16 @@ Fault find_fault_among(const std::vector<Object>& objects, const Meshes& meshes)
   return fault;
 }
 
+Fault find_fault_of_draw_states(const Scene& scene) {
+  const auto& states = scene.draw_states;
+  if (auto fault = find_wrong_size(states.size(), scene.objects.size(), "the list of draw states",
+                                   "objects"))
+    return fault;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (const auto fault = find_fault(states[i])) return in("object", i, *fault);
+  return std::nullopt;
+}
+
 /// With the vertices and triangles of those meshes where `looked_at` says so.
 Fault find_fault(const Scene& scene, const std::vector<bool>& looked_at) {
   if (auto fault = find_fault_of_objects(scene)) return fault;
@@ -202,6 +212,7 @@ Fault find_fault(const Scene& scene, const std::vector<bool>& looked_at) {
     if (!fault && looked_at[i]) fault = find_fault_of_elements(scene.meshes[i]);
     if (fault) return in("mesh", i, *fault);
   }
+  if (auto fault = find_fault_of_draw_states(scene)) return fault;
   return find_fault_of_placements(scene);
 }
 

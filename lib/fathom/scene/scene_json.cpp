@@ -1,5 +1,6 @@
 #include "fathom/scene/scene_json.h"
 
+#include "fathom/scene/draw_state_json.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
@@ -35,7 +36,7 @@ std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesy
   const std::filesystem::path folder = folder_of_input(path);
   std::vector<PlacedFile> result;
   for (const JsonValue& mesh : root.at("meshes").elements()) {
-    mesh.expect_only({"file", "transform", "name"});
+    mesh.expect_only({"file", "transform", "name", "draw"});
     PlacedFile placed;
     const std::string& file = mesh.at("file").string();
     if (file.empty() || file == "-") mesh.at("file").fail("expected the path of a mesh file");
@@ -44,6 +45,7 @@ std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesy
     if (const auto name = mesh.find("name")) placed.name = name->string();
     if (const auto transform = mesh.find("transform"))
       placed.transform = read_transform(*transform);
+    if (const auto draw = mesh.find("draw")) placed.draw = read_draw_state(*draw);
     result.push_back(std::move(placed));
   }
   return result;

@@ -16,10 +16,11 @@ struct PlacedFile {
   std::filesystem::path file;
   std::optional<std::string> name;
   std::optional<WorldFromMesh> transform;
+  DrawState draw;
 };
 
-/// Reads a scene file: {"meshes": [{"file", "transform", "name"}]}, the last two optional.
-/// A transform is 3×4, or 4×4 with the last row 0 0 0 1.
+/// Reads a scene file: {"meshes": [{"file", "transform", "name", "draw"}]}, the last three optional.
+/// A transform is 3×4, or 4×4 with the last row 0 0 0 1; draw_state_json.h has "draw".
 /// Fails    InputError, naming the key; unknown keys are errors.
 std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesystem::path& path);
 

@@ -20,9 +20,11 @@ bool is_finite(const ClipVertex<Real>& v) {
 template <class Real>
 class GeometryStages {
  public:
-  GeometryStages(const Camera& camera, const PipelineOptions& options, WindowPrimitives<Real>& out,
+  GeometryStages(const Camera& camera, const PipelineOptions& options,
+                 const std::vector<DrawRules>& rules, WindowPrimitives<Real>& out,
                  PipelineStatistics& statistics)
       : options_(options),
+        rules_(rules),
         viewport_(viewport_of(camera, options)),
         eye_(lighting_of(camera)),
         mirrored_(((camera.fx < 0) != (camera.fy < 0)) !=
@@ -51,10 +53,13 @@ class GeometryStages {
     if (whole) compare_facings(corners, window);
     bool culled = false, degenerate = true;
     for (std::size_t i = 2; i < window.size(); ++i)
-      emit({input.number, {window[0], window[i - 1], window[i]}}, culled, degenerate);
+      emit({.number = input.number,
+            .corners = {window[0], window[i - 1], window[i]},
+            .object = input.object},
+           culled, degenerate);
     count_.culled += culled;
     count_.degenerate += degenerate && !culled;
-    if (!degenerate) emit_outline(input.number, corners);
+    if (!degenerate) emit_outline(input, corners);
   }
 
  private:
@@ -89,14 +94,15 @@ class GeometryStages {
     f.disagreeing += in_world != in_ndc || in_ndc != in_window;
   }
 
-  void emit_outline(std::uint32_t number, const std::vector<ClipVertex<Real>>& corners) {
+  void emit_outline(const InputTriangle& input, const std::vector<ClipVertex<Real>>& corners) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (options_.shading == Shading::wireframe) {
         if (const auto line = clip_line(corners[k], corners[(k + 1) % 3], viewport_.volume))
-          out_.lines.push_back(
-              {number, {viewport_(divide((*line)[0])), viewport_(divide((*line)[1]))}});
+          out_.lines.push_back({input.number,
+                                {viewport_(divide((*line)[0])), viewport_(divide((*line)[1]))},
+                                input.object});
       } else if (options_.shading == Shading::points && is_inside(corners[k], viewport_.volume)) {
-        out_.points.push_back({number, viewport_(divide(corners[k]))});
+        out_.points.push_back({input.number, viewport_(divide(corners[k])), input.object});
       }
     }
   }
@@ -110,7 +116,8 @@ class GeometryStages {
     }
     degenerate = false;
     triangle.front = facing == Facing::front;
-    triangle.depth_offset = depth_offset(triangle, options_);
+    triangle.depth_offset =
+        depth_offset(triangle, options_.depth_format.storage, rules_[triangle.object].offset);
     const auto on_grid = GridTriangle::of(snapped(triangle, options_.subpixel_bits));
     const bool ccw = (options_.front_face == FrontFace::counter_clockwise) == triangle.front;
     if (!on_grid || on_grid->counter_clockwise() != ccw) ++count_.turned_by_snapping;
@@ -119,6 +126,7 @@ class GeometryStages {
   }
 
   const PipelineOptions& options_;
+  const std::vector<DrawRules>& rules_;
   Viewport viewport_;
   Lighting eye_;
   bool mirrored_;
@@ -130,9 +138,11 @@ class GeometryStages {
 
 template <class Real>
 WindowPrimitives<Real> to_window(const Scene& scene, const Camera& camera,
-                                 const PipelineOptions& options, PipelineStatistics& statistics) {
+                                 const PipelineOptions& options,
+                                 const std::vector<DrawRules>& rules,
+                                 PipelineStatistics& statistics) {
   WindowPrimitives<Real> primitives;
-  GeometryStages<Real> stages(camera, options, primitives, statistics);
+  GeometryStages<Real> stages(camera, options, rules, primitives, statistics);
   std::uint32_t first = 0;
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
     const VertexTransform<Real> transform(camera, scene.objects[object], options);
@@ -144,8 +154,8 @@ WindowPrimitives<Real> to_window(const Scene& scene, const Camera& camera,
 }
 
 template WindowPrimitives<float> to_window(const Scene&, const Camera&, const PipelineOptions&,
-                                           PipelineStatistics&);
+                                           const std::vector<DrawRules>&, PipelineStatistics&);
 template WindowPrimitives<double> to_window(const Scene&, const Camera&, const PipelineOptions&,
-                                            PipelineStatistics&);
+                                            const std::vector<DrawRules>&, PipelineStatistics&);
 
 }  // namespace fathom::pipeline

@@ -18,6 +18,11 @@ ClipVertex<Real> between(const ClipVertex<Real>& a, const ClipVertex<Real>& b, R
   return v;
 }
 
+/// A rectangle with its origin at the lower left corner, as pixels of the image.
+PixelWindow in_image(const WindowRectangle& r, const Camera& camera) {
+  return {r.x, camera.height - r.y - r.height, r.x + r.width, camera.height - r.y};
+}
+
 }  // namespace
 
 template <class Real>
@@ -88,6 +93,17 @@ Viewport viewport_of(const Camera& camera, const PipelineOptions& options) {
   const WindowRectangle window{0, 0, camera.width, camera.height};
   return {options.viewport.value_or(window), camera.height, options.depth_range,
           volume_of(options.depth_format.mapping)};
+}
+
+PixelWindow drawable_window(const Camera& camera, const PipelineOptions& options) {
+  PixelWindow w{0, 0, camera.width, camera.height};
+  for (const auto& rectangle : {options.viewport, options.scissor}) {
+    if (!rectangle) continue;
+    const PixelWindow r = in_image(*rectangle, camera);
+    w = {std::max(w.x_begin, r.x_begin), std::max(w.y_begin, r.y_begin), std::min(w.x_end, r.x_end),
+         std::min(w.y_end, r.y_end)};
+  }
+  return w;
 }
 
 bool is_stretched(const Camera& camera, const PipelineOptions& options) {

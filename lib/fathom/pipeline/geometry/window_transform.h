@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fathom/pipeline/geometry/vertex_transform.h"
+#include "fathom/pipeline/scan/pixels.h"
 
 /// From clip coordinates to the window: clipping, perspective division, viewport, each by itself.
 namespace fathom::pipeline {
@@ -59,6 +60,9 @@ struct Viewport {
 };
 
 Viewport viewport_of(const Camera& camera, const PipelineOptions& options);
+
+/// The pixels that can be drawn to: those of the image, the viewport and the scissor box.
+PixelWindow drawable_window(const Camera& camera, const PipelineOptions& options);
 
 /// Whether the viewport's aspect ratio is not the camera's, so that the picture is stretched.
 bool is_stretched(const Camera& camera, const PipelineOptions& options);

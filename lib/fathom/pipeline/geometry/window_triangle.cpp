@@ -15,8 +15,7 @@ std::array<GridPoint, 3> snapped(const WindowTriangle<Real>& t, int bits) {
 }
 
 template <class Real>
-Real depth_offset(const WindowTriangle<Real>& t, const PipelineOptions& options) {
-  const DepthBias& bias = options.polygon_offset;
+Real depth_offset(const WindowTriangle<Real>& t, Storage storage, const DepthBias& bias) {
   if (bias.slope_factor == 0 && bias.constant_factor == 0) return 0;
   const auto number = [](Real x) { return Ratio(Dyadic(static_cast<double>(x))); };
   const auto& [a, b, c] = t.corners;
@@ -25,14 +24,13 @@ Real depth_offset(const WindowTriangle<Real>& t, const PipelineOptions& options)
   const Real area = ux * vy - vx * uy;
   const WindowSlopes slopes{number((uz * vy - vz * uy) / area), number((ux * vz - vx * uz) / area),
                             number(std::max({a.z, b.z, c.z}))};
-  return static_cast<Real>(
-      round_to_binary64(depth_offset(options.depth_format.storage, bias, slopes)));
+  return static_cast<Real>(round_to_binary64(depth_offset(storage, bias, slopes)));
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Real)                                               \
   template std::array<GridPoint, 3> snapped(const WindowTriangle<Real>&, int); \
-  template Real depth_offset(const WindowTriangle<Real>&, const PipelineOptions&);
+  template Real depth_offset(const WindowTriangle<Real>&, Storage, const DepthBias&);
 FATHOM_INSTANTIATE(float)
 FATHOM_INSTANTIATE(double)
 #undef FATHOM_INSTANTIATE

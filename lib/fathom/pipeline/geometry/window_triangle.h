@@ -15,6 +15,7 @@ struct WindowTriangle {
   std::uint32_t number = 0;  ///< of the triangle of the scene that it is, or of which it is a part
   std::array<WindowVertex<Real>, 3> corners;
   bool front = true;
+  std::uint32_t object = 0;
   Real depth_offset = 0;  ///< polygon offset, added to the window depth of its fragments
 };
 
@@ -23,6 +24,7 @@ template <class Real>
 struct WindowLine {
   std::uint32_t number = 0;
   std::array<WindowVertex<Real>, 2> ends;
+  std::uint32_t object = 0;
 };
 
 /// A corner of a triangle.
@@ -30,6 +32,7 @@ template <class Real>
 struct WindowPoint {
   std::uint32_t number = 0;
   WindowVertex<Real> place;
+  std::uint32_t object = 0;
 };
 
 /// What reaches scan conversion. Lines and points are there if the options draw them, for the
@@ -45,8 +48,8 @@ struct WindowPrimitives {
 template <class Real>
 std::array<GridPoint, 3> snapped(const WindowTriangle<Real>& triangle, int bits);
 
-/// The offset that the options give for a triangle (depth_format/depth_bias.h).
+/// The offset of a triangle's window depth (depth_format/depth_bias.h).
 template <class Real>
-Real depth_offset(const WindowTriangle<Real>& triangle, const PipelineOptions& options);
+Real depth_offset(const WindowTriangle<Real>& triangle, Storage storage, const DepthBias& bias);
 
 }  // namespace fathom::pipeline

@@ -22,23 +22,59 @@ RgbImage to_rgb(const ColourImage& image) {
 }
 
 FrameBuffer::FrameBuffer(std::uint32_t width, std::uint32_t height, std::size_t samples,
-                         const Colour& background, std::uint32_t first_row)
+                         const Colour& background, std::uint32_t first_row, StoredDepth cleared)
     : width_(width),
       height_(height),
       first_row_(first_row),
       samples_(samples),
       buffer_(std::size_t{width} * height * samples,
-              StoredSample{no_surface, narrowed(background), {}, 0}) {}
+              StoredSample{.colour = narrowed(background), .stored = cleared}) {}
 
-void FrameBuffer::replace(const Pixel& p, std::size_t sample, std::uint32_t id, StoredDepth stored,
-                          double depth, const Colour& colour) {
-  at(p, sample) = {id, narrowed(colour), stored, depth};
+void FrameBuffer::replace(const Pixel& p, std::size_t sample, const Colour& colour) {
+  at(p, sample).colour = narrowed(colour);
 }
 
 void FrameBuffer::blend(const Pixel& p, std::size_t sample, const Colour& colour, double alpha) {
   auto& below = at(p, sample).colour;
   for (std::size_t k = 0; k < 3; ++k)
     below[k] = static_cast<float>(alpha * colour[k] + (1 - alpha) * static_cast<double>(below[k]));
+}
+
+bool OutputMerger::passes_depth_test(const StoredSample& there, StoredDepth stored) const {
+  if (!depth_tested_) return true;
+  if (rules_->depth_test) return compares(*rules_->depth_test, stored, there.stored);
+  return !there.depth_written || test_.is_nearer(stored, there.stored);
+}
+
+bool OutputMerger::passes(const Pixel& p, std::size_t sample, StoredDepth stored) {
+  StoredSample& there = target_.at(p, sample);
+  if (!rules_->stencil) return passes_depth_test(there, stored);
+  const StencilState& s = *rules_->stencil;
+  const auto masked = [&](std::uint8_t value) { return value & s.mask; };
+  const bool stencil_passed = compares(s.test, masked(s.reference), masked(there.stencil));
+  const bool passed = stencil_passed && passes_depth_test(there, stored);
+  there.stencil = after(passed ? s.pass : stencil_passed ? s.depth_fail : s.fail, s, there.stencil);
+  return passed;
+}
+
+void OutputMerger::merge(const Pixel& p, std::size_t sample, const MergedFragment& fragment,
+                         const Colour& colour, bool passed) {
+  count_.depth_passed += passed;
+  StoredSample& there = target_.at(p, sample);
+  if (rules_->colour_write && rules_->alpha && is_wanted(passed)) {
+    target_.blend(p, sample, colour, *rules_->alpha);
+  } else if (rules_->colour_write && passed) {
+    target_.replace(p, sample, colour);
+  }
+  if (!passed) return;
+  // What shows through a blended surface that leaves no depth stays what the pixel shows.
+  if (rules_->colour_write && (!rules_->alpha || rules_->depth_write)) {
+    there.id = fragment.number;
+    there.depth = fragment.depth;
+  }
+  if (!rules_->depth_write) return;
+  there.stored = fragment.stored;
+  there.depth_written = true;
 }
 
 ColourImage FrameBuffer::resolve() const {

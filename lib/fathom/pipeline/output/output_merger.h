@@ -5,6 +5,7 @@
 #include "fathom/image/depth_map.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/pipeline/fragments/depth_test.h"
+#include "fathom/pipeline/output/draw_rules.h"
 
 /// Output merger: what becomes of a shaded fragment, and of the samples at the end.
 namespace fathom::pipeline {
@@ -22,20 +23,21 @@ struct ColourImage {
 /// Rounded to 8 bits, to nearest.
 RgbImage to_rgb(const ColourImage& image);
 
-/// What is kept for a sample. A cleared depth buffer is farther than every depth: a fragment at the
-/// far end passes.
+/// What is kept for a sample.
 struct StoredSample {
   std::uint32_t id = no_surface;
   std::array<float, 3> colour{};
   StoredDepth stored;
-  double depth = 0;  ///< along the view, of the triangle that `id` names
+  double depth = 0;            ///< along the view, of the triangle that `id` names
+  bool depth_written = false;  ///< else `stored` is what the buffer was cleared to
+  std::uint8_t stencil = 0;
 };
 
 /// Colour and depth buffer, `samples` per pixel, for the rows of an image from `first_row` on.
 class FrameBuffer {
  public:
   FrameBuffer(std::uint32_t width, std::uint32_t height, std::size_t samples,
-              const Colour& background, std::uint32_t first_row = 0);
+              const Colour& background, std::uint32_t first_row = 0, StoredDepth cleared = {});
 
   [[nodiscard]] std::uint32_t width() const { return width_; }
   [[nodiscard]] std::uint32_t height() const { return height_; }
@@ -47,11 +49,10 @@ class FrameBuffer {
     return buffer_[index(p) + sample];
   }
 
-  /// Selects: the fragment replaces what is stored.
-  void replace(const Pixel& p, std::size_t sample, std::uint32_t id, StoredDepth stored,
-               double depth, const Colour& colour);
+  /// Selects: the colour replaces what is stored.
+  void replace(const Pixel& p, std::size_t sample, const Colour& colour);
   /// Blends: colour over what is stored, by its opacity. What is drawn first lies below, however
-  /// near it is; the depth buffer still keeps the nearest.
+  /// near it is.
   void blend(const Pixel& p, std::size_t sample, const Colour& colour, double alpha);
 
   /// The mean of each pixel's samples.
@@ -66,6 +67,45 @@ class FrameBuffer {
   std::uint32_t width_, height_, first_row_;
   std::size_t samples_;
   std::vector<StoredSample> buffer_;
+};
+
+/// A shaded fragment on its way into a sample.
+struct MergedFragment {
+  std::uint32_t number = 0;  ///< of its primitive
+  StoredDepth stored;
+  double depth = 0;  ///< along the view
+};
+
+/// The tests of the samples, and what fragments leave in them.
+class OutputMerger {
+ public:
+  /// Without `depth_tested` all fragments pass: what is drawn later is on top.
+  OutputMerger(const PipelineOptions& options, bool depth_tested, FrameBuffer& target,
+               PipelineStatistics& statistics)
+      : test_(options), depth_tested_(depth_tested), target_(target), count_(statistics) {}
+
+  /// What holds for the fragments from now on; it must outlive them.
+  void begin(const DrawRules& rules) { rules_ = &rules; }
+
+  [[nodiscard]] StoredDepth stored(const Fragment& fragment) const {
+    return test_.stored(fragment);
+  }
+  /// Stencil test, then depth test; changes the stencil value as the rules say.
+  bool passes(const Pixel& p, std::size_t sample, StoredDepth stored);
+  /// Whether a fragment that has passed, or not, can change the picture.
+  [[nodiscard]] bool is_wanted(bool passed) const { return passed || rules_->blends_failed; }
+  /// Writes depth and colour.
+  void merge(const Pixel& p, std::size_t sample, const MergedFragment& fragment,
+             const Colour& colour, bool passed);
+
+ private:
+  [[nodiscard]] bool passes_depth_test(const StoredSample& there, StoredDepth stored) const;
+
+  DepthTest test_;
+  bool depth_tested_;
+  FrameBuffer& target_;
+  PipelineStatistics& count_;
+  const DrawRules* rules_ = nullptr;
 };
 
 }  // namespace fathom::pipeline

@@ -19,12 +19,16 @@ class Rasterizer {
  public:
   Rasterizer(const RasterizerSettings& settings, Shader<Real>* shader, FrameBuffer& target,
              PipelineStatistics& statistics)
-      : s_(settings), test_(s_.options), shader_(shader), target_(target), count_(statistics) {}
+      : s_(settings),
+        merger_(s_.options, s_.depth_tested, target, statistics),
+        shader_(shader),
+        count_(statistics) {}
 
   void draw(const WindowTriangle<Real>& triangle) {
     const auto interpolator = Interpolator<Real>::of(triangle, s_.options);
     if (!interpolator) return;
     if (shader_) shader_->begin(triangle);
+    merger_.begin(s_.rules[triangle.object]);
     if (s_.options.scan == ScanConversion::scan_line) {
       draw_by_scan_lines(*interpolator);
     } else {
@@ -78,12 +82,6 @@ class Rasterizer {
     return sample_of(p, offset.x, offset.y);
   }
 
-  [[nodiscard]] bool passes(const Pixel& p, std::size_t i, StoredDepth stored) const {
-    if (!s_.depth_tested) return true;
-    const StoredSample& there = target_.at(p, i);
-    return there.id == no_surface || test_.is_nearer(stored, there.stored);
-  }
-
   Colour shade(const Interpolator<Real>& t, const GridPoint& sample) {
     if (!shader_) return {};
     ++count_.shaded;
@@ -92,26 +90,14 @@ class Rasterizer {
     return shader_->shade(fragment, t.attribute_weights(sample));
   }
 
-  void merge(const Interpolator<Real>& t, const Pixel& p, std::size_t i, StoredDepth stored,
-             double depth, const Colour& colour, bool passed) {
-    count_.depth_passed += passed;
-    if (s_.options.blend_alpha) {
-      target_.blend(p, i, colour, *s_.options.blend_alpha);
-      StoredSample& there = target_.at(p, i);
-      if (passed) there = {t.triangle().number, there.colour, stored, depth};
-    } else if (passed) {
-      target_.replace(p, i, t.triangle().number, stored, depth, colour);
-    }
-  }
-
   void draw_sample(const Interpolator<Real>& t, const Pixel& p, std::size_t i,
                    const GridPoint& sample) {
     ++count_.fragments;
     const Fragment fragment = t.depths_at(sample);
-    const StoredDepth stored = test_.stored(fragment);
-    const bool passed = passes(p, i, stored);
-    if (!passed && s_.options.early_depth && !s_.options.blend_alpha) return;
-    merge(t, p, i, stored, fragment.depth, shade(t, sample), passed);
+    const StoredDepth stored = merger_.stored(fragment);
+    const bool passed = merger_.passes(p, i, stored);
+    if (s_.options.early_depth && !merger_.is_wanted(passed)) return;
+    merger_.merge(p, i, {t.triangle().number, stored, fragment.depth}, shade(t, sample), passed);
   }
 
   void draw_pixel(const Interpolator<Real>& t, const Pixel& p, bool full) {
@@ -133,12 +119,12 @@ class Rasterizer {
     Colour colour{};
     for (const std::size_t i : covered_) {
       const Fragment fragment = t.depths_at(sample_at(p, i));
-      const StoredDepth stored = test_.stored(fragment);
-      const bool passed = passes(p, i, stored);
-      if (!passed && !s_.options.blend_alpha) continue;
+      const StoredDepth stored = merger_.stored(fragment);
+      const bool passed = merger_.passes(p, i, stored);
+      if (!merger_.is_wanted(passed)) continue;
       if (!shaded) colour = shade(t, place);
       shaded = true;
-      merge(t, p, i, stored, fragment.depth, colour, passed);
+      merger_.merge(p, i, {t.triangle().number, stored, fragment.depth}, colour, passed);
     }
   }
 
@@ -174,9 +160,9 @@ class Rasterizer {
     Fragment fragment;
     fragment.window_z = std::clamp(static_cast<double>(v[0] + t.triangle().depth_offset), 0.0, 1.0);
     fragment.depth = static_cast<double>(v[2] / v[1]);
-    const StoredDepth stored = test_.stored(fragment);
-    const bool passed = passes(p, 0, stored);
-    if (!passed && s_.options.early_depth && !s_.options.blend_alpha) return;
+    const StoredDepth stored = merger_.stored(fragment);
+    const bool passed = merger_.passes(p, 0, stored);
+    if (s_.options.early_depth && !merger_.is_wanted(passed)) return;
     Colour colour{};
     if (shader_) {
       ++count_.shaded;
@@ -185,13 +171,12 @@ class Rasterizer {
         fragment.attributes[i] = static_cast<double>(perspective ? v[3 + i] / v[1] : v[3 + i]);
       colour = shader_->shade(fragment, t.attribute_weights(sample_of(p)));
     }
-    merge(t, p, 0, stored, fragment.depth, colour, passed);
+    merger_.merge(p, 0, {t.triangle().number, stored, fragment.depth}, colour, passed);
   }
 
   const RasterizerSettings& s_;
-  DepthTest test_;
+  OutputMerger merger_;
   Shader<Real>* shader_;
-  FrameBuffer& target_;
   PipelineStatistics& count_;
   std::vector<std::size_t> covered_;
 };

@@ -17,6 +17,8 @@ enum class ShadingRate {
 
 struct RasterizerSettings {
   const PipelineOptions& options;
+  /// Of each object.
+  const std::vector<DrawRules>& rules;
   const GridSamples& pattern;
   ShadingRate rate = ShadingRate::per_sample;
   /// Without a depth test, what comes later is on top (the painter's algorithm).

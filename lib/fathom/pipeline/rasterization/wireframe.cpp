@@ -12,10 +12,13 @@ class OutlineDrawer {
  public:
   OutlineDrawer(const RasterizerSettings& settings, FrameBuffer& target,
                 PipelineStatistics& statistics)
-      : s_(settings), test_(settings.options), target_(target), count_(statistics) {}
+      : s_(settings),
+        merger_(s_.options, s_.depth_tested, target, statistics),
+        count_(statistics) {}
 
-  void draw(std::uint32_t number, const WindowVertex<Real>& a, const WindowVertex<Real>& b) {
-    a_ = &a, b_ = &b, number_ = number;
+  void draw(const WindowLine<Real>& line) {
+    const auto& [a, b] = line.ends;
+    begin(line.number, line.object, a, b);
     const LineEnds ends{column(a.x), column(a.y), column(b.x), column(b.y)};
     const auto visit = [&](const Pixel& p, const auto&) { put(p); };
     switch (s_.options.wire_line) {
@@ -33,14 +36,20 @@ class OutlineDrawer {
     }
   }
 
-  void draw(std::uint32_t number, const WindowVertex<Real>& place) {
-    a_ = b_ = &place, number_ = number;
-    const Pixel p{column(place.x), column(place.y)};
+  void draw(const WindowPoint<Real>& point) {
+    begin(point.number, point.object, point.place, point.place);
+    const Pixel p{column(point.place.x), column(point.place.y)};
     const PixelWindow& w = s_.window;
     if (p.x >= w.x_begin && p.x < w.x_end && p.y >= w.y_begin && p.y < w.y_end) put(p);
   }
 
  private:
+  void begin(std::uint32_t number, std::uint32_t object, const WindowVertex<Real>& a,
+             const WindowVertex<Real>& b) {
+    a_ = &a, b_ = &b, number_ = number;
+    merger_.begin(s_.rules[object]);
+  }
+
   static std::int64_t column(Real x) { return floor_of(x); }
 
   /// Draws a pixel at the window depth of the line's point that is nearest to its centre.
@@ -60,17 +69,15 @@ class OutlineDrawer {
       return static_cast<double>((a + t * (b - a)) / inverse_w);
     };
     fragment.depth = at(attribute::depth);
-    const StoredDepth stored = test_.stored(fragment);
-    const StoredSample& there = target_.at(p, 0);
-    if (there.id != no_surface && !test_.is_nearer(stored, there.stored)) return;
-    ++count_.depth_passed;
-    target_.replace(p, 0, number_, stored, fragment.depth,
-                    {at(attribute::colour), at(attribute::colour + 1), at(attribute::colour + 2)});
+    const StoredDepth stored = merger_.stored(fragment);
+    const bool passed = merger_.passes(p, 0, stored);
+    const Colour colour{at(attribute::colour), at(attribute::colour + 1),
+                        at(attribute::colour + 2)};
+    merger_.merge(p, 0, {number_, stored, fragment.depth}, colour, passed);
   }
 
   const RasterizerSettings& s_;
-  DepthTest test_;
-  FrameBuffer& target_;
+  OutputMerger merger_;
   PipelineStatistics& count_;
   const WindowVertex<Real>*a_ = nullptr, *b_ = nullptr;
   std::uint32_t number_ = 0;
@@ -82,7 +89,7 @@ template <class Real>
 void rasterize_lines(const std::vector<WindowLine<Real>>& lines, const RasterizerSettings& settings,
                      FrameBuffer& target, PipelineStatistics& statistics) {
   OutlineDrawer<Real> drawer(settings, target, statistics);
-  for (const WindowLine<Real>& line : lines) drawer.draw(line.number, line.ends[0], line.ends[1]);
+  for (const WindowLine<Real>& line : lines) drawer.draw(line);
 }
 
 template <class Real>
@@ -90,7 +97,7 @@ void rasterize_points(const std::vector<WindowPoint<Real>>& points,
                       const RasterizerSettings& settings, FrameBuffer& target,
                       PipelineStatistics& statistics) {
   OutlineDrawer<Real> drawer(settings, target, statistics);
-  for (const WindowPoint<Real>& point : points) drawer.draw(point.number, point.place);
+  for (const WindowPoint<Real>& point : points) drawer.draw(point);
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
