@@ -66,6 +66,37 @@ TEST_F(ValidateProgram, NamesAHalfPixelShiftAndListsItsWorstPixels) {
   EXPECT_EQ(result["worst"][0]["corners"].size(), 3U);
 }
 
+/// The pipeline of the textbooks is a renderer like any other: its stored depths are those of its
+/// model, and where a polygon offset has moved them, that is found.
+TEST_F(ValidateProgram, ExplainsWhatThePipelineStores) {
+  const auto unexplained = [&](const std::string& model, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"render",   cube,          "--engine",   "pipeline",
+                                       "--camera", "camera.json", "--channels", "Z,id",
+                                       "-o",       "p.exr"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome drawn = run_fathom(arguments, {.folder = folder.path()});
+    EXPECT_EQ(drawn.status, 0) << drawn.err;
+    const Outcome judged =
+        run_fathom({"validate", "--map", "p.exr", "--channel", "Zdecoded", "--camera",
+                    "camera.json", "--model", model, cube, "--out", "report"},
+                   {.folder = folder.path()});
+    EXPECT_LE(judged.status, 1) << judged.err;
+    const auto result = nlohmann::json::parse(folder.read("report/report.json"))["results"][0];
+    EXPECT_GT(result["pixels"]["equal"], 200) << judged.out;
+    return result["pixels"].value("unexplained", 0) + static_cast<int>(result["findings"].size());
+  };
+  for (const std::string storage : {"unorm16", "unorm24", "unorm32", "float32"}) {
+    EXPECT_EQ(unexplained("gl-" + storage, {"--depth-format", storage, "--mapping", "opengl"}), 0)
+        << storage;
+  }
+  EXPECT_EQ(
+      unexplained("gl-float32-reversed", {"--depth-format", "float32", "--mapping", "reversed"}),
+      0);
+  EXPECT_GT(unexplained("gl-unorm24", {"--depth-format", "unorm24", "--mapping", "opengl",
+                                       "--polygon-offset", "0,500"}),
+            0);
+}
+
 TEST_F(ValidateProgram, HoldsARunAgainstAnEarlierOne) {
   ASSERT_EQ(validate("map.exr", {"--out", "good"}).status, 0);
   ASSERT_EQ(validate("aside.exr", {"--out", "bad"}).status, 1);
