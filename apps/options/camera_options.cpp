@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "apps/shell/known_files.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
@@ -13,7 +15,8 @@ namespace {
 /// The camera that frames the scene.
 Camera framing_camera(const Scene& scene, const View& view, const Lens& lens) {
   const std::string file = scene.sources.empty() ? "scene" : scene.sources.back().path;
-  if (triangle_count(scene) == 0) {
+  const auto is_empty = [&](const Object& object) { return scene.meshes[object.mesh].is_empty(); };
+  if (std::ranges::all_of(scene.objects, is_empty)) {
     throw InputError(file + ": the scene has no triangle; expected one to frame, or --camera");
   }
   try {

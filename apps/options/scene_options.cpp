@@ -53,6 +53,7 @@ Scene SceneOptions::read(const Console& console, const Extras& extras) const {
   ReadOptions options = read_options();
   options.hash = extras.hash;
   options.attributes = extras.attributes;
+  options.primitives = extras.primitives;
   Warnings warnings;
   Scene scene = read_scene({files.begin(), files.end()}, options, warnings);
   console.warn(warnings);

@@ -27,6 +27,7 @@ struct SceneOptions {
   struct Extras {
     bool hash = false;        ///< SHA-256 of the sources
     bool attributes = false;  ///< colours, normals and texture coordinates
+    bool primitives = false;  ///< lines and points
   };
   /// Reads the scene and passes on the reader's warnings.
   [[nodiscard]] Scene read(const Console& console, const Extras& extras) const;

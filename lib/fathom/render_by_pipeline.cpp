@@ -14,6 +14,17 @@
 namespace fathom {
 namespace {
 
+/// The object of a line or a point, which are numbered after all triangles.
+std::uint32_t object_of_line(const Scene& scene, std::uint32_t number) {
+  std::uint64_t end = triangle_count(scene);
+  for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
+    const Mesh& mesh = scene.meshes[scene.objects[object].mesh];
+    end += mesh.lines.size() + mesh.points.size();
+    if (number < end) return object;
+  }
+  return no_surface;
+}
+
 /// A channel of the pipeline's map.
 ImageChannel channel_of(const Scene& scene, const pipeline::PipelineFrame& frame, Channel channel) {
   if (channel == Channel::Z) return {"Z", frame.depth};
@@ -22,6 +33,10 @@ ImageChannel channel_of(const Scene& scene, const pipeline::PipelineFrame& frame
   const TriangleSource triangles(scene);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (frame.id[i] == no_surface) continue;
+    if (frame.id[i] >= triangles.count()) {
+      if (channel == Channel::object) values[i] = object_of_line(scene, frame.id[i]);
+      continue;
+    }
     const TriangleOrigin origin = triangles.origin(frame.id[i]);
     values[i] = channel == Channel::face ? origin.face : origin.object;
   }

@@ -28,7 +28,8 @@ struct PipelineDepthBuffer {
 
 /// What a graphics pipeline computes of the scene, as a map and a picture.
 struct PipelineRendering {
-  /// Channels Z, id, face and object, those that are asked for. Its camera has the near and far
+  /// Channels Z, id, face and object, those that are asked for. Lines and points are numbered on
+  /// after all triangles, object by object, lines first; they are of no face. Its camera has the near and far
   /// that the pipeline clipped with, so that an exact map can be made for it.
   DepthMap map;
   RgbImage picture;  ///< empty where it is not asked for

@@ -19,7 +19,8 @@ namespace fathom::app {
 namespace {
 
 void warn_of(const pipeline::PipelineStatistics& s, const Console& console) {
-  if (s.triangles == 0) console.warn("the scene has no triangle: the map is background");
+  if (s.triangles + s.lines + s.points == 0)
+    console.warn("the scene has nothing to draw: the map is background");
   if (s.not_finite > 0) {
     console.warn(
         fmt::format("{} of {} triangles are left out: a corner is not finite after the transform",
@@ -53,8 +54,8 @@ void add_depth_buffer(PipelineRendering& rendering) {
 
 int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const Console& console) {
   if (plan.stages.texture != "checker") note_input(plan.stages.texture);
-  const Scene scene =
-      arguments.scene.read(console, {.hash = true, .attributes = plan.with_picture});
+  const Scene scene = arguments.scene.read(
+      console, {.hash = true, .attributes = plan.with_picture, .primitives = true});
   const std::vector<Camera> cameras = arguments.camera.get(scene);
   RenderOutputs outputs(arguments, cameras.size());
   if (pipeline::is_stretched(cameras[0], plan.stages)) {

@@ -17,6 +17,8 @@ Json to_json(const pipeline::PipelineStatistics& s) {
           {"degenerate", s.degenerate},
           {"culled", s.culled},
           {"drawn", s.drawn},
+          {"lines", s.lines},
+          {"points", s.points},
           {"turned_by_snapping", s.turned_by_snapping},
           {"fragments", s.fragments},
           {"depth_passed", s.depth_passed},

@@ -27,6 +27,11 @@ struct Mesh {
   /// The number of faces in the file, including skipped ones.
   std::uint64_t face_count = 0;
 
+  /// Lines and points that the file has beside its faces, as indices into `vertices`, where they
+  /// were asked for (ReadOptions::primitives). They have no area: only the pipeline draws them.
+  std::vector<std::array<std::uint32_t, 2>> lines;
+  std::vector<std::uint32_t> points;
+
   /// Optional attributes as in the file; empty where the file has none.
   std::vector<std::array<double, 2>> texture_coordinates;
   std::vector<std::array<double, 3>> normals;
@@ -37,6 +42,10 @@ struct Mesh {
   std::vector<CornerIndices> texture_triangles;
   std::vector<CornerIndices> normal_triangles;
 
+  /// Whether there is nothing to draw.
+  [[nodiscard]] bool is_empty() const {
+    return triangles.empty() && lines.empty() && points.empty();
+  }
   [[nodiscard]] std::uint32_t face_of(std::uint32_t triangle) const {
     return face_of_triangle.empty() ? triangle : face_of_triangle[triangle];
   }

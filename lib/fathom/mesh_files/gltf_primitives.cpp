@@ -123,11 +123,10 @@ void GltfPrimitives::settle_attributes(Mesh& mesh) {
 void GltfPrimitives::read_primitive(const JsonValue& primitive, Mesh& mesh) {
   const auto mode_value = primitive.find("mode");
   const std::uint64_t code = mode_value ? mode_value->integer(0, 6) : 4;
-  if (code < 4) {
+  if (code < 4 && !lines_and_points_) {
     ++not_triangles_;
     return;
   }
-  const auto mode = static_cast<Mode>(code);
   const GltfPrimitiveAccessors accessors = open_primitive(primitive, accessors_, attributes_);
   if (!accessors.positions) {
     ++without_positions_;
@@ -137,14 +136,40 @@ void GltfPrimitives::read_primitive(const JsonValue& primitive, Mesh& mesh) {
   const bool indexed = accessors.indices != nullptr;
   if (indexed) read_indices(primitive, *accessors.indices, vertices);
   const std::size_t corners = indexed ? corners_.size() : vertices.count;
+  if (code < 4) {
+    add_lines_or_points(code, corners, vertices, indexed, mesh);
+  } else {
+    add_triangles(code, corners, vertices, primitive, indexed, mesh);
+  }
+}
+
+/// [GLTF20] 3.7.2.1: 0 points, 1 lines, 2 a loop of lines, 3 a strip of lines.
+void GltfPrimitives::add_lines_or_points(std::uint64_t mode, std::size_t corners,
+                                         const Vertices& vertices, bool indexed, Mesh& mesh) {
+  const auto vertex = [&](std::size_t corner) { return vertex_of(corner, vertices, indexed); };
+  if (mode == 0) {
+    make_room(mesh.points, corners);
+    for (std::size_t i = 0; i < corners; ++i) mesh.points.push_back(vertex(i));
+    return;
+  }
+  const std::size_t step = mode == 1 ? 2 : 1;
+  make_room(mesh.lines, corners);
+  for (std::size_t i = 0; i + 1 < corners; i += step)
+    mesh.lines.push_back({vertex(i), vertex(i + 1)});
+  if (mode == 1) leftover_corners_ += corners % 2;
+  if (mode == 2 && corners > 1) mesh.lines.push_back({vertex(corners - 1), vertex(0)});
+}
+
+void GltfPrimitives::add_triangles(std::uint64_t code, std::size_t corners,
+                                   const Vertices& vertices, const JsonValue& primitive,
+                                   bool indexed, Mesh& mesh) {
+  const auto mode = static_cast<Mode>(code);
   const std::size_t count = triangles_in(mode, corners);
   if (mode == Mode::triangles) leftover_corners_ += corners % 3;
   if (count > no_index - 1 - mesh.triangles.size())
     primitive.fail("the mesh has more than 4294967294 triangles");
   make_room(mesh.triangles, count);
-  const auto vertex = [&](std::size_t corner) {
-    return vertices.first + (indexed ? corners_[corner] : static_cast<std::uint32_t>(corner));
-  };
+  const auto vertex = [&](std::size_t corner) { return vertex_of(corner, vertices, indexed); };
   for (std::size_t i = 0; i < count; ++i) {
     const auto [a, b, c] = corners_of(mode, i);
     mesh.triangles.push_back({vertex(a), vertex(b), vertex(c)});
@@ -250,7 +275,7 @@ void GltfPrimitives::report(const std::string& file, Warnings& warnings) const {
   };
   warn(not_triangles_, " primitives are points or lines; they are skipped");
   warn(without_positions_, " primitives have no positions; they are skipped");
-  warn(leftover_corners_, " indices are left over after the last whole triangle");
+  warn(leftover_corners_, " indices are left over after the last whole primitive");
   warn(unusable_attributes_,
        " lists of normals, texture coordinates or colours are of the wrong type or length, or not "
        "finite; they are left out");

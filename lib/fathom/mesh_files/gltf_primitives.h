@@ -18,8 +18,8 @@ namespace fathom::mesh_files {
 class GltfPrimitives {
  public:
   /// `accessors` must outlive this.
-  GltfPrimitives(GltfAccessors& accessors, bool attributes)
-      : accessors_(accessors), attributes_(attributes) {}
+  GltfPrimitives(GltfAccessors& accessors, bool attributes, bool lines_and_points)
+      : accessors_(accessors), attributes_(attributes), lines_and_points_(lines_and_points) {}
 
   /// All primitives of a glTF mesh in order. Primitives of the same accessors share their vertices.
   Mesh read(const text::JsonValue& mesh);
@@ -36,6 +36,15 @@ class GltfPrimitives {
     bool has_texture = false, has_normals = false;
   };
   void read_primitive(const text::JsonValue& primitive, Mesh& mesh);
+  void add_triangles(std::uint64_t mode, std::size_t corners, const Vertices& vertices,
+                     const text::JsonValue& primitive, bool indexed, Mesh& mesh);
+  void add_lines_or_points(std::uint64_t mode, std::size_t corners, const Vertices& vertices,
+                           bool indexed, Mesh& mesh);
+  /// The vertex of the mesh that a corner of the primitive is.
+  [[nodiscard]] std::uint32_t vertex_of(std::size_t corner, const Vertices& vertices,
+                                        bool indexed) const {
+    return vertices.first + (indexed ? corners_[corner] : static_cast<std::uint32_t>(corner));
+  }
   const Vertices& vertices_of(const GltfPrimitiveAccessors& accessors, Mesh& mesh);
   void read_positions(const GltfAccessor& positions, Mesh& mesh);
   void read_attributes(const GltfPrimitiveAccessors& accessors, Vertices& vertices, Mesh& mesh);
@@ -53,7 +62,7 @@ class GltfPrimitives {
   void make_room(std::vector<T>& list, std::uint64_t more);
 
   GltfAccessors& accessors_;
-  bool attributes_;
+  bool attributes_, lines_and_points_;
 
   // For the mesh that is being read: vertices by the accessors of their attributes.
   std::map<std::array<std::shared_ptr<const GltfAccessor>, 4>, Vertices> vertices_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -32,6 +33,8 @@ using PlyVertex = std::array<double, slot_count>;
 ///   begin_strips(element, indices)
 ///   strip_corner(strip, row, rows)          before a corner of a strip is read
 ///   strip_triangle(triangle)                a face of its own
+/// and, if it has these functions and wants them, edges:
+///   wants_edges(), edge(ends)
 template <class Rows, class Sink>
 class PlyBody {
  public:
@@ -61,6 +64,8 @@ class PlyBody {
         read_faces(element);
       } else if (element.name == "tristrips") {
         read_strips(element);
+      } else if (element.name == "edge" && wants_edges()) {
+        read_edges(element, warnings);
       } else {
         skip_rows(element);
       }
@@ -205,6 +210,40 @@ class PlyBody {
 
   void note_end_of_strip(std::uint64_t corners) {
     if (corners == 1 || corners == 2) ++short_strips_;
+  }
+
+  static constexpr bool takes_edges = requires(Sink & sink) { sink.wants_edges(); };
+
+  [[nodiscard]] bool wants_edges() const {
+    if constexpr (takes_edges) {
+      return sink_.wants_edges();
+    } else {
+      return false;
+    }
+  }
+
+  void read_edges(const PlyElement& element, Warnings& warnings) {
+    const auto first = element.find({"vertex1"}), second = element.find({"vertex2"});
+    if (!first || !second || element.properties[*first].count_type ||
+        element.properties[*second].count_type) {
+      warnings.push_back(file_ + ": element edge lacks vertex1 or vertex2; its " +
+                         std::to_string(element.count) + " rows are skipped");
+      return skip_rows(element);
+    }
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      rows().begin_row(element, i);
+      std::array<std::uint32_t, 2> ends{};
+      for (std::size_t k = 0; k < element.properties.size(); ++k) {
+        const PlyProperty& property = element.properties[k];
+        if (k == *first || k == *second) {
+          ends[k == *first ? 0 : 1] = reader_.read_index(property);
+        } else {
+          reader_.skip(property);
+        }
+      }
+      rows().end_row();
+      if constexpr (takes_edges) sink_.edge(ends);
+    }
   }
 
   void skip_rows(const PlyElement& element) {

@@ -158,6 +158,19 @@ class PlyRowReader {
     return CornerIndices{a, b, corner};
   }
 
+  /// The index of a vertex, in range.
+  std::uint32_t read_index(const PlyProperty& property) {
+    if (is_integer(property.type)) {
+      const std::int64_t index = rows_.integer(property.type, "the index of a vertex");
+      if (static_cast<std::uint64_t>(index) >= vertex_count_) fail_index(std::to_string(index));
+      return static_cast<std::uint32_t>(index);
+    }
+    const double index = rows_.finite(property.type, "the index of a vertex");
+    if (!(index >= 0 && index < static_cast<double>(vertex_count_)) || index != std::floor(index))
+      fail_index(std::to_string(index));
+    return static_cast<std::uint32_t>(index);
+  }
+
   void skip(const PlyProperty& property) {
     if (!property.count_type) return rows_.skip(property.type);
     const std::uint64_t count = read_list_count(property);
@@ -174,19 +187,7 @@ class PlyRowReader {
   void read_ring(const PlyProperty& property, std::vector<std::uint32_t>& ring) {
     const std::uint64_t corners = read_list_count(property);
     ring.clear();
-    for (std::uint64_t k = 0; k < corners; ++k) {
-      if (is_integer(property.type)) {
-        const std::int64_t index = rows_.integer(property.type, "the index of a vertex");
-        if (static_cast<std::uint64_t>(index) >= vertex_count_) fail_index(std::to_string(index));
-        ring.push_back(static_cast<std::uint32_t>(index));
-      } else {
-        const double index = rows_.finite(property.type, "the index of a vertex");
-        if (!(index >= 0 && index < static_cast<double>(vertex_count_)) ||
-            index != std::floor(index))
-          fail_index(std::to_string(index));
-        ring.push_back(static_cast<std::uint32_t>(index));
-      }
-    }
+    for (std::uint64_t k = 0; k < corners; ++k) ring.push_back(read_index(property));
   }
 
   [[noreturn]] void fail_index(const std::string& index, const char* other = "") const {

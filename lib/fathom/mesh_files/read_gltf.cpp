@@ -30,11 +30,11 @@ void check_version(const JsonValue& root) {
 /// Walks the nodes of an asset and places their meshes.
 class GltfReader {
  public:
-  GltfReader(const JsonValue& root, GltfAccessors& accessors, bool attributes, std::string file,
-             Warnings& warnings)
+  GltfReader(const JsonValue& root, GltfAccessors& accessors, const ReadOptions& options,
+             std::string file, Warnings& warnings)
       : root_(root),
         accessors_(accessors),
-        primitives_(accessors, attributes),
+        primitives_(accessors, options.attributes, options.primitives),
         file_(std::move(file)),
         warnings_(warnings),
         nodes_(root.find("nodes")),
@@ -187,7 +187,7 @@ GltfAsset read_gltf(std::span<const std::byte> bytes, const std::filesystem::pat
   GltfDecoders decoders(options, file, budget);
   GltfBufferViews views(root, buffers, decoders);
   GltfAccessors accessors(root, views, budget);
-  GltfAsset asset = GltfReader(root, accessors, options.attributes, file, warnings).read();
+  GltfAsset asset = GltfReader(root, accessors, options, file, warnings).read();
   asset.reader = decoders.readers();
   for (const auto& [name, contents] : buffers.external_files())
     asset.buffers.push_back({name.string(), options.hash ? sha256(contents) : std::string()});

@@ -24,7 +24,7 @@ namespace {
 constexpr TextCursor::Syntax obj_syntax{.comments = true, .continuation = true};
 constexpr std::size_t chunk_size = std::size_t{1} << 20;
 
-enum class Statement { vertex, texture, normal, face, ignored, not_a_face, unknown };
+enum class Statement { vertex, texture, normal, face, line, point, ignored, unknown };
 
 /// Nearly all keywords are one letter long: they are told apart first, without comparing strings.
 Statement statement_named(char keyword) {
@@ -38,8 +38,9 @@ Statement statement_named(char keyword) {
     case 's':
       return Statement::ignored;
     case 'l':
+      return Statement::line;
     case 'p':
-      return Statement::not_a_face;
+      return Statement::point;
     default:
       return Statement::unknown;
   }
@@ -62,6 +63,7 @@ struct ObjCounts {
   std::uint64_t short_points = 0;  // of at most two numbers, counted up to the first colour
   std::uint64_t faces = 0, triangles = 0;
   std::uint64_t skipped_faces = 0, not_faces = 0;
+  std::uint64_t segments = 0, points = 0, skipped_lines = 0;
   bool polygons = false;  // a face that does not have three corners
   bool colours = false, face_textures = false, face_normals = false;
   std::map<std::string, std::uint64_t> unknown;
@@ -76,6 +78,9 @@ struct ObjCounts {
     triangles += other.triangles;
     skipped_faces += other.skipped_faces;
     not_faces += other.not_faces;
+    segments += other.segments;
+    points += other.points;
+    skipped_lines += other.skipped_lines;
     polygons |= other.polygons;
     colours |= other.colours;
     face_textures |= other.face_textures;
@@ -119,6 +124,12 @@ void count_face(TextCursor& cursor, ObjCounts& counts) {
   if (corners > 2) counts.triangles += corners - 2;
 }
 
+std::uint64_t count_words(TextCursor& cursor) {
+  std::uint64_t words = 0;
+  while (!cursor.word().empty()) ++words;
+  return words;
+}
+
 ObjCounts count_statements(std::string_view text, const std::string& file, char line_end) {
   ObjCounts counts;
   // Different unknown keywords beyond this number are lumped together.
@@ -147,8 +158,16 @@ ObjCounts count_statements(std::string_view text, const std::string& file, char 
         break;
       case Statement::ignored:
         break;
-      case Statement::not_a_face:
+      case Statement::line: {
         ++counts.not_faces;
+        const std::uint64_t corners = count_words(cursor);
+        if (corners < 2) ++counts.skipped_lines;
+        if (corners > 1) counts.segments += corners - 1;
+        break;
+      }
+      case Statement::point:
+        ++counts.not_faces;
+        counts.points += count_words(cursor);
         break;
       case Statement::unknown:
         ++counts.unknown[counts.unknown.size() < most_keywords ? shown(keyword) : "…"];
@@ -187,6 +206,12 @@ class ObjChunk {
           break;
         case Statement::face:
           read_face();
+          break;
+        case Statement::line:
+          if (!mesh_.lines.empty()) read_polyline();
+          break;
+        case Statement::point:
+          if (!mesh_.points.empty()) read_points();
           break;
         default:
           break;
@@ -271,6 +296,26 @@ class ObjChunk {
       last = corner;
     }
     ++at_.faces;
+  }
+
+  void read_polyline() {
+    std::uint32_t last = no_index;
+    while (!cursor_.at_line_end()) {
+      const std::uint32_t next = read_corner().vertex;
+      if (last != no_index) {
+        if (at_.segments >= total_.segments) fail_changed();
+        mesh_.lines[at_.segments++] = {last, next};
+      }
+      last = next;
+    }
+  }
+
+  void read_points() {
+    while (!cursor_.at_line_end()) {
+      const std::uint32_t point = read_corner().vertex;
+      if (at_.points >= total_.points) fail_changed();
+      mesh_.points[at_.points++] = point;
+    }
   }
 
   struct Corner {
@@ -364,7 +409,8 @@ class ObjChunk {
   ObjOddities odd_;
 };
 
-void make_room(const ObjCounts& total, bool attributes, const std::string& file, Mesh& mesh) {
+void make_room(const ObjCounts& total, const ReadOptions& options, const std::string& file,
+               Mesh& mesh) {
   expect_countable(total.vertices, "vertices", file);
   expect_countable(total.textures, "texture coordinates", file);
   expect_countable(total.normals, "normals", file);
@@ -374,7 +420,13 @@ void make_room(const ObjCounts& total, bool attributes, const std::string& file,
   mesh.vertices.resize(total.vertices);
   mesh.triangles.resize(total.triangles);
   if (total.polygons) mesh.face_of_triangle.resize(total.triangles);
-  if (!attributes) return;
+  if (options.primitives) {
+    expect_countable(total.segments, "segments of lines", file);
+    expect_countable(total.points, "points", file);
+    mesh.lines.resize(total.segments);
+    mesh.points.resize(total.points);
+  }
+  if (!options.attributes) return;
   if (total.colours) mesh.colours.assign(total.vertices, {1, 1, 1, 1});
   mesh.texture_coordinates.resize(total.textures);
   mesh.normals.resize(total.normals);
@@ -386,8 +438,8 @@ void make_room(const ObjCounts& total, bool attributes, const std::string& file,
   if (!total.face_normals) mesh.normals.clear();
 }
 
-void warn(const ObjCounts& total, const ObjOddities& odd, const std::string& file,
-          Warnings& warnings) {
+void warn(const ObjCounts& total, const ObjOddities& odd, const ReadOptions& options,
+          const std::string& file, Warnings& warnings) {
   if (total.in_the_plane())
     warnings.push_back(file + ": its " + std::to_string(total.vertices) +
                        " vertices have two coordinates: read with z = 0");
@@ -404,7 +456,11 @@ void warn(const ObjCounts& total, const ObjOddities& odd, const std::string& fil
                     warnings);
   odd.normals.warn(file, "corner names a normal that is not in the file",
                    "corners name a normal that is not in the file", "they have none", warnings);
-  if (total.not_faces > 0)
+  if (options.primitives && total.skipped_lines > 0)
+    warnings.push_back(file + ": " + std::to_string(total.skipped_lines) +
+                       (total.skipped_lines == 1 ? " line of fewer than two corners is skipped"
+                                                 : " lines of fewer than two corners are skipped"));
+  if (!options.primitives && total.not_faces > 0)
     warnings.push_back(file + ": " + std::to_string(total.not_faces) +
                        " lines and points (l, p) are ignored");
   for (const auto& [keyword, count] : total.unknown)
@@ -437,14 +493,14 @@ Mesh read_obj(std::string_view bytes, const std::string& file, const ReadOptions
   if (total.vertices + total.faces == 0 && !total.unknown.empty())
     throw InputError(file + ": holds neither vertices nor faces, expected an OBJ file");
   Mesh mesh;
-  make_room(total, options.attributes, file, mesh);
+  make_room(total, options, file, mesh);
   std::vector<ObjOddities> odd(chunks.size());
   for_each_chunk(chunks.size(), options.threads, [&](std::size_t i) {
     odd[i] = ObjChunk(chunks[i], file, line_end, before[i], total, mesh).read();
   });
   ObjOddities all;
   for (const ObjOddities& of_piece : odd) all.add(of_piece);
-  warn(total, all, file, warnings);
+  warn(total, all, options, file, warnings);
   cut_polygons(mesh, total.skipped_faces, file, warnings);
   return mesh;
 }

@@ -19,6 +19,8 @@ struct ReadOptions {
   int threads = 0;
   /// Keep texture coordinates, normals and colours; depth maps do not need them.
   bool attributes = false;
+  /// Keep lines and points: OBJ's l and p, PLY's edges, glTF's modes 0 to 3.
+  bool primitives = false;
   /// Compute Source::sha256.
   bool hash = true;
   /// Files that are named by other files (a scene file's meshes, a glTF asset's buffers) must lie in

@@ -12,7 +12,8 @@ namespace {
 /// Collects vertices and faces in a mesh.
 class MeshSink {
  public:
-  explicit MeshSink(const std::string& file) : faces_(mesh_, file) {}
+  MeshSink(const std::string& file, bool primitives)
+      : faces_(mesh_, file), primitives_(primitives) {}
 
   template <class Has, class Rows>
   void begin_vertices(const PlyElement& element, const Has& has, const Rows&) {
@@ -47,6 +48,9 @@ class MeshSink {
   void strip_corner(const PlyStrip&, std::uint64_t, const Rows&) {}
   void strip_triangle(const CornerIndices& corners) { faces_.add(corners); }
 
+  [[nodiscard]] bool wants_edges() const { return primitives_; }
+  void edge(const std::array<std::uint32_t, 2>& ends) { mesh_.lines.push_back(ends); }
+
   Mesh finish(const std::string& file, Warnings& warnings) {
     cut_polygons(mesh_, faces_.skipped(), file, warnings);
     return std::move(mesh_);
@@ -61,15 +65,16 @@ class MeshSink {
 
   Mesh mesh_;
   FaceCollector faces_;
+  bool primitives_;
   bool normals_ = false, textures_ = false, colours_ = false;
 };
 
 template <class Rows>
 Mesh read_body(std::string_view text, const PlyHeader& header, const std::string& file,
-               bool attributes, Warnings& warnings) {
-  MeshSink sink(file);
+               const ReadOptions& options, Warnings& warnings) {
+  MeshSink sink(file, options.primitives);
   Rows rows(text.substr(header.size), file, header);
-  PlyBody<Rows, MeshSink>(std::move(rows), header, file, attributes, sink).read(warnings);
+  PlyBody<Rows, MeshSink>(std::move(rows), header, file, options.attributes, sink).read(warnings);
   return sink.finish(file, warnings);
 }
 
@@ -82,12 +87,11 @@ Mesh read_ply(std::span<const std::byte> bytes, const std::string& file, const R
   const PlyHeader header = read_ply_header(text, file, warnings);
   switch (header.encoding) {
     case PlyHeader::Encoding::ascii:
-      return read_body<PlyTextRows>(without_padding(text), header, file, options.attributes,
-                                    warnings);
+      return read_body<PlyTextRows>(without_padding(text), header, file, options, warnings);
     case PlyHeader::Encoding::little_endian:
-      return read_body<BinaryRows<false>>(text, header, file, options.attributes, warnings);
+      return read_body<BinaryRows<false>>(text, header, file, options, warnings);
     default:
-      return read_body<BinaryRows<true>>(text, header, file, options.attributes, warnings);
+      return read_body<BinaryRows<true>>(text, header, file, options, warnings);
   }
 }
 

@@ -102,12 +102,13 @@ struct FacingStatistics {
 /// What the pipeline did.
 struct PipelineStatistics {
   std::uint64_t triangles = 0;
-  std::uint64_t not_finite = 0;    ///< left out: a corner is no number after the transform
+  std::uint64_t not_finite = 0;    ///< left out, lines and points too: a corner is no number then
   std::uint64_t clipped_away = 0;  ///< outside of the view volume
   std::uint64_t clipped = 0;       ///< cut at its boundary
   std::uint64_t degenerate = 0;    ///< no area in the window
   std::uint64_t culled = 0;
   std::uint64_t drawn = 0;               ///< triangles that reach scan conversion
+  std::uint64_t lines = 0, points = 0;   ///< of the files, that do
   std::uint64_t turned_by_snapping = 0;  ///< front to back or to nothing
   std::uint64_t fragments = 0;
   std::uint64_t depth_passed = 0;

@@ -78,13 +78,10 @@ class Frame {
     const RasterizerSettings settings{
         options_, rules_, pattern, rate, options_.hidden_surface == HiddenSurface::z_buffer,
         window};
-    if (options_.shading == Shading::wireframe) {
-      rasterize_lines(primitives_.lines, settings, target, statistics);
-    } else if (options_.shading == Shading::points) {
-      rasterize_points(primitives_.points, settings, target, statistics);
-    } else {
+    if (options_.shading != Shading::wireframe && options_.shading != Shading::points)
       rasterize(primitives_.triangles, settings, shader, target, statistics);
-    }
+    rasterize_lines(primitives_.lines, settings, target, statistics);
+    rasterize_points(primitives_.points, settings, target, statistics);
   }
 
   void take_map(const FrameBuffer& centres) {
@@ -182,6 +179,26 @@ class Frame {
   PipelineFrame frame_;
 };
 
+void require_countable(const Scene& scene) {
+  std::uint64_t count = triangle_count(scene);
+  for (const Object& object : scene.objects) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    count += mesh.lines.size() + mesh.points.size();
+    if (count >= no_surface)
+      throw InputError("the scene has more than 4294967294 triangles, lines and points");
+  }
+}
+
+/// Refuses lines and points where only areas are drawn.
+void require_areas(const Scene& scene, const PipelineOptions& options) {
+  if (!has_lines_or_points(scene)) return;
+  const char* why = "draws areas, and the scene has lines or points; there are others";
+  if (options.hidden_surface == HiddenSurface::painter)
+    throw UsageError(Setting{"hidden_surface"}, std::string("painter ") + why);
+  if (options.antialias.method == AntialiasMethod::area)
+    throw UsageError(Setting{"antialias"}, std::string("area ") + why);
+}
+
 }  // namespace
 
 PipelineFrame render_frame(const Scene& scene, const Camera& camera, const PipelineOptions& options,
@@ -192,6 +209,8 @@ PipelineFrame render_frame(const Scene& scene, const Camera& camera, const Pipel
   PipelineOptions complete = options;
   fill_in_range(scene, camera, complete.depth_format);
   require_meaningful(complete.depth_format);
+  require_countable(scene);
+  require_areas(scene, complete);
   if (complete.precision == Precision::binary32)
     return Frame<float>(scene, camera, complete).run(with_picture);
   return Frame<double>(scene, camera, complete).run(with_picture);

@@ -25,7 +25,12 @@ void for_each_part(std::span<const T> list, const Visit& visit) {
     visit(list.subspan(first, std::min(part, list.size() - first)));
 }
 
-/// The vertices that at least one triangle uses.
+void note_used(std::uint32_t vertex, std::vector<bool>& used) {
+  if (vertex >= used.size()) throw ElementFault();
+  used[vertex] = true;
+}
+
+/// The vertices that at least one triangle, line or point uses.
 std::vector<bool> used_vertices(const Mesh& mesh) {
   std::vector<bool> used(mesh.vertices.size());
   for_each_part(std::span(mesh.triangles), [&](std::span<const CornerIndices> part) {
@@ -33,6 +38,9 @@ std::vector<bool> used_vertices(const Mesh& mesh) {
     for (const CornerIndices& triangle : part)
       for (const std::uint32_t corner : triangle) used[corner] = true;
   });
+  for (const auto& line : mesh.lines)
+    for (const std::uint32_t end : line) note_used(end, used);
+  for (const std::uint32_t point : mesh.points) note_used(point, used);
   return used;
 }
 
@@ -83,7 +91,7 @@ std::optional<WorldBounds> bounds_of(const Scene& scene) {
   bool empty = true;
   for (const Object& object : scene.objects) {
     const Mesh& mesh = scene.meshes[object.mesh];
-    if (mesh.triangles.empty()) continue;
+    if (mesh.is_empty()) continue;
     empty = false;
     const std::vector<bool> used = used_vertices(mesh);
     if (object.placed_as_is) {

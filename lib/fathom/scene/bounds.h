@@ -14,8 +14,8 @@ struct WorldBounds {
   friend bool operator==(const WorldBounds&, const WorldBounds&) = default;
 };
 
-/// The smallest box of binary64 numbers in the world that contains every corner of every triangle;
-/// vertices that no triangle uses do not count. nullopt if there is no triangle.
+/// The smallest box of binary64 numbers in the world that contains every corner of every triangle,
+/// line and point; vertices that none of them uses do not count. nullopt if there is none.
 ///
 /// Exact    corners are placed exactly; the exact extremes are rounded outwards, once. An end
 ///          beyond the largest binary64 number is infinite.

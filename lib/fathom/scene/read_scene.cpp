@@ -134,7 +134,7 @@ class SceneReader {
     } else {
       if (input.bytes().empty()) throw InputError(file + ": is empty, expected a mesh");
       Mesh mesh = read_mesh(kind, input, file, options_, warnings_);
-      if (mesh.triangles.empty()) warnings_.push_back(file + ": has no faces");
+      if (mesh.is_empty()) warnings_.push_back(file + ": has no faces");
       Object object;
       object.mesh = scene_.meshes.size();
       object.name = file == "-" ? file : path.stem().string();

@@ -126,7 +126,17 @@ Fault find_fault_but_elements(const Mesh& mesh) {
 
 Fault find_fault_of_elements(const Mesh& mesh) {
   if (auto fault = find_not_finite<double>(mesh.vertices, "vertex")) return fault;
-  return find_index_beyond(mesh.triangles, mesh.vertices.size(), "triangle", "vertices", all_below);
+  if (auto fault = find_index_beyond(mesh.triangles, mesh.vertices.size(), "triangle", "vertices",
+                                     all_below))
+    return fault;
+  const auto is_vertex = [&](std::uint32_t index) { return index < mesh.vertices.size(); };
+  const auto fault_of = [&](const char* element) {
+    return std::string(element) + " is beyond the " + count_of(mesh.vertices.size(), "vertices");
+  };
+  for (const auto& [a, b] : mesh.lines)
+    if (!is_vertex(a) || !is_vertex(b)) return fault_of("the end of a line");
+  if (!std::ranges::all_of(mesh.points, is_vertex)) return fault_of("a point");
+  return std::nullopt;
 }
 
 /// The number of a mesh's last face in its file.

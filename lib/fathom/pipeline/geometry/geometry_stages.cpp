@@ -62,6 +62,18 @@ class GeometryStages {
     if (!degenerate) emit_outline(input, corners);
   }
 
+  /// A line of a file; a point where `is_point`.
+  void run(const InputLine& input, const VertexTransform<Real>& transform, bool is_point) {
+    const ClipVertex<Real> a = transform(input.ends[0]), b = transform(input.ends[1]);
+    if (!is_finite(a) || !is_finite(b)) {
+      ++count_.not_finite;
+    } else if (is_point) {
+      count_.points += emit_point(input.number, input.object, a);
+    } else {
+      count_.lines += emit_line(input.number, input.object, a, b);
+    }
+  }
+
  private:
   static bool same_place(const std::vector<ClipVertex<Real>>& a,
                          const std::vector<ClipVertex<Real>>& b) {
@@ -97,14 +109,27 @@ class GeometryStages {
   void emit_outline(const InputTriangle& input, const std::vector<ClipVertex<Real>>& corners) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (options_.shading == Shading::wireframe) {
-        if (const auto line = clip_line(corners[k], corners[(k + 1) % 3], viewport_.volume))
-          out_.lines.push_back({input.number,
-                                {viewport_(divide((*line)[0])), viewport_(divide((*line)[1]))},
-                                input.object});
-      } else if (options_.shading == Shading::points && is_inside(corners[k], viewport_.volume)) {
-        out_.points.push_back({input.number, viewport_(divide(corners[k])), input.object});
+        emit_line(input.number, input.object, corners[k], corners[(k + 1) % 3]);
+      } else if (options_.shading == Shading::points) {
+        emit_point(input.number, input.object, corners[k]);
       }
     }
+  }
+
+  /// Whether something of it is in the view volume.
+  bool emit_line(std::uint32_t number, std::uint32_t object, const ClipVertex<Real>& a,
+                 const ClipVertex<Real>& b) {
+    const auto line = clip_line(a, b, viewport_.volume);
+    if (!line) return false;
+    const auto& [from, to] = *line;
+    out_.lines.push_back({number, {viewport_(divide(from)), viewport_(divide(to))}, object});
+    return true;
+  }
+
+  bool emit_point(std::uint32_t number, std::uint32_t object, const ClipVertex<Real>& place) {
+    if (!is_inside(place, viewport_.volume)) return false;
+    out_.points.push_back({number, viewport_(divide(place)), object});
+    return true;
   }
 
   void emit(WindowTriangle<Real> triangle, bool& culled, bool& degenerate) {
@@ -143,12 +168,21 @@ WindowPrimitives<Real> to_window(const Scene& scene, const Camera& camera,
                                  PipelineStatistics& statistics) {
   WindowPrimitives<Real> primitives;
   GeometryStages<Real> stages(camera, options, rules, primitives, statistics);
-  std::uint32_t first = 0;
+  std::vector<VertexTransform<Real>> transforms;
+  for (const Object& object : scene.objects) transforms.emplace_back(camera, object, options);
+  std::uint32_t number = 0;
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
-    const VertexTransform<Real> transform(camera, scene.objects[object], options);
-    for (const InputTriangle& triangle : assemble_triangles(scene, object, first))
-      stages.run(triangle, transform);
-    first += static_cast<std::uint32_t>(scene.meshes[scene.objects[object].mesh].triangles.size());
+    for (const InputTriangle& triangle : assemble_triangles(scene, object, number))
+      stages.run(triangle, transforms[object]);
+    number += static_cast<std::uint32_t>(scene.meshes[scene.objects[object].mesh].triangles.size());
+  }
+  for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
+    for (const bool points : {false, true}) {
+      const auto list =
+          points ? assemble_points(scene, object, number) : assemble_lines(scene, object, number);
+      for (const InputLine& each : list) stages.run(each, transforms[object], points);
+      number += static_cast<std::uint32_t>(list.size());
+    }
   }
   return primitives;
 }

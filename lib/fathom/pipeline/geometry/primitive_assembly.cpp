@@ -46,7 +46,42 @@ bool lacks_normals(const Mesh& mesh) {
          std::any_of(mesh.normal_triangles.begin(), mesh.normal_triangles.end(), lacks);
 }
 
+InputVertex end_at(const Mesh& mesh, std::uint32_t v) {
+  InputVertex end;
+  end.position = mesh.vertices[v];
+  if (v < mesh.colours.size())
+    for (std::size_t c = 0; c < 3; ++c) end.colour[c] = static_cast<double>(mesh.colours[v][c]);
+  return end;
+}
+
 }  // namespace
+
+std::vector<InputLine> assemble_lines(const Scene& scene, std::uint32_t object,
+                                      std::uint32_t first_number) {
+  const Mesh& mesh = scene.meshes[scene.objects[object].mesh];
+  std::vector<InputLine> lines;
+  lines.reserve(mesh.lines.size());
+  for (const auto& [a, b] : mesh.lines)
+    lines.push_back({first_number++, object, {end_at(mesh, a), end_at(mesh, b)}});
+  return lines;
+}
+
+std::vector<InputLine> assemble_points(const Scene& scene, std::uint32_t object,
+                                       std::uint32_t first_number) {
+  const Mesh& mesh = scene.meshes[scene.objects[object].mesh];
+  std::vector<InputLine> points;
+  points.reserve(mesh.points.size());
+  for (const std::uint32_t v : mesh.points)
+    points.push_back({first_number++, object, {end_at(mesh, v), end_at(mesh, v)}});
+  return points;
+}
+
+bool has_lines_or_points(const Scene& scene) {
+  return std::ranges::any_of(scene.objects, [&](const Object& object) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    return !mesh.lines.empty() || !mesh.points.empty();
+  });
+}
 
 std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
                                               std::uint32_t first_number) {

@@ -23,6 +23,13 @@ struct InputTriangle {
   std::array<InputVertex, 3> corners;
 };
 
+/// A line of a file, or a point, whose two ends are the same.
+struct InputLine {
+  std::uint32_t number = 0;  ///< in the scene, counted on after all triangles
+  std::uint32_t object = 0;
+  std::array<InputVertex, 2> ends;
+};
+
 /// Joins indices to primitives: points by ones, lines by twos, triangles by threes; leftover
 /// indices at the end are dropped, as graphics interfaces do.
 template <std::size_t corners>
@@ -38,6 +45,15 @@ std::vector<std::array<std::uint32_t, corners>> assemble(
 /// area vectors of its triangles, scaled to unit length.
 std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
                                               std::uint32_t first_number);
+
+/// The lines of an object, and its points, numbered in this order. They have no normals and no
+/// texture coordinates.
+std::vector<InputLine> assemble_lines(const Scene& scene, std::uint32_t object,
+                                      std::uint32_t first_number);
+std::vector<InputLine> assemble_points(const Scene& scene, std::uint32_t object,
+                                       std::uint32_t first_number);
+/// Whether the scene has a line or a point.
+bool has_lines_or_points(const Scene& scene);
 
 /// Whether every corner of every object has texture coordinates.
 bool has_texture_coordinates(const Scene& scene);

@@ -35,8 +35,9 @@ struct WindowPoint {
   std::uint32_t object = 0;
 };
 
-/// What reaches scan conversion. Lines and points are there if the options draw them, for the
-/// triangles that are not culled; they are clipped as lines and points.
+/// What reaches scan conversion. Lines and points are those of the files, which are drawn whatever
+/// the shading is, and, if it draws them, those of the triangles that are not culled; they are
+/// clipped as lines and points.
 template <class Real>
 struct WindowPrimitives {
   std::vector<WindowTriangle<Real>> triangles;

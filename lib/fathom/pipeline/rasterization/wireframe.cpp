@@ -14,6 +14,7 @@ class OutlineDrawer {
                 PipelineStatistics& statistics)
       : s_(settings),
         merger_(s_.options, s_.depth_tested, target, statistics),
+        samples_(target.samples()),
         count_(statistics) {}
 
   void draw(const WindowLine<Real>& line) {
@@ -70,14 +71,18 @@ class OutlineDrawer {
     };
     fragment.depth = at(attribute::depth);
     const StoredDepth stored = merger_.stored(fragment);
-    const bool passed = merger_.passes(p, 0, stored);
     const Colour colour{at(attribute::colour), at(attribute::colour + 1),
                         at(attribute::colour + 2)};
-    merger_.merge(p, 0, {number_, stored, fragment.depth}, colour, passed);
+    // Lines and points fill whole pixels, all samples alike.
+    for (std::size_t i = 0; i < samples_; ++i) {
+      const bool passed = merger_.passes(p, i, stored);
+      merger_.merge(p, i, {number_, stored, fragment.depth}, colour, passed);
+    }
   }
 
   const RasterizerSettings& s_;
   OutputMerger merger_;
+  std::size_t samples_;
   PipelineStatistics& count_;
   const WindowVertex<Real>*a_ = nullptr, *b_ = nullptr;
   std::uint32_t number_ = 0;
