@@ -38,6 +38,9 @@ TEST(StudyPages, Antialiasing) {
   if (testing::effort > 1) GTEST_SKIP() << "twenty seconds without sanitizers";
   EXPECT_EQ(pictures_of("antialiasing"), 15U);
 }
+TEST(StudyPages, Blending) {
+  EXPECT_EQ(pictures_of("blending"), 14U);
+}
 TEST(StudyPages, Course) {
   EXPECT_EQ(pictures_of("course"), 24U);
 }

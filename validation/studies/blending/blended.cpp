@@ -1,0 +1,162 @@
+#include "validation/studies/blending/blended.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fathom/reference/probe.h"
+#include "validation/studies/pipeline_scenes.h"
+
+namespace fathom::studies {
+namespace {
+
+using pipeline::BlendDepth;
+using pipeline::Colour;
+using pipeline::ColourImage;
+using pipeline::DrawOrder;
+using pipeline::PipelineOptions;
+
+constexpr double opacity = 0.5;
+constexpr Colour background{0.08, 0.08, 0.12};
+/// Colours are kept in binary32 after each of at most a dozen blends.
+constexpr double rounding = 12 * 0x1p-24;
+
+Camera camera_of_glass() {
+  Camera camera = front_camera(72, 72, 1, 20);
+  // No edge runs through a sample, where snapping would decide.
+  camera.cx += 0.1234567;
+  camera.cy += 0.7654321;
+  return camera;
+}
+
+Scene painted(Scene scene) {
+  paint_each_triangle(scene);
+  DrawState glass;
+  glass.alpha = opacity;
+  scene.draw_states = {glass};
+  return scene;
+}
+
+/// Panes side on to the view, in an order that is that of no depths.
+Scene panes() {
+  std::vector<MeshPoint> v;
+  std::vector<CornerIndices> t;
+  int k = 0;
+  for (const double z : {5.0, 3.5, 6.5, 4.0, 5.5}) {
+    const auto first = static_cast<std::uint32_t>(v.size());
+    const double x = 0.1 * z * std::cos(1.3 * k), y = 0.1 * z * std::sin(1.3 * k), s = 0.3 * z;
+    v.insert(v.end(), {{x - s, y - s, z}, {x + s, y - s, z}, {x, y + s, z}});
+    t.push_back({first, first + 1, first + 2});
+    ++k;
+  }
+  return scene_of(std::move(v), std::move(t));
+}
+
+/// An opaque wall between the panes, drawn before them.
+Scene with_wall(Scene scene) {
+  Mesh wall;
+  wall.vertices = {{-9, -0.5, 4.7}, {9, -0.5, 4.7}, {0, 9, 4.7}};
+  wall.colours.assign(3, {0.9F, 0.9F, 0.9F, 1});
+  wall.triangles = {{0, 1, 2}};
+  wall.face_count = 1;
+  scene.meshes.push_back(std::move(wall));
+  scene.objects.insert(scene.objects.begin(), {.mesh = 1, .name = "wall"});
+  scene.draw_states.insert(scene.draw_states.begin(), DrawState());
+  return scene;
+}
+
+bool has_wall(const GlassScene& glass) {
+  return glass.scene.objects.size() > 1;
+}
+
+Colour colour_of(const Scene& scene, const TriangleOrigin& origin) {
+  const Mesh& mesh = scene.meshes[scene.objects[origin.object].mesh];
+  const auto& c = mesh.colours[mesh.triangles[origin.triangle][0]];
+  return {static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
+}
+
+std::optional<PipelineOptions> options_of(const GlassScene& glass, const std::string& method,
+                                          Scene& scene) {
+  PipelineOptions options = precise_options();
+  options.background = background;
+  DrawState& state = scene.draw_states.back();
+  if (method == "painter's algorithm") {
+    if (has_wall(glass)) return std::nullopt;
+    scene.draw_states.clear();
+    options.blend_alpha = opacity;
+    options.hidden_surface = pipeline::HiddenSurface::painter;
+    return options;
+  }
+  state.depth_write = method == "file order, depth test";
+  if (method == "file order" || method == "random order" || method == "front to back" ||
+      method == "back to front")
+    state.depth_test = Comparison::always;
+  if (method == "random order") options.draw_order = DrawOrder::random;
+  if (method == "front to back") options.draw_order = DrawOrder::front_to_back;
+  if (method.starts_with("back to front")) options.draw_order = DrawOrder::back_to_front;
+  return options;
+}
+
+void compare(const ColourImage& exact, const ColourImage& image, const std::vector<bool>& seen,
+             BlendedCase& result) {
+  double sum = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (!seen[i]) continue;
+    ++result.seen;
+    double greatest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double error = std::abs(image.pixels[i][k] - exact.pixels[i][k]);
+      greatest = std::max(greatest, error);
+      sum += error / 3;
+    }
+    result.wrong += greatest > rounding;
+    result.greatest_error = std::max(result.greatest_error, greatest);
+  }
+  result.mean_error = sum / static_cast<double>(std::max<std::size_t>(1, result.seen));
+}
+
+}  // namespace
+
+GlassScene glass_scene(const std::string& name) {
+  GlassScene glass{name, {}, {}};
+  if (name == "panes") glass.scene = painted(panes());
+  if (name == "wall") glass.scene = with_wall(painted(panes()));
+  if (name == "ring") glass.scene = painted(cyclic_overlap());
+  if (name == "penetration") glass.scene = painted(penetration());
+  glass.exact = exactly_blended(glass.scene, camera_of_glass(), background);
+  return glass;
+}
+
+ColourImage exactly_blended(const Scene& scene, const Camera& camera, const Colour& behind) {
+  ColourImage image{camera.width, camera.height, {}};
+  image.pixels.reserve(std::size_t{camera.width} * camera.height);
+  for (std::uint32_t y = 0; y < camera.height; ++y) {
+    for (std::uint32_t x = 0; x < camera.width; ++x) {
+      Colour colour = behind;
+      const std::vector<CoveringTriangle> covering = probe(scene, camera, x, y);
+      for (auto t = covering.rbegin(); t != covering.rend(); ++t) {
+        if (!t->counts) continue;
+        const double alpha = draw_state_of(scene, t->origin.object).alpha.value_or(1);
+        const Colour over = colour_of(scene, t->origin);
+        for (std::size_t k = 0; k < 3; ++k) colour[k] = alpha * over[k] + (1 - alpha) * colour[k];
+      }
+      image.pixels.push_back(colour);
+    }
+  }
+  return image;
+}
+
+std::optional<BlendedCase> blend(const GlassScene& glass, const std::string& method) {
+  Scene scene = glass.scene;
+  const auto options = options_of(glass, method, scene);
+  if (!options) return std::nullopt;
+  const ColourImage image =
+      pipeline::render_frame(scene, camera_of_glass(), *options, true).picture;
+  std::vector<bool> seen;
+  for (const Colour& colour : glass.exact.pixels) seen.push_back(colour != background);
+  BlendedCase result{.scene = glass.name, .method = method};
+  compare(glass.exact, image, seen, result);
+  result.picture = pipeline::to_rgb(image);
+  return result;
+}
+
+}  // namespace fathom::studies

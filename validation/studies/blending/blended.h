@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fathom/pipeline/render_pipeline.h"
+
+/// Transparent surfaces in the orders in which a pipeline can draw them, against the exact order at
+/// every pixel.
+namespace fathom::studies {
+
+/// Triangles of coloured glass, each with a colour of its own, and at times an opaque wall.
+struct GlassScene {
+  std::string name;
+  Scene scene;  ///< objects with an opacity are glass
+  pipeline::ColourImage exact;
+};
+inline constexpr const char* glass_scenes[] = {"panes", "wall", "ring", "penetration"};
+GlassScene glass_scene(const std::string& name);
+
+/// What each pixel's centre shows: every surface there, in the exact order of depths, blended from
+/// the farthest to the nearest; nothing behind an opaque surface. Orders are exact, colours are
+/// computed in binary64.
+pipeline::ColourImage exactly_blended(const Scene& scene, const Camera& camera,
+                                      const pipeline::Colour& background);
+
+/// A way to draw glass, and how far its picture is from the exact one.
+struct BlendedCase {
+  std::string scene, method;
+  std::size_t seen = 0;  ///< pixels with a surface
+  std::size_t wrong = 0;
+  double mean_error = 0, greatest_error = 0;  ///< of a colour's component, over pixels with surface
+  RgbImage picture;
+};
+
+inline constexpr const char* blending_methods[] = {"file order",
+                                                   "file order, depth test",
+                                                   "file order, read-only depth",
+                                                   "random order",
+                                                   "front to back",
+                                                   "back to front",
+                                                   "back to front, read-only depth",
+                                                   "painter's algorithm"};
+
+/// nullopt where the method cannot draw the scene: the painter's algorithm has no opaque walls.
+std::optional<BlendedCase> blend(const GlassScene& glass, const std::string& method);
+
+}  // namespace fathom::studies

@@ -1,0 +1,80 @@
+#include "validation/studies/blending/blending.h"
+
+#include "fathom/numeric/errors.h"
+#include "validation/studies/blending/blended.h"
+#include "validation/studies/page_texts.h"
+#include "validation/studies/picture.h"
+#include "validation/studies/results.h"
+
+namespace fathom::studies {
+namespace {
+
+Table cases_table(const std::vector<BlendedCase>& rows) {
+  using Row = BlendedCase;
+  return {rows,
+          {{Column("scene").page("scene"), &Row::scene},
+           {Column("method").page("drawn"), &Row::method},
+           {Column("pixels").page("pixels"), &Row::seen},
+           {Column("wrong").page("wrong"), &Row::wrong},
+           {Column("mean_error", ".9g").page("mean error", ".4f"), &Row::mean_error},
+           {Column("greatest_error", ".9g").page("greatest", ".3f"), &Row::greatest_error}}};
+}
+
+/// "wall-back-to-front-read-only-depth"
+std::string picture_name(const std::string& scene, const std::string& method) {
+  std::string name = scene + "-";
+  for (const char c : method) {
+    if (c == ' ' || c == '-') name += '-';
+    if (c >= 'a' && c <= 'z') name += c;
+  }
+  return name;
+}
+
+BarChart error_chart(const std::vector<BlendedCase>& cases, const std::vector<GlassScene>& scenes) {
+  BarChart chart{.name = "errors",
+                 .title = "Pixels of the wrong colour, by the order of drawing",
+                 .y_label = "wrong pixels (%)"};
+  for (const GlassScene& scene : scenes) chart.categories.push_back(scene.name);
+  for (const char* method : {"file order", "file order, depth test", "back to front",
+                             "back to front, read-only depth"}) {
+    chart.series.push_back({method, {}});
+    for (const BlendedCase& c : cases) {
+      if (c.method == method)
+        chart.series.back().heights.push_back(100.0 * static_cast<double>(c.wrong) /
+                                              static_cast<double>(c.seen));
+    }
+  }
+  return chart;
+}
+
+}  // namespace
+
+std::vector<StudyFile> study_blending(const StudyOptions& options,
+                                      const std::function<void(double)>& tick) {
+  if (options.near || options.far || options.separation || options.samples)
+    throw UsageError("the study blending takes no options");
+  require_gnuplot();
+  std::vector<GlassScene> scenes;
+  for (const char* name : glass_scenes) scenes.push_back(glass_scene(name));
+  std::vector<BlendedCase> cases;
+  for (const GlassScene& scene : scenes) {
+    for (const char* method : blending_methods)
+      if (auto drawn = blend(scene, method)) cases.push_back(std::move(*drawn));
+    tick(static_cast<double>(cases.size()) / 31);
+  }
+
+  Results results("blending", page_texts::blending);
+  results.table(cases_table(cases), {.csv = "cases", .json = "cases", .page = "cases"});
+  results.plot(error_chart(cases, scenes));
+  for (const GlassScene& scene : scenes)
+    results.picture(picture_file(scene.name + "-exact", pipeline::to_rgb(scene.exact), 3));
+  for (const BlendedCase& c : cases) {
+    const bool shown = c.scene == "wall"   ? c.method.find("depth") != std::string::npos
+                       : c.scene == "ring" ? c.method.starts_with("back") || c.method[0] == 'p'
+                                           : c.scene == "panes" && c.method[0] == 'f';
+    if (shown) results.picture(picture_file(picture_name(c.scene, c.method), c.picture, 3));
+  }
+  return results.files();
+}
+
+}  // namespace fathom::studies
