@@ -30,6 +30,7 @@ class PipelineArguments {
   void add_merging_options(Command& command);
 
   pipeline::PipelineOptions stages_;
+  pipeline::SpecularModel highlight_ = pipeline::SpecularModel::blinn;
   double opacity_ = 0.5;
   bool blend_ = false, no_blocks_ = false, no_early_depth_ = false;
   std::vector<Option> declared_;

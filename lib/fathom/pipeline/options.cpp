@@ -33,6 +33,15 @@ void require_count(const Antialias& antialias) {
   if (n < 1 || n > 256) throw UsageError(setting, "expected 1 to 256 samples");
 }
 
+void require_light(const LightSource& light, const Material& material) {
+  const auto& [x, y, z] = light.towards;
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || (x == 0 && y == 0 && z == 0))
+    throw UsageError(Setting{"light"}, "expected three finite numbers, not all of them 0");
+  for (const double m : {material.ambient, material.diffuse, material.specular, material.shininess})
+    if (!(m >= 0 && std::isfinite(m)))
+      throw UsageError(Setting{"material"}, "expected four finite numbers, none below 0");
+}
+
 }  // namespace
 
 void require_meaningful(const PipelineOptions& o) {
@@ -55,6 +64,7 @@ void require_meaningful(const PipelineOptions& o) {
   if (o.hidden_surface == HiddenSurface::painter && !has_areas)
     throw UsageError(Setting{"hidden_surface"},
                      "painter draws areas; points and wireframe have none");
+  require_light(o.light, o.material);
   for (const double component : o.background)
     if (!std::isfinite(component))
       throw UsageError(Setting{"background"}, "expected three finite numbers");

@@ -24,9 +24,7 @@ class GeometryStages {
                  PipelineStatistics& statistics)
       : options_(options),
         viewport_(viewport_of(camera, options)),
-        eye_(lighting_of(camera)),
-        mirrored_(((camera.fx < 0) != (camera.fy < 0)) !=
-                  (determinant_of_rotation(camera).sign() == Sign::negative)),
+        lighting_(lighting_of(camera, options)),
         out_(out),
         count_(statistics) {}
 
@@ -38,6 +36,7 @@ class GeometryStages {
       ++count_.not_finite;
       return;
     }
+    if (options_.shading == Shading::gouraud) light_corners(corners, lighting_);
     const auto polygon = clip_triangle(corners, viewport_.volume);
     if (polygon.empty()) {
       ++count_.clipped_away;
@@ -50,8 +49,11 @@ class GeometryStages {
     for (const ClipVertex<Real>& corner : polygon) window.push_back(viewport_(divide(corner)));
     if (whole) compare_facings(corners, window);
     bool culled = false, degenerate = true;
-    for (std::size_t i = 2; i < window.size(); ++i)
-      emit({input.number, {window[0], window[i - 1], window[i]}}, culled, degenerate);
+    WindowTriangle<Real> part{.number = input.number, .corners = {}, .face = face_of(corners)};
+    for (std::size_t i = 2; i < window.size(); ++i) {
+      part.corners = {window[0], window[i - 1], window[i]};
+      emit(part, culled, degenerate);
+    }
     count_.culled += culled;
     count_.degenerate += degenerate && !culled;
     if (!degenerate) emit_outline(input.number, corners);
@@ -66,6 +68,13 @@ class GeometryStages {
     });
   }
 
+  static std::array<std::array<Real, 3>, 3> face_of(const std::vector<ClipVertex<Real>>& corners) {
+    std::array<std::array<Real, 3>, 3> face{};
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < 3; ++i) face[k][i] = corners[k].attributes[attribute::world + i];
+    return face;
+  }
+
   void compare_facings(const std::vector<ClipVertex<Real>>& corners,
                        const std::vector<WindowVertex<Real>>& window) {
     std::array<WorldVertex<Real>, 3> world;
@@ -74,8 +83,8 @@ class GeometryStages {
       world[k] = {p[0], p[1], p[2]};
     }
     const FrontFace rule = options_.front_face;
-    const bool in_world =
-        facing_in_world(world, eye_.eye, !eye_.orthographic, mirrored_, rule) == Facing::front;
+    const bool in_world = facing_in_world(world, lighting_.eye, !lighting_.orthographic,
+                                          lighting_.mirrored, rule) == Facing::front;
     const bool in_ndc =
         facing_in_ndc<Real>({divide(corners[0]), divide(corners[1]), divide(corners[2])}, rule) ==
         Facing::front;
@@ -120,8 +129,7 @@ class GeometryStages {
 
   const PipelineOptions& options_;
   Viewport viewport_;
-  Lighting eye_;
-  bool mirrored_;
+  Lighting lighting_;
   WindowPrimitives<Real>& out_;
   PipelineStatistics& count_;
 };
@@ -136,7 +144,8 @@ WindowPrimitives<Real> to_window(const Scene& scene, const Camera& camera,
   std::uint32_t first = 0;
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
     const VertexTransform<Real> transform(camera, scene.objects[object], options);
-    for (const InputTriangle& triangle : assemble_triangles(scene, object, first))
+    for (const InputTriangle& triangle :
+         assemble_triangles(scene, object, first, options.front_face))
       stages.run(triangle, transform);
     first += static_cast<std::uint32_t>(scene.meshes[scene.objects[object].mesh].triangles.size());
   }
