@@ -42,6 +42,16 @@ void PipelineArguments::add_picture_options(Command& command) {
                                      "R,G,B from 0 to 1 (default 0,0,0)"));
   declared_.push_back(command.option("--shading", "NAME", into(stages_.shading, parse_shading),
                                      "none, points, wireframe, flat (default), gouraud or phong"));
+  declared_.push_back(command.option(
+      "--light", "WHERE", into(stages_.light, parse_light),
+      "Where it comes from: X,Y,Z, a direction in the world; headlight, from the camera; or "
+      "shoulder (default), from above the camera's left shoulder"));
+  declared_.push_back(command.option(
+      "--material", "A,D,S,N", into(stages_.material, parse_material),
+      "Ambient, diffuse and specular reflection, and shininess (default 0.15,0.75,0.25,40)"));
+  declared_.push_back(
+      command.option("--specular-model", "NAME", into(highlight_, parse_specular_model),
+                     "blinn (default: the halfway vector) or phong (mirrored light)"));
   declared_.push_back(
       command.option("--texture", "NAME", stages_.texture, "checker, or a PNG file"));
   declared_.push_back(
@@ -109,6 +119,7 @@ void PipelineArguments::add_merging_options(Command& command) {
 pipeline::PipelineOptions PipelineArguments::options(Cull cull) const {
   pipeline::PipelineOptions options = stages_;
   options.culling = culling_of(cull);
+  options.material.highlight = highlight_;
   options.blocks = !no_blocks_;
   options.early_depth = !no_early_depth_;
   options.draw_order = order_.first;

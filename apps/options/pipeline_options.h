@@ -31,6 +31,7 @@ class PipelineArguments {
   void add_merging_options(Command& command);
 
   pipeline::PipelineOptions stages_;
+  pipeline::SpecularModel highlight_ = pipeline::SpecularModel::blinn;
   double opacity_ = 0.5;
   std::pair<pipeline::DrawOrder, std::uint64_t> order_{};
   bool blend_ = false, no_blocks_ = false, no_early_depth_ = false;

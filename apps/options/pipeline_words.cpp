@@ -75,6 +75,29 @@ std::pair<DrawOrder, std::uint64_t> parse_draw_order(const std::string& text) {
           0};
 }
 
+SpecularModel parse_specular_model(const std::string& text) {
+  return parse_word<SpecularModel>(
+      text, {{"blinn", SpecularModel::blinn}, {"phong", SpecularModel::phong}});
+}
+
+LightSource parse_light(const std::string& text) {
+  if (text == "shoulder") return {};
+  if (text == "headlight") return {.towards = {0, 0, -1}};
+  return {.towards = parse_vector(text), .in_world = true};
+}
+
+Material parse_material(const std::string& text) {
+  const std::vector<std::string> parts = parse_list(text);
+  if (parts.size() != 4) {
+    throw UsageError(fmt::format(
+        "'{}' is not AMBIENT,DIFFUSE,SPECULAR,SHININESS, as in 0.15,0.75,0.25,40", text));
+  }
+  return {.ambient = parse_number(parts[0]),
+          .diffuse = parse_number(parts[1]),
+          .specular = parse_number(parts[2]),
+          .shininess = parse_number(parts[3])};
+}
+
 Antialias parse_antialias(const std::string& text) {
   const auto colon = text.find(':');
   Antialias antialias;

@@ -20,6 +20,12 @@ pipeline::HiddenSurface parse_hidden_surface(const std::string& text);
 pipeline::Precision parse_precision(const std::string& text);
 pipeline::FrontFace parse_front_face(const std::string& text);
 
+pipeline::SpecularModel parse_specular_model(const std::string& text);
+/// "X,Y,Z" in the world, "headlight" or "shoulder"
+pipeline::LightSource parse_light(const std::string& text);
+/// "AMBIENT,DIFFUSE,SPECULAR,SHININESS"; the model of highlights is still the default.
+pipeline::Material parse_material(const std::string& text);
+
 /// "msaa:4"
 pipeline::Antialias parse_antialias(const std::string& text);
 pipeline::BlendDepth parse_blend_depth(const std::string& text);

@@ -8,6 +8,8 @@ void ValidateArguments::add_to(Command& command) {
   command.arguments("SCENE", scenes, "Meshes and scene files");
   command.option("--against", "NAME", against,
                  "Renderers that draw the scenes: vtk, opengl, embree, blender");
+  command.flag("--colour", colour,
+               "Compare the pipeline's flat, Gouraud and Phong pictures with VTK's");
   command.option("--scene", "NAME", scene_names,
                  "Scenes of ours instead of SCENE (default: all, see below)");
   command.option("--variants", "NAME", variants,

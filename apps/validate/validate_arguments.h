@@ -15,6 +15,7 @@ struct ValidateArguments {
   std::vector<std::string> scenes;
   std::string map, camera, model, channel, out, baseline;
   std::string against, scene_names, variants, render, output;
+  bool colour = false;
   ReadLimits limits;
   Size size{320, 240};
   std::uint32_t seconds = 300;

@@ -8,6 +8,7 @@
 #include "apps/shell/program.h"
 #include "apps/validate/validate_against.h"
 #include "apps/validate/validate_arguments.h"
+#include "apps/validate/validate_colours.h"
 #include "apps/validate/validate_map.h"
 #include "apps/validate/validate_render.h"
 #include "fathom/attribution/model/named_models.h"
@@ -18,14 +19,16 @@ namespace fathom::app {
 namespace {
 
 int run_validate(const ValidateArguments& arguments, const Console& console) {
-  const int modes = static_cast<int>(!arguments.map.empty()) +
-                    static_cast<int>(!arguments.against.empty()) +
-                    static_cast<int>(!arguments.render.empty());
+  const int modes =
+      static_cast<int>(!arguments.map.empty()) + static_cast<int>(!arguments.against.empty()) +
+      static_cast<int>(!arguments.render.empty()) + static_cast<int>(arguments.colour);
   if (modes != 1) {
-    throw UsageError("one of --against RENDERERS, --map MAP and --render RENDERER is expected");
+    throw UsageError(
+        "one of --against RENDERERS, --map MAP, --colour and --render RENDERER is expected");
   }
   if (!arguments.against.empty()) return validate_against(arguments, console);
   if (!arguments.render.empty()) return validate_render(arguments, console);
+  if (arguments.colour) return validate_colours(arguments, console);
   return validate_map(arguments, console);
 }
 
@@ -36,6 +39,7 @@ void add_validate(Command& program) {
       "  fathom validate --against opengl --scene sheets,room --variants unorm16,float32\n"
       "  fathom validate --against vtk spot.obj --camera camera.json\n"
       "  fathom validate --map other.exr --camera camera.json --model gl-unorm24 spot.obj\n"
+      "  fathom validate --colour --scene spot\n"
       "  fathom validate --render vtk spot.obj --camera camera.json -o vtk.exr\n"
       "\nScenes: " +
           fmt::format("{}", fmt::join(validation::scene_names(), ", ")) +

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "run_program.h"
@@ -53,6 +54,9 @@ TEST(PipelineCommand, EveryChoiceDraws) {
       {"--antialias", "msaa:rotated-grid"},
       {"--shading", "gouraud"},
       {"--shading", "phong"},
+      {"--light", "headlight"},
+      {"--light", "1,2,-3", "--material", "0,1,0.5,10"},
+      {"--shading", "phong", "--specular-model", "phong"},
       {"--interpolation", "affine"},
       {"--scan", "scan-line"},
       {"--hidden-surface", "painter"},
@@ -79,6 +83,48 @@ TEST(PipelineCommand, EveryChoiceDraws) {
   }
 }
 
+TEST(PipelineCommand, LightsAndMaterialsThatCannotBe) {
+  const TestFolder folder;
+  const auto refused = [&](const std::string& option, const std::string& value) {
+    const Outcome outcome = render(folder, {option, value, "--image", "a.png", "-o", "a.exr"});
+    EXPECT_EQ(outcome.status, 2) << option << " " << value;
+    EXPECT_THAT(outcome.err, HasSubstr(option));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_THAT(refused("--light", "0,0,0"), HasSubstr("not all of them 0"));
+  refused("--light", "nan,0,1");
+  refused("--light", "1,2");
+  refused("--light", "below");
+  EXPECT_THAT(refused("--material", "0.1,0.7,0.2"), HasSubstr("AMBIENT,DIFFUSE"));
+  EXPECT_THAT(refused("--material", "0.1,0.7,-0.2,40"), HasSubstr("none below 0"));
+  refused("--material", "0.1,0.7,inf,40");
+  refused("--specular-model", "lambert");
+  EXPECT_TRUE(folder.names().empty());
+}
+
+// As programs write them for triangles without area.
+TEST(PipelineCommand, NormalsThatAreNoNumbersAreLeftOut) {
+  const TestFolder folder;
+  const std::string start = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\n";
+  folder.write("odd.obj", start + "vn nan 0 inf\nf 1//1 2//1 3//2\n");
+  folder.write("whole.obj", start + "f 1//1 2//1 3//1\n");
+  const auto drawn = [&](const std::string& mesh) {
+    const Outcome outcome =
+        run_fathom({"render", mesh + ".obj", "--engine", "pipeline", "--shading", "phong", "--size",
+                    "32x24", "--image", mesh + ".png", "-o", "a.exr"},
+                   {.folder = folder.path()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_EQ(drawn("whole"), "");
+  EXPECT_EQ(drawn("odd"),
+            "fathom: warning: odd.obj: 1 normals, texture coordinates or colours are not finite "
+            "numbers; they are left out\n");
+  // That corner has the normal of its triangle, which is the same.
+  EXPECT_EQ(folder.read("odd.png"), folder.read("whole.png"));
+}
+
 TEST(PipelineCommand, StretchedViewportIsAWarning) {
   const TestFolder folder;
   EXPECT_THAT(render(folder, {"--viewport", "0,0,64,24", "-o", "a.exr"}).err,
@@ -94,9 +140,11 @@ TEST(PipelineCommand, TexturesThatCannotBeUsed) {
     return outcome.err;
   };
   folder.write("broken.png", "this is no picture");
+  folder.write("empty.png", "");
   EXPECT_THAT(refused("missing.png"), HasSubstr("missing.png: does not exist"));
   EXPECT_THAT(refused("broken.png"), HasSubstr("broken.png: no PNG file"));
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"broken.png"});
+  EXPECT_THAT(refused("empty.png"), HasSubstr("empty.png: "));
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"broken.png", "empty.png"}));
 }
 
 TEST(PipelineCommand, TextureIsNotOverwritten) {
@@ -148,6 +196,30 @@ TEST(PipelineCommand, TraceInTextAndJson) {
             corner["clip"][0].get<float>() / corner["clip"][3].get<float>());
   EXPECT_EQ(run_fathom({"pipeline", "trace", cube, "--triangle", "12"}).status, 2);
   EXPECT_EQ(run_fathom({"pipeline"}).status, 2);
+}
+
+// The ray of a pixel meets the cube twice: its front, and the back of another face.
+TEST(PipelineCommand, TraceShowsTheLight) {
+  int covered = 0, turned = 0;
+  for (int triangle = 0; triangle < 12; ++triangle) {
+    const Outcome outcome =
+        run_fathom({"pipeline", "trace", cube, "--triangle", std::to_string(triangle), "--size",
+                    "64x48", "--pixel", "32,24", "--light", "headlight", "--material", "0,1,0,1",
+                    "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Json trace = Json::parse(outcome.out);
+    if (!trace.contains("sample") || !trace["sample"]["covered"]) continue;
+    const Json& shading = trace["sample"]["shading"];
+    ++covered;
+    turned += static_cast<int>(shading["normals_turned"].get<bool>());
+    // Lit from the camera, either side has light, and no more than all; no highlight.
+    EXPECT_GT(shading["diffuse"], 0.1);
+    EXPECT_LT(shading["diffuse"], 1);
+    EXPECT_EQ(shading["specular"], 0);
+    EXPECT_EQ(shading["colour"][0], shading["diffuse"]);
+  }
+  EXPECT_EQ(covered, 2);
+  EXPECT_EQ(turned, 1);
 }
 
 }  // namespace

@@ -54,7 +54,8 @@ TEST(PrimitiveAssembly, CornersWithoutANormalGetTheirVertexs) {
   Scene scene = scene_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}});
   scene.meshes[0].normals = {{0, 1, 0}};
   scene.meshes[0].normal_triangles = {{0, no_index, 0}, {no_index, 0, no_index}};
-  const std::vector<InputTriangle> triangles = assemble_triangles(scene, 0, 0);
+  const std::vector<InputTriangle> triangles =
+      assemble_triangles(scene, 0, 0, FrontFace::counter_clockwise);
   using Normal = std::array<double, 3>;
   EXPECT_EQ(triangles[0].corners[0].normal, (Normal{0, 1, 0}));
   EXPECT_EQ(triangles[0].corners[1].normal, (Normal{0, 0, 1}));

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/scene/scene_fault.h"
 #include "tests/scratch_folder.h"
 
 namespace fathom {
@@ -163,6 +164,40 @@ TEST_F(ReadScene, RefusesWhatIsNoFile) {
 TEST_F(ReadScene, WarnsOfAMeshWithoutFaces) {
   EXPECT_EQ(triangle_count(read({folder.write("a.obj", "v 0 0 0\n")})), 0U);
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("a.obj: has no faces")));
+}
+
+TEST_F(ReadScene, LeavesOutAttributesThatAreNotFinite) {
+  ReadOptions options;
+  options.attributes = true;
+  const auto head = [](const char* more) {
+    return std::string(
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n") +
+           more + "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  };
+  // A list by vertex becomes one by corner.
+  const Scene ply = read({folder.write("a.ply", head("") + "0 0 0 0 0 1\n1 0 0 nan 0 1\n"
+                                                           "0 1 0 0 -inf 0\n3 0 1 2\n")},
+                         options);
+  EXPECT_THAT(ply.meshes[0].normal_triangles, ElementsAre(CornerIndices{0, no_index, no_index}));
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("a.ply: 2 normals, texture coordinates or colours")));
+  EXPECT_EQ(find_fault(ply), std::nullopt);
+  // What is named by corners loses those alone; what is finite stays as it is.
+  warnings.clear();
+  const Scene obj = read({folder.write("a.obj",
+                                       "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn nan 0 0\n"
+                                       "vt 0 inf\nvt 1 0\nf 1/1/1 2/2/2 3/2/1\n")},
+                         options);
+  EXPECT_THAT(obj.meshes[0].normal_triangles, ElementsAre(CornerIndices{0, no_index, 0}));
+  EXPECT_THAT(obj.meshes[0].texture_triangles, ElementsAre(CornerIndices{no_index, 1, 1}));
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("a.obj: 2 normals")));
+  EXPECT_EQ(find_fault(obj), std::nullopt);
+  warnings.clear();
+  const Scene whole = read({folder.write("b.ply", head("") + "0 0 0 0 0 1\n1 0 0 0 0 1\n"
+                                                             "0 1 0 0 0 1\n3 0 1 2\n")},
+                           options);
+  EXPECT_TRUE(whole.meshes[0].normal_triangles.empty());
+  EXPECT_TRUE(warnings.empty());
 }
 
 TEST_F(ReadScene, ReadsPipes) {

@@ -220,6 +220,30 @@ TEST(ValidatePeers, WhatCannotBeWrittenIsSaidBeforeAnythingIsDrawn) {
   EXPECT_THAT(outcome.err, HasSubstr("file: cannot make this folder"));
 }
 
+// VTK's pictures and the pipeline's, of meshes seen from outside and, of the house's roof, inside.
+TEST(ValidatePeers, ColoursAreThoseOfTheFormulas) {
+  const std::string cube = source_dir() / "data/meshes/cube.obj";
+  const std::string house = source_dir() / "data/meshes/house.gltf";
+  const std::vector<std::vector<std::string>> scenes{{"--scene", "sphere,spot"}, {cube}, {house}};
+  for (const auto& scene : scenes) {
+    std::vector<std::string> arguments{"validate", "--colour", "--size", "128x96"};
+    arguments.insert(arguments.end(), scene.begin(), scene.end());
+    const Outcome outcome = run_fathom(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("phong, VTK Gouraud: "));
+    EXPECT_THAT(outcome.out, HasSubstr(" background, 0 unexplained\n"));
+  }
+}
+
+TEST(ValidatePeers, ColoursThatCannotBeComparedAreRefused) {
+  const Outcome outcome =
+      run_fathom({"validate", "--colour", "--scene", "orthographic,sphere", "--size", "32x24"});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.out, HasSubstr("colours are compared for perspective cameras"));
+  EXPECT_THAT(outcome.out, HasSubstr("sphere: phong, VTK Phong: "));
+  EXPECT_EQ(run_fathom({"validate", "--colour", "--against", "vtk"}).status, 2);
+}
+
 TEST(ValidatePeers, WhatTheOtherDrewIsAMapOfOurs) {
   const TestFolder folder;
   const std::string cube = source_dir() / "data/meshes/cube.obj";

@@ -31,6 +31,10 @@ DrawnMap draw_built_in(const EmbreeVariant& variant, const ValidationScene& scen
   return drawn;
 }
 
+GreyPicture draw_built_in_colours(const LitScene& scene, VtkShading shading) {
+  return draw_vtk_colours(scene, shading);
+}
+
 std::vector<int> built_in_samples() {
   return offered_samples();
 }

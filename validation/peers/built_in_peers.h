@@ -5,6 +5,7 @@
 #include "validation/drawn_map.h"
 #include "validation/scenes/validation_scenes.h"
 #include "validation/variants/peer.h"
+#include "validation/vtk/vtk_colours.h"
 
 namespace fathom::validation {
 
@@ -13,6 +14,9 @@ namespace fathom::validation {
 DrawnMap draw_built_in(const VtkVariant& variant, const ValidationScene& scene);
 DrawnMap draw_built_in(const OpenGlVariant& variant, const ValidationScene& scene);
 DrawnMap draw_built_in(const EmbreeVariant& variant, const ValidationScene& scene);
+
+/// A lit scene drawn by VTK in colour. Fails as above.
+GreyPicture draw_built_in_colours(const LitScene& scene, VtkShading shading);
 
 /// The numbers of samples per pixel, more than one, that OpenGL's driver offers; none where this
 /// program is built without OpenGL.

@@ -25,6 +25,10 @@ DrawnMap draw_built_in(const EmbreeVariant& /*variant*/, const ValidationScene& 
   refuse(Renderer::embree);
 }
 
+GreyPicture draw_built_in_colours(const LitScene& /*scene*/, VtkShading /*shading*/) {
+  refuse(Renderer::vtk);
+}
+
 std::vector<int> built_in_samples() {
   return {};
 }

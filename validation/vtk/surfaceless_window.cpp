@@ -1,8 +1,11 @@
 #include "validation/vtk/surfaceless_window.h"
 
+#include <vtkAutoInit.h>
 #include <vtkObjectFactory.h>
 
 #include "validation/vtk/quiet_stderr.h"
+
+VTK_MODULE_INIT(vtkRenderingOpenGL2)
 
 namespace fathom::validation {
 

@@ -1,7 +1,6 @@
 #include "validation/vtk/vtk_renderer.h"
 
 #include <vtkActor.h>
-#include <vtkAutoInit.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
@@ -24,8 +23,6 @@
 #include "validation/opengl/read_back.h"
 #include "validation/vtk/recording_mapper.h"
 #include "validation/vtk/surfaceless_window.h"
-
-VTK_MODULE_INIT(vtkRenderingOpenGL2)
 
 namespace fathom::validation {
 namespace {

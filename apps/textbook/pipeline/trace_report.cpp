@@ -43,6 +43,12 @@ Json to_json(const TriangleTrace& t) {
                         {"window_z", t.sample->window_z},
                         {"depth", t.sample->depth},
                         {"stored", t.sample->stored.bits}};
+    if (t.sample->covered) {
+      answer["sample"]["shading"] = {{"normals_turned", t.sample->turned},
+                                     {"diffuse", t.sample->light.diffuse},
+                                     {"specular", t.sample->light.specular},
+                                     {"colour", t.sample->colour}};
+    }
   }
   return answer;
 }
@@ -84,6 +90,11 @@ std::string as_text(const TriangleTrace& t) {
       "  attribute weights    {}\n  window depth         {}\n  depth along the view {}\n"
       "  stored               {:#x}\n",
       fmt::join(s.attribute_weights, ", "), s.window_z, s.depth, s.stored.bits);
+  if (!s.covered) return text;
+  text += fmt::format(
+      "  light                {} diffuse, {} specular{}\n  colour               {}\n",
+      s.light.diffuse, s.light.specular,
+      s.turned ? "; the normals are turned: the back is seen" : "", fmt::join(s.colour, ", "));
   return text;
 }
 

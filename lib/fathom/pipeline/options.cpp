@@ -48,6 +48,15 @@ void require_projected_depths(const PipelineOptions& o) {
     throw UsageError(Setting{"depth_range"}, reason);
 }
 
+void require_light(const LightSource& light, const Material& material) {
+  const auto& [x, y, z] = light.towards;
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || (x == 0 && y == 0 && z == 0))
+    throw UsageError(Setting{"light"}, "expected three finite numbers, not all of them 0");
+  for (const double m : {material.ambient, material.diffuse, material.specular, material.shininess})
+    if (!(m >= 0 && std::isfinite(m)))
+      throw UsageError(Setting{"material"}, "expected four finite numbers, none below 0");
+}
+
 }  // namespace
 
 void require_meaningful(const PipelineOptions& o) {
@@ -71,6 +80,7 @@ void require_meaningful(const PipelineOptions& o) {
   if (o.hidden_surface == HiddenSurface::painter && !has_areas)
     throw UsageError(Setting{"hidden_surface"},
                      "painter draws areas; points and wireframe have none");
+  require_light(o.light, o.material);
   for (const double component : o.background)
     if (!std::isfinite(component))
       throw UsageError(Setting{"background"}, "expected three finite numbers");

@@ -25,6 +25,9 @@ enum class ScanConversion {
 enum class Interpolation { affine, perspective };
 /// `points` draws corners and `wireframe` edges, as primitives of their own.
 enum class Shading { none, points, wireframe, flat, gouraud, phong };
+/// Of highlights: by the vector halfway between light and eye ([Bli77]), or by the mirrored light
+/// ([Pho75]).
+enum class SpecularModel { blinn, phong };
 enum class TextureFilter { nearest, bilinear, trilinear, anisotropic };
 enum class HiddenSurface { z_buffer, painter };
 enum class WireLine { explicit_equation, dda, bresenham, midpoint, diamond_exit };
@@ -57,6 +60,20 @@ struct WindowRectangle {
 
 using Colour = std::array<double, 3>;
 
+/// A light so far away that it comes from one direction.
+struct LightSource {
+  /// Towards the light, of any length but 0: in the world, or in the camera's frame (x right, y
+  /// down, z forward). The default stands above the camera's left shoulder.
+  std::array<double, 3> towards{-0.45, -0.65, -1};
+  bool in_world = false;
+};
+
+/// How surfaces reflect: colour·(ambient + diffuse·N·L) + specular·(cos of the highlight)^shininess.
+struct Material {
+  double ambient = 0.15, diffuse = 0.75, specular = 0.25, shininess = 40;
+  SpecularModel highlight = SpecularModel::blinn;
+};
+
 struct PipelineOptions {
   Precision precision = Precision::binary32;
   /// `near` and `far` are the camera's, filled in where it has none.
@@ -76,6 +93,8 @@ struct PipelineOptions {
   bool early_depth = true;
   Interpolation interpolation = Interpolation::perspective;
   Shading shading = Shading::flat;
+  LightSource light;
+  Material material;
   WireLine wire_line = WireLine::bresenham;
   /// "", "checker" or a PNG file.
   std::string texture;

@@ -4,19 +4,19 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/pipeline/fragments/shading.h"
 #include "fathom/pipeline/output/draw_rules.h"
 #include "fathom/scene/scene_fault.h"
 
 namespace fathom::pipeline {
 namespace {
 
-InputTriangle triangle_numbered(const Scene& scene, std::uint32_t number) {
+InputTriangle triangle_numbered(const Scene& scene, std::uint32_t number, FrontFace front_face) {
   std::uint32_t first = 0;
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
     const auto count =
         static_cast<std::uint32_t>(scene.meshes[scene.objects[object].mesh].triangles.size());
-    if (number - first < count) return assemble_triangles(scene, object, first)[number - first];
+    if (number - first < count)
+      return assemble_triangles(scene, object, first, front_face)[number - first];
     first += count;
   }
   throw UsageError(Setting{"triangle"}, "there is no triangle " + std::to_string(number) +
@@ -60,11 +60,11 @@ class Tracer {
         if (!std::isfinite(c))
           throw InputError("a corner of the triangle is no number after the transform");
     }
-    const Lighting eye = lighting_of(camera_);
-    const bool mirrored = (camera_.fx < 0) != (camera_.fy < 0);
-    const bool left_handed = determinant_of_rotation(camera_).sign() == Sign::negative;
-    trace_.in_world = facing_in_world(world, eye.eye, !eye.orthographic, mirrored != left_handed,
-                                      options_.front_face);
+    const Lighting eye = lighting_of(camera_, options_);
+    trace_.in_world =
+        facing_in_world(world, eye.eye, !eye.orthographic, eye.mirrored, options_.front_face);
+    if (options_.shading == Shading::gouraud) light_corners(corners, eye);
+    for (std::size_t k = 0; k < 3; ++k) face_[k] = {world[k].x, world[k].y, world[k].z};
     const auto polygon = clip_triangle(corners, viewport_.volume);
     if (!polygon.empty()) to_window(polygon, input.number, pixel);
     return trace_;
@@ -92,7 +92,8 @@ class Tracer {
     trace_.culled = is_culled(trace_.in_window, options_.culling);
     if (trace_.culled) return;
     for (std::size_t i = 2; i < window.size(); ++i) {
-      WindowTriangle<Real> part{number, {window[0], window[i - 1], window[i]}};
+      WindowTriangle<Real> part{
+          number, {window[0], window[i - 1], window[i]}, trace_.in_window == Facing::front, face_};
       part.depth_offset = depth_offset(part, options_.depth_format.storage, rules_[object_].offset);
       if (const auto t = Interpolator<Real>::of(part, options_)) rasterize(*t, pixel);
     }
@@ -118,11 +119,23 @@ class Tracer {
     }
     s.covered = t.grid().covers(sample);
     s.drawable = window_.contains(*pixel);
-    const Fragment fragment = t.depths_at(sample);
+    Fragment fragment = t.depths_at(sample);
     s.window_z = fragment.window_z;
     s.depth = fragment.depth;
     s.stored = DepthTest(options_).stored(fragment);
+    if (s.covered) shade(s, t, fragment, sample);
     trace_.sample = s;
+  }
+
+  void shade(SampleTrace& s, const Interpolator<Real>& t, Fragment& fragment,
+             const GridPoint& sample) const {
+    Shader<Real> shader(camera_, options_, std::nullopt);
+    shader.begin(t.triangle());
+    t.complete(fragment, sample);
+    const auto weights = t.attribute_weights(sample);
+    s.turned = !shader.shows_normals();
+    s.light = shader.light(fragment, weights);
+    s.colour = shader.shade(fragment, weights);
   }
 
   const Scene& scene_;
@@ -132,6 +145,7 @@ class Tracer {
   PixelWindow window_;
   std::uint32_t object_ = 0;
   Viewport viewport_;
+  std::array<std::array<Real, 3>, 3> face_{};
   TriangleTrace trace_;
 };
 
@@ -146,7 +160,7 @@ TriangleTrace trace_triangle(const Scene& scene, const Camera& camera,
   PipelineOptions complete = options;
   fill_in_range(scene, camera, complete.depth_format);
   require_meaningful(complete.depth_format);
-  const InputTriangle input = triangle_numbered(scene, number);
+  const InputTriangle input = triangle_numbered(scene, number, complete.front_face);
   TriangleTrace trace = complete.precision == Precision::binary32
                             ? Tracer<float>(scene, camera, complete).run(input, pixel)
                             : Tracer<double>(scene, camera, complete).run(input, pixel);

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "fathom/pipeline/fragments/depth_test.h"
+#include "fathom/pipeline/fragments/shading.h"
 
 /// One triangle followed through the pipeline: what enters each stage and what leaves it.
 namespace fathom::pipeline {
@@ -28,6 +29,11 @@ struct SampleTrace {
   std::array<double, 3> attribute_weights;  ///< (λ/w)/Σ(λ/w), or λ where interpolation is affine
   double window_z = 0, depth = 0;
   StoredDepth stored;
+  /// If it is covered: whether the triangle shows the side away from its normals, the light there,
+  /// and the colour without a texture.
+  bool turned = false;
+  Light light;
+  Colour colour{};
 };
 
 struct TriangleTrace {

@@ -9,6 +9,7 @@
 #include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/foreign_formats.h"
 #include "fathom/mesh_files/named_files.h"
+#include "fathom/mesh_files/odd_attributes.h"
 #include "fathom/mesh_files/read_gltf.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/recognise_format.h"
@@ -134,6 +135,7 @@ class SceneReader {
     } else {
       if (input.bytes().empty()) throw InputError(file + ": is empty, expected a mesh");
       Mesh mesh = read_mesh(kind, input, file, options_, warnings_);
+      leave_out_odd_attributes(mesh, file, warnings_);
       if (mesh.is_empty()) warnings_.push_back(file + ": has no faces");
       Object object;
       object.mesh = scene_.meshes.size();

@@ -64,7 +64,7 @@ void Interpolator<Real>::complete(Fragment& fragment, const GridPoint& sample) c
     return static_cast<double>(
         blend(w, c[0].attributes[i], c[1].attributes[i], c[2].attributes[i]));
   };
-  for (std::size_t i = 0; i < attribute::count; ++i) fragment.attributes[i] = at(weights, i);
+  for (std::size_t i = 0; i < attribute::of_fragments; ++i) fragment.attributes[i] = at(weights, i);
   const auto right = attribute_weights({sample.x + grid_one, sample.y});
   const auto below = attribute_weights({sample.x, sample.y + grid_one});
   for (std::size_t k = 0; k < 2; ++k) {

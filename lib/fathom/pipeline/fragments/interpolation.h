@@ -9,7 +9,7 @@ namespace fathom::pipeline {
 struct Fragment {
   double window_z = 0;  ///< in [0, 1]
   double depth = 0;     ///< along the view, scene units
-  Attributes<double> attributes{};
+  std::array<double, attribute::of_fragments> attributes{};
   /// Texture coordinates one pixel to the right, and one pixel down, minus those here.
   std::array<double, 2> duv_dx{}, duv_dy{};
 };

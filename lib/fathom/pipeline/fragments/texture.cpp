@@ -34,6 +34,9 @@ const Colour& Texture::Level::at(std::int64_t x, std::int64_t y) const {
 }
 
 Texture::Texture(const RgbImage& image) {
+  if (image.width == 0 || image.height == 0 ||
+      image.pixels.size() != std::size_t{image.width} * image.height)
+    throw InputError("a texture needs a texel at least, and a colour for each");
   levels_.push_back({image.width, image.height, {}});
   levels_[0].texels.reserve(image.pixels.size());
   for (const Rgb& c : image.pixels)
@@ -145,6 +148,8 @@ RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& nam
     fail("broken PNG file: too short for " + std::to_string(png.width) + "x" +
          std::to_string(png.height) + " texels");
   png.format = PNG_FORMAT_RGB;
+  // Without a gamma in the file, 16 bits mean what 8 bits do; libpng would take them as linear.
+  png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   RgbImage image(png.width, png.height);
   const png_color black{0, 0, 0};
   if (png_image_finish_read(&png, &black, image.pixels.data(), 0, nullptr) == 0)

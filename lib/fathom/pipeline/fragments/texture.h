@@ -20,6 +20,7 @@ struct TextureFootprint {
 
 /// A picture with its mip maps: each level halves the one before by the mean of 2 × 2 texels (odd
 /// sizes drop the last row or column), down to one texel.
+/// Fails    InputError if there is no texel, or not a colour for each.
 class Texture {
  public:
   explicit Texture(const RgbImage& image);
@@ -48,8 +49,11 @@ class Texture {
   std::vector<Level> levels_;
 };
 
-/// Reads an 8 or 16 bit PNG as 8-bit colours.
-/// Fails    InputError: missing, not a PNG, or larger than 8192 × 8192.
+/// Reads a PNG of any kind as 8-bit colours: 1 to 16 bits, grey, palette or RGB; what is
+/// transparent lies over black, mixed in linear light (gamma 2.2).
+///
+/// Rounded  16 bits to the nearest of 8.
+/// Fails    InputError: missing, not a PNG, without texels, or larger than 8192 × 8192.
 RgbImage read_rgb_png(const std::filesystem::path& path);
 /// The same of the bytes of a file; `name` is for messages.
 RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& name);

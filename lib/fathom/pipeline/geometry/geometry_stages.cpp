@@ -26,9 +26,7 @@ class GeometryStages {
       : options_(options),
         rules_(rules),
         viewport_(viewport_of(camera, options)),
-        eye_(lighting_of(camera)),
-        mirrored_(((camera.fx < 0) != (camera.fy < 0)) !=
-                  (determinant_of_rotation(camera).sign() == Sign::negative)),
+        lighting_(lighting_of(camera, options)),
         out_(out),
         count_(statistics) {}
 
@@ -40,6 +38,7 @@ class GeometryStages {
       ++count_.not_finite;
       return;
     }
+    if (options_.shading == Shading::gouraud) light_corners(corners, lighting_);
     const auto polygon = clip_triangle(corners, viewport_.volume);
     if (polygon.empty()) {
       ++count_.clipped_away;
@@ -52,11 +51,12 @@ class GeometryStages {
     for (const ClipVertex<Real>& corner : polygon) window.push_back(viewport_(divide(corner)));
     if (whole) compare_facings(corners, window);
     bool culled = false, degenerate = true;
-    for (std::size_t i = 2; i < window.size(); ++i)
-      emit({.number = input.number,
-            .corners = {window[0], window[i - 1], window[i]},
-            .object = input.object},
-           culled, degenerate);
+    WindowTriangle<Real> part{
+        .number = input.number, .corners = {}, .face = face_of(corners), .object = input.object};
+    for (std::size_t i = 2; i < window.size(); ++i) {
+      part.corners = {window[0], window[i - 1], window[i]};
+      emit(part, culled, degenerate);
+    }
     count_.culled += culled;
     count_.degenerate += degenerate && !culled;
     if (!degenerate) emit_outline(input, corners);
@@ -83,6 +83,13 @@ class GeometryStages {
     });
   }
 
+  static std::array<std::array<Real, 3>, 3> face_of(const std::vector<ClipVertex<Real>>& corners) {
+    std::array<std::array<Real, 3>, 3> face{};
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < 3; ++i) face[k][i] = corners[k].attributes[attribute::world + i];
+    return face;
+  }
+
   void compare_facings(const std::vector<ClipVertex<Real>>& corners,
                        const std::vector<WindowVertex<Real>>& window) {
     std::array<WorldVertex<Real>, 3> world;
@@ -91,8 +98,8 @@ class GeometryStages {
       world[k] = {p[0], p[1], p[2]};
     }
     const FrontFace rule = options_.front_face;
-    const bool in_world =
-        facing_in_world(world, eye_.eye, !eye_.orthographic, mirrored_, rule) == Facing::front;
+    const bool in_world = facing_in_world(world, lighting_.eye, !lighting_.orthographic,
+                                          lighting_.mirrored, rule) == Facing::front;
     const bool in_ndc =
         facing_in_ndc<Real>({divide(corners[0]), divide(corners[1]), divide(corners[2])}, rule) ==
         Facing::front;
@@ -153,8 +160,7 @@ class GeometryStages {
   const PipelineOptions& options_;
   const std::vector<DrawRules>& rules_;
   Viewport viewport_;
-  Lighting eye_;
-  bool mirrored_;
+  Lighting lighting_;
   WindowPrimitives<Real>& out_;
   PipelineStatistics& count_;
 };
@@ -172,7 +178,8 @@ WindowPrimitives<Real> to_window(const Scene& scene, const Camera& camera,
   for (const Object& object : scene.objects) transforms.emplace_back(camera, object, options);
   std::uint32_t number = 0;
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
-    for (const InputTriangle& triangle : assemble_triangles(scene, object, number))
+    for (const InputTriangle& triangle :
+         assemble_triangles(scene, object, number, options.front_face))
       stages.run(triangle, transforms[object]);
     number += static_cast<std::uint32_t>(scene.meshes[scene.objects[object].mesh].triangles.size());
   }

@@ -14,7 +14,8 @@ Vector area_vector(const MeshPoint& a, const MeshPoint& b, const MeshPoint& c) {
   return {s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]};
 }
 
-std::vector<Vector> smooth_normals(const Mesh& mesh) {
+std::vector<Vector> smooth_normals(const Mesh& mesh, FrontFace front_face) {
+  const double side = front_face == FrontFace::counter_clockwise ? 1 : -1;
   std::vector<Vector> normals(mesh.vertices.size(), Vector{0, 0, 0});
   for (const CornerIndices& t : mesh.triangles) {
     const Vector n = area_vector(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
@@ -24,7 +25,7 @@ std::vector<Vector> smooth_normals(const Mesh& mesh) {
   for (Vector& n : normals) {
     const double length = std::hypot(n[0], n[1], n[2]);
     if (length > 0 && std::isfinite(length)) {
-      for (double& component : n) component /= length;
+      for (double& component : n) component *= side / length;
     } else {
       n = {0, 0, 0};
     }
@@ -84,10 +85,10 @@ bool has_lines_or_points(const Scene& scene) {
 }
 
 std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
-                                              std::uint32_t first_number) {
+                                              std::uint32_t first_number, FrontFace front_face) {
   const Mesh& mesh = scene.meshes[scene.objects[object].mesh];
   const std::vector<Vector> smooth =
-      lacks_normals(mesh) ? smooth_normals(mesh) : std::vector<Vector>();
+      lacks_normals(mesh) ? smooth_normals(mesh, front_face) : std::vector<Vector>();
   std::vector<InputTriangle> triangles(mesh.triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     triangles[t].number = first_number + static_cast<std::uint32_t>(t);

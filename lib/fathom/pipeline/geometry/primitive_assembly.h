@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fathom/pipeline/options.h"
 #include "fathom/scene/scene.h"
 
 /// First stage: vertices as they come from the mesh, joined to primitives.
@@ -42,9 +43,9 @@ std::vector<std::array<std::uint32_t, corners>> assemble(
 }
 
 /// The triangles of an object. Normals are those of the mesh, or else at each vertex the sum of the
-/// area vectors of its triangles, scaled to unit length.
+/// area vectors of its triangles, scaled to unit length: on the side of the front.
 std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
-                                              std::uint32_t first_number);
+                                              std::uint32_t first_number, FrontFace front_face);
 
 /// The lines of an object, and its points, numbered in this order. They have no normals and no
 /// texture coordinates.

@@ -81,20 +81,38 @@ Real row_times(const std::array<Real, 4>& row, Real x, Real y, Real z) {
   return row[0] * x + row[1] * y + row[2] * z + row[3];
 }
 
-/// Takes a direction through the inverse transpose of the model matrix, up to a positive factor:
-/// the cofactors, with the sign of the determinant.
-std::array<double, 3> to_world_normal(const Rows& m, const std::array<double, 3>& n) {
+using Vector = std::array<double, 3>;
+
+/// Scaled to unit length, without overflow; zero stays zero.
+Vector unit(const Vector& n) {
+  const double greatest = std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])});
+  if (!(greatest > 0)) return n;
+  const Vector scaled{n[0] / greatest, n[1] / greatest, n[2] / greatest};
+  const double length = std::hypot(scaled[0], scaled[1], scaled[2]);
+  return {scaled[0] / length, scaled[1] / length, scaled[2] / length};
+}
+
+/// Takes a normal of the mesh to the world: by the cofactors of the model matrix, which are its
+/// inverse transpose times its determinant. They do to a normal what the matrix does to the cross
+/// product of two edges, so that it stays on its side of the triangle, the side from which the
+/// corners run as before, also where the matrix mirrors.
+Vector to_world_normal(const Rows& rows, const Vector& normal) {
+  double greatest = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) greatest = std::max(greatest, std::abs(rows[i][j]));
+  if (!(greatest > 0)) return {};
+  Rows m{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) m[i][j] = rows[i][j] / greatest;
   const auto cofactor = [&](std::size_t i, std::size_t j) {
     const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
     return m[i1][j1] * m[i2][j2] - m[i1][j2] * m[i2][j1];
   };
-  double determinant = 0;
-  for (std::size_t j = 0; j < 3; ++j) determinant += m[0][j] * cofactor(0, j);
-  std::array<double, 3> result{};
+  const Vector n = unit(normal);
+  Vector result{};
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      result[i] += (determinant < 0 ? -1 : 1) * cofactor(i, j) * n[j];
-  return result;
+    for (std::size_t j = 0; j < 3; ++j) result[i] += cofactor(i, j) * n[j];
+  return unit(result);
 }
 
 }  // namespace

@@ -14,9 +14,11 @@ template <class Real>
 struct WindowTriangle {
   std::uint32_t number = 0;  ///< of the triangle of the scene that it is, or of which it is a part
   std::array<WindowVertex<Real>, 3> corners;
-  bool front = true;
-  std::uint32_t object = 0;
+  bool front = true;  ///< as displayed, by the options' front face
+  /// The corners in the world of the triangle of the scene, whole: a part is as flat as the rest.
+  std::array<std::array<Real, 3>, 3> face{};
   Real depth_offset = 0;  ///< polygon offset, added to the window depth of its fragments
+  std::uint32_t object = 0;
 };
 
 /// An edge of a triangle, or a part of one.

@@ -140,7 +140,7 @@ class Rasterizer {
                               static_cast<Real>(corners[k].y) / one,
                               {c.z, c.inverse_w}};
       corner.attributes.push_back(c.attributes[attribute::depth] * c.inverse_w);
-      for (std::size_t i = 0; i < attribute::count; ++i)
+      for (std::size_t i = 0; i < attribute::of_fragments; ++i)
         corner.attributes.push_back(perspective ? c.attributes[i] * c.inverse_w : c.attributes[i]);
       polygon[0].push_back(std::move(corner));
     }
@@ -167,7 +167,7 @@ class Rasterizer {
     if (shader_) {
       ++count_.shaded;
       t.complete(fragment, sample_of(p));  // changes of texture coordinates
-      for (std::size_t i = 0; i < attribute::count; ++i)
+      for (std::size_t i = 0; i < attribute::of_fragments; ++i)
         fragment.attributes[i] = static_cast<double>(perspective ? v[3 + i] / v[1] : v[3 + i]);
       colour = shader_->shade(fragment, t.attribute_weights(sample_of(p)));
     }

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "fathom/mesh/mesh.h"
+#include "fathom/text/warnings.h"
+
+namespace fathom::mesh_files {
+
+/// Leaves out normals and texture coordinates that are not finite, as programs write them for
+/// triangles without area: the corners that name them have none. Colours that are not finite are
+/// white, as where there is none. With a warning that says how many.
+void leave_out_odd_attributes(Mesh& mesh, const std::string& file, Warnings& warnings);
+
+}  // namespace fathom::mesh_files

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+
+#include "validation/colour/lit_triangles.h"
+#include "validation/colour/ranges.h"
+
+/// Which 8-bit colours a renderer may draw, by the formulas of the textbooks in interval arithmetic.
+/// Nothing here is taken from a renderer but how exact its steps are.
+///
+/// A renderer moves every corner in the window a little: to its subpixel grid, and by rounding the
+/// transform. The weights λ of a pixel's centre p in the moved triangle are those of a point p' in the
+/// true one with |p' − p| at most the greatest move in either axis, as p' − p is their mean with the
+/// weights λ. Attributes over w are affine in the window, so they differ from those at p by at most
+/// that distance times the sum of their slopes; if the renderer interpolates before it snaps, p' = p.
+/// To this come the roundings of the interpolation; see `rounding`.
+namespace fathom::validation {
+
+/// What is lit how.
+enum class LightModel {
+  /// Each fragment, with the interpolated normal: our `phong`, VTK's Gouraud and Phong.
+  interpolated_normal,
+  /// Each fragment, with the normal that the derivatives of its position give: VTK's flat.
+  derived_normal,
+  /// The centre of the triangle, with the normal of its plane: our `flat`.
+  face,
+  /// The corners; fragments get the mean: our `gouraud`.
+  corners,
+};
+
+/// How exactly a renderer computes.
+struct Precision {
+  /// Unit roundoff of every operation.
+  double rounding = 0x1p-24;
+  /// Powers and roots as exact as the shading language demands ([GLSL46] 4.7.1), else within 1 ulp.
+  bool shader = true;
+  /// The bits of the subpixel grid.
+  int subpixel_bits = 8;
+};
+
+/// The pipeline in binary64 with its usual grid; OpenGL's shaders in binary32, and VTK's lines.
+inline constexpr Precision binary64_pipeline{.rounding = 0x1p-53, .shader = false};
+inline constexpr Precision vtk_on_llvmpipe{};
+
+/// A triangle in the window, with everything that its fragments get.
+class ExpectedTriangle {
+ public:
+  ExpectedTriangle(const LitTriangle& triangle, const LitScene& scene, const Precision& precision);
+
+  /// Pixels that it may touch: columns and rows from the first to before the second.
+  [[nodiscard]] std::array<std::array<int, 2>, 2> box() const;
+
+  enum class Coverage { none, possible, certain };
+  [[nodiscard]] Coverage coverage(int x, int y) const;
+  /// 1/depth, enlarged so far that depths whose intervals do not overlap are told apart by the
+  /// renderer's depth buffer, of 24 bits or more.
+  [[nodiscard]] Interval inverse_depth(int x, int y) const;
+  /// The light on the fragment, from 0 to 1.
+  [[nodiscard]] Interval light(int x, int y, LightModel model) const;
+
+ private:
+  /// An attribute over w: affine in the window.
+  struct Affine {
+    double value = 0, dx = 0, dy = 0;  ///< at the first corner; per pixel
+    /// Of the renderer: of a value anywhere in the triangle; of what a pixel's step adds, of all
+    /// values alike, of each value by itself (in roundings of its own).
+    double error = 0, step_error = 0, offset_error = 0, own_error = 0;
+    [[nodiscard]] double at(double x, double y) const { return value + dx * x + dy * y; }
+  };
+  [[nodiscard]] Affine affine(const std::array<double, 3>& at_corners,
+                              const std::array<double, 3>& errors) const;
+  [[nodiscard]] Interval range(const Affine& f, int x, int y) const;
+  [[nodiscard]] double derived_error(int x, int y) const;
+  [[nodiscard]] Interval lit(const Range3& normal, const Range3& to_point) const;
+
+  const LitScene* scene_;
+  Precision precision_;
+  std::array<std::array<double, 3>, 3> eye_{};      ///< corners in the camera's frame
+  std::array<std::array<double, 3>, 3> normals_{};  ///< there, of the side that is seen
+  std::array<double, 3> plane_{};                   ///< unit normal of the plane, towards the eye
+  std::array<double, 3> light_{};                   ///< towards it, there
+  std::array<std::array<double, 2>, 3> window_{};
+  double moved_ = 0;        ///< the greatest move of a corner, pixels
+  double plane_error_ = 0;  ///< of the plane's unit normal, by the corners' errors
+  std::array<Affine, 3> weights_{}, normal_{}, position_{};
+  Affine inverse_depth_{}, window_z_{};
+  bool seen_edge_on_ = false;
+};
+
+/// The codes to which a renderer may round a light: to nearest, after a product in binary32.
+struct Codes {
+  int least = 0, greatest = 255;
+};
+Codes codes_of(const Interval& light);
+
+}  // namespace fathom::validation
