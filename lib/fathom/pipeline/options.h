@@ -30,12 +30,21 @@ enum class HiddenSurface { z_buffer, painter };
 enum class WireLine { explicit_equation, dda, bresenham, midpoint, diamond_exit };
 
 enum class AntialiasMethod { none, ssaa, msaa, jitter, area, fxaa, taa };
+/// What FXAA takes for an edge, and how much of it is smoothed; the defaults are the published ones.
+struct FxaaSettings {
+  /// The least range of luma around a pixel that is an edge: of the greatest luma there, and at all.
+  double threshold = 0.166, least_threshold = 0.0833;
+  /// How much of details below a pixel is removed, from 0 to 1.
+  double subpixel = 0.75;
+};
+
 struct Antialias {
   AntialiasMethod method = AntialiasMethod::none;
   /// ssaa: n of n × n; msaa: 1, 2, 4, 8 or 16; jitter: 1, 4, 16, 64 or 256; taa: frames.
   int count = 1;
   /// msaa: not the standard positions but the 2 × 2 grid turned by arctan ½ and enlarged by √5/2.
   bool rotated_grid = false;
+  FxaaSettings fxaa;
 };
 
 /// A rectangle of the window in whole pixels, its origin the lower left corner of the window as in
