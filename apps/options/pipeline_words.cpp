@@ -60,6 +60,23 @@ FrontFace parse_front_face(const std::string& text) {
       text, {{"ccw", FrontFace::counter_clockwise}, {"cw", FrontFace::clockwise}});
 }
 
+namespace {
+
+/// "THRESHOLD", "THRESHOLD,LEAST" or "THRESHOLD,LEAST,SUBPIXEL"; the pipeline knows their range.
+FxaaSettings parse_fxaa(const std::string& text) {
+  const std::vector<std::string> parts = parse_list(text);
+  if (parts.empty() || parts.size() > 3) {
+    throw UsageError(fmt::format(
+        "'fxaa:{}' is not fxaa:THRESHOLD,LEAST,SUBPIXEL, as in fxaa:0.125,0.0625,0.75", text));
+  }
+  FxaaSettings settings;
+  double* const values[] = {&settings.threshold, &settings.least_threshold, &settings.subpixel};
+  for (std::size_t i = 0; i < parts.size(); ++i) *values[i] = parse_number(parts[i]);
+  return settings;
+}
+
+}  // namespace
+
 Antialias parse_antialias(const std::string& text) {
   const auto colon = text.find(':');
   Antialias antialias;
@@ -71,6 +88,10 @@ Antialias parse_antialias(const std::string& text) {
                                                           {"area", AntialiasMethod::area},
                                                           {"fxaa", AntialiasMethod::fxaa},
                                                           {"taa", AntialiasMethod::taa}});
+  if (antialias.method == AntialiasMethod::fxaa && colon != std::string::npos) {
+    antialias.fxaa = parse_fxaa(text.substr(colon + 1));
+    return antialias;
+  }
   const bool counts =
       antialias.method == AntialiasMethod::ssaa || antialias.method == AntialiasMethod::msaa ||
       antialias.method == AntialiasMethod::jitter || antialias.method == AntialiasMethod::taa;

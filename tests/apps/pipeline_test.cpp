@@ -61,6 +61,7 @@ TEST(PipelineCommand, EveryChoiceDraws) {
       {"--antialias", "jitter:4"},
       {"--antialias", "area"},
       {"--antialias", "fxaa"},
+      {"--antialias", "fxaa:0.125,0.0625"},
       {"--antialias", "taa:4"},
       {"--precision", "binary64"},
       {"--subpixel-bits", "0"},
