@@ -80,21 +80,25 @@ FxaaSettings parse_fxaa(const std::string& text) {
 Antialias parse_antialias(const std::string& text) {
   const auto colon = text.find(':');
   Antialias antialias;
-  antialias.method =
-      parse_word<AntialiasMethod>(text.substr(0, colon), {{"none", AntialiasMethod::none},
-                                                          {"ssaa", AntialiasMethod::ssaa},
-                                                          {"msaa", AntialiasMethod::msaa},
-                                                          {"jitter", AntialiasMethod::jitter},
-                                                          {"area", AntialiasMethod::area},
-                                                          {"fxaa", AntialiasMethod::fxaa},
-                                                          {"taa", AntialiasMethod::taa}});
+  antialias.method = parse_word<AntialiasMethod>(
+      text.substr(0, colon), {{"none", AntialiasMethod::none},
+                              {"ssaa", AntialiasMethod::ssaa},
+                              {"msaa", AntialiasMethod::msaa},
+                              {"jitter", AntialiasMethod::jitter},
+                              {"area", AntialiasMethod::area},
+                              {"fxaa", AntialiasMethod::fxaa},
+                              {"taa", AntialiasMethod::taa},
+                              {"temporal", AntialiasMethod::temporal},
+                              {"temporal-area", AntialiasMethod::temporal_area}});
   if (antialias.method == AntialiasMethod::fxaa && colon != std::string::npos) {
     antialias.fxaa = parse_fxaa(text.substr(colon + 1));
     return antialias;
   }
   const bool counts =
       antialias.method == AntialiasMethod::ssaa || antialias.method == AntialiasMethod::msaa ||
-      antialias.method == AntialiasMethod::jitter || antialias.method == AntialiasMethod::taa;
+      antialias.method == AntialiasMethod::jitter || antialias.method == AntialiasMethod::taa ||
+      antialias.method == AntialiasMethod::temporal ||
+      antialias.method == AntialiasMethod::temporal_area;
   if (counts != (colon != std::string::npos)) {
     throw UsageError(
         fmt::format("'{}' {}", text, counts ? "needs a number, as in msaa:4" : "takes no number"));

@@ -23,6 +23,22 @@ ImageChannel channel_of(const Scene& scene, const pipeline::PipelineFrame& frame
   return {channel == Channel::face ? "face" : "object", values};
 }
 
+PipelineRendering rendering_of(const Scene& scene, const Camera& camera,
+                               const pipeline::PipelineFrame& frame,
+                               const std::vector<Channel>& channels, bool with_picture) {
+  PipelineRendering result{{}, {}, frame.statistics, frame.painter, camera};
+  result.camera.near = frame.statistics.near;
+  result.camera.far = frame.statistics.far;
+  result.map.width = camera.width;
+  result.map.height = camera.height;
+  for (const Channel channel : channels) {
+    result.map.channels.push_back(channel_of(scene, frame, channel));
+  }
+  describe_map(scene, result.camera, "pipeline", result.map);
+  if (with_picture) result.picture = pipeline::to_rgb(frame.picture);
+  return result;
+}
+
 }  // namespace
 
 void require_pipeline_channels(const std::vector<Channel>& channels) {
@@ -39,19 +55,19 @@ PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
                                      const std::vector<Channel>& channels, bool with_picture) {
   const StandardArithmetic standard;
   require_pipeline_channels(channels);
+  return rendering_of(scene, camera, pipeline::render_frame(scene, camera, options, with_picture),
+                      channels, with_picture);
+}
+
+PipelineRendering render_by_pipeline(MovingScene& scene, const Camera& camera,
+                                     const pipeline::PipelineOptions& options,
+                                     const pipeline::Shutter& shutter,
+                                     const std::vector<Channel>& channels, bool with_picture) {
+  const StandardArithmetic standard;
+  require_pipeline_channels(channels);
   const pipeline::PipelineFrame frame =
-      pipeline::render_frame(scene, camera, options, with_picture);
-  PipelineRendering result{{}, {}, frame.statistics, frame.painter, camera};
-  result.camera.near = frame.statistics.near;
-  result.camera.far = frame.statistics.far;
-  result.map.width = camera.width;
-  result.map.height = camera.height;
-  for (const Channel channel : channels) {
-    result.map.channels.push_back(channel_of(scene, frame, channel));
-  }
-  describe_map(scene, result.camera, "pipeline", result.map);
-  if (with_picture) result.picture = pipeline::to_rgb(frame.picture);
-  return result;
+      pipeline::render_moving(scene, camera, options, shutter, with_picture);
+  return rendering_of(scene.at(shutter.close), camera, frame, channels, with_picture);
 }
 
 }  // namespace fathom

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "apps/render/render_arguments.h"
+#include "fathom/pipeline/render_moving.h"
 
 namespace fathom::app {
 
@@ -13,6 +15,8 @@ struct PipelinePlan {
   std::vector<Channel> channels;
   pipeline::PipelineOptions stages;
   bool with_picture = false;
+  /// Of a scene that moves meanwhile.
+  std::optional<pipeline::Shutter> shutter;
 };
 
 /// Fails    UsageError where the arguments contradict each other, before any work.

@@ -66,7 +66,8 @@ void require_meaningful(const PipelineOptions& o) {
   if (!std::isfinite(o.polygon_offset.slope_factor) ||
       !std::isfinite(o.polygon_offset.constant_factor))
     throw UsageError(Setting{"polygon_offset"}, "expected finite numbers");
-  if (o.blend_alpha && o.antialias.method == AntialiasMethod::area)
+  if (o.blend_alpha && (o.antialias.method == AntialiasMethod::area ||
+                        o.antialias.method == AntialiasMethod::temporal_area))
     throw UsageError(Setting{"antialias"}, "area sees the nearest surface; it does not blend");
   if (o.blend_alpha && !(*o.blend_alpha >= 0 && *o.blend_alpha <= 1))
     throw UsageError(Setting{"blend_alpha"}, "expected 0 to 1");

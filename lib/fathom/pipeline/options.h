@@ -29,7 +29,8 @@ enum class TextureFilter { nearest, bilinear, trilinear, anisotropic };
 enum class HiddenSurface { z_buffer, painter };
 enum class WireLine { explicit_equation, dda, bresenham, midpoint, diamond_exit };
 
-enum class AntialiasMethod { none, ssaa, msaa, jitter, area, fxaa, taa };
+/// `temporal` and `temporal_area` are for scenes that move (render_moving.h).
+enum class AntialiasMethod { none, ssaa, msaa, jitter, area, fxaa, taa, temporal, temporal_area };
 /// What FXAA takes for an edge, and how much of it is smoothed; the defaults are the published ones.
 struct FxaaSettings {
   /// The least range of luma around a pixel that is an edge: of the greatest luma there, and at all.
@@ -40,7 +41,7 @@ struct FxaaSettings {
 
 struct Antialias {
   AntialiasMethod method = AntialiasMethod::none;
-  /// ssaa: n of n × n; msaa: 1, 2, 4, 8 or 16; jitter: 1, 4, 16, 64 or 256; taa: frames.
+  /// ssaa: n of n × n; msaa: 1, 2, 4, 8 or 16; jitter: 1, 4, 16, 64 or 256; taa, temporal: frames.
   int count = 1;
   /// msaa: not the standard positions but the 2 × 2 grid turned by arctan ½ and enlarged by √5/2.
   bool rotated_grid = false;

@@ -185,6 +185,9 @@ PipelineFrame render_frame(const Scene& scene, const Camera& camera, const Pipel
                            bool with_picture) {
   const StandardArithmetic standard;
   require_meaningful(options);
+  if (options.antialias.method == AntialiasMethod::temporal ||
+      options.antialias.method == AntialiasMethod::temporal_area)
+    throw UsageError(Setting{"antialias"}, "temporal and temporal-area are for scenes that move");
   require_renderable(scene, camera);
   PipelineOptions complete = options;
   fill_in_range(scene, camera, complete.depth_format);

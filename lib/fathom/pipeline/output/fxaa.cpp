@@ -14,28 +14,12 @@ double luma(const Colour& c) {
   return 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2];
 }
 
-/// The picture between pixels, with its border repeated; (0, 0) is the centre of the first pixel.
-Colour at(const ColourImage& image, double x, double y) {
-  const auto clamp = [](double v, std::uint32_t size) {
-    return std::clamp(v, 0.0, static_cast<double>(size - 1));
-  };
-  x = clamp(x, image.width), y = clamp(y, image.height);
-  const auto i = static_cast<std::uint32_t>(x), j = static_cast<std::uint32_t>(y);
-  const std::uint32_t i1 = std::min(i + 1, image.width - 1), j1 = std::min(j + 1, image.height - 1);
-  const double s = x - i, t = y - j;
-  Colour colour;
-  for (std::size_t k = 0; k < 3; ++k)
-    colour[k] = (1 - t) * ((1 - s) * image.at(i, j)[k] + s * image.at(i1, j)[k]) +
-                t * ((1 - s) * image.at(i, j1)[k] + s * image.at(i1, j1)[k]);
-  return colour;
-}
-
 /// Luma of a pixel and its neighbours.
 struct Lumas {
   double nw, n, ne, w, m, e, sw, s, se;
 
   Lumas(const ColourImage& image, double x, double y) {
-    const auto look = [&](int dx, int dy) { return luma(at(image, x + dx, y + dy)); };
+    const auto look = [&](int dx, int dy) { return luma(between(image, x + dx, y + dy)); };
     nw = look(-1, -1), n = look(0, -1), ne = look(1, -1);
     w = look(-1, 0), m = look(0, 0), e = look(1, 0);
     sw = look(-1, 1), s = look(0, 1), se = look(1, 1);
@@ -93,7 +77,8 @@ End find_end(const ColourImage& image, double x, double y, const Side& side, int
     end.distance += steps[k];
     if (k + 1 == steps.size()) break;
     const double d = direction * end.distance;
-    end.change = luma(side.horizontal ? at(image, a + d, b) : at(image, a, b + d)) - side.middle;
+    end.change =
+        luma(side.horizontal ? between(image, a + d, b) : between(image, a, b + d)) - side.middle;
     if (std::abs(end.change) >= side.step / 4) break;
   }
   return end;
@@ -114,12 +99,12 @@ Colour filtered(const ColourImage& image, double x, double y, const FxaaSettings
   const double range = lumas.range();
   if (range == 0 ||
       range < std::max(settings.least_threshold, lumas.greatest() * settings.threshold))
-    return at(image, x, y);
+    return between(image, x, y);
   const Side side(lumas);
   const double share = std::max(share_of_neighbour(image, x, y, side, lumas.m),
                                 lumas.sticking_out() * settings.subpixel);
   const double moved = side.across * share;
-  return side.horizontal ? at(image, x, y + moved) : at(image, x + moved, y);
+  return side.horizontal ? between(image, x, y + moved) : between(image, x + moved, y);
 }
 
 }  // namespace
