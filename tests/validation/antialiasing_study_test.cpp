@@ -11,6 +11,7 @@
 #include "validation/studies/antialiasing/judged_scenes.h"
 #include "validation/studies/antialiasing/methods.h"
 #include "validation/studies/antialiasing/nyquist.h"
+#include "validation/studies/antialiasing/temporal.h"
 #include "validation/studies/exact_picture.h"
 #include "validation/studies/pipeline_scenes.h"
 
@@ -166,6 +167,37 @@ TEST(Gratings, SeemToHaveTheFrequencyOfTheirAlias) {
   const double f = gratings[35].frequency;
   EXPECT_NEAR(gratings[35].contrast_by_area,
               std::sin(std::numbers::pi * f) / (std::numbers::pi * f), 0.01);
+}
+
+/// The rates are chosen so that no alias is at the limit, where both directions look alike.
+TEST(Temporal, AWheelSeemsToTurnByItsAlias) {
+  for (const double rate : {3.0, 9.0, 21.0, 27.0, 30.0, 33.0, 57.0, 63.0}) {
+    const WheelSeen seen = wheel_seen(rate);
+    EXPECT_NEAR(seen.apparent, std::remainder(rate, 30.0), 0.2) << rate;
+    // Pixels of a wheel at one instant are not sharp circles: a few hundredths of the contrast.
+    EXPECT_NEAR(seen.contrast,
+                std::abs(std::sin(std::numbers::pi * rate / 30) / (std::numbers::pi * rate / 30)),
+                0.02)
+        << rate;
+  }
+}
+
+/// The share of N instants is off by less than 1/N at a centre; areas are linear in time but for
+/// their kinks, so their error falls with the square.
+TEST(Temporal, MorePicturesComeNearerToTheIntegralOverTime) {
+  for (const int n : {1, 2, 4, 8, 16, 32, 64}) EXPECT_LE(time_error(n).centres, 1.0 / n) << n;
+  EXPECT_GT(time_error(1).centres, 0.1);
+  EXPECT_LT(time_error(32).areas, time_error(4).areas / 32);
+}
+
+TEST(Temporal, HistoryThatFollowsAndIsLimitedHelps) {
+  const HistoryError still = history_error(0), whole = history_error(1), part = history_error(0.7);
+  EXPECT_LT(still.taa, still.none / 2);
+  EXPECT_LT(whole.taa, whole.none / 2);
+  EXPECT_LT(part.taa, part.none);
+  EXPECT_LT(part.taa, part.unlimited);
+  EXPECT_LT(part.taa, part.unmoved);
+  EXPECT_GT(part.neither, part.none);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "validation/studies/antialiasing/coverage_by_samples.h"
 #include "validation/studies/antialiasing/methods.h"
 #include "validation/studies/antialiasing/nyquist.h"
+#include "validation/studies/antialiasing/temporal.h"
 #include "validation/studies/page_texts.h"
 #include "validation/studies/results.h"
 #include "validation/studies/study_scene.h"
@@ -175,6 +176,44 @@ void add(Results& results, const std::vector<GratingSeen>& gratings) {
   results.plot(nyquist_plot(gratings));
 }
 
+Table wheels_table(const std::vector<WheelSeen>& rows) {
+  using Row = WheelSeen;
+  return {rows,
+          {{Column("rate").page("degrees a picture", "g"), &Row::rate},
+           {Column("apparent").page("seen", "+.2f"), &Row::apparent},
+           {Column("alias").page("known alias", "+g"), &Row::alias},
+           {Column("contrast").page("contrast, shutter open", ".3f"), &Row::contrast},
+           {Column("sinc").page("integral over time", ".3f"), &Row::sinc}}};
+}
+
+Table times_table(const std::vector<TimeError>& rows) {
+  using Row = TimeError;
+  return {rows,
+          {{Column("pictures").page("pictures"), &Row::pictures},
+           {Column("centres").page("temporal", ".2g"), &Row::centres},
+           {Column("areas").page("temporal-area", ".2g"), &Row::areas}}};
+}
+
+Table histories_table(const std::vector<HistoryError>& rows) {
+  using Row = HistoryError;
+  return {rows,
+          {{Column("step").page("pixels a picture", "g"), &Row::step},
+           {Column("none").page("one sample", ".4f"), &Row::none},
+           {Column("taa").page("taa", ".4f"), &Row::taa},
+           {Column("unlimited").page("without clamping", ".4f"), &Row::unlimited},
+           {Column("unmoved").page("without reprojection", ".4f"), &Row::unmoved},
+           {Column("neither").page("neither", ".4f"), &Row::neither}}};
+}
+
+void add(Results& results, const TemporalStudy& measured) {
+  results.table(wheels_table(measured.wheels),
+                {.csv = "wheels", .json = "wheels", .page = "wheels"});
+  results.table(times_table(measured.times), {.csv = "times", .json = "times", .page = "times"});
+  results.table(histories_table(measured.histories),
+                {.csv = "histories", .json = "histories", .page = "histories"});
+  results.pictures(measured.pictures);
+}
+
 }  // namespace
 
 std::vector<StudyFile> study_antialiasing(const StudyOptions& options,
@@ -188,7 +227,8 @@ std::vector<StudyFile> study_antialiasing(const StudyOptions& options,
   const CoverageBySamples coverage =
       measure_coverage_by_samples(view, exact, [&](double share) { tick(share / 2); });
   const AntialiasingMethods methods =
-      measure_antialiasing([&](double share) { tick(0.5 + share / 2); });
+      measure_antialiasing([&](double share) { tick(0.5 + share / 4); });
+  const TemporalStudy temporal = measure_temporal([&](double share) { tick(0.75 + share / 4); });
 
   Results results("antialiasing", page_texts::antialiasing);
   results.figure("scene", view.name);
@@ -196,6 +236,7 @@ std::vector<StudyFile> study_antialiasing(const StudyOptions& options,
   results.picture(picture("coverage", exact, {.channel = "A", .colours = ColourMap::grey}));
   add(results, methods);
   add(results, gratings_seen());
+  add(results, temporal);
   return results.files();
 }
 
