@@ -74,7 +74,8 @@ void PipelineArguments::add_scan_options(Command& command) {
   declared_.push_back(
       command.option("--antialias", "NAME", into(stages_.antialias, parse_antialias),
                      "none (default), ssaa:N (N times N), msaa:N, msaa:rotated-grid, jitter:N, "
-                     "area, fxaa or taa:N"));
+                     "area, fxaa, fxaa:THRESHOLD,LEAST,SUBPIXEL, taa:N, or of a scene that moves "
+                     "temporal:N or temporal-area:N"));
   declared_.push_back(
       command.option("--subpixel-bits", "N", into(stages_.subpixel_bits, parse_bits),
                      "Corners are snapped to 2^N positions a pixel, 0 to 16 (default 8)"));

@@ -98,20 +98,45 @@ Material parse_material(const std::string& text) {
           .shininess = parse_number(parts[3])};
 }
 
+namespace {
+
+/// "THRESHOLD", "THRESHOLD,LEAST" or "THRESHOLD,LEAST,SUBPIXEL"; the pipeline knows their range.
+FxaaSettings parse_fxaa(const std::string& text) {
+  const std::vector<std::string> parts = parse_list(text);
+  if (parts.empty() || parts.size() > 3) {
+    throw UsageError(fmt::format(
+        "'fxaa:{}' is not fxaa:THRESHOLD,LEAST,SUBPIXEL, as in fxaa:0.125,0.0625,0.75", text));
+  }
+  FxaaSettings settings;
+  double* const values[] = {&settings.threshold, &settings.least_threshold, &settings.subpixel};
+  for (std::size_t i = 0; i < parts.size(); ++i) *values[i] = parse_number(parts[i]);
+  return settings;
+}
+
+}  // namespace
+
 Antialias parse_antialias(const std::string& text) {
   const auto colon = text.find(':');
   Antialias antialias;
-  antialias.method =
-      parse_word<AntialiasMethod>(text.substr(0, colon), {{"none", AntialiasMethod::none},
-                                                          {"ssaa", AntialiasMethod::ssaa},
-                                                          {"msaa", AntialiasMethod::msaa},
-                                                          {"jitter", AntialiasMethod::jitter},
-                                                          {"area", AntialiasMethod::area},
-                                                          {"fxaa", AntialiasMethod::fxaa},
-                                                          {"taa", AntialiasMethod::taa}});
+  antialias.method = parse_word<AntialiasMethod>(
+      text.substr(0, colon), {{"none", AntialiasMethod::none},
+                              {"ssaa", AntialiasMethod::ssaa},
+                              {"msaa", AntialiasMethod::msaa},
+                              {"jitter", AntialiasMethod::jitter},
+                              {"area", AntialiasMethod::area},
+                              {"fxaa", AntialiasMethod::fxaa},
+                              {"taa", AntialiasMethod::taa},
+                              {"temporal", AntialiasMethod::temporal},
+                              {"temporal-area", AntialiasMethod::temporal_area}});
+  if (antialias.method == AntialiasMethod::fxaa && colon != std::string::npos) {
+    antialias.fxaa = parse_fxaa(text.substr(colon + 1));
+    return antialias;
+  }
   const bool counts =
       antialias.method == AntialiasMethod::ssaa || antialias.method == AntialiasMethod::msaa ||
-      antialias.method == AntialiasMethod::jitter || antialias.method == AntialiasMethod::taa;
+      antialias.method == AntialiasMethod::jitter || antialias.method == AntialiasMethod::taa ||
+      antialias.method == AntialiasMethod::temporal ||
+      antialias.method == AntialiasMethod::temporal_area;
   if (counts != (colon != std::string::npos)) {
     throw UsageError(
         fmt::format("'{}' {}", text, counts ? "needs a number, as in msaa:4" : "takes no number"));

@@ -70,6 +70,7 @@ void add_checks(Command& command, RenderArguments& arguments) {
 
 void RenderArguments::add_to(Command& command) {
   scene.add_to(command);
+  motion.add_to(command);
   add_outputs(command, *this);
   add_contents(command, *this);
   storage.add_to(command);
@@ -80,6 +81,12 @@ void RenderArguments::add_to(Command& command) {
                              .option("--image", "FILE", into(image, parse_png_name),
                                      "Write the colour picture to this PNG")
                              .below(heading));
+  of_pipeline_.push_back(
+      command
+          .option("--shutter", "OPEN,CLOSE", into(shutter, parse_pair),
+                  "Times of --motion over which --antialias temporal:N, temporal-area:N or taa:N "
+                  "takes its pictures; the map is that of CLOSE")
+          .below(heading));
   pipeline.add_to(command, heading);
   of_pipeline_.insert(of_pipeline_.end(), pipeline.declared().begin(), pipeline.declared().end());
 }

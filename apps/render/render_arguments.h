@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/options/camera_options.h"
+#include "apps/options/motion_options.h"
 #include "apps/options/pipeline_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/options/storage_options.h"
@@ -20,10 +22,13 @@ enum class EngineName { fast, reference, pipeline };
 /// decided where a plan is made of them.
 struct RenderArguments {
   SceneOptions scene;
+  MotionOptions motion;
   CameraOptions camera;
   StorageOptions storage;
   DepthBufferArguments depth_buffer;
   PipelineArguments pipeline;
+  /// Times at which the shutter opens and closes.
+  std::optional<std::array<double, 2>> shutter;
   EngineName engine = EngineName::fast;
   Cull cull = Cull::none;
   std::optional<std::vector<Channel>> channels;

@@ -34,6 +34,13 @@ RenderInput::RenderInput(const SceneOptions& options, Place place, const Console
   }
 }
 
+void RenderInput::place(const MotionOptions& motion) {
+  if (streamed_ && motion.is_given()) {
+    throw UsageError("--motion needs the scene in memory, without --stream");
+  }
+  scene_ = motion.placed(std::move(scene_));
+}
+
 TriangleSource RenderInput::triangles() const {
   return streamed_ ? TriangleSource(*streamed_) : TriangleSource(scene_);
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "apps/options/motion_options.h"
 #include "apps/options/scene_options.h"
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
@@ -20,6 +21,9 @@ class RenderInput {
   /// The scene; of one that stays in its files its bounds, objects and sources: what cameras are
   /// made from.
   [[nodiscard]] const Scene& outline() const { return scene_; }
+  /// Places the objects that move.
+  /// Fails    UsageError where the scene stays in its files; as MotionOptions::placed.
+  void place(const MotionOptions& motion);
   [[nodiscard]] TriangleSource triangles() const;
   [[nodiscard]] DepthMap render(const Camera& camera, const RenderOptions& options) const;
 

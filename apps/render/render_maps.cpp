@@ -66,8 +66,8 @@ DepthMap render_map(const std::string& name, const MapPlan& plan, const RenderIn
 }
 
 /// Makes the map of a camera, checks it where that is asked for, and writes it.
-MapReport make_map(const MapPlan& plan, const RenderInput& scene, const Camera& camera,
-                   const std::string& name, const OutputFile& output,
+MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOptions& motion,
+                   const Camera& camera, const std::string& name, const OutputFile& output,
                    const std::function<void(double)>& progress, const Console& console) {
   MapReport report{.map = name, .engine = plan.rendering.engine};
   RenderOptions options = plan.rendering;
@@ -76,6 +76,7 @@ MapReport make_map(const MapPlan& plan, const RenderInput& scene, const Camera& 
 
   Stopwatch stopwatch;
   DepthMap map = render_map(name, plan, scene, camera, options);
+  motion.describe(map, motion.time_or_start());
   report.width = map.width;
   report.height = map.height;
   report.seconds.render = stopwatch.lap();
@@ -101,9 +102,10 @@ int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Con
   const ThreadLimit limit(plan.rendering.threads);
   Stopwatch stopwatch;
   const auto place = arguments.stream ? RenderInput::Place::files : RenderInput::Place::memory;
-  const RenderInput scene(arguments.scene, place, console);
+  RenderInput scene(arguments.scene, place, console);
   const double seconds_reading = stopwatch.lap();
   const std::vector<Camera> cameras = arguments.camera.get(scene.outline());
+  scene.place(arguments.motion);
   check_cameras(cameras, plan, arguments.output);
   RenderOutputs outputs(arguments, cameras.size());
   outputs.write_cameras(to_json(cameras) + "\n");
@@ -113,8 +115,8 @@ int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Con
   {
     Progress progress(console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-      reports.push_back(make_map(plan, scene, cameras[i], outputs.map_name(i), outputs.map(i),
-                                 progress.reporter(i, cameras.size()), console));
+      reports.push_back(make_map(plan, scene, arguments.motion, cameras[i], outputs.map_name(i),
+                                 outputs.map(i), progress.reporter(i, cameras.size()), console));
       MapReport& report = reports.back();
       report.seconds.read = seconds_reading;
       if (i == 0) warn_of(report.statistics, console);
@@ -130,8 +132,9 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
                      const Console& console) {
   RenderOptions options = plan.rendering;
   const ThreadLimit limit(options.threads);
-  const Scene scene = arguments.scene.read(console, {.hash = true});
+  Scene scene = arguments.scene.read(console, {.hash = true});
   const std::vector<Camera> cameras = arguments.camera.get(scene);
+  scene = arguments.motion.placed(std::move(scene));
   for (const Camera& camera : cameras) {
     require_size(MapFormat::exr, camera.width, camera.height, arguments.output);
     check_size(camera, options, 0);
@@ -142,7 +145,8 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
     Progress progress(console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       options.progress = progress.reporter(i, cameras.size());
-      const DeepMap map = render_deep(scene, cameras[i], options);
+      DeepMap map = render_deep(scene, cameras[i], options);
+      arguments.motion.describe(map.description, arguments.motion.time_or_start());
       outputs.map(i).write(
           [&](const auto& path) { write_deep_map(map, path, plan.compression, options.threads); });
     }

@@ -79,6 +79,39 @@ class Decoder {
   std::vector<std::optional<float>> known_;
 };
 
+PipelineDepthBuffer depth_buffer_of(const Scene& scene, const pipeline::PipelineOptions& options,
+                                    pipeline::PipelineFrame& frame) {
+  PipelineDepthBuffer buffer{options.depth_format,
+                             options.depth_range,
+                             std::move(frame.stored),
+                             std::move(frame.depth_written),
+                             {}};
+  buffer.format.near = frame.statistics.near;
+  buffer.format.far = frame.statistics.far;
+  const auto has_stencil = [](const DrawState& s) { return s.stencil.has_value(); };
+  if (std::ranges::any_of(scene.draw_states, has_stencil))
+    buffer.stencil = std::move(frame.stencil);
+  return buffer;
+}
+
+PipelineRendering rendering_of(const Scene& scene, const Camera& camera,
+                               const pipeline::PipelineOptions& options,
+                               pipeline::PipelineFrame frame, const std::vector<Channel>& channels,
+                               bool with_picture) {
+  PipelineRendering result{{}, {}, frame.statistics, frame.painter, camera, {}};
+  result.camera.near = frame.statistics.near;
+  result.camera.far = frame.statistics.far;
+  result.map.width = camera.width;
+  result.map.height = camera.height;
+  for (const Channel channel : channels) {
+    result.map.channels.push_back(channel_of(scene, frame, channel));
+  }
+  describe_map(scene, result.camera, "pipeline", result.map);
+  if (with_picture) result.picture = pipeline::to_rgb(frame.picture);
+  result.depth_buffer = depth_buffer_of(scene, options, frame);
+  return result;
+}
+
 }  // namespace
 
 void add_depth_buffer(DepthMap& map, const PipelineDepthBuffer& buffer) {
@@ -108,28 +141,21 @@ PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
                                      const std::vector<Channel>& channels, bool with_picture) {
   const StandardArithmetic standard;
   require_pipeline_channels(channels);
-  pipeline::PipelineFrame frame = pipeline::render_frame(scene, camera, options, with_picture);
-  PipelineRendering result{{}, {}, frame.statistics, frame.painter, camera};
-  result.camera.near = frame.statistics.near;
-  result.camera.far = frame.statistics.far;
-  result.map.width = camera.width;
-  result.map.height = camera.height;
-  for (const Channel channel : channels) {
-    result.map.channels.push_back(channel_of(scene, frame, channel));
-  }
-  result.depth_buffer = {options.depth_format,
-                         options.depth_range,
-                         std::move(frame.stored),
-                         std::move(frame.depth_written),
-                         {}};
-  result.depth_buffer.format.near = result.camera.near;
-  result.depth_buffer.format.far = result.camera.far;
-  if (std::ranges::any_of(scene.draw_states,
-                          [](const DrawState& s) { return s.stencil.has_value(); }))
-    result.depth_buffer.stencil = std::move(frame.stencil);
-  describe_map(scene, result.camera, "pipeline", result.map);
-  if (with_picture) result.picture = pipeline::to_rgb(frame.picture);
-  return result;
+  return rendering_of(scene, camera, options,
+                      pipeline::render_frame(scene, camera, options, with_picture), channels,
+                      with_picture);
+}
+
+PipelineRendering render_by_pipeline(MovingScene& scene, const Camera& camera,
+                                     const pipeline::PipelineOptions& options,
+                                     const pipeline::Shutter& shutter,
+                                     const std::vector<Channel>& channels, bool with_picture) {
+  const StandardArithmetic standard;
+  require_pipeline_channels(channels);
+  pipeline::PipelineFrame frame =
+      pipeline::render_moving(scene, camera, options, shutter, with_picture);
+  return rendering_of(scene.at(shutter.close), camera, options, std::move(frame), channels,
+                      with_picture);
 }
 
 }  // namespace fathom

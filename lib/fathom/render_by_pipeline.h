@@ -11,6 +11,7 @@
 #include "fathom/image/rgb_image.h"
 #include "fathom/pipeline/geometry/painters_algorithm.h"
 #include "fathom/pipeline/options.h"
+#include "fathom/pipeline/render_moving.h"
 #include "fathom/scene/scene.h"
 
 /// The front door to the pipeline of the textbooks.
@@ -48,6 +49,13 @@ void require_pipeline_channels(const std::vector<Channel>& channels);
 ///           UsageError as require_pipeline_channels and pipeline::require_meaningful.
 PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
                                      const pipeline::PipelineOptions& options,
+                                     const std::vector<Channel>& channels, bool with_picture);
+
+/// The same of a scene that moves while the shutter is open; the map is that of the time at which it
+/// closes. Fails    also as pipeline::render_moving.
+PipelineRendering render_by_pipeline(MovingScene& scene, const Camera& camera,
+                                     const pipeline::PipelineOptions& options,
+                                     const pipeline::Shutter& shutter,
                                      const std::vector<Channel>& channels, bool with_picture);
 
 /// Adds what the depth buffer holds as channels: `Zwindow`, or `Zwindow.high` and `Zwindow.low`, as

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fathom/pipeline/output/fxaa.h"
-
 namespace fathom::pipeline {
 namespace {
 
@@ -32,35 +30,6 @@ TEST(ColourImage, IsRoundedToTheNearestOf256) {
   EXPECT_EQ(rgb.pixels[0], (Rgb{0, 255, 128}));
   EXPECT_EQ(rgb.pixels[1], (Rgb{0, 255, 64}));
   EXPECT_EQ(rgb.pixels[2], (Rgb{1, 2, 255}));
-}
-
-/// Without an edge nothing changes; across a step the pixels beside it are mixed, and no colour
-/// leaves the range of what was there.
-TEST(Fxaa, BlursEdgesAlone) {
-  ColourImage flat{5, 4, std::vector<Colour>(20, Colour{0.25, 0.5, 0.75})};
-  EXPECT_EQ(fxaa(flat).pixels, flat.pixels);
-  ColourImage stairs{16, 16, std::vector<Colour>(256)};
-  for (std::uint32_t y = 0; y < 16; ++y) {
-    for (std::uint32_t x = 0; x < 16; ++x) {
-      const double c = x > y ? 1 : 0;
-      stairs.pixels[std::size_t{y} * 16 + x] = {c, c, c};
-    }
-  }
-  const ColourImage smooth = fxaa(stairs);
-  int changed = 0;
-  for (std::uint32_t y = 0; y < 16; ++y) {
-    for (std::uint32_t x = 0; x < 16; ++x) {
-      const double value = smooth.at(x, y)[0];
-      EXPECT_GE(value, -1e-15);
-      EXPECT_LE(value, 1 + 1e-15);
-      const std::uint32_t away = x > y ? x - y : y - x;
-      if (away > 6) {
-        EXPECT_EQ(value, stairs.at(x, y)[0]) << x << ' ' << y;
-      }
-      changed += value != stairs.at(x, y)[0];
-    }
-  }
-  EXPECT_GT(changed, 16);
 }
 
 }  // namespace

@@ -39,6 +39,27 @@ pipeline::PipelineOptions stages_of(const RenderArguments& a) {
   return stages;
 }
 
+/// The shutter, with what takes pictures while it is open; neither makes sense without the other.
+std::optional<pipeline::Shutter> shutter_of(const RenderArguments& a,
+                                            const pipeline::PipelineOptions& stages) {
+  using pipeline::AntialiasMethod;
+  const AntialiasMethod method = stages.antialias.method;
+  const bool averaged =
+      method == AntialiasMethod::temporal || method == AntialiasMethod::temporal_area;
+  if (averaged && !(a.shutter && a.motion.is_given())) {
+    throw UsageError("--antialias temporal:N and temporal-area:N need --motion and --shutter");
+  }
+  if (!a.shutter) return std::nullopt;
+  if (!a.motion.is_given()) throw UsageError("--shutter needs --motion: nothing moves without it");
+  if (a.motion.time) {
+    throw UsageError("--shutter OPEN,CLOSE says the times; --time is for pictures without it");
+  }
+  if (!averaged && method != AntialiasMethod::taa) {
+    throw UsageError("--shutter is for --antialias temporal:N, temporal-area:N and taa:N");
+  }
+  return pipeline::Shutter{(*a.shutter)[0], (*a.shutter)[1]};
+}
+
 }  // namespace
 
 PipelinePlan plan_pipeline(const RenderArguments& a) {
@@ -60,6 +81,7 @@ PipelinePlan plan_pipeline(const RenderArguments& a) {
         "--depth-range: near and far have the same window depth, of which --depth-format cannot "
         "decode one");
   }
+  plan.shutter = shutter_of(a, plan.stages);
   return plan;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "apps/render/render_arguments.h"
+#include "fathom/pipeline/render_moving.h"
 
 namespace fathom::app {
 
@@ -14,6 +16,8 @@ struct PipelinePlan {
   pipeline::PipelineOptions stages;
   bool with_picture = false;
   bool with_depth_buffer = false;
+  /// Of a scene that moves meanwhile.
+  std::optional<pipeline::Shutter> shutter;
 };
 
 /// Fails    UsageError where the arguments contradict each other, before any work.

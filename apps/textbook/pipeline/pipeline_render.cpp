@@ -54,9 +54,16 @@ void add_depth_buffer(PipelineRendering& rendering) {
 
 int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const Console& console) {
   if (plan.stages.texture != "checker") note_input(plan.stages.texture);
-  const Scene scene = arguments.scene.read(
+  Scene scene = arguments.scene.read(
       console, {.hash = true, .attributes = plan.with_picture, .primitives = true});
   const std::vector<Camera> cameras = arguments.camera.get(scene);
+  std::optional<MovingScene> moving;
+  if (plan.shutter) {
+    moving = arguments.motion.moving(std::move(scene));
+  } else {
+    scene = arguments.motion.placed(std::move(scene));
+  }
+  const double time = plan.shutter ? plan.shutter->close : arguments.motion.time_or_start();
   RenderOutputs outputs(arguments, cameras.size());
   if (pipeline::is_stretched(cameras[0], plan.stages)) {
     console.warn("the viewport's width : height is not the camera's: the picture is stretched");
@@ -66,8 +73,12 @@ int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const 
   std::vector<Camera> used;
   const Progress progress(console, "rendering");
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    PipelineRendering rendering = fathom::render_by_pipeline(scene, cameras[i], plan.stages,
-                                                             plan.channels, plan.with_picture);
+    PipelineRendering rendering =
+        moving ? fathom::render_by_pipeline(*moving, cameras[i], plan.stages, *plan.shutter,
+                                            plan.channels, plan.with_picture)
+               : fathom::render_by_pipeline(scene, cameras[i], plan.stages, plan.channels,
+                                            plan.with_picture);
+    arguments.motion.describe(rendering.map, time);
     if (plan.with_depth_buffer) add_depth_buffer(rendering);
     used.push_back(rendering.camera);
     outputs.map(i).write(

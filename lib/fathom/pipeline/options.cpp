@@ -32,6 +32,10 @@ void require_count(const Antialias& antialias) {
                      "jitter:" + std::to_string(n) +
                          " does not exist; there are 1, 4, 16, 64 and 256: squares of cells");
   if (n < 1 || n > 256) throw UsageError(setting, "expected 1 to 256 samples");
+  const FxaaSettings& f = antialias.fxaa;
+  for (const double share : {f.threshold, f.least_threshold, f.subpixel})
+    if (!(share >= 0 && share <= 1))
+      throw UsageError(setting, "fxaa:THRESHOLD,LEAST,SUBPIXEL takes numbers from 0 to 1");
 }
 
 /// Polygon offset and depth range change what the projection and the viewport make of a depth;
@@ -88,6 +92,9 @@ void require_meaningful(const PipelineOptions& o) {
   if (!std::isfinite(o.polygon_offset.slope_factor) ||
       !std::isfinite(o.polygon_offset.constant_factor))
     throw UsageError(Setting{"polygon_offset"}, "expected finite numbers");
+  if (o.blend_alpha && (o.antialias.method == AntialiasMethod::area ||
+                        o.antialias.method == AntialiasMethod::temporal_area))
+    throw UsageError(Setting{"antialias"}, "area sees the nearest surface; it does not blend");
   if (o.blend_alpha && !(*o.blend_alpha >= 0 && *o.blend_alpha <= 1))
     throw UsageError(Setting{"blend_alpha"}, "expected 0 to 1");
   if (o.blend_alpha && o.antialias.method == AntialiasMethod::area)

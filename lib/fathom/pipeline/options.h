@@ -42,13 +42,23 @@ enum class BlendDepth {
 /// In what order triangles are drawn. By depth: that of the mean of a triangle's corners.
 enum class DrawOrder { file, front_to_back, back_to_front, random };
 
-enum class AntialiasMethod { none, ssaa, msaa, jitter, area, fxaa, taa };
+/// `temporal` and `temporal_area` are for scenes that move (render_moving.h).
+enum class AntialiasMethod { none, ssaa, msaa, jitter, area, fxaa, taa, temporal, temporal_area };
+/// What FXAA takes for an edge, and how much of it is smoothed; the defaults are the published ones.
+struct FxaaSettings {
+  /// The least range of luma around a pixel that is an edge: of the greatest luma there, and at all.
+  double threshold = 0.166, least_threshold = 0.0833;
+  /// How much of details below a pixel is removed, from 0 to 1.
+  double subpixel = 0.75;
+};
+
 struct Antialias {
   AntialiasMethod method = AntialiasMethod::none;
-  /// ssaa: n of n × n; msaa: 1, 2, 4, 8 or 16; jitter: 1, 4, 16, 64 or 256; taa: frames.
+  /// ssaa: n of n × n; msaa: 1, 2, 4, 8 or 16; jitter: 1, 4, 16, 64 or 256; taa, temporal: frames.
   int count = 1;
   /// msaa: not the standard positions but the 2 × 2 grid turned by arctan ½ and enlarged by √5/2.
   bool rotated_grid = false;
+  FxaaSettings fxaa;
 };
 
 /// A rectangle of the window in whole pixels, its origin the lower left corner of the window as in

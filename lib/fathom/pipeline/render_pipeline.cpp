@@ -57,7 +57,8 @@ class Frame {
     take_map(centres);
     if (!with_picture) return std::move(frame_);
     frame_.picture = same_samples ? centres.resolve() : antialiased(shader);
-    if (options_.antialias.method == AntialiasMethod::fxaa) frame_.picture = fxaa(frame_.picture);
+    if (options_.antialias.method == AntialiasMethod::fxaa)
+      frame_.picture = fxaa(frame_.picture, options_.antialias.fxaa);
     return std::move(frame_);
   }
 
@@ -117,8 +118,8 @@ class Frame {
       case AntialiasMethod::taa:
         return temporal(shader, n);
       default:
-        return area_sampled(primitives_.triangles, options_, window_, shader, camera_.width,
-                            camera_.height, frame_.statistics);
+        return area_sampled(primitives_.triangles, camera_, options_, window_, shader,
+                            frame_.statistics);
     }
   }
 
@@ -205,6 +206,9 @@ PipelineFrame render_frame(const Scene& scene, const Camera& camera, const Pipel
                            bool with_picture) {
   const StandardArithmetic standard;
   require_meaningful(options);
+  if (options.antialias.method == AntialiasMethod::temporal ||
+      options.antialias.method == AntialiasMethod::temporal_area)
+    throw UsageError(Setting{"antialias"}, "temporal and temporal-area are for scenes that move");
   require_renderable(scene, camera);
   PipelineOptions complete = options;
   fill_in_range(scene, camera, complete.depth_format);

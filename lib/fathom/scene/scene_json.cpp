@@ -7,8 +7,6 @@
 namespace fathom::scene {
 using namespace text;
 
-namespace {
-
 WorldFromMesh read_transform(const JsonValue& value) {
   WorldFromMesh result;
   const bool square = value.is_list() && value.size() == 4;
@@ -25,8 +23,6 @@ WorldFromMesh read_transform(const JsonValue& value) {
   }
   return result;
 }
-
-}  // namespace
 
 std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesystem::path& path) {
   const JsonDocument document(text, path.string());

@@ -8,7 +8,15 @@
 
 #include "fathom/scene/scene.h"
 
+namespace fathom::text {
+class JsonValue;
+}
+
 namespace fathom::scene {
+
+/// A transform of a file: 3×4, or 4×4 with the last row 0 0 0 1.
+/// Fails    InputError, naming the key.
+WorldFromMesh read_transform(const text::JsonValue& value);
 
 /// One mesh of a scene file.
 struct PlacedFile {
@@ -19,8 +27,8 @@ struct PlacedFile {
   DrawState draw;
 };
 
-/// Reads a scene file: {"meshes": [{"file", "transform", "name", "draw"}]}, the last three optional.
-/// A transform is 3×4, or 4×4 with the last row 0 0 0 1; draw_state_json.h has "draw".
+/// Reads a scene file: {"meshes": [{"file", "transform", "name", "draw"}]}, the last three optional;
+/// draw_state_json.h has "draw".
 /// Fails    InputError, naming the key; unknown keys are errors.
 std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesystem::path& path);
 

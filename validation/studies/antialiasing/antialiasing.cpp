@@ -4,6 +4,7 @@
 #include "validation/studies/antialiasing/coverage_by_samples.h"
 #include "validation/studies/antialiasing/methods.h"
 #include "validation/studies/antialiasing/nyquist.h"
+#include "validation/studies/antialiasing/temporal.h"
 #include "validation/studies/page_texts.h"
 #include "validation/studies/results.h"
 #include "validation/studies/study_scene.h"
@@ -65,12 +66,20 @@ Table edge_errors_table(const std::vector<EdgeSeen>& edges) {
 
 Table methods_table(const std::vector<MethodError>& rows) {
   using Row = MethodError;
+  const auto of = [](PictureError Row::*scene, double PictureError::*value) {
+    return [=](const Row& row) { return row.*scene.*value; };
+  };
+  using E = PictureError;
   return {rows,
           {{Column("method").page("method"), &Row::name},
-           {Column("mean").page("mean error", ".4f"), &Row::mean},
-           {Column("rms").page("rms", ".4f"), &Row::rms},
-           {Column("greatest").page("greatest", ".3f"), &Row::greatest},
-           {Column("texture_mean").page("on texture", ".4f"), &Row::texture_mean},
+           {Column("mean").page("star: mean", ".2g"), of(&Row::star, &E::mean)},
+           {Column("rms").page("rms", ".2g"), of(&Row::star, &E::rms)},
+           {Column("greatest").page("greatest", ".2g"), of(&Row::star, &E::greatest)},
+           {Column("sheets_mean").page("sheets: mean", ".2g"), of(&Row::sheets, &E::mean)},
+           {Column("sheets_greatest").page("greatest", ".2g"), of(&Row::sheets, &E::greatest)},
+           {Column("plane_mean").page("plane", ".2g"), of(&Row::plane, &E::mean)},
+           {Column("wall_mean").page("wall", ".2g"), of(&Row::wall, &E::mean)},
+           {Column("text_mean").page("text", ".2g"), of(&Row::text, &E::mean)},
            {Column("shaded").page("shaded"), &Row::shaded},
            {Column("ms").page("ms", ".1f"), &Row::ms},
            {Column("megabytes").page("MB", ".2f"), &Row::megabytes}}};
@@ -80,7 +89,7 @@ Table filters_table(const std::vector<FilterError>& rows) {
   return {
       rows,
       {{Column("filter").page("filter"), &FilterError::filter},
-       {Column("mean_error").page("mean error, one sample a pixel", ".4f"), &FilterError::mean}}};
+       {Column("mean_error").page("mean error, one sample a pixel", ".3f"), &FilterError::mean}}};
 }
 
 /// Which of the families that a plot tells apart a pattern belongs to.
@@ -119,8 +128,19 @@ Plot edge_plot(const std::vector<EdgeSeen>& edges) {
   return plot;
 }
 
-Plot nyquist_plot() {
-  const std::vector<GratingSeen> rows = gratings_seen();
+Table gratings_table(const std::vector<GratingSeen>& rows) {
+  using Row = GratingSeen;
+  return {rows,
+          {{Column("frequency").page("cycles a pixel", ".3f"), &Row::frequency},
+           {Column("apparent").page("seen", ".3f"), &Row::apparent},
+           {Column("contrast").page("contrast", ".3f"), &Row::contrast},
+           {Column("contrast_by_area").page("by areas", ".3f"), &Row::contrast_by_area},
+           {Column("error").page("error", ".2g"), &Row::error},
+           {Column("error_ssaa").page("ssaa 4x4", ".2g"), &Row::error_ssaa},
+           {Column("error_by_area").page("area", ".2g"), &Row::error_by_area}}};
+}
+
+Plot nyquist_plot(const std::vector<GratingSeen>& rows) {
   return {
       .name = "nyquist",
       .title = "What frequency a grating seems to have",
@@ -149,6 +169,51 @@ void add(Results& results, const AntialiasingMethods& measured) {
   results.pictures(measured.pictures);
 }
 
+void add(Results& results, const std::vector<GratingSeen>& gratings) {
+  results.table(gratings_table(gratings),
+                {.csv = "gratings", .json = "gratings", .page = "gratings"});
+  results.figure("nyquist_limit", nyquist_limit(gratings));
+  results.plot(nyquist_plot(gratings));
+}
+
+Table wheels_table(const std::vector<WheelSeen>& rows) {
+  using Row = WheelSeen;
+  return {rows,
+          {{Column("rate").page("degrees a picture", "g"), &Row::rate},
+           {Column("apparent").page("seen", "+.2f"), &Row::apparent},
+           {Column("alias").page("known alias", "+g"), &Row::alias},
+           {Column("contrast").page("contrast, shutter open", ".3f"), &Row::contrast},
+           {Column("sinc").page("integral over time", ".3f"), &Row::sinc}}};
+}
+
+Table times_table(const std::vector<TimeError>& rows) {
+  using Row = TimeError;
+  return {rows,
+          {{Column("pictures").page("pictures"), &Row::pictures},
+           {Column("centres").page("temporal", ".2g"), &Row::centres},
+           {Column("areas").page("temporal-area", ".2g"), &Row::areas}}};
+}
+
+Table histories_table(const std::vector<HistoryError>& rows) {
+  using Row = HistoryError;
+  return {rows,
+          {{Column("step").page("pixels a picture", "g"), &Row::step},
+           {Column("none").page("one sample", ".4f"), &Row::none},
+           {Column("taa").page("taa", ".4f"), &Row::taa},
+           {Column("unlimited").page("without clamping", ".4f"), &Row::unlimited},
+           {Column("unmoved").page("without reprojection", ".4f"), &Row::unmoved},
+           {Column("neither").page("neither", ".4f"), &Row::neither}}};
+}
+
+void add(Results& results, const TemporalStudy& measured) {
+  results.table(wheels_table(measured.wheels),
+                {.csv = "wheels", .json = "wheels", .page = "wheels"});
+  results.table(times_table(measured.times), {.csv = "times", .json = "times", .page = "times"});
+  results.table(histories_table(measured.histories),
+                {.csv = "histories", .json = "histories", .page = "histories"});
+  results.pictures(measured.pictures);
+}
+
 }  // namespace
 
 std::vector<StudyFile> study_antialiasing(const StudyOptions& options,
@@ -162,14 +227,16 @@ std::vector<StudyFile> study_antialiasing(const StudyOptions& options,
   const CoverageBySamples coverage =
       measure_coverage_by_samples(view, exact, [&](double share) { tick(share / 2); });
   const AntialiasingMethods methods =
-      measure_antialiasing([&](double share) { tick(0.5 + share / 2); });
+      measure_antialiasing([&](double share) { tick(0.5 + share / 4); });
+  const TemporalStudy temporal = measure_temporal([&](double share) { tick(0.75 + share / 4); });
 
   Results results("antialiasing", page_texts::antialiasing);
   results.figure("scene", view.name);
   add(results, coverage);
   results.picture(picture("coverage", exact, {.channel = "A", .colours = ColourMap::grey}));
   add(results, methods);
-  results.plot(nyquist_plot());
+  add(results, gratings_seen());
+  add(results, temporal);
   return results.files();
 }
 

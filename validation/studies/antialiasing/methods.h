@@ -5,34 +5,45 @@
 #include <string>
 #include <vector>
 
+#include "fathom/pipeline/output/output_merger.h"
 #include "validation/studies/study.h"
 
 /// Pictures by every kind of antialiasing that the pipeline has, against exact areas.
 namespace fathom::studies {
 
+/// How far a picture is from the exact one: differences of colour, 1 from black to white, as means
+/// of the three components.
+struct PictureError {
+  double mean = 0, rms = 0, greatest = 0;
+};
+PictureError error_of(const pipeline::ColourImage& image, const pipeline::ColourImage& truth);
+
 struct MethodError {
   std::string name;
-  double mean = 0, rms = 0, greatest = 0;  ///< against exact areas, of full white
-  double texture_mean = 0;                 ///< of a textured plane, against 16 × 16 samples
-  double ms = 0, megabytes = 0;            ///< here; of the samples that are kept
-  std::uint64_t shaded = 0;
+  PictureError star, sheets;
+  /// Of the checkered plane and wall, and of letters that are right without antialiasing.
+  PictureError plane, wall, text;
+  double ms = 0, megabytes = 0;  ///< for the star, here; of the samples that are kept
+  std::uint64_t shaded = 0;      ///< for the star
 };
 
 struct FilterError {
   std::string filter;
-  double mean = 0;  ///< of the textured plane, against 16 × 16 samples
+  double mean = 0;  ///< of the checkered plane, one sample a pixel
 };
 
 struct AntialiasingMethods {
   std::vector<MethodError> methods;
   std::vector<FilterError> filters;
-  /// Of a texture that fills the picture, without an edge of any triangle: the share of pixels that
-  /// FXAA changes all the same.
+  /// Of the checkered wall, in which no edge of a triangle is seen: the share of pixels that FXAA
+  /// changes all the same.
   double texture_changed_by_fxaa = 0;
-  /// star-METHOD, plane-FILTER and plane-truth, texture-none and texture-fxaa.
+  /// star-METHOD, sheets-METHOD, plane-FILTER, wall-, text- and plane-truth, …
   std::vector<StudyFile> pictures;
 };
 
+/// All of them as the pipeline is by default: binary32, and 8 subpixel bits unless the name says
+/// others.
 AntialiasingMethods measure_antialiasing(const std::function<void(double)>& tick);
 
 }  // namespace fathom::studies

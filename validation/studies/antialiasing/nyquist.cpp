@@ -1,39 +1,115 @@
 #include "validation/studies/antialiasing/nyquist.h"
 
 #include <cmath>
+#include <complex>
 #include <numbers>
+
+#include "fathom/pipeline/render_pipeline.h"
+#include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
 namespace {
 
-/// The frequency of the strongest term of the samples' Fourier transform.
-double apparent_frequency(double frequency) {
-  constexpr int n = 512;
-  std::vector<double> samples(n);
-  for (int x = 0; x < n; ++x) {
-    samples[static_cast<std::size_t>(x)] = std::cos(2 * std::numbers::pi * frequency * (x + 0.5));
+using pipeline::AntialiasMethod;
+
+/// Gratings of all multiples of 1/40 have a whole number of cycles in it.
+constexpr int width = 480;
+
+Scene grating(double frequency) {
+  std::vector<MeshPoint> v;
+  std::vector<CornerIndices> t;
+  for (int k = 0; k < frequency * width; ++k) {
+    const double x = k / frequency, end = (k + 0.5) / frequency;
+    const auto first = static_cast<std::uint32_t>(v.size());
+    for (const auto& [px, py] : {std::pair{x, 0.0}, {end, 0.0}, {end, 1.0}, {x, 1.0}})
+      v.push_back({px, py, 0.5});
+    t.push_back({first, first + 1, first + 2});
+    t.push_back({first, first + 2, first + 3});
   }
-  double best = 0, strongest = -1;
-  for (int bin = 0; bin <= n / 2; ++bin) {
-    double c = 0, s = 0;
-    for (int x = 0; x < n; ++x) {
-      const double angle = 2 * std::numbers::pi * bin * x / n;
-      c += samples[static_cast<std::size_t>(x)] * std::cos(angle);
-      s += samples[static_cast<std::size_t>(x)] * std::sin(angle);
-    }
-    if (c * c + s * s <= strongest) continue;
-    strongest = c * c + s * s;
-    best = static_cast<double>(bin) / n;
+  return scene_of(std::move(v), std::move(t));
+}
+
+std::vector<double> picture_of(double frequency, const pipeline::Antialias& antialias) {
+  pipeline::PipelineOptions options = precise_options();
+  options.antialias = antialias;
+  const auto frame = render_frame(grating(frequency), window_camera(width, 1), options, true);
+  std::vector<double> greys;
+  for (const pipeline::Colour& c : frame.picture.pixels) greys.push_back(c[0]);
+  return greys;
+}
+
+/// The amplitude of the wave of `bin` cycles in all of the picture.
+double amplitude(const std::vector<double>& greys, int bin) {
+  std::complex<double> sum;
+  for (int x = 0; x < width; ++x) {
+    sum += greys[static_cast<std::size_t>(x)] *
+           std::polar(1.0, -2 * std::numbers::pi * (bin * x % width) / width);
+  }
+  // Half a cycle a pixel is its own mirror image.
+  return std::abs(sum) * (2 * bin == width ? 1 : 2) / width;
+}
+
+/// What is left after summing up hundreds of rounded terms.
+constexpr double noise = 1e-9;
+
+int strongest_bin(const std::vector<double>& greys) {
+  int best = 0;
+  double strongest = noise;
+  for (int bin = 1; bin <= width / 2; ++bin) {
+    const double a = amplitude(greys, bin);
+    // Of equal ones, up to rounding, the lowest.
+    if (a > strongest + noise) strongest = a, best = bin;
   }
   return best;
 }
 
+double mean_error(const std::vector<double>& greys, double frequency) {
+  double sum = 0;
+  for (int x = 0; x < width; ++x) {
+    sum += std::abs(greys[static_cast<std::size_t>(x)] - white_part(frequency, x));
+  }
+  return sum / width;
+}
+
 }  // namespace
 
+double white_part(double frequency, double x) {
+  // White from 0 to y: all whole cycles are white for their first half.
+  const auto up_to = [&](double y) {
+    const double cycles = y * frequency, whole = std::floor(cycles);
+    return (whole / 2 + std::min(cycles - whole, 0.5)) / frequency;
+  };
+  return up_to(x + 1) - up_to(x);
+}
+
 std::vector<GratingSeen> gratings_seen() {
+  // Of the bars' fundamental: their grey is ½ + (2/π)·sin + …
+  constexpr double full = 2 / std::numbers::pi;
   std::vector<GratingSeen> gratings;
-  for (int i = 1; i <= 60; ++i) gratings.push_back({i / 40.0, apparent_frequency(i / 40.0)});
+  for (int i = 1; i <= 60; ++i) {
+    const double f = i / 40.0;
+    const auto one = picture_of(f, {AntialiasMethod::none, 1});
+    const auto sixteen = picture_of(f, {AntialiasMethod::ssaa, 4});
+    const auto areas = picture_of(f, {AntialiasMethod::area, 1});
+    const int bin = strongest_bin(one);
+    GratingSeen seen{f, static_cast<double>(bin) / width, 0, 0, 0, 0, 0};
+    if (bin > 0) seen.contrast = amplitude(one, bin) / full;
+    if (bin > 0) seen.contrast_by_area = amplitude(areas, bin) / full;
+    seen.error = mean_error(one, f);
+    seen.error_ssaa = mean_error(sixteen, f);
+    seen.error_by_area = mean_error(areas, f);
+    gratings.push_back(seen);
+  }
   return gratings;
+}
+
+double nyquist_limit(const std::vector<GratingSeen>& gratings) {
+  double limit = 0;
+  for (const GratingSeen& g : gratings) {
+    if (g.apparent != g.frequency) break;
+    limit = g.frequency;
+  }
+  return limit;
 }
 
 }  // namespace fathom::studies

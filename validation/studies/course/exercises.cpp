@@ -8,6 +8,7 @@
 #include "fathom/pipeline/scan/edge_function.h"
 #include "fathom/pipeline/scan/line.h"
 #include "fathom/render.h"
+#include "validation/studies/exact_picture.h"
 #include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
@@ -66,11 +67,8 @@ pipeline::ColourImage exact_half_plane() {
   const auto corner = [](std::size_t i) {
     return MeshPoint{half_plane[i][0], half_plane[i][1], 0.5};
   };
-  PipelineOptions options = precise_options();
-  options.antialias.method = pipeline::AntialiasMethod::area;
-  return render_frame(scene_of({corner(0), corner(1), corner(2)}, {{0, 1, 2}}),
-                      window_camera(half_plane_size, half_plane_size), options, true)
-      .picture;
+  return exact_picture(scene_of({corner(0), corner(1), corner(2)}, {{0, 1, 2}}),
+                       window_camera(half_plane_size, half_plane_size));
 }
 
 /// The share of a pixel's samples that a triangle covers.

@@ -2,174 +2,196 @@
 
 #include <algorithm>
 
-#include "fathom/clipping/rings.h"
-#include "fathom/clipping/sutherland_hodgman.h"
-#include "fathom/pipeline/scan/arithmetic.h"
+#include "fathom/pipeline/output/pixel_partition.h"
 
 namespace fathom::pipeline {
 namespace {
 
-using Ring = clipping::Ring<Exact>;
-using Rings = clipping::Rings<Exact>;
-using Point = clipping::Point2<Exact>;
+/// A triangle on the grid, and how near its corners are: greater is nearer, affine in the window.
+template <class Real>
+struct AreaTriangle {
+  Interpolator<Real> interpolator;
+  std::array<double, 3> nearness;
+  std::array<double, 3> dx, dy;  ///< what a pixel changes in the edge functions
 
-/// The part of a triangle in a pixel.
-struct Part {
-  std::size_t triangle;
-  Ring ring;  ///< in grid units, counter-clockwise as clippers see it
-  GridPoint centroid;
-  StoredDepth stored;
-};
-
-Ring square_of(const Pixel& p) {
-  const Exact x0(p.x * grid_one), y0(p.y * grid_one), x1((p.x + 1) * grid_one),
-      y1((p.y + 1) * grid_one);
-  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-}
-
-GridPoint centroid_of(const Ring& ring) {
-  // The mean of the corners lies inside a convex ring.
-  double x = 0, y = 0;
-  for (const auto& p : ring) x += clipping::to_binary64(p.x), y += clipping::to_binary64(p.y);
-  const auto n = static_cast<double>(ring.size());
-  return {static_cast<std::int64_t>(x / n), static_cast<std::int64_t>(y / n)};
-}
-
-/// The part of a convex ring on one side of the line a → b: on the left, with y up, for sign 1.
-Ring side_of(const Ring& ring, const Point& a, const Point& b, int sign) {
-  return clipping::ring_of(clipping::clip_at_boundary(
-      clipping::corners_of(ring),
-      [&](const Point& p) { return Exact(-sign * clipping::cross(a, b, p)); }));
-}
-
-/// Cuts what a convex ring covers out of convex pieces that do not overlap; returns its area.
-Exact cut_out(Rings& pieces, const Ring& ring) {
-  Exact area(0);
-  Rings left;
-  for (const Ring& piece : pieces) {
-    Ring inside = piece;
-    for (std::size_t i = 0; i < ring.size() && !inside.empty(); ++i) {
-      const Point &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      Ring outside = side_of(inside, a, b, -1);
-      if (!outside.empty()) left.push_back(std::move(outside));
-      inside = side_of(inside, a, b, 1);
+  [[nodiscard]] PixelSurface in_pixel(std::uint32_t number, const Pixel& pixel) const {
+    const GridTriangle& grid = interpolator.grid();
+    const auto corner = grid.edges_at({pixel.x * grid_one, pixel.y * grid_one});
+    const auto area = static_cast<double>(grid.twice_area());
+    PixelSurface surface{number, {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      // Neighbours have the same edge with the other sign, so they are cut along the same line.
+      const PixelForm edge{dx[k], dy[k], static_cast<double>(corner[k])};
+      surface.edges[k] = edge;
+      surface.nearness.a += nearness[k] * (edge.a / area);
+      surface.nearness.b += nearness[k] * (edge.b / area);
+      surface.nearness.c += nearness[k] * (edge.c / area);
     }
-    if (!inside.empty()) area += clipping::signed_area(inside);
+    return surface;
   }
-  pieces = std::move(left);
-  return area;
-}
+};
 
 template <class Real>
 class AreaSampler {
  public:
-  AreaSampler(const std::vector<WindowTriangle<Real>>& triangles, const PipelineOptions& options,
-              Shader<Real>& shader, PipelineStatistics& statistics)
-      : options_(options), test_(options), shader_(shader), count_(statistics) {
-    for (const auto& t : triangles)
-      if (auto i = Interpolator<Real>::of(t, options)) interpolators_.push_back(std::move(*i));
+  AreaSampler(const std::vector<WindowTriangle<Real>>& triangles, const Camera& camera,
+              const PipelineOptions& options, const PixelWindow& window, Shader<Real>& shader,
+              PipelineStatistics& statistics)
+      : camera_(camera),
+        options_(options),
+        window_(window),
+        shader_(shader),
+        count_(statistics),
+        in_column_(static_cast<std::size_t>(
+            std::max<std::int64_t>(0, window.is_empty() ? 0 : window.x_end - window.x_begin))) {
+    for (const auto& t : triangles) {
+      if (const auto i = Interpolator<Real>::of(t, options)) triangles_.push_back(prepared(*i));
+    }
   }
 
-  /// For each pixel of the window, row by row, the triangles that can touch it.
-  [[nodiscard]] std::vector<std::vector<std::uint32_t>> bins(const PixelWindow& w) const {
-    const auto width = static_cast<std::size_t>(w.x_end - w.x_begin);
-    std::vector<std::vector<std::uint32_t>> bins(width *
-                                                 static_cast<std::size_t>(w.y_end - w.y_begin));
-    for (std::size_t i = 0; i < interpolators_.size(); ++i) {
-      const GridTriangle& t = interpolators_[i].grid();
-      const PixelWindow box = t.bounding_box();
-      for (auto y = std::max(box.y_begin, w.y_begin); y < std::min(box.y_end, w.y_end); ++y)
-        for (auto x = std::max(box.x_begin, w.x_begin); x < std::min(box.x_end, w.x_end); ++x)
-          if (t.test_block({x, y}, 1) != GridTriangle::BlockCoverage::none)
-            bins[static_cast<std::size_t>(y - w.y_begin) * width +
-                 static_cast<std::size_t>(x - w.x_begin)]
-                .push_back(static_cast<std::uint32_t>(i));
+  /// Draws row by row, so that only one row's triangles are remembered by pixel.
+  void draw(ColourImage& image) {
+    const auto starting = by_first_row();
+    std::vector<std::uint32_t> active;
+    for (std::int64_t y = window_.y_begin; y < window_.y_end; ++y) {
+      const auto& more = starting[static_cast<std::size_t>(y - window_.y_begin)];
+      active.insert(active.end(), more.begin(), more.end());
+      std::erase_if(active, [&](std::uint32_t i) { return box_of(i).y_end <= y; });
+      for (const std::uint32_t i : active) note(i, y);
+      for (std::int64_t x = window_.x_begin; x < window_.x_end; ++x) {
+        auto& touching = in_column_[static_cast<std::size_t>(x - window_.x_begin)];
+        if (touching.empty()) continue;
+        image.pixels[static_cast<std::size_t>(y) * image.width + static_cast<std::size_t>(x)] =
+            colour_of({x, y}, touching);
+        touching.clear();
+      }
     }
-    return bins;
-  }
-
-  Colour colour_of(const Pixel& pixel, const std::vector<std::uint32_t>& touching) {
-    std::vector<Part> parts;
-    for (const std::uint32_t i : touching)
-      if (auto part = part_of(i, pixel)) parts.push_back(std::move(*part));
-    std::stable_sort(parts.begin(), parts.end(), [&](const Part& a, const Part& b) {
-      return test_.is_nearer(a.stored, b.stored);
-    });
-    Rings left{square_of(pixel)};
-    Colour sum{};
-    const Exact whole = Exact(grid_one) * Exact(grid_one);
-    for (const Part& part : parts) {
-      if (left.empty()) break;
-      const Exact area = cut_out(left, part.ring);
-      if (area > 0) add(sum, shade(part), clipping::to_binary64(Exact(area / whole)));
-    }
-    if (!left.empty())
-      add(sum, options_.background,
-          clipping::to_binary64(Exact(clipping::signed_area(left) / whole)));
-    return sum;
   }
 
  private:
-  static void add(Colour& sum, const Colour& colour, double weight) {
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += weight * colour[k];
+  [[nodiscard]] AreaTriangle<Real> prepared(const Interpolator<Real>& interpolator) const {
+    AreaTriangle<Real> t{interpolator, {}, {}, {}};
+    const bool nearer_is_greater = DepthTest(options_).is_nearer({1}, {0});
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double depth = affine_depth(interpolator.triangle(), k);
+      t.nearness[k] = nearer_is_greater ? depth : -depth;
+    }
+    const auto here = interpolator.grid().edges_at({0, 0});
+    const auto right = interpolator.grid().edges_at({grid_one, 0});
+    const auto below = interpolator.grid().edges_at({0, grid_one});
+    for (std::size_t k = 0; k < 3; ++k) {
+      t.dx[k] = static_cast<double>(right[k] - here[k]);
+      t.dy[k] = static_cast<double>(below[k] - here[k]);
+    }
+    return t;
   }
 
-  std::optional<Part> part_of(std::size_t i, const Pixel& pixel) {
-    const auto corners = snapped(interpolators_[i].triangle(), options_.subpixel_bits);
-    Ring ring;
-    for (const GridPoint& c : corners) ring.push_back({Exact(c.x), Exact(c.y)});
-    if (clipping::signed_area(ring) < 0) std::reverse(ring.begin(), ring.end());
-    ring = clipping::ring_of(
-        clipping::sutherland_hodgman(clipping::corners_of(ring), square_of(pixel)));
-    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-    while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-    if (ring.size() < 3 || clipping::signed_area(ring) == 0) return std::nullopt;
-    ++count_.fragments;
-    const GridPoint centroid = centroid_of(ring);
-    return Part{i, std::move(ring), centroid, test_.stored(interpolators_[i].depths_at(centroid))};
+  /// At a corner: what is stored is a growing function of it, and it is affine in the window.
+  [[nodiscard]] double affine_depth(const WindowTriangle<Real>& t, std::size_t k) const {
+    const WindowVertex<Real>& corner = t.corners[k];
+    if (!is_per_fragment(options_.depth_format.mapping))
+      return static_cast<double>(corner.z) + static_cast<double>(t.depth_offset);
+    if (camera_.projection == Projection::perspective)
+      return -static_cast<double>(corner.inverse_w);
+    return static_cast<double>(corner.attributes[attribute::depth]);
   }
 
-  Colour shade(const Part& part) {
+  [[nodiscard]] PixelWindow box_of(std::uint32_t i) const {
+    return triangles_[i].interpolator.grid().bounding_box();
+  }
+
+  /// For each row of the window the triangles whose first row it is.
+  [[nodiscard]] std::vector<std::vector<std::uint32_t>> by_first_row() const {
+    std::vector<std::vector<std::uint32_t>> rows(
+        static_cast<std::size_t>(std::max<std::int64_t>(0, window_.y_end - window_.y_begin)));
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+      const PixelWindow box = box_of(i);
+      const std::int64_t first = std::max(box.y_begin, window_.y_begin);
+      if (first < std::min(box.y_end, window_.y_end))
+        rows[static_cast<std::size_t>(first - window_.y_begin)].push_back(i);
+    }
+    return rows;
+  }
+
+  /// Notes a triangle in each pixel of a row that it can touch.
+  void note(std::uint32_t i, std::int64_t y) {
+    const PixelWindow box = box_of(i);
+    const GridTriangle& grid = triangles_[i].interpolator.grid();
+    for (auto x = std::max(box.x_begin, window_.x_begin); x < std::min(box.x_end, window_.x_end);
+         ++x) {
+      if (grid.test_block({x, y}, 1) != GridTriangle::BlockCoverage::none)
+        in_column_[static_cast<std::size_t>(x - window_.x_begin)].push_back(i);
+    }
+  }
+
+  Colour colour_of(const Pixel& pixel, std::vector<std::uint32_t>& touching) {
+    const bool painter = options_.hidden_surface == HiddenSurface::painter;
+    std::sort(touching.begin(), touching.end());
+    surfaces_.clear();
+    for (const std::uint32_t i : touching) surfaces_.push_back(triangles_[i].in_pixel(i, pixel));
+    // Near ones first: others then mostly change nothing.
+    if (!painter) {
+      std::stable_sort(surfaces_.begin(), surfaces_.end(), [](const auto& a, const auto& b) {
+        return a.nearness.at({0.5, 0.5}) > b.nearness.at({0.5, 0.5});
+      });
+    }
+    partition_.clear();
+    for (const PixelSurface& surface : surfaces_) partition_.add(surface, painter);
+    count_.fragments += surfaces_.size();
+    Colour sum{};
+    for (const SeenPart& part : partition_.seen()) {
+      const Colour colour = part.number == PixelPartition::nothing
+                                ? options_.background
+                                : shade(triangles_[part.number].interpolator,
+                                        {pixel.x * grid_one + on_grid(part.centroid.x),
+                                         pixel.y * grid_one + on_grid(part.centroid.y)});
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += part.area * colour[k];
+    }
+    return sum;
+  }
+
+  static std::int64_t on_grid(double part) {
+    return static_cast<std::int64_t>(part * static_cast<double>(grid_one));
+  }
+
+  Colour shade(const Interpolator<Real>& t, const GridPoint& place) {
     ++count_.shaded;
-    const Interpolator<Real>& t = interpolators_[part.triangle];
     shader_.begin(t.triangle());
     Fragment fragment;
-    t.complete(fragment, part.centroid);
-    return shader_.shade(fragment, t.attribute_weights(part.centroid));
+    t.complete(fragment, place);
+    return shader_.shade(fragment, t.attribute_weights(place));
   }
 
+  const Camera& camera_;
   const PipelineOptions& options_;
-  DepthTest test_;
+  PixelWindow window_;
   Shader<Real>& shader_;
   PipelineStatistics& count_;
-  std::vector<Interpolator<Real>> interpolators_;
+  std::vector<AreaTriangle<Real>> triangles_;
+  std::vector<std::vector<std::uint32_t>> in_column_;
+  std::vector<PixelSurface> surfaces_;
+  PixelPartition partition_;
 };
 
 }  // namespace
 
 template <class Real>
-ColourImage area_sampled(const std::vector<WindowTriangle<Real>>& triangles,
+ColourImage area_sampled(const std::vector<WindowTriangle<Real>>& triangles, const Camera& camera,
                          const PipelineOptions& options, const PixelWindow& window,
-                         Shader<Real>& shader, std::uint32_t width, std::uint32_t height,
-                         PipelineStatistics& statistics) {
-  ColourImage image{width, height,
-                    std::vector<Colour>(std::size_t{width} * height, options.background)};
-  AreaSampler<Real> sampler(triangles, options, shader, statistics);
-  const auto bins = sampler.bins(window);
-  std::size_t k = 0;
-  for (std::int64_t y = window.y_begin; y < window.y_end; ++y)
-    for (std::int64_t x = window.x_begin; x < window.x_end; ++x, ++k)
-      if (!bins[k].empty())
-        image.pixels[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
-            sampler.colour_of({x, y}, bins[k]);
+                         Shader<Real>& shader, PipelineStatistics& statistics) {
+  ColourImage image{
+      camera.width, camera.height,
+      std::vector<Colour>(std::size_t{camera.width} * camera.height, options.background)};
+  AreaSampler<Real> sampler(triangles, camera, options, window, shader, statistics);
+  sampler.draw(image);
   return image;
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Real)                                                               \
-  template ColourImage area_sampled(const std::vector<WindowTriangle<Real>>&,                  \
+  template ColourImage area_sampled(const std::vector<WindowTriangle<Real>>&, const Camera&,   \
                                     const PipelineOptions&, const PixelWindow&, Shader<Real>&, \
-                                    std::uint32_t, std::uint32_t, PipelineStatistics&);
+                                    PipelineStatistics&);
 FATHOM_INSTANTIATE(float)
 FATHOM_INSTANTIATE(double)
 #undef FATHOM_INSTANTIATE

@@ -12,6 +12,19 @@ std::array<float, 3> narrowed(const Colour& c) {
 
 }  // namespace
 
+Colour between(const ColourImage& image, double x, double y) {
+  x = std::clamp(x, 0.0, static_cast<double>(image.width - 1));
+  y = std::clamp(y, 0.0, static_cast<double>(image.height - 1));
+  const auto i = static_cast<std::uint32_t>(x), j = static_cast<std::uint32_t>(y);
+  const std::uint32_t i1 = std::min(i + 1, image.width - 1), j1 = std::min(j + 1, image.height - 1);
+  const double s = x - i, t = y - j;
+  Colour colour;
+  for (std::size_t k = 0; k < 3; ++k)
+    colour[k] = (1 - t) * ((1 - s) * image.at(i, j)[k] + s * image.at(i1, j)[k]) +
+                t * ((1 - s) * image.at(i, j1)[k] + s * image.at(i1, j1)[k]);
+  return colour;
+}
+
 RgbImage to_rgb(const ColourImage& image) {
   RgbImage rgb(image.width, image.height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
