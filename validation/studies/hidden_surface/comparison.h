@@ -4,10 +4,21 @@
 #include <string>
 #include <vector>
 
+#include "fathom/camera/camera.h"
 #include "fathom/pipeline/render_pipeline.h"
+#include "fathom/scene/scene.h"
 
 /// Z-buffer and painter's algorithm, compared with the exact visible triangle and with each other.
 namespace fathom::studies {
+
+/// The textbooks' cases, by name.
+struct HiddenSurfaceScene {
+  std::string name;
+  Scene scene;
+};
+std::vector<HiddenSurfaceScene> hidden_surface_scenes();
+/// What sees them: 160 × 160 pixels, and no edge runs through a sample, where snapping would decide.
+Camera hidden_surface_camera();
 
 /// One of the textbooks' cases: pixels at which another triangle than the exact one is seen.
 struct HiddenSurfaceCase {
@@ -19,10 +30,12 @@ struct HiddenSurfaceCase {
 };
 std::vector<HiddenSurfaceCase> compare_hidden_surfaces();
 
-/// Random triangles, 320 × 240 pixels: the least time of five frames, here.
+/// Random triangles, 320 × 240 pixels: the least time of five frames, here. Bytes: a float32 for each
+/// pixel, and the polygons, with their attributes, that have to be there to be sorted.
 struct HiddenSurfaceCost {
   std::uint32_t triangles;
   double buffer_ms, painter_ms;
+  std::uint64_t buffer_bytes, painter_bytes;
   std::uint64_t comparisons, splits;
 };
 HiddenSurfaceCost hidden_surface_cost(std::uint32_t triangles);

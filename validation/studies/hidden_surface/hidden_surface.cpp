@@ -27,6 +27,8 @@ Table costs_table(const std::vector<HiddenSurfaceCost>& rows) {
           {{heading("triangles"), &Row::triangles},
            {heading("z-buffer ms", ".2f"), &Row::buffer_ms},
            {heading("painter ms", ".2f"), &Row::painter_ms},
+           {heading("z-buffer bytes"), &Row::buffer_bytes},
+           {heading("painter bytes"), &Row::painter_bytes},
            {heading("comparisons"), &Row::comparisons},
            {heading("splits"), &Row::splits}}};
 }
