@@ -25,6 +25,8 @@ FLOAT = re.compile(r"(0[xX][0-9a-fA-F.']+[pP][+-]?\d+|[0-9.']+(?:[eE][+-]?\d+)?)
 KINDS = {CursorKind.BINARY_OPERATOR, CursorKind.COMPOUND_ASSIGNMENT_OPERATOR, CursorKind.CALL_EXPR,
          CursorKind.UNARY_OPERATOR, CursorKind.INTEGER_LITERAL, CursorKind.FLOATING_LITERAL}
 
+DECLARATIONS = {CursorKind.VAR_DECL, CursorKind.FIELD_DECL, CursorKind.PARM_DECL}
+
 
 @dataclasses.dataclass
 class Mutant:
@@ -95,14 +97,24 @@ def site_of_number(source, start, end):
     return None
 
 
+def is_part_of_a_type(parent, source, start, end):
+    """Template arguments and bounds of arrays: no code, and changing them would compile every user of a header anew."""
+    if parent.kind == CursorKind.BINARY_OPERATOR:
+        return False
+    before, after = source[:start].rstrip()[-1:], source[end:end + 80].lstrip()[:1]
+    return before == b"<" or after == b">" or (before == b"[" and parent.kind in DECLARATIONS)
+
+
 def spelt_with_strings(cursor):
     return any("basic_string" in (part.type.get_canonical().spelling or "") or part.kind == CursorKind.STRING_LITERAL
                for part in [cursor, *cursor.get_children()])
 
 
-def site_at(cursor, source):
+def site_at(cursor, parent, source):
     start, end = cursor.extent.start.offset, cursor.extent.end.offset
     if cursor.kind in (CursorKind.INTEGER_LITERAL, CursorKind.FLOATING_LITERAL):
+        if is_part_of_a_type(parent, source, start, end):
+            return None
         return site_of_number(source, start, end)
     if spelt_with_strings(cursor):
         return None
@@ -117,7 +129,7 @@ def collect(cursor, sources, found):
             continue
         if child.kind in KINDS and child.extent.start.file and child.extent.start.file.name in sources:
             name = child.extent.start.file.name
-            site = site_at(child, sources[name])
+            site = site_at(child, cursor, sources[name])
             if site:
                 found[name].setdefault((site.start, site.end), site)
         collect(child, sources, found)

@@ -6,7 +6,9 @@
 #include <map>
 #include <optional>
 
+#include "validation/studies/hidden_surface/bsp_tree.h"
 #include "validation/studies/hidden_surface/comparison.h"
+#include "validation/studies/hidden_surface/warnock.h"
 #include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
@@ -78,6 +80,8 @@ TEST(HiddenSurfaceStudy, EveryCaseIsSeenAsByRays) {
     EXPECT_EQ(cases[i].buffer32, 0u) << scenes[i].name;
     // Where two pass through each other, corners of pieces are rounded.
     EXPECT_EQ(cases[i].painter, 0u) << scenes[i].name;
+    EXPECT_EQ(cases[i].warnock, 0u) << scenes[i].name;
+    EXPECT_EQ(cases[i].bsp_tree, 0u) << scenes[i].name;
     // And by the buffer itself, in either order of the triangles.
     for (const bool reversed : {false, true}) {
       Scene scene = scenes[i].scene;
@@ -112,6 +116,27 @@ TEST(HiddenSurfaceStudy, EveryCaseIsSettledByWhatItIsNamedAfter) {
   for (const auto& [name, statistics] : order) {
     const bool cut = name == "splitting" || name == "cycle" || name == "penetration";
     EXPECT_EQ(statistics.splits > 0, cut) << name;
+  }
+}
+
+TEST(HiddenSurfaceStudy, WarnocksWindowsAndTheTreeSeeCrowdsAsRaysDo) {
+  const Camera camera = hidden_surface_camera();
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Scene scene = random_triangles(60, seed);
+    const std::vector<int> rays = visible_by_rays(scene, camera);
+    const Sight windows = warnock(scene, camera), tree = bsp_tree(scene, camera);
+    std::size_t wrong_windows = 0, wrong_tree = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const std::uint32_t right = rays[i] < 0 ? no_surface : static_cast<std::uint32_t>(rays[i]);
+      wrong_windows += windows.ids[i] != right;
+      wrong_tree += tree.ids[i] != right;
+    }
+    EXPECT_EQ(wrong_windows, 0u);
+    EXPECT_EQ(wrong_tree, 0u);
+    // Neither looks at every pixel by itself, nor keeps every polygon whole.
+    EXPECT_LT(windows.steps, 160u * 160);
+    EXPECT_GT(windows.steps, 100u);
+    EXPECT_GT(tree.polygons, 60u);
   }
 }
 

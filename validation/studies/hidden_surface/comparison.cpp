@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "fathom/render.h"
+#include "validation/studies/hidden_surface/bsp_tree.h"
+#include "validation/studies/hidden_surface/warnock.h"
 #include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
@@ -26,9 +28,10 @@ std::vector<std::uint32_t> exact_ids(const Scene& scene, const Camera& camera) {
   return {ids.begin(), ids.end()};
 }
 
-std::size_t different(const std::vector<std::uint32_t>& exact, const PipelineFrame& frame) {
+template <class Ids>
+std::size_t different(const std::vector<std::uint32_t>& exact, const Ids& ids) {
   std::size_t count = 0;
-  for (std::size_t i = 0; i < exact.size(); ++i) count += exact[i] != frame.id[i];
+  for (std::size_t i = 0; i < exact.size(); ++i) count += exact[i] != ids[i];
   return count;
 }
 
@@ -46,25 +49,27 @@ HiddenSurfaceCase compare(const HiddenSurfaceScene& c) {
   Scene painted = c.scene;
   paint_each_triangle(painted);
   PipelineOptions options = z_buffer_options(Storage::float32);
-  result.buffer32 = different(exact, render_frame(painted, camera, options, false));
+  result.buffer32 = different(exact, render_frame(painted, camera, options, false).id);
   options = z_buffer_options(Storage::unorm16);
-  result.buffer16 = different(exact, render_frame(painted, camera, options, false));
+  result.buffer16 = different(exact, render_frame(painted, camera, options, false).id);
   options.hidden_surface = HiddenSurface::painter;
   const PipelineFrame frame = render_frame(painted, camera, options, true);
-  result.painter = different(exact, frame);
+  result.painter = different(exact, frame.id);
   result.order = frame.painter;
   result.picture = pipeline::to_rgb(frame.picture);
+  result.warnock = different(exact, warnock(c.scene, camera).ids);
+  result.bsp_tree = different(exact, bsp_tree(c.scene, camera).ids);
   return result;
 }
 
-/// The least time of a few frames, and the last of them.
-std::pair<double, PipelineFrame> timed_frame(const Scene& scene, const Camera& camera,
-                                             const PipelineOptions& options) {
+/// The least time of a few runs in milliseconds, and what the last of them gave.
+template <class Run>
+auto timed(const Run& run) {
   using Clock = std::chrono::steady_clock;
-  std::pair<double, PipelineFrame> result{std::numeric_limits<double>::infinity(), {}};
+  std::pair<double, decltype(run())> result{std::numeric_limits<double>::infinity(), {}};
   for (int frame = 0; frame < 5; ++frame) {
     const Clock::time_point start = Clock::now();
-    result.second = render_frame(scene, camera, options, false);
+    result.second = run();
     const std::chrono::duration<double, std::milli> time = Clock::now() - start;
     result.first = std::min(result.first, time.count());
   }
@@ -110,17 +115,24 @@ HiddenSurfaceCost hidden_surface_cost(std::uint32_t triangles) {
   const Camera camera = front_camera(320, 240, 1, 20);
   const Scene scene = random_triangles(triangles, 9);
   PipelineOptions options = z_buffer_options(Storage::float32);
-  const double buffer_ms = timed_frame(scene, camera, options).first;
+  const auto draw = [&] { return render_frame(scene, camera, options, false); };
+  const double buffer_ms = timed(draw).first;
   options.hidden_surface = HiddenSurface::painter;
-  const auto [painter_ms, frame] = timed_frame(scene, camera, options);
+  const auto [painter_ms, frame] = timed(draw);
+  const auto [warnock_ms, windows] = timed([&] { return warnock(scene, camera); });
+  const auto [bsp_tree_ms, pieces] = timed([&] { return bsp_tree(scene, camera); });
   const std::uint64_t polygons = triangles + frame.painter.splits;
   return {triangles,
           buffer_ms,
           painter_ms,
+          warnock_ms,
+          bsp_tree_ms,
           std::uint64_t{camera.width} * camera.height * sizeof(float),
           polygons * sizeof(pipeline::WindowTriangle<double>),
           frame.painter.comparisons,
-          frame.painter.splits};
+          frame.painter.splits,
+          windows.steps,
+          pieces.polygons};
 }
 
 }  // namespace fathom::studies

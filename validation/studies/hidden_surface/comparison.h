@@ -8,7 +8,8 @@
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/scene/scene.h"
 
-/// Z-buffer and painter's algorithm, compared with the exact visible triangle and with each other.
+/// Z-buffer, painter's algorithm, Warnock's subdivision and a tree of planes, compared with the exact
+/// visible triangle and with each other.
 namespace fathom::studies {
 
 /// The textbooks' cases, by name.
@@ -24,7 +25,7 @@ Camera hidden_surface_camera();
 struct HiddenSurfaceCase {
   std::string name;
   std::size_t seen = 0;  ///< pixels with a surface
-  std::size_t buffer16 = 0, buffer32 = 0, painter = 0;
+  std::size_t buffer16 = 0, buffer32 = 0, painter = 0, warnock = 0, bsp_tree = 0;
   pipeline::PainterStatistics order;
   RgbImage picture;  ///< the painter's
 };
@@ -34,9 +35,11 @@ std::vector<HiddenSurfaceCase> compare_hidden_surfaces();
 /// pixel, and the polygons, with their attributes, that have to be there to be sorted.
 struct HiddenSurfaceCost {
   std::uint32_t triangles;
-  double buffer_ms, painter_ms;
+  double buffer_ms, painter_ms, warnock_ms, bsp_tree_ms;
   std::uint64_t buffer_bytes, painter_bytes;
   std::uint64_t comparisons, splits;
+  std::uint64_t warnock_windows;  ///< that were looked at
+  std::uint64_t bsp_tree_pieces;  ///< of polygons, one in each node
 };
 HiddenSurfaceCost hidden_surface_cost(std::uint32_t triangles);
 
