@@ -151,6 +151,10 @@ def rendered(sites, source, start, end):
 def call(site, inner, source):
     operands = [rendered(inner, source, a, b) for a, b in site.operands]
     n = site.first
+    # Lines keep their numbers, by which the compiler complains.
+    ends = [site.start, *(end for operand in site.operands for end in operand)]
+    breaks = [b"\n" * source.count(b"\n", a, b) for a, b in zip(ends[::2], ends[1::2])]
+    operands = [lines + text for lines, text in zip(breaks, operands)]
     if site.kind == "binary":
         return f"::fathom_mutant::{BINARY[site.word][0]}<{n}>(".encode() + operands[0] + b", " + operands[1] + b")"
     turned = f"::fathom_mutant::turned<{n}>(".encode()
@@ -215,7 +219,8 @@ class Room:
             kept = []
             for site in self.sites[name]:
                 line = source.count(b"\n", 0, site.start) + 1
-                if f"{relative}:{line}" in skipped:
+                last = source.count(b"\n", 0, site.end) + 1
+                if any(f"{relative}:{k}" in skipped for k in range(line, last + 1)):
                     continue
                 kept.append(site)
                 site.first = len(mutants)
