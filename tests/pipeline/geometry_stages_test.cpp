@@ -38,7 +38,8 @@ TEST(GeometryStages, CountWhatBecomesOfTriangles) {
   const Corners edge_on{{{0, 0, 2}, {0, 0, 3}, {0, 0, 4}}};
   const Corners outside{{{9, 0, 2}, {10, 0, 2}, {9, 1, 2}}};
   const Corners cut{
-      {{0, 0.5, 2}, {9, 0.5, 2}, {0, -0.5, 2}}};  // a quadrangle is left: two triangles
+      {{0, 0.5, 2}, {9, 0.5, 2}, {0, -0.5, 2}}};              // a quadrangle is left: two triangles
+  const Corners tip{{{0, 0, 2}, {9, 0.5, 2}, {9, -0.5, 2}}};  // a smaller triangle is left
   // Narrower than half a step of the grid of whole pixels: snapping leaves no area.
   const Corners thin{{{-0.01, 0.3, 2}, {0.01, 0.3, 2}, {0, -0.3, 2}}};
   std::vector<MeshPoint> vertices;
@@ -50,18 +51,19 @@ TEST(GeometryStages, CountWhatBecomesOfTriangles) {
       triangles.push_back({first, first + 1, first + 2});
     }
   };
-  add(front, 1), add(back, 2), add(edge_on, 3), add(outside, 4), add(cut, 5), add(thin, 6);
+  add(front, 1), add(back, 2), add(edge_on, 3), add(outside, 4), add(cut, 5), add(thin, 6),
+      add(tip, 7);
   const Scene scene = testing::scene_of(vertices, triangles);
   PipelineOptions options = precise();
   options.subpixel_bits = 0;
   const PipelineStatistics all = render_frame(scene, camera(), options, false).statistics;
-  EXPECT_EQ(all.triangles, 21u);
+  EXPECT_EQ(all.triangles, 28u);
   EXPECT_EQ(all.not_finite, 0u);
   EXPECT_EQ(all.clipped_away, 4u);
-  EXPECT_EQ(all.clipped, 5u);
+  EXPECT_EQ(all.clipped, 5u + 7);
   EXPECT_EQ(all.degenerate, 3u);
   EXPECT_EQ(all.culled, 0u);
-  EXPECT_EQ(all.drawn, 1u + 2 + 2 * 5 + 6);
+  EXPECT_EQ(all.drawn, 1u + 2 + 2 * 5 + 6 + 7);
   EXPECT_EQ(all.turned_by_snapping, 6u);
   EXPECT_EQ(all.shaded, 0u);
   EXPECT_EQ(all.near, 1);
@@ -79,7 +81,7 @@ TEST(GeometryStages, CountWhatBecomesOfTriangles) {
   EXPECT_EQ(kept.drawn, all.drawn - 2);
   options.culling = Culling::front;
   const PipelineStatistics turned = render_frame(scene, camera(), options, false).statistics;
-  EXPECT_EQ(turned.culled, 1u + 5 + 6);
+  EXPECT_EQ(turned.culled, 1u + 5 + 6 + 7);
   EXPECT_EQ(turned.drawn, 2u);
   options.culling = Culling::none;
   options.front_face = FrontFace::clockwise;

@@ -387,5 +387,49 @@ TEST(Trace, SaysWhatEveryStageDid) {
   }
 }
 
+/// Mappings that are no projections are computed from the depth along the view, in the precision that is
+/// asked for.
+TEST(Trace, StoresWhatTheMappingMakesOfTheDepth) {
+  const Scene scene =
+      testing::scene_of({{-0.5, -0.5, 2.1}, {1.5, -1, 4.3}, {-0.3, 0.75, 3.7}}, {{0, 1, 2}});
+  const auto mapped = [](Mapping mapping, auto D, auto n, auto f) {
+    const decltype(D) one = 1;
+    switch (mapping) {
+      case Mapping::linear:
+        return (D - n) / (f - n);
+      case Mapping::w:
+        return D / f;
+      case Mapping::log:
+        return std::log(one + D) / std::log(one + f);
+      default:
+        return std::log(D / n) / std::log(f / n);
+    }
+  };
+  int different = 0;
+  for (const Mapping mapping : {Mapping::linear, Mapping::w, Mapping::log, Mapping::log_ulrich}) {
+    for (const Precision precision : {Precision::binary32, Precision::binary64}) {
+      for (std::int64_t x = 10; x < 20; ++x) {
+        PipelineOptions options;
+        options.precision = precision;
+        options.depth_format.mapping = mapping;
+        options.depth_format.storage = Storage::float64;
+        Camera c = camera();
+        c.near = 1.1;
+        c.far = 99.7;
+        const auto trace = trace_triangle(scene, c, options, 0, Pixel{x, 12});
+        ASSERT_TRUE(trace.sample);
+        const double D = trace.sample->depth;
+        const double fine = mapped(mapping, D, 1.1, 99.7);
+        const auto coarse =
+            static_cast<double>(mapped(mapping, static_cast<float>(D), 1.1F, 99.7F));
+        EXPECT_EQ(trace.sample->stored.bits,
+                  store(Storage::float64, precision == Precision::binary64 ? fine : coarse).bits);
+        different += fine != coarse;
+      }
+    }
+  }
+  EXPECT_GT(different, 60);
+}
+
 }  // namespace
 }  // namespace fathom::pipeline
