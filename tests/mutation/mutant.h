@@ -55,33 +55,32 @@ template <int n>
   return chosen == n;
 }
 
-// What stood there, by a second operator or, for comparisons, a second and a third one. Only where the result is of the
-// same type there is a mutant.
-#define FATHOM_MUTANT_OPERATOR(name, original, other)                                            \
-  template <int n, class L, class R>                                                             \
-  [[gnu::always_inline]] constexpr decltype(auto) name(L&& l, R&& r) {                           \
-    if constexpr (requires {                                                                     \
-                    { l other r } -> std::same_as<decltype(l original r)>;                       \
-                  }) {                                                                           \
-      if (!std::is_constant_evaluated() && on<n>()) {                                            \
-        return std::forward<L>(l) other std::forward<R>(r);                                      \
-      }                                                                                          \
-    }                                                                                            \
-    return std::forward<L>(l) original std::forward<R>(r);                                       \
+// What stood there, or a second operator; for comparisons also their opposite. There is a mutant only where the second
+// one gives the same type; of comparisons, a type may have just the one that is used.
+#define FATHOM_MUTANT_OPERATOR(name, original, other)                      \
+  template <int n, class L, class R>                                       \
+  [[gnu::always_inline]] constexpr decltype(auto) name(L&& l, R&& r) {     \
+    if constexpr (requires {                                               \
+                    { l other r } -> std::same_as<decltype(l original r)>; \
+                  }) {                                                     \
+      if (!std::is_constant_evaluated() && on<n>()) {                      \
+        return std::forward<L>(l) other std::forward<R>(r);                \
+      }                                                                    \
+    }                                                                      \
+    return std::forward<L>(l) original std::forward<R>(r);                 \
   }
-#define FATHOM_MUTANT_COMPARISON(name, original, other, third)                                   \
-  template <int n, class L, class R>                                                             \
-  [[gnu::always_inline]] constexpr decltype(auto) name(L&& l, R&& r) {                           \
-    if constexpr (requires {                                                                     \
-                    { l other r } -> std::same_as<decltype(l original r)>;                       \
-                    { l third r } -> std::same_as<decltype(l original r)>;                       \
-                  }) {                                                                           \
-      if (!std::is_constant_evaluated()) {                                                       \
-        if (on<n>()) return std::forward<L>(l) other std::forward<R>(r);                         \
-        if (on<n + 1>()) return std::forward<L>(l) third std::forward<R>(r);                     \
-      }                                                                                          \
-    }                                                                                            \
-    return std::forward<L>(l) original std::forward<R>(r);                                       \
+#define FATHOM_MUTANT_COMPARISON(name, original, other)                     \
+  template <int n, class L, class R>                                        \
+  [[gnu::always_inline]] constexpr bool name(L&& l, R&& r) {                \
+    if (!std::is_constant_evaluated()) {                                    \
+      if constexpr (requires { static_cast<bool>(l other r); }) {           \
+        if (on<n>()) return static_cast<bool>(l other r);                   \
+      } else if constexpr (requires { static_cast<bool>(r original l); }) { \
+        if (on<n>()) return !static_cast<bool>(r original l);               \
+      }                                                                     \
+      if (on<n + 1>()) return !static_cast<bool>(l original r);             \
+    }                                                                       \
+    return static_cast<bool>(l original r);                                 \
   }
 FATHOM_MUTANT_OPERATOR(plus, +, -)
 FATHOM_MUTANT_OPERATOR(minus, -, +)
@@ -89,10 +88,10 @@ FATHOM_MUTANT_OPERATOR(plus_assign, +=, -=)
 FATHOM_MUTANT_OPERATOR(minus_assign, -=, +=)
 FATHOM_MUTANT_OPERATOR(equal, ==, !=)
 FATHOM_MUTANT_OPERATOR(unequal, !=, ==)
-FATHOM_MUTANT_COMPARISON(less, <, <=, >=)
-FATHOM_MUTANT_COMPARISON(less_equal, <=, <, >)
-FATHOM_MUTANT_COMPARISON(greater, >, >=, <=)
-FATHOM_MUTANT_COMPARISON(greater_equal, >=, >, <)
+FATHOM_MUTANT_COMPARISON(less, <, <=)
+FATHOM_MUTANT_COMPARISON(less_equal, <=, <)
+FATHOM_MUTANT_COMPARISON(greater, >, >=)
+FATHOM_MUTANT_COMPARISON(greater_equal, >=, >)
 #undef FATHOM_MUTANT_OPERATOR
 #undef FATHOM_MUTANT_COMPARISON
 
