@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 #include <string>
@@ -230,6 +231,54 @@ TEST(DepthBuffer, WhatMeansNothingIsRefused) {
   EXPECT_THROW(add_depth_buffer(map, scene, camera,
                                 {{Mapping::infinite, Storage::unorm16, 1, infinity}, false, {}}),
                UsageError);
+}
+
+/// Three bands of rows and a part of one, alone and with what the exact map says beside it.
+TEST(DepthBuffer, StoresTheSameInEveryRowWhetherOrNotItIsCompared) {
+  std::mt19937_64 random(33);
+  const Scene scene = testing::soup(random, 40, false);
+  Camera camera = testing::camera_of(20, 27, 20);
+  camera.near = 0.5;
+  camera.far = 50;
+  const DepthFormat format{Mapping::reversed, Storage::unorm16, camera.near, camera.far};
+  for (const Engine engine : {Engine::fast, Engine::reference}) {
+    const Buffered compared = buffered(scene, camera, format, engine);
+    const RenderOptions options{.engine = engine, .channels = {Channel::Z, Channel::id}};
+    DepthMap alone = render(scene, camera, options);
+    const DepthBufferStatistics s =
+        add_depth_buffer(alone, scene, camera, {format, false, options});
+    for (const char* name : {"id", "Zwindow"}) {
+      EXPECT_EQ(*alone.values<std::uint32_t>(name), *compared.map.values<std::uint32_t>(name));
+    }
+    EXPECT_EQ(*alone.values<float>("Zdecoded"), *compared.map.values<float>("Zdecoded"));
+    const auto& id = *alone.values<std::uint32_t>("id");
+    const auto surfaces = static_cast<std::uint64_t>(id.size()) -
+                          static_cast<std::uint64_t>(std::count(id.begin(), id.end(), no_surface));
+    EXPECT_GT(surfaces, 200U);
+    EXPECT_EQ(s.by_binary64 + s.by_double_words + s.by_exact_numbers, surfaces);
+    EXPECT_EQ(s.fighting, 0U);
+    if (engine == Engine::reference) {
+      EXPECT_EQ(s.by_exact_numbers, surfaces);
+    }
+  }
+}
+
+/// Triangles are numbered from 0: two of them are 0 and 1.
+TEST(DepthBuffer, MapsOfOtherScenesAreRefused) {
+  Camera camera = testing::camera_of(4, 3, 2);
+  camera.near = 0.5;
+  camera.far = 8;
+  const Scene scene = two_planes(2, 1, false);
+  const DepthFormat format{Mapping::standard, Storage::unorm16, 0.5, 8};
+  for (const std::uint32_t id : {1U, 2U, 3U}) {
+    DepthMap map = render(scene, camera, {.channels = {Channel::Z, Channel::id}});
+    (*map.values<std::uint32_t>("id"))[7] = id;
+    if (id < 2) {
+      EXPECT_NO_THROW(add_depth_buffer(map, scene, camera, {format, false, {}}));
+    } else {
+      EXPECT_THROW(add_depth_buffer(map, scene, camera, {format, false, {}}), InputError);
+    }
+  }
 }
 
 }  // namespace

@@ -1,14 +1,17 @@
 // docs/sources.md: for each error of the source texts the wrong version, which fails, beside the
-// right one. Errors 23, 24 and 25 are those of clippers: tests/clipping.
+// right one, which is what the library computes. Error 25 is of a clipper: tests/clipping.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "fathom/clipping/cohen_sutherland.h"
+#include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/homogeneous.h"
 #include "fathom/depth_format/encode.h"
 #include "fathom/pipeline/rasterization/grid_samples.h"
@@ -16,6 +19,7 @@
 #include "fathom/pipeline/scan/edge_function.h"
 #include "fathom/pipeline/scan/line.h"
 #include "fathom/pipeline/scan/polygon_fill.h"
+#include "fathom/pipeline/trace.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -94,9 +98,21 @@ TEST(Errata, E05_TheSourcesBresenhamDoesAllOctants) {
 }
 
 TEST(Errata, E06_AParabolasParameterCoversHalfOfTheLine) {
-  // (t² + 1, 2(t² + 1) + 4): no t gives the point (0, 4) of y = 2x + 4.
-  for (double t = -10; t <= 10; t += 0.125) EXPECT_GE(t * t + 1, 1);
-  EXPECT_EQ(2 * 0.0 + 4, 4);
+  // y = 2x + 4 from (−6, −8) to (6, 16): one pixel in each row, the nearest, at a tie the right one.
+  const Pixels line = right_line({-6, -8, 6, 16});
+  Pixels nearest;
+  for (int y = -8; y <= 16; ++y) {
+    nearest.push_back({static_cast<std::int64_t>(std::floor((y - 4) / 2.0 + 0.5)), y});
+  }
+  EXPECT_EQ(line, nearest);
+  // (t² + 1, 2(t² + 1) + 4), drawn from t to t, reaches those with x ≥ 1 and no other.
+  std::set<Pixel> wrong;
+  for (int t = -8; t < 8; ++t) {
+    const auto at = [](int i) { return std::int64_t{i} * i + 1; };
+    bresenham_line({at(t), 2 * at(t) + 4, at(t + 1), 2 * at(t + 1) + 4}, {},
+                   [&](const Pixel& p, std::int64_t) { wrong.insert(p); });
+  }
+  for (const Pixel& p : line) EXPECT_EQ(wrong.count(p), p.x >= 1 && p.y >= 6) << p.x << " " << p.y;
 }
 
 Ring<Exact> ring_of(const std::vector<std::array<int, 2>>& corners) {
@@ -153,11 +169,29 @@ double their_edge(const std::array<double, 2>& a, const std::array<double, 2>& b
 }
 
 TEST(Errata, E10_TheEdgeFunctionIsNotTheCrossProductStatedBesideIt) {
-  const std::array<double, 2> a{0, 0}, b{4, 0}, p{1, 1};
-  const double cross = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-  EXPECT_EQ(their_edge(a, b, p), -cross);
-  EXPECT_GT(cross, 0);                // left with y up,
-  EXPECT_LT(their_edge(a, b, p), 0);  // and theirs says right
+  // y down: these corners run counter-clockwise as numbers, which is clockwise as seen, then back.
+  const std::array<std::array<int, 2>, 3> corners{{{0, 0}, {7, 1}, {2, 6}}};
+  for (const bool reversed : {false, true}) {
+    std::array<std::array<int, 2>, 3> c = corners;
+    if (reversed) std::swap(c[1], c[2]);
+    std::array<Point<Exact>, 3> t;
+    for (std::size_t k = 0; k < 3; ++k) t[k] = {Exact(c[k][0]), Exact(c[k][1])};
+    const auto triangle = edge_functions(t);
+    ASSERT_TRUE(triangle);
+    EXPECT_EQ(triangle->turned, !reversed);
+    const int sign = reversed ? -1 : 1;
+    for (int y = -1; y <= 7; ++y) {
+      for (int x = -1; x <= 8; ++x) {
+        // Of the edge from A to B, opposite C: (B − A) × (P − A), positive inside.
+        const auto &a = c[0], &b = c[1];
+        const int cross = (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+        EXPECT_EQ(triangle->edges[2].at(Exact(x), Exact(y)), Exact(sign * cross));
+        const double theirs = their_edge({double(a[0]), double(a[1])}, {double(b[0]), double(b[1])},
+                                         {double(x), double(y)});
+        EXPECT_EQ(triangle->edges[2].at(Exact(x), Exact(y)), Exact(-sign * theirs));
+      }
+    }
+  }
 }
 
 TEST(Errata, E11_LeftEdgesAreNotThoseThatGoUp) {
@@ -203,17 +237,6 @@ TEST(Errata, E13_ATinyAreaIsNoZero) {
   EXPECT_EQ(covered, 1u);
 }
 
-TEST(Errata, E14_WindowDepthIsAffineAndNotDividedAgain) {
-  // Half way in the window between w = 1 and w = 4 with near 1: z = 1 − 1/w is 0 and 3/4. The point
-  // there has 1/w = 5/8, so z = 3/8, the mean; with 1/w again it is (0 + 3/4/4)/(5/4) = 3/20.
-  const double z0 = 0, z1 = 0.75, w0 = 1, w1 = 4;
-  const double right = (z0 + z1) / 2, wrong = (z0 / w0 + z1 / w1) / (1 / w0 + 1 / w1);
-  const double inverse_w = (1 / w0 + 1 / w1) / 2;
-  EXPECT_EQ(right, 1 - inverse_w);
-  EXPECT_NE(wrong, right);
-  EXPECT_EQ(wrong, 0.15);
-}
-
 Scene scene_of(std::vector<MeshPoint> vertices, std::vector<CornerIndices> triangles) {
   Scene scene;
   scene.meshes.emplace_back();
@@ -232,6 +255,44 @@ Camera window_camera(std::uint32_t width, std::uint32_t height) {
   camera.near = 0;
   camera.far = 1;
   return camera;
+}
+
+TEST(Errata, E14_WindowDepthIsAffineAndNotDividedAgain) {
+  // From w = 1 on the left to w = 4, eight pixels away, on the right, with near 1: window depth is
+  // 1 − 1/w, 0 to 3/4. Half way there 1/w is 5/8 and z = 3/8, the mean of the ends. With 1/w again
+  // it would be (0 + 3/4/4)/(5/4) = 3/20. Another triangle lies at window depth 1/4, w = 4/3.
+  Camera camera;  // the image at w = 1 is x and y
+  camera.width = camera.height = 16;
+  camera.fx = camera.fy = 1;
+  camera.cx = camera.cy = 0;
+  camera.near = 1;
+  camera.far = 1000;
+  const auto corner = [](double x, double y, double w) { return MeshPoint{x * w, y * w, w}; };
+  const Scene scene =
+      scene_of({corner(0.5, 0.5, 1), corner(8.5, 0.5, 4), corner(0.5, 8.5, 1),
+                corner(0.25, 0.25, 4. / 3), corner(15, 0.25, 4. / 3), corner(0.25, 15, 4. / 3)},
+               {{0, 1, 2}, {3, 4, 5}});
+  PipelineOptions options;
+  options.precision = Precision::binary64;
+  options.subpixel_bits = 16;
+  options.depth_format.mapping = Mapping::infinite;
+  const Pixel middle{4, 1};  // its centre: half way from the left side to the right corner
+  const auto trace = trace_triangle(scene, camera, options, 0, middle);
+  ASSERT_TRUE(trace.sample && trace.sample->covered);
+  // Rounded a few dozen times in binary64.
+  EXPECT_NEAR(trace.sample->window_z, 3. / 8, 1e-12);
+  EXPECT_NEAR(trace.sample->depth, 8. / 5, 1e-12);
+  // Right: the slanted triangle is in front up to a third of the way. Wrong: up to two thirds.
+  const PipelineFrame frame = render_frame(scene, camera, options, false);
+  for (std::uint32_t x = 1; x <= 6; ++x) {
+    const double part = x / 8.0, z0 = 0, z1 = 0.75;
+    const double right = z0 + part * (z1 - z0);
+    const double wrong = (part * z1 / 4) / (1 - part + part / 4);
+    EXPECT_EQ(frame.id[16 + x], right < 0.25 ? 0u : 1u) << x;
+    if (3 <= x && x <= 5) {
+      EXPECT_NE(right < 0.25, wrong < 0.25) << x;
+    }
+  }
 }
 
 TEST(Errata, E15_TheDemosCounts) {
@@ -359,26 +420,62 @@ TEST(Errata, E21_JitterIsForRegularPatterns) {
 }
 
 TEST(Errata, E22_TheProjectionOfAPointBehindTheEye) {
-  const double n = 1, f = 2, z = n;
-  const double z_clip = -(f + n) / (f - n) * z - 2 * f * n / (f - n), w_clip = -z;
-  EXPECT_EQ(z_clip, -7);
-  EXPECT_EQ(w_clip, -1);
-  EXPECT_EQ(z_clip / w_clip, 7);  // 3 = (f + n)/(f − n) is only a bound
+  Camera camera = window_camera(8, 8);
+  camera.projection = Projection::perspective;
+  camera.near = 1;
+  camera.far = 2;
+  PipelineOptions options;
+  options.depth_format.mapping = Mapping::opengl;
+  fill_in_range({}, camera, options.depth_format);
+  const VertexTransform<double> transform(camera, {}, options);
+  // The frame of the source, z backward: (0, 0, n) is behind the eye.
+  const auto clip = transform.to_clip({0, 0, 1});
+  EXPECT_EQ(clip.z, -7);
+  EXPECT_EQ(clip.w, -1);
+  // 3 = (f + n)/(f − n) bounds z/w from below, for points behind the eye; none of them has it.
+  double before = 1e300;
+  for (const double z : {0.125, 1.0, 8.0, 64.0, 4096.0}) {
+    const auto p = transform.to_clip({0, 0, z});
+    EXPECT_GT(p.z / p.w, 3);
+    EXPECT_LT(p.z / p.w, before);
+    before = p.z / p.w;
+  }
+  EXPECT_LT(before, 3.001);
 }
 
 TEST(Errata, E23_TheSignInTheHomogeneousIntersection) {
-  // R = (3, …, 1), S = (0, …, 2) and the plane x = w: x(t) − w(t) = 2 + t(−2 − 2) is 0 at ½.
-  const double rx = 3, rw = 1, sx = 0, sw = 2;
-  const double t = (rx - rw) / ((sw - rw) - (sx - rx));
-  EXPECT_EQ(rx + t * (sx - rx), rw + t * (sw - rw));
-  const auto wrong = [&](double s) { return rx - rw + s * ((sw - rw) - (sx - rx)); };
-  EXPECT_NE(wrong(t), 0);
+  // R = (3, 0, 0, 1), S = (0, 0, 0, 2) and the plane x = w: x(t) − w(t) = 2 + t(−3 − 1).
+  using clipping::Rational;
+  const clipping::Segment4<Rational> segment{{3, 0, 0, 1}, {0, 0, 0, 2}};
+  clipping::LiangBarskyTrace<Rational> trace;
+  const auto part = clipping::clip_homogeneous(segment, clipping::Volume::zero_one,
+                                               clipping::Half::upper, &trace);
+  ASSERT_TRUE(part);
+  EXPECT_EQ(trace.t_entering, Rational(1, 2));
+  EXPECT_EQ(trace.t_leaving, Rational(1));
+  EXPECT_EQ(part->start.x, Rational(3, 2));
+  EXPECT_EQ(part->start.w, Rational(3, 2));
+  // The source's x(t) − w(t) = R_x − R_w + t((S_w − R_w) − (S_x − R_x)) is 0 at −½, and not there.
+  const Rational t = trace.t_entering, rx = 3, rw = 1, sx = 0, sw = 2;
+  EXPECT_EQ(rx - rw + t * ((sx - rx) - (sw - rw)), 0);
+  EXPECT_EQ(rx - rw + t * ((sw - rw) - (sx - rx)), 4);
 }
 
 TEST(Errata, E24_ASharedOutcodeIsTestTwo) {
-  const unsigned e3 = 0b1000, e2 = 0b1000;
-  EXPECT_NE(e3 & e2, 0u);                              // test 2: outside at once
-  EXPECT_FALSE((e3 & e2) == 0 && e3 != 0 && e2 != 0);  // so not test 4
+  // From the left of the window to above it, past its corner.
+  using clipping::Rational;
+  const clipping::Segment2<Rational> D{{-1, 3}, {1, 9}};
+  const clipping::Window<Rational> window{0, 0, 4, 4};
+  std::vector<clipping::CohenSutherlandStep<Rational>> trace;
+  EXPECT_FALSE(clipping::cohen_sutherland(D, window, &trace));
+  ASSERT_EQ(trace.size(), 2u);
+  EXPECT_EQ(clipping::to_bits(trace[0].E1), "0001");  // left: the source has 0010
+  EXPECT_EQ(clipping::to_bits(trace[0].E2), "1000");
+  EXPECT_EQ(trace[0].test, 4);
+  // E3 = (0, 6) and E2 share the top: the source says test 4.
+  EXPECT_EQ(trace[1].segment.start, (clipping::Point2<Rational>{0, 6}));
+  EXPECT_EQ(trace[1].E1 & trace[1].E2, clipping::outcode::top);
+  EXPECT_EQ(trace[1].test, 2);
 }
 
 std::vector<double> facing_shares(bool closed) {
@@ -467,23 +564,58 @@ TEST(Errata, E30_SortingByTheFarthestCornerAloneIsWrong) {
 }
 
 TEST(Errata, E31_TheTablesContradictThemselves) {
-  const std::string z_row = "1.0 1.0 .5 .5 .5 .5 .5 .5 .5 1.0 1.0 1.0";
-  const std::string colour_row = "W W B B B B B B B B W W";
-  const auto count = [](const std::string& row, const std::string& word) {
-    int n = 0;
-    for (std::size_t at = row.find(word); at != std::string::npos; at = row.find(word, at + 1)) ++n;
-    return n;
+  // A triangle whose coverage at pixel centres is the black one of the 12-column tables: its sides
+  // are x = 5.4 − k/2 and x = 5.8 + 3k/5 at the centre of row k.
+  const double top = -4. / 11;
+  const auto at = [](double k, double x) { return MeshPoint{x, k + 0.5, 0.5}; };
+  const Scene scene = scene_of({at(top, 5.4 - top / 2), at(20, 17.8), at(20, -4.6)}, {{0, 1, 2}});
+  PipelineOptions options;
+  options.precision = Precision::binary64;
+  options.shading = Shading::none;
+  options.background = {0, 0, 0};
+  Camera camera = window_camera(12, 9);
+  camera.near = 0.125;
+  const PipelineFrame frame = render_frame(scene, camera, options, true);
+  const auto row = [&](std::size_t y, const auto& word) {
+    std::string words;
+    for (std::size_t x = 0; x < 12; ++x) words += (x ? " " : "") + std::string(word(12 * y + x));
+    return words;
   };
-  EXPECT_EQ(count(z_row, ".5"), 7);
-  EXPECT_EQ(count(colour_row, "B"), 8);
+  const auto depth = [&](std::size_t y) {
+    return row(y, [&](std::size_t i) { return frame.depth[i] == 0.5F ? ".5" : "1.0"; });
+  };
+  const auto colour = [&](std::size_t y) {
+    return row(y, [&](std::size_t i) { return frame.picture.pixels[i][0] > 0.5F ? "B" : "W"; });
+  };
+  // Row 7 of the source, and those beside it, which do agree.
+  EXPECT_EQ(depth(5), "1.0 1.0 1.0 .5 .5 .5 .5 .5 .5 1.0 1.0 1.0");
+  EXPECT_EQ(colour(5), "W W W B B B B B B W W W");
+  EXPECT_EQ(depth(6), "1.0 1.0 .5 .5 .5 .5 .5 .5 .5 1.0 1.0 1.0");
+  EXPECT_EQ(colour(6), "W W B B B B B B B W W W");
+  EXPECT_NE(colour(6), "W W B B B B B B B B W W");  // its colours
+  EXPECT_EQ(depth(7), "1.0 1.0 .5 .5 .5 .5 .5 .5 .5 .5 1.0 1.0");
+  EXPECT_EQ(colour(7), "W W B B B B B B B B W W");
 }
 
 TEST(Errata, E32_TheDeterminantsLastFactor) {
-  const double x1 = 0, y1 = 0, x2 = 4, y2 = 1, x3 = 1, y3 = 3;
-  const double wrong = (x2 - x1) * (y3 - y1) - (x3 - x1) * (y3 - y1);
-  const double right = (x2 - x1) * (y3 - y1) - (x3 - x1) * (y2 - y1);
-  EXPECT_EQ(right, 11);  // twice the area
-  EXPECT_NE(wrong, right);
+  // (x2−x1)(y3−y1) − (x3−x1)(y3−y1) has another sign for many a triangle.
+  int different = 0;
+  for (int i = 0; i < 5 * 5 * 5 * 5; ++i) {
+    const int x2 = i % 5 - 2, y2 = i / 5 % 5 - 2, x3 = i / 25 % 5 - 2, y3 = i / 125 - 2;
+    const int wrong = x2 * y3 - x3 * y3, right = x2 * y3 - x3 * y2;
+    const Facing facing = right > 0 ? Facing::front : right < 0 ? Facing::back : Facing::edge_on;
+    const Facing theirs = wrong > 0 ? Facing::front : wrong < 0 ? Facing::back : Facing::edge_on;
+    std::array<NdcVertex<double>, 3> ndc{};
+    ndc[0].x = ndc[0].y = 0.5;  // nothing depends on where x1 and y1 are
+    ndc[1] = {0.5 + x2, 0.5 + y2, 0, 1, {}};
+    ndc[2] = {0.5 + x3, 0.5 + y3, 0, 1, {}};
+    EXPECT_EQ(facing_in_ndc(ndc, FrontFace::counter_clockwise), facing);
+    std::array<WindowVertex<double>, 3> window{};  // y down
+    for (std::size_t k = 0; k < 3; ++k) window[k] = {ndc[k].x, -ndc[k].y, 0, 1, {}};
+    EXPECT_EQ(facing_in_window(window, FrontFace::counter_clockwise), facing);
+    different += facing != theirs;
+  }
+  EXPECT_GT(different, 100);
 }
 
 }  // namespace

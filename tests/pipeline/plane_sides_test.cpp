@@ -55,6 +55,55 @@ TEST(PlaneSides, ProjectionsOverlapByMoreThanTheirBoundaries) {
   }
 }
 
+/// The area that two triangles of small integers have in common, by cutting one with the other's sides.
+double common_area(std::vector<Point3d> p, const std::vector<Point3d>& q) {
+  const auto side = [](const Point3d& a, const Point3d& b, const Point3d& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  };
+  const double way = side(q[0], q[1], q[2]) > 0 ? 1 : -1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<Point3d> kept;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const Point3d &a = p[i], &b = p[(i + 1) % p.size()];
+      const double va = way * side(q[k], q[(k + 1) % 3], a),
+                   vb = way * side(q[k], q[(k + 1) % 3], b);
+      if (va >= 0) kept.push_back(a);
+      if (va * vb < 0) {
+        const double t = va / (va - vb);
+        kept.push_back({a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), 0});
+      }
+    }
+    p = kept;
+  }
+  double area = 0;
+  for (std::size_t i = 2; i < p.size(); ++i) area += side(p[0], p[i - 1], p[i]);
+  return std::abs(area);
+}
+
+TEST(PlaneSides, TrianglesOverlapWhereTheyHaveAnAreaInCommon) {
+  std::mt19937_64 random(71);
+  int overlapping = 0, apart = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const auto triangle = [&] {
+      std::vector<Point3d> t;
+      do {
+        t.clear();
+        for (int k = 0; k < 3; ++k) {
+          t.push_back({static_cast<double>(random() % 9), static_cast<double>(random() % 9), 0});
+        }
+      } while (turn_in_window(t[0], t[1], t[2]) == Sign::zero);
+      return t;
+    };
+    const auto p = triangle(), q = triangle();
+    // Areas are multiples of far more than what is rounded here.
+    const bool overlap = common_area(p, q) > 1e-6;
+    ASSERT_EQ(projections_overlap(p, q), overlap) << i;
+    ++(overlap ? overlapping : apart);
+  }
+  EXPECT_GT(overlapping, 500);
+  EXPECT_GT(apart, 500);
+}
+
 TEST(PlaneSides, TurnsInTheWindow) {
   EXPECT_EQ(turn_in_window({0, 0, 7}, {1, 0, 3}, {0, 1, -2}), Sign::positive);
   EXPECT_EQ(turn_in_window({0, 0, 7}, {0, 1, 3}, {1, 0, -2}), Sign::negative);

@@ -21,9 +21,25 @@ TEST(Course, TablesAreThoseOfTheSource) {
                                         "1 1 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.75 0.85 0.95",
                                         "1 1 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.85 0.95",
                                         "1 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.95"};
-  EXPECT_EQ(t.depth_after, depths);
-  EXPECT_EQ(t.colour_after[3], "W W W W B B G B G G G G");
-  EXPECT_EQ(t.colour_before[8], "W B B B B B B B B B B W");
+  EXPECT_EQ(t.black_then_grey.depths, depths);
+  EXPECT_EQ(t.grey_then_black.depths, depths);
+  EXPECT_EQ(t.grey_then_black.colours, t.black_then_grey.colours);
+  const std::vector<std::string> colours{
+      "W W W W W B W W W W W W", "W W W W W B W W W W W G", "W W W W B B B W G G G G",
+      "W W W W B B G B G G G G", "W W W B G G G B G G G G", "W W W B B B G B B G G G",
+      "W W B B B B B B B G G G", "W W B B B B B B B B G G", "W B B B B B B B B B B G"};
+  EXPECT_EQ(t.black_then_grey.colours, colours);
+  // Before the grey one: depth 0.5 where it is black, as the source's rows but for E31.
+  const std::vector<std::string> black{
+      "W W W W W B W W W W W W", "W W W W W B W W W W W W", "W W W W B B B W W W W W",
+      "W W W W B B B B W W W W", "W W W B B B B B W W W W", "W W W B B B B B B W W W",
+      "W W B B B B B B B W W W", "W W B B B B B B B B W W", "W B B B B B B B B B B W"};
+  EXPECT_EQ(t.black.colours, black);
+  for (std::size_t y = 0; y < black.size(); ++y) {
+    std::string half;
+    for (const char c : black[y]) half += c == 'B' ? "0.5" : c == 'W' ? "1" : " ";
+    EXPECT_EQ(t.black.depths[y], half);
+  }
 }
 
 TEST(Course, DemoCountsAddUp) {
@@ -31,9 +47,12 @@ TEST(Course, DemoCountsAddUp) {
   EXPECT_EQ(d.near_fragments + d.far_fragments, d.union_of_both + d.overlap);
   EXPECT_EQ(d.passed_far_first, d.near_fragments + d.far_fragments);
   EXPECT_EQ(d.passed_near_first, d.union_of_both);
-  // Areas 13950 and 16900; a count differs from its area by less than the outline is long.
-  EXPECT_NEAR(static_cast<double>(d.near_fragments), 13950, 540);
-  EXPECT_NEAR(static_cast<double>(d.far_fragments), 16900, 700);
+  // By both rules, as a program of ten lines counts them. 140 centres lie on the far triangle's two
+  // edges that are neither left nor top, none on its left one (areas: 13950 and 16900).
+  EXPECT_EQ(d.near_fragments, 13955u);
+  EXPECT_EQ(d.far_fragments, 16830u);
+  EXPECT_EQ(d.near_closed, 13955u);
+  EXPECT_EQ(d.far_closed, 16970u);
 }
 
 TEST(Course, MoreSamplesFindMoreOfTheCutPixels) {

@@ -169,6 +169,9 @@ PipelineFrame render_moving(MovingScene& scene, const Camera& camera,
       method == AntialiasMethod::temporal || method == AntialiasMethod::temporal_area;
   if (method == AntialiasMethod::taa && options.viewport)
     throw UsageError(Setting{"viewport"}, "taa of a moving scene draws to the whole image");
+  if (method == AntialiasMethod::taa && has_lines_or_points(scene.at(shutter.open)))
+    throw UsageError(Setting{"antialias"},
+                     "taa of a moving scene follows triangles, and it has lines or points");
   PipelineOptions map_options = options;
   if (averaged || method == AntialiasMethod::taa) map_options.antialias = {};
   const bool is_picture = with_picture && !averaged && method != AntialiasMethod::taa;

@@ -160,6 +160,8 @@ void demo_of_section_6(Results& results) {
   const std::vector<Row> rows{
       {"fragments of the near triangle", d.near_fragments},
       {"fragments of the far triangle", d.far_fragments},
+      {"centres in the near triangle or on its outline", d.near_closed},
+      {"centres in the far triangle or on its outline", d.far_closed},
       {"fragments together: what is shaded without a depth test",
        d.near_fragments + d.far_fragments},
       {"pixels covered: the union", d.union_of_both},
@@ -188,10 +190,10 @@ std::string aligned(const std::vector<std::string>& rows) {
 
 void tables(Results& results) {
   const Tables t = z_buffer_tables();
-  results.text("depths_before", aligned(t.depth_before));
-  results.text("colours_before", aligned(t.colour_before));
-  results.text("depths_after", aligned(t.depth_after));
-  results.text("colours_after", aligned(t.colour_after));
+  results.text("depths_before", aligned(t.black.depths));
+  results.text("colours_before", aligned(t.black.colours));
+  results.text("depths_after", aligned(t.black_then_grey.depths));
+  results.text("colours_after", aligned(t.black_then_grey.colours));
 }
 
 void curves_and_time(Results& results) {

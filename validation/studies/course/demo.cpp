@@ -28,6 +28,77 @@ Scene demo_scene(bool far_first) {
   return scene;
 }
 
+/// Centres of pixels inside a triangle or on its outline, by the signs of three integers.
+std::uint64_t closed_count(const std::array<std::array<std::int64_t, 2>, 3>& corners) {
+  std::uint64_t count = 0;
+  for (std::int64_t y = 1; y < 2 * 240; y += 2) {
+    for (std::int64_t x = 1; x < 2 * 320; x += 2) {
+      bool left = true, right = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto &a = corners[k], &b = corners[(k + 1) % 3];
+        const std::int64_t side = (b[0] - a[0]) * (y - 2 * a[1]) - (b[1] - a[1]) * (x - 2 * a[0]);
+        left &= side >= 0;
+        right &= side <= 0;
+      }
+      count += left || right;
+    }
+  }
+  return count;
+}
+
+constexpr std::uint32_t table_columns = 12, table_rows = 9;
+constexpr double table_near = 0.125;
+
+/// The two triangles of the tables, drawn in an order: 0 is black, at window depth 0.5; 1 is grey, from
+/// 0.25 at column 4 to 0.95 at column 11. Their sides are straight lines between those centres that the
+/// source's tables have inside and those that they have outside:
+///   black   x = 5.4 − k/2 and x = 5.8 + 3k/5 at the centres of row k
+///   grey    x = 12.8 − 11k/5 and x = 8k/5 − 2, up to the right side of the window
+Scene black_and_grey(const std::vector<std::uint32_t>& order) {
+  const auto at = [](double x, double k, double window_z) {
+    return MeshPoint{x, k + 0.5, window_z + table_near};
+  };
+  const auto grey = [&](double x, double k) { return at(x, k, 0.25 + 0.1 * (x - 4.5)); };
+  // Where the two sides of each meet, and where they are cut off.
+  const double black_top = -4.0 / 11, grey_left = 74.0 / 19;
+  const Scene all = scene_of({at(5.4 - black_top / 2, black_top, 0.5), at(5.8 + 0.6 * 20, 20, 0.5),
+                              at(5.4 - 0.5 * 20, 20, 0.5), grey(12.8 - 2.2 * grey_left, grey_left),
+                              grey(12, 4.0 / 11), grey(12, 8.75)},
+                             {{0, 1, 2}, {3, 4, 5}});
+  Scene scene = all;
+  scene.meshes[0].triangles.clear();
+  for (const std::uint32_t i : order)
+    scene.meshes[0].triangles.push_back(all.meshes[0].triangles[i]);
+  scene.meshes[0].face_count = order.size();
+  const std::array<float, 4> black{0, 0, 0, 1}, grey_colour{0.5F, 0.5F, 0.5F, 1};
+  scene.meshes[0].colours = {black, black, black, grey_colour, grey_colour, grey_colour};
+  return scene;
+}
+
+/// What the depth buffer and the colour buffer hold when the scene is drawn.
+BufferContents contents_of(const Scene& scene) {
+  PipelineOptions options = precise_options();
+  options.background = {1, 1, 1};
+  Camera camera = window_camera(table_columns, table_rows);
+  camera.near = table_near;
+  camera.far = table_near + 1;
+  const PipelineFrame frame = render_frame(scene, camera, options, true);
+  BufferContents contents;
+  for (std::size_t first = 0; first < frame.id.size(); first += table_columns) {
+    std::string depths, colours;
+    for (std::size_t i = first; i < first + table_columns; ++i) {
+      const std::string space = i == first ? "" : " ";
+      const bool cleared = frame.id[i] == no_surface;
+      depths += space + text_of(cleared ? 1 : double{frame.depth[i]} - table_near, ".3g");
+      const float white = frame.picture.pixels[i][0];
+      colours += space + (white > 0.75F ? "W" : white > 0.25F ? "G" : "B");
+    }
+    contents.depths.push_back(depths);
+    contents.colours.push_back(colours);
+  }
+  return contents;
+}
+
 }  // namespace
 
 Demo demo() {
@@ -44,6 +115,8 @@ Demo demo() {
   };
   result.near_fragments = fragments({0, 1, 2});
   result.far_fragments = fragments({3, 4, 5});
+  result.near_closed = closed_count({{{80, 30}, {30, 200}, {200, 180}}});
+  result.far_closed = closed_count({{{160, 20}, {100, 220}, {290, 150}}});
   result.union_of_both = static_cast<std::uint64_t>(std::count_if(
       far_first.id.begin(), far_first.id.end(), [](auto id) { return id != no_surface; }));
   result.overlap = result.near_fragments + result.far_fragments - result.union_of_both;
@@ -53,39 +126,8 @@ Demo demo() {
 }
 
 Tables z_buffer_tables() {
-  constexpr int columns = 12, rows = 9;
-  // Columns of the black triangle and of the grey one, first and last, as in the source.
-  constexpr std::array<std::array<int, 2>, rows> black{
-      {{5, 5}, {5, 5}, {4, 6}, {4, 7}, {3, 7}, {3, 8}, {2, 8}, {2, 9}, {1, 10}}};
-  constexpr std::array<int, rows> grey{12, 11, 8, 6, 4, 6, 8, 9, 11};
-  Tables tables;
-  for (int y = 0; y < rows; ++y) {
-    std::array<double, columns> depth;
-    std::array<char, columns> colour;
-    for (int x = 0; x < columns; ++x) {
-      const bool covered = black[y][0] <= x && x <= black[y][1];
-      depth[x] = covered ? 0.5 : 1;
-      colour[x] = covered ? 'B' : 'W';
-    }
-    const auto write = [&](std::vector<std::string>& depths, std::vector<std::string>& colours) {
-      std::string d, c;
-      for (int x = 0; x < columns; ++x) {
-        d += (x ? " " : "") + text_of(depth[x], ".3g");
-        c += (x ? " " : "") + std::string(1, colour[x]);
-      }
-      depths.push_back(d);
-      colours.push_back(c);
-    };
-    write(tables.depth_before, tables.colour_before);
-    for (int x = grey[y]; x < columns; ++x) {
-      const double z = (25 + 10 * (x - 4)) / 100.0;  // nearer on the left
-      if (!(z < depth[x])) continue;
-      depth[x] = z;
-      colour[x] = 'G';
-    }
-    write(tables.depth_after, tables.colour_after);
-  }
-  return tables;
+  return {contents_of(black_and_grey({0})), contents_of(black_and_grey({0, 1})),
+          contents_of(black_and_grey({1, 0}))};
 }
 
 }  // namespace fathom::studies

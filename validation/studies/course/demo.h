@@ -13,14 +13,20 @@ namespace fathom::studies {
 struct Demo {
   RgbImage picture;
   std::uint64_t near_fragments = 0, far_fragments = 0, union_of_both = 0, overlap = 0;
+  /// Centres inside or on the outline, which is what the source's `>= 0` counts.
+  std::uint64_t near_closed = 0, far_closed = 0;
   std::uint64_t passed_far_first = 0, passed_near_first = 0;
 };
 Demo demo();
 
-/// The z-buffer tables: a black triangle at depth 0.5, then a grey one from 0.25 to 0.95. Rows of
-/// depths and of colours before and after the grey one.
+/// Rows of words: depths as "0.5", a cleared one is "1"; colours as W(hite), B(lack) and G(rey).
+struct BufferContents {
+  std::vector<std::string> depths, colours;
+};
+/// The z-buffer tables, polygon by polygon, as the pipeline draws them: a black triangle at window
+/// depth 0.5, a grey one from 0.25 to 0.95.
 struct Tables {
-  std::vector<std::string> depth_before, colour_before, depth_after, colour_after;
+  BufferContents black, black_then_grey, grey_then_black;
 };
 Tables z_buffer_tables();
 

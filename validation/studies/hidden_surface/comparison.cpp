@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "fathom/render.h"
+#include "validation/studies/hidden_surface/bsp_tree.h"
+#include "validation/studies/hidden_surface/warnock.h"
 #include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
@@ -14,28 +16,8 @@ using pipeline::HiddenSurface;
 using pipeline::PipelineFrame;
 using pipeline::PipelineOptions;
 
-struct Case {
-  const char* name;
-  Scene scene;
-};
-
 Scene pair(MeshPoint a, MeshPoint b, MeshPoint c, MeshPoint d, MeshPoint e, MeshPoint f) {
   return scene_of({a, b, c, d, e, f}, {{0, 1, 2}, {3, 4, 5}});
-}
-
-std::vector<Case> cases() {
-  return {{"z-disjoint",
-           pair({-1, -1, 4}, {1, -1, 4}, {0, 1, 4}, {-1.8, -0.9, 6}, {2.2, -0.9, 6}, {0.2, 2, 6})},
-          {"nearer-zmin",
-           pair({-1, -1, 4}, {1, -1, 5}, {0, 1, 5}, {-1, -0.6, 4.5}, {1, -0.6, 6}, {0, 1.2, 6})},
-          {"farther-zmin", pair({-1, -1, 4}, {1, -1, 6}, {0.8, 1, 7}, {-1, -0.5, 4.6},
-                                {0.3, -0.6, 5.9}, {-0.2, 0.5, 6})},
-          {"x-disjoint", pair({-1.2, -1, 4}, {-0.1, -1, 6}, {-0.5, 1, 5}, {0.1, -1, 5},
-                              {1.2, -1, 4}, {0.5, 1, 6})},
-          {"equal-zmax",
-           pair({-1, -1, 4}, {1, -1, 6}, {0, 1, 5}, {-1, -0.6, 4.5}, {1, -0.6, 6}, {0, 1.2, 5.5})},
-          {"cycle", cyclic_overlap()},
-          {"penetration", penetration()}};
 }
 
 std::vector<std::uint32_t> exact_ids(const Scene& scene, const Camera& camera) {
@@ -46,9 +28,10 @@ std::vector<std::uint32_t> exact_ids(const Scene& scene, const Camera& camera) {
   return {ids.begin(), ids.end()};
 }
 
-std::size_t different(const std::vector<std::uint32_t>& exact, const PipelineFrame& frame) {
+template <class Ids>
+std::size_t different(const std::vector<std::uint32_t>& exact, const Ids& ids) {
   std::size_t count = 0;
-  for (std::size_t i = 0; i < exact.size(); ++i) count += exact[i] != frame.id[i];
+  for (std::size_t i = 0; i < exact.size(); ++i) count += exact[i] != ids[i];
   return count;
 }
 
@@ -58,36 +41,35 @@ PipelineOptions z_buffer_options(Storage storage) {
   return options;
 }
 
-HiddenSurfaceCase compare(const Case& c) {
-  Camera camera = front_camera(160, 160, 1, 20);
-  // No edge runs through a sample, where snapping would decide.
-  camera.cx += 0.1234567;
-  camera.cy += 0.7654321;
+HiddenSurfaceCase compare(const HiddenSurfaceScene& c) {
+  const Camera camera = hidden_surface_camera();
   const auto exact = exact_ids(c.scene, camera);
   HiddenSurfaceCase result{c.name};
   for (const std::uint32_t id : exact) result.seen += id != no_surface;
   Scene painted = c.scene;
   paint_each_triangle(painted);
   PipelineOptions options = z_buffer_options(Storage::float32);
-  result.buffer32 = different(exact, render_frame(painted, camera, options, false));
+  result.buffer32 = different(exact, render_frame(painted, camera, options, false).id);
   options = z_buffer_options(Storage::unorm16);
-  result.buffer16 = different(exact, render_frame(painted, camera, options, false));
+  result.buffer16 = different(exact, render_frame(painted, camera, options, false).id);
   options.hidden_surface = HiddenSurface::painter;
   const PipelineFrame frame = render_frame(painted, camera, options, true);
-  result.painter = different(exact, frame);
+  result.painter = different(exact, frame.id);
   result.order = frame.painter;
   result.picture = pipeline::to_rgb(frame.picture);
+  result.warnock = different(exact, warnock(c.scene, camera).ids);
+  result.bsp_tree = different(exact, bsp_tree(c.scene, camera).ids);
   return result;
 }
 
-/// The least time of a few frames, and the last of them.
-std::pair<double, PipelineFrame> timed_frame(const Scene& scene, const Camera& camera,
-                                             const PipelineOptions& options) {
+/// The least time of a few runs in milliseconds, and what the last of them gave.
+template <class Run>
+auto timed(const Run& run) {
   using Clock = std::chrono::steady_clock;
-  std::pair<double, PipelineFrame> result{std::numeric_limits<double>::infinity(), {}};
+  std::pair<double, decltype(run())> result{std::numeric_limits<double>::infinity(), {}};
   for (int frame = 0; frame < 5; ++frame) {
     const Clock::time_point start = Clock::now();
-    result.second = render_frame(scene, camera, options, false);
+    result.second = run();
     const std::chrono::duration<double, std::milli> time = Clock::now() - start;
     result.first = std::min(result.first, time.count());
   }
@@ -96,9 +78,36 @@ std::pair<double, PipelineFrame> timed_frame(const Scene& scene, const Camera& c
 
 }  // namespace
 
+std::vector<HiddenSurfaceScene> hidden_surface_scenes() {
+  return {{"z-disjoint",
+           pair({-1, -1, 4}, {1, -1, 4}, {0, 1, 4}, {-1.8, -0.9, 6}, {2.2, -0.9, 6}, {0.2, 2, 6})},
+          {"nearer-zmin",
+           pair({-1, -1, 4}, {1, -1, 5}, {0, 1, 5}, {-1, -0.6, 4.5}, {1, -0.6, 6}, {0, 1.2, 6})},
+          {"farther-zmin", pair({-1, -1, 4}, {1, -1, 6}, {0.8, 1, 7}, {-1, -0.5, 4.6},
+                                {0.3, -0.6, 5.9}, {-0.2, 0.5, 6})},
+          {"x-disjoint", pair({-1.2, -1, 4}, {-0.1, -1, 6}, {-0.5, 1, 5}, {0.1, -1, 5},
+                              {1.2, -1, 4}, {0.5, 1, 6})},
+          {"y-disjoint", pair({-1, -1.2, 4}, {-1, -0.1, 6}, {1, -0.5, 5}, {-1, 0.1, 5},
+                              {-1, 1.2, 4}, {1, 0.5, 6})},
+          {"equal-zmax",
+           pair({-1, -1, 4}, {1, -1, 6}, {0, 1, 5}, {-1, -0.6, 4.5}, {1, -0.6, 6}, {0, 1.2, 5.5})},
+          // Each passes through the plane of the other, beside it: no test of planes settles it.
+          {"splitting", pair({-1.5, -1, 5}, {1.5, -1, 5}, {0, 1.5, 5}, {0.3, -0.8, 4.36},
+                             {2.5, -0.4, 4.68}, {2.2, 0.8, 5.64})},
+          {"cycle", cyclic_overlap()},
+          {"penetration", penetration()}};
+}
+
+Camera hidden_surface_camera() {
+  Camera camera = front_camera(160, 160, 1, 20);
+  camera.cx += 0.1234567;
+  camera.cy += 0.7654321;
+  return camera;
+}
+
 std::vector<HiddenSurfaceCase> compare_hidden_surfaces() {
   std::vector<HiddenSurfaceCase> results;
-  for (const Case& c : cases()) results.push_back(compare(c));
+  for (const HiddenSurfaceScene& c : hidden_surface_scenes()) results.push_back(compare(c));
   return results;
 }
 
@@ -106,10 +115,24 @@ HiddenSurfaceCost hidden_surface_cost(std::uint32_t triangles) {
   const Camera camera = front_camera(320, 240, 1, 20);
   const Scene scene = random_triangles(triangles, 9);
   PipelineOptions options = z_buffer_options(Storage::float32);
-  const double buffer_ms = timed_frame(scene, camera, options).first;
+  const auto draw = [&] { return render_frame(scene, camera, options, false); };
+  const double buffer_ms = timed(draw).first;
   options.hidden_surface = HiddenSurface::painter;
-  const auto [painter_ms, frame] = timed_frame(scene, camera, options);
-  return {triangles, buffer_ms, painter_ms, frame.painter.comparisons, frame.painter.splits};
+  const auto [painter_ms, frame] = timed(draw);
+  const auto [warnock_ms, windows] = timed([&] { return warnock(scene, camera); });
+  const auto [bsp_tree_ms, pieces] = timed([&] { return bsp_tree(scene, camera); });
+  const std::uint64_t polygons = triangles + frame.painter.splits;
+  return {triangles,
+          buffer_ms,
+          painter_ms,
+          warnock_ms,
+          bsp_tree_ms,
+          std::uint64_t{camera.width} * camera.height * sizeof(float),
+          polygons * sizeof(pipeline::WindowTriangle<double>),
+          frame.painter.comparisons,
+          frame.painter.splits,
+          windows.steps,
+          pieces.polygons};
 }
 
 }  // namespace fathom::studies

@@ -17,6 +17,8 @@ Table scenes_table(const std::vector<HiddenSurfaceCase>& rows) {
            {Column("wrong_float32").page("wrong: z-buffer float32"), &Row::buffer32},
            {Column("wrong_unorm16").page("z-buffer unorm16"), &Row::buffer16},
            {Column("wrong_painter").page("painter"), &Row::painter},
+           {Column("wrong_warnock").page("Warnock"), &Row::warnock},
+           {Column("wrong_bsp_tree").page("BSP tree"), &Row::bsp_tree},
            {Column("moved").page("moved"), [](const Row& r) { return r.order.moved; }},
            {Column("splits").page("splits"), [](const Row& r) { return r.order.splits; }}}};
 }
@@ -27,20 +29,28 @@ Table costs_table(const std::vector<HiddenSurfaceCost>& rows) {
           {{heading("triangles"), &Row::triangles},
            {heading("z-buffer ms", ".2f"), &Row::buffer_ms},
            {heading("painter ms", ".2f"), &Row::painter_ms},
+           {heading("Warnock ms", ".2f"), &Row::warnock_ms},
+           {heading("BSP tree ms", ".2f"), &Row::bsp_tree_ms},
+           {heading("z-buffer bytes"), &Row::buffer_bytes},
+           {heading("painter bytes"), &Row::painter_bytes},
            {heading("comparisons"), &Row::comparisons},
-           {heading("splits"), &Row::splits}}};
+           {heading("splits"), &Row::splits},
+           {heading("Warnock's windows"), &Row::warnock_windows},
+           {heading("pieces in the BSP tree"), &Row::bsp_tree_pieces}}};
 }
 
 Plot cost_plot(const std::vector<HiddenSurfaceCost>& rows) {
   using Row = HiddenSurfaceCost;
   return {.name = "cost",
-          .title = "Z-buffer and painter",
+          .title = "Hidden surfaces",
           .x_label = "triangles",
           .y_label = "milliseconds",
           .logarithmic_x = true,
           .logarithmic_y = true,
           .series = {series_of("z-buffer", rows, &Row::triangles, &Row::buffer_ms),
-                     series_of("painter", rows, &Row::triangles, &Row::painter_ms)}};
+                     series_of("painter", rows, &Row::triangles, &Row::painter_ms),
+                     series_of("Warnock", rows, &Row::triangles, &Row::warnock_ms),
+                     series_of("BSP tree", rows, &Row::triangles, &Row::bsp_tree_ms)}};
 }
 
 }  // namespace

@@ -1,0 +1,157 @@
+// The figures of the study `hidden-surface`, against rays through the pixels' centres in long double.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "validation/studies/hidden_surface/bsp_tree.h"
+#include "validation/studies/hidden_surface/comparison.h"
+#include "validation/studies/hidden_surface/warnock.h"
+#include "validation/studies/pipeline_scenes.h"
+
+namespace fathom::studies {
+namespace {
+
+using Vector = std::array<long double, 3>;
+
+Vector operator-(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+long double volume(const Vector& a, const Vector& b, const Vector& c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+         a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// How deep the ray through a point of the image meets a triangle. No ray comes near an edge.
+std::optional<long double> depth_at(const std::array<Vector, 3>& t, const Vector& ray) {
+  int positive = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const long double side = volume(t[k], t[(k + 1) % 3], ray);
+    EXPECT_GT(std::abs(side), 1e-12L);
+    positive += side > 0;
+  }
+  if (positive == 1 || positive == 2) return std::nullopt;
+  return volume(t[0], t[1], t[2]) / volume(ray, t[1] - t[0], t[2] - t[0]);
+}
+
+/// The nearest triangle's number at each pixel; −1 where there is none.
+std::vector<int> visible_by_rays(const Scene& scene, const Camera& camera) {
+  std::vector<int> seen;
+  for (std::uint32_t y = 0; y < camera.height; ++y) {
+    for (std::uint32_t x = 0; x < camera.width; ++x) {
+      const Vector ray{(x + 0.5L - camera.cx) / camera.fx, (y + 0.5L - camera.cy) / camera.fy, 1};
+      int nearest = -1;
+      long double least = 0;
+      for (std::size_t i = 0; i < scene.meshes[0].triangles.size(); ++i) {
+        std::array<Vector, 3> t;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const MeshPoint& p = scene.meshes[0].vertices[scene.meshes[0].triangles[i][k]];
+          t[k] = {p.x, p.y, p.z};
+        }
+        const auto depth = depth_at(t, ray);
+        if (!depth || (nearest >= 0 && *depth >= least)) continue;
+        least = *depth;
+        nearest = static_cast<int>(i);
+      }
+      seen.push_back(nearest);
+    }
+  }
+  return seen;
+}
+
+TEST(HiddenSurfaceStudy, EveryCaseIsSeenAsByRays) {
+  const Camera camera = hidden_surface_camera();
+  const std::vector<HiddenSurfaceScene> scenes = hidden_surface_scenes();
+  const std::vector<HiddenSurfaceCase> cases = compare_hidden_surfaces();
+  ASSERT_EQ(cases.size(), scenes.size());
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const std::vector<int> rays = visible_by_rays(scenes[i].scene, camera);
+    std::size_t seen = 0;
+    std::vector<std::size_t> of_each(scenes[i].scene.meshes[0].triangles.size());
+    for (const int id : rays) {
+      seen += id >= 0;
+      if (id >= 0) ++of_each[static_cast<std::size_t>(id)];
+    }
+    EXPECT_EQ(cases[i].name, scenes[i].name);
+    EXPECT_EQ(cases[i].seen, seen) << scenes[i].name;
+    for (const std::size_t count : of_each) EXPECT_GT(count, 100u) << scenes[i].name;
+    EXPECT_EQ(cases[i].buffer32, 0u) << scenes[i].name;
+    // Where two pass through each other, corners of pieces are rounded.
+    EXPECT_EQ(cases[i].painter, 0u) << scenes[i].name;
+    EXPECT_EQ(cases[i].warnock, 0u) << scenes[i].name;
+    EXPECT_EQ(cases[i].bsp_tree, 0u) << scenes[i].name;
+    // And by the buffer itself, in either order of the triangles.
+    for (const bool reversed : {false, true}) {
+      Scene scene = scenes[i].scene;
+      auto& triangles = scene.meshes[0].triangles;
+      if (reversed) std::reverse(triangles.begin(), triangles.end());
+      const auto frame = render_frame(scene, camera, precise_options(), false);
+      for (std::size_t p = 0; p < rays.size(); ++p) {
+        const int id = frame.id[p] == no_surface ? -1 : static_cast<int>(frame.id[p]);
+        const int last = static_cast<int>(triangles.size()) - 1;
+        ASSERT_EQ(id < 0 || !reversed ? id : last - id, rays[p]) << scenes[i].name << " " << p;
+      }
+    }
+  }
+}
+
+TEST(HiddenSurfaceStudy, EveryCaseIsSettledByWhatItIsNamedAfter) {
+  std::map<std::string, pipeline::PainterStatistics> order;
+  for (const HiddenSurfaceCase& c : compare_hidden_surfaces()) order[c.name] = c.order;
+  EXPECT_EQ(order.size(), 9u);
+  EXPECT_EQ(order["z-disjoint"].z_disjoint, 1u);
+  EXPECT_EQ(order["z-disjoint"].comparisons, 0u);
+  EXPECT_EQ(order["x-disjoint"].settled[0], 1u);
+  EXPECT_EQ(order["y-disjoint"].settled[1], 1u);
+  for (const char* name : {"nearer-zmin", "farther-zmin", "equal-zmax"}) {
+    EXPECT_EQ(order[name].settled[2] + order[name].settled[3], 1u) << name;
+  }
+  // The file has the one in front first: of equal ones, and of those where the farther corner is in
+  // front, the first has to wait.
+  EXPECT_EQ(order["nearer-zmin"].moved, 0u);
+  EXPECT_EQ(order["farther-zmin"].moved, 1u);
+  EXPECT_EQ(order["equal-zmax"].moved, 1u);
+  for (const auto& [name, statistics] : order) {
+    const bool cut = name == "splitting" || name == "cycle" || name == "penetration";
+    EXPECT_EQ(statistics.splits > 0, cut) << name;
+  }
+}
+
+TEST(HiddenSurfaceStudy, WarnocksWindowsAndTheTreeSeeCrowdsAsRaysDo) {
+  const Camera camera = hidden_surface_camera();
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Scene scene = random_triangles(60, seed);
+    const std::vector<int> rays = visible_by_rays(scene, camera);
+    const Sight windows = warnock(scene, camera), tree = bsp_tree(scene, camera);
+    std::size_t wrong_windows = 0, wrong_tree = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const std::uint32_t right = rays[i] < 0 ? no_surface : static_cast<std::uint32_t>(rays[i]);
+      wrong_windows += windows.ids[i] != right;
+      wrong_tree += tree.ids[i] != right;
+    }
+    EXPECT_EQ(wrong_windows, 0u);
+    EXPECT_EQ(wrong_tree, 0u);
+    // Neither looks at every pixel by itself, nor keeps every polygon whole.
+    EXPECT_LT(windows.steps, 160u * 160);
+    EXPECT_GT(windows.steps, 100u);
+    EXPECT_GT(tree.polygons, 60u);
+  }
+}
+
+TEST(HiddenSurfaceStudy, CostsGrowAsTheyMust) {
+  const HiddenSurfaceCost few = hidden_surface_cost(10), many = hidden_surface_cost(60);
+  for (const HiddenSurfaceCost& c : {few, many}) {
+    EXPECT_EQ(c.buffer_bytes, 320u * 240 * 4);
+    EXPECT_EQ(c.painter_bytes, (c.triangles + c.splits) * sizeof(pipeline::WindowTriangle<double>));
+    EXPECT_GT(c.buffer_ms, 0);
+    EXPECT_GT(c.painter_ms, 0);
+  }
+  // No polygon is compared with itself; each round of the first compares it with all others at most.
+  EXPECT_LE(few.comparisons, (10u + few.splits) * (10u + few.splits) * (1u + few.splits));
+  EXPECT_GT(many.comparisons, few.comparisons);
+}
+
+}  // namespace
+}  // namespace fathom::studies
