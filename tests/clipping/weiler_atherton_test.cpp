@@ -137,10 +137,20 @@ Ring<Rational> rectangle(int x0, int y0, int x1, int y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }
 
+/// The borders that a walk follows one after the other.
 std::string borders_of(const std::vector<WalkStep<Rational>>& walk) {
   std::string borders;
-  for (const auto& step : walk) borders += "scb"[static_cast<int>(step.along)];
+  for (const auto& step : walk) borders += "sc"[static_cast<int>(step.along)];
   return borders;
+}
+
+/// The contacts of a list by their kinds: entering, leaving, touching, along.
+std::string kinds_of(const ContactList<Rational>& list) {
+  std::string kinds;
+  for (const auto& ring : list)
+    for (const auto& place : ring)
+      if (place.kind) kinds += "elta"[static_cast<int>(*place.kind)];
+  return kinds;
 }
 
 // The lecture closes a piece at 'the most recently entered point'. A diamond whose four corners
@@ -156,17 +166,13 @@ TEST(WeilerAtherton, WalksToTheNextEnteringPointNotToTheLastOne) {
   EXPECT_EQ(area_of(answer), 32 - 4);
   // Closed at the point last entered, each of the four pieces would be a subject edge and the clip
   // edge beside it: a quarter of the octagon's border each, with no area at all.
-  std::string kinds;
-  for (const auto& contact : trace.contacts) kinds += "elta"[static_cast<int>(contact.kind)];
-  EXPECT_EQ(kinds, "elelelel");
+  EXPECT_EQ(kinds_of(trace.subject), "elelelel");
 }
 
 std::string kinds_of(const Ring<Rational>& subject, const Ring<Rational>& clip) {
   WeilerAthertonTrace<Rational> trace;
   weiler_atherton<Rational>({subject}, {clip}, SetOperation::intersection, &trace);
-  std::string kinds;
-  for (const auto& contact : trace.contacts) kinds += "elta"[static_cast<int>(contact.kind)];
-  return kinds;
+  return kinds_of(trace.subject);
 }
 
 // Foster, Hormann and Popa's cases as labels: crossing, touching, and both behind a shared piece.
@@ -177,7 +183,9 @@ TEST(WeilerAtherton, ContactsAreLabelled) {
   EXPECT_EQ(kinds_of({{6, 3}, {3, 5}, {3, 1}}, clip), "t");   // from inside
   EXPECT_EQ(kinds_of({{6, 2}, {6, 4}, {3, 3}}, clip), "at");  // a piece shared from inside
   EXPECT_EQ(kinds_of({{6, 4}, {6, 2}, {9, 3}}, clip), "at");  // and from outside
-  EXPECT_EQ(kinds_of({{3, 3}, {6, 2}, {6, 4}, {9, 9}, {3, 9}}, clip), "ale");  // delayed crossing
+  // Through a shared piece: the crossing is where it ends, if both run the same way, or begins.
+  EXPECT_EQ(kinds_of({{3, 3}, {6, 2}, {6, 4}, {9, 9}, {3, 9}}, clip), "ale");
+  EXPECT_EQ(kinds_of({{3, 3}, {3, -3}, {9, -3}, {6, 4}, {6, 2}}, clip), "lae");
   EXPECT_EQ(kinds_of(clip, clip), "aaaa");
 }
 

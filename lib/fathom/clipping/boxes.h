@@ -76,5 +76,8 @@ std::optional<int> settled_sign_of_cross(const Box& a, const Box& b, const Box& 
 /// Source   [ZE02]: a segment tree of the boxes that is streamed, by CGAL.
 void visit_meeting_boxes(const std::vector<Box>& boxes,
                          const std::function<void(std::size_t, std::size_t)>& visit);
+/// The same for a box i of one list and a box k of another.
+void visit_meeting_boxes(const std::vector<Box>& some, const std::vector<Box>& others,
+                         const std::function<void(std::size_t, std::size_t)>& visit);
 
 }  // namespace fathom::clipping

@@ -27,6 +27,16 @@ inline constexpr std::size_t most_contacts = std::size_t{1} << 18;
 template <class Number>
 Rings<Number> enter_contacts(const Rings<Number>& rings);
 
+/// Two sides, whose rings may pass through points again.
+template <class Number>
+struct Sides {
+  Rings<Number> subject, clip;
+};
+
+/// The same with contacts between subject and clip rings alone.
+template <class Number>
+Sides<Number> enter_contacts(const Sides<Number>& sides);
+
 /// Two edges of one ring, numbered by their first corners, that meet other than as neighbours do.
 struct SelfContact {
   std::size_t first_edge, second_edge;

@@ -1,0 +1,62 @@
+#include "fathom/clipping/weiler_atherton_sides.h"
+
+#include <map>
+#include <type_traits>
+
+#include "fathom/clipping/contacts.h"
+#include "fathom/clipping/exact_kernel.h"
+#include "fathom/clipping/rings.h"
+#include "fathom/clipping/sweep.h"
+#include "fathom/clipping/wedges.h"
+
+namespace fathom::clipping {
+namespace {
+
+bool are_apart(const NumberedCorners<Rational>& split) {
+  std::size_t corners = 0;
+  for (const NumberedRing& ring : split.rings) corners += ring.size();
+  return corners == split.points.size();
+}
+
+/// The edges without those that cancel each other, because they run there and back.
+std::vector<DirectedEdge> border_of(const NumberedRings& rings) {
+  const std::vector<DirectedEdge> all = edges_of(rings);
+  std::map<UndirectedEdge, int> rising;  // how many more run from left to right
+  for (const auto& [from, to] : all) rising[undirected(from, to)] += from < to ? 1 : -1;
+  std::vector<DirectedEdge> border;
+  for (const auto& [from, to] : all) {
+    int& left = rising[undirected(from, to)];
+    if ((from < to && left <= 0) || (from > to && left >= 0)) continue;
+    border.push_back({from, to});
+    left = 0;
+  }
+  return border;
+}
+
+}  // namespace
+
+template <class Number>
+Rings<Number> lists_of_side(const Rings<Number>& rings, const std::string& side) {
+  Rings<Number> checked = checked_rings(rings, side);
+  if (checked.size() < 2) return checked;
+  const auto split = numbered(enter_contacts(to_exact(checked)));
+  if (are_apart(split)) return checked;
+  Rings<Number> lists;
+  for (const NumberedRing& list :
+       joined_by_wedges(border_of(split.rings), PointOrder(split.points))) {
+    Ring<Number>& corners = lists.emplace_back();
+    for (const std::size_t corner : list) {
+      const auto& [x, y] = split.points[corner];
+      if constexpr (std::is_same_v<Number, double>)
+        corners.push_back({to_binary64(x), to_binary64(y)});  // a corner from before
+      else
+        corners.push_back({x, y});
+    }
+  }
+  return lists;
+}
+
+template Rings<double> lists_of_side(const Rings<double>&, const std::string&);
+template Rings<Rational> lists_of_side(const Rings<Rational>&, const std::string&);
+
+}  // namespace fathom::clipping
