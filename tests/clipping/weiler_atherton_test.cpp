@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "fathom/clipping/boolean_by_cgal.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/numeric/errors.h"
@@ -46,7 +47,13 @@ bool cross_each_other(const Rings<double>& rings) {
   }
 }
 
-/// Both operations on one pair. The answers' areas add up to the subject's.
+bool is_same(const std::vector<Polygon<Rational>>& p, const std::vector<Polygon<Rational>>& q) {
+  return std::equal(p.begin(), p.end(), q.begin(), q.end(), [](const auto& a, const auto& b) {
+    return a.outline == b.outline && a.holes == b.holes;
+  });
+}
+
+/// Both operations on one pair, beside CGAL as a judge of regions and as another way to the answer. The answers' areas add up to the subject's.
 void expect_as_cgal(const Rings<double>& subject, const Rings<double>& clip) {
   const Judge judge(to_exact(subject), to_exact(clip));
   Rational sum(0);
@@ -56,6 +63,8 @@ void expect_as_cgal(const Rings<double>& subject, const Rings<double>& clip) {
     ASSERT_EQ(area_of(answer), judge.area(operation)) << to_text(subject, clip);
     ASSERT_EQ(judge.fault(operation, answer), std::nullopt) << to_text(subject, clip);
     ASSERT_EQ(piece_fault(answer), std::nullopt) << to_text(subject, clip);
+    ASSERT_TRUE(is_same(answer, boolean_by_cgal(to_exact(subject), to_exact(clip), operation)))
+        << to_text(subject, clip);
     sum += area_of(answer);
   }
   ASSERT_EQ(sum, signed_area(checked_rings(to_exact(subject), "subject")))
@@ -194,11 +203,6 @@ TEST(WeilerAtherton, Laws) {
   for (int i = 0; i < 500 / testing::effort; ++i) {
     const auto A = to_exact(maker.polygon(5, 9, cross_each_other));
     const auto B = to_exact(maker.polygon(5, 9, cross_each_other));
-    const auto is_same = [](const auto& p, const auto& q) {
-      return std::equal(p.begin(), p.end(), q.begin(), q.end(), [](const auto& a, const auto& b) {
-        return a.outline == b.outline && a.holes == b.holes;
-      });
-    };
     const auto both = weiler_atherton(A, B, SetOperation::intersection);
     EXPECT_TRUE(is_same(both, weiler_atherton(B, A, SetOperation::intersection)));
     EXPECT_TRUE(weiler_atherton(A, A, SetOperation::difference).empty());

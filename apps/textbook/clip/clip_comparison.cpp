@@ -80,10 +80,9 @@ std::optional<Json> border_difference(const Rings<Rational>& first, const Rings<
   for (const auto& [edge, count] : border_of(second, corners)) surplus[edge] -= count;
   for (const auto& [edge, count] : surplus)
     if (count != 0)
-      return Json{
-          {"kind", "border"},
-          {"only", count > 0 ? names.first : names.second},
-          {"edge", {cases::to_json(edge.first, exact), cases::to_json(edge.second, exact)}}};
+      return Json{{"kind", "border"},
+                  {"only", count > 0 ? names.first : names.second},
+                  {"edge", cases::to_json(Ring<Rational>{edge.first, edge.second}, exact)}};
   return std::nullopt;
 }
 
@@ -135,10 +134,14 @@ std::optional<std::string> first_place(const Json& a, const Json& b, const std::
   return at;
 }
 
-std::string short_text(const Json& value) {
+std::string shortened(const std::string& text) {
   constexpr std::size_t longest = 120;
-  const std::string text = value.dump();
   return text.size() <= longest ? text : text.substr(0, longest) + "…";
+}
+
+/// "(1/3, 2)"
+std::string point_text(const Json& point) {
+  return "(" + shortened(point[0]) + ", " + shortened(point[1]) + ")";
 }
 
 }  // namespace
@@ -157,17 +160,17 @@ std::string to_text(const Json& difference, const Names& names) {
   const std::string kind = difference["kind"];
   if (kind == "value")
     return fmt::format("{} is {} by {} and {} by {}", difference["at"].get<std::string>(),
-                       short_text(difference[names.first]), names.first,
-                       short_text(difference[names.second]), names.second);
+                       shortened(difference[names.first].dump()), names.first,
+                       shortened(difference[names.second].dump()), names.second);
   const std::string only = difference["only"];
   if (kind == "region")
     return fmt::format("only {} has a piece of area {} around {}", only,
-                       short_text(difference["area"]), short_text(difference["inside"]));
+                       shortened(difference["area"]), point_text(difference["inside"]));
   if (kind == "border")
-    return fmt::format("the regions are the same, but only {} has the border {}", only,
-                       short_text(difference["edge"]));
+    return fmt::format("the regions are the same, but only {} has a border from {} to {}", only,
+                       point_text(difference["edge"][0]), point_text(difference["edge"][1]));
   return fmt::format("the borders are the same, but only {} has the polygon {}", only,
-                     short_text(difference["polygon"]));
+                     shortened(difference["polygon"].dump()));
 }
 
 }  // namespace fathom::app::clip
