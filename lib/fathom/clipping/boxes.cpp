@@ -53,14 +53,6 @@ std::optional<int> settled_sign_of_cross(const Box& a, const Box& b, const Box& 
   return std::nullopt;
 }
 
-void visit_meeting_boxes(const std::vector<Box>& boxes,
-                         const std::function<void(std::size_t, std::size_t)>& visit) {
-  auto numbered = numbered_boxes(boxes);
-  CGAL::box_self_intersection_d(
-      numbered.begin(), numbered.end(),
-      [&](const NumberedBox& a, const NumberedBox& b) { visit(a.number, b.number); });
-}
-
 void visit_meeting_boxes(const std::vector<Box>& some, const std::vector<Box>& others,
                          const std::function<void(std::size_t, std::size_t)>& visit) {
   auto numbered = numbered_boxes(some), numbered_others = numbered_boxes(others);

@@ -7,6 +7,7 @@
 #include "fathom/clipping/ring_crossings.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/sweep.h"
+#include "fathom/clipping/touches.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::clipping {
@@ -61,19 +62,36 @@ std::vector<std::size_t> from_outermost(const std::vector<Bordering>& bordering,
   return above;
 }
 
+[[noreturn]] void refuse_crossing(const std::string& side, std::size_t first, std::size_t second,
+                                  const Point2<Rational>& point) {
+  throw InputError(side + " rings " + std::to_string(first) + " and " + std::to_string(second) +
+                   " cross at " + to_text(point) + "; expected rings that at most touch");
+}
+
+Point2<Rational> point_of(const EdgeCrossing& crossing,
+                          const std::vector<Point2<Rational>>& points) {
+  const auto segment = [&](const UndirectedEdge& edge) {
+    return Segment2<Rational>{points[edge.left], points[edge.right]};
+  };
+  return contacts(segment(crossing.first), segment(crossing.second)).at(0);
+}
+
 }  // namespace
 
 std::vector<int> nesting_depths(const Rings<Rational>& rings, const std::string& side) {
   std::vector<int> depths(rings.size(), -1);
   if (rings.size() < 2) return std::vector<int>(rings.size(), 0);
-  const auto split = numbered(enter_contacts(rings));
-  const PointOrder points(split.points);
-  if (const auto crossing = ring_crossing(split.rings, points))
-    throw InputError(side + " rings " + std::to_string(crossing->first_ring) + " and " +
-                     std::to_string(crossing->second_ring) + " cross at " +
-                     to_text(split.points[crossing->point]) +
-                     "; expected rings that at most touch");
-  const BorderedEdges bordered = bordered_edges(split.rings, points);
+  const auto corners = numbered(rings);
+  const PointOrder points(corners.points);
+  const auto touching = enter_touches(corners.rings, points);
+  if (const auto* crossing = std::get_if<EdgeCrossing>(&touching))
+    refuse_crossing(side, crossing->first_ring, crossing->second_ring,
+                    point_of(*crossing, corners.points));
+  const NumberedRings& split = std::get<NumberedRings>(touching);
+  if (const auto crossing = ring_crossing(split, points))
+    refuse_crossing(side, crossing->first_ring, crossing->second_ring,
+                    corners.points[crossing->point]);
+  const BorderedEdges bordered = bordered_edges(split, points);
   std::vector<int> rings_above(bordered.edges.size());  // above each edge
   for (const auto& [edge, below] : sweep(bordered.edges, points)) {
     const int rings_below = below ? rings_above[*below] : 0;

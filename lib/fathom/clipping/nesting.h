@@ -13,7 +13,7 @@ namespace fathom::clipping {
 
 /// For each ring the number of others that it lies in: even for outlines, odd for holes. Of
 /// identical rings a later one lies in an earlier one.
-/// Cost     n log n, after the contacts
+/// Cost     n log n, and the pairs of rings that share an edge
 /// Fails    InputError "SIDE rings M and N cross at (x, y)". The rings must be simple.
 std::vector<int> nesting_depths(const Rings<Rational>& rings, const std::string& side);
 

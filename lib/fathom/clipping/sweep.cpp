@@ -4,32 +4,10 @@
 #include <numeric>
 #include <set>
 
+#include "fathom/clipping/sweep_order.h"
+
 namespace fathom::clipping {
 namespace {
-
-/// The order of edges that the line meets, from below.
-struct IsBelow {
-  struct Point {
-    std::size_t number;
-  };
-  using is_transparent = void;
-  const std::vector<UndirectedEdge>* edges;
-  const PointOrder* points;
-
-  bool operator()(std::size_t edge, Point p) const {
-    const auto& [left, right] = (*edges)[edge];
-    return points->turn(left, right, p.number) > 0;
-  }
-  bool operator()(std::size_t a, std::size_t b) const {
-    if (a == b) return false;
-    const UndirectedEdge &p = (*edges)[a], &q = (*edges)[b];
-    // The one that begins later tells on which side of the other it is.
-    int turn = p.left <= q.left ? points->turn(p.left, p.right, q.left)
-                                : -points->turn(q.left, q.right, p.left);
-    if (turn == 0) turn = points->turn(p.left, p.right, q.right);
-    return turn != 0 ? turn > 0 : a < b;
-  }
-};
 
 /// The numbers of the edges, in the order of `is_before`.
 template <class IsBefore>

@@ -87,7 +87,8 @@ struct WeilerAthertonTrace {
 /// holes are in the order of their least corners; rings start there and have no straight corners,
 /// so the same region always gives the same list.
 ///
-/// Cost     n log n, and the pairs of edges whose boxes meet
+/// Cost     n log n, the pairs of a subject edge and a clip edge whose boxes meet, and the pairs of
+///          rings of one side that share an edge
 /// Exact    over Rational. Over double crossings are rounded, and the region is approximate; the
 ///          order of edges about the rounded points is exact.
 /// Fails    InputError, as checked_rings() does; over double also if rounding has broken the

@@ -2,20 +2,21 @@
 
 #include <map>
 #include <type_traits>
+#include <variant>
 
-#include "fathom/clipping/contacts.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/sweep.h"
+#include "fathom/clipping/touches.h"
 #include "fathom/clipping/wedges.h"
 
 namespace fathom::clipping {
 namespace {
 
-bool are_apart(const NumberedCorners<Rational>& split) {
+bool are_apart(const NumberedRings& split, const PointOrder& points) {
   std::size_t corners = 0;
-  for (const NumberedRing& ring : split.rings) corners += ring.size();
-  return corners == split.points.size();
+  for (const NumberedRing& ring : split) corners += ring.size();
+  return corners == points.size();
 }
 
 /// The edges without those that cancel each other, because they run there and back.
@@ -39,18 +40,20 @@ template <class Number>
 Rings<Number> lists_of_side(const Rings<Number>& rings, const std::string& side) {
   Rings<Number> checked = checked_rings(rings, side);
   if (checked.size() < 2) return checked;
-  const auto split = numbered(enter_contacts(to_exact(checked)));
-  if (are_apart(split)) return checked;
+  const auto corners = numbered(to_exact(checked));
+  const PointOrder points(corners.points);
+  // Rings that were checked do not cross.
+  const NumberedRings split = std::get<NumberedRings>(enter_touches(corners.rings, points));
+  if (are_apart(split, points)) return checked;
   Rings<Number> lists;
-  for (const NumberedRing& list :
-       joined_by_wedges(border_of(split.rings), PointOrder(split.points))) {
-    Ring<Number>& corners = lists.emplace_back();
+  for (const NumberedRing& list : joined_by_wedges(border_of(split), points)) {
+    Ring<Number>& ring = lists.emplace_back();
     for (const std::size_t corner : list) {
-      const auto& [x, y] = split.points[corner];
+      const auto& [x, y] = corners.points[corner];
       if constexpr (std::is_same_v<Number, double>)
-        corners.push_back({to_binary64(x), to_binary64(y)});  // a corner from before
+        ring.push_back({to_binary64(x), to_binary64(y)});  // a corner from before
       else
-        corners.push_back({x, y});
+        ring.push_back({x, y});
     }
   }
   return lists;
