@@ -15,9 +15,9 @@ struct BesideCgal {
   std::size_t pairs = 0;
   std::size_t polygons = 0;   ///< in all answers of Weiler–Atherton, to both operations
   std::size_t different = 0;  ///< answers that are not the same list of polygons
-  double ours_ms = 0,
-         cgal_ms = 0;  ///< for all pairs and both operations; the fastest of three rounds, or the
-                       ///< only one where that takes long
+  /// For all pairs and both operations: the fastest of three rounds, or the only one where that
+  /// takes long.
+  double ours_ms = 0, cgal_ms = 0;
 
   [[nodiscard]] double ratio() const { return cgal_ms / ours_ms; }
 };
