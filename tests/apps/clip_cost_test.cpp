@@ -85,12 +85,29 @@ TEST(ClipCost, ManyHolesGoToTheirOutline) {
 }
 
 TEST(ClipCost, ManyNestedSquaresAreClipped) {
+  const int count = 12'000;
   std::string rings;
-  for (int i = 0; i < 2200; ++i) rings += (rings.empty() ? "[" : ",") + square(i, i, 8800 - 2 * i);
+  for (int i = 0; i < count; ++i)
+    rings += (rings.empty() ? "[" : ",") + square(i, i, 4 * count - 2 * i);
   const Outcome outcome =
-      clip("weiler-atherton", case_of(rings + "]", "[[[1.5,1.5],[2e4,0],[0,2e4]]]"));
+      clip("weiler-atherton", case_of(rings + "]", "[[[1.5,1.5],[1e5,0],[0,1e5]]]"));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(Json::parse(outcome.out)["polygons"].size(), 1100U);
+  EXPECT_EQ(Json::parse(outcome.out)["polygons"].size(), count / 2U);
+}
+
+/// The same on a corner: the boxes of all edges meet.
+TEST(ClipCost, ManyNestedDiamondsAreClipped) {
+  const int count = 6'000;
+  std::string rings;
+  for (int i = 1; i <= count; ++i) {
+    const std::string r = std::to_string(i);
+    rings += std::string(rings.empty() ? "[" : ",") + "[[" + r + ",0],[0," + r + "],[-" + r +
+             ",0],[0,-" + r + "]]";
+  }
+  const Outcome outcome = clip(
+      "weiler-atherton", case_of(rings + "]", "[[[-1e4,0.5],[1e4,0.5],[1e4,1e4],[-1e4,1e4]]]"));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out)["polygons"].size(), count / 2U);
 }
 
 /// Slanted teeth side by side: all their boxes meet.
@@ -107,15 +124,15 @@ TEST(ClipCost, ManySlantedTeethAreClipped) {
 /// Triangles that have one corner in common.
 TEST(ClipCost, ManyRingsMeetInAPoint) {
   std::string rings;
-  const int side = 1000;
+  const int side = 8000;
   for (int k = 0; k < side; ++k)
     rings += std::string(rings.empty() ? "[" : ",") + "[[0,0],[" + std::to_string(side) + "," +
              std::to_string(2 * k) + "],[" + std::to_string(side) + "," +
              std::to_string(2 * k + 1) + "]]";
   const Outcome outcome =
-      clip("weiler-atherton", case_of(rings + "]", "[" + square(-1, -1, 500) + "]"));
+      clip("weiler-atherton", case_of(rings + "]", "[" + square(-1, -1, 4000) + "]"));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_GT(Json::parse(outcome.out)["polygons"].size(), 200U);
+  EXPECT_GT(Json::parse(outcome.out)["polygons"].size(), 2000U);
 }
 
 TEST(ClipCost, TooManyContactsAreRefused) {

@@ -51,6 +51,118 @@ TEST(Clip, NamedDegenerateCasesAnswerTheFileOfAnswers) {
   EXPECT_EQ(outcome.out, expected);
 }
 
+// The same regions, found by CGAL, are the same text.
+TEST(Clip, NamedDegenerateCasesByCgalToo) {
+  const std::string folder = source_dir() / "data/clipping/";
+  const std::string cases = folder + "degenerate.jsonl";
+  const Outcome ours = run_fathom({"clip", "--algorithm", "weiler-atherton", "--exact", cases});
+  const Outcome cgal = run_fathom({"clip", "--algorithm", "cgal", "--exact", cases});
+  EXPECT_EQ(cgal.status, 0) << cgal.err;
+  EXPECT_EQ(cgal.out, ours.out);
+  const Outcome both =
+      run_fathom({"clip", "--algorithm", "weiler-atherton", "--against", "cgal", cases});
+  EXPECT_EQ(both.status, 0) << both.err;
+  EXPECT_EQ(both.err, "");
+  std::istringstream lines(both.out);
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line); ++count)
+    EXPECT_EQ(Json::parse(line)["against"],
+              Json::parse(R"({"algorithm": "cgal", "difference": null})"));
+  EXPECT_GE(count, 130U);
+}
+
+const std::string notched_case = R"({"subject": [[[0,0],[4,0],[4,4],[3,1],[1,1],[0,4]]],)"
+                                 R"( "clip": [[[-1,2],[5,2],[5,3],[-1,3]]]})";
+
+// Sutherland–Hodgman's ring bridges the notch: the same region, but not the same border.
+TEST(Clip, AgainstFindsTheBridgingEdge) {
+  const Clipped clipped =
+      clip("sutherland-hodgman", "\n" + notched_case + "\n" + notched_case, {"--against", "cgal"});
+  EXPECT_EQ(clipped.outcome.status, 1);
+  ASSERT_EQ(clipped.answers.size(), 2U);
+  EXPECT_EQ(clipped.answers[0]["area_exact"], "1");
+  EXPECT_EQ(clipped.answers[0]["against"], Json::parse(R"({"algorithm": "cgal", "difference":
+              {"kind": "border", "only": "sutherland-hodgman",
+               "edge": [["2/3", "2"], ["10/3", "2"]]}})"));
+  // Standard error names the first.
+  EXPECT_EQ(clipped.outcome.err,
+            "fathom: standard input: line 2: the regions are the same, but only sutherland-hodgman "
+            "has a border from (2/3, 2) to (10/3, 2)\n");
+  std::string in_pieces = notched_case;
+  in_pieces.insert(1, R"("decompose": true, )");
+  const Clipped convex = clip("sutherland-hodgman", in_pieces, {"--against", "weiler-atherton"});
+  EXPECT_EQ(convex.outcome.status, 3);  // the other knows no such key
+  EXPECT_THAT(convex.outcome.err, HasSubstr("\"decompose\" is no key"));
+}
+
+// What rounding does to a region is a piece of it, with its area.
+TEST(Clip, AgainstFindsWhatRoundingChanges) {
+  const Clipped clipped =
+      clip("weiler-atherton", notched_case, {"--kernel", "double", "--against", "weiler-atherton"});
+  EXPECT_EQ(clipped.outcome.status, 1);
+  ASSERT_EQ(clipped.answers.size(), 1U);
+  const Json& difference = clipped.answers[0]["against"]["difference"];
+  EXPECT_EQ(difference["kind"], "region");
+  EXPECT_EQ(difference["only"], "weiler-atherton");
+  // A triangle between 1/3, as it is and as the crossing was rounded, 3/5 and 2 2/3 ulps.
+  EXPECT_EQ(difference["area"], "1/8444249301319680");
+  EXPECT_THAT(clipped.outcome.err,
+              HasSubstr("only weiler-atherton has a piece of area 1/8444249301319680 around "));
+  // Where nothing is rounded, there is no difference.
+  const std::string squares =
+      R"({"subject": [[[0,0],[4,0],[4,4],[0,4]]], "clip": [[[2,2],[6,2],[6,6],[2,6]]]})";
+  EXPECT_EQ(
+      clip("weiler-atherton", squares, {"--kernel", "double", "--against", "cgal"}).outcome.status,
+      0);
+}
+
+TEST(Clip, AgainstComparesSegmentsToo) {
+  const std::string corner = R"({"segment": [[0,2],[2,0]], "window": [1,1,6,3]})";
+  const Clipped same = clip("cohen-sutherland", corner, {"--against", "liang-barsky"});
+  EXPECT_EQ(same.outcome.status, 0);
+  EXPECT_TRUE(same.answers[0]["against"]["difference"].is_null());
+  const std::string slanted = R"({"segment": [[0,0],[3,7]], "window": [1,1,6,3]})";
+  const Clipped rounded =
+      clip("cohen-sutherland", slanted, {"--kernel", "double", "--against", "liang-barsky"});
+  EXPECT_EQ(rounded.outcome.status, 1);
+  const Json& difference = rounded.answers[0]["against"]["difference"];
+  EXPECT_EQ(difference["kind"], "value");
+  EXPECT_EQ(difference["at"], "/segment/0/1");
+  EXPECT_EQ(difference["liang-barsky"], "7/3");
+  EXPECT_TRUE(difference.contains("cohen-sutherland in binary64"));
+}
+
+// A case that cannot be done weighs more than one that differs; those after it are answered.
+TEST(Clip, AgainstGoesOnAfterBadCases) {
+  const Clipped clipped =
+      clip("sutherland-hodgman",
+           notched_case + "\n" + R"({"subject": [[[0,0],[1,1],[0,0]]], "clip": []})" + "\n" +
+               notched_case,
+           {"--against", "cgal"});
+  EXPECT_EQ(clipped.outcome.status, 3);
+  ASSERT_EQ(clipped.answers.size(), 3U);
+  EXPECT_TRUE(clipped.answers[1].contains("error"));
+  EXPECT_FALSE(clipped.answers[1].contains("against"));
+  EXPECT_EQ(clipped.answers[2]["against"]["difference"]["kind"], "border");
+}
+
+TEST(Clip, TheTraceShowsListsAndWalks) {
+  const Json trace =
+      answer("weiler-atherton",
+             R"({"subject": [[[0,0],[4,0],[4,4],[0,4]]], "clip": [[[2,2],[6,2],[6,6],[2,6]]]})",
+             {"--trace", "--exact"})["trace"];
+  EXPECT_EQ(trace["subject"], Json::parse(R"([[{"point": ["0", "0"]}, {"point": ["4", "0"]},
+      {"point": ["4", "2"], "kind": "entering", "crossing": 0}, {"point": ["4", "4"]},
+      {"point": ["2", "4"], "kind": "leaving", "crossing": 1}, {"point": ["0", "4"]}]])"));
+  EXPECT_EQ(trace["clip"], Json::parse(R"([[{"point": ["2", "2"]},
+      {"point": ["4", "2"], "kind": "entering", "crossing": 0}, {"point": ["6", "2"]},
+      {"point": ["6", "6"]}, {"point": ["2", "6"]},
+      {"point": ["2", "4"], "kind": "leaving", "crossing": 1}]])"));
+  EXPECT_EQ(trace["walks"], Json::parse(R"([[
+      {"from": ["4", "2"], "along": "subject", "crossing": 0}, {"from": ["4", "4"], "along": "subject"},
+      {"from": ["2", "4"], "along": "clip", "crossing": 1}, {"from": ["2", "2"], "along": "clip"}]])"));
+}
+
 TEST(Clip, AreaIsAFractionAndSeventeenDigits) {
   const std::string object =
       R"({"name": "n", "subject": [[[0,0],[3,1],[0,1]]], "clip": [[[0,1],[1,0],[2,2]]]})";
@@ -208,6 +320,20 @@ TEST(Clip, WrongUsage) {
   EXPECT_THAT(run_fathom({"clip", "--algorithm", "plane", "--kernel", "single"}).err,
               HasSubstr("neither exact nor double"));
   EXPECT_EQ(run_fathom({"clip", "--algorithm", "plane", "no-such-file"}).status, 3);
+  const auto expect_refused = [](std::vector<std::string> options, const std::string& said) {
+    options.insert(options.begin(), {"clip", "--algorithm"});
+    const Outcome outcome = run_fathom(options);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.err, "fathom: error: " + said + "\n");
+    EXPECT_EQ(outcome.out, "");
+  };
+  expect_refused({"cgal", "--kernel", "double"},
+                 "--kernel double: cgal clips exactly; leave the option out");
+  expect_refused({"cgal", "--trace"}, "--trace: cgal shows no steps; weiler-atherton does");
+  expect_refused({"cgal", "--against", "cgal"},
+                 "--against cgal: an algorithm is not compared with itself");
+  EXPECT_THAT(run_fathom({"clip", "--algorithm", "cgal", "--against", "vatti"}).err,
+              HasSubstr("--against: 'vatti'"));
   const Outcome help = run_fathom({"clip", "--help"});
   EXPECT_EQ(help.status, 0);
   EXPECT_THAT(help.out, HasSubstr("Examples:\n"));

@@ -71,7 +71,7 @@ TEST(BadRings, NotSimple) {
 TEST(BadRings, OfOneSideThatCross) {
   const Ring<double> other{{3, 3}, {9, 3}, {9, 9}, {3, 9}};
   EXPECT_EQ(refusal({square}, {square, other}),
-            "clip rings 0 and 1 cross at (6, 3); expected rings that at most touch");
+            "clip rings 0 and 1 cross at (3, 6); expected rings that at most touch");
   // Crossing in corners only, and through a shared piece.
   EXPECT_THAT(refusal({{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{-1, -1}, {1, -1}, {5, 5}}}, {square}),
               ::testing::HasSubstr("subject rings 0 and 1 cross"));

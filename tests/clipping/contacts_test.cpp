@@ -44,10 +44,9 @@ TEST(Contacts, OfTwoSegmentsOnPaper) {
 }
 
 TEST(Contacts, AreCornersOfBothRings) {
-  const Rings<Rational> rings = enter_contacts(
-      Rings<Rational>{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{2, 2}, {6, 2}, {6, 6}, {2, 6}}});
-  ASSERT_EQ(rings.size(), 2U);
-  for (const Ring<Rational>& ring : rings) {
+  const auto [subject, clip] = enter_contacts(
+      Sides<Rational>{{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}, {{{2, 2}, {6, 2}, {6, 6}, {2, 6}}}});
+  for (const Ring<Rational>& ring : {subject.at(0), clip.at(0)}) {
     EXPECT_EQ(ring.size(), 6U);
     for (const P& p : {P{4, 2}, P{2, 4}}) {
       EXPECT_EQ(std::count(ring.begin(), ring.end(), p), 1);

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 
+#include "fathom/clipping/boolean_by_cgal.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/weiler_atherton.h"
@@ -52,6 +54,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                               checked_rings(to_exact(clip), "clip"));
       if (area_of(answer) != judge.area(operation)) std::abort();
       if (judge.fault(operation, answer) || test::piece_fault(answer)) std::abort();
+      const auto cgal = boolean_by_cgal(to_exact(subject), to_exact(clip), operation);
+      if (!std::equal(answer.begin(), answer.end(), cgal.begin(), cgal.end(),
+                      [](const auto& p, const auto& q) {
+                        return p.outline == q.outline && p.holes == q.holes;
+                      }))
+        std::abort();
     } catch (const InputError& error) {
       expect_one_line(error);
     }

@@ -22,11 +22,11 @@ struct Answer {
   std::optional<std::string> error;
 };
 
-Answer answer_to(std::string_view line, const AnswerCase& answer_case) {
+Answer answer_to(std::string_view line, std::size_t number, const AnswerLine& answer_line) {
   Answer answer;
   Json name, body;
   try {
-    body = answer_case(parse_case(line, name));
+    body = answer_line(parse_case(line, name), number);
   } catch (const InputError& error) {
     answer.error = error.what();
     body = {{"error", *answer.error}};
@@ -46,8 +46,17 @@ bool is_blank(std::string_view line) {
 
 }  // namespace
 
+std::string input_name(const std::string& file) {
+  return file == "-" ? "standard input" : file;
+}
+
 int answer_lines(const std::string& file, const AnswerCase& answer_case) {
-  const std::string name = file == "-" ? "standard input" : file;
+  return answer_lines(
+      file, AnswerLine([&](const Json& object, std::size_t) { return answer_case(object); }));
+}
+
+int answer_lines(const std::string& file, const AnswerLine& answer_line) {
+  const std::string name = input_name(file);
   note_input(file);
   const text::InputFile input(file);
   std::string_view rest = input.text();
@@ -59,7 +68,7 @@ int answer_lines(const std::string& file, const AnswerCase& answer_case) {
     ++number;
     if (is_blank(line)) continue;
     ++count;
-    const Answer answer = answer_to(line, answer_case);
+    const Answer answer = answer_to(line, number, answer_line);
     print(json_answer(answer.json, -1));
     if (answer.error && failures++ == 0)
       first_failure = fmt::format("{}: line {}: {}", name, number, *answer.error);

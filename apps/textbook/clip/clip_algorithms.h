@@ -27,6 +27,8 @@ Json liang_barsky(const Json& object, Form form);
 /// {"subject", "clip", "op"}
 template <class Number>
 Json weiler_atherton(const Json& object, Form form);
+/// The same by CGAL's Boolean set operations, which are exact and show no trace.
+Json cgal(const Json& object, Form form);
 /// {"subject", "clip", "decompose"} or {"polygon3", "planes"}
 template <class Number>
 Json sutherland_hodgman(const Json& object, Form form);

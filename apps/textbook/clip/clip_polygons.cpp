@@ -1,9 +1,10 @@
-// fathom clip: polygons in the plane, Weiler–Atherton and Sutherland–Hodgman.
+// fathom clip: polygons in the plane, by Weiler–Atherton, Sutherland–Hodgman and CGAL.
 
 #include <algorithm>
 
 #include "apps/textbook/cases/case_effort.h"
 #include "apps/textbook/clip/clip_algorithms.h"
+#include "fathom/clipping/boolean_by_cgal.h"
 #include "fathom/clipping/convex_pieces.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/sutherland_hodgman.h"
@@ -40,37 +41,72 @@ void put_area(Json& result, const Rational& area, Form) {
   if (static_cast<std::size_t>(digits) <= most_digits) result["area_exact"] = fraction;
 }
 
-const char* name_of(clipping::Relation relation) {
-  constexpr const char* names[] = {"inside", "outside", "along"};
-  return names[static_cast<std::size_t>(relation)];
-}
-
 const char* name_of(clipping::ContactKind kind) {
   constexpr const char* names[] = {"entering", "leaving", "touching", "along"};
   return names[static_cast<std::size_t>(kind)];
 }
 
 const char* name_of(clipping::Border border) {
-  constexpr const char* names[] = {"subject", "clip", "both"};
-  return names[static_cast<std::size_t>(border)];
+  return border == clipping::Border::subject ? "subject" : "clip";
+}
+
+template <class Number>
+Json to_json(const clipping::ContactList<Number>& list, Form form) {
+  Json rings = Json::array();
+  for (const auto& ring : list) {
+    Json& places = rings.emplace_back(Json::array());
+    for (const auto& [point, kind, crossing] : ring) {
+      Json& place = places.emplace_back(Json{{"point", cases::to_json(point, form)}});
+      if (kind) place["kind"] = name_of(*kind);
+      if (crossing) place["crossing"] = *crossing;
+    }
+  }
+  return rings;
 }
 
 template <class Number>
 Json to_json(const clipping::WeilerAthertonTrace<Number>& trace, Form form) {
-  Json contacts = Json::array(), walks = Json::array();
-  for (const auto& contact : trace.contacts)
-    contacts.push_back({{"ring", contact.ring},
-                        {"point", cases::to_json(contact.point, form)},
-                        {"before", name_of(contact.before)},
-                        {"after", name_of(contact.after)},
-                        {"kind", name_of(contact.kind)}});
+  Json walks = Json::array();
   for (const auto& walk : trace.walks) {
-    Json steps = Json::array();
-    for (const auto& step : walk)
-      steps.push_back({{"from", cases::to_json(step.from, form)}, {"along", name_of(step.along)}});
-    walks.push_back(steps);
+    Json& steps = walks.emplace_back(Json::array());
+    for (const auto& [from, along, crossing] : walk) {
+      Json& step =
+          steps.emplace_back(Json{{"from", cases::to_json(from, form)}, {"along", name_of(along)}});
+      if (crossing) step["crossing"] = *crossing;
+    }
   }
-  return {{"contacts", contacts}, {"walks", walks}};
+  return {{"subject", to_json(trace.subject, form)},
+          {"clip", to_json(trace.clip, form)},
+          {"walks", walks}};
+}
+
+/// A case of two polygons.
+template <class Number>
+struct PolygonCase {
+  Rings<Number> subject, clip;
+  clipping::SetOperation operation;
+};
+
+template <class Number>
+PolygonCase<Number> polygon_case(const Json& object) {
+  expect_only(object, {"subject", "clip", "op"});
+  const auto operation = word(object, "op", {"intersection", "difference"}) == "intersection"
+                             ? clipping::SetOperation::intersection
+                             : clipping::SetOperation::difference;
+  return {over_kernel<Number>(rings(object, "subject")), over_kernel<Number>(rings(object, "clip")),
+          operation};
+}
+
+template <class Number>
+Json answer(const std::vector<clipping::Polygon<Number>>& polygons, Form form) {
+  Json result{{"polygons", Json::array()}};
+  for (const clipping::Polygon<Number>& polygon : polygons) {
+    Json all = Json::array({cases::to_json(polygon.outline, form)});
+    for (const Ring<Number>& hole : polygon.holes) all.push_back(cases::to_json(hole, form));
+    result["polygons"].push_back(all);
+  }
+  put_area(result, clipping::area_of(polygons), form);
+  return result;
 }
 
 /// Convex pieces of rings, which must be no holes.
@@ -136,23 +172,17 @@ Json sutherland_hodgman_2(const Json& object, Form form) {
 
 template <class Number>
 Json weiler_atherton(const Json& object, Form form) {
-  expect_only(object, {"subject", "clip", "op"});
-  const auto operation = word(object, "op", {"intersection", "difference"}) == "intersection"
-                             ? clipping::SetOperation::intersection
-                             : clipping::SetOperation::difference;
+  const auto [subject, clip, operation] = polygon_case<Number>(object);
   clipping::WeilerAthertonTrace<Number> trace;
-  const Rings<Number> subject = over_kernel<Number>(rings(object, "subject"));
-  const Rings<Number> clip = over_kernel<Number>(rings(object, "clip"));
-  const auto polygons = clipping::weiler_atherton(subject, clip, operation, &trace);
-  Json result{{"polygons", Json::array()}};
-  for (const clipping::Polygon<Number>& polygon : polygons) {
-    Json all = Json::array({cases::to_json(polygon.outline, form)});
-    for (const Ring<Number>& hole : polygon.holes) all.push_back(cases::to_json(hole, form));
-    result["polygons"].push_back(all);
-  }
-  put_area(result, clipping::area_of(polygons), form);
+  Json result = answer(
+      clipping::weiler_atherton(subject, clip, operation, form.trace ? &trace : nullptr), form);
   if (form.trace) result["trace"] = to_json(trace, form);
   return result;
+}
+
+Json cgal(const Json& object, Form form) {
+  const auto [subject, clip, operation] = polygon_case<Rational>(object);
+  return answer(clipping::boolean_by_cgal(subject, clip, operation), form);
 }
 
 template <class Number>

@@ -11,6 +11,20 @@ namespace {
 /// For use while a Protector lives: the processor then rounds upwards.
 using FilterInterval = CGAL::Interval_nt<false>;
 
+struct NumberedBox : CGAL::Box_intersection_d::Box_d<double, 2> {
+  NumberedBox(const Box& box, std::size_t place)
+      : Box_d(CGAL::Bbox_2(box.x.least, box.y.least, box.x.greatest, box.y.greatest)),
+        number(place) {}
+  std::size_t number;
+};
+
+std::vector<NumberedBox> numbered_boxes(const std::vector<Box>& boxes) {
+  std::vector<NumberedBox> numbered;
+  numbered.reserve(boxes.size());
+  for (const Box& box : boxes) numbered.emplace_back(box, numbered.size());
+  return numbered;
+}
+
 }  // namespace
 
 Bounds bounds_of(const Rational& x) {
@@ -39,20 +53,12 @@ std::optional<int> settled_sign_of_cross(const Box& a, const Box& b, const Box& 
   return std::nullopt;
 }
 
-void visit_meeting_boxes(const std::vector<Box>& boxes,
+void visit_meeting_boxes(const std::vector<Box>& some, const std::vector<Box>& others,
                          const std::function<void(std::size_t, std::size_t)>& visit) {
-  using Handle = std::vector<Box>::const_iterator;
-  using Numbered = CGAL::Box_intersection_d::Box_with_handle_d<double, 2, Handle>;
-  std::vector<Numbered> numbered;
-  numbered.reserve(boxes.size());
-  for (auto box = boxes.begin(); box != boxes.end(); ++box)
-    numbered.emplace_back(
-        CGAL::Bbox_2(box->x.least, box->y.least, box->x.greatest, box->y.greatest), box);
-  CGAL::box_self_intersection_d(numbered.begin(), numbered.end(),
-                                [&](const Numbered& a, const Numbered& b) {
-                                  visit(static_cast<std::size_t>(a.handle() - boxes.begin()),
-                                        static_cast<std::size_t>(b.handle() - boxes.begin()));
-                                });
+  auto numbered = numbered_boxes(some), numbered_others = numbered_boxes(others);
+  CGAL::box_intersection_d(
+      numbered.begin(), numbered.end(), numbered_others.begin(), numbered_others.end(),
+      [&](const NumberedBox& a, const NumberedBox& b) { visit(a.number, b.number); });
 }
 
 }  // namespace fathom::clipping

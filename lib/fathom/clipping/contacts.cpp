@@ -111,20 +111,32 @@ bool is_simple(const Ring<Rational>& ring) {
   return is_simple<Exact>(ring, [](const auto& p) { return Exact::Point_2(p.x, p.y); });
 }
 
-/// For each edge of each ring its contacts with other rings.
+/// Calls visit(i, k) for edges of different sides whose boxes meet.
+template <class Number, class Visit>
+void visit_meeting_edges(const std::vector<PlacedEdge<Number>>& edges, std::size_t first_of_clip,
+                         const Visit& visit) {
+  std::vector<Box> boxes[2];
+  std::vector<std::size_t> numbers[2];
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const std::size_t side = edges[i].ring >= first_of_clip ? 1 : 0;
+    boxes[side].push_back(edges[i].box());
+    numbers[side].push_back(i);
+  }
+  visit_meeting_boxes(boxes[0], boxes[1],
+                      [&](std::size_t i, std::size_t k) { visit(numbers[0][i], numbers[1][k]); });
+}
+
+/// For each edge of each ring its contacts with rings of the other side.
 template <class Number>
-std::vector<Rings<Number>> contacts_on_edges(const Rings<Number>& rings) {
+std::vector<Rings<Number>> contacts_on_edges(const Rings<Number>& rings,
+                                             std::size_t first_of_clip) {
   std::vector<Rings<Number>> on_edge(rings.size());
   for (std::size_t r = 0; r < rings.size(); ++r) on_edge[r].resize(rings[r].size());
   const auto edges = edges_by_xmin(rings);
-  std::vector<Box> boxes;
-  boxes.reserve(edges.size());
-  for (const auto& edge : edges) boxes.push_back(edge.box());
   std::size_t count = 0;
-  visit_meeting_boxes(boxes, [&](std::size_t i, std::size_t k) {
+  visit_meeting_edges(edges, first_of_clip, [&](std::size_t i, std::size_t k) {
     // Over double it matters which comes first.
     const PlacedEdge<Number>&a = edges[std::min(i, k)], &b = edges[std::max(i, k)];
-    if (a.ring == b.ring) return;
     if (std::is_same_v<Number, Rational> && meet_in_an_end_at_most(a, b)) return;
     for (const Point2<Number>& p : contacts_of(a, b)) {
       for (const auto* edge : {&a, &b}) {
@@ -156,6 +168,17 @@ void append_split(Ring<Number>& ring, const Segment2<Number>& edge, Ring<Number>
   contacts.erase(std::unique(contacts.begin(), contacts.end()), contacts.end());
   ring.push_back(start);
   ring.insert(ring.end(), contacts.begin(), contacts.end());
+}
+
+/// The rings with their edges divided at the contacts on them.
+template <class Number>
+Rings<Number> divided(const Rings<Number>& rings, std::vector<Rings<Number>> on_edge) {
+  Rings<Number> split(rings.size());
+  for (std::size_t r = 0; r < rings.size(); ++r)
+    for (std::size_t i = 0; i < rings[r].size(); ++i)
+      append_split(split[r], {rings[r][i], rings[r][(i + 1) % rings[r].size()]},
+                   std::move(on_edge[r][i]));
+  return split;
 }
 
 /// Whether neighbouring edges continue each other without turning back.
@@ -194,14 +217,12 @@ std::vector<Point2<Number>> contacts(const Segment2<Number>& a, const Segment2<N
 }
 
 template <class Number>
-Rings<Number> enter_contacts(const Rings<Number>& rings) {
-  std::vector<Rings<Number>> on_edge = contacts_on_edges(rings);
-  Rings<Number> split(rings.size());
-  for (std::size_t r = 0; r < rings.size(); ++r)
-    for (std::size_t i = 0; i < rings[r].size(); ++i)
-      append_split(split[r], {rings[r][i], rings[r][(i + 1) % rings[r].size()]},
-                   std::move(on_edge[r][i]));
-  return split;
+Sides<Number> enter_contacts(const Sides<Number>& sides) {
+  Rings<Number> all = sides.subject;
+  all.insert(all.end(), sides.clip.begin(), sides.clip.end());
+  all = divided(all, contacts_on_edges(all, sides.subject.size()));
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(sides.subject.size());
+  return {{all.begin(), middle}, {middle, all.end()}};
 }
 
 std::optional<SelfContact> self_contact(const Ring<Rational>& ring) {
@@ -237,7 +258,7 @@ std::string to_text(const Point2<Rational>& point) {
 template std::vector<Point2<double>> contacts(const Segment2<double>&, const Segment2<double>&);
 template std::vector<Point2<Rational>> contacts(const Segment2<Rational>&,
                                                 const Segment2<Rational>&);
-template Rings<double> enter_contacts(const Rings<double>&);
-template Rings<Rational> enter_contacts(const Rings<Rational>&);
+template Sides<double> enter_contacts(const Sides<double>&);
+template Sides<Rational> enter_contacts(const Sides<Rational>&);
 
 }  // namespace fathom::clipping

@@ -19,13 +19,18 @@ std::vector<Point2<Number>> contacts(const Segment2<Number>& a, const Segment2<N
 /// More points of contact are refused: each is a corner of the result, and n edges can meet in n²/4.
 inline constexpr std::size_t most_contacts = std::size_t{1} << 18;
 
-/// The rings, with every contact between different rings entered in both as a corner. Each ring by
-/// itself must be simple.
+/// Two sides, whose rings may pass through points again.
+template <class Number>
+struct Sides {
+  Rings<Number> subject, clip;
+};
+
+/// The rings, with every contact between a subject ring and a clip ring entered in both as a corner.
 /// Cost     n log n, and the pairs of edges whose boxes meet
 /// Fails    InputError where there are more than `most_contacts`
 /// Exact    over Rational. Over double a crossing is rounded, to the same point in both rings.
 template <class Number>
-Rings<Number> enter_contacts(const Rings<Number>& rings);
+Sides<Number> enter_contacts(const Sides<Number>& sides);
 
 /// Two edges of one ring, numbered by their first corners, that meet other than as neighbours do.
 struct SelfContact {

@@ -1,131 +1,130 @@
 #include "fathom/clipping/nesting.h"
 
 #include <algorithm>
-#include <optional>
-#include <set>
-#include <utility>
+#include <map>
 
-#include "fathom/clipping/boxes.h"
 #include "fathom/clipping/contacts.h"
-#include "fathom/clipping/even_odd.h"
+#include "fathom/clipping/ring_crossings.h"
+#include "fathom/clipping/rings.h"
+#include "fathom/clipping/sweep.h"
+#include "fathom/clipping/touches.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::clipping {
 namespace {
 
-enum class Place { along, inside, outside };
-
-/// Where a ring lies with respect to another, and where it crosses it if it does.
-struct Placement {
-  Place place = Place::along;
-  std::optional<Point2<Rational>> crossing;
+/// A ring has an edge; it lies above or below it.
+struct Bordering {
+  std::size_t ring;
+  bool lies_above;
 };
 
-/// A ring with its contacts entered, and the boxes of its edges.
-struct BoxedRing {
-  const Ring<Rational>& ring;
-  std::vector<Box> edges;
-  Box box;
+/// Every edge once, with the rings that have it, in the order of the rings.
+struct BorderedEdges {
+  std::vector<UndirectedEdge> edges;
+  std::vector<std::vector<Bordering>> rings;
 };
 
-BoxedRing boxed(const Ring<Rational>& ring) {
-  BoxedRing result{ring, {}, box_of(ring)};
-  std::vector<Box> corners;
-  for (const Point2<Rational>& p : ring) corners.push_back(box_of(p));
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    result.edges.push_back(corners[i]);
-    result.edges.back().include(corners[(i + 1) % ring.size()]);
-  }
-  return result;
-}
-
-/// `other` has the box `other_box`. Without a contact, one edge tells the place of all.
-Placement place_of(const BoxedRing& boxed, const EvenOdd<Rational>& other, const Box& other_box,
-                   bool in_contact) {
-  const Ring<Rational>& ring = boxed.ring;
-  Placement placement;
-  for (std::size_t i = 0; i < ring.size() && !placement.crossing; ++i) {
-    Place here = Place::outside;
-    // Else a part of the edge lies outside, and so all of it.
-    if (other_box.may_contain(boxed.edges[i])) {
-      const Beside beside = other.beside(ring[i], ring[(i + 1) % ring.size()]);
-      if (beside.left != beside.right) continue;
-      if (beside.left) here = Place::inside;
+BorderedEdges bordered_edges(const NumberedRings& rings, const PointOrder& points) {
+  std::vector<std::pair<UndirectedEdge, Bordering>> all;
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    const bool counter_clockwise = direction_of(rings[r], points) > 0;
+    for (std::size_t i = 0; i < rings[r].size(); ++i) {
+      const std::size_t from = rings[r][i], to = following(rings[r], i);
+      all.push_back({undirected(from, to), {r, (from < to) == counter_clockwise}});
     }
-    if (placement.place != Place::along && placement.place != here) placement.crossing = ring[i];
-    placement.place = here;
-    if (!in_contact) break;
   }
-  return placement;
-}
-
-/// For each ring the others that have a corner in common with it.
-std::vector<std::set<std::size_t>> rings_in_contact(const Rings<Rational>& split) {
-  std::vector<std::pair<const Point2<Rational>*, std::size_t>> corners;
-  for (std::size_t r = 0; r < split.size(); ++r)
-    for (const Point2<Rational>& p : split[r]) corners.emplace_back(&p, r);
-  std::sort(corners.begin(), corners.end(),
-            [](const auto& a, const auto& b) { return *a.first < *b.first; });
-  std::vector<std::set<std::size_t>> result(split.size());
-  for (auto first = corners.begin(), last = first; first != corners.end(); first = last) {
-    while (last != corners.end() && *last->first == *first->first) ++last;
-    for (auto a = first; a != last; ++a)
-      for (auto b = a + 1; b != last; ++b) {
-        result[a->second].insert(b->second);
-        result[b->second].insert(a->second);
-      }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  BorderedEdges result;
+  for (const auto& [edge, bordering] : all) {
+    if (result.edges.empty() || result.edges.back() != edge) {
+      result.edges.push_back(edge);
+      result.rings.emplace_back();
+    }
+    result.rings.back().push_back(bordering);
   }
   return result;
 }
 
-/// For each ring j the rings i whose place with respect to it is not known to be outside: they have
-/// a contact with it, or their boxes lie in its box.
-std::vector<std::vector<std::size_t>> rings_to_place(
-    const std::vector<BoxedRing>& rings, const std::vector<std::set<std::size_t>>& in_contact) {
-  std::vector<Box> boxes;
-  boxes.reserve(rings.size());
-  for (const BoxedRing& ring : rings) boxes.push_back(ring.box);
-  std::vector<std::vector<std::size_t>> result(rings.size());
-  for (std::size_t j = 0; j < rings.size(); ++j)
-    result[j].assign(in_contact[j].begin(), in_contact[j].end());
-  visit_meeting_boxes(boxes, [&](std::size_t i, std::size_t j) {
-    if (boxes[j].may_contain(boxes[i])) result[j].push_back(i);
-    if (boxes[i].may_contain(boxes[j])) result[i].push_back(j);
-  });
-  for (std::vector<std::size_t>& others : result) {
-    std::sort(others.begin(), others.end());
-    others.erase(std::unique(others.begin(), others.end()), others.end());
-  }
-  return result;
+/// The rings that lie above an edge of theirs, from the outermost: rings that at most touch lie in
+/// each other if they lie on the same side of an edge.
+std::vector<std::size_t> from_outermost(const std::vector<Bordering>& bordering,
+                                        const Rings<Rational>& rings) {
+  std::vector<std::size_t> above;
+  for (const auto& [ring, lies_above] : bordering)
+    if (lies_above) above.push_back(ring);
+  if (above.size() < 2) return above;
+  std::map<std::size_t, Rational> areas;
+  for (const std::size_t ring : above) areas[ring] = CGAL::abs(signed_area(rings[ring]));
+  std::stable_sort(above.begin(), above.end(),
+                   [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
+  return above;
+}
+
+[[noreturn]] void refuse_crossing(const std::string& side, std::size_t first, std::size_t second,
+                                  const Point2<Rational>& point) {
+  throw InputError(side + " rings " + std::to_string(first) + " and " + std::to_string(second) +
+                   " cross at " + to_text(point) + "; expected rings that at most touch");
+}
+
+Point2<Rational> point_of(const EdgeCrossing& crossing,
+                          const std::vector<Point2<Rational>>& points) {
+  const auto segment = [&](const UndirectedEdge& edge) {
+    return Segment2<Rational>{points[edge.left], points[edge.right]};
+  };
+  return contacts(segment(crossing.first), segment(crossing.second)).at(0);
 }
 
 }  // namespace
 
 std::vector<int> nesting_depths(const Rings<Rational>& rings, const std::string& side) {
-  std::vector<int> depths(rings.size(), 0);
-  if (rings.size() < 2) return depths;
-  const Rings<Rational> split = enter_contacts(rings);
-  const auto in_contact = rings_in_contact(split);
-  std::vector<BoxedRing> boxed_rings;
-  for (const Ring<Rational>& ring : split) boxed_rings.push_back(boxed(ring));
-  const auto to_place = rings_to_place(boxed_rings, in_contact);
-  for (std::size_t j = 0; j < rings.size(); ++j) {
-    if (to_place[j].empty()) continue;
-    const Rings<Rational> ring_j{split[j]};
-    const EvenOdd<Rational> other(ring_j);
-    for (const std::size_t i : to_place[j]) {
-      if (i == j) continue;
-      const Placement placement =
-          place_of(boxed_rings[i], other, boxed_rings[j].box, in_contact[j].contains(i));
-      if (placement.crossing)
-        throw InputError(side + " rings " + std::to_string(std::min(i, j)) + " and " +
-                         std::to_string(std::max(i, j)) + " cross at " +
-                         to_text(*placement.crossing) + "; expected rings that at most touch");
-      if (placement.place == Place::inside || (placement.place == Place::along && j < i))
-        ++depths[i];
+  std::vector<int> depths(rings.size(), -1);
+  if (rings.size() < 2) return std::vector<int>(rings.size(), 0);
+  const auto corners = numbered(rings);
+  const PointOrder points(corners.points);
+  const auto touching = enter_touches(corners.rings, points);
+  if (const auto* crossing = std::get_if<EdgeCrossing>(&touching))
+    refuse_crossing(side, crossing->first_ring, crossing->second_ring,
+                    point_of(*crossing, corners.points));
+  const NumberedRings& split = std::get<NumberedRings>(touching);
+  if (const auto crossing = ring_crossing(split, points))
+    refuse_crossing(side, crossing->first_ring, crossing->second_ring,
+                    corners.points[crossing->point]);
+  const BorderedEdges bordered = bordered_edges(split, points);
+  std::vector<int> rings_above(bordered.edges.size());  // above each edge
+  for (const auto& [edge, below] : sweep(bordered.edges, points)) {
+    const int rings_below = below ? rings_above[*below] : 0;
+    const std::vector<std::size_t> begun = from_outermost(bordered.rings[edge], rings);
+    const auto ended = bordered.rings[edge].size() - begun.size();
+    int depth = rings_below - static_cast<int>(ended);
+    for (const std::size_t ring : begun) {
+      // The first edge of a ring that is swept is the lower one at its least corner.
+      if (depths[ring] < 0) depths[ring] = depth;
+      ++depth;
     }
+    rings_above[edge] = depth;
   }
   return depths;
+}
+
+std::vector<std::optional<std::size_t>> outlines_around(const NumberedRings& rings,
+                                                        const PointOrder& points) {
+  std::vector<std::optional<std::size_t>> outline(rings.size());
+  std::vector<int> directions;
+  for (const NumberedRing& ring : rings) directions.push_back(direction_of(ring, points));
+  std::vector<bool> met(rings.size(), false);
+  const BorderedEdges bordered = bordered_edges(rings, points);
+  for (const auto& [edge, below] : sweep(bordered.edges, points)) {
+    const std::size_t ring = bordered.rings[edge][0].ring;
+    if (met[ring]) continue;
+    met[ring] = true;
+    if (directions[ring] >= 0 || !below) continue;
+    // Between the hole and the edge below it lies a part of the polygon.
+    const std::size_t neighbour = bordered.rings[*below][0].ring;
+    outline[ring] = directions[neighbour] > 0 ? neighbour : outline[neighbour];
+  }
+  return outline;
 }
 
 }  // namespace fathom::clipping

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fathom/clipping/points.h"
@@ -8,16 +9,24 @@
 /// Source   [WA77], [Wei80]; [FHP19] for degenerate contacts.
 ///
 /// The four steps, each in a file of its own:
-///   1  contacts          every point in which a subject ring meets a clip ring is entered in both
-///                        lists; edges that overlap become one and the same edge   (contacts.h)
-///   2  labels            every edge is inside, outside or along the other polygon, so a contact is
-///                        entering, leaving or touching   (weiler_atherton_labels.h)
-///   3  walk              along the subject while it is inside, at a leaving contact onto the clip
-///                        polygon, to the next entering contact and back onto the subject, until
-///                        the start is reached   (weiler_atherton_walk.h)
-///   4  holes             each clockwise ring goes to the outline that contains it
-/// Nothing is perturbed. Labelling edges instead of points is what decides every degenerate
-/// contact: a shared vertex, a vertex on an edge, overlapping edges, identical polygons.
+///   1  contacts   every point in which a subject ring meets a clip ring is entered in both lists
+///                 (contacts.h)
+///   2  lists      where the rings cross, the contact is *entering* or *leaving*, as the subject
+///                 enters the clip polygon or leaves it; else they touch
+///                 (weiler_atherton_lists.h)
+///   3  walk       from an entering contact along the subject to the next contact, which is
+///                 leaving; there over to the clip list, along it to the next entering contact and
+///                 back to the subject, until the start is reached (weiler_atherton_walk.h). Rings
+///                 without a crossing belong to the result or do not, as a whole
+///   4  pieces     each clockwise ring goes to the outline around it (pieces.h)
+///
+/// Degenerate contacts need two more things. Before, rings of one side that touch each other are
+/// made lists that bound one wedge of their polygon wherever they pass through a point, and edges
+/// that two of them share are dropped (weiler_atherton_sides.h). After, walks that pass through a
+/// point again are made such lists too (pieces.h). Nothing is moved: where edges of subject and clip
+/// run along each other, the *order* of edges about a point is that of a subject that lies a little
+/// further inside itself, and that alone decides a shared vertex, a vertex on an edge, overlapping
+/// edges and identical polygons.
 namespace fathom::clipping {
 
 enum class SetOperation { intersection, difference };
@@ -30,41 +39,47 @@ struct Polygon {
   Rings<Number> holes;
 };
 
-/// Where an edge of a subject ring lies with respect to the clip polygon.
-enum class Relation { inside, outside, along };
-
 enum class ContactKind {
-  /// The subject enters the clip polygon here, or along the shared piece that ends here.
+  /// The subject enters the clip polygon here: the clip ring leaves the subject.
   entering,
   leaving,
-  /// It is on the same side before and after.
+  /// Both rings pass through the point, and do not cross.
   touching,
-  /// A shared piece begins or continues.
+  /// The same, and both have the edge that follows.
   along,
 };
 
-/// A point of a subject ring that lies on the border of the clip polygon.
+/// A place in a list: a corner of a ring, a contact, or both. Where one ring crosses several others
+/// in one point, it has as many places there, in the order of the crossings.
 template <class Number>
-struct Contact {
-  std::size_t ring;
+struct ListPlace {
   Point2<Number> point;
-  Relation before, after;
-  ContactKind kind;
+  /// nullopt for a corner that is no contact.
+  std::optional<ContactKind> kind;
+  /// The number of the crossing, which is the same in both lists, counted along the subject.
+  std::optional<std::size_t> crossing;
 };
 
-/// Whose border the walk follows from a point.
-enum class Border { subject, clip, both };
+/// The places of each ring of a side, in order. The polygon lies to the left.
+template <class Number>
+using ContactList = std::vector<std::vector<ListPlace<Number>>>;
+
+/// Whose list the walk follows.
+enum class Border { subject, clip };
 
 template <class Number>
 struct WalkStep {
   Point2<Number> from;
   Border along;
+  /// The crossing at which the walk turns to this list.
+  std::optional<std::size_t> crossing;
 };
 
 template <class Number>
 struct WeilerAthertonTrace {
-  std::vector<Contact<Number>> contacts;
-  /// One for each closed walk; a walk that meets itself in a point yields more than one ring.
+  ContactList<Number> subject, clip;
+  /// One for each closed walk. A walk may have several steps from one point, where several rings
+  /// cross; one that has no other point bounds nothing.
   std::vector<std::vector<WalkStep<Number>>> walks;
 };
 
@@ -72,7 +87,10 @@ struct WeilerAthertonTrace {
 /// holes are in the order of their least corners; rings start there and have no straight corners,
 /// so the same region always gives the same list.
 ///
-/// Exact    over Rational. Over double crossings are rounded, and the region is approximate.
+/// Cost     n log n, the pairs of a subject edge and a clip edge whose boxes meet, and the pairs of
+///          rings of one side that share an edge
+/// Exact    over Rational. Over double crossings are rounded, and the region is approximate; the
+///          order of edges about the rounded points is exact.
 /// Fails    InputError, as checked_rings() does; over double also if rounding has broken the
 ///          topology, so that a walk does not close.
 template <class Number>

@@ -3,164 +3,158 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
-#include "fathom/clipping/exact_kernel.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/clipping/sweep.h"
+#include "fathom/clipping/wedges.h"
 
 namespace fathom::clipping {
 namespace {
 
-/// How far clockwise the direction P → q lies from the direction P → reference, in half turns: 0
-/// for less than one, 1 for exactly one, 2 for more.
-template <class Number>
-int half_turns(const Point2<Number>& P, const Point2<Number>& reference, const Point2<Number>& q) {
-  return 1 + sign_of(cross(P, reference, q));
-}
-
-/// Whether P → a comes before P → b, clockwise from P → reference.
-template <class Number>
-bool comes_before(const Point2<Number>& P, const Point2<Number>& reference, const Point2<Number>& a,
-                  const Point2<Number>& b) {
-  const int turns_a = half_turns(P, reference, a), turns_b = half_turns(P, reference, b);
-  return turns_a != turns_b ? turns_a < turns_b : cross(P, a, b) < 0;
-}
-
-/// The edges that leave a point and have not been walked, by their numbers.
-template <class Number>
-class Leaving {
+/// The walks of one operation. A contact is `inwards` where the subject comes into the result.
+class Walker {
  public:
-  [[nodiscard]] bool is_empty() const { return edges_.empty(); }
-  void add(const BorderEdge<Number>& edge, std::size_t number) {
-    edges_.push_back({&edge, number});
-  }
-  void remove(const BorderEdge<Number>&, std::size_t number) {
-    std::erase_if(edges_, [&](const Leaver& leaver) { return leaver.number == number; });
-  }
-  /// The first one clockwise from the point → reference.
-  [[nodiscard]] std::size_t first_from(const Point2<Number>& reference) const {
-    return std::min_element(edges_.begin(), edges_.end(),
-                            [&](const Leaver& a, const Leaver& b) {
-                              return comes_before(a.edge->from, reference, a.edge->to, b.edge->to);
-                            })
-        ->number;
-  }
+  Walker(const PlaceLists& lists, SetOperation operation)
+      : lists_(lists),
+        operation_(operation),
+        inwards_(operation == SetOperation::intersection ? ContactKind::entering
+                                                         : ContactKind::leaving),
+        walked_(lists.subject.of_crossing.size(), false) {}
 
- private:
-  struct Leaver {
-    const BorderEdge<Number>* edge;
-    std::size_t number;
-  };
-  std::vector<Leaver> edges_;
-};
-
-/// Over Rational in order, clockwise from the direction +x: many rings can meet in one point. (By
-/// rounded numbers there need not be an order.)
-template <>
-class Leaving<Rational> {
- public:
-  [[nodiscard]] bool is_empty() const { return edges_.empty(); }
-  void add(const BorderEdge<Rational>& edge, std::size_t number) {
-    edges_.insert({&edge.from, &edge.to, number});
-  }
-  void remove(const BorderEdge<Rational>& edge, std::size_t number) {
-    auto [first, last] = edges_.equal_range({&edge.from, &edge.to, number});
-    edges_.erase(std::find_if(first, last, [&](const Leaver& l) { return l.number == number; }));
-  }
-  [[nodiscard]] std::size_t first_from(const Point2<Rational>& reference) const {
-    const auto next = edges_.upper_bound({edges_.begin()->from, &reference, 0});
-    return (next == edges_.end() ? edges_.begin() : next)->number;
-  }
-
- private:
-  struct Leaver {
-    const Point2<Rational>*from, *to;
-    std::size_t number;
-
-    [[nodiscard]] int half_turn() const {
-      return to->y < from->y || (to->y == from->y && to->x > from->x) ? 0 : 1;
+  std::vector<Walk> all() {
+    std::vector<Walk> walks;
+    for (std::size_t place = 0; place < lists_.subject.places.size(); ++place) {
+      const Place& start = lists_.subject.places[place];
+      if (start.crossing && start.kind == inwards_ && !walked_[*start.crossing])
+        walks.push_back(from(*start.crossing));
     }
-    friend bool operator<(const Leaver& a, const Leaver& b) {
-      const int half_a = a.half_turn(), half_b = b.half_turn();
-      return half_a != half_b ? half_a < half_b : cross(*a.from, *a.to, *b.to) < 0;
-    }
-  };
-  std::multiset<Leaver> edges_;
-};
-
-/// The edges that have not been walked, by the point where they begin.
-template <class Number>
-class OpenEdges {
- public:
-  explicit OpenEdges(const std::vector<BorderEdge<Number>>& edges) : edges_(edges) {
-    for (std::size_t i = 0; i < edges.size(); ++i) leaving_[edges[i].from].add(edges[i], i);
-    walked_.resize(edges.size(), false);
-  }
-
-  [[nodiscard]] bool is_walked(std::size_t i) const { return walked_[i]; }
-
-  const BorderEdge<Number>& take(std::size_t i) {
-    walked_[i] = true;
-    leaving_[edges_[i].from].remove(edges_[i], i);
-    return edges_[i];
-  }
-
-  /// The edge that continues from the end of `edge`.
-  const BorderEdge<Number>& take_next(const BorderEdge<Number>& edge) {
-    const Leaving<Number>& choices = leaving_[edge.to];
-    if (choices.is_empty())
-      throw InputError(
-          "rounding to binary64 has broken the walk along the rings; the exact kernel does it");
-    return take(choices.first_from(edge.from));
+    return walks;
   }
 
  private:
-  const std::vector<BorderEdge<Number>>& edges_;
-  std::map<Point2<Number>, Leaving<Number>> leaving_;
+  Walk from(std::size_t start) {
+    Walk walk;
+    std::size_t crossing = start;
+    do {
+      if (walked_[crossing]) refuse_what_rounding_broke();
+      walked_[crossing] = true;
+      crossing = follow(walk, Border::subject, crossing, false);
+      crossing = follow(walk, Border::clip, crossing, true);
+    } while (crossing != start);
+    return walk;
+  }
+
+  /// Walks along a list from one crossing to the next, which must be the other way.
+  std::size_t follow(Walk& walk, Border along, std::size_t crossing, bool to_inwards) const {
+    const PlaceList& list = along == Border::subject ? lists_.subject : lists_.clip;
+    const bool backwards = along == Border::clip && operation_ == SetOperation::difference;
+    std::size_t place = list.of_crossing[crossing];
+    do {
+      walk.push_back({along, place});
+      place = backwards ? list.before(place) : list.after(place);
+    } while (!list.places[place].crossing);
+    if ((list.places[place].kind == inwards_) != to_inwards) refuse_what_rounding_broke();
+    return *list.places[place].crossing;
+  }
+
+  const PlaceLists& lists_;
+  SetOperation operation_;
+  ContactKind inwards_;
   std::vector<bool> walked_;
 };
 
+/// Whether edges of either side lie inside the other polygon.
+class Insides {
+ public:
+  Insides(const NumberedSides& sides, const PointOrder& points) {
+    std::map<UndirectedEdge, Parities> borders;
+    for (const auto& [from, to] : edges_of(sides.subject)) {
+      Parities& parities = borders[undirected(from, to)];
+      parities.subject = !parities.subject;
+    }
+    for (const auto& [from, to] : edges_of(sides.clip)) {
+      Parities& parities = borders[undirected(from, to)];
+      parities.clip = !parities.clip;
+      clip_edges_.insert({from, to});
+    }
+    std::vector<UndirectedEdge> edges;
+    for (const auto& [edge, parities] : borders) edges.push_back(edge);
+    std::vector<Parities> above(edges.size());
+    for (const auto& [edge, next_below] : sweep(edges, points)) {
+      const Parities below = next_below ? above[*next_below] : Parities{};
+      const Parities& border = borders[edges[edge]];
+      above[edge] = {below.subject != border.subject, below.clip != border.clip};
+      below_.insert({edges[edge], {below, border.subject && border.clip}});
+    }
+  }
+
+  [[nodiscard]] bool subject_is_inside(std::size_t from, std::size_t to) const {
+    const auto& [below, is_shared] = below_.at(undirected(from, to));
+    return is_shared ? clip_edges_.contains({from, to}) : below.clip;
+  }
+  [[nodiscard]] bool clip_is_inside(std::size_t from, std::size_t to) const {
+    const auto& [below, is_shared] = below_.at(undirected(from, to));
+    return !is_shared && below.subject;
+  }
+
+ private:
+  struct Parities {
+    bool subject = false, clip = false;
+  };
+  struct Below {
+    Parities parities;
+    bool is_shared;
+  };
+  std::map<UndirectedEdge, Below> below_;
+  std::set<std::pair<std::size_t, std::size_t>> clip_edges_;
+};
+
+/// The rings of a list that nothing crosses, as walks.
+template <class IsWanted>
+void append_whole_rings(std::vector<Walk>& walks, const PlaceList& list, Border along,
+                        bool backwards, const IsWanted& is_wanted) {
+  for (std::size_t r = 0; r + 1 < list.rings.size(); ++r) {
+    const std::size_t first = list.rings[r], end = list.rings[r + 1];
+    const auto is_crossed = [&](std::size_t place) { return list.places[place].crossing; };
+    Walk walk;
+    bool crossed = false;
+    for (std::size_t place = first; place < end && !crossed; ++place) {
+      crossed = is_crossed(place).has_value();
+      walk.push_back({along, place});
+    }
+    if (crossed || !is_wanted(list.places[first].point, list.places[first + 1].point)) continue;
+    if (backwards) std::reverse(walk.begin(), walk.end());
+    walks.push_back(std::move(walk));
+  }
+}
+
+bool has_whole_rings(const PlaceList& list) {
+  std::vector<bool> crossed(list.rings.size() - 1, false);
+  for (const Place& place : list.places)
+    if (place.crossing) crossed[place.ring] = true;
+  return std::find(crossed.begin(), crossed.end(), false) != crossed.end();
+}
+
 }  // namespace
 
-template <class Number>
-std::vector<std::vector<BorderEdge<Number>>> walk(const std::vector<BorderEdge<Number>>& edges) {
-  std::vector<std::vector<BorderEdge<Number>>> walks;
-  OpenEdges<Number> open(edges);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (open.is_walked(i)) continue;
-    std::vector<BorderEdge<Number>>& closed = walks.emplace_back();
-    closed.push_back(open.take(i));
-    while (!(closed.back().to == closed.front().from))
-      closed.push_back(open.take_next(closed.back()));
-  }
+std::vector<Walk> walk(const PlaceLists& lists, SetOperation operation) {
+  return Walker(lists, operation).all();
+}
+
+std::vector<Walk> whole_rings(const PlaceLists& lists, const NumberedSides& sides,
+                              const PointOrder& points, SetOperation operation) {
+  std::vector<Walk> walks;
+  if (!has_whole_rings(lists.subject) && !has_whole_rings(lists.clip)) return walks;
+  const bool is_difference = operation == SetOperation::difference;
+  const Insides insides(sides, points);
+  append_whole_rings(walks, lists.subject, Border::subject, false,
+                     [&](std::size_t from, std::size_t to) {
+                       return insides.subject_is_inside(from, to) != is_difference;
+                     });
+  append_whole_rings(
+      walks, lists.clip, Border::clip, is_difference,
+      [&](std::size_t from, std::size_t to) { return insides.clip_is_inside(from, to); });
   return walks;
 }
-
-template <class Number>
-Rings<Number> simple_rings(const std::vector<BorderEdge<Number>>& closed_walk) {
-  Rings<Number> rings;
-  Ring<Number> path;
-  std::map<Point2<Number>, std::size_t> place;  // on the path
-  for (const BorderEdge<Number>& edge : closed_walk) {
-    place.emplace(edge.from, path.size());
-    path.push_back(edge.from);
-    const auto met = place.find(edge.to);
-    if (met == place.end()) continue;
-    const auto first = path.begin() + static_cast<std::ptrdiff_t>(met->second);
-    rings.emplace_back(first, path.end());
-    for (auto p = first; p != path.end(); ++p) place.erase(*p);
-    path.erase(first, path.end());
-  }
-  return rings;
-}
-
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
-#define FATHOM_INSTANTIATE(Number)                            \
-  template std::vector<std::vector<BorderEdge<Number>>> walk( \
-      const std::vector<BorderEdge<Number>>&);                \
-  template Rings<Number> simple_rings(const std::vector<BorderEdge<Number>>&);
-FATHOM_INSTANTIATE(double)
-FATHOM_INSTANTIATE(Rational)
-#undef FATHOM_INSTANTIATE
-// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fathom::clipping

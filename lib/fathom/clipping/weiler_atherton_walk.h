@@ -2,31 +2,35 @@
 
 #include <vector>
 
-#include "fathom/clipping/points.h"
-#include "fathom/clipping/weiler_atherton.h"
+#include "fathom/clipping/weiler_atherton_lists.h"
 
 /// Weiler–Atherton, step 3: the walk.
 namespace fathom::clipping {
 
-/// A piece of the result's border, directed so that the result lies to its left.
-template <class Number>
-struct BorderEdge {
-  Point2<Number> from, to;
+/// A place that the walk comes to, in the list that it follows from there.
+struct Step {
   Border along;
+  std::size_t place;
 };
+using Walk = std::vector<Step>;
 
-/// Closed walks that together run along every edge once. If several edges leave a point, the walk
-/// takes the first one clockwise from where it came: the one that bounds, together with the edge by
-/// which it came, the same wedge of the result. So pieces that only touch are walked separately.
+/// The closed walks that begin at contacts, one after the other along the subject.
 ///
-/// Walks start from the first edges, in the given order.
-/// Fails    InputError if no edge leads on; over Rational that cannot happen.
-template <class Number>
-std::vector<std::vector<BorderEdge<Number>>> walk(const std::vector<BorderEdge<Number>>& edges);
+/// Intersection   from an entering contact along the subject to the next one, which is leaving; from
+///                there along the clip list to the *next* entering contact (not the one that was
+///                entered last), again along the subject, and so on until the start is reached.
+/// Difference     from a leaving contact along the subject to the next entering one, and backwards
+///                along the clip list to the next leaving one.
+/// Together they pass every crossing once.
+/// Fails    InputError if entering and leaving do not alternate along a list; over Rational that
+///          cannot happen.
+std::vector<Walk> walk(const PlaceLists& lists, SetOperation operation);
 
-/// The rings of a walk, which is taken apart where it passes through a point again, so that each
-/// ring is simple.
-template <class Number>
-Rings<Number> simple_rings(const std::vector<BorderEdge<Number>>& closed_walk);
+/// The rings that no other crosses, each as a walk, if the result lies to their left: subject rings
+/// inside the clip polygon (outside, for a difference), and clip rings inside the subject (backwards,
+/// for a difference). Of a ring that both sides have, the subject's counts: it is inside the clip
+/// polygon where that lies on the same side of it.
+std::vector<Walk> whole_rings(const PlaceLists& lists, const NumberedSides& sides,
+                              const PointOrder& points, SetOperation operation);
 
 }  // namespace fathom::clipping

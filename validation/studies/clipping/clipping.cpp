@@ -1,6 +1,7 @@
 #include "validation/studies/clipping/clipping.h"
 
 #include "fathom/numeric/errors.h"
+#include "validation/studies/clipping/beside_cgal.h"
 #include "validation/studies/clipping/clipped_shapes.h"
 #include "validation/studies/clipping/shape_plot.h"
 #include "validation/studies/page_texts.h"
@@ -53,13 +54,61 @@ Plot bridges_plot(const std::vector<RandomPolygons>& rows) {
                  series_of("cuts of the decomposition", rows, &Row::corners, &Row::cut_percent)}};
 }
 
+Table beside_cgal_table(const std::vector<BesideCgal>& rows) {
+  using Row = BesideCgal;
+  return {rows,
+          {{Column("kind").page("kind"), &Row::kind},
+           {Column("corners").page("corners"), &Row::corners},
+           {Column("pairs").page("pairs"), &Row::pairs},
+           {Column("polygons").page("polygons"), &Row::polygons},
+           {Column("different").page("different answers"), &Row::different},
+           {heading("Weiler-Atherton ms", ".2f"), &Row::ours_ms},
+           {heading("CGAL ms", ".2f"), &Row::cgal_ms},
+           {heading("CGAL ms / Weiler-Atherton ms", ".2f"), &Row::ratio}}};
+}
+
+Plot beside_cgal_plot(const std::vector<BesideCgal>& rows) {
+  using Row = BesideCgal;
+  Plot plot{.name = "cgal",
+            .title = "Weiler-Atherton beside CGAL",
+            .x_label = "corners",
+            .y_label = "milliseconds",
+            .logarithmic_x = true,
+            .logarithmic_y = true,
+            .series = {}};
+  for (const std::string& kind : kinds_beside_cgal()) {
+    const auto some = rows_where(rows, [&](const Row& row) { return row.kind == kind; });
+    plot.series.push_back(series_of(kind, some, &Row::corners, &Row::ours_ms));
+    plot.series.push_back(series_of(kind + ", CGAL", some, &Row::corners, &Row::cgal_ms));
+  }
+  return plot;
+}
+
+std::vector<BesideCgal> clip_beside_cgal(const std::function<void(double)>& tick) {
+  constexpr std::size_t sizes[] = {64, 256, 1024, 2048};
+  std::vector<BesideCgal> rows;
+  for (const std::string& kind : kinds_beside_cgal())
+    for (const std::size_t corners : sizes) {
+      rows.push_back(measure_beside_cgal(kind, corners));
+      tick(0.5 + 0.4 * static_cast<double>(rows.size()) /
+                     static_cast<double>(kinds_beside_cgal().size() * std::size(sizes)));
+    }
+  return rows;
+}
+
+std::size_t different_answers(const std::vector<BesideCgal>& rows) {
+  std::size_t different = 0;
+  for (const BesideCgal& row : rows) different += row.different;
+  return different;
+}
+
 std::vector<RandomPolygons> clip_random(std::size_t polygons,
                                         const std::function<void(double)>& tick) {
   constexpr std::size_t corner_counts[] = {6, 8, 12, 16, 24, 32, 48, 64};
   std::vector<RandomPolygons> rows;
   for (const std::size_t corners : corner_counts) {
     rows.push_back(clip_random_polygons(corners, polygons));
-    tick(0.9 * static_cast<double>(rows.size()) / std::size(corner_counts));
+    tick(0.5 * static_cast<double>(rows.size()) / std::size(corner_counts));
   }
   return rows;
 }
@@ -76,10 +125,15 @@ std::vector<StudyFile> study_clipping(const StudyOptions& options,
   const std::vector<ClippedShape> shapes = clipped_shapes();
   const std::vector<RandomPolygons> random = clip_random(polygons, tick);
 
+  const std::vector<BesideCgal> beside_cgal = clip_beside_cgal(tick);
+
   Results results("clipping", page_texts::clipping);
   results.figure("polygons", polygons);
   results.table(shapes_table(shapes), {.csv = "shapes", .json = "shapes", .page = "shapes"});
   results.table(random_table(random), {.csv = "random", .json = "random"});
+  results.figure("answers_unlike_cgal", different_answers(beside_cgal));
+  results.table(beside_cgal_table(beside_cgal), {.csv = "cgal", .json = "cgal", .page = "cgal"});
+  results.plot(beside_cgal_plot(beside_cgal));
   for (const ClippedShape& shape : shapes) results.drawn_plot("shape-" + shape.name, draw(shape));
   results.plot(bridges_plot(random));
   tick(1);

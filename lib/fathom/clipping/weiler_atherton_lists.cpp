@@ -1,0 +1,218 @@
+#include "fathom/clipping/weiler_atherton_lists.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include "fathom/clipping/sweep.h"
+#include "fathom/clipping/wedges.h"
+
+namespace fathom::clipping {
+namespace {
+
+/// A ring of a side passes through a point.
+struct Visit {
+  std::size_t point, ring, corner;
+  /// It is a contact: the other side comes here too.
+  bool is_contact = false;
+  /// The visits of the other side in whose wedges its way begins and ends.
+  const Visit *begins_within = nullptr, *ends_within = nullptr;
+  /// In the order along its way, at most two.
+  std::vector<std::size_t> crossings = {};
+
+  /// Whether it crosses the visit in whose wedge it begins or ends: not if that is the same one.
+  [[nodiscard]] bool crosses(const Visit* other) const {
+    return other != nullptr && begins_within != ends_within;
+  }
+};
+
+/// The visits of a side, point by point.
+std::vector<Visit> visits_by_point(const NumberedRings& rings) {
+  std::vector<Visit> visits;
+  for (std::size_t r = 0; r < rings.size(); ++r)
+    for (std::size_t i = 0; i < rings[r].size(); ++i) visits.push_back({rings[r][i], r, i});
+  std::stable_sort(visits.begin(), visits.end(),
+                   [](const Visit& a, const Visit& b) { return a.point < b.point; });
+  return visits;
+}
+
+constexpr std::size_t subject_side = 0, clip_side = 1;
+
+/// Where a visit comes from, or leaves to.
+struct VisitEnd {
+  std::size_t towards, side;
+  Visit* visit;
+  bool leaves;
+
+  /// Among ends in one direction: the subject lies further to its left.
+  [[nodiscard]] int shift() const {
+    if (side == clip_side) return 0;
+    return leaves ? 1 : -1;
+  }
+};
+
+void add_ends(std::vector<VisitEnd>& ends, std::span<Visit> visits, const NumberedRings& rings,
+              std::size_t side) {
+  for (Visit& visit : visits) {
+    visit.is_contact = true;
+    ends.push_back({preceding(rings[visit.ring], visit.corner), side, &visit, false});
+    ends.push_back({following(rings[visit.ring], visit.corner), side, &visit, true});
+  }
+}
+
+/// Finds for each end the wedge of the other side in which it lies, going round counter-clockwise:
+/// a wedge begins at an end that leaves, and ends at the same visit's other.
+void place_in_wedges(const std::vector<VisitEnd>& ends) {
+  std::array<Visit*, 2> wedge{};
+  for (const VisitEnd& end : ends) wedge[end.side] = end.leaves ? end.visit : nullptr;
+  for (const VisitEnd& end : ends) {
+    Visit*& own = wedge[end.side];
+    if (own != (end.leaves ? nullptr : end.visit)) refuse_what_rounding_broke();
+    own = end.leaves ? end.visit : nullptr;
+    (end.leaves ? end.visit->ends_within : end.visit->begins_within) = wedge[1 - end.side];
+  }
+}
+
+/// The crossings at one point that both sides visit, entered in their visits; kinds of crossings are
+/// appended.
+class PointOfContact {
+ public:
+  PointOfContact(std::span<Visit> subject, std::span<Visit> clip, std::vector<ContactKind>& kinds)
+      : kinds_(kinds), first_(kinds.size()) {
+    for (Visit& visit : subject) {
+      cross(visit, visit.begins_within, ContactKind::leaving);
+      cross(visit, visit.ends_within, ContactKind::entering);
+    }
+    for (Visit& visit : clip)
+      for (const Visit* other : {visit.begins_within, visit.ends_within})
+        if (visit.crosses(other)) visit.crossings.push_back(crossing_of(*other, visit));
+  }
+
+ private:
+  void cross(Visit& subject, const Visit* clip, ContactKind kind) {
+    if (!subject.crosses(clip)) return;
+    subject.crossings.push_back(kinds_.size());
+    kinds_.push_back(kind);
+    clips_.push_back(clip);
+  }
+  [[nodiscard]] std::size_t crossing_of(const Visit& subject, const Visit& clip) const {
+    for (const std::size_t crossing : subject.crossings)
+      if (clips_[crossing - first_] == &clip) return crossing;
+    refuse_what_rounding_broke();
+  }
+
+  std::vector<ContactKind>& kinds_;
+  std::size_t first_;
+  /// The clip visit of each crossing.
+  std::vector<const Visit*> clips_;
+};
+
+/// The visits of the point that `visits` begins with.
+std::span<Visit> first_point(std::span<Visit> visits) {
+  const auto end = std::find_if(visits.begin(), visits.end(), [&](const Visit& visit) {
+    return visit.point != visits.front().point;
+  });
+  return visits.first(static_cast<std::size_t>(end - visits.begin()));
+}
+
+/// All contacts, entered in the visits. Returns the kinds of the crossings.
+std::vector<ContactKind> cross(std::span<Visit> subject, std::span<Visit> clip,
+                               const NumberedSides& sides, const PointOrder& points) {
+  std::vector<ContactKind> kinds;
+  while (!subject.empty() && !clip.empty()) {
+    const auto s = first_point(subject), c = first_point(clip);
+    const std::size_t P = s[0].point;
+    if (P == c[0].point) {
+      std::vector<VisitEnd> ends;
+      add_ends(ends, s, sides.subject, subject_side);
+      add_ends(ends, c, sides.clip, clip_side);
+      std::sort(ends.begin(), ends.end(), [&](const VisitEnd& a, const VisitEnd& b) {
+        if (points.comes_before(P, a.towards, b.towards)) return true;
+        return !points.comes_before(P, b.towards, a.towards) && a.shift() < b.shift();
+      });
+      place_in_wedges(ends);
+      PointOfContact(s, c, kinds);
+    }
+    if (P <= c[0].point) subject = subject.subspan(s.size());
+    if (P >= c[0].point) clip = clip.subspan(c.size());
+  }
+  return kinds;
+}
+
+/// The edges that a side has, in order.
+class EdgeSet {
+ public:
+  explicit EdgeSet(const NumberedRings& rings) {
+    for (const auto& [from, to] : edges_of(rings)) edges_.push_back(undirected(from, to));
+    std::sort(edges_.begin(), edges_.end());
+  }
+  [[nodiscard]] bool contains(std::size_t from, std::size_t to) const {
+    return std::binary_search(edges_.begin(), edges_.end(), undirected(from, to));
+  }
+
+ private:
+  std::vector<UndirectedEdge> edges_;
+};
+
+PlaceList list_of(std::vector<Visit>& visits, const NumberedRings& rings, const EdgeSet& others,
+                  const std::vector<ContactKind>& kinds) {
+  std::sort(visits.begin(), visits.end(), [](const Visit& a, const Visit& b) {
+    return std::pair(a.ring, a.corner) < std::pair(b.ring, b.corner);
+  });
+  PlaceList list;
+  list.of_crossing.resize(kinds.size());
+  for (const Visit& visit : visits) {
+    for (const std::size_t crossing : visit.crossings) {
+      list.of_crossing[crossing] = list.places.size();
+      list.places.push_back({visit.point, visit.ring, kinds[crossing], crossing});
+    }
+    if (visit.crossings.empty()) {
+      std::optional<ContactKind> kind;
+      if (visit.is_contact)
+        kind = others.contains(visit.point, following(rings[visit.ring], visit.corner))
+                   ? ContactKind::along
+                   : ContactKind::touching;
+      list.places.push_back({visit.point, visit.ring, kind, std::nullopt});
+    }
+    if (visit.corner + 1 == rings[visit.ring].size()) list.rings.push_back(list.places.size());
+  }
+  return list;
+}
+
+/// Numbers the crossings anew, along the subject.
+void number_along_subject(PlaceLists& lists) {
+  std::vector<std::size_t> new_number(lists.subject.of_crossing.size());
+  std::size_t next = 0;
+  for (const Place& place : lists.subject.places)
+    if (place.crossing) new_number[*place.crossing] = next++;
+  for (PlaceList* list : {&lists.subject, &lists.clip})
+    for (std::size_t i = 0; i < list->places.size(); ++i)
+      if (auto& crossing = list->places[i].crossing) {
+        crossing = new_number[*crossing];
+        list->of_crossing[*crossing] = i;
+      }
+}
+
+}  // namespace
+
+std::size_t PlaceList::after(std::size_t place) const {
+  const std::size_t ring = places[place].ring;
+  return place + 1 < rings[ring + 1] ? place + 1 : rings[ring];
+}
+
+std::size_t PlaceList::before(std::size_t place) const {
+  const std::size_t ring = places[place].ring;
+  return place > rings[ring] ? place - 1 : rings[ring + 1] - 1;
+}
+
+PlaceLists enter_crossings(const NumberedSides& sides, const PointOrder& points) {
+  std::vector<Visit> subject = visits_by_point(sides.subject), clip = visits_by_point(sides.clip);
+  const std::vector<ContactKind> kinds = cross(subject, clip, sides, points);
+  PlaceLists lists{list_of(subject, sides.subject, EdgeSet(sides.clip), kinds),
+                   list_of(clip, sides.clip, EdgeSet(sides.subject), kinds)};
+  number_along_subject(lists);
+  return lists;
+}
+
+}  // namespace fathom::clipping
