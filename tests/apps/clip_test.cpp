@@ -311,6 +311,22 @@ TEST(Clip, PlaneSidesDistancesAndLine) {
   EXPECT_EQ(plane["distances"][2], 4.618802153517006116);  // 8/√3
   EXPECT_TRUE(plane["distances"][4].is_null());
   EXPECT_EQ(plane["t"], 1.0 / 9);
+  // Through (1,0,0), (0,1,0), (0,0,1): x + y + z = 1, twice the area √3; reversed, all turns round.
+  const std::string tip = R"(, "eye": [2,2,2], "points": [[0,0,0]]})";
+  const Json front = answer("plane", R"({"triangle": [[1,0,0],[0,1,0],[0,0,1]])" + tip);
+  EXPECT_EQ(front["plane"], Json::parse("[1, 1, 1, -1]"));
+  EXPECT_EQ(front["normal"], Json::parse("[1, 1, 1]"));
+  EXPECT_EQ(front["twice_area"], 1.7320508075688772);
+  EXPECT_EQ(front["facing"], "front");
+  EXPECT_EQ(front["n_dot_v"], 5);
+  EXPECT_EQ(front["sides"], Json::parse("[-1]"));
+  const Json back = answer("plane", R"({"triangle": [[1,0,0],[0,0,1],[0,1,0]])" + tip);
+  EXPECT_EQ(back["normal"], Json::parse("[-1, -1, -1]"));
+  EXPECT_EQ(back["facing"], "back");
+  EXPECT_EQ(back["sides"], Json::parse("[1]"));
+  EXPECT_EQ(
+      answer("plane", R"({"triangle": [[1,0,0],[0,1,0],[0,0,1]], "eye": [3,-1,-1]})")["facing"],
+      "edge on");
 }
 
 TEST(Clip, WrongUsage) {

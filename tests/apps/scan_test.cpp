@@ -36,6 +36,28 @@ Json answer(const std::string& algorithm, const std::string& object,
   return scanned.answers.empty() ? Json() : scanned.answers[0];
 }
 
+/// The line (1, 2) → (5, 4) of an image, y down: y = x/2 + 3/2; 2x − 4y + 6 = 0.
+TEST(ScanCommand, GivesTheFormsOfALine) {
+  const Json line =
+      answer("line-forms", R"({"line": [1,2,5,4], "points": [[3,3],[3,2],[3,4],[9,6],[0,0]],)"
+                           R"( "parameters": [0, 0.5, 1, -1]})");
+  EXPECT_EQ(line["explicit"], Json::parse(R"({"slope": 0.5, "intercept": 1.5})"));
+  EXPECT_EQ(line["implicit"], Json::parse("[2, -4, 6]"));
+  const auto column = [&](const char* key) {
+    Json list = Json::array();
+    for (const Json& point : line["points"]) list.push_back(point[key]);
+    return list;
+  };
+  EXPECT_EQ(column("value"), Json::parse("[0, 4, -4, 0, 6]"));
+  EXPECT_EQ(column("side"), Json::parse(R"(["on", "left", "right", "on", "left"])"));
+  EXPECT_EQ(column("t"), Json::parse("[0.5, 0.4, 0.6, 2, -0.4]"));
+  EXPECT_EQ(line["at"], Json::parse("[[1, 2], [3, 3], [5, 4], [-3, 0]]"));
+  const Json upright = answer("line-forms", R"({"line": [2,0,2,7], "points": [[3,1]]})");
+  EXPECT_TRUE(upright["explicit"].is_null());
+  EXPECT_EQ(upright["implicit"], Json::parse("[7, 0, -14]"));
+  EXPECT_EQ(upright["points"][0]["side"], "left");  // on the way down, x = 3 is on the left
+}
+
 TEST(Scan, LinesByEveryAlgorithmAndArithmetic) {
   const Json expected = Json::parse("[[0,0],[1,0],[2,1],[3,1],[4,2],[5,2],[6,2],[7,3],[8,3]]");
   for (const std::string algorithm : {"explicit", "dda", "bresenham", "midpoint"}) {
@@ -134,6 +156,7 @@ TEST(Scan, CasesThatCannotBeDoneDoNotStopTheOthers) {
       {"flood", R"({"grid": ["ab"], "seed": [2,0]})", "no pixel of the grid"},
       {"flood", R"({"grid": ["ab"], "seed": [0,0], "connectivity": 6})", "expected 4 or 8"},
       {"convex-hull", R"({"points": []})", "expected at least one"},
+      {"line-forms", R"({"line": [1,2,1,2]})", "its ends are the same"},
   };
   for (const auto& [algorithm, object, said] : cases) {
     const Scanned scanned = scan(algorithm, std::string(object) + "\n");

@@ -123,6 +123,30 @@ Json homogeneous_segment(const Json& object, bool both, Form form) {
   return result;
 }
 
+/// The plane through three points, front where they run counter-clockwise as seen, with what it says
+/// of itself: its normal, the normal's length, which is twice the triangle's area (rounded once), and
+/// on which side an eye is: N·V with V from the first corner to the eye.
+template <class Number>
+clipping::Plane<Number> plane_of_triangle(const Json& object, Json& result, Form form) {
+  if (object.contains("plane")) throw InputError("expected \"plane\" or \"triangle\", not both");
+  const auto corners = points(object, "triangle", 3, 3);
+  if (corners.size() != 3) throw InputError("triangle: expected three points");
+  const auto P = point3<Number>(corners[0]), Q = point3<Number>(corners[1]),
+             R = point3<Number>(corners[2]);
+  const clipping::Point3<Number> N = clipping::normal_of(P, Q, R);
+  const clipping::Plane<Number> H = clipping::plane_through(P, N);
+  result["plane"] =
+      Json::array({to_json(H.A, form), to_json(H.B, form), to_json(H.C, form), to_json(H.D, form)});
+  result["normal"] = to_json(N, form);
+  result["twice_area"] = clipping::length_of(N);
+  if (!object.contains("eye")) return H;
+  const auto eye = point3<Number>(numbers(member(object, "eye"), "eye", 3, 3));
+  const Number facing = clipping::value_at(H, eye);
+  result["facing"] = facing > 0 ? "front" : facing < 0 ? "back" : "edge on";
+  result["n_dot_v"] = to_json(facing, form);
+  return H;
+}
+
 /// null for infinite ones.
 Json distance_to_json(double distance) {
   return std::isfinite(distance) ? Json(distance) : Json(nullptr);
@@ -168,12 +192,16 @@ Json homogeneous(const Json& object, Form form) {
 template <class Number>
 Json plane(const Json& object, Form form) {
   if (object.contains("polygon3")) return clip_in_space<Number>(object, form);
-  expect_only(object, {"plane", "points", "line"});
-  const auto H = plane_of<Number>(numbers(member(object, "plane"), "plane", 4, 4));
-  clipping::check_plane(H);
+  expect_only(object, {"plane", "triangle", "eye", "points", "line"});
   Json result, values = Json::array();
-  if (object.contains("points") || !object.contains("line")) {
-    result = {{"sides", Json::array()}, {"distances", Json::array()}};
+  const clipping::Plane<Number> H =
+      object.contains("triangle")
+          ? plane_of_triangle<Number>(object, result, form)
+          : plane_of<Number>(numbers(member(object, "plane"), "plane", 4, 4));
+  clipping::check_plane(H);
+  const bool asks_nothing = !object.contains("line") && !object.contains("triangle");
+  if (object.contains("points") || asks_nothing) {
+    result["sides"] = result["distances"] = Json::array();
     for (const auto& coordinates : points(object, "points", 3, 4)) {
       const auto P = point4<Number>(coordinates);
       result["sides"].push_back(static_cast<int>(clipping::side_of(H, P)));

@@ -35,6 +35,10 @@ Json midpoint(const Json& object, const Form& form);
 template <class Number>
 Json diamond_exit(const Json& object, const Form& form);
 
+/// {"line", "points", "parameters"}: the explicit, implicit and parametric forms of a line.
+template <class Number>
+Json line_forms(const Json& object, const Form& form);
+
 /// {"polygon", "attributes", "w"}
 template <class Number>
 Json even_odd(const Json& object, const Form& form);

@@ -34,6 +34,7 @@ ScanAlgorithm parse_algorithm(const std::string& text) {
              {"bresenham", {FATHOM_SCAN(bresenham)}},
              {"midpoint", {FATHOM_SCAN(midpoint)}},
              {"diamond-exit", {FATHOM_SCAN(diamond_exit)}},
+             {"line-forms", {FATHOM_SCAN(line_forms)}},
              {"even-odd", {FATHOM_SCAN(even_odd)}},
              {"non-zero", {FATHOM_SCAN(non_zero)}},
              {"flood", {scan::flood, scan::flood, scan::flood}},
@@ -98,13 +99,16 @@ void add_scan(Command& program) {
       "  echo '{\"line\": [0,0,8,3]}' | fathom scan --algorithm midpoint --trace\n"
       "  echo '{\"line\": [0,0,2147483648,7], \"width\": 9, \"height\": 9}' |\n"
       "    fathom scan --algorithm dda --arithmetic float32\n"
+      "  echo '{\"line\": [0,0,8,3], \"points\": [[4,1]], \"parameters\": [0.5]}' |\n"
+      "    fathom scan --algorithm line-forms --exact\n"
       "  echo '{\"polygon\": [[[1,1],[8,2],[4,7]]], \"width\": 9, \"height\": 9}' |\n"
       "    fathom scan --algorithm even-odd --runs\n"
       "  echo '{\"triangle\": [[1,1],[8,2],[4,7]], \"attributes\": [[0],[1],[2]]}' |\n"
       "    fathom scan --algorithm edge-function --subpixel-bits 8");
   command
       .option("--algorithm", "NAME", into(arguments->algorithm, parse_algorithm),
-              "Lines: explicit, dda, bresenham, midpoint, diamond-exit; polygons: even-odd, "
+              "Lines: explicit, dda, bresenham, midpoint, diamond-exit, line-forms; polygons: "
+              "even-odd, "
               "non-zero, inside, convexity, tessellate; points: convex-hull; triangles: "
               "edge-function, scan-line; grids: flood")
       .required();

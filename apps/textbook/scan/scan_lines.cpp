@@ -10,6 +10,7 @@
 #include "apps/textbook/scan/scan_writing.h"
 #include "fathom/pipeline/scan/diamond_exit.h"
 #include "fathom/pipeline/scan/line.h"
+#include "fathom/pipeline/scan/line_forms.h"
 
 namespace fathom::app::scan {
 namespace {
@@ -124,7 +125,43 @@ Json diamond_exit(const Json& object, const Form& form) {
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+template <class Number>
+Json line_forms(const Json& object, const Form& form) {
+  using pipeline::number_from;
+  cases::expect_only(object, {"line", "points", "parameters"});
+  const std::vector<double> ends = cases::numbers(cases::member(object, "line"), "line", 4, 4);
+  const auto number = [&](const Number& x) { return number_to_json(x, form); };
+  const auto point = [&](double x, double y) {
+    return clipping::Point2<Number>{number_from<Number>(x), number_from<Number>(y)};
+  };
+  const pipeline::LineForms<Number> line(point(ends[0], ends[1]), point(ends[2], ends[3]));
+  if (line.is_point()) throw InputError("line: its ends are the same; expected two points");
+  Json result{{"explicit", nullptr}};
+  if (const auto f = line.as_explicit())
+    result["explicit"] = {{"slope", number(f->slope)}, {"intercept", number(f->intercept)}};
+  for (const Number& x : line.implicit()) result["implicit"].push_back(number(x));
+  if (object.contains("points")) {
+    result["points"] = Json::array();
+    for (const auto& p : cases::points(object, "points", 2, 2)) {
+      const Number value = line.value_at(point(p[0], p[1]));
+      result["points"].push_back({{"value", number(value)},
+                                  {"side", value > 0   ? "left"
+                                           : value < 0 ? "right"
+                                                       : "on"},
+                                  {"t", number(line.parameter_of(point(p[0], p[1])))}});
+    }
+  }
+  if (object.contains("parameters")) {
+    result["at"] = Json::array();
+    for (const double t : cases::numbers(object["parameters"], "parameters", 0, 1 << 20)) {
+      result["at"].push_back(point_to_json(line.at(number_from<Number>(t)), form));
+    }
+  }
+  return result;
+}
+
 #define FATHOM_INSTANTIATE(Number)                               \
+  template Json line_forms<Number>(const Json&, const Form&);    \
   template Json explicit_line<Number>(const Json&, const Form&); \
   template Json dda<Number>(const Json&, const Form&);           \
   template Json bresenham<Number>(const Json&, const Form&);     \

@@ -27,6 +27,19 @@ Plane<Number> plane_through(const Point3<Number>& Q, const Point3<Number>& N) {
 }
 
 template <class Number>
+Point3<Number> normal_of(const Point3<Number>& P, const Point3<Number>& Q,
+                         const Point3<Number>& R) {
+  const Number ux = Q.x - P.x, uy = Q.y - P.y, uz = Q.z - P.z;
+  const Number vx = R.x - P.x, vy = R.y - P.y, vz = R.z - P.z;
+  return {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
+}
+
+template <class Number>
+double length_of(const Point3<Number>& N) {
+  return root(Number(N.x * N.x + N.y * N.y + N.z * N.z));
+}
+
+template <class Number>
 void check_plane(const Plane<Number>& plane) {
   if (plane.A == 0 && plane.B == 0 && plane.C == 0)
     throw InputError("the plane's normal (A, B, C) is zero; expected a plane");
@@ -83,6 +96,9 @@ std::optional<PlaneLineIntersection<Number>> plane_line_intersection(const Plane
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Number)                                                    \
   template Plane<Number> plane_through(const Point3<Number>&, const Point3<Number>&); \
+  template Point3<Number> normal_of(const Point3<Number>&, const Point3<Number>&,     \
+                                    const Point3<Number>&);                           \
+  template double length_of(const Point3<Number>&);                                   \
   template void check_plane(const Plane<Number>&);                                    \
   template Number value_at(const Plane<Number>&, const Point3<Number>&);              \
   template Number value_at(const Plane<Number>&, const Point4<Number>&);              \

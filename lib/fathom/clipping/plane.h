@@ -17,6 +17,15 @@ struct Plane {
 template <class Number>
 Plane<Number> plane_through(const Point3<Number>& Q, const Point3<Number>& N);
 
+/// (Q − P) × (R − P): from where it points to, P, Q, R run counter-clockwise; its length is twice the
+/// area of the triangle. The other way round it is the negative.
+template <class Number>
+Point3<Number> normal_of(const Point3<Number>& P, const Point3<Number>& Q, const Point3<Number>& R);
+
+/// |N|, over Rational rounded once to binary64.
+template <class Number>
+double length_of(const Point3<Number>& N);
+
 /// Throws InputError if the normal is zero.
 template <class Number>
 void check_plane(const Plane<Number>& plane);
