@@ -138,6 +138,71 @@ TEST(PipelineCommand, NormalsThatAreNoNumbersAreLeftOut) {
   EXPECT_EQ(folder.read("odd.png"), folder.read("whole.png"));
 }
 
+/// Half-way between two keyframes the exact engine and the pipeline see the cube in the same place.
+TEST(PipelineCommand, MotionPlacesObjectsForEveryEngine) {
+  const TestFolder folder;
+  folder.write("m.json", R"({"objects": [{"name": "cube", "keyframes": [
+    {"time": 0, "transform": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]},
+    {"time": 2, "transform": [[1,0,0,1],[0,1,0,0],[0,0,1,0]]}]}]})");
+  ASSERT_EQ(render(folder, {"--motion", "m.json", "--time", "1", "--channels", "Z,id",
+                            "--save-camera", "c.json", "-o", "a.exr"})
+                .status,
+            0);
+  const std::vector<std::string> exact{"render", cube, "--camera", "c.json", "--channels", "Z,id"};
+  const auto compared = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = exact;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run_fathom(arguments, {.folder = folder.path()}).status, 0);
+    const Outcome outcome =
+        run_fathom({"compare", "b.exr", "a.exr", "--json", "d.json"}, {.folder = folder.path()});
+    EXPECT_LE(outcome.status, 1) << outcome.err;
+    return outcome.out;
+  };
+  const std::string moved = compared({"--motion", "m.json", "--time", "1", "-o", "b.exr"});
+  const std::string at_rest = compared({"--motion", "m.json", "-o", "b.exr"});
+  EXPECT_THAT(moved, HasSubstr("in the first only 0, in the other only 0"));
+  EXPECT_THAT(at_rest, testing::Not(HasSubstr("in the first only 0, in the other only 0")));
+  for (const char* method : {"temporal:4", "temporal-area:2", "taa:4"}) {
+    EXPECT_EQ(render(folder, {"--motion", "m.json", "--shutter", "0,1", "--antialias", method,
+                              "--image", "a.png", "-o", "c.exr"})
+                  .status,
+              0)
+        << method;
+  }
+}
+
+TEST(PipelineCommand, MotionThatMeansNothingIsRefusedInOneLine) {
+  const TestFolder folder;
+  const std::string still = R"([[1,0,0,0],[0,1,0,0],[0,0,1,0]])";
+  const auto motion = [&](const std::string& name, const std::string& second) {
+    return R"({"objects": [{"name": ")" + name + R"(", "keyframes": [{"time": 1, "transform": )" +
+           still + R"(}, {"time": )" + second + R"(, "transform": )" + still + "}]}]}";
+  };
+  folder.write("m.json", motion("cube", "2"));
+  folder.write("order.json", motion("cube", "1"));
+  folder.write("name.json", motion("cone", "2"));
+  const auto refused = [&](int status, const std::string& why, std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"-o", "a.exr"});
+    const Outcome outcome = render(folder, arguments);
+    EXPECT_EQ(outcome.status, status) << why;
+    EXPECT_THAT(outcome.err, HasSubstr(why));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  refused(3, "the times of keyframes have to increase", {"--motion", "order.json"});
+  refused(3, "the scene has no object of this name", {"--motion", "name.json"});
+  refused(3, "none.json", {"--motion", "none.json"});
+  refused(2, "--time needs --motion", {"--time", "1"});
+  refused(2, "need --motion and --shutter", {"--antialias", "temporal:4"});
+  refused(2, "need --motion and --shutter", {"--antialias", "temporal:4", "--motion", "m.json"});
+  refused(2, "--shutter needs --motion", {"--antialias", "taa:4", "--shutter", "0,1"});
+  refused(2, "--shutter is for", {"--motion", "m.json", "--shutter", "0,1"});
+  refused(2, "--shutter: expected OPEN,CLOSE",
+          {"--motion", "m.json", "--antialias", "taa:4", "--shutter", "1,1"});
+  refused(2, "numbers from 0 to 1", {"--antialias", "fxaa:2"});
+  refused(2, "fxaa:THRESHOLD,LEAST,SUBPIXEL", {"--antialias", "fxaa:0.1,0.1,0.1,0.1"});
+  refused(2, "area sees the nearest surface", {"--antialias", "area", "--blend"});
+}
+
 TEST(PipelineCommand, StretchedViewportIsAWarning) {
   const TestFolder folder;
   EXPECT_THAT(render(folder, {"--viewport", "0,0,64,24", "-o", "a.exr"}).err,

@@ -8,6 +8,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/render.h"
+#include "validation/studies/antialiasing/curve.h"
 #include "validation/studies/antialiasing/judged_scenes.h"
 #include "validation/studies/antialiasing/methods.h"
 #include "validation/studies/antialiasing/nyquist.h"
@@ -198,6 +199,54 @@ TEST(Temporal, HistoryThatFollowsAndIsLimitedHelps) {
   EXPECT_LT(part.taa, part.unlimited);
   EXPECT_LT(part.taa, part.unmoved);
   EXPECT_GT(part.neither, part.none);
+}
+
+/// A square as curves: straight ones, whose control points lie at thirds.
+std::vector<pipeline::CubicBezier> square_outline(double x, double end) {
+  const pipeline::PlanePoint corners[] = {{x, x}, {end, x}, {end, end}, {x, end}};
+  std::vector<pipeline::CubicBezier> outline;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto &a = corners[i], &b = corners[(i + 1) % 4];
+    outline.push_back({{{a,
+                         {a.x + (b.x - a.x) / 3, a.y + (b.y - a.y) / 3},
+                         {a.x + 2 * (b.x - a.x) / 3, a.y + 2 * (b.y - a.y) / 3},
+                         b}}});
+  }
+  return outline;
+}
+
+TEST(Curve, AreasOfAnOutlineAreKnown) {
+  const ColourImage image = outline_areas(square_outline(1.25, 3.5), 5);
+  const double lengths[] = {0, 0.75, 1, 0.5, 0};
+  for (std::uint32_t y = 0; y < 5; ++y)
+    for (std::uint32_t x = 0; x < 5; ++x)
+      EXPECT_NEAR(image.at(x, y)[0], lengths[x] * lengths[y], 1e-12) << x << ' ' << y;
+  // All pixels of the heart together, against the closed form.
+  double sum = 0, area = 0;
+  std::vector<pipeline::CubicBezier> outline;
+  for (const auto& curve : heart()) {
+    outline.push_back(curve.scaled(40));
+    area += area_beside(outline.back());
+  }
+  for (const auto& colour : outline_areas(outline, 40).pixels) sum += colour[0];
+  EXPECT_NEAR(sum, std::abs(area), 1e-4);
+}
+
+/// A chord within a tenth of a pixel leaves less than that of each pixel of the outline, of which
+/// there are some 2.6 times as many as the picture is wide.
+TEST(Curve, DrawnAnewItIsAsGoodAtEveryMagnification) {
+  std::size_t chords = 0;
+  for (const int magnification : {1, 4, 16}) {
+    const CurveError e = curve_error(magnification);
+    EXPECT_LT(e.anew, 0.1 * 4 / (24 * magnification));
+    EXPECT_LT(std::abs(e.area), 0.1 * 4 / (24 * magnification));
+    if (chords > 0) {
+      EXPECT_GT(e.chords, chords);
+      EXPECT_LE(e.chords, 3 * chords);
+    }
+    chords = e.chords;
+  }
+  EXPECT_GT(curve_error(16).enlarged, 20 * curve_error(16).anew);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ std::size_t pictures_of(const std::string& study, const StudyOptions& options = 
 
 TEST(StudyPages, Antialiasing) {
   if (testing::effort > 1) GTEST_SKIP() << "twenty seconds without sanitizers";
-  EXPECT_EQ(pictures_of("antialiasing"), 23U);
+  EXPECT_EQ(pictures_of("antialiasing"), 28U);
 }
 TEST(StudyPages, Blending) {
   EXPECT_EQ(pictures_of("blending"), 14U);

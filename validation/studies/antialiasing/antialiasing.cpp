@@ -2,10 +2,12 @@
 
 #include "fathom/numeric/errors.h"
 #include "validation/studies/antialiasing/coverage_by_samples.h"
+#include "validation/studies/antialiasing/curve.h"
 #include "validation/studies/antialiasing/methods.h"
 #include "validation/studies/antialiasing/nyquist.h"
 #include "validation/studies/antialiasing/temporal.h"
 #include "validation/studies/page_texts.h"
+#include "validation/studies/picture.h"
 #include "validation/studies/results.h"
 #include "validation/studies/study_scene.h"
 
@@ -214,6 +216,25 @@ void add(Results& results, const TemporalStudy& measured) {
   results.pictures(measured.pictures);
 }
 
+Table curves_table(const std::vector<CurveError>& rows) {
+  using Row = CurveError;
+  return {rows,
+          {{Column("magnification").page("times"), &Row::magnification},
+           {Column("chords").page("chords"), &Row::chords},
+           {Column("area").page("area of the polygon", "+.2g"), &Row::area},
+           {Column("anew").page("drawn anew", ".2g"), &Row::anew},
+           {Column("enlarged").page("enlarged bitmap", ".2g"), &Row::enlarged}}};
+}
+
+void add_curve(Results& results) {
+  std::vector<CurveError> rows;
+  for (const int magnification : {1, 2, 4, 8, 16}) rows.push_back(curve_error(magnification));
+  results.table(curves_table(rows), {.csv = "curves", .json = "curves", .page = "curves"});
+  const CurvePictures pictures = curve_pictures(16);
+  results.picture(picture_file("curve-enlarged", pipeline::to_rgb(pictures.enlarged)));
+  results.picture(picture_file("curve-anew", pipeline::to_rgb(pictures.anew)));
+}
+
 }  // namespace
 
 std::vector<StudyFile> study_antialiasing(const StudyOptions& options,
@@ -237,6 +258,7 @@ std::vector<StudyFile> study_antialiasing(const StudyOptions& options,
   add(results, methods);
   add(results, gratings_seen());
   add(results, temporal);
+  add_curve(results);
   return results.files();
 }
 

@@ -114,7 +114,7 @@ WheelSeen wheel_seen(double rate) {
   WheelSeen seen{};
   seen.rate = rate;
   seen.apparent = -std::arg(after / before) * 180 / pi / spokes;
-  seen.alias = rate - degrees_between_spokes * std::round(rate / degrees_between_spokes);
+  seen.alias = rate - degrees_between_spokes * std::ceil(rate / degrees_between_spokes - 0.5);
   seen.contrast = std::abs(wave_of_spokes(wheel_in_motion(scene)) / before);
   seen.sinc = sinc(rate / degrees_between_spokes);
   return seen;
