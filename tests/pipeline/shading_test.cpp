@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "fathom/pipeline/geometry/vertex_transform.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "tests/inputs/scene_building.h"
 
@@ -356,6 +357,21 @@ TEST(Shading, NormalsGoThroughTheInverseTranspose) {
                     rounded, false);
     }
   }
+}
+
+// No product or sum on the way is greater than a number can be.
+TEST(Shading, NormalsMayBeAsLongAsANumberCanBe) {
+  Object object;
+  object.placed_as_is = false;
+  object.world_from_mesh.rows[0][1] = Dyadic(1);  // a turn, and larger
+  object.world_from_mesh.rows[1][0] = Dyadic(-1);
+  PipelineOptions o;
+  o.depth_format.near = 1;
+  o.depth_format.far = 2;
+  const VertexTransform<double> transform(camera(), object, o);
+  const auto vertex = transform({.position = {0, 0, 1}, .normal = {1.5e308, 1.5e308, 0}});
+  EXPECT_NEAR(vertex.attributes[attribute::normal], 1, 1e-15);
+  EXPECT_NEAR(vertex.attributes[attribute::normal + 1], 0, 1e-15);
 }
 
 // What is cut off must not change the light of what is left: a face is lit as a whole, and
