@@ -96,6 +96,7 @@ void write_files(const std::vector<ColourCase>& cases, const std::filesystem::pa
   files.emplace_back(folder / "colours.json");
   files.back().write(json_answer({{"results", results}}));
   std::vector<OutputFile*> all;
+  all.reserve(files.size());
   for (OutputFile& file : files) all.push_back(&file);
   OutputFile::commit_together(all);
 }
