@@ -25,7 +25,9 @@ void ValidateArguments::add_to(Command& command) {
   command.option("--channel", "NAME", channel, "Its channel of depths (default: detected)");
   command.option("--camera", "FILE", camera, "Camera file");
   command.option("--model", "NAME", model, "What is assumed of the renderer");
-  command.option("--out", "DIR", out, "Folder for report.json and report.html");
+  command.option(
+      "--out", "DIR", out,
+      "Folder for report.json and report.html; with --colour, colours.json and pictures");
   command.option("--baseline", "REPORT", baseline,
                  "An earlier report.json: exit status 1 if something got worse");
 }

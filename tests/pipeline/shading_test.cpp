@@ -7,7 +7,9 @@
 #include <cmath>
 #include <vector>
 
+#include "fathom/pipeline/geometry/vertex_transform.h"
 #include "fathom/pipeline/render_pipeline.h"
+#include "fathom/scene/framing.h"
 #include "tests/inputs/scene_building.h"
 
 /// Colours worked out by hand, and by the textbooks' formulas in long double from the rays on, which
@@ -309,6 +311,59 @@ void expect_same(const ColourImage& a, const ColourImage& b, double tolerance, b
   }
 }
 
+/// A cube whose normals are those of its corners, seen from a corner but one.
+PipelineFrame cube(Shading shading) {
+  Scene scene;
+  std::vector<MeshPoint> corners;
+  for (const double z : {-1, 1})
+    for (const double y : {-1, 1})
+      for (const double x : {-1, 1}) corners.push_back({x, y, z});
+  scene = scene_of(corners, {{0, 2, 3},
+                             {0, 3, 1},
+                             {4, 5, 7},
+                             {4, 7, 6},
+                             {0, 1, 5},
+                             {0, 5, 4},
+                             {2, 6, 7},
+                             {2, 7, 3},
+                             {0, 4, 6},
+                             {0, 6, 2},
+                             {1, 3, 7},
+                             {1, 7, 5}});
+  const Camera framing = frame_scene(scene, {}, {.width = 192, .height = 144});
+  PipelineOptions o;
+  o.shading = shading;
+  o.material = matte;
+  return render_frame(scene, framing, o, true);
+}
+
+// Its edges are as smooth as its faces. From corner to corner a normal turns by 2/√3 over its least
+// length on the way, 1/√3: two radians over a face, which is some 70 pixels wide, and 20 where it is
+// most foreshortened. So two pixels side by side differ by at most 0.75·2/20. A normal that is
+// turned at a fragment makes up to 0.75 of difference.
+TEST(Shading, ThereAreNoBordersWhereNormalsAreShared) {
+  for (const Shading shading : {Shading::gouraud, Shading::phong}) {
+    const PipelineFrame frame = cube(shading);
+    double greatest = 0, darkest = 1, brightest = 0;
+    const auto compare = [&](std::size_t i, std::size_t j) {
+      if (frame.id[i] == no_surface || frame.id[j] == no_surface) return;
+      const double a = frame.picture.pixels[i][0], b = frame.picture.pixels[j][0];
+      greatest = std::max(greatest, std::abs(a - b));
+      darkest = std::min(darkest, a);
+      brightest = std::max(brightest, a);
+    };
+    for (std::size_t y = 0; y + 1 < 144; ++y) {
+      for (std::size_t x = 0; x + 1 < 192; ++x) {
+        compare(y * 192 + x, y * 192 + x + 1);
+        compare(y * 192 + x, y * 192 + 192 + x);
+      }
+    }
+    EXPECT_LT(greatest, 0.75 * 2 / 20);
+    EXPECT_LT(darkest, 0.3);
+    EXPECT_GT(brightest, 0.7);
+  }
+}
+
 TEST(Shading, TheOrderOfCornersAndTheFrontFaceTurnedTogetherChangeNothing) {
   Scene clockwise = pyramid();
   for (CornerIndices& t : clockwise.meshes[0].triangles) std::swap(t[1], t[2]);
@@ -356,6 +411,21 @@ TEST(Shading, NormalsGoThroughTheInverseTranspose) {
                     rounded, false);
     }
   }
+}
+
+// No product or sum on the way is greater than a number can be.
+TEST(Shading, NormalsMayBeAsLongAsANumberCanBe) {
+  Object object;
+  object.placed_as_is = false;
+  object.world_from_mesh.rows[0][1] = Dyadic(1);  // a turn, and larger
+  object.world_from_mesh.rows[1][0] = Dyadic(-1);
+  PipelineOptions o;
+  o.depth_format.near = 1;
+  o.depth_format.far = 2;
+  const VertexTransform<double> transform(camera(), object, o);
+  const auto vertex = transform({.position = {0, 0, 1}, .normal = {1.5e308, 1.5e308, 0}});
+  EXPECT_NEAR(vertex.attributes[attribute::normal], 1, 1e-15);
+  EXPECT_NEAR(vertex.attributes[attribute::normal + 1], 0, 1e-15);
 }
 
 // What is cut off must not change the light of what is left: a face is lit as a whole, and

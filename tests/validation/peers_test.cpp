@@ -6,7 +6,9 @@
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/render.h"
 #include "validation/bench/shapes.h"
+#include "validation/colour/colour_comparison.h"
 #include "validation/embree/embree_tracer.h"
+#include "validation/vtk/vtk_colours.h"
 #include "validation/vtk/vtk_renderer.h"
 
 /// VTK and Embree see what we see, through a camera with everything that a camera has. Built where
@@ -101,6 +103,57 @@ INSTANTIATE_TEST_SUITE_P(All, Peers,
                            return projection.param == Projection::perspective ? "Perspective"
                                                                               : "Orthographic";
                          });
+
+/// A ball of 800 triangles, lit, before a camera that sees all of it.
+LitScene lit_ball() {
+  Camera camera;
+  camera.width = 96;
+  camera.height = 72;
+  camera.fx = camera.fy = 90;
+  camera.cx = 48;
+  camera.cy = 36;
+  camera.world_to_camera[2][3] = 4;
+  camera.near = 1;
+  camera.far = 10;
+  return lit_scene(bench::as_scene({bench::sphere(800)}, "sphere"), camera,
+                   {.ambient = 0.15,
+                    .diffuse = 0.6,
+                    .specular = 0.25,
+                    .shininess = 40,
+                    .highlight = pipeline::SpecularModel::phong});
+}
+
+/// Pixels of a picture of VTK's that are not explained.
+std::size_t unexplained(const LitScene& scene, const GreyPicture& picture, LightModel model) {
+  const Drawn drawn{&picture, model, vtk_on_llvmpipe};
+  const ColourComparison found = compare_colours(scene, drawn, drawn);
+  EXPECT_GT(found.inside + found.unexplained.size(), 1000U);
+  return found.unexplained.size();
+}
+
+// VTK's Gouraud is its Phong: a picture of light at the corners is another one.
+TEST(PeersColours, AreThoseOfTheFormulasAndNoOthers) {
+  const LitScene scene = lit_ball();
+  const GreyPicture flat = draw_vtk_colours(scene, VtkShading::flat);
+  const GreyPicture gouraud = draw_vtk_colours(scene, VtkShading::gouraud);
+  const GreyPicture phong = draw_vtk_colours(scene, VtkShading::phong);
+  EXPECT_EQ(gouraud.codes, phong.codes);
+  EXPECT_EQ(unexplained(scene, phong, LightModel::interpolated_normal), 0U);
+  EXPECT_EQ(unexplained(scene, flat, LightModel::derived_normal), 0U);
+  EXPECT_GT(unexplained(scene, gouraud, LightModel::corners), 100U);
+  EXPECT_GT(unexplained(scene, phong, LightModel::derived_normal), 100U);
+  EXPECT_GT(unexplained(scene, flat, LightModel::interpolated_normal), 100U);
+
+  LitScene turned = scene;  // by 0.6°
+  turned.towards_light[0] += 0.01;
+  EXPECT_GT(unexplained(turned, phong, LightModel::interpolated_normal), 100U);
+  LitScene duller = scene;
+  duller.material.shininess = 36;
+  EXPECT_GT(unexplained(duller, phong, LightModel::interpolated_normal), 20U);
+  LitScene shifted = scene;
+  shifted.camera.cx += 0.05;
+  EXPECT_GT(unexplained(shifted, phong, LightModel::interpolated_normal), 20U);
+}
 
 }  // namespace
 }  // namespace fathom::validation

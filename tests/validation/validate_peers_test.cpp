@@ -233,6 +233,19 @@ TEST(ValidatePeers, ColoursAreThoseOfTheFormulas) {
     EXPECT_THAT(outcome.out, HasSubstr("phong, VTK Gouraud: "));
     EXPECT_THAT(outcome.out, HasSubstr(" background, 0 unexplained\n"));
   }
+  const TestFolder folder;
+  EXPECT_EQ(
+      run_fathom({"validate", "--colour", "--scene", "sphere", "--size", "32x24", "--out", "r"},
+                 {.folder = folder.path()})
+          .status,
+      0);
+  const auto results = nlohmann::json::parse(folder.read("r/colours.json"))["results"];
+  ASSERT_EQ(results.size(), 5U);
+  for (const auto& result : results) {
+    EXPECT_EQ(result["pixels"]["unexplained"], 0);
+    EXPECT_GT(result["pixels"]["inside"], 300);
+  }
+  EXPECT_EQ(folder.read("r/sphere-gouraud.png").substr(1, 3), "PNG");
 }
 
 TEST(ValidatePeers, ColoursThatCannotBeComparedAreRefused) {
@@ -242,6 +255,14 @@ TEST(ValidatePeers, ColoursThatCannotBeComparedAreRefused) {
   EXPECT_THAT(outcome.out, HasSubstr("colours are compared for perspective cameras"));
   EXPECT_THAT(outcome.out, HasSubstr("sphere: phong, VTK Phong: "));
   EXPECT_EQ(run_fathom({"validate", "--colour", "--against", "vtk"}).status, 2);
+  for (const auto& option : {"--variants", "--baseline", "--model", "--channel", "-o"}) {
+    const Outcome refused = run_fathom({"validate", "--colour", option, "x"});
+    EXPECT_EQ(refused.status, 2) << option;
+    EXPECT_THAT(refused.err, HasSubstr("has no meaning with --colour"));
+  }
+  const Outcome missing = run_fathom({"validate", "--colour", "missing.obj"});
+  EXPECT_EQ(missing.status, 3);
+  EXPECT_THAT(missing.err, HasSubstr("missing.obj: cannot be opened"));
 }
 
 TEST(ValidatePeers, WhatTheOtherDrewIsAMapOfOurs) {

@@ -1,6 +1,7 @@
 #include "validation/colour/colour_comparison.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace fathom::validation {
 namespace {

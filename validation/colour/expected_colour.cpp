@@ -1,5 +1,7 @@
 #include "validation/colour/expected_colour.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "fathom/attribution/model/opengl_matrices.h"

@@ -21,6 +21,9 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkVersion.h>
 
+#include <string>
+#include <vector>
+
 #include "fathom/attribution/model/opengl_matrices.h"
 #include "fathom/numeric/errors.h"
 #include "validation/opengl/egl_context.h"
