@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <utility>
 
 namespace fathom::pipeline {
@@ -47,6 +48,40 @@ TEST(Culling, LeavesOutOneSideAndWhatIsSeenEdgeOn) {
     EXPECT_EQ(is_culled(Facing::back, culling), culling == Culling::back);
     EXPECT_EQ(is_culled(Facing::front, culling), culling == Culling::front);
   }
+}
+
+/// The sign of (B − A) × (C − A) · V, in integers.
+TEST(Facing, InTheWorldIsTheSignOfTheTripleProduct) {
+  std::mt19937_64 random(73);
+  int edge_on = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto number = [&] { return static_cast<int>(random() % 9) - 4; };
+    std::array<std::array<int, 3>, 4> p;  // three corners, and the eye or the direction to it
+    for (auto& q : p) q = {number(), number(), number()};
+    for (const bool perspective : {true, false}) {
+      std::array<int, 3> s, t, V;
+      for (std::size_t k = 0; k < 3; ++k) {
+        s[k] = p[1][k] - p[0][k];
+        t[k] = p[2][k] - p[0][k];
+        V[k] = perspective ? p[3][k] - p[0][k] : p[3][k];
+      }
+      const int triple = (s[1] * t[2] - s[2] * t[1]) * V[0] + (s[2] * t[0] - s[0] * t[2]) * V[1] +
+                         (s[0] * t[1] - s[1] * t[0]) * V[2];
+      std::array<WorldVertex<double>, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = {double(p[k][0]), double(p[k][1]), double(p[k][2])};
+      }
+      for (const bool mirrored : {false, true}) {
+        const int sign = mirrored ? -triple : triple;
+        const auto right = sign > 0 ? Facing::front : sign < 0 ? Facing::back : Facing::edge_on;
+        ASSERT_EQ(facing_in_world(corners, {double(p[3][0]), double(p[3][1]), double(p[3][2])},
+                                  perspective, mirrored, counter_clockwise),
+                  right);
+      }
+      edge_on += triple == 0;
+    }
+  }
+  EXPECT_GT(edge_on, 50);
 }
 
 }  // namespace

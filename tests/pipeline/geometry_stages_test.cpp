@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "tests/inputs/scene_building.h"
@@ -110,6 +111,12 @@ TEST(GeometryStages, CountFragmentsAndBlocks) {
   // line and six above it.
   EXPECT_EQ(s.blocks_full, 2u);
   EXPECT_EQ(s.blocks_skipped, 18u);
+  options.antialias = {AntialiasMethod::msaa, 4};
+  const PipelineStatistics multi = render_frame(scene, camera(), options, true).statistics;
+  EXPECT_EQ(multi.shaded * 2, multi.fragments);  // what lies behind is not shaded
+  EXPECT_GT(multi.shaded, 576u);                 // but pixels on the line between two are, twice
+  EXPECT_EQ(multi.depth_passed, 4 * 576u);
+  options.antialias = {};
   options.early_depth = false;
   const PipelineStatistics late = render_frame(scene, camera(), options, true).statistics;
   EXPECT_EQ(late.shaded, 1152u);
@@ -418,6 +425,69 @@ TEST(WindowTriangle, TheOffsetIsThatOfItsPlane) {
     t.corners[(i + 2) % 3].z = 0.2;
     EXPECT_EQ(depth_offset(t, options), 0x1p-24);
   }
+}
+
+TEST(Options, RectanglesMayReachTheLimits) {
+  constexpr std::int64_t most = 1 << 20;
+  const auto accepted = [](const WindowRectangle& r) {
+    PipelineOptions viewport, scissor;
+    viewport.viewport = r;
+    scissor.scissor = r;
+    EXPECT_NO_THROW(require_meaningful(viewport));
+    EXPECT_NO_THROW(require_meaningful(scissor));
+  };
+  const auto refused = [](const WindowRectangle& r) {
+    PipelineOptions options;
+    options.viewport = r;
+    EXPECT_THROW(require_meaningful(options), UsageError);
+  };
+  accepted({most, most, most, most});
+  accepted({-most, -most, 1, 1});
+  for (const WindowRectangle& r : {WindowRectangle{most + 1, 0, 1, 1},
+                                   {0, most + 1, 1, 1},
+                                   {-most - 1, 0, 1, 1},
+                                   {0, -most - 1, 1, 1},
+                                   {0, 0, most + 1, 1},
+                                   {0, 0, 1, most + 1},
+                                   {0, 0, 0, 1},
+                                   {0, 0, 1, 0}}) {
+    refused(r);
+  }
+}
+
+/// Each of Newell's tests of planes by itself: what is behind the other's plane, and what has the other before
+/// its own.
+TEST(Painter, PlanesSettleWhatOneSideOfOneOfThemSettles) {
+  const auto settled = [](const std::vector<MeshPoint>& points) {
+    PipelineOptions options = precise();
+    options.hidden_surface = HiddenSurface::painter;
+    return render_frame(testing::scene_of(points, {{0, 1, 2}, {3, 4, 5}}), camera(), options, false)
+        .painter;
+  };
+  // The farther one (it has the farthest corner) is level at z = 5 but for that; the other one's plane passes
+  // through it, or not.
+  const std::vector<MeshPoint> level{{-1, -1, 5}, {1, -1, 5}, {0, 1, 5}};
+  const auto with_level = [&](const std::vector<MeshPoint>& other) {
+    std::vector<MeshPoint> both = level;
+    both.insert(both.end(), other.begin(), other.end());
+    return settled(both);
+  };
+  // In front of z = 5, its own plane cuts the level one: test 4 alone. Depths overlap by a touch at 5.
+  const PainterStatistics before = with_level({{-0.2, -0.2, 4}, {0.2, -0.2, 4.99}, {0, 0.2, 4.5}});
+  EXPECT_EQ(before.z_disjoint, 1u);
+  const std::vector<MeshPoint> tilted{{-1, -1, 4}, {1, -1, 6}, {0, 1, 5}};
+  std::vector<MeshPoint> both = tilted;
+  for (const MeshPoint& p : {MeshPoint{-0.2, -0.2, 4.3}, {0.2, -0.2, 4.3}, {0, 0.2, 4.9}})
+    both.push_back(p);
+  const PainterStatistics in_front = settled(both);
+  EXPECT_EQ(in_front.settled, (std::array<std::uint64_t, 5>{0, 0, 0, 1, 0}));
+  EXPECT_EQ(in_front.moved, 0u);
+  EXPECT_EQ(in_front.splits, 0u);
+  // A small one behind a large one in whose plane it does not lie, deepest of all: test 3.
+  std::vector<MeshPoint> behind = {{-0.2, -0.2, 5.6}, {0.2, -0.2, 6.4}, {0, 0.2, 5.5}};
+  for (const MeshPoint& p : {MeshPoint{-2, -2, 4}, {2, -2, 6}, {0, 2, 5}}) behind.push_back(p);
+  const PainterStatistics deepest = settled(behind);
+  EXPECT_EQ(deepest.settled, (std::array<std::uint64_t, 5>{0, 0, 1, 0, 0}));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace fathom::pipeline {
 namespace {
 
@@ -71,6 +73,41 @@ TEST(Interpolation, NothingIsLeftWhereSnappingLeavesNoArea) {
   t.corners[1].x = 0.001;
   t.corners[2].y = 0.001;
   EXPECT_FALSE(Interpolator<double>::of(t, {}));
+}
+
+/// What one pixel to the right and one below have more, of each coordinate; and every attribute.
+TEST(Interpolation, ChangesAreDifferencesToTheNeighbours) {
+  WindowTriangle<double> t = slanted();
+  const double uvs[3][2] = {{0.1, 0.7}, {0.9, 0.2}, {0.4, 0.5}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < attribute::count; ++k) {
+      t.corners[i].attributes[k] = static_cast<double>((7 * i + 3 * k) % 11);
+    }
+    t.corners[i].attributes[attribute::depth] = 1 / t.corners[i].inverse_w;
+    for (std::size_t k = 0; k < 2; ++k) t.corners[i].attributes[attribute::uv + k] = uvs[i][k];
+  }
+  const auto interpolator = Interpolator<double>::of(t, {});
+  ASSERT_TRUE(interpolator);
+  const auto at = [&](std::int64_t x, std::int64_t y) {
+    Fragment f;
+    interpolator->complete(f, {x * grid_one, y * grid_one});
+    return f;
+  };
+  const Fragment here = at(2, 3), right = at(3, 3), below = at(2, 4);
+  // λ = (3/8, 2/8, 3/8), over depths 1, 2, 4.
+  const double w[3] = {3. / 8, 1. / 8, 3. / 32}, sum = 3. / 8 + 1. / 8 + 3. / 32;
+  for (std::size_t k = 0; k < attribute::count; ++k) {
+    double value = 0;
+    for (std::size_t i = 0; i < 3; ++i) value += w[i] / sum * t.corners[i].attributes[k];
+    EXPECT_NEAR(here.attributes[k], value, 1e-14);
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t uv = attribute::uv + k;
+    EXPECT_NEAR(here.duv_dx[k], right.attributes[uv] - here.attributes[uv], 1e-15);
+    EXPECT_NEAR(here.duv_dy[k], below.attributes[uv] - here.attributes[uv], 1e-15);
+    EXPECT_GT(std::abs(here.duv_dx[k]), 1e-3);
+    EXPECT_GT(std::abs(here.duv_dy[k]), 1e-3);
+  }
 }
 
 }  // namespace

@@ -189,6 +189,11 @@ TEST(Facings, TheThreeTestsAgreeButWhereTrianglesAreEdgeOn) {
   }
   EXPECT_GT(facings(Precision::binary32).disagreeing, 20u);
   EXPECT_LE(facings(Precision::binary32).disagreeing, 300u);
+  // As many as two of them differ by, at least.
+  const FacingStatistics g = facings(Precision::binary32);
+  const auto difference = [](std::uint64_t a, std::uint64_t b) { return a < b ? b - a : a - b; };
+  EXPECT_GE(g.disagreeing, difference(g.front_in_world, g.front_in_window));
+  EXPECT_GE(g.disagreeing, difference(g.front_in_ndc, g.front_in_window));
 }
 
 }  // namespace

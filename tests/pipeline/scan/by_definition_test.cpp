@@ -10,6 +10,8 @@
 
 #include "fathom/pipeline/scan/diamond_exit.h"
 #include "fathom/pipeline/scan/edge_function.h"
+#include "fathom/pipeline/scan/flood_fill.h"
+#include "fathom/pipeline/scan/line.h"
 #include "fathom/pipeline/scan/polygon_fill.h"
 #include "fathom/pipeline/scan/polygon_tests.h"
 
@@ -321,6 +323,53 @@ TEST(DiamondExit, DrawsTheDiamondsThatAreLeftInTheirOrder) {
     all += drawn.size();
   }
   EXPECT_GT(all, 3000u);
+}
+
+TEST(Lines, AWindowShowsAPartOfTheSameLine) {
+  std::mt19937_64 random(68);
+  for (int i = 0; i < 400; ++i) {
+    const auto at = [&] { return static_cast<std::int64_t>(random() % 60) - 20; };
+    const LineEnds ends{at(), at(), at(), at()};
+    const PixelWindow window{at(), at(), at() + 20, at() + 20};
+    const auto same = [&](const auto& draw) {
+      using State = decltype(draw(PixelWindow{})[0].second);
+      std::vector<std::pair<Pixel, State>> inside;
+      for (const auto& [pixel, state] : draw(PixelWindow{})) {
+        if (window.contains(pixel)) inside.push_back({pixel, state});
+      }
+      ASSERT_EQ(draw(window), inside) << i;
+    };
+    same([&](const PixelWindow& w) {
+      std::vector<std::pair<Pixel, double>> drawn;
+      dda_line<double>(ends, w, [&](const Pixel& p, double y) { drawn.emplace_back(p, y); });
+      return drawn;
+    });
+    same([&](const PixelWindow& w) {
+      std::vector<std::pair<Pixel, double>> drawn;
+      explicit_line<double>(ends, w, [&](const Pixel& p, double y) { drawn.emplace_back(p, y); });
+      return drawn;
+    });
+    same([&](const PixelWindow& w) {
+      std::vector<std::pair<Pixel, std::int64_t>> drawn;
+      bresenham_line(ends, w, [&](const Pixel& p, std::int64_t e) { drawn.emplace_back(p, e); });
+      return drawn;
+    });
+    same([&](const PixelWindow& w) {
+      std::vector<std::pair<Pixel, std::int64_t>> drawn;
+      midpoint_line(ends, w, [&](const Pixel& p, std::int64_t d) { drawn.emplace_back(p, d); });
+      return drawn;
+    });
+  }
+}
+
+TEST(FloodFill, SeedsBesideTheGridFillNothing) {
+  const CharacterGrid grid{"aaa", "aaa"};
+  for (std::int64_t y = -1; y <= 2; ++y) {
+    for (std::int64_t x = -1; x <= 3; ++x) {
+      const bool inside = x >= 0 && x < 3 && y >= 0 && y < 2;
+      EXPECT_EQ(flood_fill(grid, {x, y}, Connectivity::four).size(), inside ? 6u : 0u);
+    }
+  }
 }
 
 }  // namespace
