@@ -106,6 +106,14 @@ TEST(BadRings, IdenticalRingsCancel) {
   EXPECT_EQ(signed_area(checked_rings(Rings<double>{square, square, square}, "subject")), 36);
 }
 
+// Crossings that binary64 cannot hold are refused by it, and nothing to the exact kernel.
+TEST(BadRings, CrossingsBeyondBinary64) {
+  const Rings<double> a{{{-1e300, -1e300}, {1e300, -1e300}, {0, 1e300}}};
+  const Rings<double> b{{{-1e300, 0}, {1e300, 0}, {0, -1e305}}};
+  EXPECT_EQ(refusal(a, b), "where edges meet is beyond binary64; the exact kernel does it");
+  EXPECT_EQ(weiler_atherton(to_exact(a), to_exact(b), SetOperation::intersection).size(), 1U);
+}
+
 // Over binary64 the answer may be about right or refused; it comes to an end either way.
 TEST(BadRings, RoundingEndsInAnAnswerOrARefusal) {
   std::mt19937_64 random(41);

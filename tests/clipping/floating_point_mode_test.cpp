@@ -1,6 +1,7 @@
 // The caller's floating-point mode changes nothing of what is clipped, in binary64 or exactly.
 #include <gtest/gtest.h>
 
+#include "fathom/clipping/boolean_by_cgal.h"
 #include "fathom/clipping/cohen_sutherland.h"
 #include "fathom/clipping/convex_pieces.h"
 #include "fathom/clipping/exact_kernel.h"
@@ -81,16 +82,21 @@ TEST(FloatingPointMode, ChangesNothingOfRings) {
 TEST(FloatingPointMode, ChangesNothingOfExactPolygons) {
   testing::expect_same_in_all_modes([] {
     Numbers numbers;
-    for (const Ring<double>& subject : {dart, speck}) {
-      const auto polygons =
-          weiler_atherton(to_exact(Rings<double>{subject}), to_exact(Rings<double>{square}),
-                          SetOperation::intersection);
+    const auto add_answer = [&](const std::vector<Polygon<Rational>>& polygons) {
       for (const Polygon<Rational>& polygon : polygons) {
         for (const Point2<Rational>& p : polygon.outline) {
           numbers.insert(numbers.end(), {to_binary64(p.x), to_binary64(p.y)});
         }
       }
       numbers.push_back(to_binary64(area_of(polygons)));
+    };
+    const Rings<Rational> clip = to_exact(Rings<double>{square});
+    for (const Ring<double>& ring : {dart, speck}) {
+      const Rings<Rational> subject = to_exact(Rings<double>{ring});
+      add_answer(weiler_atherton(subject, clip, SetOperation::intersection));
+      add_answer(boolean_by_cgal(subject, clip, SetOperation::intersection));
+      const auto difference = first_difference(subject, clip);
+      numbers.push_back(to_binary64(difference.value().area));
     }
     return numbers;
   });

@@ -5,6 +5,7 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 #include <utility>
 
@@ -200,6 +201,10 @@ std::vector<Point2<Number>> contacts(const Segment2<Number>& a, const Segment2<N
   };
   const Number a0 = side(b, a.start), a1 = side(b, a.end);
   const Number b0 = side(a, b.start), b1 = side(a, b.end);
+  if constexpr (std::is_same_v<Number, double>) {
+    if (!std::isfinite(a0 - a1) || !std::isfinite(b0 - b1))
+      throw InputError("where edges meet is beyond binary64; the exact kernel does it");
+  }
   if (sign_of(a0) * sign_of(a1) < 0 && sign_of(b0) * sign_of(b1) < 0)
     return {interpolate(a.start, a.end, Number(a0 / (a0 - a1)))};
 

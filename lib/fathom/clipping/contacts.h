@@ -13,6 +13,7 @@ namespace fathom::clipping {
 /// them: the point of a proper crossing, and every end of one that lies on the other. A collinear
 /// overlap gives its two ends, so that after splitting there two edges are the same or meet only in
 /// ends.
+/// Fails    InputError over double, where the products that tell are beyond binary64
 template <class Number>
 std::vector<Point2<Number>> contacts(const Segment2<Number>& a, const Segment2<Number>& b);
 

@@ -57,20 +57,15 @@ class TouchSweep {
 
   /// Enters the point in the edges that it lies within, and takes out those that end there.
   void pass(std::size_t point) {
-    const std::size_t* through = nullptr;
     auto place = line_.lower_bound(IsBelow::Point{point});
     while (place != line_.end()) {
       const auto& [left, right] = all_.edges[*place];
       if (points_.turn(left, right, point) != 0) break;
       if (right == point) {
         place = line_.erase(place);
-        continue;
+      } else {
+        enter(*place++, point);
       }
-      enter(*place, point);
-      if (through != nullptr && points_.turn(point, all_.edges[*through].right, right) != 0)
-        cross(*through, *place);
-      through = &*place;
-      ++place;
     }
   }
   void enter(std::size_t edge, std::size_t point) {
@@ -78,7 +73,8 @@ class TouchSweep {
       throw InputError("the rings meet in more than " + std::to_string(most_contacts) + " points");
     on_edge_[edge].push_back(point);
   }
-  /// Looks at all neighbours from the edge just below the point to the one just above.
+  /// Looks at all neighbours from the edge just below the point to the one just above. Edges that
+  /// cross in the point itself are neighbours now, if not before.
   void look_around(std::size_t point) {
     auto place = line_.lower_bound(IsBelow::Point{point});
     if (place == line_.end()) return;

@@ -9,7 +9,7 @@
 /// Where rings of one side touch.
 namespace fathom::clipping {
 
-/// Two edges that cross within both, or one within the other's end, and a ring that has each.
+/// Two edges that cross within both, and a ring that has each.
 struct EdgeCrossing {
   UndirectedEdge first, second;
   std::size_t first_ring, second_ring;
