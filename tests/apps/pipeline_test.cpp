@@ -86,6 +86,11 @@ TEST(PipelineCommand, EveryChoiceDraws) {
       {"--depth-range", "0.25,0.75"},
       {"--front-face", "cw", "--cull", "front"},
       {"--blend", "--opacity", "0.3"},
+      {"--blend", "--blend-depth", "on"},
+      {"--blend", "--blend-depth", "read-only", "--draw-order", "back-to-front"},
+      {"--draw-order", "front-to-back"},
+      {"--draw-order", "random"},
+      {"--draw-order", "random:77"},
       {"--polygon-offset", "1,1"},
       {"--background", "0.1,0.2,0.3"},
       {"--depth-format", "unorm24", "--mapping", "reversed"}};
@@ -201,6 +206,44 @@ TEST(PipelineCommand, MotionThatMeansNothingIsRefusedInOneLine) {
   refused(2, "numbers from 0 to 1", {"--antialias", "fxaa:2"});
   refused(2, "fxaa:THRESHOLD,LEAST,SUBPIXEL", {"--antialias", "fxaa:0.1,0.1,0.1,0.1"});
   refused(2, "area sees the nearest surface", {"--antialias", "area", "--blend"});
+}
+
+TEST(PipelineCommand, WritesWhatTheDepthBufferHolds) {
+  const TestFolder folder;
+  folder.write("s.json", R"({"meshes": [{"file": ")" + cube + R"("}, {"file": ")" + cube +
+                             R"(", "draw": {"polygon_offset": [0, -2],
+                                 "stencil": {"reference": 7, "pass": "replace"}}}]})");
+  const auto drawn = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"render", "s.json", "--engine",   "pipeline",
+                                       "--size", "64x48",  "--channels", "Z,object"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_fathom(arguments, {.folder = folder.path()});
+  };
+  ASSERT_EQ(drawn({"--depth-format", "unorm24", "--mapping", "opengl", "--depth-range", "0.5,1",
+                   "-o", "a.exr"})
+                .status,
+            0);
+  const Outcome info = run_fathom({"info", "a.exr"}, {.folder = folder.path()});
+  for (const char* part : {"Zwindow", "Zdecoded", "stencil", "fathom.depth_range: [0.5, 1]",
+                           R"("mapping":"opengl","storage":"unorm24")"})
+    EXPECT_THAT(info.out, HasSubstr(part));
+  const auto refused = [&](int status, const std::string& why, std::vector<std::string> more) {
+    more.insert(more.end(), {"-o", "b.exr"});
+    const Outcome outcome = drawn(more);
+    EXPECT_EQ(outcome.status, status) << why;
+    EXPECT_THAT(outcome.err, HasSubstr(why));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  refused(3, "object cube: a polygon offset does not reach", {"--mapping", "log"});
+  refused(2, "--depth-range: does not reach", {"--mapping", "w", "--depth-range", "0,0.5"});
+  refused(2, "--polygon-offset: does not reach",
+          {"--mapping", "linear", "--polygon-offset", "1,1"});
+  refused(2, "near and far have the same window depth",
+          {"--depth-format", "unorm24", "--depth-range", "0.5,0.5"});
+  refused(3, "object cube: its 'draw' is for a depth buffer", {"--hidden-surface", "painter"});
+  refused(2, "--blend-depth belongs to --blend", {"--blend-depth", "on"});
+  refused(2, "--draw-order", {"--draw-order", "random:x"});
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.exr", "s.json"}));
 }
 
 TEST(PipelineCommand, StretchedViewportIsAWarning) {

@@ -97,8 +97,6 @@ void require_meaningful(const PipelineOptions& o) {
     throw UsageError(Setting{"antialias"}, "area sees the nearest surface; it does not blend");
   if (o.blend_alpha && !(*o.blend_alpha >= 0 && *o.blend_alpha <= 1))
     throw UsageError(Setting{"blend_alpha"}, "expected 0 to 1");
-  if (o.blend_alpha && o.antialias.method == AntialiasMethod::area)
-    throw UsageError(Setting{"antialias"}, "area shows the nearest surfaces; it does not blend");
   if (o.draw_order != DrawOrder::file && o.hidden_surface == HiddenSurface::painter)
     throw UsageError(Setting{"draw_order"}, "the painter's algorithm has an order of its own");
 }
