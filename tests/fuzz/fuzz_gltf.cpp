@@ -18,11 +18,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Scene scene;
   Warnings warnings;
   ReadOptions options;
-  options.attributes = size % 2 == 0;
+  options.attributes = options.primitives = size % 2 == 0;
   options.hash = false;
   try {
     GltfAsset asset = read_gltf(std::as_bytes(std::span(data, size)), "input", options, warnings);
-    scene = {std::move(asset.meshes), std::move(asset.objects), std::move(asset.buffers)};
+    scene.meshes = std::move(asset.meshes);
+    scene.objects = std::move(asset.objects);
+    scene.sources = std::move(asset.buffers);
   } catch (const InputError& e) {
     if (std::string(e.what()).find('\n') != std::string::npos) std::abort();
     return 0;

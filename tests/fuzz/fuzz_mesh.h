@@ -25,6 +25,9 @@ inline void check(const Mesh& mesh) {
     require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
   for (const CornerIndices& t : mesh.triangles)
     for (const std::uint32_t i : t) require(i < mesh.vertices.size());
+  for (const auto& line : mesh.lines)
+    for (const std::uint32_t i : line) require(i < mesh.vertices.size());
+  for (const std::uint32_t i : mesh.points) require(i < mesh.vertices.size());
   const auto require_indices = [&](const auto& triangles, std::size_t count) {
     require(triangles.empty() || triangles.size() == mesh.triangles.size());
     for (const CornerIndices& t : triangles)
@@ -39,11 +42,13 @@ inline void check(const Mesh& mesh) {
 /// Reads `bytes` with `read(options, warnings)`: a valid mesh or an InputError, nothing else.
 template <class Read>
 int one_input(const Read& read) {
-  for (const bool attributes : {false, true}) {
+  for (const bool all : {false, true}) {
     try {
       Warnings warnings;
-      check(read(ReadOptions{.format = {}, .threads = 1, .attributes = attributes, .hash = false},
-                 warnings));
+      check(read(
+          ReadOptions{
+              .format = {}, .threads = 1, .attributes = all, .primitives = all, .hash = false},
+          warnings));
     } catch (const InputError&) {
     }
   }
