@@ -202,10 +202,9 @@ TEST(PipelineCommand, TraceInTextAndJson) {
 TEST(PipelineCommand, TraceShowsTheLight) {
   int covered = 0, turned = 0;
   for (int triangle = 0; triangle < 12; ++triangle) {
-    const Outcome outcome =
-        run_fathom({"pipeline", "trace", cube, "--triangle", std::to_string(triangle), "--size",
-                    "64x48", "--pixel", "32,24", "--light", "headlight", "--material", "0,1,0,1",
-                    "--json"});
+    const Outcome outcome = run_fathom(
+        {"pipeline", "trace", cube, "--triangle", std::to_string(triangle), "--size", "64x48",
+         "--pixel", "32,24", "--light", "headlight", "--material", "0,1,0,1", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const Json trace = Json::parse(outcome.out);
     if (!trace.contains("sample") || !trace["sample"]["covered"]) continue;
