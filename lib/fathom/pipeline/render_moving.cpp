@@ -93,8 +93,9 @@ class TemporalAntialiasing {
     std::vector<std::optional<std::size_t>> nearest = nearest_around(frame);
     PixelMoves result(nearest.size(), PixelMove{});
     const auto place = [&](std::size_t pixel) {
-      return std::array{static_cast<double>(pixel % camera_.width) + 0.5 + offset[0],
-                        static_cast<double>(pixel / camera_.width) + 0.5 + offset[1]};
+      const std::size_t x = pixel % camera_.width, y = pixel / camera_.width;
+      return std::array{static_cast<double>(x) + 0.5 + offset[0],
+                        static_cast<double>(y) + 0.5 + offset[1]};
     };
     // What is seen, as weights of corners; then where these corners were.
     std::vector<std::optional<std::array<double, 3>>> weights(nearest.size());

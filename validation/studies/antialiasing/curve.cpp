@@ -20,6 +20,7 @@ constexpr double tolerance = 0.1;
 
 std::vector<CubicBezier> scaled(const std::vector<CubicBezier>& outline, double factor) {
   std::vector<CubicBezier> result;
+  result.reserve(outline.size());
   for (const CubicBezier& curve : outline) result.push_back(curve.scaled(factor));
   return result;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
