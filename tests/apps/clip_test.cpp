@@ -95,6 +95,23 @@ TEST(Clip, AgainstFindsTheBridgingEdge) {
   EXPECT_THAT(convex.outcome.err, HasSubstr("\"decompose\" is no key"));
 }
 
+// Sutherland–Hodgman begins its rings elsewhere, keeps straight corners, and puts what it clips of
+// all rings into one polygon. Only the last is a difference.
+TEST(Clip, AgainstLooksAtPolygonsNotAtHowTheyAreWritten) {
+  const std::string window = R"( "clip": [[[-1,2],[9,2],[9,5],[-1,5]]]})";
+  const std::string square = R"({"subject": [[[4,4],[0,4],[0,0],[2,0],[4,0]]],)" + window;
+  const Clipped same = clip("sutherland-hodgman", square, {"--against", "cgal"});
+  EXPECT_EQ(same.outcome.status, 0) << same.outcome.err;
+  EXPECT_TRUE(same.answers.at(0)["against"]["difference"].is_null());
+  EXPECT_NE(same.answers[0]["polygons"], answer("cgal", square)["polygons"]);
+  const std::string two =
+      R"({"subject": [[[0,0],[4,0],[4,4],[0,4]], [[5,0],[6,0],[6,4],[5,4]]],)" + window;
+  const Clipped together = clip("sutherland-hodgman", two, {"--against", "cgal"});
+  EXPECT_EQ(together.outcome.status, 1);
+  EXPECT_EQ(together.answers.at(0)["against"]["difference"]["kind"], "polygons");
+  EXPECT_THAT(together.outcome.err, HasSubstr("the borders are the same, but only "));
+}
+
 // What rounding does to a region is a piece of it, with its area.
 TEST(Clip, AgainstFindsWhatRoundingChanges) {
   const Clipped clipped =

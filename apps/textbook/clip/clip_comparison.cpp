@@ -12,6 +12,7 @@
 #include "apps/textbook/cases/case_writing.h"
 #include "fathom/clipping/boolean_by_cgal.h"
 #include "fathom/clipping/exact_kernel.h"
+#include "fathom/clipping/rings.h"
 
 namespace fathom::app::clip {
 namespace {
@@ -86,17 +87,32 @@ std::optional<Json> border_difference(const Rings<Rational>& first, const Rings<
   return std::nullopt;
 }
 
+/// The rings of a polygon in the one order that weiler-atherton writes: other algorithms may begin
+/// at other corners and keep straight ones.
+Rings<Rational> in_canonical_order(const Json& polygon) {
+  Rings<Rational> rings;
+  for (const Json& ring : polygon) rings.push_back(clipping::canonical(ring_of(ring)));
+  if (!rings.empty()) std::sort(rings.begin() + 1, rings.end());
+  return rings;
+}
+
 std::optional<Json> polygon_difference(const Json& first, const Json& second, const Names& names) {
-  const auto is_in = [](const Json& polygon, const Json& polygons) {
-    return std::find(polygons.begin(), polygons.end(), polygon) != polygons.end();
+  std::map<Rings<Rational>, int> surplus;
+  std::map<Rings<Rational>, const Json*> written;
+  const auto count = [&](const Json& answer, int weight) {
+    for (const Json& polygon : answer["polygons"]) {
+      const Rings<Rational> rings = in_canonical_order(polygon);
+      surplus[rings] += weight;
+      written[rings] = &polygon;
+    }
   };
-  const auto only = [&](const std::string& name, const Json& polygon) {
-    return Json{{"kind", "polygons"}, {"only", name}, {"polygon", polygon}};
-  };
-  for (const Json& polygon : first["polygons"])
-    if (!is_in(polygon, second["polygons"])) return only(names.first, polygon);
-  for (const Json& polygon : second["polygons"])
-    if (!is_in(polygon, first["polygons"])) return only(names.second, polygon);
+  count(first, 1);
+  count(second, -1);
+  for (const auto& [polygon, more] : surplus)
+    if (more != 0)
+      return Json{{"kind", "polygons"},
+                  {"only", more > 0 ? names.first : names.second},
+                  {"polygon", *written[polygon]}};
   return std::nullopt;
 }
 
