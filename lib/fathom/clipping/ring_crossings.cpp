@@ -12,14 +12,14 @@ namespace fathom::clipping {
 namespace {
 
 /// A ring passes through a point.
-struct Visit {
+struct Passage {
   std::size_t point, ring, corner;
 };
 
-/// Visits of points that are visited more than once, point by point, in the order in which the
+/// Passages through points that more than one ring passes, point by point, in the order in which the
 /// rings come to them.
-std::vector<std::vector<Visit>> shared_points(const NumberedRings& rings, std::size_t points) {
-  std::vector<std::vector<Visit>> at(points);
+std::vector<std::vector<Passage>> shared_points(const NumberedRings& rings, std::size_t points) {
+  std::vector<std::vector<Passage>> at(points);
   std::vector<std::size_t> order;
   for (std::size_t r = 0; r < rings.size(); ++r)
     for (std::size_t i = 0; i < rings[r].size(); ++i) {
@@ -27,63 +27,64 @@ std::vector<std::vector<Visit>> shared_points(const NumberedRings& rings, std::s
       if (at[point].empty()) order.push_back(point);
       at[point].push_back({point, r, i});
     }
-  std::vector<std::vector<Visit>> shared;
+  std::vector<std::vector<Passage>> shared;
   for (const std::size_t point : order)
     if (at[point].size() > 1) shared.push_back(std::move(at[point]));
   return shared;
 }
 
-/// One of the two ends that a visit has at its point. Directions about the point are numbered; the
+/// One of the two ends that a passage has at its point. Directions about the point are numbered; the
 /// same number is the same direction.
-struct VisitEnd {
-  std::size_t towards, visit, direction, other_direction;
+struct PassageEnd {
+  std::size_t towards, passage, direction, other_direction;
 };
 
-/// Both ends of each visit, by their directions. Of ends in the same direction those come first
-/// whose visit has its other end before, the nearest first; then the others, the farthest first: so
-/// only visits that must cross are entwined.
-std::vector<VisitEnd> ends_about(const std::vector<Visit>& visits, const NumberedRings& rings,
-                                 const PointOrder& points) {
-  std::vector<VisitEnd> ends;
-  for (std::size_t v = 0; v < visits.size(); ++v) {
-    const NumberedRing& ring = rings[visits[v].ring];
-    ends.push_back({preceding(ring, visits[v].corner), v, 0, 0});
-    ends.push_back({following(ring, visits[v].corner), v, 0, 0});
+/// Both ends of each passage, by their directions. Of ends in the same direction those come first
+/// whose passage has its other end before, the nearest first; then the others, the farthest first: so
+/// only passages that must cross are entwined.
+std::vector<PassageEnd> ends_about(const std::vector<Passage>& passages, const NumberedRings& rings,
+                                   const PointOrder& points) {
+  std::vector<PassageEnd> ends;
+  for (std::size_t v = 0; v < passages.size(); ++v) {
+    const NumberedRing& ring = rings[passages[v].ring];
+    ends.push_back({preceding(ring, passages[v].corner), v, 0, 0});
+    ends.push_back({following(ring, passages[v].corner), v, 0, 0});
   }
-  const std::size_t P = visits[0].point;
-  std::sort(ends.begin(), ends.end(), [&](const VisitEnd& a, const VisitEnd& b) {
+  const std::size_t P = passages[0].point;
+  std::sort(ends.begin(), ends.end(), [&](const PassageEnd& a, const PassageEnd& b) {
     return a.towards != b.towards && points.comes_before(P, a.towards, b.towards);
   });
-  std::vector<std::size_t> sum(visits.size(), 0);
+  std::vector<std::size_t> sum(passages.size(), 0);
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (i > 0)
       ends[i].direction = ends[i - 1].direction + (ends[i].towards == ends[i - 1].towards ? 0 : 1);
-    sum[ends[i].visit] += ends[i].direction;
+    sum[ends[i].passage] += ends[i].direction;
   }
-  for (VisitEnd& end : ends) end.other_direction = sum[end.visit] - end.direction;
-  std::sort(ends.begin(), ends.end(), [](const VisitEnd& a, const VisitEnd& b) {
-    const auto key = [](const VisitEnd& end) {
+  for (PassageEnd& end : ends) end.other_direction = sum[end.passage] - end.direction;
+  std::sort(ends.begin(), ends.end(), [](const PassageEnd& a, const PassageEnd& b) {
+    const auto key = [](const PassageEnd& end) {
       const bool begins = end.other_direction > end.direction;
       // The last to begin is the first to end.
       return std::tuple(end.direction, begins, ~end.other_direction,
-                        begins ? end.visit : ~end.visit);
+                        begins ? end.passage : ~end.passage);
     };
     return key(a) < key(b);
   });
   return ends;
 }
 
-/// Two visits of a point that cross there: their ends alternate.
-std::optional<std::pair<Visit, Visit>> crossing_about(const std::vector<Visit>& visits,
-                                                      const NumberedRings& rings,
-                                                      const PointOrder& points) {
+/// Two passages of a point that cross there: their ends alternate.
+std::optional<std::pair<Passage, Passage>> crossing_about(const std::vector<Passage>& passages,
+                                                          const NumberedRings& rings,
+                                                          const PointOrder& points) {
   std::vector<std::size_t> begun;
-  for (const VisitEnd& end : ends_about(visits, rings, points)) {
+  for (const PassageEnd& end : ends_about(passages, rings, points)) {
     if (end.other_direction > end.direction) {
-      begun.push_back(end.visit);
+      begun.push_back(end.passage);
       continue;
     }
-    if (begun.back() != end.visit) return std::pair(visits[begun.back()], visits[end.visit]);
+    if (begun.back() != end.passage)
+      return std::pair(passages[begun.back()], passages[end.passage]);
     begun.pop_back();
   }
   return std::nullopt;
@@ -160,10 +161,10 @@ class SharedPieces {
 }  // namespace
 
 std::optional<RingCrossing> ring_crossing(const NumberedRings& rings, const PointOrder& points) {
-  for (const std::vector<Visit>& visits : shared_points(rings, points.size()))
-    if (const auto crossing = crossing_about(visits, rings, points)) {
+  for (const std::vector<Passage>& passages : shared_points(rings, points.size()))
+    if (const auto crossing = crossing_about(passages, rings, points)) {
       const auto [a, b] = std::minmax(crossing->first.ring, crossing->second.ring);
-      return RingCrossing{a, b, visits[0].point};
+      return RingCrossing{a, b, passages[0].point};
     }
   const Runs runs = shared_edges(rings);
   if (runs.empty()) return std::nullopt;
