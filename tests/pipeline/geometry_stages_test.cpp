@@ -144,7 +144,8 @@ TEST(GeometryStages, ObjectsAreNumberedOneAfterTheOther) {
   PipelineOptions options = precise();
   options.depth_format.near = 1;
   options.depth_format.far = 100;
-  const auto window = to_window<double>(scene, camera(), options, statistics);
+  const auto window =
+      to_window<double>(scene, camera(), options, draw_rules_of(scene, options), statistics);
   ASSERT_EQ(window.triangles.size(), 4u);
   for (std::uint32_t i = 0; i < 4; ++i) EXPECT_EQ(window.triangles[i].number, i);
   EXPECT_TRUE(window.lines.empty() && window.points.empty());
@@ -256,7 +257,7 @@ TEST(PrimitiveAssembly, NormalsAreSumsOfAreasAndColoursTheVertexs) {
     mesh.colours.push_back({part, part + 0.125F, part + 0.25F, 1});
     mesh.texture_coordinates.push_back({static_cast<double>(i), -static_cast<double>(i)});
   }
-  const auto triangles = assemble_triangles(scene, 0, 40);
+  const auto triangles = assemble_triangles(scene, 0, 40, FrontFace::counter_clockwise);
   using Vector = std::array<double, 3>;
   ASSERT_EQ(triangles.size(), 2u);
   EXPECT_EQ(triangles[0].number, 40u);
@@ -273,25 +274,30 @@ TEST(PrimitiveAssembly, NormalsAreSumsOfAreasAndColoursTheVertexs) {
   EXPECT_TRUE(has_texture_coordinates(scene));
   // Coordinates of their own for each triangle, then one that is missing, then none at all.
   mesh.texture_triangles = {{5, 4, 3}, {2, 1, 0}};
-  EXPECT_EQ(assemble_triangles(scene, 0, 0)[1].corners[0].uv, (std::array<double, 2>{2, -2}));
+  EXPECT_EQ(assemble_triangles(scene, 0, 0, FrontFace::counter_clockwise)[1].corners[0].uv,
+            (std::array<double, 2>{2, -2}));
   EXPECT_TRUE(has_texture_coordinates(scene));
   mesh.texture_triangles[1][2] = no_index;
   EXPECT_FALSE(has_texture_coordinates(scene));
   mesh.texture_triangles.clear();
   mesh.texture_coordinates.clear();
   EXPECT_FALSE(has_texture_coordinates(scene));
-  EXPECT_EQ(assemble_triangles(scene, 0, 0)[1].corners[2].uv, (std::array<double, 2>{0, 0}));
+  EXPECT_EQ(assemble_triangles(scene, 0, 0, FrontFace::counter_clockwise)[1].corners[2].uv,
+            (std::array<double, 2>{0, 0}));
   mesh.colours.clear();
-  EXPECT_EQ(assemble_triangles(scene, 0, 0)[0].corners[2].colour, (Vector{1, 1, 1}));
+  EXPECT_EQ(assemble_triangles(scene, 0, 0, FrontFace::counter_clockwise)[0].corners[2].colour,
+            (Vector{1, 1, 1}));
   // Slanted in all directions.
   const Scene slanted = testing::scene_of({{1, 2, 3}, {2, 5, 5}, {4, 3, 9}}, {{0, 1, 2}});
-  const Vector& n = assemble_triangles(slanted, 0, 0)[0].corners[2].normal;
+  const Vector& n =
+      assemble_triangles(slanted, 0, 0, FrontFace::counter_clockwise)[0].corners[2].normal;
   const double length = std::sqrt(16 * 16 + 8 * 8);  // (1, 3, 2) × (3, 1, 6) = (16, 0, −8)
   EXPECT_DOUBLE_EQ(n[0], 16 / length);
   EXPECT_EQ(n[1], 0);
   EXPECT_DOUBLE_EQ(n[2], -8 / length);
   const Scene other = testing::scene_of({{1, 2, 3}, {2, 2, 3.5}, {4, 3, 4}}, {{0, 1, 2}});
-  const Vector& o = assemble_triangles(other, 0, 0)[0].corners[0].normal;
+  const Vector& o =
+      assemble_triangles(other, 0, 0, FrontFace::counter_clockwise)[0].corners[0].normal;
   // (1, 0, ½) × (3, 1, 1) = (−½, ½, 1)
   EXPECT_DOUBLE_EQ(o[0], -0.5 / std::sqrt(1.5));
   EXPECT_DOUBLE_EQ(o[1], 0.5 / std::sqrt(1.5));
@@ -410,20 +416,24 @@ TEST(WindowTriangle, TheOffsetIsThatOfItsPlane) {
     options.depth_format.storage = Storage::unorm16;
     options.polygon_offset = {4, 0, 0};
     // The quotient of two determinants, each with a few roundings; slivers are rare here.
-    EXPECT_NEAR(depth_offset(t, options), 4 * std::max(std::abs(p), std::abs(q)), 1e-9) << i;
+    EXPECT_NEAR(depth_offset(t, options.depth_format.storage, options.polygon_offset),
+                4 * std::max(std::abs(p), std::abs(q)), 1e-9)
+        << i;
     options.polygon_offset = {0, 3, 0};
-    EXPECT_DOUBLE_EQ(depth_offset(t, options), 3.0 / 65535);
+    EXPECT_DOUBLE_EQ(depth_offset(t, options.depth_format.storage, options.polygon_offset),
+                     3.0 / 65535);
     options.polygon_offset = {-1, 2, 0};
-    EXPECT_NEAR(depth_offset(t, options), 2.0 / 65535 - std::max(std::abs(p), std::abs(q)), 1e-9);
+    EXPECT_NEAR(depth_offset(t, options.depth_format.storage, options.polygon_offset),
+                2.0 / 65535 - std::max(std::abs(p), std::abs(q)), 1e-9);
     options.polygon_offset = {};
-    EXPECT_EQ(depth_offset(t, options), 0);
+    EXPECT_EQ(depth_offset(t, options.depth_format.storage, options.polygon_offset), 0);
     // Floats: by the exponent of the greatest depth.
     options.depth_format.storage = Storage::float32;
     options.polygon_offset = {0, 1, 0};
     t.corners[i % 3].z = 0.75;
     t.corners[(i + 1) % 3].z = 0.01;
     t.corners[(i + 2) % 3].z = 0.2;
-    EXPECT_EQ(depth_offset(t, options), 0x1p-24);
+    EXPECT_EQ(depth_offset(t, options.depth_format.storage, options.polygon_offset), 0x1p-24);
   }
 }
 
