@@ -211,8 +211,8 @@ TEST(VertexTransform, AttributesGoWithTheirVertex) {
                                        a[attribute::normal + 2]};
     EXPECT_NEAR(dot(normal, apply(s)), 0, 1e-12);
     EXPECT_NEAR(dot(normal, apply(t)), 0, 1e-12);
-    // What points out of the surface still does, also in a mirror.
-    EXPECT_GT(dot(normal, apply(vertex.normal)), 0);
+    // It stays on the side from which s and t run counter-clockwise, also in a mirror.
+    EXPECT_GT(dot(normal, cross(apply(s), apply(t))), 0);
     const auto column = [&](std::size_t c) { return std::array{m[0][c], m[1][c], m[2][c]}; };
     mirrored += dot(column(0), cross(column(1), column(2))) < 0;
   }

@@ -80,7 +80,7 @@ TEST(Interpolation, ChangesAreDifferencesToTheNeighbours) {
   WindowTriangle<double> t = slanted();
   const double uvs[3][2] = {{0.1, 0.7}, {0.9, 0.2}, {0.4, 0.5}};
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < attribute::count; ++k) {
+    for (std::size_t k = 0; k < attribute::of_fragments; ++k) {
       t.corners[i].attributes[k] = static_cast<double>((7 * i + 3 * k) % 11);
     }
     t.corners[i].attributes[attribute::depth] = 1 / t.corners[i].inverse_w;
@@ -96,7 +96,7 @@ TEST(Interpolation, ChangesAreDifferencesToTheNeighbours) {
   const Fragment here = at(2, 3), right = at(3, 3), below = at(2, 4);
   // λ = (3/8, 2/8, 3/8), over depths 1, 2, 4.
   const double w[3] = {3. / 8, 1. / 8, 3. / 32}, sum = 3. / 8 + 1. / 8 + 3. / 32;
-  for (std::size_t k = 0; k < attribute::count; ++k) {
+  for (std::size_t k = 0; k < attribute::of_fragments; ++k) {
     double value = 0;
     for (std::size_t i = 0; i < 3; ++i) value += w[i] / sum * t.corners[i].attributes[k];
     EXPECT_NEAR(here.attributes[k], value, 1e-14);

@@ -39,13 +39,13 @@ TEST(StudyPages, Antialiasing) {
   EXPECT_EQ(pictures_of("antialiasing"), 28U);
 }
 TEST(StudyPages, Blending) {
-  EXPECT_EQ(pictures_of("blending"), 14U);
+  EXPECT_EQ(pictures_of("blending"), 15U);
 }
 TEST(StudyPages, Course) {
   EXPECT_EQ(pictures_of("course"), 24U);
 }
 TEST(StudyPages, HiddenSurface) {
-  EXPECT_EQ(pictures_of("hidden-surface"), 8U);
+  EXPECT_EQ(pictures_of("hidden-surface"), 10U);
 }
 TEST(StudyPages, Lines) {
   EXPECT_EQ(pictures_of("lines", {.samples = 2}), 2U);
