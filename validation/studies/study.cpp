@@ -19,8 +19,9 @@ const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies{
       {"antialiasing", "Sample patterns, and every kind of antialiasing, against exact areas", true,
        study_antialiasing},
-      {"blending", "Transparent surfaces by the order in which they are drawn, against the exact one",
-       false, study_blending},
+      {"blending",
+       "Transparent surfaces by the order in which they are drawn, against the exact one", false,
+       study_blending},
       {"clipping", "Sutherland-Hodgman's bridging edges on concave polygons, and their cures",
        false, study_clipping},
       {"course", "The exercises, the demo and the tables of the textbooks, as pictures and figures",

@@ -14,7 +14,9 @@ struct UndirectedEdge {
   std::size_t left, right;
 
   friend bool operator==(const UndirectedEdge&, const UndirectedEdge&) = default;
-  friend auto operator<=>(const UndirectedEdge&, const UndirectedEdge&) = default;
+  friend bool operator<(const UndirectedEdge& a, const UndirectedEdge& b) {
+    return a.left != b.left ? a.left < b.left : a.right < b.right;
+  }
 };
 
 inline UndirectedEdge undirected(std::size_t from, std::size_t to) {
