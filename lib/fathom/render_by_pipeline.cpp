@@ -14,15 +14,15 @@
 namespace fathom {
 namespace {
 
-/// The object of a line or a point, which are numbered after all triangles.
-std::uint32_t object_of_line(const Scene& scene, std::uint32_t number) {
-  std::uint64_t end = triangle_count(scene);
-  for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
-    const Mesh& mesh = scene.meshes[scene.objects[object].mesh];
-    end += mesh.lines.size() + mesh.points.size();
-    if (number < end) return object;
+/// For each object the number after its last line and point, which come after all triangles.
+std::vector<std::uint64_t> ends_of_lines(const Scene& scene, std::uint64_t triangles) {
+  std::vector<std::uint64_t> ends;
+  std::uint64_t end = triangles;
+  for (const Object& object : scene.objects) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    ends.push_back(end += mesh.lines.size() + mesh.points.size());
   }
-  return no_surface;
+  return ends;
 }
 
 /// A channel of the pipeline's map.
@@ -31,10 +31,12 @@ ImageChannel channel_of(const Scene& scene, const pipeline::PipelineFrame& frame
   if (channel == Channel::id) return {"id", frame.id};
   Samples<std::uint32_t> values(frame.id.size(), no_surface);
   const TriangleSource triangles(scene);
+  const std::vector<std::uint64_t> ends = ends_of_lines(scene, triangles.count());
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (frame.id[i] == no_surface) continue;
     if (frame.id[i] >= triangles.count()) {
-      if (channel == Channel::object) values[i] = object_of_line(scene, frame.id[i]);
+      const auto object = std::ranges::upper_bound(ends, frame.id[i]) - ends.begin();
+      if (channel == Channel::object) values[i] = static_cast<std::uint32_t>(object);
       continue;
     }
     const TriangleOrigin origin = triangles.origin(frame.id[i]);

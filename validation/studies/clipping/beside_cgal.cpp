@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <random>
 #include <stdexcept>
@@ -14,6 +12,7 @@
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/weiler_atherton.h"
 #include "fathom/numeric/errors.h"
+#include "validation/studies/clipping/clipped_shapes.h"
 
 namespace fathom::studies {
 namespace {
@@ -31,16 +30,9 @@ Ring square(double x, double y, double side) {
   return {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
 }
 
-/// A ring around the origin with corners at even angles, as far out as drawn.
 Ring star(std::mt19937_64& random, std::size_t corners) {
-  std::uniform_real_distribution<double> radius(0.2, 1);
   Ring ring;
-  for (std::size_t i = 0; i < corners; ++i) {
-    const double r = radius(random);
-    const double angle =
-        2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(corners);
-    ring.push_back({r * std::cos(angle), r * std::sin(angle)});
-  }
+  for (const auto& [x, y] : random_star(random, corners)) ring.push_back({x, y});
   return ring;
 }
 

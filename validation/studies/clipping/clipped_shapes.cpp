@@ -124,19 +124,6 @@ std::vector<Shape> named_shapes() {
            {{-1, 4}, {4, -1}, {8, 3}, {3, 8}}}};
 }
 
-/// A ring around the origin with a corner at each of `corners` even angles, as far out as drawn.
-Ring random_star(std::mt19937_64& random, std::size_t corners) {
-  std::uniform_real_distribution<double> radius(0.2, 1);
-  Ring ring;
-  for (std::size_t i = 0; i < corners; ++i) {
-    const double r = radius(random);
-    const double angle =
-        2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(corners);
-    ring.push_back({Exact(r * std::cos(angle)), Exact(r * std::sin(angle))});
-  }
-  return ring;
-}
-
 /// A window off the centre, so that it meets the rays of the star.
 Ring star_window() {
   return {{Exact(0.4), Exact(-0.9)},
@@ -158,12 +145,25 @@ std::vector<ClippedShape> clipped_shapes() {
   return all;
 }
 
+Outline random_star(std::mt19937_64& random, std::size_t corners) {
+  std::uniform_real_distribution<double> radius(0.2, 1);
+  Outline ring;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const double r = radius(random);
+    const double angle =
+        2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(corners);
+    ring.emplace_back(r * std::cos(angle), r * std::sin(angle));
+  }
+  return ring;
+}
+
 RandomPolygons clip_random_polygons(std::size_t corners, std::size_t polygons) {
   std::mt19937_64 random(corners);
   RandomPolygons average{corners, polygons};
   const auto n = static_cast<double>(polygons);
   for (std::size_t i = 0; i < polygons; ++i) {
-    const Ring ring = random_star(random, corners);
+    Ring ring;
+    for (const auto& [x, y] : random_star(random, corners)) ring.push_back({Exact(x), Exact(y)});
     const ClippingFigures one = figures_of(ring, clip(ring, star_window()));
     average.in_pieces += one.pieces > 1 ? 1 : 0;
     average.pieces += static_cast<double>(one.pieces) / n;

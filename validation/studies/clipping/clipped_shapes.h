@@ -1,5 +1,6 @@
 #pragma once
 
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,9 @@ struct ClippingFigures {
 
 /// The corners of a ring, rounded to binary64.
 using Outline = std::vector<std::pair<double, double>>;
+
+/// A ring around the origin with a corner at each of `corners` even angles, as far out as drawn.
+Outline random_star(std::mt19937_64& random, std::size_t corners);
 
 /// A named polygon, its window, and the three answers as they are drawn.
 struct ClippedShape {

@@ -47,12 +47,13 @@ bool lacks_normals(const Mesh& mesh) {
          std::any_of(mesh.normal_triangles.begin(), mesh.normal_triangles.end(), lacks);
 }
 
-InputVertex end_at(const Mesh& mesh, std::uint32_t v) {
-  InputVertex end;
-  end.position = mesh.vertices[v];
+/// A vertex with its colour, without a normal and texture coordinates.
+InputVertex vertex_at(const Mesh& mesh, std::uint32_t v) {
+  InputVertex vertex;
+  vertex.position = mesh.vertices[v];
   if (v < mesh.colours.size())
-    for (std::size_t c = 0; c < 3; ++c) end.colour[c] = static_cast<double>(mesh.colours[v][c]);
-  return end;
+    for (std::size_t c = 0; c < 3; ++c) vertex.colour[c] = static_cast<double>(mesh.colours[v][c]);
+  return vertex;
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ std::vector<InputLine> assemble_lines(const Scene& scene, std::uint32_t object,
   std::vector<InputLine> lines;
   lines.reserve(mesh.lines.size());
   for (const auto& [a, b] : mesh.lines)
-    lines.push_back({first_number++, object, {end_at(mesh, a), end_at(mesh, b)}});
+    lines.push_back({first_number++, object, {vertex_at(mesh, a), vertex_at(mesh, b)}});
   return lines;
 }
 
@@ -73,7 +74,7 @@ std::vector<InputLine> assemble_points(const Scene& scene, std::uint32_t object,
   std::vector<InputLine> points;
   points.reserve(mesh.points.size());
   for (const std::uint32_t v : mesh.points)
-    points.push_back({first_number++, object, {end_at(mesh, v), end_at(mesh, v)}});
+    points.push_back({first_number++, object, {vertex_at(mesh, v), vertex_at(mesh, v)}});
   return points;
 }
 
@@ -96,7 +97,7 @@ std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t 
     for (std::size_t k = 0; k < 3; ++k) {
       InputVertex& corner = triangles[t].corners[k];
       const std::uint32_t v = mesh.triangles[t][k];
-      corner.position = mesh.vertices[v];
+      corner = vertex_at(mesh, v);
       if (const auto n = index_of(mesh.normal_triangles, mesh, t, k); n < mesh.normals.size()) {
         corner.normal = mesh.normals[n];
       } else if (!smooth.empty()) {
@@ -105,9 +106,6 @@ std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t 
       if (const auto u = index_of(mesh.texture_triangles, mesh, t, k);
           u < mesh.texture_coordinates.size())
         corner.uv = mesh.texture_coordinates[u];
-      if (v < mesh.colours.size())
-        for (std::size_t c = 0; c < 3; ++c)
-          corner.colour[c] = static_cast<double>(mesh.colours[v][c]);
     }
   }
   return triangles;
