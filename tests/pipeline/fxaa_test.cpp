@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "fathom/numeric/errors.h"
+#include "tests/pipeline/published_fxaa.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -124,6 +126,85 @@ TEST(Fxaa, RemovesDetailsBelowAPixelByTheSettingForThem) {
       grey(9, 9, [](std::uint32_t x, std::uint32_t y) { return x == 4 && y == 4; });
   EXPECT_NEAR(fxaa(dot, {0.166, 0.0833, 0.75}).at(4, 4)[0], 0.25, 1e-15);
   EXPECT_NEAR(fxaa(dot, {0.166, 0.0833, 0.5}).at(4, 4)[0], 0.5, 1e-15);
+}
+
+/// A stair with runs of any length, up to longer than the search goes, falling or rising, by rows or
+/// by columns, in any two colours; or in red and black, whose sums of lumas are exact.
+ColourImage any_stair(std::mt19937& random) {
+  const bool transposed = random() % 2 == 0, mirrored = random() % 2 == 0;
+  const std::uint32_t run = 1 + random() % 40, start = random() % 40;
+  const auto part = [&] { return static_cast<double>(random() % 256) / 255; };
+  Colour above{part(), part(), part()}, below{part(), part(), part()};
+  if (random() % 2 == 0) above = {1, 0, 0}, below = {};
+  ColourImage image{48, 48, {}};
+  for (std::uint32_t y = 0; y < 48; ++y) {
+    for (std::uint32_t x = 0; x < 48; ++x) {
+      const std::uint32_t along = transposed ? y : x, across = transposed ? x : y;
+      const std::uint32_t level = 20 + ((mirrored ? 47 - along : along) + start) / run % 8;
+      image.pixels.push_back(across < level ? above : below);
+    }
+  }
+  return image;
+}
+
+ColourImage any_noise(std::mt19937& random) {
+  const std::uint32_t levels = 2 + random() % 254, size = 1 + random() % 14;
+  ColourImage image{size, 1 + static_cast<std::uint32_t>(random() % 14), {}};
+  for (std::uint32_t i = 0; i < image.width * image.height; ++i) {
+    Colour colour;
+    for (double& c : colour) c = static_cast<double>(random() % levels) / (levels - 1);
+    image.pixels.push_back(colour);
+  }
+  return image;
+}
+
+bool is_near(const Colour& a, const Colour& b) {
+  double greatest = 0;
+  for (std::size_t k = 0; k < 3; ++k) greatest = std::max(greatest, std::abs(a[k] - b[k]));
+  return greatest <= 1e-12;  // some twenty roundings of numbers up to 1
+}
+
+TEST(Fxaa, IsThePublishedAlgorithm) {
+  std::mt19937 random(5);
+  std::size_t changed = 0, ties = 0;
+  for (int n = 0; n < 600; ++n) {
+    SCOPED_TRACE(n);
+    const ColourImage image = n % 2 == 0 ? any_stair(random) : any_noise(random);
+    const FxaaSettings settings{random() % 3 * 0.15, random() % 3 * 0.05, random() % 3 * 0.5};
+    const ColourImage smooth = fxaa(image, settings);
+    for (std::uint32_t y = 0; y < image.height; ++y) {
+      for (std::uint32_t x = 0; x < image.width; ++x) {
+        const auto published = [&](std::optional<bool> horizontal) {
+          return published::fxaa_pixel({image}, x, y, settings.threshold, settings.least_threshold,
+                                       settings.subpixel, horizontal);
+        };
+        const auto [colour, more_horizontal] = published({});
+        const bool tie = std::abs(more_horizontal) < 1e-12;
+        const Colour& ours = smooth.at(x, y);
+        ASSERT_TRUE(is_near(ours, colour) || (tie && (is_near(ours, published(true).colour) ||
+                                                      is_near(ours, published(false).colour))))
+            << x << ' ' << y;
+        changed += colour != image.at(x, y) ? 1 : 0;
+        ties += tie ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(changed, 20000U);
+  EXPECT_LT(ties, changed / 10);
+}
+
+/// Luma of a diagonal changes as much from row to row as from column to column, and without any
+/// rounding: the edge is horizontal then.
+TEST(Fxaa, TakesADiagonalForHorizontal) {
+  ColourImage image{9, 9, {}};
+  for (int y = 0; y < 9; ++y)
+    for (int x = 0; x < 9; ++x) image.pixels.push_back({x > y ? 1.0 : 0.0, 0, 0});
+  const ColourImage smooth = fxaa(image);
+  for (std::uint32_t i = 2; i < 7; ++i) {
+    const published::Result published = published::fxaa_pixel({image}, i, i, 0.166, 0.0833, 0.75);
+    ASSERT_EQ(published.more_horizontal, 0);
+    EXPECT_TRUE(is_near(smooth.at(i, i), published.colour)) << i;
+  }
 }
 
 TEST(Fxaa, RefusesSettingsThatMeanNothing) {
