@@ -139,6 +139,31 @@ TEST(AreaSampling, IsTheExactPictureWhereNothingIsSnapped) {
   EXPECT_GT(several, 100U);  // the scenes are as crowded as they are meant to be
 }
 
+/// A scissor box cuts the picture and changes nothing else; the rest is background.
+TEST(AreaSampling, ObeysTheScissorBox) {
+  PipelineOptions options;
+  options.precision = Precision::binary64;
+  options.shading = Shading::none;
+  options.antialias.method = AntialiasMethod::area;
+  options.background = {0.25, 0.5, 0.75};
+  const Scene scene = crossing_triangles(12, 7);
+  const ColourImage whole = render_frame(scene, six_pixels(), options, true).picture;
+  for (const auto& box : {WindowRectangle{2, 1, 3, 2}, WindowRectangle{-4, 3, 7, 90},
+                          WindowRectangle{5, 5, 1, 1}, WindowRectangle{7, 0, 3, 3}}) {
+    options.scissor = box;
+    const ColourImage cut = render_frame(scene, six_pixels(), options, true).picture;
+    for (std::uint32_t y = 0; y < 6; ++y) {
+      for (std::uint32_t x = 0; x < 6; ++x) {
+        // The window's origin is its lower left corner.
+        const std::int64_t row = 5 - std::int64_t{y};
+        const bool inside =
+            x >= box.x && x < box.x + box.width && row >= box.y && row < box.y + box.height;
+        EXPECT_EQ(cut.at(x, y), inside ? whole.at(x, y) : options.background) << x << ' ' << y;
+      }
+    }
+  }
+}
+
 /// The mappings that are computed for each fragment decide alike, under perspective too.
 TEST(AreaSampling, EveryMappingSeesTheSameSurfaces) {
   Camera camera = six_pixels();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/pipeline/geometry/draw_order.h"
 #include "fathom/pipeline/output/draw_rules.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/pipeline/trace.h"
@@ -206,6 +207,27 @@ TEST(DrawOrder, DecidesHowManyFragmentsPass) {
   std::set<std::uint64_t> counts;
   for (std::uint64_t seed = 0; seed < 20; ++seed) counts.insert(passed(DrawOrder::random, seed));
   EXPECT_GT(counts.size(), 3U);
+}
+
+/// Triangles are ordered by the sum of their corners' depths: 15 is behind 14 and before 16.
+TEST(DrawOrder, IsThatOfMeanDepths) {
+  std::vector<WindowTriangle<double>> triangles(3);
+  constexpr double depths[3][3]{{3, 5, 7}, {6, 4, 4}, {2, 2, 12}};
+  for (std::size_t t = 0; t < 3; ++t) {
+    triangles[t].number = static_cast<std::uint32_t>(t);
+    for (std::size_t k = 0; k < 3; ++k)
+      triangles[t].corners[k].attributes[attribute::depth] = depths[t][k];
+  }
+  const auto ordered = [&](DrawOrder order) {
+    PipelineOptions options;
+    options.draw_order = order;
+    auto list = triangles;
+    put_into_draw_order(list, options);
+    return std::vector<std::uint32_t>{list[0].number, list[1].number, list[2].number};
+  };
+  EXPECT_EQ(ordered(DrawOrder::file), (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(ordered(DrawOrder::front_to_back), (std::vector<std::uint32_t>{1, 0, 2}));
+  EXPECT_EQ(ordered(DrawOrder::back_to_front), (std::vector<std::uint32_t>{2, 0, 1}));
 }
 
 TEST(DrawState, IsRefusedWithoutADepthBuffer) {

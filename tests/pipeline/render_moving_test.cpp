@@ -100,6 +100,58 @@ TEST(RenderMoving, TheMapIsThatOfTheTimeOfClosing) {
   }
 }
 
+/// N pictures of a scene at rest take N times the fragments of one.
+TEST(RenderMoving, EveryPictureCounts) {
+  MovingScene scene(square(2, 4, 1), {});
+  const auto count = [&](AntialiasMethod method, int n) {
+    return render_moving(scene, window(10, 1), precise(method, n), {0, 1}, true).statistics;
+  };
+  const PipelineStatistics one =
+      render_frame(scene.at(0), window(10, 1), precise(AntialiasMethod::none, 1), true).statistics;
+  for (const AntialiasMethod method : {AntialiasMethod::temporal, AntialiasMethod::taa}) {
+    for (const int n : {1, 2, 5}) {
+      EXPECT_EQ(count(method, n).fragments, n * one.fragments) << n;
+      EXPECT_EQ(count(method, n).depth_passed, n * one.depth_passed) << n;
+      EXPECT_EQ(count(method, n).shaded, n * one.shaded) << n;
+    }
+  }
+  const PipelineStatistics areas = count(AntialiasMethod::temporal_area, 1);
+  EXPECT_EQ(count(AntialiasMethod::temporal_area, 7).shaded, 7 * areas.shaded);
+}
+
+/// Where no picture is asked for none is made; where one is, and nothing is to be averaged, it is
+/// the picture of the end.
+TEST(RenderMoving, MakesPicturesThatAreAskedFor) {
+  MovingScene scene(square(2, 4, 1), to_the_right(3));
+  for (const AntialiasMethod method : {AntialiasMethod::none, AntialiasMethod::area,
+                                       AntialiasMethod::temporal, AntialiasMethod::taa}) {
+    const PipelineFrame without =
+        render_moving(scene, window(10, 1), precise(method, 2), {0, 1}, false);
+    EXPECT_TRUE(without.picture.pixels.empty());
+    EXPECT_NE(without.id[5], no_surface);
+    EXPECT_EQ(without.id[4], no_surface);
+  }
+  const PipelineOptions plain = precise(AntialiasMethod::area, 1);
+  EXPECT_EQ(render_moving(scene, window(10, 1), plain, {0, 1}, true).picture.pixels,
+            render_frame(scene.at(1), window(10, 1), plain, true).picture.pixels);
+}
+
+/// TAA of a scene at rest, in its first pictures: the plain mean of pictures taken elsewhere in the
+/// pixel, so that a pixel of which half is covered is a half on average, at k/N with whole k.
+TEST(RenderMoving, TaaIsTheMeanOfItsFirstPictures) {
+  MovingScene scene(square(2.5, 7, 1), {});
+  for (const int n : {2, 4, 8}) {
+    const ColourImage picture =
+        render_moving(scene, window(10, 1), precise(AntialiasMethod::taa, n), {0, 1}, true,
+                      {true, false, 1.0 / 16})
+            .picture;
+    EXPECT_EQ(picture.at(1, 0)[0], 0);
+    EXPECT_NEAR(picture.at(3, 0)[0], 1, 1e-15);
+    // Places in the pixel are spread evenly: of every two one is on the left.
+    EXPECT_NEAR(picture.at(2, 0)[0], 0.5, 1e-15) << n;
+  }
+}
+
 TEST(RenderMoving, RefusesTimesThatDoNotIncrease) {
   MovingScene scene(square(2, 4, 1), to_the_right(3));
   const PipelineOptions options = precise(AntialiasMethod::temporal, 2);
@@ -165,6 +217,42 @@ TEST(TemporalHistory, FollowsTheMovesAndIsLimitedByItsNeighbours) {
   EXPECT_EQ(second(loose, PixelMoves(81), picture_with(3, 4, 0.5)).at(3, 4)[0], 0.5);
   EXPECT_EQ(second(loose, PixelMoves(81, PixelMove{-4, 0}), picture_with(3, 4, 0.5)).at(3, 4)[0],
             0.5);
+}
+
+/// History ends where the picture does, half a pixel beyond the centres of its outer pixels.
+TEST(TemporalHistory, EndsAtTheBordersOfThePicture) {
+  const ColourImage white{9, 7, std::vector<Colour>(63, Colour{1, 1, 1})};
+  const ColourImage black{9, 7, std::vector<Colour>(63)};
+  const auto after = [&](std::uint32_t x, std::uint32_t y, const PixelMove& move) {
+    TemporalHistory history({true, false, 0.5});
+    history.add(white, {});
+    history.add(black, PixelMoves(63, move));
+    return history.picture().at(x, y)[0];
+  };
+  const double kept = 0.5, gone = 0;
+  EXPECT_EQ(after(8, 3, {0.5, 0}), kept);
+  EXPECT_EQ(after(8, 3, {0.75, 0}), gone);
+  EXPECT_EQ(after(0, 3, {-0.5, 0}), kept);
+  EXPECT_EQ(after(0, 3, {-0.75, 0}), gone);
+  EXPECT_EQ(after(4, 6, {0, 0.5}), kept);
+  EXPECT_EQ(after(4, 6, {0, 0.75}), gone);
+  EXPECT_EQ(after(4, 0, {0, -0.5}), kept);
+  EXPECT_EQ(after(4, 0, {0, -0.75}), gone);
+}
+
+/// Between pixels history is Catmull and Rom's cubic, which gives back any parabola.
+TEST(TemporalHistory, IsInterpolatedByACubic) {
+  ColourImage parabola{9, 7, {}};
+  for (int y = 0; y < 7; ++y)
+    for (int x = 0; x < 9; ++x)
+      parabola.pixels.push_back({x * x / 64.0, y * y / 64.0, x * y / 64.0});
+  TemporalHistory history({true, false, 1.0 / 16});
+  history.add(parabola, {});
+  history.add(ColourImage{9, 7, std::vector<Colour>(63)}, PixelMoves(63, PixelMove{0.25, -0.625}));
+  const Colour& found = history.picture().at(4, 3);
+  EXPECT_NEAR(found[0], 4.25 * 4.25 / 64 / 2, 1e-15);
+  EXPECT_NEAR(found[1], 2.375 * 2.375 / 64 / 2, 1e-15);
+  EXPECT_NEAR(found[2], 4.25 * 2.375 / 64 / 2, 1e-15);
 }
 
 TEST(TemporalHistory, ForgetsByItsWeight) {

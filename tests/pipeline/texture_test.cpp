@@ -43,6 +43,20 @@ double looked_up(const RgbImage& image, TextureFilter filter, const Uv& uv, cons
 
 constexpr double rounded = 1e-14;
 
+/// The coarsest level of a row or a column, odd ones too, is one texel.
+TEST(TextureByHand, LevelsOfRowsAndColumns) {
+  for (const RgbImage& image : {grey(4, {0, 51, 102, 255}), grey(1, {0, 51, 102, 255})}) {
+    for (const TextureFilter filter : {TextureFilter::trilinear, TextureFilter::anisotropic}) {
+      EXPECT_NEAR(looked_up(image, filter, {0.3, 0.7}, {100, 0}, {0, 100}), 0.4, rounded);
+    }
+  }
+  // Of three, the last has no partner and is left out: ⌊3/2⌋ = 1.
+  EXPECT_NEAR(
+      looked_up(grey(3, {0, 51, 255}), TextureFilter::trilinear, {0.5, 0.5}, {9, 0}, {0, 9}), 0.1,
+      rounded);
+  EXPECT_EQ(looked_up(grey(1, {102}), TextureFilter::trilinear, {0.5, 0.5}, {9, 0}, {0, 9}), 0.4);
+}
+
 TEST(TextureByHand, NearestTakesTheTexelThatItIsIn) {
   const auto at = [](double u, double v) {
     return looked_up(two_by_two, TextureFilter::nearest, {u, v});
