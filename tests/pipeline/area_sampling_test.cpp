@@ -139,6 +139,34 @@ TEST(AreaSampling, IsTheExactPictureWhereNothingIsSnapped) {
   EXPECT_GT(several, 100U);  // the scenes are as crowded as they are meant to be
 }
 
+/// A part of a triangle is shaded at its centroid, where an affine colour is its mean over the part.
+TEST(AreaSampling, ShadesAPartAtItsCentroid) {
+  Scene scene;
+  Mesh mesh;
+  // Red is x/8 and green y/8 in pixels; right of x + y/2 = 3.25 it covers everything.
+  for (const auto& [x, y] : {std::pair{3.25, 0.0}, {8.0, 0.0}, {8.0, 6.0}, {0.25, 6.0}}) {
+    mesh.vertices.push_back({x, y, 0.5});
+    mesh.colours.push_back({static_cast<float>(x / 8), static_cast<float>(y / 8), 0, 1});
+  }
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.face_count = 1;
+  scene.meshes.push_back(std::move(mesh));
+  scene.objects.push_back({});
+  PipelineOptions options;
+  options.precision = Precision::binary64;
+  options.shading = Shading::none;
+  options.subpixel_bits = 16;  // for the corners that clipping makes
+  options.antialias.method = AntialiasMethod::area;
+  const ColourImage picture = render_frame(scene, six_pixels(), options, true).picture;
+  // Pixel (5, 1): covered whole by the first triangle.
+  EXPECT_NEAR(picture.at(5, 1)[0], 5.5 / 8, 0x1p-17);
+  EXPECT_NEAR(picture.at(5, 1)[1], 1.5 / 8, 0x1p-17);
+  // Pixel (3, 0): the edge goes from (3.25, 0) to (2.75, 1), through (3, ½). ∫ x and ∫ y over the
+  // part, the pixel less a triangle of area 1/16 with the centroid (3 + 1/12, 1/6).
+  EXPECT_NEAR(picture.at(3, 0)[0], (3.5 - (3 + 1.0 / 12) / 16) / 8, 0x1p-17);
+  EXPECT_NEAR(picture.at(3, 0)[1], (0.5 - 1.0 / 6 / 16) / 8, 0x1p-17);
+}
+
 /// A scissor box cuts the picture and changes nothing else; the rest is background.
 TEST(AreaSampling, ObeysTheScissorBox) {
   PipelineOptions options;

@@ -302,6 +302,11 @@ TEST(Engine, CornersThatAreNoNumbersAreLeftOutAndCounted) {
   const PipelineFrame frame = render_frame(scene, camera_of(32, 32), {}, true);
   EXPECT_EQ(frame.statistics.not_finite, 1u);
   EXPECT_EQ(frame.statistics.drawn, 1u);
+  // Each coordinate by itself, beyond binary32.
+  for (const MeshPoint& beyond : {MeshPoint{1e39, 0, 2}, {0, 1e39, 2}, {0, 0, 1e39}}) {
+    const Scene alone = scene_of({beyond, {1, 0, 2}, {0, 1, 2}}, {{0, 1, 2}});
+    EXPECT_EQ(render_frame(alone, camera_of(32, 32), {}, true).statistics.not_finite, 1u);
+  }
 }
 
 TEST(Engine, CornersAtTheEyeAndBehindItAreClipped) {

@@ -100,6 +100,23 @@ TEST(RenderMoving, TheMapIsThatOfTheTimeOfClosing) {
   }
 }
 
+/// TAA of what does not move is the mean of pictures in which every channel has its share.
+TEST(RenderMoving, TaaAtRestMixesEveryChannelAlike) {
+  Scene scene = square(2.5, 7, 1);
+  scene.meshes[0].colours.assign(4, {1, 0.5F, 0.25F, 1});
+  for (const int n : {1, 2, 3, 16}) {
+    const ColourImage picture =
+        render_frame(scene, window(10, 1), precise(AntialiasMethod::taa, n), true).picture;
+    const Colour edge = picture.at(2, 0);
+    EXPECT_NEAR(edge[0] * n, std::round(edge[0] * n), 1e-14) << n;  // whole pictures see it
+    EXPECT_NEAR(edge[0], 0.5, 0.5 / n + 1e-14) << n;
+    EXPECT_NEAR(edge[1], edge[0] / 2, 1e-15);
+    EXPECT_NEAR(edge[2], edge[0] / 4, 1e-15);
+    EXPECT_NEAR(picture.at(4, 0)[0], 1, 1e-15);
+    EXPECT_NEAR(picture.at(4, 0)[1], 0.5, 1e-15);
+  }
+}
+
 /// N pictures of a scene at rest take N times the fragments of one.
 TEST(RenderMoving, EveryPictureCounts) {
   MovingScene scene(square(2, 4, 1), {});

@@ -109,9 +109,19 @@ TEST(CubicBezier, RefusesWhatHasNoEnd) {
   const CubicBezier curve{{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
   for (const double tolerance : {0.0, -1.0, std::nan(""), 1e-14})
     EXPECT_THROW(flattened(curve, tolerance), UsageError) << tolerance;
-  CubicBezier infinite = curve;
-  infinite.control[1].x = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(flattened(infinite, 0.1), UsageError);
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (const double wrong : {std::numeric_limits<double>::infinity(), std::nan("")}) {
+      CubicBezier in_x = curve, in_y = curve;
+      in_x.control[k].x = wrong;
+      in_y.control[k].y = wrong;
+      EXPECT_THROW(flattened(in_x, 0.1), UsageError);
+      EXPECT_THROW(flattened(in_y, 0.1), UsageError);
+    }
+  }
+  // What is too fine depends on the size of the curve, not on where it lies.
+  CubicBezier far_away = curve;
+  for (PlanePoint& p : far_away.control) p = {p.x + 0x1p20, p.y + 0x1p20};
+  EXPECT_GT(flattened(far_away, 0x1p-30).size(), 1000U);
 }
 
 }  // namespace
