@@ -21,7 +21,7 @@ std::vector<Companion> companions() {
       {"scan", "fathom-textbook", "Rasterize lines, polygons and triangles given as JSON lines"},
       {"pipeline", "fathom-textbook", "Look into the graphics pipeline"},
       {"study", "fathom-study",
-       "Precision of depth buffers, measured: figures, plots and a page that explains them"},
+       "Precision of depth buffers, and what textbooks teach, measured: figures and pages"},
       {"formats", "fathom-formats",
        "Which libraries read meshes of foreign formats (FBX, COLLADA, 3DS, 3MF, …)"},
       {"bench", "fathom-bench", "Time and memory beside VTK, Embree and the reference engine"},

@@ -40,8 +40,10 @@ void PipelineArguments::add_picture_options(Command& command) {
   declared_.push_back(command.option("--background", "R,G,B",
                                      into(stages_.background, parse_colour),
                                      "R,G,B from 0 to 1 (default 0,0,0)"));
-  declared_.push_back(command.option("--shading", "NAME", into(stages_.shading, parse_shading),
-                                     "none, points, wireframe, flat (default), gouraud or phong"));
+  declared_.push_back(command.option(
+      "--shading", "NAME", into(stages_.shading, parse_shading),
+      "none, points, wireframe (lines in the vertices' colours, white without), flat "
+      "(default), gouraud or phong"));
   declared_.push_back(command.option(
       "--light", "WHERE", into(stages_.light, parse_light),
       "Where it comes from: X,Y,Z, a direction in the world; headlight, from the camera; or "
@@ -55,13 +57,13 @@ void PipelineArguments::add_picture_options(Command& command) {
   declared_.push_back(
       command.option("--texture", "NAME", stages_.texture, "checker, or a PNG file"));
   declared_.push_back(
-      command.option("--filter", "NAME", into(stages_.filter, parse_filter),
+      command.option("--filter", "NAME", into(filter_, parse_filter),
                      "Of the texture: nearest, bilinear, trilinear (default) or anisotropic"));
   declared_.push_back(command.option("--interpolation", "NAME",
                                      into(stages_.interpolation, parse_interpolation),
                                      "perspective (default) or affine"));
   declared_.push_back(command.option(
-      "--line", "NAME", into(stages_.wire_line, parse_line),
+      "--line", "NAME", into(line_, parse_line),
       "Of a wireframe: explicit, dda, bresenham (default), midpoint or diamond-exit"));
 }
 
@@ -125,11 +127,21 @@ pipeline::PipelineOptions PipelineArguments::options(Cull cull) const {
   options.early_depth = !no_early_depth_;
   options.draw_order = order_.first;
   options.draw_seed = order_.second;
+  if (line_ && options.shading != pipeline::Shading::wireframe)
+    throw UsageError("--line is for --shading wireframe");
+  options.wire_line = line_.value_or(options.wire_line);
+  if (filter_ && options.texture.empty()) throw UsageError("--filter is for a --texture");
+  options.filter = filter_.value_or(options.filter);
   if (!blend_ && options.blend_depth != pipeline::BlendDepth::off)
     throw UsageError("--blend-depth belongs to --blend");
+  if (!blend_ && opacity_)
+    throw UsageError(
+        "--opacity belongs to --blend; a scene file's \"draw\" makes single objects "
+        "transparent");
   if (!blend_) return options;
-  if (!(opacity_ >= 0 && opacity_ <= 1)) throw UsageError("--opacity: expected 0 to 1");
-  options.blend_alpha = opacity_;
+  options.blend_alpha = opacity_.value_or(0.5);
+  if (!(*options.blend_alpha >= 0 && *options.blend_alpha <= 1))
+    throw UsageError("--opacity: expected 0 to 1");
   return options;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,7 +33,9 @@ class PipelineArguments {
 
   pipeline::PipelineOptions stages_;
   pipeline::SpecularModel highlight_ = pipeline::SpecularModel::blinn;
-  double opacity_ = 0.5;
+  std::optional<double> opacity_;
+  std::optional<pipeline::WireLine> line_;
+  std::optional<pipeline::TextureFilter> filter_;
   std::pair<pipeline::DrawOrder, std::uint64_t> order_{};
   bool blend_ = false, no_blocks_ = false, no_early_depth_ = false;
   std::vector<Option> declared_;

@@ -71,10 +71,17 @@ void start_other_program(const CLI::App& app, const std::vector<std::string>& ar
                        : not_built("'" + *name + "'", companion->program, *name));
 }
 
+/// `help COMMAND`, as many programs have it, is `COMMAND --help`.
+std::vector<std::string> with_help_as_option(std::vector<std::string> arguments) {
+  if (arguments.empty() || arguments[0] != "help") return arguments;
+  arguments.erase(arguments.begin());
+  arguments.emplace_back("--help");
+  return arguments;
+}
+
 }  // namespace
 
-int run_arguments(const std::vector<std::string>& arguments,
-                  const std::vector<AddCommand>& commands,
+int run_arguments(const std::vector<std::string>& given, const std::vector<AddCommand>& commands,
                   const std::vector<Companion>& companions) {
   CLI::App app("Exact depth maps of triangle meshes.", "fathom");
   Console console;
@@ -86,8 +93,9 @@ int run_arguments(const std::vector<std::string>& arguments,
     app.add_subcommand(companion.command, companion.description)->group(companion_heading);
   }
 
-  start_other_program(app, arguments, companions);
-  std::vector<std::string> last_first(arguments.rbegin(), arguments.rend());
+  const std::vector<std::string> asked = with_help_as_option(given);
+  start_other_program(app, asked, companions);
+  std::vector<std::string> last_first(asked.rbegin(), asked.rend());
   try {
     app.parse(std::move(last_first));
   } catch (const CLI::CallForHelp&) {

@@ -52,7 +52,8 @@ double parse_number(const std::string& text) {
 
 std::int64_t parse_whole(const std::string& text) {
   const double x = parse_number(text);
-  if (x != std::floor(x) || std::abs(x) > 1e9) refuse(text, "a whole number");
+  if (x != std::floor(x) || std::abs(x) > 1e9)
+    refuse(text, "a whole number from -1000000000 to 1000000000");
   return static_cast<std::int64_t>(x);
 }
 

@@ -129,7 +129,7 @@ void add_study(Command& program) {
   auto arguments = std::make_shared<StudyArguments>();
   studies::StudyOptions& options = arguments->options;
   Command& command = program.command(
-      "study", "Precision of depth buffers, measured: figures, plots and a page that explains them",
+      "study", "Precision of depth buffers, and what textbooks teach, measured: figures and pages",
       "  fathom study --list\n"
       "  fathom study depth-resolution --near 0.1 --far 1000 --out resolution\n"
       "  fathom study indistinguishable --out reed\n"

@@ -242,6 +242,15 @@ TEST(PipelineCommand, WritesWhatTheDepthBufferHolds) {
           {"--depth-format", "unorm24", "--depth-range", "0.5,0.5"});
   refused(3, "object cube: its 'draw' is for a depth buffer", {"--hidden-surface", "painter"});
   refused(2, "--blend-depth belongs to --blend", {"--blend-depth", "on"});
+  refused(2, "--opacity belongs to --blend", {"--opacity", "0.25"});
+  refused(2, "--line is for --shading wireframe", {"--line", "dda"});
+  refused(2, "--filter is for a --texture", {"--filter", "nearest"});
+  refused(2, "the painter compares no depths",
+          {"--hidden-surface", "painter", "--polygon-offset", "0,1"});
+  refused(2, "the painter has no depth test",
+          {"--hidden-surface", "painter", "--blend", "--blend-depth", "on"});
+  refused(2, "'4000000000' is not a whole number from -1000000000 to 1000000000",
+          {"--viewport", "0,0,4000000000,5"});
   refused(2, "--draw-order", {"--draw-order", "random:x"});
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.exr", "s.json"}));
 }
@@ -250,6 +259,15 @@ TEST(PipelineCommand, StretchedViewportIsAWarning) {
   const TestFolder folder;
   EXPECT_THAT(render(folder, {"--viewport", "0,0,64,24", "-o", "a.exr"}).err,
               HasSubstr("stretched"));
+}
+
+TEST(PipelineCommand, WindowsOutsideTheImageAreAWarning) {
+  const TestFolder folder;
+  const std::string warning = "leave no pixel of the image";
+  EXPECT_THAT(render(folder, {"--viewport", "100,100,64,48", "-o", "a.exr"}).err,
+              HasSubstr(warning));
+  EXPECT_THAT(render(folder, {"--scissor", "500,500,2,2", "-o", "a.exr"}).err, HasSubstr(warning));
+  EXPECT_THAT(render(folder, {"--scissor", "0,0,2,2", "-o", "a.exr"}).err, Not(HasSubstr(warning)));
 }
 
 TEST(PipelineCommand, TexturesThatCannotBeUsed) {
@@ -263,8 +281,8 @@ TEST(PipelineCommand, TexturesThatCannotBeUsed) {
   folder.write("broken.png", "this is no picture");
   folder.write("empty.png", "");
   EXPECT_THAT(refused("missing.png"), HasSubstr("missing.png: does not exist"));
-  EXPECT_THAT(refused("broken.png"), HasSubstr("broken.png: no PNG file"));
-  EXPECT_THAT(refused("empty.png"), HasSubstr("empty.png: "));
+  EXPECT_THAT(refused("broken.png"), HasSubstr("broken.png: is no PNG file"));
+  EXPECT_THAT(refused("empty.png"), HasSubstr("empty.png: is empty, expected a PNG file"));
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"broken.png", "empty.png"}));
 }
 

@@ -69,6 +69,10 @@ int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const 
     console.warn("the viewport's width : height is not the camera's: the picture is stretched");
   }
 
+  if (pipeline::drawable_window(cameras[0], plan.stages).is_empty()) {
+    console.warn("viewport and scissor box leave no pixel of the image: the map is background");
+  }
+
   std::vector<PipelineReport> reports;
   std::vector<Camera> used;
   const Progress progress(console, "rendering");

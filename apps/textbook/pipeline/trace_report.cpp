@@ -70,7 +70,9 @@ std::string as_text(const TriangleTrace& t) {
                         fmt::join(c.eye, ", "), fmt::join(c.clip, ", "));
   }
   if (t.polygon.empty()) return text + "\nclipping: nothing is left in the view volume\n";
-  text += fmt::format("\nclipping, division, viewport: {} corners\n", t.polygon.size());
+  text += fmt::format(
+      "\nclipping, division, viewport: {} corners; the window from its upper left corner, y down\n",
+      t.polygon.size());
   for (const auto& c : t.polygon)
     text += fmt::format("  clip     ({})\n  NDC      ({})\n  window   ({})\n  snapped  ({})\n\n",
                         fmt::join(c.clip, ", "), fmt::join(c.ndc, ", "), fmt::join(c.window, ", "),
@@ -87,10 +89,10 @@ std::string as_text(const TriangleTrace& t) {
                                    : "covered, but outside the viewport or the scissor box",
                       fmt::join(s.edges, ", "), fmt::join(s.weights, ", "));
   text += fmt::format(
-      "  attribute weights    {}\n  window depth         {}\n  depth along the view {}\n"
-      "  stored               {:#x}\n",
-      fmt::join(s.attribute_weights, ", "), s.window_z, s.depth, s.stored.bits);
+      "  attribute weights    {}\n  window depth         {}\n  depth along the view {}\n",
+      fmt::join(s.attribute_weights, ", "), s.window_z, s.depth);
   if (!s.covered) return text;
+  text += fmt::format("  stored               {:#x}\n", s.stored.bits);
   text += fmt::format(
       "  light                {} diffuse, {} specular{}\n  colour               {}\n",
       s.light.diffuse, s.light.specular,

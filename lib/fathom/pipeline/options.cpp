@@ -84,6 +84,11 @@ void require_meaningful(const PipelineOptions& o) {
   if (o.hidden_surface == HiddenSurface::painter && !has_areas)
     throw UsageError(Setting{"hidden_surface"},
                      "painter draws areas; points and wireframe have none");
+  if (o.hidden_surface == HiddenSurface::painter &&
+      (o.polygon_offset.slope_factor != 0 || o.polygon_offset.constant_factor != 0))
+    throw UsageError(Setting{"polygon_offset"}, "the painter compares no depths to be offset");
+  if (o.hidden_surface == HiddenSurface::painter && o.blend_depth != BlendDepth::off)
+    throw UsageError(Setting{"blend_depth"}, "the painter has no depth test");
   require_light(o.light, o.material);
   for (const double component : o.background)
     if (!std::isfinite(component))

@@ -28,9 +28,8 @@ constexpr Word<StencilAction> actions[] = {{"keep", StencilAction::keep},
                                            {"invert", StencilAction::invert}};
 
 template <class Value>
-Value word_of(const JsonValue& value, std::span<const Word<Value>> words) {
+Value word_of(const JsonValue& value, std::span<const Word<Value>> words, std::string known = "") {
   const std::string& text = value.string();
-  std::string known;
   for (const auto& [word, meaning] : words) {
     if (text == word) return meaning;
     known += (known.empty() ? "" : ", ") + std::string(word);
@@ -71,7 +70,7 @@ DrawState read_draw_state(const JsonValue& value) {
       {"depth_test", "depth_write", "colour_write", "polygon_offset", "alpha", "stencil"});
   DrawState s;
   with(value, "depth_test", [&](const JsonValue& v) {
-    if (v.string() != "nearer") s.depth_test = word_of<Comparison>(v, comparisons);
+    if (v.string() != "nearer") s.depth_test = word_of<Comparison>(v, comparisons, "nearer");
   });
   with(value, "depth_write", [&](const JsonValue& v) { s.depth_write = v.boolean(); });
   with(value, "colour_write", [&](const JsonValue& v) { s.colour_write = v.boolean(); });

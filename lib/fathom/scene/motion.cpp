@@ -84,6 +84,19 @@ WorldFromMesh transform_at(const ObjectMotion& motion, double time) {
   return result;
 }
 
+namespace {
+
+/// "; its objects are a, b, c", the first few.
+std::string names_of(const Scene& scene) {
+  constexpr std::size_t most = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, scene.objects.size()); ++i)
+    text += (i == 0 ? "; its objects are " : ", ") + printable(scene.objects[i].name);
+  return text + (scene.objects.size() > most ? ", …" : "");
+}
+
+}  // namespace
+
 MovingScene::MovingScene(Scene scene, Motion motion)
     : scene_(std::move(scene)), motion_(std::move(motion)) {
   require_meaningful(motion_);
@@ -95,7 +108,7 @@ MovingScene::MovingScene(Scene scene, Motion motion)
     }
     if (moved_.size() == before) {
       throw InputError("motion of " + printable(motion_.objects[m].object) +
-                       ": the scene has no object of this name");
+                       ": the scene has no object of this name" + names_of(scene_));
     }
   }
 }

@@ -100,7 +100,8 @@ class SceneReader {
 
   FileFormat recognise(const InputFile& input, const std::filesystem::path& path) const {
     if (input.bytes().empty())
-      throw InputError(path.string() + ": is empty, expected a mesh or a scene file");
+      throw InputError((path == "-" ? "standard input" : path.string()) +
+                       ": is empty, expected a mesh or a scene file");
     if (const auto kind = recognise_format(input.bytes(), path)) return *kind;
     throw InputError(path.string() +
                      ": its format is not recognised, expected OBJ, PLY, STL, OFF, glTF, a scene "

@@ -129,6 +129,20 @@ Colour Texture::sample(const TextureFootprint& f, TextureFilter filter) const {
   }
 }
 
+namespace {
+
+png_const_bytep bytes_of(std::span<const std::byte> bytes) {
+  return reinterpret_cast<png_const_bytep>(bytes.data());
+}
+
+/// Width and height as the header says, which follows the signature; 1×1 where it is cut short.
+std::array<std::uint32_t, 2> stated_size(std::span<const std::byte> bytes) {
+  if (bytes.size() < 24) return {1, 1};
+  return {png_get_uint_32(bytes_of(bytes) + 16), png_get_uint_32(bytes_of(bytes) + 20)};
+}
+
+}  // namespace
+
 RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& name) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
@@ -136,12 +150,16 @@ RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& nam
     png_image_free(&png);
     throw InputError(name + ": " + why);
   };
-  if (!image::chunks_fit(bytes)) fail("no PNG file: a chunk is longer than the file");
+  if (bytes.size() < 8 || png_sig_cmp(bytes_of(bytes), 0, 8) != 0)
+    fail(bytes.empty() ? "is empty, expected a PNG file" : "is no PNG file");
+  if (!image::chunks_fit(bytes)) fail("broken PNG file: a chunk is longer than the file");
+  // Before libpng looks at them, whose message would name no numbers.
+  if (const auto [width, height] = stated_size(bytes);
+      width == 0 || height == 0 || width > greatest_size || height > greatest_size)
+    fail(std::to_string(width) + "x" + std::to_string(height) +
+         " texels; a texture has 1x1 to 8192x8192");
   if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0)
-    fail(std::string("no PNG file: ") + png.message);
-  if (png.width > greatest_size || png.height > greatest_size)
-    fail(std::to_string(png.width) + "x" + std::to_string(png.height) +
-         " texels; the greatest texture is 8192x8192");
+    fail(std::string("broken PNG file: ") + png.message);
   // Deflate makes at most 1032 bytes of one, and a byte holds at most eight texels: a small file does
   // not make us take memory for a large picture that cannot be in it.
   if (std::uint64_t{png.width} * png.height / 8 > 1032 * std::uint64_t{bytes.size()})
