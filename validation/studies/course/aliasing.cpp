@@ -15,12 +15,12 @@ namespace {
 
 using pipeline::PipelineOptions;
 
-constexpr std::uint32_t wheel_size = 96, spokes = 12;
-constexpr double middle = wheel_size / 2.0;
+constexpr std::uint32_t wheel_side = 96, course_spokes = 12;
+constexpr double hub = wheel_side / 2.0;
 
 /// Dark, the first spoke red.
-Scene wheel() {
-  Scene scene = siemens_star(spokes, middle - 2, middle, middle);
+Scene spoked_wheel() {
+  Scene scene = siemens_star(course_spokes, hub - 2, hub, hub);
   Mesh& mesh = scene.meshes[0];
   // The middle belongs to all spokes, so that the red one needs one of its own.
   mesh.vertices.push_back(mesh.vertices[0]);
@@ -38,7 +38,7 @@ StudyFile turning() {
     keyframes += fmt::format(
         "{}\n  {{\"time\": {}, \"transform\": [[{}, {}, 0, {}], [{}, {}, 0, {}], [0, 0, 1, 0]]}}",
         degrees == 0 ? "" : ",", static_cast<double>(degrees) / wheel_degrees, c, -s,
-        middle - c * middle + s * middle, s, c, middle - s * middle - c * middle);
+        hub - c * hub + s * hub, s, c, hub - s * hub - c * hub);
   }
   return {"wheel-motion.json",
           "{\"objects\": [{\"name\": \"wheel\", \"keyframes\": [" + keyframes + "]}]}\n"};
@@ -77,7 +77,7 @@ RgbImage curve_picture(std::uint32_t size) {
 }
 
 SceneFiles wheel_files() {
-  SceneFiles result = scene_files("wheel", wheel(), window_camera(wheel_size, wheel_size));
+  SceneFiles result = scene_files("wheel", spoked_wheel(), window_camera(wheel_side, wheel_side));
   result.files.push_back(turning());
   return result;
 }

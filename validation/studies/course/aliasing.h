@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "validation/studies/course/scene_files.h"
+#include "validation/studies/scene_files.h"
 
 /// Too few samples in space, and in time.
 namespace fathom::studies {

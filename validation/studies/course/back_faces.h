@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "validation/studies/course/scene_files.h"
+#include "validation/studies/scene_files.h"
 
 /// Which side of a triangle is seen.
 namespace fathom::studies {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/studies/course/scene_files.h"
+#include "validation/studies/scene_files.h"
 
 /// The z-buffer as the textbooks show it: two overlapping triangles, and its numbers.
 namespace fathom::studies {

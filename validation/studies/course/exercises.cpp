@@ -62,7 +62,7 @@ constexpr std::array<std::array<double, 2>, 3> half_plane{
     {{-100.3, -10.7}, {140.2, 61.4}, {-200, 180}}};
 constexpr std::uint32_t half_plane_size = 64;
 
-constexpr double separation = 0.0001;
+constexpr double apart = 0.0001;
 
 }  // namespace
 
@@ -107,7 +107,7 @@ RgbImage edge_function_signs() {
 SceneFiles fight_files(double distance) {
   const double d = distance, s = distance / 3;
   std::vector<MeshPoint> corners;
-  for (const double behind : {0.0, separation})
+  for (const double behind : {0.0, apart})
     for (const auto& [x, y, z] : {std::array{-s, -s, d}, std::array{s, -s, d * 1.2},
                                   std::array{s, s, d * 1.4}, std::array{-s, s, d * 1.2}})
       // Along the view: the same image, a depth more.
@@ -137,7 +137,7 @@ Fight fight(double distance, Storage storage) {
 }
 
 double steps_of_unorm16() {
-  return separation * 65535;
+  return apart * 65535;
 }
 
 SceneFiles checkerboard_files() {

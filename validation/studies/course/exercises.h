@@ -3,7 +3,7 @@
 #include <array>
 
 #include "fathom/depth_format/depth_format.h"
-#include "validation/studies/course/scene_files.h"
+#include "validation/studies/scene_files.h"
 
 /// The exercises of the textbooks, a function each: pictures and figures.
 namespace fathom::studies {

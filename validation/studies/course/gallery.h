@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/studies/course/scene_files.h"
+#include "validation/studies/scene_files.h"
 
 /// Meshes in every shading.
 namespace fathom::studies {

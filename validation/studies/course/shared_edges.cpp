@@ -56,7 +56,7 @@ struct Covered {
   bool turned = false;
 };
 
-constexpr std::int64_t side = pixels * looks;
+constexpr std::int64_t samples_across = pixels * looks;
 
 /// Adds a triangle to the samples that it covers.
 void add(std::vector<Covered>& samples, const GridTriangle& triangle,
@@ -65,10 +65,10 @@ void add(std::vector<Covered>& samples, const GridTriangle& triangle,
   const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
   const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
   const bool turned = !triangle.counter_clockwise();
-  for (std::int64_t y = top / step; y <= std::min(bottom / step, side - 1); ++y) {
-    for (std::int64_t x = left / step; x <= std::min(right / step, side - 1); ++x) {
+  for (std::int64_t y = top / step; y <= std::min(bottom / step, samples_across - 1); ++y) {
+    for (std::int64_t x = left / step; x <= std::min(right / step, samples_across - 1); ++x) {
       if (!triangle.covers({x * step + step / 2, y * step + step / 2})) continue;
-      Covered& sample = samples[static_cast<std::size_t>(y * side + x)];
+      Covered& sample = samples[static_cast<std::size_t>(y * samples_across + x)];
       ++sample.all;
       sample.by_sign += turned ? -1 : 1;
       sample.turned = sample.turned || turned;
@@ -80,7 +80,7 @@ void add(std::vector<Covered>& samples, const GridTriangle& triangle,
 
 SharedEdges count_shared_edges(int bits) {
   SharedEdges result{bits};
-  std::vector<Covered> samples(static_cast<std::size_t>(side * side));
+  std::vector<Covered> samples(static_cast<std::size_t>(samples_across * samples_across));
   for (const auto& corners : snapped_triangles(bits)) {
     ++result.triangles;
     const auto triangle = GridTriangle::of(corners);
@@ -124,7 +124,8 @@ SceneFiles shared_edges_files(int bits) {
   };
   add_those(true);
   add_those(false);
-  return scene_files("shared-edges-" + std::to_string(bits), scene, window_camera(side, side));
+  return scene_files("shared-edges-" + std::to_string(bits), scene,
+                     window_camera(samples_across, samples_across));
 }
 
 RgbImage shared_edges_picture(int bits) {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "validation/studies/course/scene_files.h"
+#include "validation/studies/scene_files.h"
 
 namespace fathom::studies {
 

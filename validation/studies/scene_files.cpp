@@ -1,4 +1,4 @@
-#include "validation/studies/course/scene_files.h"
+#include "validation/studies/scene_files.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// The commands of the course's page, run as its readers run them: each has to draw the page's pictures.
+// The commands of the pages, run as their readers run them: they have to draw the pages' pictures.
 
 #include <gtest/gtest.h>
 
@@ -49,34 +49,42 @@ Outcome run_by_shell(const std::string& command, const fs::path& folder) {
   return run({"sh", "-e", "-c", command}, options);
 }
 
-TEST(CourseCommands, DrawThePagesPictures) {
+/// The pictures go; what is there afterwards is what the commands have drawn.
+/// `others` are those that no command draws.
+void expect_pictures_by_commands(const std::string& study, std::size_t least_commands,
+                                 const std::set<std::string>& others) {
   const TestFolder folder;
-  ASSERT_EQ(run_fathom({"study", "course", "--out", "course"}, {.folder = folder.path()}).status,
-            0);
-  const fs::path course = folder.path() / "course", shown = folder.path() / "shown";
-  const std::string page = folder.read("course/index.html");
-
-  // The pictures go; what is there afterwards is what the commands have drawn.
+  const Outcome made = run_fathom({"study", study, "--out", "made"}, {.folder = folder.path()});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const fs::path beside = folder.path() / "made", shown = folder.path() / "shown";
+  const std::string page = folder.read("made/index.html");
   fs::create_directory(shown);
   std::set<std::string> pictures;
   for (const std::string& picture : texts_between(page, "<img src=\"", "\"")) {
-    fs::rename(course / picture, shown / picture);
+    fs::rename(beside / picture, shown / picture);
     pictures.insert(picture);
   }
   const std::vector<std::string> commands = texts_between(page, "<code>", "</code>");
-  EXPECT_GE(commands.size(), 25U);
+  EXPECT_GE(commands.size(), least_commands);
   for (const std::string& command : commands) {
-    const Outcome outcome = run_by_shell(unescaped(command), course);
+    const Outcome outcome = run_by_shell(unescaped(command), beside);
     EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.err;
   }
-  // Drawn by exact arithmetic and by the exact engine, as their captions say.
-  const std::set<std::string> others{"exercise-2.png", "exercise-6-exact.png"};
   for (const std::string& picture : pictures) {
-    EXPECT_EQ(fs::exists(course / picture), !others.contains(picture)) << picture;
-    if (fs::exists(course / picture)) {
-      EXPECT_TRUE(folder.read("course/" + picture) == folder.read("shown/" + picture)) << picture;
+    EXPECT_EQ(fs::exists(beside / picture), !others.contains(picture)) << picture;
+    if (fs::exists(beside / picture)) {
+      EXPECT_TRUE(folder.read("made/" + picture) == folder.read("shown/" + picture)) << picture;
     }
   }
+}
+
+// Two are drawn by exact arithmetic and by the exact engine, as their captions say.
+TEST(PageCommands, DrawThePicturesOfTheCourse) {
+  expect_pictures_by_commands("course", 25, {"exercise-2.png", "exercise-6-exact.png"});
+}
+
+TEST(PageCommands, DrawThePicturesOfHiddenSurfaces) {
+  expect_pictures_by_commands("hidden-surface", 1, {"cost.png"});
 }
 
 }  // namespace
