@@ -18,9 +18,10 @@ namespace fs = std::filesystem;
 
 std::string unescaped(std::string text) {
   const std::pair<std::string, std::string> characters[] = {
-      {"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}};
+      {"<span>", ""}, {"</span>", ""}, {"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}};
   for (const auto& [from, to] : characters) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + 1))
+    for (std::size_t at = text.find(from); at != std::string::npos;
+         at = text.find(from, at + to.size()))
       text.replace(at, from.size(), to);
   }
   return text;

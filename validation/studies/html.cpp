@@ -1,5 +1,7 @@
 #include "validation/studies/html.h"
 
+#include <sstream>
+
 namespace fathom::studies {
 namespace {
 
@@ -7,18 +9,24 @@ std::string element(const std::string& tag, const std::string& text) {
   return "<" + tag + ">" + escaped_html(text) + "</" + tag + ">";
 }
 
+/// Words of code are not broken at their hyphens.
+std::string code(const std::string& escaped) {
+  std::istringstream words(escaped);
+  std::string result;
+  for (std::string word; words >> word;) {
+    result += result.empty() ? "" : " ";
+    result += word.find('-') == std::string::npos ? word : "<span>" + word + "</span>";
+  }
+  return "<code>" + result + "</code>";
+}
+
 /// What is between a pair of ` becomes code.
 std::string with_code(const std::string& escaped) {
+  std::istringstream parts(escaped);
   std::string result;
   bool is_code = false;
-  for (const char c : escaped) {
-    if (c != '`') {
-      result += c;
-    } else {
-      result += is_code ? "</code>" : "<code>";
-      is_code = !is_code;
-    }
-  }
+  for (std::string part; std::getline(parts, part, '`'); is_code = !is_code)
+    result += is_code ? code(part) : part;
   return result;
 }
 
@@ -91,7 +99,7 @@ std::string html_document(const std::string& title, const std::string& body) {
          ".small img,.row img{image-rendering:pixelated;outline:1px solid #ccc}.small "
          "figcaption{max-width:24em}"
          ".row{clear:both}.row figcaption{max-width:56em}"
-         "code{font-size:95%;overflow-wrap:anywhere;background:#f3f3f3}"
+         "code{font-size:95%;background:#f3f3f3}code span{white-space:nowrap}"
          "figcaption{color:#444;font-size:90%;padding-top:0.3em}"
          "table{border-collapse:collapse}td,th{border:1px solid #888;padding:0.2em 0.6em;"
          "text-align:right}td:not(:first-child){white-space:nowrap}td:first-child,th:first-child{"

@@ -136,8 +136,8 @@ std::vector<CubicBezier> heart() {
           {{{{0.07, 0.42}, {0.02, 0.0}, {0.45, 0.02}, {0.5, 0.28}}}}};
 }
 
-Scene heart_scene(std::uint32_t size) {
-  return tessellated(polygon_of(scaled(heart(), size), tolerance));
+Scene heart_scene(std::uint32_t size, double within) {
+  return tessellated(polygon_of(scaled(heart(), size), within));
 }
 
 ColourImage outline_areas(const std::vector<CubicBezier>& outline, std::uint32_t size) {

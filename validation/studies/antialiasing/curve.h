@@ -12,9 +12,9 @@ namespace fathom::studies {
 /// A heart in the unit square, of four curves; it runs clockwise as seen with y down.
 std::vector<pipeline::CubicBezier> heart();
 
-/// The heart in `size` by `size` pixels, for window_camera(): chords that keep within a tenth of a
-/// pixel, as triangles.
-Scene heart_scene(std::uint32_t size);
+/// The heart in `size` by `size` pixels, for window_camera(): as triangles, of chords that keep
+/// `within` so much of a pixel.
+Scene heart_scene(std::uint32_t size, double within);
 
 /// How much of each pixel lies inside of an outline, `size` by `size` pixels.
 /// Computed from chords that are at most 10⁻⁶ of a pixel away from the curves, by adding up, for each

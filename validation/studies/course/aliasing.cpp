@@ -65,7 +65,7 @@ MovingWheel moving_wheel() {
 }  // namespace
 
 SceneFiles curve_files(std::uint32_t size) {
-  Scene scene = heart_scene(size);
+  Scene scene = heart_scene(size, 0.01);
   scene.meshes[0].colours.assign(scene.meshes[0].vertices.size(), {0.16F, 0.31F, 0.63F, 1});
   return scene_files("curve-" + std::to_string(size), scene, window_camera(size, size));
 }

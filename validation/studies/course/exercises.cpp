@@ -15,7 +15,6 @@
 namespace fathom::studies {
 namespace {
 
-using pipeline::Exact;
 using pipeline::PipelineFrame;
 using pipeline::PipelineOptions;
 
@@ -90,15 +89,15 @@ RgbImage eight_lines(pipeline::WireLine algorithm) {
   return pipeline_picture(eight_lines_files().view, options);
 }
 
+// In binary64, where these are exact: halves of whole numbers below 2^18.
 RgbImage edge_function_signs() {
   RgbImage image(256, 256);
-  const auto triangle = pipeline::edge_functions<Exact>(
-      {{{Exact(50), Exact(20)}, {Exact(200), Exact(150)}, {Exact(30), Exact(180)}}});
+  const auto triangle = pipeline::edge_functions<double>({{{50, 20}, {200, 150}, {30, 180}}});
   for (std::uint32_t y = 0; y < 256; ++y)
     for (std::uint32_t x = 0; x < 256; ++x)
       for (std::size_t k = 0; k < 3; ++k) {
-        const Exact e =
-            triangle->edges[k].at(pipeline::centre_of<Exact>(x), pipeline::centre_of<Exact>(y));
+        const double e =
+            triangle->edges[k].at(pipeline::centre_of<double>(x), pipeline::centre_of<double>(y));
         image.at(x, y)[k] = e > 0 ? 230 : e < 0 ? 50 : 255;
       }
   return image;
