@@ -310,7 +310,7 @@ TEST(Course, WhatThePageSaysOfTheWheel) {
 // A pixel that lies wholly inside or outside of the curve has its colour, or none.
 TEST(Course, TheCurveIsDrawnWhereItsAreaIs) {
   for (const std::uint32_t size : {48U, 384U}) {
-    const RgbImage picture = curve_picture(size);
+    const RgbImage picture = curve_at(size).picture;
     std::vector<pipeline::CubicBezier> outline;
     for (const pipeline::CubicBezier& curve : heart()) outline.push_back(curve.scaled(size));
     const pipeline::ColourImage areas = outline_areas(outline, size);

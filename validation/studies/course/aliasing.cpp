@@ -64,16 +64,15 @@ MovingWheel moving_wheel() {
 
 }  // namespace
 
-SceneFiles curve_files(std::uint32_t size) {
-  Scene scene = heart_scene(size, 0.01);
+DrawnCurve curve_at(std::uint32_t size) {
+  Scene scene = heart_scene(size, 0.025);
   scene.meshes[0].colours.assign(scene.meshes[0].vertices.size(), {0.16F, 0.31F, 0.63F, 1});
-  return scene_files("curve-" + std::to_string(size), scene, window_camera(size, size));
-}
-
-RgbImage curve_picture(std::uint32_t size) {
+  DrawnCurve result{scene_files("curve-" + std::to_string(size), scene, window_camera(size, size)),
+                    {}};
   PipelineOptions options = flat_colours();
   options.background = {1, 1, 1};
-  return pipeline_picture(curve_files(size).view, options);
+  result.picture = pipeline_picture(result.files.view, options);
+  return result;
 }
 
 SceneFiles wheel_files() {

@@ -7,10 +7,13 @@
 /// Too few samples in space, and in time.
 namespace fathom::studies {
 
-/// The outline of antialiasing/curve.h, evaluated for so many pixels: curve-48.obj.
-SceneFiles curve_files(std::uint32_t size);
-/// As the pipeline draws it, one sample at each pixel's centre.
-RgbImage curve_picture(std::uint32_t size);
+/// The outline of antialiasing/curve.h, evaluated for so many pixels: curve-48.obj; and as the
+/// pipeline draws it, one sample at each pixel's centre.
+struct DrawnCurve {
+  SceneFiles files;
+  RgbImage picture;
+};
+DrawnCurve curve_at(std::uint32_t size);
 
 inline constexpr int wheel_pictures = 8;
 /// From one picture to the next; almost 30, the distance of two spokes.

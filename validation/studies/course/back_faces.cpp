@@ -44,9 +44,9 @@ FacingCount facings(double distance, pipeline::Precision precision) {
   PipelineOptions options;
   options.precision = precision;
   options.shading = pipeline::Shading::none;
-  Camera camera = front_camera(320, 240, distance - 1.01, distance + 1.01);
+  Camera camera = front_camera(80, 60, distance - 1.01, distance + 1.01);
   // So narrow that the ball fills the picture and nothing of it is clipped.
-  camera.fx = camera.fy = 118 * std::sqrt(distance * distance - 1);
+  camera.fx = camera.fy = 29.5 * std::sqrt(distance * distance - 1);
   const auto s = render_frame(ball(90, 180, distance), camera, options, false).statistics;
   return {distance,
           precision,

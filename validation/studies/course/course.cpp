@@ -238,8 +238,9 @@ void tables(Results& results) {
 
 void curves_and_time(Results& results) {
   for (const std::uint32_t size : {48U, 384U}) {
-    add(results, curve_files(size));
-    show(results, "curve-" + std::to_string(size), curve_picture(size), 384 / size);
+    const DrawnCurve curve = curve_at(size);
+    add(results, curve.files);
+    show(results, "curve-" + std::to_string(size), curve.picture, 384 / size);
   }
   add(results, wheel_files());
   const auto show_all = [&](const std::string& name, const std::vector<RgbImage>& pictures) {
