@@ -10,6 +10,7 @@
 
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"
+#include "tests/effort.h"
 
 namespace fathom::test {
 namespace {
@@ -81,6 +82,7 @@ void expect_pictures_by_commands(const std::string& study, std::size_t least_com
 
 // Two are drawn by exact arithmetic and by the exact engine, as their captions say.
 TEST(PageCommands, DrawThePicturesOfTheCourse) {
+  if (testing::effort > 1) GTEST_SKIP() << "some sixty renderings, each by a program of its own";
   expect_pictures_by_commands("course", 25, {"exercise-2.png", "exercise-6-exact.png"});
 }
 
