@@ -104,7 +104,8 @@ std::string html_document(const std::string& title, const std::string& body) {
          "table{border-collapse:collapse}td,th{border:1px solid #888;padding:0.2em 0.6em;"
          "text-align:right}td:not(:first-child){white-space:nowrap}td:first-child,th:first-child{"
          "text-align:left}"
-         "img{max-width:100%}</style></head>\n<body>\n" +
+         "img{max-width:100%}@media(max-width:30em){td,th{padding:0.2em "
+         "0.3em}}</style></head>\n<body>\n" +
          body + "</body></html>\n";
 }
 
