@@ -2,13 +2,75 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include "fathom/pipeline/rasterization/grid_samples.h"
+#include "fathom/pipeline/render_pipeline.h"
+#include "fathom/pipeline/scan/line.h"
+#include "fathom/render.h"
+#include "fathom/scene/motion.h"
+#include "validation/studies/antialiasing/curve.h"
+#include "validation/studies/antialiasing/temporal.h"
+#include "validation/studies/course/aliasing.h"
 #include "validation/studies/course/back_faces.h"
 #include "validation/studies/course/demo.h"
 #include "validation/studies/course/exercises.h"
+#include "validation/studies/course/gallery.h"
 #include "validation/studies/course/shared_edges.h"
+#include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
 namespace {
+
+constexpr Rgb white{255, 255, 255};
+
+std::size_t different_pixels(const RgbImage& a, const RgbImage& b) {
+  if (a.width != b.width || a.height != b.height) return a.pixels.size() + 1;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i];
+  return count;
+}
+
+// What the scan converter by itself gives; later lines are hidden at the middle.
+TEST(Course, EightLinesAreThoseOfTheScanConverterByEveryAlgorithm) {
+  using enum pipeline::WireLine;
+  const RgbImage picture = eight_lines(bresenham);
+  RgbImage lines(65, 65, white);
+  for (int k = 7; k >= 0; --k) {
+    const double angle = k * std::numbers::pi / 4;
+    const auto share = static_cast<float>(k) / 8;
+    const auto byte = [](float x) { return static_cast<std::uint8_t>(std::lround(255 * x)); };
+    pipeline::bresenham_line(
+        {32, 32, 32 + std::lround(30 * std::cos(angle)), 32 - std::lround(30 * std::sin(angle))},
+        {0, 0, 65, 65}, [&](const pipeline::Pixel& p, std::int64_t) {
+          lines.at(static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y)) = {
+              byte(share), 0, byte(1 - share)};
+        });
+  }
+  EXPECT_EQ(different_pixels(picture, lines), 0u);
+  for (const auto algorithm : {explicit_equation, dda, midpoint})
+    EXPECT_EQ(different_pixels(eight_lines(algorithm), picture), 0u);
+}
+
+TEST(Course, EdgeFunctionsArePositiveWhereThePipelineDraws) {
+  const RgbImage signs = edge_function_signs();
+  pipeline::PipelineOptions options = precise_options();
+  const auto id =
+      render_frame(scene_of({{50, 20, 0.5}, {200, 150, 0.5}, {30, 180, 0.5}}, {{0, 1, 2}}),
+                   window_camera(256, 256), options, false)
+          .id;
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    const bool positive = std::ranges::all_of(signs.pixels[i], [](int c) { return c == 230; });
+    EXPECT_EQ(positive, id[i] != no_surface) << i;
+    inside += positive;
+  }
+  EXPECT_NEAR(static_cast<double>(inside), 26600 / 2.0, 100);
+}
 
 TEST(Course, TablesAreThoseOfTheSource) {
   const Tables t = z_buffer_tables();
@@ -55,6 +117,52 @@ TEST(Course, DemoCountsAddUp) {
   EXPECT_EQ(d.far_closed, 16970u);
 }
 
+// The page says so: its picture is the pipeline's, and so are its numbers.
+TEST(Course, ThePictureOfTheTablesIsTheirColours) {
+  const RgbImage picture = z_buffer_picture();
+  const Tables t = z_buffer_tables();
+  for (std::uint32_t y = 0; y < 9; ++y) {
+    for (std::uint32_t x = 0; x < 12; ++x) {
+      const char colour = t.black_then_grey.colours[y][2 * x];
+      const int grey = colour == 'W' ? 255 : colour == 'G' ? 128 : 0;
+      EXPECT_EQ(picture.at(x, y)[0], grey) << x << " " << y;
+    }
+  }
+}
+
+// The share of a pixel's samples, asked one by one, against what the pipeline resolves.
+TEST(Course, PicturesOfAnEdgeAreTheShareOfCoveredSamples) {
+  const PartialPixels p = partial_pixels();
+  EXPECT_EQ(p.counted, (std::array<std::size_t, 4>{0, 20, 45, 58}));
+  EXPECT_EQ(p.exact, 83u);
+  const SceneView view = half_plane_files().view;
+  std::array<pipeline::GridPoint, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const MeshPoint& corner = view.scene.meshes[0].vertices[k];
+    corners[k] = pipeline::snap(corner.x, corner.y, 16);
+  }
+  const auto triangle = pipeline::GridTriangle::of(corners);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto pattern = pipeline::GridSamples::of(sample_pattern(std::to_string(1 << i)));
+    for (std::uint32_t y = 0; y < 64; ++y) {
+      for (std::uint32_t x = 0; x < 64; ++x) {
+        int covered = 0;
+        for (std::size_t k = 0; k < pattern.size(); ++k) {
+          const pipeline::GridPoint d = pattern.at({x, y}, k);
+          covered += triangle->covers(pipeline::sample_of({x, y}, d.x, d.y));
+        }
+        ASSERT_EQ(p.pictures[i].at(x, y)[0], std::lround(255.0 * covered / (1 << i)))
+            << x << " " << y << " " << (1 << i);
+      }
+    }
+  }
+  // Channel A of the command that the page names.
+  const DepthMap map = render(view.scene, view.camera, {.channels = {Channel::A}});
+  const auto& area = *map.values<float>("A");
+  for (std::size_t k = 0; k < area.size(); ++k)
+    ASSERT_EQ(p.exact_picture.pixels[k][0], std::lround(255 * static_cast<double>(area[k])));
+}
+
 TEST(Course, MoreSamplesFindMoreOfTheCutPixels) {
   const PartialPixels p = partial_pixels();
   EXPECT_EQ(p.counted[0], 0u);
@@ -77,6 +185,25 @@ TEST(Course, AffineTextureCoordinatesAreWrongAndPerspectiveOnesAreNot) {
 TEST(Course, SixteenBitsFightAndFartherSurfacesFightMore) {
   EXPECT_LT(fight(0.5, Storage::float32).wrong_share, 0.01);
   EXPECT_GT(fight(10, Storage::unorm16).wrong_share, 0.2);
+  // "A buffer of unorm32 is no better."
+  for (const double distance : {0.5, 2.0, 10.0, 50.0})
+    EXPECT_EQ(fight(distance, Storage::unorm32).wrong_share,
+              fight(distance, Storage::float32).wrong_share);
+  EXPECT_NEAR(steps_of_unorm16(), 6.55, 0.005);
+}
+
+// Red where the surface behind wins, white where the one in front does, and nothing else.
+TEST(Course, PicturesOfFightsShowTheirShare) {
+  const Fight f = fight(10, Storage::float32);
+  std::size_t red = 0, front = 0;
+  for (const Rgb& pixel : f.picture.pixels) {
+    // 0.1 lies halfway between two codes: interpolation rounds it either way.
+    const bool is_red = pixel[0] == 204 && pixel[1] + 1 >= 26 && pixel[1] <= 26;
+    red += is_red;
+    front += pixel == white;
+    EXPECT_TRUE(is_red || pixel == white || pixel == Rgb{});
+  }
+  EXPECT_EQ(static_cast<double>(red) / static_cast<double>(red + front), f.wrong_share);
 }
 
 TEST(Course, BallsShowWhatGeometrySays) {
@@ -86,10 +213,7 @@ TEST(Course, BallsShowWhatGeometrySays) {
     // some 200 of them.
     const auto n = static_cast<double>(f.triangles);
     EXPECT_NEAR(static_cast<double>(f.front_in_window) / n, f.seen_share, 0.01) << f.distance;
-    EXPECT_LE(f.disagreeing, 100u);
-    if (f.precision == pipeline::Precision::binary64) {
-      EXPECT_EQ(f.disagreeing, 0u);
-    }
+    EXPECT_EQ(f.disagreeing, 0u);  // the page says so
   }
 }
 
@@ -102,6 +226,144 @@ TEST(Course, SharedEdgesAreCoveredOnceAndFlipsExplainTheRest) {
     turned += e.turned_over;
   }
   EXPECT_GT(turned, 0u);
+}
+
+TEST(Course, ThePipelineDrawsTheMeshOfSharedEdges) {
+  for (const int bits : {0, 2, 8}) {
+    const SharedEdges counted = count_shared_edges(bits);
+    const SceneView view = shared_edges_files(bits).view;
+    const auto frame = render_frame(view.scene, view.camera, precise_options(), false);
+    EXPECT_EQ(frame.statistics.fragments, counted.covers) << bits;
+    const RgbImage picture = shared_edges_picture(bits);
+    ASSERT_EQ(picture.pixels.size(), counted.samples);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+      const Rgb& colour = picture.pixels[i];
+      EXPECT_EQ(colour[0] > colour[2], counted.covered_by_turned[i]) << bits << " " << i;
+      EXPECT_NE(colour, Rgb{}) << "not covered: " << i;
+    }
+  }
+}
+
+/// What a place of the wheel shows by its definition, `degrees` turned: 0 outside and between spokes,
+/// 1 on a spoke, 2 on the red one; nothing where an edge is near.
+std::optional<int> wheel_by_definition(double dx, double dy, double degrees) {
+  const double radius = std::hypot(dx, dy), spoke = 2 * std::numbers::pi / 12;
+  double angle = std::fmod(std::atan2(dy, dx) - degrees * std::numbers::pi / 180, 24 * spoke);
+  if (angle < 0) angle += 24 * spoke;
+  const double place = std::fmod(angle / spoke, 12);
+  const double part = place - std::floor(place);
+  for (const double edge : {0.1, 0.6})
+    if (std::abs(part - edge) * spoke * radius < 0.05) return std::nullopt;
+  // A spoke ends at a chord, from 0.1 to 0.6 of its twelfth.
+  const double end = 46 * std::cos(0.25 * spoke) / std::cos((part - 0.35) * spoke);
+  if (part > 0.1 && part < 0.6 && std::abs(radius - end) < 0.05) return std::nullopt;
+  if (radius > end || part < 0.1 || part > 0.6) return 0;
+  return place < 1 ? 2 : 1;
+}
+
+TEST(Course, TheWheelIsTurnedByItsMotion) {
+  const std::vector<RgbImage> pictures = wheel_at_instants();
+  ASSERT_EQ(pictures.size(), std::size_t{wheel_pictures});
+  for (std::size_t time = 0; time < pictures.size(); ++time) {
+    std::size_t asked = 0;
+    for (std::uint32_t y = 0; y < 96; ++y) {
+      for (std::uint32_t x = 0; x < 96; ++x) {
+        const auto known = wheel_by_definition(x + 0.5 - 48, y + 0.5 - 48,
+                                               wheel_degrees * static_cast<double>(time));
+        if (!known) continue;
+        ++asked;
+        const Rgb& colour = pictures[time].at(x, y);
+        const int seen = colour[0] > 220 ? 0 : colour[0] == colour[2] ? 1 : 2;
+        ASSERT_EQ(seen, *known) << time << ": " << x << " " << y;
+      }
+    }
+    EXPECT_GT(asked, 96u * 96 * 9 / 10);
+  }
+}
+
+// The mean of sixteen pictures of the pipeline, at the middles of the parts of the time.
+TEST(Course, TheOpenShutterAveragesInstants) {
+  const SceneFiles files = wheel_files();
+  MovingScene scene(files.view.scene,
+                    read_motion(files.files.back().content, files.files.back().name));
+  pipeline::PipelineOptions options;
+  options.shading = pipeline::Shading::none;
+  options.background = {0.92, 0.92, 0.92};
+  std::vector<double> sums(std::size_t{96} * 96);
+  for (int i = 0; i < 16; ++i) {
+    const auto picture =
+        render_frame(scene.at(3 + (i + 0.5) / 16), files.view.camera, options, true).picture;
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += picture.pixels[k][1] / 16;
+  }
+  const std::vector<RgbImage> blurred = wheel_with_open_shutter();
+  ASSERT_EQ(blurred.size(), std::size_t{wheel_pictures});
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    EXPECT_NEAR(blurred[3].pixels[k][1], 255 * sums[k], 0.5 + 1e-6);
+}
+
+TEST(Course, WhatThePageSaysOfTheWheel) {
+  const WheelSeen seen = wheel_seen(wheel_degrees);
+  EXPECT_NEAR(seen.apparent, -3, 0.05);
+  EXPECT_NEAR(seen.contrast, seen.sinc, 0.005);
+}
+
+// A pixel that lies wholly inside or outside of the curve has its colour, or none.
+TEST(Course, TheCurveIsDrawnWhereItsAreaIs) {
+  for (const std::uint32_t size : {48U, 384U}) {
+    const RgbImage picture = curve_at(size).picture;
+    std::vector<pipeline::CubicBezier> outline;
+    for (const pipeline::CubicBezier& curve : heart()) outline.push_back(curve.scaled(size));
+    const pipeline::ColourImage areas = outline_areas(outline, size);
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+      const double area = areas.pixels[i][0];
+      if (area < 1e-6) {
+        EXPECT_EQ(picture.pixels[i], white) << size << " " << i;
+      }
+      if (area > 1 - 1e-6) {
+        EXPECT_EQ(picture.pixels[i], (Rgb{41, 79, 161})) << size << " " << i;
+        ++inside;
+      }
+    }
+    EXPECT_GT(inside, picture.pixels.size() / 3);
+  }
+}
+
+// What the page draws is what its files say, number for number.
+TEST(Course, FilesHoldTheSceneThatIsDrawn) {
+  Scene scene =
+      scene_of({{0.1, 1.0 / 3, -0.0}, {1e-300, 2e22, 5}, {7, 8, 9}}, {{0, 1, 2}, {2, 1, 0}});
+  Mesh& mesh = scene.meshes[0];
+  mesh.colours = {{0.1F, 1.0F / 3, 1, 1}, {0, 0.7F, 0.2F, 1}, {1, 1, 1, 1}};
+  mesh.texture_coordinates = {{0.1, 0.2}, {1.0 / 3, 0}, {1, 1}};
+  mesh.lines = {{0, 2}};
+  const SceneFiles files = scene_files("name", scene, front_camera(3, 4, 0.1, 1.0 / 3));
+  const Mesh& read = files.view.scene.meshes.at(0);
+  ASSERT_EQ(read.vertices.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(read.vertices[i].x, mesh.vertices[i].x);
+    EXPECT_EQ(read.vertices[i].y, mesh.vertices[i].y);
+    EXPECT_EQ(read.vertices[i].z, mesh.vertices[i].z);
+  }
+  EXPECT_EQ(read.triangles, mesh.triangles);
+  EXPECT_EQ(read.colours, mesh.colours);
+  EXPECT_EQ(read.texture_coordinates, mesh.texture_coordinates);
+  EXPECT_EQ(read.lines, mesh.lines);
+  EXPECT_EQ(files.view.scene.objects.at(0).name, "name");
+  EXPECT_EQ(files.view.camera.near, 0.1);
+  EXPECT_EQ(files.view.camera.far, 1.0 / 3);
+}
+
+TEST(Course, TheTeapotOfTheGalleryHasNoPointTwice) {
+  const std::vector<GalleryMesh> meshes = gallery_meshes();
+  ASSERT_EQ(meshes.size(), 4u);
+  const Mesh& teapot = meshes[3].view.scene.meshes.at(0);
+  EXPECT_EQ(teapot.triangles.size(), 6320u);
+  std::set<std::array<double, 3>> places;
+  for (const MeshPoint& p : teapot.vertices) places.insert({p.x, p.y, p.z});
+  EXPECT_EQ(places.size(), teapot.vertices.size());
+  for (const GalleryMesh& mesh : meshes)
+    EXPECT_EQ(mesh.has_texture_coordinates, mesh.view.name == "spot") << mesh.view.name;
 }
 
 }  // namespace

@@ -116,6 +116,25 @@ TEST(StudyPage, BlocksAndPlaceholders) {
                 html_of(table()) + "<p>{{a}} &amp; b first</p>\n</body></html>\n");
 }
 
+// What the browser shows may not be broken at a hyphen, and what it copies has to be the command.
+TEST(StudyPage, CommandsInTextsAndCaptions) {
+  Page page(
+      "# T\n\nSee `a --b | c > d` & more.\n\n{{picture:one}} one \"of\" them: `run -x`\n\n"
+      "{{pictures:one,two}} two\n");
+  page.add_picture("one", 40);
+  page.add_picture("two");
+  const std::string html = page.html();
+  EXPECT_EQ(
+      html.substr(html.find("<p>")),
+      "<p>See <code>a <span>--b</span> | c &gt; d</code> &amp; more.</p>\n"
+      "<figure class=\"small\"><img src=\"one.png\" alt=\"one &quot;of&quot; them\" "
+      "width=\"40\"><figcaption>one \"of\" them: <code>run <span>-x</span></code></figcaption>"
+      "</figure>\n"
+      "<figure class=\"row\"><img src=\"one.png\" alt=\"two\" width=\"40\"> "
+      "<img src=\"two.png\" alt=\"two\"><figcaption>two</figcaption></figure>\n"
+      "</body></html>\n");
+}
+
 TEST(StudyPage, WhatIsThereDecides) {
   const auto shown = [](bool drawn, bool with_value) {
     Page page(

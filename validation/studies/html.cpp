@@ -1,5 +1,7 @@
 #include "validation/studies/html.h"
 
+#include <sstream>
+
 namespace fathom::studies {
 namespace {
 
@@ -7,12 +9,48 @@ std::string element(const std::string& tag, const std::string& text) {
   return "<" + tag + ">" + escaped_html(text) + "</" + tag + ">";
 }
 
-std::string image(const std::string& name, const std::string& caption) {
-  return "<img src=\"" + name + ".png\" alt=\"" + escaped_html(caption) + "\">";
+/// Words of code are not broken at their hyphens.
+std::string code(const std::string& escaped) {
+  std::istringstream words(escaped);
+  std::string result;
+  for (std::string word; words >> word;) {
+    result += result.empty() ? "" : " ";
+    result += word.find('-') == std::string::npos ? word : "<span>" + word + "</span>";
+  }
+  return "<code>" + result + "</code>";
+}
+
+/// What is between a pair of ` becomes code.
+std::string with_code(const std::string& escaped) {
+  std::istringstream parts(escaped);
+  std::string result;
+  bool is_code = false;
+  for (std::string part; std::getline(parts, part, '`'); is_code = !is_code)
+    result += is_code ? code(part) : part;
+  return result;
+}
+
+std::string text_element(const std::string& tag, const std::string& text) {
+  return "<" + tag + ">" + with_code(escaped_html(text)) + "</" + tag + ">";
+}
+
+/// What a picture shows: its caption without the command behind it.
+std::string alternative(const std::string& caption) {
+  const std::string words = caption.substr(0, caption.find('`'));
+  const std::size_t end = words.find_last_not_of(" :");
+  std::string result;
+  for (const char c : escaped_html(words.substr(0, end == std::string::npos ? 0 : end + 1)))
+    result += c == '"' ? "&quot;" : std::string(1, c);
+  return result;
+}
+
+std::string image(const std::string& name, const std::string& caption, std::uint32_t width = 0) {
+  return "<img src=\"" + name + ".png\" alt=\"" + alternative(caption) + "\"" +
+         (width == 0 ? "" : " width=\"" + std::to_string(width) + "\"") + ">";
 }
 
 std::string small_figure(const std::string& content, const std::string& caption) {
-  return "<figure class=\"small\">" + content + element("figcaption", caption) + "</figure>\n";
+  return "<figure class=\"small\">" + content + text_element("figcaption", caption) + "</figure>\n";
 }
 
 }  // namespace
@@ -30,7 +68,7 @@ std::string html_heading(int level, const std::string& text) {
 }
 
 std::string html_paragraph(const std::string& text) {
-  return element("p", text) + "\n";
+  return text_element("p", text) + "\n";
 }
 
 std::string html_plot(const std::string& name, const std::string& caption) {
@@ -38,8 +76,12 @@ std::string html_plot(const std::string& name, const std::string& caption) {
          element("figcaption", caption) + "</figure>\n";
 }
 
-std::string html_picture(const std::string& name, const std::string& caption) {
-  return small_figure(image(name, caption), caption);
+std::string html_pictures(const std::vector<ShownPicture>& pictures, const std::string& caption) {
+  std::string images;
+  for (const ShownPicture& picture : pictures)
+    images += (images.empty() ? "" : " ") + image(picture.name, caption, picture.width);
+  if (pictures.size() == 1) return small_figure(images, caption);
+  return "<figure class=\"row\">" + images + text_element("figcaption", caption) + "</figure>\n";
 }
 
 std::string html_text(const std::string& text, const std::string& caption) {
@@ -54,11 +96,16 @@ std::string html_document(const std::string& title, const std::string& body) {
          "auto;padding:0 1em}"
          ".wide{overflow-x:auto}pre{overflow-x:auto;margin:0}figure{margin:1em 0}"
          ".small{display:inline-block;vertical-align:top;margin-right:1.5em;max-width:100%}"
-         ".small img{image-rendering:pixelated}.small figcaption{max-width:24em}"
+         ".small img,.row img{image-rendering:pixelated;outline:1px solid #ccc}.small "
+         "figcaption{max-width:24em}"
+         ".row{clear:both}.row figcaption{max-width:56em}"
+         "code{font-size:95%;background:#f3f3f3}code span{white-space:nowrap}"
          "figcaption{color:#444;font-size:90%;padding-top:0.3em}"
          "table{border-collapse:collapse}td,th{border:1px solid #888;padding:0.2em 0.6em;"
-         "text-align:right}td:first-child,th:first-child{text-align:left}"
-         "img{max-width:100%}</style></head>\n<body>\n" +
+         "text-align:right}td:not(:first-child){white-space:nowrap}td:first-child,th:first-child{"
+         "text-align:left}"
+         "img{max-width:100%}@media(max-width:30em){td,th{padding:0.2em "
+         "0.3em}}</style></head>\n<body>\n" +
          body + "</body></html>\n";
 }
 

@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "validation/studies/html.h"
-
 namespace fathom::studies {
 namespace {
 
@@ -58,6 +56,14 @@ void Page::add_part(const std::string& placeholder, const std::string& content) 
   parts_[placeholder] = content;
 }
 
+std::vector<ShownPicture> Page::pictures(const std::string& names) const {
+  std::vector<ShownPicture> result;
+  std::istringstream list(names);
+  for (std::string name; std::getline(list, name, ',');)
+    result.push_back({part("picture:" + name), widths_.at(name)});
+  return result;
+}
+
 bool Page::has(const std::string& placeholder) const {
   const auto found = parts_.find(placeholder);
   return found != parts_.end() ? !found->second.empty() : values_.contains(placeholder);
@@ -90,10 +96,13 @@ std::string Page::block(const std::string& block) const {
   const auto [name, rest] = first_placeholder(block);
   const std::string kind = name.substr(0, name.find(':'));
   if (kind == name) return html_paragraph(with_values(block));
-  const std::string &content = part(name), caption = with_values(rest);
+  const std::string caption = with_values(rest);
+  if (kind.starts_with("picture")) {
+    return html_pictures(pictures(name.substr(kind.size() + 1)), caption);
+  }
+  const std::string& content = part(name);
   if (content.empty()) return "";
   if (kind == "plot") return html_plot(content, caption);
-  if (kind == "picture") return html_picture(content, caption);
   if (kind == "text") return html_text(content, caption);
   return content;
 }

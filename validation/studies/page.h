@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "validation/studies/html.h"
 #include "validation/studies/table.h"
 
 namespace fathom::studies {
@@ -16,6 +19,8 @@ namespace fathom::studies {
 ///   {{name}}                    in any text: a value
 ///   {{plot:name}} Caption       NAME.png, linked to NAME.svg; left out where nothing was drawn
 ///   {{picture:name}} Caption    NAME.png, its pixels kept sharp
+///   {{pictures:a,b,c}} Caption  several in a row
+///   `text`                      in paragraphs and captions: code
 ///   {{text:name}} Caption       text in letters of one width
 ///   {{table:name}}              left out where it has no row
 ///   {{if:plot:name}}            also of a table or a value: what follows, up to {{else}} or
@@ -29,8 +34,11 @@ class Page {
   void add_plot(const std::string& name, bool is_drawn);
   void add_table(const std::string& name, const Table& table);
   void add_text(const std::string& name, const std::string& text);
-  /// A picture may have none.
-  void add_picture(const std::string& name) { parts_["picture:" + name] = name; }
+  /// A picture may have none. `width`: in the page; 0: as it is.
+  void add_picture(const std::string& name, std::uint32_t width = 0) {
+    parts_["picture:" + name] = name;
+    widths_[name] = width;
+  }
 
   /// Fails    std::logic_error where page and parts do not belong together.
   [[nodiscard]] std::string html() const;
@@ -40,6 +48,8 @@ class Page {
   [[nodiscard]] std::string block(const std::string& block) const;
   [[nodiscard]] std::string with_values(const std::string& text) const;
   [[nodiscard]] const std::string& part(const std::string& placeholder) const;
+  /// The pictures of a list with commas.
+  [[nodiscard]] std::vector<ShownPicture> pictures(const std::string& names) const;
   [[nodiscard]] bool has(const std::string& placeholder) const;
 
   std::string markdown_;
@@ -47,6 +57,7 @@ class Page {
   /// Placeholder without braces → content: HTML of a table, text, or the name of files. Empty where
   /// there is nothing to show.
   std::map<std::string, std::string> parts_;
+  std::map<std::string, std::uint32_t> widths_;
 };
 
 }  // namespace fathom::studies

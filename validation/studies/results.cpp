@@ -39,9 +39,13 @@ void Results::drawn_plot(const std::string& name, std::vector<StudyFile> files) 
   std::move(files.begin(), files.end(), std::back_inserter(files_));
 }
 
-void Results::picture(StudyFile png) {
-  page_.add_picture(png.name.substr(0, png.name.rfind('.')));
+void Results::picture(StudyFile png, std::uint32_t width) {
+  page_.add_picture(png.name.substr(0, png.name.rfind('.')), width);
   files_.push_back(std::move(png));
+}
+
+void Results::file(StudyFile file) {
+  files_.push_back(std::move(file));
 }
 
 void Results::pictures(std::vector<StudyFile> pngs) {

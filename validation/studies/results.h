@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,9 +36,11 @@ class Results {
   void plot(const Plot& plot);
   void plot(const BarChart& chart);
   void plot(const HeatMap& map);
-  /// NAME.png, which the page may show as {{picture:NAME}}.
-  void picture(StudyFile png);
+  /// NAME.png, which the page may show as {{picture:NAME}}, `width` wide; 0: as it is.
+  void picture(StudyFile png, std::uint32_t width = 0);
   void pictures(std::vector<StudyFile> pngs);
+  /// A file that lies beside the page, such as a scene that a command of its captions reads.
+  void file(StudyFile file);
   /// {{text:name}} of the page.
   void text(const std::string& name, const std::string& text);
   /// Plots that are drawn already: NAME.gp, NAME.png, NAME.svg.

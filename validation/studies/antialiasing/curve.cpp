@@ -96,8 +96,8 @@ class AreaSum {
   std::vector<double> within_, beyond_;
 };
 
-/// The polygon as triangles, by areas.
-ColourImage drawn(const std::vector<PlanePoint>& polygon, std::uint32_t size) {
+/// The polygon as triangles.
+Scene tessellated(const std::vector<PlanePoint>& polygon) {
   pipeline::Rings<pipeline::Exact> rings(1);
   for (const PlanePoint& p : polygon)
     rings[0].push_back({pipeline::Exact(p.x), pipeline::Exact(p.y)});
@@ -109,11 +109,14 @@ ColourImage drawn(const std::vector<PlanePoint>& polygon, std::uint32_t size) {
       v.push_back({pipeline::to_binary64(corner.x), pipeline::to_binary64(corner.y), 0.5});
     t.push_back({first, first + 1, first + 2});
   }
+  return scene_of(std::move(v), std::move(t));
+}
+
+/// By areas.
+ColourImage drawn(const std::vector<PlanePoint>& polygon, std::uint32_t size) {
   pipeline::PipelineOptions options = precise_options();
   options.antialias.method = pipeline::AntialiasMethod::area;
-  return render_frame(scene_of(std::move(v), std::move(t)), window_camera(size, size), options,
-                      true)
-      .picture;
+  return render_frame(tessellated(polygon), window_camera(size, size), options, true).picture;
 }
 
 ColourImage enlarged(const ColourImage& image, std::uint32_t factor) {
@@ -131,6 +134,10 @@ std::vector<CubicBezier> heart() {
           {{{{0.93, 0.42}, {0.9, 0.66}, {0.62, 0.74}, {0.5, 0.94}}}},
           {{{{0.5, 0.94}, {0.38, 0.74}, {0.1, 0.66}, {0.07, 0.42}}}},
           {{{{0.07, 0.42}, {0.02, 0.0}, {0.45, 0.02}, {0.5, 0.28}}}}};
+}
+
+Scene heart_scene(std::uint32_t size, double within) {
+  return tessellated(polygon_of(scaled(heart(), size), within));
 }
 
 ColourImage outline_areas(const std::vector<CubicBezier>& outline, std::uint32_t size) {

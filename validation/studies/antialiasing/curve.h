@@ -4,12 +4,17 @@
 
 #include "fathom/pipeline/output/output_merger.h"
 #include "fathom/pipeline/scan/bezier.h"
+#include "fathom/scene/scene.h"
 
 /// A filled outline of cubic Bézier curves: a bitmap that is enlarged, or the curve drawn anew.
 namespace fathom::studies {
 
 /// A heart in the unit square, of four curves; it runs clockwise as seen with y down.
 std::vector<pipeline::CubicBezier> heart();
+
+/// The heart in `size` by `size` pixels, for window_camera(): as triangles, of chords that keep
+/// `within` so much of a pixel.
+Scene heart_scene(std::uint32_t size, double within);
 
 /// How much of each pixel lies inside of an outline, `size` by `size` pixels.
 /// Computed from chords that are at most 10⁻⁶ of a pixel away from the curves, by adding up, for each

@@ -1,71 +1,107 @@
 #include "validation/studies/course/aliasing.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
-#include "fathom/pipeline/scan/polygon_fill.h"
+#include "fathom/render_by_pipeline.h"
+#include "fathom/scene/motion.h"
+#include "validation/studies/antialiasing/curve.h"
+#include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
-
-std::array<RgbImage, 2> curve_twice() {
-  const auto filled = [](std::uint32_t size) {
-    pipeline::FillPolygon<double> outline(1);
-    const int steps = static_cast<int>(size) * 4;
-    for (int i = 0; i < steps; ++i) {
-      const double t = 2 * std::numbers::pi * i / steps;
-      const double r = size * (0.3 + 0.12 * std::cos(3 * t));
-      outline[0].push_back({size / 2.0 + r * std::cos(t), size / 2.0 + r * std::sin(t), {}});
-    }
-    RgbImage image(size, size, {255, 255, 255});
-    pipeline::fill_polygon<double>(
-        outline, pipeline::FillRule::non_zero, {0, 0, size, size}, [&](const auto& line) {
-          for (const auto& span : line.spans)
-            for (auto x = span.pixels.x_begin; x < span.pixels.x_end; ++x)
-              image.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(line.y)) = {40, 80,
-                                                                                             160};
-        });
-    return image;
-  };
-  return {filled(48), filled(384)};
-}
-
 namespace {
 
-constexpr std::uint32_t wheel_size = 96, spokes = 12;
+using pipeline::PipelineOptions;
 
-/// How dark the wheel is at a place relative to its middle, turned by a share of a full turn: 0
-/// between spokes, 2 on the one that is marked.
-int darkness(double dx, double dy, double turn) {
-  const double place = (std::atan2(dy, dx) / (2 * std::numbers::pi) - turn + 4) * spokes;
-  const bool first = std::fmod(place, spokes) < 0.3;
-  return std::fmod(place, 1.0) < 0.3 ? (first ? 2 : 1) : 0;
+constexpr std::uint32_t wheel_side = 96, course_spokes = 12;
+constexpr double hub = wheel_side / 2.0;
+
+/// Dark, the first spoke red.
+Scene spoked_wheel() {
+  Scene scene = siemens_star(course_spokes, hub - 2, hub, hub);
+  Mesh& mesh = scene.meshes[0];
+  // The middle belongs to all spokes, so that the red one needs one of its own.
+  mesh.vertices.push_back(mesh.vertices[0]);
+  mesh.triangles[0][0] = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+  mesh.colours.assign(mesh.vertices.size(), {0.15F, 0.15F, 0.15F, 1});
+  for (const std::uint32_t corner : mesh.triangles[0]) mesh.colours[corner] = {0.8F, 0.1F, 0.1F, 1};
+  return scene;
+}
+
+/// A keyframe for each degree, about the middle.
+StudyFile turning() {
+  std::string keyframes;
+  for (int degrees = 0; degrees <= wheel_degrees * wheel_pictures; ++degrees) {
+    const double angle = degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+    keyframes += fmt::format(
+        "{}\n  {{\"time\": {}, \"transform\": [[{}, {}, 0, {}], [{}, {}, 0, {}], [0, 0, 1, 0]]}}",
+        degrees == 0 ? "" : ",", static_cast<double>(degrees) / wheel_degrees, c, -s,
+        hub - c * hub + s * hub, s, c, hub - s * hub - c * hub);
+  }
+  return {"wheel-motion.json",
+          "{\"objects\": [{\"name\": \"wheel\", \"keyframes\": [" + keyframes + "]}]}\n"};
+}
+
+PipelineOptions flat_colours() {
+  PipelineOptions options;
+  options.shading = pipeline::Shading::none;
+  options.background = {0.92, 0.92, 0.92};
+  return options;
+}
+
+struct MovingWheel {
+  MovingScene scene;
+  Camera camera;
+};
+MovingWheel moving_wheel() {
+  const SceneFiles files = wheel_files();
+  const StudyFile& motion = files.files.back();
+  return {MovingScene(files.view.scene, read_motion(motion.content, motion.name)),
+          files.view.camera};
 }
 
 }  // namespace
 
-RgbImage turning_wheel(bool temporal_supersampling) {
-  constexpr std::uint32_t size = wheel_size, frames = 8;
-  constexpr double degrees_a_frame = 27;  // almost 30, the distance of two spokes
-  const int instants = temporal_supersampling ? 16 : 1;
-  RgbImage image(size * frames, size, {255, 255, 255});
-  for (std::uint32_t frame = 0; frame < frames; ++frame) {
-    for (std::uint32_t y = 0; y < size; ++y) {
-      for (std::uint32_t x = 0; x < size; ++x) {
-        const double dx = x + 0.5 - size / 2.0, dy = y + 0.5 - size / 2.0;
-        if (std::hypot(dx, dy) > size / 2.0 - 2) continue;
-        int dark = 0;
-        for (int i = 0; i < instants; ++i) {
-          dark +=
-              darkness(dx, dy, (frame + static_cast<double>(i) / instants) * degrees_a_frame / 360);
-        }
-        const double share = std::min(1.0, static_cast<double>(dark) / instants);
-        const auto grey = static_cast<std::uint8_t>(std::lround(235 - 200 * share));
-        image.at(frame * size + x, y) = {grey, grey, grey};
-      }
-    }
+DrawnCurve curve_at(std::uint32_t size) {
+  Scene scene = heart_scene(size, 0.025);
+  scene.meshes[0].colours.assign(scene.meshes[0].vertices.size(), {0.16F, 0.31F, 0.63F, 1});
+  DrawnCurve result{scene_files("curve-" + std::to_string(size), scene, window_camera(size, size)),
+                    {}};
+  PipelineOptions options = flat_colours();
+  options.background = {1, 1, 1};
+  result.picture = pipeline_picture(result.files.view, options);
+  return result;
+}
+
+SceneFiles wheel_files() {
+  SceneFiles result = scene_files("wheel", spoked_wheel(), window_camera(wheel_side, wheel_side));
+  result.files.push_back(turning());
+  return result;
+}
+
+std::vector<RgbImage> wheel_at_instants() {
+  MovingWheel wheel = moving_wheel();
+  std::vector<RgbImage> pictures;
+  for (int time = 0; time < wheel_pictures; ++time) {
+    const SceneView view{"wheel", wheel.scene.at(time), wheel.camera};
+    pictures.push_back(pipeline_picture(view, flat_colours()));
   }
-  return image;
+  return pictures;
+}
+
+std::vector<RgbImage> wheel_with_open_shutter() {
+  MovingWheel wheel = moving_wheel();
+  PipelineOptions options = flat_colours();
+  options.antialias = {pipeline::AntialiasMethod::temporal, 16};
+  std::vector<RgbImage> pictures;
+  for (int time = 0; time < wheel_pictures; ++time) {
+    const pipeline::Shutter shutter{static_cast<double>(time), static_cast<double>(time + 1)};
+    pictures.push_back(
+        render_by_pipeline(wheel.scene, wheel.camera, options, shutter, {}, true).picture);
+  }
+  return pictures;
 }
 
 }  // namespace fathom::studies

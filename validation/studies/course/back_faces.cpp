@@ -44,9 +44,9 @@ FacingCount facings(double distance, pipeline::Precision precision) {
   PipelineOptions options;
   options.precision = precision;
   options.shading = pipeline::Shading::none;
-  Camera camera = front_camera(320, 240, distance - 1.01, distance + 1.01);
+  Camera camera = front_camera(80, 60, distance - 1.01, distance + 1.01);
   // So narrow that the ball fills the picture and nothing of it is clipped.
-  camera.fx = camera.fy = 118 * std::sqrt(distance * distance - 1);
+  camera.fx = camera.fy = 29.5 * std::sqrt(distance * distance - 1);
   const auto s = render_frame(ball(90, 180, distance), camera, options, false).statistics;
   return {distance,
           precision,
@@ -68,7 +68,7 @@ std::vector<FacingCount> count_facings() {
   return counts;
 }
 
-RgbImage open_box(pipeline::FrontFace front_face, pipeline::Culling culling) {
+SceneFiles open_box_files() {
   // Looked at from above: turned about x by 40 degrees and about the upright axis by 30.
   std::vector<MeshPoint> v;
   const double a = std::numbers::pi * 30 / 180, b = std::numbers::pi * 40 / 180;
@@ -89,13 +89,16 @@ RgbImage open_box(pipeline::FrontFace front_face, pipeline::Culling culling) {
                              {1, 5, 7},
                              {1, 7, 3}});
   for (CornerIndices& t : scene.meshes[0].triangles) std::swap(t[1], t[2]);
+  return scene_files("box", scene, front_camera(160, 160, 1, 20));
+}
+
+RgbImage open_box(pipeline::FrontFace front_face, pipeline::Culling culling) {
   PipelineOptions options;
   options.front_face = front_face;
   options.culling = culling;
   options.background = {0.1, 0.1, 0.15};
   options.antialias = {pipeline::AntialiasMethod::msaa, 8};
-  Camera camera = front_camera(160, 160, 1, 20);
-  return to_rgb(render_frame(scene, camera, options, true).picture);
+  return pipeline_picture(open_box_files().view, options);
 }
 
 }  // namespace fathom::studies

@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fathom/image/rgb_image.h"
-#include "fathom/pipeline/options.h"
+#include "validation/studies/scene_files.h"
 
 /// Which side of a triangle is seen.
 namespace fathom::studies {
@@ -21,6 +20,7 @@ struct FacingCount {
 std::vector<FacingCount> count_facings();
 
 /// A box without its lid from above, by the rule of what is front and the side that is culled.
+SceneFiles open_box_files();
 RgbImage open_box(pipeline::FrontFace front_face, pipeline::Culling culling);
 
 }  // namespace fathom::studies

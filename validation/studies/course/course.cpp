@@ -4,10 +4,12 @@
 #include <sstream>
 
 #include "fathom/numeric/errors.h"
+#include "validation/studies/antialiasing/temporal.h"
 #include "validation/studies/course/aliasing.h"
 #include "validation/studies/course/back_faces.h"
 #include "validation/studies/course/demo.h"
 #include "validation/studies/course/exercises.h"
+#include "validation/studies/course/gallery.h"
 #include "validation/studies/course/shared_edges.h"
 #include "validation/studies/page_texts.h"
 #include "validation/studies/picture.h"
@@ -16,12 +18,19 @@
 namespace fathom::studies {
 namespace {
 
+/// NAME.png, each of its pixels `scale` wide in the page.
 void show(Results& results, const std::string& name, const RgbImage& image, std::uint32_t scale) {
-  results.picture(picture_file(name, image, scale));
+  results.picture(picture_file(name, image), image.width * scale);
+}
+
+/// What the commands under the pictures read.
+void add(Results& results, const SceneFiles& files) {
+  for (const StudyFile& file : files.files) results.file(file);
 }
 
 void exercises_1_and_2(Results& results) {
-  show(results, "exercise-1", eight_lines(), 6);
+  add(results, eight_lines_files());
+  show(results, "exercise-1", eight_lines(pipeline::WireLine::bresenham), 6);
   show(results, "exercise-2", edge_function_signs(), 2);
 }
 
@@ -45,10 +54,12 @@ void exercise_3(Results& results) {
       rows.push_back({distance, storage, f.wrong_share});
       page_rows.back().wrong_shares.push_back(f.wrong_share);
       if (distance != 2.0 && distance != 10.0) continue;
+      if (storage == storages[0]) add(results, fight_files(distance));
       show(results, "exercise-3-" + text_of(distance) + "-" + std::string(name_of(storage)),
            f.picture, 2);
     }
   }
+  results.quote("window_steps", steps_of_unorm16(), ".2f");
   results.table({rows,
                  {{"distance", &Row::distance},
                   {"storage", [](const Row& r) { return name_of(r.storage); }},
@@ -67,6 +78,7 @@ void exercise_4(Results& results) {
     const char* interpolation;
     Checkerboard board;
   };
+  add(results, checkerboard_files());
   const std::vector<Row> rows{{"affine", checkerboard(pipeline::Interpolation::affine)},
                               {"perspective", checkerboard(pipeline::Interpolation::perspective)}};
   for (const Row& row : rows) {
@@ -82,15 +94,31 @@ void exercise_4(Results& results) {
 }
 
 void exercise_5(Results& results) {
-  show(results, "exercise-5-wireframe", cube(pipeline::Shading::wireframe), 2);
-  show(results, "exercise-5-flat", cube(pipeline::Shading::flat), 2);
+  using enum pipeline::Shading;
+  for (const GalleryMesh& mesh : gallery_meshes()) {
+    results.file(mesh.file);
+    const std::string& name = mesh.view.name;
+    const auto show_as = [&](const char* shading, const RgbImage& image) {
+      show(results, name + "-" + shading, image, 1);
+    };
+    show_as("points", shaded(mesh, points));
+    show_as("wireframe", shaded(mesh, wireframe));
+    show_as("flat", shaded(mesh, flat));
+    show_as("gouraud", shaded(mesh, gouraud));
+    show_as("phong", shaded(mesh, phong));
+    if (mesh.has_texture_coordinates) show_as("textured", shaded(mesh, phong, "checker"));
+  }
 }
 
 void exercise_6(Results& results) {
   const PartialPixels partial = partial_pixels();
+  add(results, half_plane_files());
+  for (std::size_t i = 0; i < 4; ++i)
+    show(results, "exercise-6-" + std::to_string(1 << i), partial.pictures[i], 3);
+  show(results, "exercise-6-exact", partial.exact_picture, 3);
   Table table(std::vector<std::size_t>{0, 1, 2, 3},
               {{Column("samples").page("samples"), [](std::size_t i) { return 1 << i; }},
-               {Column("partial").page("partial pixels"),
+               {Column("partial").page("partly covered pixels"),
                 [&](std::size_t i) { return partial.counted[i]; }},
                {Column("mean_error").page("mean error of coverage", ".4f"),
                 [&](std::size_t i) { return partial.mean_error[i]; }}});
@@ -105,8 +133,10 @@ void back_faces(Results& results) {
   const auto culled_share = [](const Row& f) {
     return 1 - static_cast<double>(f.front_in_window) / static_cast<double>(f.triangles);
   };
+  const std::vector<FacingCount> counts = count_facings();
+  results.quote("ball_triangles", counts.front().triangles);
   results.table(
-      {count_facings(),
+      {counts,
        {{Column("precision").page("arithmetic"),
          [](const Row& f) {
            return f.precision == pipeline::Precision::binary32 ? "binary32" : "binary64";
@@ -122,19 +152,24 @@ void back_faces(Results& results) {
       {.json = "facings", .page = "facings"});
   using enum pipeline::FrontFace;
   using pipeline::Culling;
-  show(results, "box-ccw-back", open_box(counter_clockwise, Culling::back), 1);
-  show(results, "box-ccw-front", open_box(counter_clockwise, Culling::front), 1);
-  show(results, "box-cw-back", open_box(clockwise, Culling::back), 1);
-  show(results, "box-none", open_box(counter_clockwise, Culling::none), 1);
+  add(results, open_box_files());
+  const auto show_box = [&](const char* name, pipeline::FrontFace front, Culling culling) {
+    show(results, name, open_box(front, culling), 1);
+  };
+  show_box("box-ccw-back", counter_clockwise, Culling::back);
+  show_box("box-ccw-front", counter_clockwise, Culling::front);
+  show_box("box-cw-back", clockwise, Culling::back);
+  show_box("box-none", counter_clockwise, Culling::none);
 }
 
 void shared_edges(Results& results) {
   using Row = SharedEdges;
   std::vector<Row> rows;
   for (const int bits : {0, 1, 2, 3, 4, 6, 8, 16}) {
-    const Row& row = rows.emplace_back(count_shared_edges(bits));
+    rows.push_back(count_shared_edges(bits));
     if (bits == 0 || bits == 2 || bits == 8) {
-      show(results, "shared-edges-" + std::to_string(bits), row.picture, 2);
+      add(results, shared_edges_files(bits));
+      show(results, "shared-edges-" + std::to_string(bits), shared_edges_picture(bits), 2);
     }
   }
   results.table(
@@ -156,7 +191,10 @@ void demo_of_section_6(Results& results) {
     std::uint64_t count;
   };
   const Demo d = demo();
+  add(results, demo_files());
   show(results, "demo", d.picture, 2);
+  results.quote("on_far_edges", d.far_closed - d.far_fragments);
+  results.quote("on_near_edges", d.near_closed - d.near_fragments);
   const std::vector<Row> rows{
       {"fragments of the near triangle", d.near_fragments},
       {"fragments of the far triangle", d.far_fragments},
@@ -189,6 +227,8 @@ std::string aligned(const std::vector<std::string>& rows) {
 }
 
 void tables(Results& results) {
+  add(results, z_buffer_files());
+  show(results, "z-buffer", z_buffer_picture(), 24);
   const Tables t = z_buffer_tables();
   results.text("depths_before", aligned(t.black.depths));
   results.text("colours_before", aligned(t.black.colours));
@@ -197,11 +237,22 @@ void tables(Results& results) {
 }
 
 void curves_and_time(Results& results) {
-  const auto [enlarged, anew] = curve_twice();
-  show(results, "curve-enlarged", enlarged, 8);
-  show(results, "curve-anew", anew, 1);
-  show(results, "wheel", turning_wheel(false), 1);
-  show(results, "wheel-supersampled", turning_wheel(true), 1);
+  for (const std::uint32_t size : {48U, 384U}) {
+    const DrawnCurve curve = curve_at(size);
+    add(results, curve.files);
+    show(results, "curve-" + std::to_string(size), curve.picture, 384 / size);
+  }
+  add(results, wheel_files());
+  const auto show_all = [&](const std::string& name, const std::vector<RgbImage>& pictures) {
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+      show(results, name + std::to_string(i), pictures[i], 1);
+  };
+  show_all("wheel-", wheel_at_instants());
+  show_all("wheel-shutter-", wheel_with_open_shutter());
+  const WheelSeen seen = wheel_seen(wheel_degrees);
+  results.quote("wheel_degrees", wheel_degrees);
+  results.quote("wheel_seen", -seen.apparent, ".0f");
+  results.quote("wheel_contrast", 100 * seen.contrast, ".0f");
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
-#include "fathom/image/depth_map.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "validation/studies/cell.h"
 #include "validation/studies/pipeline_scenes.h"
@@ -14,15 +14,15 @@ namespace {
 using pipeline::PipelineFrame;
 using pipeline::PipelineOptions;
 
-Scene demo_scene(bool far_first) {
+/// The far one first.
+Scene demo_scene() {
   Scene scene = scene_of({{80, 30, 0.3},
                           {30, 200, 0.3},
                           {200, 180, 0.3},
                           {160, 20, 0.6},
                           {100, 220, 0.6},
                           {290, 150, 0.6}},
-                         far_first ? std::vector<CornerIndices>{{3, 4, 5}, {0, 1, 2}}
-                                   : std::vector<CornerIndices>{{0, 1, 2}, {3, 4, 5}});
+                         {{3, 4, 5}, {0, 1, 2}});
   scene.meshes[0].colours = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1},
                              {1, 1, 0, 1}, {0, 1, 1, 1}, {1, 0, 1, 1}};
   return scene;
@@ -75,23 +75,38 @@ Scene black_and_grey(const std::vector<std::uint32_t>& order) {
   return scene;
 }
 
-/// What the depth buffer and the colour buffer hold when the scene is drawn.
-BufferContents contents_of(const Scene& scene) {
-  PipelineOptions options = precise_options();
-  options.background = {1, 1, 1};
+/// How the window depths become those of the tables.
+Camera table_camera() {
   Camera camera = window_camera(table_columns, table_rows);
   camera.near = table_near;
   camera.far = table_near + 1;
-  const PipelineFrame frame = render_frame(scene, camera, options, true);
+  return camera;
+}
+
+PipelineOptions table_options() {
+  PipelineOptions options = precise_options();
+  options.background = {1, 1, 1};
+  return options;
+}
+
+PipelineOptions demo_options() {
+  PipelineOptions options = precise_options();
+  options.background = {0.05, 0.05, 0.1};
+  return options;
+}
+
+/// What the depth buffer and the colour buffer hold when the scene is drawn.
+BufferContents contents_of(const Scene& scene) {
+  const PipelineFrame frame = render_frame(scene, table_camera(), table_options(), true);
   BufferContents contents;
-  for (std::size_t first = 0; first < frame.id.size(); first += table_columns) {
+  for (std::size_t first = 0; first < frame.stored.size(); first += table_columns) {
     std::string depths, colours;
     for (std::size_t i = first; i < first + table_columns; ++i) {
       const std::string space = i == first ? "" : " ";
-      const bool cleared = frame.id[i] == no_surface;
-      depths += space + text_of(cleared ? 1 : double{frame.depth[i]} - table_near, ".3g");
-      const float white = frame.picture.pixels[i][0];
-      colours += space + (white > 0.75F ? "W" : white > 0.25F ? "G" : "B");
+      const auto stored = std::bit_cast<float>(static_cast<std::uint32_t>(frame.stored[i].bits));
+      depths += space + text_of(static_cast<double>(stored), ".3g");
+      const double white = frame.picture.pixels[i][0];
+      colours += space + (white > 0.75 ? "W" : white > 0.25 ? "G" : "B");
     }
     contents.depths.push_back(depths);
     contents.colours.push_back(colours);
@@ -101,33 +116,45 @@ BufferContents contents_of(const Scene& scene) {
 
 }  // namespace
 
+SceneFiles demo_files() {
+  return scene_files("demo", demo_scene(), window_camera(320, 240));
+}
+
 Demo demo() {
-  const Camera camera = window_camera(320, 240);
-  PipelineOptions options = precise_options();
-  options.background = {0.05, 0.05, 0.1};
-  const PipelineFrame far_first = render_frame(demo_scene(true), camera, options, true);
-  const PipelineFrame near_first = render_frame(demo_scene(false), camera, options, true);
+  const SceneView view = demo_files().view;
+  PipelineOptions options = demo_options();
+  const PipelineFrame far_first = render_frame(view.scene, view.camera, options, true);
   Demo result{pipeline::to_rgb(far_first.picture)};
-  const auto fragments = [&](CornerIndices triangle) {
-    Scene scene = demo_scene(true);
-    scene.meshes[0].triangles = {triangle};
-    return render_frame(scene, camera, options, false).statistics.fragments;
+  const auto fragments = [&](std::size_t triangle) {
+    Scene scene = view.scene;
+    scene.meshes[0].triangles = {view.scene.meshes[0].triangles[triangle]};
+    return render_frame(scene, view.camera, options, false).statistics.fragments;
   };
-  result.near_fragments = fragments({0, 1, 2});
-  result.far_fragments = fragments({3, 4, 5});
+  result.near_fragments = fragments(1);
+  result.far_fragments = fragments(0);
   result.near_closed = closed_count({{{80, 30}, {30, 200}, {200, 180}}});
   result.far_closed = closed_count({{{160, 20}, {100, 220}, {290, 150}}});
   result.union_of_both = static_cast<std::uint64_t>(std::count_if(
       far_first.id.begin(), far_first.id.end(), [](auto id) { return id != no_surface; }));
   result.overlap = result.near_fragments + result.far_fragments - result.union_of_both;
   result.passed_far_first = far_first.statistics.depth_passed;
-  result.passed_near_first = near_first.statistics.depth_passed;
+  options.draw_order = pipeline::DrawOrder::front_to_back;
+  result.passed_near_first =
+      render_frame(view.scene, view.camera, options, false).statistics.depth_passed;
   return result;
 }
 
 Tables z_buffer_tables() {
   return {contents_of(black_and_grey({0})), contents_of(black_and_grey({0, 1})),
           contents_of(black_and_grey({1, 0}))};
+}
+
+SceneFiles z_buffer_files() {
+  return scene_files("z-buffer", black_and_grey({0, 1}), table_camera());
+}
+
+RgbImage z_buffer_picture() {
+  return pipeline_picture(z_buffer_files().view, table_options());
 }
 
 }  // namespace fathom::studies

@@ -3,14 +3,15 @@
 #include <array>
 
 #include "fathom/depth_format/depth_format.h"
-#include "fathom/image/rgb_image.h"
-#include "fathom/pipeline/render_pipeline.h"
+#include "validation/studies/scene_files.h"
 
 /// The exercises of the textbooks, a function each: pictures and figures.
 namespace fathom::studies {
 
-/// Exercise 1: Bresenham's lines from the middle at the eight multiples of 45 degrees.
-RgbImage eight_lines();
+/// Exercise 1: eight lines from the middle of 65 × 65 pixels at the multiples of 45 degrees, drawn by
+/// the pipeline.
+SceneFiles eight_lines_files();
+RgbImage eight_lines(pipeline::WireLine algorithm);
 
 /// Exercise 2: the signs of the three edge functions of (50,20), (200,150), (30,180), 256 × 256:
 /// red, green and blue where that opposite the first, second and third corner is positive.
@@ -18,29 +19,33 @@ RgbImage edge_function_signs();
 
 /// Exercise 3: two tilted surfaces 0.0001 apart along the view at a distance; white where the
 /// nearer one wins, red where the farther one does.
+SceneFiles fight_files(double distance);
 struct Fight {
   RgbImage picture;
   double wrong_share = 0;
 };
 Fight fight(double distance, Storage storage);
+/// The separation of the surfaces in steps of unorm16, if it were one of window depths.
+double steps_of_unorm16();
 
 /// Exercise 4: a checkerboard quadrangle seen obliquely, and how far its texture coordinates are
 /// from the exact ones.
+SceneFiles checkerboard_files();
 struct Checkerboard {
   RgbImage picture;
   double mean_error = 0, greatest_error = 0;
 };
 Checkerboard checkerboard(pipeline::Interpolation interpolation);
 
-/// Exercise 5: a cube.
-RgbImage cube(pipeline::Shading shading);
-
-/// Exercise 6: pixels with a part of the samples covered, at 1, 2, 4 and 8 samples, and those that
-/// the edge cuts exactly.
+/// Exercise 6: the pixels of a half plane's edge that are partly covered in the pipeline's pictures
+/// with 1, 2, 4 and 8 samples, and those that the edge cuts exactly.
+SceneFiles half_plane_files();
 struct PartialPixels {
   std::array<std::size_t, 4> counted{};
   std::size_t exact = 0;
   std::array<double, 4> mean_error{};  ///< of the coverage of the pixels that the edge cuts
+  std::array<RgbImage, 4> pictures;    ///< white by the share of the samples
+  RgbImage exact_picture;              ///< by the area; of the exact engine
 };
 PartialPixels partial_pixels();
 

@@ -1,9 +1,11 @@
 #include "validation/studies/course/shared_edges.h"
 
+#include <algorithm>
+#include <array>
 #include <random>
-#include <vector>
 
 #include "fathom/pipeline/geometry/subpixel_grid.h"
+#include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
 namespace {
@@ -32,68 +34,102 @@ std::vector<GridPoint> snapped_corners(int cells, int bits) {
   return corners;
 }
 
-/// Two triangles for each cell; those without area are counted and left out.
-std::vector<GridTriangle> triangles_of(SharedEdges& counts) {
+/// The triangles of all cells, two for each.
+std::vector<std::array<GridPoint, 3>> snapped_triangles(int bits) {
   constexpr int cells = 16;
-  const std::vector<GridPoint> corners = snapped_corners(cells, counts.bits);
-  std::vector<GridTriangle> triangles;
-  const auto add = [&](int p, int q, int r) {
-    const auto at = [&](int k) { return corners[static_cast<std::size_t>(k)]; };
-    ++counts.triangles;
-    const auto t = GridTriangle::of({at(p), at(q), at(r)});
-    if (!t) {
-      ++counts.without_area;
-      return;
-    }
-    counts.turned_over += !t->counter_clockwise();
-    triangles.push_back(*t);
-  };
+  const std::vector<GridPoint> corners = snapped_corners(cells, bits);
+  const auto at = [&](int k) { return corners[static_cast<std::size_t>(k)]; };
+  std::vector<std::array<GridPoint, 3>> triangles;
   for (int y = 0; y < cells; ++y) {
     for (int x = 0; x < cells; ++x) {
       const int p = y * (cells + 1) + x, q = p + 1, r = p + cells + 1, s = r + 1;
-      add(p, r, q);
-      add(q, r, s);
+      triangles.push_back({at(p), at(r), at(q)});
+      triangles.push_back({at(q), at(r), at(s)});
     }
   }
   return triangles;
 }
 
-/// Counts a sample; its colour in the picture.
-Rgb count(SharedEdges& counts, const std::vector<GridTriangle>& triangles,
-          const GridPoint& sample) {
+/// How often a sample is covered.
+struct Covered {
   int by_sign = 0, all = 0;
   bool turned = false;
-  std::size_t which = 0;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    if (!triangles[i].covers(sample)) continue;
-    ++all;
-    by_sign += triangles[i].counter_clockwise() ? 1 : -1;
-    turned = turned || !triangles[i].counter_clockwise();
-    which = i;
+};
+
+constexpr std::int64_t samples_across = pixels * looks;
+
+/// Adds a triangle to the samples that it covers.
+void add(std::vector<Covered>& samples, const GridTriangle& triangle,
+         const std::array<GridPoint, 3>& corners) {
+  constexpr std::int64_t step = pipeline::grid_one / looks;
+  const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+  const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+  const bool turned = !triangle.counter_clockwise();
+  for (std::int64_t y = top / step; y <= std::min(bottom / step, samples_across - 1); ++y) {
+    for (std::int64_t x = left / step; x <= std::min(right / step, samples_across - 1); ++x) {
+      if (!triangle.covers({x * step + step / 2, y * step + step / 2})) continue;
+      Covered& sample = samples[static_cast<std::size_t>(y * samples_across + x)];
+      ++sample.all;
+      sample.by_sign += turned ? -1 : 1;
+      sample.turned = sample.turned || turned;
+    }
   }
-  ++counts.samples;
-  counts.signed_not_one += by_sign != 1;
-  counts.unsigned_not_one += all != 1;
-  counts.unexplained += all != 1 && !turned;
-  const auto shade = static_cast<std::uint8_t>(150 + which * 37 % 90);
-  return all == 1 ? Rgb{static_cast<std::uint8_t>(shade - 40), shade, 255} : Rgb{220, 40, 30};
 }
 
 }  // namespace
 
 SharedEdges count_shared_edges(int bits) {
   SharedEdges result{bits};
-  const std::vector<GridTriangle> triangles = triangles_of(result);
-  constexpr std::uint32_t side = pixels * looks;
-  result.picture = RgbImage(side, side);
-  constexpr std::int64_t step = pipeline::grid_one / looks;
-  for (std::uint32_t y = 0; y < side; ++y) {
-    for (std::uint32_t x = 0; x < side; ++x) {
-      result.picture.at(x, y) =
-          count(result, triangles, {x * step + step / 2, y * step + step / 2});
+  std::vector<Covered> samples(static_cast<std::size_t>(samples_across * samples_across));
+  for (const auto& corners : snapped_triangles(bits)) {
+    ++result.triangles;
+    const auto triangle = GridTriangle::of(corners);
+    if (!triangle) {
+      ++result.without_area;
+      continue;
     }
+    result.turned_over += !triangle->counter_clockwise();
+    add(samples, *triangle, corners);
+  }
+  result.samples = samples.size();
+  for (const Covered& sample : samples) {
+    result.signed_not_one += sample.by_sign != 1;
+    result.unsigned_not_one += sample.all != 1;
+    result.unexplained += sample.all != 1 && !sample.turned;
+    result.covers += static_cast<std::uint64_t>(sample.all);
+    result.covered_by_turned.push_back(sample.turned);
   }
   return result;
+}
+
+SceneFiles shared_edges_files(int bits) {
+  Scene scene = scene_of({}, {});
+  Mesh& mesh = scene.meshes[0];
+  const auto add_those = [&](bool turned_over) {
+    for (const auto& corners : snapped_triangles(bits)) {
+      const auto triangle = GridTriangle::of(corners);
+      if (!triangle || triangle->counter_clockwise() == turned_over) continue;
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      const float shade = 0.6F + static_cast<float>(mesh.triangles.size() * 37 % 90) / 255;
+      const std::array<float, 4> blue{shade - 0.15F, shade, 1, 1}, red{0.86F, 0.16F, 0.12F, 1};
+      for (const GridPoint& p : corners) {
+        const auto place = [](std::int64_t x) {
+          return static_cast<double>(x) * looks / static_cast<double>(pipeline::grid_one);
+        };
+        mesh.vertices.push_back({place(p.x), place(p.y), 0.5});
+        mesh.colours.push_back(turned_over ? red : blue);
+      }
+      mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+  };
+  add_those(true);
+  add_those(false);
+  return scene_files("shared-edges-" + std::to_string(bits), scene,
+                     window_camera(samples_across, samples_across));
+}
+
+RgbImage shared_edges_picture(int bits) {
+  return pipeline_picture(shared_edges_files(bits).view, precise_options());
 }
 
 }  // namespace fathom::studies

@@ -42,12 +42,14 @@ PipelineOptions z_buffer_options(Storage storage) {
 }
 
 HiddenSurfaceCase compare(const HiddenSurfaceScene& c) {
-  const Camera camera = hidden_surface_camera();
-  const auto exact = exact_ids(c.scene, camera);
   HiddenSurfaceCase result{c.name};
+  Scene coloured = c.scene;
+  paint_each_triangle(coloured);
+  SceneFiles drawn = scene_files(c.name, coloured, hidden_surface_camera());
+  const Scene& painted = drawn.view.scene;
+  const Camera& camera = drawn.view.camera;
+  const auto exact = exact_ids(c.scene, camera);
   for (const std::uint32_t id : exact) result.seen += id != no_surface;
-  Scene painted = c.scene;
-  paint_each_triangle(painted);
   PipelineOptions options = z_buffer_options(Storage::float32);
   result.buffer32 = different(exact, render_frame(painted, camera, options, false).id);
   options = z_buffer_options(Storage::unorm16);
@@ -59,6 +61,7 @@ HiddenSurfaceCase compare(const HiddenSurfaceScene& c) {
   result.picture = pipeline::to_rgb(frame.picture);
   result.warnock = different(exact, warnock(c.scene, camera).ids);
   result.bsp_tree = different(exact, bsp_tree(c.scene, camera).ids);
+  result.files = std::move(drawn.files);
   return result;
 }
 

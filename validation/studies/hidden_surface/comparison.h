@@ -7,6 +7,7 @@
 #include "fathom/camera/camera.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/scene/scene.h"
+#include "validation/studies/scene_files.h"
 
 /// Z-buffer, painter's algorithm, Warnock's subdivision and a tree of planes, compared with the exact
 /// visible triangle and with each other.
@@ -27,7 +28,8 @@ struct HiddenSurfaceCase {
   std::size_t seen = 0;  ///< pixels with a surface
   std::size_t buffer16 = 0, buffer32 = 0, painter = 0, warnock = 0, bsp_tree = 0;
   pipeline::PainterStatistics order;
-  RgbImage picture;  ///< the painter's
+  RgbImage picture;              ///< the painter's, by the pipeline
+  std::vector<StudyFile> files;  ///< the scene and the camera that it is drawn from
 };
 std::vector<HiddenSurfaceCase> compare_hidden_surfaces();
 

@@ -72,7 +72,8 @@ std::vector<StudyFile> study_hidden_surface(const StudyOptions& options,
   results.table(scenes_table(scenes), {.csv = "scenes", .json = "scenes", .page = "scenes"});
   results.table(costs_table(costs), {.page = "costs"});
   for (const HiddenSurfaceCase& scene : scenes) {
-    results.picture(picture_file(scene.name, scene.picture, 2));
+    results.picture(picture_file(scene.name, scene.picture), 2 * scene.picture.width);
+    for (const StudyFile& file : scene.files) results.file(file);
   }
   results.plot(cost_plot(costs));
   return results.files();
