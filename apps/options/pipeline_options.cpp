@@ -63,8 +63,9 @@ void PipelineArguments::add_picture_options(Command& command) {
                                      into(stages_.interpolation, parse_interpolation),
                                      "perspective (default) or affine"));
   declared_.push_back(command.option(
-      "--line", "NAME", into(line_, parse_line),
-      "Of a wireframe: explicit, dda, bresenham (default), midpoint or diamond-exit"));
+      "--line", "NAME", into(stages_.wire_line, parse_line),
+      "Of wireframes and of lines in files: explicit, dda, bresenham (default), midpoint or "
+      "diamond-exit"));
 }
 
 void PipelineArguments::add_scan_options(Command& command) {
@@ -127,9 +128,6 @@ pipeline::PipelineOptions PipelineArguments::options(Cull cull) const {
   options.early_depth = !no_early_depth_;
   options.draw_order = order_.first;
   options.draw_seed = order_.second;
-  if (line_ && options.shading != pipeline::Shading::wireframe)
-    throw UsageError("--line is for --shading wireframe");
-  options.wire_line = line_.value_or(options.wire_line);
   if (filter_ && options.texture.empty()) throw UsageError("--filter is for a --texture");
   options.filter = filter_.value_or(options.filter);
   if (!blend_ && options.blend_depth != pipeline::BlendDepth::off)

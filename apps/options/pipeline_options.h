@@ -34,7 +34,6 @@ class PipelineArguments {
   pipeline::PipelineOptions stages_;
   pipeline::SpecularModel highlight_ = pipeline::SpecularModel::blinn;
   std::optional<double> opacity_;
-  std::optional<pipeline::WireLine> line_;
   std::optional<pipeline::TextureFilter> filter_;
   std::pair<pipeline::DrawOrder, std::uint64_t> order_{};
   bool blend_ = false, no_blocks_ = false, no_early_depth_ = false;

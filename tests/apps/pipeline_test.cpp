@@ -243,7 +243,6 @@ TEST(PipelineCommand, WritesWhatTheDepthBufferHolds) {
   refused(3, "object cube: its 'draw' is for a depth buffer", {"--hidden-surface", "painter"});
   refused(2, "--blend-depth belongs to --blend", {"--blend-depth", "on"});
   refused(2, "--opacity belongs to --blend", {"--opacity", "0.25"});
-  refused(2, "--line is for --shading wireframe", {"--line", "dda"});
   refused(2, "--filter is for a --texture", {"--filter", "nearest"});
   refused(2, "the painter compares no depths",
           {"--hidden-surface", "painter", "--polygon-offset", "0,1"});

@@ -67,7 +67,7 @@ TEST_F(DrawStates, WrongOnesAreRefusedByTheirKey) {
   EXPECT_THAT(failure("7"), HasSubstr("meshes[1].draw"));
   EXPECT_THAT(failure(R"({"blend": 1})"), HasSubstr("blend"));
   EXPECT_THAT(failure(R"({"depth_test": "nearest"})"),
-              HasSubstr("expected one of never, less, equal"));
+              HasSubstr("expected one of nearer, never, less, equal"));
   EXPECT_THAT(failure(R"({"polygon_offset": [1]})"), HasSubstr("polygon_offset"));
   EXPECT_THAT(failure(R"({"alpha": 1.5})"), HasSubstr("alpha"));
   EXPECT_THAT(failure(R"({"alpha": -0.1})"), HasSubstr("alpha"));
