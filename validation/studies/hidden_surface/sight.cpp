@@ -13,7 +13,7 @@ using geometry::as_vector;
 
 double volume(const EyePoint& a, const EyePoint& b, const EyePoint& c) {
   if (b < a) return -volume(b, a, c);
-  return as_vector(a).cross(as_vector(b)).dot(as_vector(c));
+  return geometry::dot_from_left(as_vector(a).cross(as_vector(b)), as_vector(c));
 }
 
 EyePoint ray_at(const Camera& camera, double x, double y) {
@@ -44,14 +44,14 @@ bool is_met(const EyePolygon& polygon, const EyePoint& ray) {
 }
 
 double EyePlane::at(const EyePoint& p) const {
-  return as_vector(normal).dot(as_vector(p)) - offset;
+  return geometry::dot_from_left(as_vector(normal), as_vector(p)) - offset;
 }
 
 EyePlane plane_of(const EyePolygon& polygon) {
   const Eigen::Vector3d a = as_vector(polygon[0]), b = as_vector(polygon[1]),
                         c = as_vector(polygon[2]);
   const Eigen::Vector3d normal = (b - a).cross(c - a);
-  return {as_array(normal), normal.dot(a)};
+  return {as_array(normal), geometry::dot_from_left(normal, a)};
 }
 
 }  // namespace fathom::studies

@@ -44,7 +44,8 @@ class Subdivision {
   /// One over the depth at which a ray meets a polygon's plane: linear in the image.
   [[nodiscard]] double inverse_depth(std::uint32_t i, const EyePoint& ray) const {
     using geometry::as_vector;
-    return as_vector(planes_[i].normal).dot(as_vector(ray)) / planes_[i].offset;
+    return geometry::dot_from_left(as_vector(planes_[i].normal), as_vector(ray)) /
+           planes_[i].offset;
   }
 
   /// Whether all corners lie outside one edge: then the polygon does not reach into the window.

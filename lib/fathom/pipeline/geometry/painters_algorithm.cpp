@@ -6,6 +6,7 @@
 #include <list>
 #include <utility>
 
+#include "fathom/geometry/eigen_arrays.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/geometry/plane_sides.h"
 
@@ -193,9 +194,9 @@ class Painter {
 
   /// Six times the volume of the corners of `q` and p.
   static double value(const std::vector<Point3d>& q, const Point3d& p) {
-    const auto vector = [](const Point3d& point) { return Eigen::Vector3d(point.data()); };
-    const Eigen::Vector3d a = vector(q[0]), b = vector(q[1]), c = vector(q[2]);
-    return (b - a).cross(c - a).dot(vector(p) - a);
+    using geometry::as_vector;
+    const Eigen::Vector3d a = as_vector(q[0]), b = as_vector(q[1]), c = as_vector(q[2]);
+    return geometry::dot_from_left((b - a).cross(c - a), as_vector(p) - a);
   }
 
   /// Replaces a polygon by its parts on the two sides of `value_at` = 0; false if all of it lies on
