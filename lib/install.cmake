@@ -1,8 +1,10 @@
-# The installed package: find_package(Fathom) gives fathom::fathom and a target per room.
+# The installed package: find_package(Fathom) gives fathom::fathom and a target per room, and
+# fathom::eigen_conversions where Eigen is found; find_package(Fathom COMPONENTS eigen_conversions) demands it.
 include(CMakePackageConfigHelpers)
 set(FATHOM_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/Fathom")
 
 install(EXPORT FathomTargets NAMESPACE fathom:: DESTINATION "${FATHOM_PACKAGE_DIR}")
+install(EXPORT FathomEigenTargets NAMESPACE fathom:: DESTINATION "${FATHOM_PACKAGE_DIR}")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/FathomConfig.cmake.in"
                               "${PROJECT_BINARY_DIR}/FathomConfig.cmake"
                               INSTALL_DESTINATION "${FATHOM_PACKAGE_DIR}")

@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "fathom/numeric/errors.h"
+
 namespace fathom {
 namespace {
 
@@ -53,6 +55,17 @@ TEST(Camera, PixelCentreMovesTheImageByExactlyItsDifferenceToAHalf) {
     EXPECT_EQ(b.U - a.U, Dyadic(0.5) * a.W);
     EXPECT_EQ(b.V - a.V, Dyadic(0.5) * a.W);
   }
+}
+
+TEST(Camera, TheWayBackToTheWorldOnPaper) {
+  // x' = 2z + 1, y' = −x, z' = 3y: x = −y', y = z'/3, z = (x' − 1)/2.
+  Camera camera = small_camera();
+  camera.world_to_camera = {{{0, 0, 2, 1}, {-1, 0, 0, 0}, {0, 3, 0, 0}}};
+  const std::array<std::array<double, 4>, 3> back{
+      {{0, -1, 0, 0}, {0, 0, 1.0 / 3, 0}, {0.5, 0, 0, -0.5}}};
+  EXPECT_EQ(camera_to_world(camera), back);
+  camera.world_to_camera[2] = camera.world_to_camera[1];
+  EXPECT_THROW(camera_to_world(camera), InputError);
 }
 
 TEST(Camera, ThePrincipalPointCountsFromTheCornerOfTheImage) {

@@ -1,8 +1,10 @@
 #include "validation/blender/blender_camera.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/geometry/eigen_arrays.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::validation {
@@ -14,16 +16,9 @@ constexpr double sensor_width = 36;
   throw InputError("blender: cannot express " + what);
 }
 
-void require_rotation(const Camera& camera) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      double product = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        product += camera.world_to_camera[i][k] * camera.world_to_camera[j][k];
-      }
-      if (std::abs(product - (i == j ? 1 : 0)) > 1e-6) refuse("a camera whose R is no rotation");
-    }
-  }
+void require_rotation(const Eigen::Matrix3d& R) {
+  const Eigen::Matrix3d off = R * R.transpose() - Eigen::Matrix3d::Identity();
+  if (off.cwiseAbs().maxCoeff() > 1e-6) refuse("a camera whose R is no rotation");
 }
 
 }  // namespace
@@ -31,7 +26,9 @@ void require_rotation(const Camera& camera) {
 BlenderCamera blender_camera(const Camera& camera) {
   if (camera.skew != 0) refuse("a camera with skew");
   if (camera.fx <= 0 || camera.fy <= 0) refuse("a mirrored camera");
-  require_rotation(camera);
+  const auto camera_from_world = geometry::as_matrix(camera.world_to_camera);
+  const Eigen::Matrix3d R = camera_from_world.leftCols<3>();
+  require_rotation(R);
   const double pixel = camera.fx / camera.fy;  // aspect_y / aspect_x
   if (pixel > 2 || pixel < 0.5) refuse("pixels more than twice as wide as high, or the reverse");
   const double width = camera.width, height = camera.height;
@@ -46,16 +43,12 @@ BlenderCamera blender_camera(const Camera& camera) {
   made.shift_x = (width / 2 - cx) / width;
   made.shift_y = (cy - height / 2) * pixel / width;
 
-  const auto& m = camera.world_to_camera;
-  for (std::size_t row = 0; row < 3; ++row) {
-    double position = 0;
-    for (std::size_t k = 0; k < 3; ++k) position -= m[k][row] * m[k][3];  // −Rᵀ·t
-    made.world_from_camera[4 * row] = m[0][row];
-    made.world_from_camera[4 * row + 1] = -m[1][row];
-    made.world_from_camera[4 * row + 2] = -m[2][row];
-    made.world_from_camera[4 * row + 3] = position;
-  }
-  made.world_from_camera[15] = 1;
+  Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> world_from_camera(
+      made.world_from_camera.data());
+  world_from_camera.setIdentity();
+  // Blender's camera has y up and z backward.
+  world_from_camera.topLeftCorner<3, 3>() = R.transpose() * Eigen::Vector3d(1, -1, -1).asDiagonal();
+  world_from_camera.col(3).head<3>() = -R.transpose() * camera_from_world.col(3);
   return made;
 }
 

@@ -1,28 +1,24 @@
 #include "validation/colour/expected_colour.h"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "fathom/attribution/model/opengl_matrices.h"
 #include "fathom/attribution/model/written_depth.h"
+#include "fathom/geometry/eigen_arrays.h"
 
 namespace fathom::validation {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Vector = Eigen::Vector3d;
 
-double dot(const Vector& a, const Vector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vector minus(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using geometry::as_array;
+using geometry::as_vector;
 double largest(const Vector& a) {
-  return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+  return a.cwiseAbs().maxCoeff();
 }
 
 /// What this file's own binary64 adds to a sum of a few terms of this size.
@@ -64,25 +60,22 @@ ExpectedTriangle::ExpectedTriangle(const LitTriangle& t, const LitScene& scene,
                                    const Precision& precision)
     : scene_(&scene), precision_(precision) {
   const Camera& camera = scene.camera;
-  const auto& m = camera.world_to_camera;
+  const auto camera_from_world = geometry::as_matrix(camera.world_to_camera);
+  const Eigen::Matrix3d rotation = camera_from_world.leftCols<3>();
+  const Vector translation = camera_from_world.col(3);
   const auto clip = attribution::clip_from_eye(camera, {camera.near, camera.far});
   const double u = precision.rounding;
   const PrincipalPoint centre = principal_point(camera);
-  for (std::size_t i = 0; i < 3; ++i)
-    light_[i] = dot({m[i][0], m[i][1], m[i][2]}, scene.towards_light);
+  light_ = as_array(rotation * as_vector(scene.towards_light));
   std::array<double, 3> q{}, q_error{}, z{}, z_error{};
-  std::array<Vector, 3> eye_error{};
+  std::array<Vector, 3> eye_error;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vector& p = t.corners[k];
-    double eye_size = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      eye_[k][i] = dot({m[i][0], m[i][1], m[i][2]}, p) + m[i][3];
-      normals_[k][i] = dot({m[i][0], m[i][1], m[i][2]}, t.normals[k]);
-      const double size = std::abs(m[i][0] * p[0]) + std::abs(m[i][1] * p[1]) +
-                          std::abs(m[i][2] * p[2]) + std::abs(m[i][3]);
-      eye_error[k][i] = row_roundings * u * size + own_rounding * size;
-      eye_size = std::max(eye_size, size);
-    }
+    const Vector p = as_vector(t.corners[k]);
+    eye_[k] = as_array(rotation * p + translation);
+    normals_[k] = as_array(rotation * as_vector(t.normals[k]));
+    const Vector sizes = rotation.cwiseAbs() * p.cwiseAbs() + translation.cwiseAbs();
+    eye_error[k] = (row_roundings * u + own_rounding) * sizes;
+    const double eye_size = sizes.maxCoeff();
     const auto& [X, Y, Z] = eye_[k];
     window_[k] = {(camera.fx * X + camera.skew * Y) / Z + centre.x, camera.fy * Y / Z + centre.y};
     // Clip coordinates: sums of products of the matrix's entries with terms of at most eye_size.
@@ -103,23 +96,24 @@ ExpectedTriangle::ExpectedTriangle(const LitTriangle& t, const LitScene& scene,
     z[k] = camera.far / (camera.far - camera.near) * (1 - camera.near / Z);
     z_error[k] = clip_error(2) / Z + w_relative + 4 * u;
   }
-  const Vector face = cross(minus(eye_[1], eye_[0]), minus(eye_[2], eye_[0]));
-  const double face_length = std::sqrt(dot(face, face));
+  const Vector eye_0 = as_vector(eye_[0]);
+  const Vector face = (as_vector(eye_[1]) - eye_0).cross(as_vector(eye_[2]) - eye_0);
+  const double face_length = face.norm();
   // The corners run counter-clockwise as seen, y down and z forward, if the plane's normal points
   // at the eye.
-  const bool front = dot(face, eye_[0]) < 0;
-  for (std::size_t i = 0; i < 3; ++i) plane_[i] = (front ? 1 : -1) * face[i] / face_length;
+  const bool front = face.dot(eye_0) < 0;
+  plane_ = as_array((front ? 1 : -1) * face / face_length);
   if (!front)
-    for (Vector& n : normals_) n = {-n[0], -n[1], -n[2]};
+    for (auto& n : normals_) n = as_array(-as_vector(n));
   const auto& [a, b, c] = window_;
   const double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
   // Corners that are off by e turn the plane by at most 2e over its least height.
   double corner_error = 0, longest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vector side = minus(eye_[(k + 1) % 3], eye_[k]);
-    longest = std::max(longest, std::sqrt(dot(side, side)));
-    corner_error = std::max(
-        corner_error, std::numbers::sqrt3 * (largest(eye_error[k]) + 2 * u * largest(eye_[k])));
+    const Vector from = as_vector(eye_[k]), to = as_vector(eye_[(k + 1) % 3]);
+    longest = std::max(longest, (to - from).norm());
+    corner_error = std::max(corner_error,
+                            std::numbers::sqrt3 * (largest(eye_error[k]) + 2 * u * largest(from)));
   }
   plane_error_ = 2 * corner_error * longest / face_length;
   // Which side is seen, and the slopes, are not certain of what is this thin.
@@ -136,7 +130,7 @@ ExpectedTriangle::ExpectedTriangle(const LitTriangle& t, const LitScene& scene,
   inverse_depth_ = affine(q, q_error);
   window_z_ = affine(z, z_error);
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto over_w = [&](const std::array<Vector, 3>& values, auto&& error_of) {
+    const auto over_w = [&](const std::array<std::array<double, 3>, 3>& values, auto&& error_of) {
       std::array<double, 3> f{}, e{};
       for (std::size_t k = 0; k < 3; ++k) {
         f[k] = values[k][i] * q[k];
@@ -144,8 +138,9 @@ ExpectedTriangle::ExpectedTriangle(const LitTriangle& t, const LitScene& scene,
       }
       return affine(f, e);
     };
-    normal_[i] = over_w(
-        normals_, [&](std::size_t k) { return 2 * row_roundings * u * largest(normals_[k]); });
+    normal_[i] = over_w(normals_, [&](std::size_t k) {
+      return 2 * row_roundings * u * largest(as_vector(normals_[k]));
+    });
     position_[i] = over_w(eye_, [&](std::size_t k) { return eye_error[k][i]; });
   }
 }
@@ -279,7 +274,7 @@ Interval ExpectedTriangle::light(int x, int y, LightModel model) const {
     Range3 n{}, p{};
     for (std::size_t i = 0; i < 3; ++i) {
       n[i] = around(normals_[k][i], own_rounding);
-      p[i] = around(eye_[k][i], own_rounding * largest(eye_[k]));
+      p[i] = around(eye_[k][i], own_rounding * largest(as_vector(eye_[k])));
     }
     const Interval w = range(weights_[k], x, y) / exactly(eye_[k][2]);
     sum = sum + w * lit(n, p);
@@ -300,14 +295,15 @@ double ExpectedTriangle::derived_error(int x, int y) const {
   const int x0 = x & ~1, row = (rows - 1 - y) & ~1, y0 = rows - 1 - row;
   constexpr double nothing_known = 2;
   const double u = precision_.rounding;
-  std::array<Vector, 3> at{};  // here, to the right, above
+  std::array<Vector, 3> at;  // here, to the right, above
   std::array<double, 3> q{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double px = x0 + (k == 1 ? 1 : 0) + 0.5, py = y0 - (k == 2 ? 1 : 0) + 0.5;
     q[k] = inverse_depth_.at(px, py);
     // Over a pixel the depth must not change by more than a sixteenth.
     if (!(q[k] > 0) || !(std::abs(q[k] - q[0]) <= q[0] / 16)) return nothing_known;
-    for (std::size_t i = 0; i < 3; ++i) at[k][i] = position_[i].at(px, py) / q[k];
+    at[k] =
+        Vector(position_[0].at(px, py), position_[1].at(px, py), position_[2].at(px, py)) / q[k];
   }
   const double change = std::max(std::abs(q[1] - q[0]), std::abs(q[2] - q[0])) / q[0];
   double square = 0;
@@ -324,15 +320,13 @@ double ExpectedTriangle::derived_error(int x, int y) const {
   }
   // The other row and column of the four, and the products of errors: a quarter more.
   const double e = 1.25 * std::sqrt(square);
-  const Vector across = minus(at[1], at[0]), up = minus(at[2], at[0]);
-  const double a = std::sqrt(dot(across, across)), b = std::sqrt(dot(up, up));
-  const Vector normal = cross(across, up);
-  const double area = std::sqrt(dot(normal, normal));
+  const Vector across = at[1] - at[0], up = at[2] - at[0];
+  const double a = across.norm(), b = up.norm(), area = across.cross(up).norm();
   const double error = 1.25 * ((a * e + b * e + e * e) / area + 3 * u * a * b / area) +
                        plane_error_ + unit_roundings * u;
   // It is turned towards the eye by the sign of its product with the direction there.
-  const double distance = std::sqrt(dot(at[0], at[0]));
-  if (!(std::abs(dot(plane_, at[0])) / distance > 2 * error)) return nothing_known;
+  const double distance = at[0].norm();
+  if (!(std::abs(as_vector(plane_).dot(at[0])) / distance > 2 * error)) return nothing_known;
   return error;
 }
 

@@ -1,7 +1,9 @@
 #include "validation/colour/lit_triangles.h"
 
+#include <Eigen/Core>
 #include <cmath>
 
+#include "fathom/geometry/eigen_arrays.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/fragments/shading.h"
 #include "fathom/pipeline/geometry/vertex_transform.h"
@@ -14,14 +16,10 @@ double in_binary32(double x) {
 }
 
 void require_rotation(const Camera& camera) {
-  const auto& m = camera.world_to_camera;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      const double product = m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2];
-      if (std::abs(product - (i == j ? 1 : 0)) > 0x1p-40)
-        throw InputError("colours are compared for cameras whose matrix is a rotation");
-    }
-  }
+  const Eigen::Matrix3d rotation = geometry::as_matrix(camera.world_to_camera).leftCols<3>();
+  const Eigen::Matrix3d off = rotation * rotation.transpose() - Eigen::Matrix3d::Identity();
+  if (off.cwiseAbs().maxCoeff() > 0x1p-40)
+    throw InputError("colours are compared for cameras whose matrix is a rotation");
   if (camera.projection != Projection::perspective)
     throw InputError(
         "colours are compared for perspective cameras; in a parallel view VTK takes the eye to be "
@@ -29,11 +27,9 @@ void require_rotation(const Camera& camera) {
 }
 
 void require_in_view(const std::array<double, 3>& p, const Camera& camera) {
-  const auto& m = camera.world_to_camera;
-  const auto row = [&](std::size_t i) {
-    return m[i][0] * p[0] + m[i][1] * p[1] + m[i][2] * p[2] + m[i][3];
-  };
-  const double x = row(0), y = row(1), z = row(2);
+  const Eigen::Vector3d seen =
+      geometry::as_matrix(camera.world_to_camera) * Eigen::Vector4d(p[0], p[1], p[2], 1);
+  const double x = seen.x(), y = seen.y(), z = seen.z();
   const PrincipalPoint centre = principal_point(camera);
   const double u = (camera.fx * x + camera.skew * y) / z + centre.x;
   const double v = camera.fy * y / z + centre.y;

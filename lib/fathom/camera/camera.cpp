@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fathom/camera/pose.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -56,6 +57,13 @@ Dyadic determinant_of_rotation(const Camera& camera) {
     return ExactVector3{r[0], r[1], r[2]};
   };
   return determinant(row(0), row(1), row(2));
+}
+
+std::array<std::array<double, 4>, 3> camera_to_world(const Camera& camera) {
+  const StandardArithmetic standard;
+  const auto pose = camera::inverse(camera.world_to_camera);
+  if (!pose) throw InputError("the camera cannot be inverted: its matrix is singular");
+  return *pose;
 }
 
 CameraPoint to_camera(const Camera& camera, const WorldPoint& X) {

@@ -44,6 +44,10 @@ void require_valid(const Camera& camera);
 /// det R, exactly.
 Dyadic determinant_of_rotation(const Camera& camera);
 
+/// Camera to world, [R⁻¹ | −R⁻¹·t]: each entry is the exact one, rounded to nearest once.
+/// Fails    InputError where R is singular.
+std::array<std::array<double, 4>, 3> camera_to_world(const Camera& camera);
+
 /// R·X + t, exactly; scene units.
 CameraPoint to_camera(const Camera& camera, const WorldPoint& X);
 

@@ -4,7 +4,6 @@
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/camera/pose.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
@@ -69,32 +68,23 @@ void read_intrinsics(const Frame& frame, Camera& camera) {
   camera.cy = frame.number("cy").value_or(camera.height / 2.0);
 }
 
-/// The inverse, in our axes, of the camera-to-world matrix [A | b] in OpenGL's: with
-/// A⁻¹ = adj A / det A, world to camera is diag(1, −1, −1)·[A⁻¹ | −A⁻¹·b], each entry an exact
-/// rational rounded once.
-Matrix34 invert(const JsonValue& matrix) {
+/// World to camera, in our axes, of a camera-to-world matrix in OpenGL's. The other way round it is
+/// that matrix with its second and third column, up and backward, turned round: exact. Its inverse
+/// is rounded once.
+Matrix34 world_to_camera(const JsonValue& matrix) {
   const auto rows = matrix.elements();
   if (rows.size() != 3 && rows.size() != 4)
     matrix.fail("expected a 4×4 matrix, found " + std::to_string(rows.size()) + " rows");
-  std::array<ExactVector3, 4> columns;
-  for (int i = 0; i < 3; ++i) {
-    const auto row = rows[static_cast<std::size_t>(i)].numbers(4);
-    for (std::size_t k = 0; k < 4; ++k) columns[k][i] = row[k];
+  Matrix34 world_from_camera;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto row = rows[i].numbers(4);
+    world_from_camera[i] = {row[0], -row[1], -row[2], row[3]};
   }
   if (rows.size() == 4 && rows[3].numbers(4) != std::vector<double>{0, 0, 0, 1})
     rows[3].fail("expected the last row to be 0 0 0 1");
-  const auto& [a0, a1, a2, b] = columns;
-  const Dyadic det = determinant(a0, a1, a2);
-  if (det.is_zero()) matrix.fail("the matrix is singular");
-  const std::array<ExactVector3, 3> adjugate{cross(a1, a2), cross(a2, a0), cross(a0, a1)};
-  Matrix34 inverse;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Dyadic sign = i == 0 ? 1.0 : -1.0;
-    const auto rounded = [&](const Dyadic& x) { return round_to_binary64(Ratio(sign * x, det)); };
-    inverse[i] = {rounded(adjugate[i][0]), rounded(adjugate[i][1]), rounded(adjugate[i][2]),
-                  rounded(-dot(adjugate[i], b))};
-  }
-  return inverse;
+  const auto camera_from_world = inverse(world_from_camera);
+  if (!camera_from_world) matrix.fail("the matrix is singular");
+  return *camera_from_world;
 }
 
 void warn_of_geometry(const JsonValue& root, const std::string& file, Warnings& warnings) {
@@ -120,7 +110,7 @@ std::vector<ImportedCamera> camera::parse_nerf(std::string_view text, const std:
     camera.width = image_size(frame, "w", width);
     camera.height = image_size(frame, "h", height);
     read_intrinsics(frame, camera);
-    camera.world_to_camera = invert(own.at("transform_matrix"));
+    camera.world_to_camera = world_to_camera(own.at("transform_matrix"));
     if (const auto fault = find_fault(camera)) own.fail(*fault);
     const auto file_path = own.find("file_path");
     cameras.push_back({file_path ? file_path->string() : std::to_string(cameras.size()), camera});

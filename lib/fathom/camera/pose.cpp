@@ -27,4 +27,21 @@ Matrix34 pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVec
   return pose;
 }
 
+// A⁻¹ = adj A / det A; the rows of the adjugate are the cross products of the columns of A.
+std::optional<Matrix34> inverse(const Matrix34& pose) {
+  const auto column = [&](std::size_t k) {
+    return ExactVector3{pose[0][k], pose[1][k], pose[2][k]};
+  };
+  const ExactVector3 a0 = column(0), a1 = column(1), a2 = column(2), b = column(3);
+  const Dyadic det = determinant(a0, a1, a2);
+  if (det.is_zero()) return std::nullopt;
+  const std::array<ExactVector3, 3> adjugate{cross(a1, a2), cross(a2, a0), cross(a0, a1)};
+  const auto rounded = [&](const Dyadic& x) { return round_to_binary64(Ratio(x, det)); };
+  Matrix34 inverse;
+  for (std::size_t i = 0; i < 3; ++i)
+    inverse[i] = {rounded(adjugate[i][0]), rounded(adjugate[i][1]), rounded(adjugate[i][2]),
+                  rounded(-dot(adjugate[i], b))};
+  return inverse;
+}
+
 }  // namespace fathom::camera

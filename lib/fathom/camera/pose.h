@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/ratio.h"
@@ -20,5 +21,9 @@ ExactVector3 rotate(const Matrix3& R, const ExactVector3& X);
 /// [R | target − R·X]: the pose that takes the world point X to the camera point `target`; its
 /// translation is the exact one rounded once.
 Matrix34 pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVector3& target);
+
+/// [A⁻¹ | −A⁻¹·b] of a pose [A | b], each entry the exact one rounded once; nothing where A is
+/// singular.
+std::optional<Matrix34> inverse(const Matrix34& pose);
 
 }  // namespace fathom::camera

@@ -1,5 +1,6 @@
 #include "fathom/image/point_cloud.h"
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 
@@ -17,11 +18,13 @@ namespace {
 using Vector = std::array<double, 3>;
 using Affine = std::array<std::array<double, 4>, 3>;
 
+using Rows34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
+
+/// Summed from the left.
 Vector transform_point(const Affine& m, const Vector& p) {
-  Vector result{};
-  for (std::size_t k = 0; k < 3; ++k)
-    result[k] = m[k][0] * p[0] + m[k][1] * p[1] + m[k][2] * p[2] + m[k][3];
-  return result;
+  const Eigen::Map<const Rows34> M(m.front().data());
+  const Eigen::Vector3d moved = M.col(0) * p[0] + M.col(1) * p[1] + M.col(2) * p[2] + M.col(3);
+  return {moved.x(), moved.y(), moved.z()};
 }
 
 /// The three channels `GROUP.X`, `GROUP.Y`, `GROUP.Z`, if the map has them all.
@@ -70,14 +73,13 @@ class Points {
   [[nodiscard]] Vector normal(std::size_t k) const {
     const Vector n = normal_[k];
     if (frame_ == PointFrame::world) return n;
-    // Normals transform by the inverse transpose: (n in the camera)_r = Σ_c (R⁻¹)_cr n_c.
-    Vector turned{};
-    for (std::size_t r = 0; r < 3; ++r)
-      for (std::size_t c = 0; c < 3; ++c) turned[r] += world_from_camera_[c][r] * n[c];
-    const double length = std::hypot(turned[0], turned[1], turned[2]);
-    if (length > 0)
-      for (double& x : turned) x /= length;
-    return turned;
+    // Normals transform by the inverse transpose.
+    const Eigen::Map<const Rows34> world_from_camera(world_from_camera_.front().data());
+    Eigen::Vector3d turned =
+        world_from_camera.leftCols<3>().transpose() * Eigen::Vector3d(n.data());
+    const double length = turned.stableNorm();
+    if (length > 0) turned /= length;
+    return {turned.x(), turned.y(), turned.z()};
   }
 
  private:

@@ -1,13 +1,19 @@
 #include "validation/studies/hidden_surface/sight.h"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <utility>
+
+#include "fathom/geometry/eigen_arrays.h"
 
 namespace fathom::studies {
 
+using geometry::as_array;
+using geometry::as_vector;
+
 double volume(const EyePoint& a, const EyePoint& b, const EyePoint& c) {
   if (b < a) return -volume(b, a, c);
-  return (a[1] * b[2] - a[2] * b[1]) * c[0] + (a[2] * b[0] - a[0] * b[2]) * c[1] +
-         (a[0] * b[1] - a[1] * b[0]) * c[2];
+  return geometry::dot_from_left(as_vector(a).cross(as_vector(b)), as_vector(c));
 }
 
 EyePoint ray_at(const Camera& camera, double x, double y) {
@@ -38,17 +44,14 @@ bool is_met(const EyePolygon& polygon, const EyePoint& ray) {
 }
 
 double EyePlane::at(const EyePoint& p) const {
-  return normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2] - offset;
+  return geometry::dot_from_left(as_vector(normal), as_vector(p)) - offset;
 }
 
 EyePlane plane_of(const EyePolygon& polygon) {
-  const EyePoint &a = polygon[0], &b = polygon[1], &c = polygon[2];
-  const EyePoint u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const EyePoint v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  EyePlane plane{{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]},
-                 0};
-  plane.offset = plane.at(a);
-  return plane;
+  const Eigen::Vector3d a = as_vector(polygon[0]), b = as_vector(polygon[1]),
+                        c = as_vector(polygon[2]);
+  const Eigen::Vector3d normal = (b - a).cross(c - a);
+  return {as_array(normal), geometry::dot_from_left(normal, a)};
 }
 
 }  // namespace fathom::studies

@@ -1,8 +1,10 @@
 #include "validation/studies/hidden_surface/warnock.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <optional>
 
+#include "fathom/geometry/eigen_arrays.h"
 #include "fathom/image/depth_map.h"
 
 namespace fathom::studies {
@@ -41,8 +43,9 @@ class Subdivision {
 
   /// One over the depth at which a ray meets a polygon's plane: linear in the image.
   [[nodiscard]] double inverse_depth(std::uint32_t i, const EyePoint& ray) const {
-    const EyePoint& n = planes_[i].normal;
-    return (n[0] * ray[0] + n[1] * ray[1] + n[2] * ray[2]) / planes_[i].offset;
+    using geometry::as_vector;
+    return geometry::dot_from_left(as_vector(planes_[i].normal), as_vector(ray)) /
+           planes_[i].offset;
   }
 
   /// Whether all corners lie outside one edge: then the polygon does not reach into the window.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -13,7 +14,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Pixels on which an estimate has to rest.
-constexpr double least_pixels = 16;
+constexpr Eigen::Index least_pixels = 16;
 /// Where a depth agrees, relatively, and the share of the pixels that has to.
 constexpr double agreement = 1e-4, agreeing_share = 0.95;
 
@@ -77,23 +78,20 @@ struct Line {
 
 /// The line of least squares through the pairs that lie within `limit` of `before`.
 std::optional<Line> fitted(const std::vector<Pair>& pairs, const Line& before, double limit) {
-  double n = 0, sx = 0, sy = 0;
+  Eigen::MatrixX2d terms(static_cast<Eigen::Index>(pairs.size()), 2);  // x, 1
+  Eigen::VectorXd y(terms.rows());
+  Eigen::Index n = 0;
   for (const Pair& p : pairs) {
     if (before.residual(p) > limit) continue;
-    n += 1;
-    sx += p.x;
-    sy += p.y;
+    terms.row(n) << p.x, 1;
+    y[n] = p.y;
+    ++n;
   }
   if (n < least_pixels) return std::nullopt;
-  double xx = 0, xy = 0;
-  for (const Pair& p : pairs) {
-    if (before.residual(p) > limit) continue;
-    xx += (p.x - sx / n) * (p.x - sx / n);
-    xy += (p.x - sx / n) * (p.y - sy / n);
-  }
-  if (!(xx > 0)) return std::nullopt;
-  const double alpha = xy / xx;
-  return Line{alpha, (sy - alpha * sx) / n};
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixX2d> decomposed(terms.topRows(n));
+  if (decomposed.rank() < 2) return std::nullopt;
+  const Eigen::Vector2d line = decomposed.solve(y.head(n));
+  return Line{line[0], line[1]};
 }
 
 /// Four times, from the second time on without the worst.

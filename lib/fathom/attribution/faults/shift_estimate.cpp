@@ -1,5 +1,7 @@
 #include "fathom/attribution/faults/shift_estimate.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -20,14 +22,15 @@ double affine_value(const Camera& camera, double depth) {
 
 /// The normal equations of r = g·shift, g the gradient and r the difference at a pixel.
 struct NormalEquations {
-  double xx = 0, xy = 0, yy = 0, xr = 0, yr = 0;
-  double residuals = 0;  ///< sum of |r − g·shift| of the shift before
+  Eigen::Matrix2d products = Eigen::Matrix2d::Zero();  ///< Σ g·gᵀ
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();     ///< Σ r·g
+  double residuals = 0;                                ///< Σ |r − g·shift| of the shift before
   std::size_t pixels = 0;
 };
 
 /// Over the pixels whose neighbours to the right and below show the same triangle, without those
 /// whose residual is beyond `limit`.
-NormalEquations equations(const Truth& truth, const OtherMap& other, const ImageShift& shift,
+NormalEquations equations(const Truth& truth, const OtherMap& other, const Eigen::Vector2d& shift,
                           double limit) {
   const Camera& camera = truth.camera;
   NormalEquations sums;
@@ -39,18 +42,15 @@ NormalEquations equations(const Truth& truth, const OtherMap& other, const Image
                            truth.triangles[i] == truth.triangles[below];
       if (!is_flat || !(truth.depths[i] < infinity) || !(other.depths[i] < infinity)) continue;
       const double here = affine_value(camera, truth.depths[i]);
-      const double gx = affine_value(camera, truth.depths[i + 1]) - here;
-      const double gy = affine_value(camera, truth.depths[below]) - here;
+      const Eigen::Vector2d g(affine_value(camera, truth.depths[i + 1]) - here,
+                              affine_value(camera, truth.depths[below]) - here);
       const double r = affine_value(camera, other.depths[i]) - here;
-      const double residual = std::abs(r - gx * shift.x - gy * shift.y);
+      const double residual = std::abs(r - g.dot(shift));
       if (residual > limit) continue;
       sums.residuals += residual;
       ++sums.pixels;
-      sums.xx += gx * gx;
-      sums.xy += gx * gy;
-      sums.yy += gy * gy;
-      sums.xr += gx * r;
-      sums.yr += gy * r;
+      sums.products += g * g.transpose();
+      sums.right += r * g;
     }
   }
   return sums;
@@ -60,17 +60,18 @@ NormalEquations equations(const Truth& truth, const OtherMap& other, const Image
 
 /// Three times, from the second time on without the worst.
 std::optional<ImageShift> estimated_shift(const Truth& truth, const OtherMap& other) {
-  ImageShift shift;
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   double limit = infinity;
   for (int round = 0; round < 3; ++round) {
-    const NormalEquations s = equations(truth, other, shift, limit);
-    const double determinant = s.xx * s.yy - s.xy * s.xy;
-    if (s.pixels < least_pixels || !(determinant > 1e-9 * s.xx * s.yy)) return std::nullopt;
-    shift = {(s.yy * s.xr - s.xy * s.yr) / determinant, (s.xx * s.yr - s.xy * s.xr) / determinant};
-    limit = 3 * s.residuals / static_cast<double>(s.pixels);
+    const NormalEquations sums = equations(truth, other, shift, limit);
+    const Eigen::Matrix2d& products = sums.products;
+    const bool tell_both = products.determinant() > 1e-9 * products.diagonal().prod();
+    if (sums.pixels < least_pixels || !tell_both) return std::nullopt;
+    shift = products.ldlt().solve(sums.right);
+    limit = 3 * sums.residuals / static_cast<double>(sums.pixels);
   }
-  if (!(std::hypot(shift.x, shift.y) < 4)) return std::nullopt;
-  return shift;
+  if (!(shift.norm() < 4)) return std::nullopt;
+  return ImageShift{shift.x(), shift.y()};
 }
 
 }  // namespace fathom::attribution

@@ -1,17 +1,16 @@
 #include "fathom/attribution/raster/clip_rows.h"
 
+#include <Eigen/Core>
 #include <cmath>
 
 #include "fathom/attribution/model/window_depth.h"
+#include "fathom/geometry/eigen_arrays.h"
 
 namespace fathom::attribution {
 namespace {
 
-using Row = std::array<double, 4>;
-using Matrix = std::array<Row, 4>;
-
 /// Rows of x, y (up), z, w over the camera frame (x, y, depth, 1), as OpenGL has them.
-Matrix clip_from_camera(const Camera& camera, const WindowDepth& window) {
+Eigen::Matrix4d clip_from_camera(const Camera& camera, const WindowDepth& window) {
   const double w = camera.width, h = camera.height;
   const auto [cx, cy] = principal_point(camera);
   const double xx = 2 * camera.fx / w, xy = 2 * camera.skew / w, x1 = 2 * cx / w - 1;
@@ -21,36 +20,25 @@ Matrix clip_from_camera(const Camera& camera, const WindowDepth& window) {
     a = window.perspective ? 2 * a - 1 : 2 * a;
     b = window.perspective ? 2 * b : 2 * b - 1;
   }
+  Eigen::Matrix4d m;
   if (window.perspective) {
-    return {{{xx, xy, x1, 0}, {0, yy, y1, 0}, {0, 0, a, b}, {0, 0, 1, 0}}};
+    m << xx, xy, x1, 0,  //
+        0, yy, y1, 0,    //
+        0, 0, a, b,      //
+        0, 0, 1, 0;
+  } else {
+    m << xx, xy, 0, x1,  //
+        0, yy, 0, y1,    //
+        0, 0, a, b,      //
+        0, 0, 0, 1;
   }
-  return {{{xx, xy, 0, x1}, {0, yy, 0, y1}, {0, 0, a, b}, {0, 0, 0, 1}}};
+  return m;
 }
 
-Matrix camera_from_world(const Camera& camera) {
-  const auto& m = camera.world_to_camera;
-  return {m[0], m[1], m[2], {0, 0, 0, 1}};
-}
-
-/// One row of the product of both matrices, for positions less the shift.
-ClipRow product_row(const Row& projection, const Matrix& view, const RasterModel& model) {
-  ClipRow made;
-  for (std::size_t j = 0; j < 4; ++j) {
-    Row eye = view[j];
-    for (std::size_t k = 0; k < 3; ++k) {
-      made.loss += std::abs(projection[j] * eye[k] * model.shift[k]);
-      eye[3] += eye[k] * model.shift[k];
-    }
-    made.loss += std::abs(projection[j] * view[j][3]);
-    for (std::size_t k = 0; k < 4; ++k) {
-      made.row[k] += projection[j] * eye[k];
-      made.magnitude[k] += std::abs(projection[j] * eye[k]);
-    }
-  }
-  if (model.premultiplied) {
-    for (std::size_t k = 0; k < 4; ++k) made.magnitude[k] = std::abs(made.row[k]);
-  }
-  return made;
+Eigen::Matrix4d camera_from_world(const Camera& camera) {
+  Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+  m.topRows<3>() = geometry::as_matrix(camera.world_to_camera);
+  return m;
 }
 
 std::array<ClipRow, 4> rows_of_matrix(const std::array<float, 16>& matrix) {
@@ -69,9 +57,26 @@ std::array<ClipRow, 4> rows_of_matrix(const std::array<float, 16>& matrix) {
 std::array<ClipRow, 4> rows_of_camera(const Camera& camera, const RasterModel& model) {
   const WindowDepth window =
       window_depth(camera.projection, model.mapping, camera.near, camera.far);
-  const Matrix projection = clip_from_camera(camera, window), view = camera_from_world(camera);
+  const Eigen::Matrix4d projection = clip_from_camera(camera, window);
+  const Eigen::Matrix4d view = camera_from_world(camera);
+  const Eigen::Vector3d shift = geometry::as_vector(model.shift);
+  // For positions less the shift.
+  Eigen::Matrix4d view_of_shifted = view;
+  view_of_shifted.col(3).head<3>() += view.topLeftCorner<3, 3>() * shift;
+  const Eigen::Matrix4d product = projection * view_of_shifted;
+  const Eigen::Matrix4d magnitude =
+      model.premultiplied ? product.cwiseAbs().eval()
+                          : (projection.cwiseAbs() * view_of_shifted.cwiseAbs()).eval();
+  Eigen::Vector4d terms = view.col(3).cwiseAbs();
+  terms.head<3>() += view.topLeftCorner<3, 3>().cwiseAbs() * shift.cwiseAbs();
+  const Eigen::Vector4d loss = projection.cwiseAbs() * terms;
   std::array<ClipRow, 4> rows;
-  for (std::size_t r = 0; r < 4; ++r) rows[r] = product_row(projection[r], view, model);
+  for (std::size_t r = 0; r < 4; ++r) {
+    const auto i = static_cast<Eigen::Index>(r);
+    Eigen::Map<Eigen::RowVector4d>(rows[r].row.data()) = product.row(i);
+    Eigen::Map<Eigen::RowVector4d>(rows[r].magnitude.data()) = magnitude.row(i);
+    rows[r].loss = loss[i];
+  }
   return rows;
 }
 

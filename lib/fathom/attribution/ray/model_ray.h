@@ -10,7 +10,7 @@ namespace fathom::attribution {
 /// A ray origin + t·direction, t the depth, and how far the renderer's own may be from it,
 /// component by component.
 struct Ray {
-  Vector3 origin{}, direction{}, origin_error{}, direction_error{};
+  Vector3 origin, direction, origin_error, direction_error;
 };
 
 /// The rays of a camera as a renderer of the model has them.

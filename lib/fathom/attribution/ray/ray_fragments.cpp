@@ -16,19 +16,14 @@ constexpr double u = unit_roundoff<float>;
 
 /// A corner in the camera frame, and the greatest of the terms that its coordinates are sums of.
 struct CameraCorner {
-  Vector3 position{};
-  double size = 0;
+  Vector3 position;
+  double size;
 };
 
 CameraCorner in_camera(const Camera& camera, const Vector3& p) {
-  CameraCorner corner;
-  for (std::size_t r = 0; r < 3; ++r) {
-    const auto& m = camera.world_to_camera[r];
-    corner.position[r] = m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3];
-    corner.size = std::max({corner.size, std::abs(m[0] * p[0]), std::abs(m[1] * p[1]),
-                            std::abs(m[2] * p[2]), std::abs(m[3])});
-  }
-  return corner;
+  const auto camera_from_world = as_matrix(camera.world_to_camera);
+  const Eigen::Matrix<double, 3, 4> terms = camera_from_world * p.homogeneous().eval().asDiagonal();
+  return {terms.rowwise().sum(), terms.cwiseAbs().maxCoeff()};
 }
 
 class RayFragments final : public FragmentSource {
@@ -43,8 +38,9 @@ class RayFragments final : public FragmentSource {
  private:
   [[nodiscard]] std::array<Vector3, 3> corners(std::uint32_t triangle) const {
     const CornerIndices& t = mesh_.triangles[triangle];
-    return {mesh_.points[t[0]] - model_.shift, mesh_.points[t[1]] - model_.shift,
-            mesh_.points[t[2]] - model_.shift};
+    const Vector3 shift = as_vector(model_.shift);
+    return {as_vector(mesh_.points[t[0]]) - shift, as_vector(mesh_.points[t[1]]) - shift,
+            as_vector(mesh_.points[t[2]]) - shift};
   }
 
   const WorldMesh& mesh_;

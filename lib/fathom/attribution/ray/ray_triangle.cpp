@@ -31,8 +31,8 @@ Seen seen_from(const Ray& ray, const std::array<Vector3, 3>& corners) {
   }
   seen.e1 = seen.corners[1] - seen.corners[0];
   seen.e2 = seen.corners[2] - seen.corners[0];
-  seen.normal = cross(seen.e1, seen.e2);
-  seen.facing = dot(seen.normal, ray.direction);
+  seen.normal = seen.e1.cross(seen.e2);
+  seen.facing = seen.normal.dot(ray.direction);
   return seen;
 }
 
@@ -52,9 +52,9 @@ EdgeTests edge_tests(const Seen& seen, const Ray& ray, const RayModel& model) {
   EdgeTests tests;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-    tests.volume[k] = dot(cross(a[i], a[j]), d);
-    tests.error[k] = dot(abs(cross(a[i], a[j])), ray.direction_error) +
-                     dot(held[i], abs(cross(a[j], d))) + dot(held[j], abs(cross(d, a[i]))) +
+    tests.volume[k] = a[i].cross(a[j]).dot(d);
+    tests.error[k] = abs(a[i].cross(a[j])).dot(ray.direction_error) +
+                     held[i].dot(abs(a[j].cross(d))) + held[j].dot(abs(d.cross(a[i]))) +
                      2 * (permanent(held[i], held[j], abs(d) + ray.direction_error));
     tests.rounded += model.roundings * u *
                      permanent(a[j] - a[i], abs(a[i]) + abs(a[j]), abs(d) + ray.direction_error);
@@ -88,17 +88,16 @@ std::optional<Fragment> covered(Seen& seen, const Ray& ray, const RayModel& mode
 void set_value(Fragment& f, const Seen& seen, const Ray& ray, const ModelRays& rays,
                const RayModel& model) {
   const auto& [a, held, e1, e2, normal, facing, facing_error] = seen;
-  const double t = dot(normal, a[0]) / facing;
+  const double t = normal.dot(a[0]) / facing;
   const double rest = std::abs(facing) - facing_error;
-  Vector3 displaced = held[0];
-  for (std::size_t k = 0; k < 3; ++k) displaced[k] = std::max({held[0][k], held[1][k], held[2][k]});
+  const Vector3 displaced = held[0].cwiseMax(held[1]).cwiseMax(held[2]);
   const Vector3 spread = displaced + std::abs(t) * ray.direction_error;
   const double plane_error =
       model.roundings * u *
       (permanent(e1, e2, a[0]) + std::abs(t) * permanent(e1, e2, ray.direction));
   // Weights of a sample that an open edge lets in may be negative, by the edges' bounds in all.
   const double outside = 1 + 2 * facing_error / rest;
-  double half = own_roundings * outside * (dot(abs(normal), spread) + plane_error) / rest;
+  double half = own_roundings * outside * (abs(normal).dot(spread) + plane_error) / rest;
   if (!(rest > 0) || !std::isfinite(t)) {
     f.coverage = Coverage::may;
     half = infinity;

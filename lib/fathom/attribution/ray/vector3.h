@@ -1,36 +1,23 @@
 #pragma once
 
-#include <array>
-#include <cmath>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 
-/// Vectors of three binary64 numbers.
+#include "fathom/geometry/eigen_arrays.h"
+
+/// Vectors of three binary64 numbers. Bounds here hold for sums in any order, which is Eigen's
+/// business (docs/validation.md, own_roundings.h).
 namespace fathom::attribution {
 
-using Vector3 = std::array<double, 3>;
+using Vector3 = Eigen::Vector3d;
 
-inline Vector3 operator-(const Vector3& a, const Vector3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-inline Vector3 operator+(const Vector3& a, const Vector3& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
-inline Vector3 operator*(double s, const Vector3& a) {
-  return {s * a[0], s * a[1], s * a[2]};
-}
-
-inline Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-inline double dot(const Vector3& a, const Vector3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+using geometry::as_array;
+using geometry::as_matrix;
+using geometry::as_vector;
 
 /// Component by component.
 inline Vector3 abs(const Vector3& a) {
-  return {std::abs(a[0]), std::abs(a[1]), std::abs(a[2])};
+  return a.cwiseAbs();
 }
 
 /// det(a, b, c) with every product taken absolutely: what roundings of a determinant are relative

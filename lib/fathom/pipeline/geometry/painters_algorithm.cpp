@@ -1,9 +1,12 @@
 #include "fathom/pipeline/geometry/painters_algorithm.h"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <list>
 #include <utility>
 
+#include "fathom/geometry/eigen_arrays.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/geometry/plane_sides.h"
 
@@ -189,11 +192,11 @@ class Painter {
     return false;
   }
 
+  /// Six times the volume of the corners of `q` and p.
   static double value(const std::vector<Point3d>& q, const Point3d& p) {
-    const double ux = q[1][0] - q[0][0], uy = q[1][1] - q[0][1], uz = q[1][2] - q[0][2];
-    const double vx = q[2][0] - q[0][0], vy = q[2][1] - q[0][1], vz = q[2][2] - q[0][2];
-    return (uy * vz - uz * vy) * (p[0] - q[0][0]) + (uz * vx - ux * vz) * (p[1] - q[0][1]) +
-           (ux * vy - uy * vx) * (p[2] - q[0][2]);
+    using geometry::as_vector;
+    const Eigen::Vector3d a = as_vector(q[0]), b = as_vector(q[1]), c = as_vector(q[2]);
+    return geometry::dot_from_left((b - a).cross(c - a), as_vector(p) - a);
   }
 
   /// Replaces a polygon by its parts on the two sides of `value_at` = 0; false if all of it lies on

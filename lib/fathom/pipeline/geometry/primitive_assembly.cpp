@@ -1,34 +1,32 @@
 #include "fathom/pipeline/geometry/primitive_assembly.h"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 namespace fathom::pipeline {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Vector = Eigen::Vector3d;
 
 /// Twice the area times the unit normal of a triangle.
 Vector area_vector(const MeshPoint& a, const MeshPoint& b, const MeshPoint& c) {
-  const Vector s{b.x - a.x, b.y - a.y, b.z - a.z}, t{c.x - a.x, c.y - a.y, c.z - a.z};
-  return {s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]};
+  return Vector(b.x - a.x, b.y - a.y, b.z - a.z).cross(Vector(c.x - a.x, c.y - a.y, c.z - a.z));
 }
 
-std::vector<Vector> smooth_normals(const Mesh& mesh, FrontFace front_face) {
+std::vector<std::array<double, 3>> smooth_normals(const Mesh& mesh, FrontFace front_face) {
   const double side = front_face == FrontFace::counter_clockwise ? 1 : -1;
-  std::vector<Vector> normals(mesh.vertices.size(), Vector{0, 0, 0});
+  std::vector<Vector> sums(mesh.vertices.size(), Vector::Zero());
   for (const CornerIndices& t : mesh.triangles) {
     const Vector n = area_vector(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-    for (const std::uint32_t v : t)
-      for (std::size_t k = 0; k < 3; ++k) normals[v][k] += n[k];
+    for (const std::uint32_t v : t) sums[v] += n;
   }
-  for (Vector& n : normals) {
-    const double length = std::hypot(n[0], n[1], n[2]);
-    if (length > 0 && std::isfinite(length)) {
-      for (double& component : n) component *= side / length;
-    } else {
-      n = {0, 0, 0};
-    }
+  std::vector<std::array<double, 3>> normals(sums.size());
+  for (std::size_t v = 0; v < sums.size(); ++v) {
+    const double length = sums[v].stableNorm();
+    if (!(length > 0) || !std::isfinite(length)) continue;
+    Eigen::Map<Vector>(normals[v].data()) = sums[v] * (side / length);
   }
   return normals;
 }
@@ -88,8 +86,8 @@ bool has_lines_or_points(const Scene& scene) {
 std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
                                               std::uint32_t first_number, FrontFace front_face) {
   const Mesh& mesh = scene.meshes[scene.objects[object].mesh];
-  const std::vector<Vector> smooth =
-      lacks_normals(mesh) ? smooth_normals(mesh, front_face) : std::vector<Vector>();
+  const auto smooth =
+      lacks_normals(mesh) ? smooth_normals(mesh, front_face) : std::vector<std::array<double, 3>>();
   std::vector<InputTriangle> triangles(mesh.triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     triangles[t].number = first_number + static_cast<std::uint32_t>(t);

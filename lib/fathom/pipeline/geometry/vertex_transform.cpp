@@ -1,41 +1,44 @@
 #include "fathom/pipeline/geometry/vertex_transform.h"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "fathom/geometry/eigen_arrays.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom::pipeline {
 namespace {
 
-using Rows = std::array<std::array<double, 4>, 4>;
+using geometry::as_matrix;
+using geometry::as_vector;
 
 template <class Real>
-Matrix<Real> rounded(const Rows& rows) {
-  Matrix<Real> m;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j) m[i][j] = static_cast<Real>(rows[i][j]);
-  return m;
+using Matrix4 = geometry::RowMatrix<Real, 4, 4>;
+
+template <class Real>
+Matrix<Real> rounded(const Matrix4<double>& m) {
+  Matrix<Real> result;
+  as_matrix(result) = m.cast<Real>();
+  return result;
 }
 
-Rows model_matrix(const Object& object) {
-  Rows m{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 4; ++j)
-      m[i][j] = round_to_binary64(object.world_from_mesh.rows[i][j]);
-  m[3][3] = 1;
+Matrix4<double> model_matrix(const Object& object) {
+  Matrix4<double> m = Matrix4<double>::Identity();
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 4; ++j)
+      m(i, j) = round_to_binary64(
+          object.world_from_mesh.rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
   return m;
 }
 
 /// The camera's frame has y down and z forward; the eye's has y up and z backward.
-Rows view_matrix(const Camera& camera) {
-  Rows m{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 4; ++j)
-      m[i][j] = i == 0 ? camera.world_to_camera[i][j] : -camera.world_to_camera[i][j];
-  m[3][3] = 1;
+Matrix4<double> view_matrix(const Camera& camera) {
+  Matrix4<double> m = Matrix4<double>::Identity();
+  m.topRows<3>() = Eigen::Vector3d(1, -1, -1).asDiagonal() * as_matrix(camera.world_to_camera);
   return m;
 }
 
@@ -59,60 +62,52 @@ std::array<double, 2> depth_row(const DepthFormat& f, bool perspective) {
   }
 }
 
-Rows projection_matrix(const Camera& camera, const DepthFormat& format) {
+Matrix4<double> projection_matrix(const Camera& camera, const DepthFormat& format) {
   const bool perspective = camera.projection == Projection::perspective;
   const double w = camera.width, h = camera.height;
   const PrincipalPoint centre = principal_point(camera);
   const double cx = 2 * centre.x / w - 1;
   const double cy = 1 - 2 * centre.y / h;
   const auto [za, zb] = depth_row(format, perspective);
-  Rows m{};
-  m[0] = {2 * camera.fx / w, -2 * camera.skew / w, 0, 0};
-  m[1] = {0, 2 * camera.fy / h, 0, 0};
-  m[2] = {0, 0, za, zb};
-  m[0][perspective ? 2 : 3] = perspective ? -cx : cx;
-  m[1][perspective ? 2 : 3] = perspective ? -cy : cy;
-  m[3][perspective ? 2 : 3] = perspective ? -1 : 1;
+  Matrix4<double> m;
+  m << 2 * camera.fx / w, -2 * camera.skew / w, 0, 0,  //
+      0, 2 * camera.fy / h, 0, 0,                      //
+      0, 0, za, zb,                                    //
+      0, 0, 0, 0;
+  m(0, perspective ? 2 : 3) = perspective ? -cx : cx;
+  m(1, perspective ? 2 : 3) = perspective ? -cy : cy;
+  m(3, perspective ? 2 : 3) = perspective ? -1 : 1;
   return m;
 }
 
-template <class Real>
-Real row_times(const std::array<Real, 4>& row, Real x, Real y, Real z) {
-  return row[0] * x + row[1] * y + row[2] * z + row[3];
+/// The first `rows` of M·(x, y, z, 1), each summed from the left, as a chain of multiplications and
+/// additions runs on a graphics card. (Eigen's product of a matrix and a vector adds in pairs.)
+template <int rows, class Real>
+Eigen::Matrix<Real, rows, 1> transformed(const Matrix<Real>& matrix, Real x, Real y, Real z) {
+  const auto M = as_matrix(matrix).template topRows<rows>();
+  return M.col(0) * x + M.col(1) * y + M.col(2) * z + M.col(3);
 }
 
-using Vector = std::array<double, 3>;
-
-/// Scaled to unit length, without overflow; zero stays zero.
-Vector unit(const Vector& n) {
-  const double greatest = std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])});
+/// Scaled to unit length; zero stays zero. First by its greatest component: squares would overflow.
+Eigen::Vector3d unit(const Eigen::Vector3d& n) {
+  const double greatest = n.cwiseAbs().maxCoeff();
   if (!(greatest > 0)) return n;
-  const Vector scaled{n[0] / greatest, n[1] / greatest, n[2] / greatest};
-  const double length = std::hypot(scaled[0], scaled[1], scaled[2]);
-  return {scaled[0] / length, scaled[1] / length, scaled[2] / length};
+  return (n / greatest).normalized();
 }
 
 /// Takes a normal of the mesh to the world: by the cofactors of the model matrix, which are its
 /// inverse transpose times its determinant. They do to a normal what the matrix does to the cross
 /// product of two edges, so that it stays on its side of the triangle, the side from which the
 /// corners run as before, also where the matrix mirrors.
-Vector to_world_normal(const Rows& rows, const Vector& normal) {
-  double greatest = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) greatest = std::max(greatest, std::abs(rows[i][j]));
-  if (!(greatest > 0)) return {};
-  Rows m{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) m[i][j] = rows[i][j] / greatest;
-  const auto cofactor = [&](std::size_t i, std::size_t j) {
-    const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-    return m[i1][j1] * m[i2][j2] - m[i1][j2] * m[i2][j1];
-  };
-  const Vector n = unit(normal);
-  Vector result{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) result[i] += cofactor(i, j) * n[j];
-  return unit(result);
+Eigen::Vector3d to_world_normal(const Eigen::Matrix3d& world_from_mesh,
+                                const Eigen::Vector3d& normal) {
+  const double greatest = world_from_mesh.cwiseAbs().maxCoeff();
+  if (!(greatest > 0)) return Eigen::Vector3d::Zero();
+  const Eigen::Matrix3d columns = world_from_mesh / greatest;
+  const Eigen::Vector3d x = columns.col(0), y = columns.col(1), z = columns.col(2);
+  Eigen::Matrix3d cofactors;
+  cofactors << y.cross(z), z.cross(x), x.cross(y);
+  return unit(cofactors * unit(normal));
 }
 
 }  // namespace
@@ -126,23 +121,21 @@ VertexTransform<Real>::VertexTransform(const Camera& camera, const Object& objec
 
 template <class Real>
 WorldVertex<Real> VertexTransform<Real>::to_world(const MeshPoint& p) const {
-  const auto x = static_cast<Real>(p.x), y = static_cast<Real>(p.y), z = static_cast<Real>(p.z);
-  const auto& m = world_from_mesh;
-  return {row_times(m[0], x, y, z), row_times(m[1], x, y, z), row_times(m[2], x, y, z)};
+  const auto world = transformed<3>(world_from_mesh, static_cast<Real>(p.x), static_cast<Real>(p.y),
+                                    static_cast<Real>(p.z));
+  return {world.x(), world.y(), world.z()};
 }
 
 template <class Real>
 EyeVertex<Real> VertexTransform<Real>::to_eye(const WorldVertex<Real>& p) const {
-  const auto& m = eye_from_world;
-  return {row_times(m[0], p.x, p.y, p.z), row_times(m[1], p.x, p.y, p.z),
-          row_times(m[2], p.x, p.y, p.z)};
+  const auto eye = transformed<3>(eye_from_world, p.x, p.y, p.z);
+  return {eye.x(), eye.y(), eye.z()};
 }
 
 template <class Real>
 clipping::Point4<Real> VertexTransform<Real>::to_clip(const EyeVertex<Real>& p) const {
-  const auto& m = clip_from_eye;
-  return {row_times(m[0], p.x, p.y, p.z), row_times(m[1], p.x, p.y, p.z),
-          row_times(m[2], p.x, p.y, p.z), row_times(m[3], p.x, p.y, p.z)};
+  const auto clip = transformed<4>(clip_from_eye, p.x, p.y, p.z);
+  return {clip.x(), clip.y(), clip.z(), clip.w()};
 }
 
 template <class Real>
@@ -155,14 +148,12 @@ ClipVertex<Real> VertexTransform<Real>::operator()(const InputVertex& vertex) co
   a[attribute::world] = world.x;
   a[attribute::world + 1] = world.y;
   a[attribute::world + 2] = world.z;
-  Rows model{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) model[i][j] = static_cast<double>(world_from_mesh[i][j]);
-  const auto normal = to_world_normal(model, vertex.normal);
-  for (std::size_t k = 0; k < 3; ++k) {
-    a[attribute::normal + k] = static_cast<Real>(normal[k]);
+  const Eigen::Vector3d normal = to_world_normal(
+      as_matrix(world_from_mesh).template topLeftCorner<3, 3>().template cast<double>(),
+      as_vector(vertex.normal));
+  Eigen::Map<Eigen::Matrix<Real, 3, 1>>(a.data() + attribute::normal) = normal.cast<Real>();
+  for (std::size_t k = 0; k < 3; ++k)
     a[attribute::colour + k] = static_cast<Real>(vertex.colour[k]);
-  }
   a[attribute::uv] = static_cast<Real>(vertex.uv[0]);
   a[attribute::uv + 1] = static_cast<Real>(vertex.uv[1]);
   return clip;
