@@ -211,7 +211,7 @@ clipping::Plane<Number> plane_of_triangle(const Json& object, Json& result, Form
              R = point3<Number>(corners[2]);
   const clipping::Point3<Number> N = clipping::normal_of(P, Q, R);
   check_normal(N, corners);
-  const clipping::Plane<Number> H = clipping::plane_through(P, N);
+  clipping::Plane<Number> H = clipping::plane_through(P, N);
   result["plane"] =
       Json::array({to_json(H.A, form), to_json(H.B, form), to_json(H.C, form), to_json(H.D, form)});
   result["normal"] = to_json(N, form);
