@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "small_cost.h"
 
@@ -38,6 +39,24 @@ TEST(ClipCost, NestedNamesAreRefused) {
     EXPECT_THAT(outcome.out, HasSubstr("\"name\":\"next\""));
   }
 }
+
+#ifndef FATHOM_SANITIZED
+// 8 MB for the stack of each thread are allowed on top, so a small case is answered all the same.
+TEST(ClipCost, MaxMemoryIsKept) {
+  if (std::thread::hardware_concurrency() > 16) GTEST_SKIP() << "the stacks allow what this takes";
+  const std::string square = R"("subject":[[[0,0],[4,0],[4,4],[0,4]]],"clip":[]})";
+  EXPECT_EQ(clip("weiler-atherton", "{" + square + "\n", {"--max-memory", "1M"}).status, 0);
+  std::string long_name = "{\"name\":[0";
+  for (int i = 0; i < 10'000'000; ++i) long_name += ",0";
+  const Outcome outcome =
+      clip("weiler-atherton", long_name + "]," + square + "\n", {"--max-memory", "1M"});
+  expect_one_line(outcome, 3);
+  EXPECT_EQ(outcome.err,
+            "fathom: error: out of memory: the input or the image is too large; --max-memory "
+            "allows 1.0 MB\n");
+  EXPECT_EQ(outcome.out, "");
+}
+#endif
 
 TEST(ClipCost, ManyKeysAreRead) {
   std::string keys;

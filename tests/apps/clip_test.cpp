@@ -88,11 +88,86 @@ TEST(Clip, AgainstFindsTheBridgingEdge) {
   EXPECT_EQ(clipped.outcome.err,
             "fathom: standard input: line 2: the regions are the same, but only sutherland-hodgman "
             "has a border from (2/3, 2) to (10/3, 2)\n");
-  std::string in_pieces = notched_case;
-  in_pieces.insert(1, R"("decompose": true, )");
-  const Clipped convex = clip("sutherland-hodgman", in_pieces, {"--against", "weiler-atherton"});
-  EXPECT_EQ(convex.outcome.status, 3);  // the other knows no such key
-  EXPECT_THAT(convex.outcome.err, HasSubstr("\"decompose\" is no key"));
+}
+
+const std::string decomposed_case = R"({"decompose": true, )" + notched_case.substr(1);
+
+// In convex pieces it has the right border. Only Sutherland–Hodgman takes "decompose", on either side.
+TEST(Clip, AgainstGivesEachAlgorithmItsOwnKeys) {
+  const std::string ours = "sutherland-hodgman";
+  const Json by_ours = answer(ours, decomposed_case), plain = answer("cgal", notched_case);
+  for (const std::string other : {"cgal", "weiler-atherton"})
+    for (const bool is_first : {true, false}) {
+      const Json both =
+          answer(is_first ? ours : other, decomposed_case, {"--against", is_first ? other : ours});
+      EXPECT_EQ(both["against"]["algorithm"], is_first ? other : ours);
+      EXPECT_TRUE(both["against"]["difference"].is_null()) << both;
+      EXPECT_EQ(both["polygons"], (is_first ? by_ours : plain)["polygons"]);
+    }
+  // With itself over exact numbers it keeps the key: the pieces are compared with pieces.
+  const std::string squares = R"({"decompose": true, "subject": [[[0,0],[4,0],[4,4],[2,2],[0,4]]],)"
+                              R"( "clip": [[[0,0],[4,0],[4,4],[0,4]]]})";
+  const Json same = answer(ours, squares, {"--kernel", "double", "--against", ours});
+  EXPECT_TRUE(same["against"]["difference"].is_null()) << same;
+  EXPECT_EQ(same["polygons"].size(), 2U);
+}
+
+// Whose key it is not is said.
+TEST(Clip, MessagesAboutKeysNameTheAlgorithm) {
+  const auto expect_error = [](const std::string& algorithm, const std::string& object,
+                               const std::string& error,
+                               const std::vector<std::string>& options = {}) {
+    const Clipped clipped = clip(algorithm, object, options);
+    EXPECT_EQ(clipped.outcome.status, 3);
+    EXPECT_EQ(clipped.outcome.err, "fathom: error: standard input: line 1: " + error + "\n");
+    EXPECT_EQ(clipped.answers.at(0), Json({{"error", error}}));
+  };
+  const std::string no_decompose = "\"decompose\" is no key of ";
+  for (const std::string name : {"weiler-atherton", "cgal"})
+    expect_error(name, decomposed_case, no_decompose + name + "; it takes subject, clip, op");
+  // Neither of the two takes it.
+  expect_error("cgal", decomposed_case, no_decompose + "cgal; it takes subject, clip, op",
+               {"--against", "weiler-atherton"});
+  for (const std::string name : {"cohen-sutherland", "liang-barsky"})
+    expect_error(name, R"({"line": []})",
+                 "\"line\" is no key of " + name + "; it takes segment, window");
+  expect_error(
+      "sutherland-hodgman", R"({"polygon": []})",
+      "\"polygon\" is no key of sutherland-hodgman; it takes subject, clip, op, decompose");
+  const std::string in_space = R"({"polygon3": [[0,0,0],[2,0,0],[0,2,0]], "planes": [[1,0,0,-1]])";
+  for (const std::string name : {"sutherland-hodgman", "plane"})
+    expect_error(
+        name, in_space + R"(, "clip": []})",
+        "\"clip\" is no key of " + name + " with polygon3; it takes polygon3, planes, attributes");
+  expect_error("plane", R"({"planes": []})",
+               "\"planes\" is no key of plane; it takes plane, triangle, eye, points, line");
+  expect_error("sutherland-hodgman", in_space + "}",
+               "--against cgal: \"polygon3\" is no key of cgal; it takes subject, clip, op",
+               {"--against", "cgal"});
+  expect_error("sutherland-hodgman", R"({"polygon3": []})", "\"planes\" is missing",
+               {"--against", "plane"});
+  // What only the second cannot do, it says.
+  expect_error("weiler-atherton", R"({"subject": [], "clip": [], "op": "difference"})",
+               "--against sutherland-hodgman: sutherland-hodgman does intersections only; "
+               "weiler-atherton does both",
+               {"--against", "sutherland-hodgman"});
+  expect_error("homogeneous", R"({"segment": [[0,0,0,1],[1,1,1,1]], "attributes": [[0],[1]]})",
+               "\"attributes\" is no key of homogeneous with segment; it takes segment, volume, "
+               "hourglass, after_division");
+  expect_error("homogeneous", R"({"polygon": [], "planes": []})",
+               "\"planes\" is no key of homogeneous with polygon; it takes polygon, volume, "
+               "hourglass, after_division, attributes");
+  // Keys that do not go together.
+  expect_error("homogeneous", R"({"segment": [[0,0,0,1],[1,1,1,1]], "polygon": [[0,0,0,1]]})",
+               "expected \"polygon\" or \"segment\", not both");
+  expect_error("homogeneous", R"({"volume": "opengl"})", "\"polygon\" or \"segment\" is missing");
+  for (const std::string subject :
+       {R"("segment": [[0,0,0,1],[1,1,1,1]])", R"("polygon": [[0,0,0,1],[1,0,0,1],[0,1,0,1]])"})
+    expect_error("homogeneous", "{" + subject + R"(, "hourglass": "both", "after_division": true})",
+                 "\"hourglass\": \"both\" has no meaning with \"after_division\", which leaves no "
+                 "lower half; leave one of them out");
+  expect_error("plane", R"({"plane": [1,0,0,0], "points": [], "eye": [1,1,1]})",
+               "\"eye\" says on which side of a triangle it is; add \"triangle\" or leave it out");
 }
 
 // Sutherland–Hodgman begins its rings elsewhere, keeps straight corners, and puts what it clips of
@@ -239,7 +314,7 @@ TEST(Clip, CasesThatCannotBeDoneDoNotStopTheOthers) {
       "clip ring 1 has a coordinate that is not finite, at corner 1",
       "subject ring 0 has 2 distinct corners; expected at least 3",
       "subject ring 0 has no area: its corners lie on one line",
-      "\"operation\" is no key of this algorithm; it takes subject, clip, op",
+      "\"operation\" is no key of weiler-atherton; it takes subject, clip, op",
       "subject ring 0, corner 0[0]: expected finite numbers, found string",
       "not JSON at character 30",
       ""};
@@ -320,6 +395,61 @@ TEST(Clip, HomogeneousBeforeAndAfterTheDivision) {
   EXPECT_EQ(halves["lower"], Json::parse(R"([["-1/2","0","0","-1/2"],["-1","0","0","-2"]])"));
 }
 
+// The line of docs/clipping.md from z = 1/3 to a point behind the eye: visible up to the near plane.
+TEST(Clip, ASegmentAfterTheDivisionIsKeptOnTheWrongSide) {
+  const std::string line = R"({"segment": [[0,0,0.5,1.5],[0,0,-7,-1]])";
+  EXPECT_EQ(answer("homogeneous", line + R"(, "after_division": false})", {"--exact"})["segment"],
+            Json::parse(R"([["0","0","1/2","3/2"],["0","0","-1","1"]])"));
+  for (const std::string kernel : {"exact", "double"}) {
+    const Json after = answer("homogeneous", line + R"(, "after_division": true})",
+                              {"--kernel", kernel, "--trace"});
+    EXPECT_EQ(after["segment"], Json::parse("[[0.0,0.0,0.3333333333333333,1.0],[0.0,0.0,1.0,1.0]]"))
+        << kernel;
+    ASSERT_EQ(after["trace"].size(), 1U);
+    EXPECT_EQ(after["trace"][0]["parameters"].size(), 6U);
+    EXPECT_EQ(after["trace"][0]["t_leaving"], 0.1);  // (1 − 1/3) / (7 − 1/3)
+  }
+  // Both orders agree in front of the eye, where the volume says what is near.
+  const std::string ahead = R"({"segment": [[0,0,-1,2],[0,0,1,2]], "volume": "zero-one")";
+  EXPECT_EQ(answer("homogeneous", ahead + "}", {"--exact"})["segment"],
+            Json::parse(R"([["0","0","0","2"],["0","0","1","2"]])"));
+  EXPECT_EQ(answer("homogeneous", ahead + R"(, "after_division": true})", {"--exact"})["segment"],
+            Json::parse(R"([["0","0","0","1"],["0","0","1/2","1"]])"));
+  EXPECT_TRUE(answer("homogeneous",
+                     R"({"segment": [[5,0,0,1],[9,0,0,1]], "after_division": true})")["segment"]
+                  .is_null());
+}
+
+// The trace shows where the polygon goes wrong: its corner at z = 7 is cut at the far plane, last.
+TEST(Clip, TheTraceAfterTheDivisionHasEachPlane) {
+  const Json after =
+      answer("homogeneous",
+             R"({"polygon": [[0,0,0.5,1.5],[0.25,0,0.5,1.5],[0,0,-7,-1]], "after_division": true})",
+             {"--trace", "--exact"});
+  std::string planes;
+  for (const Json& step : after["trace"]) planes += step["plane"].get<std::string>() + " ";
+  EXPECT_EQ(planes, "left right bottom top near far ");
+  EXPECT_EQ(after["trace"][4]["polygon"],
+            Json::parse(R"([["0","0","1/3","1"],["1/6","0","1/3","1"],["0","0","7","1"]])"));
+  EXPECT_EQ(after["trace"][5]["polygon"], after["polygon"]);
+}
+
+// A triangle with corners in both halves; the attribute is x.
+TEST(Clip, AttributesOfBothHalves) {
+  const Json halves =
+      answer("homogeneous",
+             R"({"polygon": [[0,0,0,1],[1,0,0,1],[-1,-1,0,-2]], "hourglass": "both",)"
+             R"( "attributes": [[0],[1],[-1]]})",
+             {"--exact"});
+  for (const auto& [points, attributes] :
+       {std::pair{"polygon", "attributes"}, std::pair{"lower", "lower_attributes"}}) {
+    EXPECT_GE(halves[points].size(), 3U);
+    ASSERT_EQ(halves[points].size(), halves[attributes].size());
+    for (std::size_t i = 0; i < halves[points].size(); ++i)
+      EXPECT_EQ(halves[points][i][0], halves[attributes][i][0]);
+  }
+}
+
 TEST(Clip, PlaneSidesDistancesAndLine) {
   const Json plane = answer(
       "plane", R"({"plane": [1,1,1,-1], "points": [[1,0,0],[0,0,0],[2,3,4],[2,3,4,-1],[1,1,1,0]],)"
@@ -346,6 +476,23 @@ TEST(Clip, PlaneSidesDistancesAndLine) {
       "edge on");
 }
 
+TEST(Clip, ATriangleWithoutAreaHasNoPlane) {
+  const auto error_of = [](const std::string& object, const std::string& kernel) {
+    return clip("plane", object, {"--kernel", kernel}).answers.at(0).value("error", "");
+  };
+  const std::string on_a_line = R"({"triangle": [[0,0,0],[1,1,1],[2,2,2]], "eye": [1,0,0]})";
+  for (const std::string kernel : {"exact", "double"}) {
+    EXPECT_EQ(error_of(on_a_line, kernel), "the triangle has no area: its corners lie on one line");
+    EXPECT_EQ(error_of(R"({"plane": [0,0,0,1], "points": []})", kernel),
+              "the plane's normal (A, B, C) is zero; expected a plane");
+  }
+  // An area of 10⁻⁴⁰⁰ is one, but binary64 has no such number.
+  const std::string tiny = R"({"triangle": [[0,0,0],[1e-200,0,0],[0,1e-200,0]], "eye": [0,0,1]})";
+  EXPECT_EQ(error_of(tiny, "double"),
+            "the triangle's normal is rounded to zero; --kernel exact has it");
+  EXPECT_EQ(answer("plane", tiny)["facing"], "front");
+}
+
 TEST(Clip, WrongUsage) {
   EXPECT_EQ(run_fathom({"clip"}).status, 2);
   EXPECT_THAT(run_fathom({"clip", "--algorithm", "greiner-hormann"}).err,
@@ -370,6 +517,7 @@ TEST(Clip, WrongUsage) {
   const Outcome help = run_fathom({"clip", "--help"});
   EXPECT_EQ(help.status, 0);
   EXPECT_THAT(help.out, HasSubstr("Examples:\n"));
+  EXPECT_THAT(help.out, HasSubstr("{\"triangle\": [[1,0,0],[0,1,0],[0,0,1]], \"eye\": [2,2,2]}"));
 }
 
 }  // namespace

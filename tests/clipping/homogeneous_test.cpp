@@ -83,6 +83,45 @@ TEST(Homogeneous, ClippingAfterTheDivisionKeepsTheWrongPart) {
   }
 }
 
+TEST(Homogeneous, ASegmentClippedAfterTheDivisionGoesToTheFarPlane) {
+  const P4 P = projected({0, 0, Rational(-3, 2), 1}), Q = projected({0, 0, 1, 1});
+  LiangBarskyTrace<Rational> trace;
+  const auto wrong = clip_after_division(Segment4<Rational>{P, Q}, Volume::opengl, &trace);
+  ASSERT_TRUE(wrong);
+  EXPECT_TRUE(same(wrong->start, {0, 0, Rational(1, 3), 1}));
+  EXPECT_TRUE(same(wrong->end, {0, 0, 1, 1}));
+  EXPECT_EQ(trace.parameters.size(), 6U);
+  EXPECT_EQ(trace.t_leaving, Rational(1, 10));
+  EXPECT_THROW(clip_after_division(Segment4<Rational>{P, {1, 0, 0, 0}}, Volume::opengl),
+               InputError);
+}
+
+// In front of the eye both orders keep the same part, whatever the two ends are.
+TEST(Homogeneous, SegmentsInFrontOfTheEyeAreClippedAlikeInBothOrders) {
+  std::mt19937 random(33);
+  const auto number = [&] { return Rational(static_cast<int>(random() % 13) - 6, 2); };
+  const auto in_front = [&]() -> P4 {
+    return {number(), number(), number(), Rational(static_cast<int>(random() % 6) + 1, 2)};
+  };
+  int visible = 0;
+  for (int i = 0; i < 2000 / testing::effort; ++i)
+    for (const Volume volume : {Volume::opengl, Volume::zero_one}) {
+      const Segment4<Rational> segment{in_front(), in_front()};
+      const auto before = clip_homogeneous(segment, volume);
+      const auto after = clip_after_division(segment, volume);
+      ASSERT_EQ(before.has_value(), after.has_value());
+      if (!before) continue;
+      ++visible;
+      const auto expect_same = [](const P4& p, const P4& q) {
+        const Point3<Rational> d = divided(p);
+        EXPECT_TRUE(same({d.x, d.y, d.z, 1}, q));
+      };
+      expect_same(before->start, after->start);
+      expect_same(before->end, after->end);
+    }
+  EXPECT_GT(visible, 300 / testing::effort);
+}
+
 /// Random triangles in front of, behind and across the eye, clipped by the frustum's planes in
 /// space, where there is no w, and projected then.
 TEST(Homogeneous, IsClippingByTheFrustumInSpace) {

@@ -67,10 +67,11 @@ Json parse_case(std::string_view line, Json& name) {
   }
 }
 
-void expect_only(const Json& object, std::initializer_list<std::string_view> known) {
+void expect_only(const Json& object, std::initializer_list<std::string_view> known,
+                 std::string_view taker) {
   for (const auto& [key, value] : object.items())
     if (key != "name" && std::find(known.begin(), known.end(), key) == known.end())
-      throw InputError(fmt::format("{} is no key of this algorithm; it takes {}", Json(key).dump(),
+      throw InputError(fmt::format("{} is no key of {}; it takes {}", Json(key).dump(), taker,
                                    fmt::join(known, ", ")));
 }
 

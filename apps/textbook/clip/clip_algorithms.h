@@ -33,17 +33,19 @@ Json cgal(const Json& object, Form form);
 template <class Number>
 Json sutherland_hodgman(const Json& object, Form form);
 
-/// {"polygon", "volume"} or {"segment", "volume"}
+/// {"polygon", "volume", "attributes"} or {"segment", "volume"}, both with "hourglass" or
+/// "after_division"
 template <class Number>
 Json homogeneous(const Json& object, Form form);
 
-/// {"plane", "points"}, {"plane", "line"} or {"polygon3", "planes"}
+/// {"plane", "points"}, {"plane", "line"} or {"polygon3", "planes"}; {"triangle", "eye"} in place of
+/// "plane"
 template <class Number>
 Json plane(const Json& object, Form form);
 
-/// {"polygon3", "planes"}
+/// {"polygon3", "planes", "attributes"}, which two algorithms take; `algorithm` names the one asked.
 template <class Number>
-Json clip_in_space(const Json& object, Form form);
+Json clip_in_space(const Json& object, const std::string& algorithm, Form form);
 
 /// The parameters of Liang and Barsky; `edges` are the names of the boundaries.
 template <class Trace>

@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "apps/shell/exit_status.h"
 #include "apps/shell/values.h"
@@ -18,9 +20,11 @@ using clip::Form;
 using clip::Json;
 using Algorithm = Json (*)(const Json&, Form);
 
-/// An algorithm over either kernel; `binary64` is null where it has the exact one alone.
+/// An algorithm over either kernel; `binary64` is null where it has the exact one alone. `way` is its
+/// key that says how it finds the answer, not which one: another algorithm has no use for it.
 struct Kernels {
   Algorithm exact, binary64;
+  std::string_view way = {};
 };
 
 #define FATHOM_CLIP(name)                              \
@@ -28,8 +32,10 @@ struct Kernels {
     clip::name<clipping::Rational>, clip::name<double> \
   }
 Kernels parse_algorithm(const std::string& text) {
+  Kernels sutherland_hodgman = FATHOM_CLIP(sutherland_hodgman);
+  sutherland_hodgman.way = "decompose";
   return parse_word<Kernels>(text, {{"weiler-atherton", FATHOM_CLIP(weiler_atherton)},
-                                    {"sutherland-hodgman", FATHOM_CLIP(sutherland_hodgman)},
+                                    {"sutherland-hodgman", sutherland_hodgman},
                                     {"cohen-sutherland", FATHOM_CLIP(cohen_sutherland)},
                                     {"liang-barsky", FATHOM_CLIP(liang_barsky)},
                                     {"homogeneous", FATHOM_CLIP(homogeneous)},
@@ -72,6 +78,17 @@ void check(const ClipArguments& arguments) {
     throw UsageError("--against " + name + ": an algorithm is not compared with itself");
 }
 
+/// Does a case by one of two algorithms, without the key that only the other one takes.
+Json answer_beside(const Kernels& other, const Kernels& own, Algorithm algorithm,
+                   const Json& object, Form form) {
+  const bool has_others_way =
+      !other.way.empty() && other.way != own.way && object.contains(other.way);
+  if (!has_others_way) return algorithm(object, form);
+  Json rest = object;
+  rest.erase(std::string(other.way));
+  return algorithm(rest, form);
+}
+
 /// The other algorithm's answer beside one's own, over the exact kernel.
 class Comparison {
  public:
@@ -83,12 +100,16 @@ class Comparison {
     if (arguments.kernel == Kernel::binary64) names_.first += " in binary64";
   }
 
+  /// What the first algorithm says.
+  [[nodiscard]] Json own_answer(const Json& object, Form form) const {
+    return answer_beside(other(), arguments_.algorithm.kernels, algorithm_, object, form);
+  }
+
   /// {"algorithm", "difference"}
   Json compare(const Json& object, std::size_t line) {
     constexpr Form exact{.exact = true};
-    const Json own = algorithm_(object, exact);
-    const auto difference =
-        clip::first_difference(own, arguments_.against->kernels.exact(object, exact), names_);
+    const Json own = own_answer(object, exact);
+    const auto difference = clip::first_difference(own, others_answer(object, exact), names_);
     if (difference && !differs_)
       console_.note(cases::input_name(arguments_.file) + ": line " + std::to_string(line) + ": " +
                     clip::to_text(*difference, names_));
@@ -98,6 +119,16 @@ class Comparison {
   [[nodiscard]] bool differs() const { return differs_; }
 
  private:
+  [[nodiscard]] const Kernels& other() const { return arguments_.against->kernels; }
+
+  [[nodiscard]] Json others_answer(const Json& object, Form form) const {
+    try {
+      return answer_beside(arguments_.algorithm.kernels, other(), other().exact, object, form);
+    } catch (const InputError& error) {
+      throw InputError("--against " + names_.second + ": " + error.what());
+    }
+  }
+
   const ClipArguments& arguments_;
   Algorithm algorithm_;
   const Console& console_;
@@ -113,8 +144,9 @@ int run_clip(const ClipArguments& arguments, const Console& console) {
   if (arguments.against) comparison.emplace(arguments, algorithm, console);
   const int status = cases::answer_lines(
       arguments.file, cases::AnswerLine([&](const Json& object, std::size_t line) {
-        Json answer = algorithm(object, arguments.form);
-        if (comparison) answer["against"] = comparison->compare(object, line);
+        if (!comparison) return algorithm(object, arguments.form);
+        Json answer = comparison->own_answer(object, arguments.form);
+        answer["against"] = comparison->compare(object, line);
         return answer;
       }));
   return comparison && comparison->differs() ? answer_is_no : status;
@@ -130,6 +162,8 @@ void add_clip(Command& program) {
       "    fathom clip --algorithm weiler-atherton --exact\n"
       "  echo '{\"segment\": [[0,0],[9,6]], \"window\": [1,1,6,3]}' |\n"
       "    fathom clip --algorithm cohen-sutherland --trace\n"
+      "  echo '{\"triangle\": [[1,0,0],[0,1,0],[0,0,1]], \"eye\": [2,2,2]}' |\n"
+      "    fathom clip --algorithm plane\n"
       "  fathom clip --algorithm weiler-atherton --against cgal data/clipping/degenerate.jsonl");
   command
       .option("--algorithm", "NAME", into(arguments->algorithm, parse_named),

@@ -16,8 +16,8 @@ struct LineCase {
 };
 
 template <class Number>
-LineCase<Number> line_case(const Json& object) {
-  expect_only(object, {"segment", "window"});
+LineCase<Number> line_case(const Json& object, std::string_view algorithm) {
+  expect_only(object, {"segment", "window"}, algorithm);
   const auto ends = points(object, "segment", 2, 2);
   if (ends.size() != 2) throw InputError("segment: expected two points");
   const auto w = numbers(member(object, "window"), "window", 4, 4);
@@ -65,7 +65,7 @@ Json to_json(const clipping::CohenSutherlandStep<Number>& step, Form form) {
 
 template <class Number>
 Json cohen_sutherland(const Json& object, Form form) {
-  const auto [segment, window] = line_case<Number>(object);
+  const auto [segment, window] = line_case<Number>(object, "cohen-sutherland");
   std::vector<clipping::CohenSutherlandStep<Number>> trace;
   Json result = answer(clipping::cohen_sutherland(segment, window, &trace), form);
   if (form.trace) {
@@ -78,7 +78,7 @@ Json cohen_sutherland(const Json& object, Form form) {
 template <class Number>
 Json liang_barsky(const Json& object, Form form) {
   constexpr const char* edges[] = {"left", "right", "bottom", "top"};
-  const auto [segment, window] = line_case<Number>(object);
+  const auto [segment, window] = line_case<Number>(object, "liang-barsky");
   clipping::LiangBarskyTrace<Number> trace;
   Json result = answer(clipping::liang_barsky(segment, window, &trace), form);
   if (form.trace) result["trace"] = parameters_to_json(trace, edges, form);

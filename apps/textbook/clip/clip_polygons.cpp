@@ -88,8 +88,8 @@ struct PolygonCase {
 };
 
 template <class Number>
-PolygonCase<Number> polygon_case(const Json& object) {
-  expect_only(object, {"subject", "clip", "op"});
+PolygonCase<Number> polygon_case(const Json& object, std::string_view algorithm) {
+  expect_only(object, {"subject", "clip", "op"}, algorithm);
   const auto operation = word(object, "op", {"intersection", "difference"}) == "intersection"
                              ? clipping::SetOperation::intersection
                              : clipping::SetOperation::difference;
@@ -124,7 +124,7 @@ Rings<Number> pieces_of(const Rings<Number>& subject) {
 
 template <class Number>
 Json sutherland_hodgman_2(const Json& object, Form form) {
-  expect_only(object, {"subject", "clip", "op", "decompose"});
+  expect_only(object, {"subject", "clip", "op", "decompose"}, "sutherland-hodgman");
   if (word(object, "op", {"intersection", "difference"}) == "difference")
     throw InputError("sutherland-hodgman does intersections only; weiler-atherton does both");
   const bool decompose = flag(object, "decompose");
@@ -172,7 +172,7 @@ Json sutherland_hodgman_2(const Json& object, Form form) {
 
 template <class Number>
 Json weiler_atherton(const Json& object, Form form) {
-  const auto [subject, clip, operation] = polygon_case<Number>(object);
+  const auto [subject, clip, operation] = polygon_case<Number>(object, "weiler-atherton");
   clipping::WeilerAthertonTrace<Number> trace;
   Json result = answer(
       clipping::weiler_atherton(subject, clip, operation, form.trace ? &trace : nullptr), form);
@@ -181,13 +181,13 @@ Json weiler_atherton(const Json& object, Form form) {
 }
 
 Json cgal(const Json& object, Form form) {
-  const auto [subject, clip, operation] = polygon_case<Rational>(object);
+  const auto [subject, clip, operation] = polygon_case<Rational>(object, "cgal");
   return answer(clipping::boolean_by_cgal(subject, clip, operation), form);
 }
 
 template <class Number>
 Json sutherland_hodgman(const Json& object, Form form) {
-  return object.contains("polygon3") ? clip_in_space<Number>(object, form)
+  return object.contains("polygon3") ? clip_in_space<Number>(object, "sutherland-hodgman", form)
                                      : sutherland_hodgman_2<Number>(object, form);
 }
 

@@ -1,6 +1,8 @@
 // fathom clip: points, lines and polygons against planes, and in homogeneous coordinates.
 
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "apps/textbook/cases/case_effort.h"
 #include "apps/textbook/clip/clip_algorithms.h"
@@ -55,12 +57,12 @@ Json positions(const std::vector<clipping::Corner<Point, Number>>& polygon, Form
 
 template <template <class> class Point, class Number>
 void put_polygon(Json& result, const Json& object, const std::string& key,
+                 const std::string& attributes_key,
                  const std::vector<clipping::Corner<Point, Number>>& polygon, Form form) {
   result[key] = positions(polygon, form);
   if (!object.contains("attributes")) return;
-  result["attributes"] = Json::array();
-  for (const auto& corner : polygon)
-    result["attributes"].push_back(to_json(corner.attributes, form));
+  Json& carried = result[attributes_key] = Json::array();
+  for (const auto& corner : polygon) carried.push_back(to_json(corner.attributes, form));
 }
 
 clipping::Volume volume_of(const Json& object) {
@@ -69,28 +71,39 @@ clipping::Volume volume_of(const Json& object) {
 }
 
 template <class Number>
-Json after_division(const Json& object, Form form) {
-  const auto polygon = corners<clipping::Point4, Number>(object, "polygon", 4, point4<Number>);
-  const auto clipped = clipping::clip_after_division(polygon, volume_of(object));
-  std::vector<clipping::Corner4<Number>> with_w;
-  with_w.reserve(clipped.size());
-  for (const auto& [p, carried] : clipped) with_w.push_back({{p.x, p.y, p.z, Number(1)}, carried});
-  Json result;
-  put_polygon(result, object, "polygon", with_w, form);
+std::vector<clipping::Corner4<Number>> with_w(
+    const std::vector<clipping::Corner3<Number>>& polygon) {
+  std::vector<clipping::Corner4<Number>> result;
+  result.reserve(polygon.size());
+  for (const auto& [p, carried] : polygon) result.push_back({{p.x, p.y, p.z, Number(1)}, carried});
   return result;
 }
 
 template <class Number>
-void put_half(Json& result, const Json& object, const std::string& key, clipping::Half half,
-              Form form) {
+Json after_division(const Json& object, Form form) {
+  clipping::ClipStages<clipping::Point3, Number> stages;
+  const auto polygon = clipping::clip_after_division(
+      corners<clipping::Point4, Number>(object, "polygon", 4, point4<Number>), volume_of(object),
+      &stages);
+  Json result;
+  put_polygon(result, object, "polygon", "attributes", with_w(polygon), form);
+  if (!form.trace) return result;
+  for (std::size_t k = 0; k < stages.size(); ++k)
+    result["trace"].push_back({{"plane", clipping::boundary_name(static_cast<int>(k))},
+                               {"polygon", positions(with_w(stages[k]), form)}});
+  return result;
+}
+
+template <class Number>
+void put_half(Json& result, const Json& object, clipping::Half half, Form form) {
   clipping::ClipStages<clipping::Point4, Number> stages;
   const auto polygon = clipping::clip_homogeneous(
       corners<clipping::Point4, Number>(object, "polygon", 4, point4<Number>), volume_of(object),
       half, &stages);
   if (half == clipping::Half::upper)
-    put_polygon(result, object, key, polygon, form);
+    put_polygon(result, object, "polygon", "attributes", polygon, form);
   else
-    result[key] = positions(polygon, form);
+    put_polygon(result, object, "lower", "lower_attributes", polygon, form);
   if (!form.trace) return;
   for (std::size_t k = 0; k < stages.size(); ++k)
     result["trace"].push_back({{"plane", clipping::boundary_name(static_cast<int>(k))},
@@ -99,28 +112,91 @@ void put_half(Json& result, const Json& object, const std::string& key, clipping
 }
 
 template <class Number>
+Json segment_to_json(const std::optional<clipping::Segment4<Number>>& part, Form form) {
+  return part ? Json::array({to_json(part->start, form), to_json(part->end, form)}) : Json(nullptr);
+}
+
+template <class Number>
+Json boundaries_to_json(const clipping::LiangBarskyTrace<Number>& trace, Form form) {
+  constexpr const char* boundaries[] = {"left", "right", "bottom", "top", "near", "far"};
+  return parameters_to_json(trace, boundaries, form);
+}
+
+template <class Number>
 void put_segment_half(Json& result, const clipping::Segment4<Number>& segment, const Json& object,
                       const std::string& key, clipping::Half half, Form form) {
-  constexpr const char* edges[] = {"left", "right", "bottom", "top", "near", "far"};
   clipping::LiangBarskyTrace<Number> trace;
-  const auto part = clipping::clip_homogeneous(segment, volume_of(object), half, &trace);
   result[key] =
-      part ? Json::array({to_json(part->start, form), to_json(part->end, form)}) : Json(nullptr);
+      segment_to_json(clipping::clip_homogeneous(segment, volume_of(object), half, &trace), form);
   if (!form.trace) return;
   Json half_trace{{"half", half == clipping::Half::upper ? "upper" : "lower"}};
-  half_trace.update(parameters_to_json(trace, edges, form));
+  half_trace.update(boundaries_to_json(trace, form));
   result["trace"].push_back(half_trace);
 }
 
 template <class Number>
-Json homogeneous_segment(const Json& object, bool both, Form form) {
+Json segment_after_division(const clipping::Segment4<Number>& segment, const Json& object,
+                            Form form) {
+  clipping::LiangBarskyTrace<Number> trace;
+  Json result{
+      {"segment",
+       segment_to_json(clipping::clip_after_division(segment, volume_of(object), &trace), form)}};
+  if (form.trace) result["trace"] = Json::array({boundaries_to_json(trace, form)});
+  return result;
+}
+
+/// In which halves of the hourglass to clip, or after the division, where there is none.
+enum class Order { upper_half, both_halves, after_division };
+
+Order order_of(const Json& object) {
+  const bool both = word(object, "hourglass", {"upper", "both"}) == "both";
+  if (!flag(object, "after_division")) return both ? Order::both_halves : Order::upper_half;
+  if (both)
+    throw InputError(
+        "\"hourglass\": \"both\" has no meaning with \"after_division\", which leaves no lower "
+        "half; "
+        "leave one of them out");
+  return Order::after_division;
+}
+
+template <class Number>
+Json homogeneous_polygon(const Json& object, Form form) {
+  expect_only(object, {"polygon", "volume", "hourglass", "after_division", "attributes"},
+              "homogeneous with polygon");
+  const Order order = order_of(object);
+  if (order == Order::after_division) return after_division<Number>(object, form);
+  Json result;
+  put_half<Number>(result, object, clipping::Half::upper, form);
+  if (order == Order::both_halves) put_half<Number>(result, object, clipping::Half::lower, form);
+  return result;
+}
+
+template <class Number>
+Json homogeneous_segment(const Json& object, Form form) {
+  expect_only(object, {"segment", "volume", "hourglass", "after_division"},
+              "homogeneous with segment");
+  const Order order = order_of(object);
   const auto ends = points(object, "segment", 4, 4);
   if (ends.size() != 2) throw InputError("segment: expected two points");
   const clipping::Segment4<Number> segment{point4<Number>(ends[0]), point4<Number>(ends[1])};
+  if (order == Order::after_division) return segment_after_division(segment, object, form);
   Json result;
   put_segment_half(result, segment, object, "segment", clipping::Half::upper, form);
-  if (both) put_segment_half(result, segment, object, "lower", clipping::Half::lower, form);
+  if (order == Order::both_halves)
+    put_segment_half(result, segment, object, "lower", clipping::Half::lower, form);
   return result;
+}
+
+/// Fails    InputError: the normal is zero, and the exact one says why.
+template <class Number>
+void check_normal(const clipping::Point3<Number>& N,
+                  const std::vector<std::vector<double>>& corners) {
+  const auto is_zero = [](const auto& v) { return v.x == 0 && v.y == 0 && v.z == 0; };
+  if (!is_zero(N)) return;
+  if (is_zero(clipping::normal_of(point3<Rational>(corners[0]), point3<Rational>(corners[1]),
+                                  point3<Rational>(corners[2]))))
+    throw InputError("the triangle has no area: its corners lie on one line");
+  throw InputError("the triangle's normal is rounded to zero; --kernel exact has it");
 }
 
 /// The plane through three points, front where they run counter-clockwise as seen, with what it says
@@ -134,7 +210,8 @@ clipping::Plane<Number> plane_of_triangle(const Json& object, Json& result, Form
   const auto P = point3<Number>(corners[0]), Q = point3<Number>(corners[1]),
              R = point3<Number>(corners[2]);
   const clipping::Point3<Number> N = clipping::normal_of(P, Q, R);
-  const clipping::Plane<Number> H = clipping::plane_through(P, N);
+  check_normal(N, corners);
+  clipping::Plane<Number> H = clipping::plane_through(P, N);
   result["plane"] =
       Json::array({to_json(H.A, form), to_json(H.B, form), to_json(H.C, form), to_json(H.D, form)});
   result["normal"] = to_json(N, form);
@@ -155,8 +232,8 @@ Json distance_to_json(double distance) {
 }  // namespace
 
 template <class Number>
-Json clip_in_space(const Json& object, Form form) {
-  expect_only(object, {"polygon3", "planes", "attributes"});
+Json clip_in_space(const Json& object, const std::string& algorithm, Form form) {
+  expect_only(object, {"polygon3", "planes", "attributes"}, algorithm + " with polygon3");
   std::vector<clipping::Plane<Number>> planes;
   for (const auto& p : points(object, "planes", 4, 4)) planes.push_back(plane_of<Number>(p));
   clipping::ClipStages<clipping::Point3, Number> stages;
@@ -167,7 +244,7 @@ Json clip_in_space(const Json& object, Form form) {
   const auto polygon =
       clipping::sutherland_hodgman(subject, planes, form.trace ? &stages : nullptr);
   Json result;
-  put_polygon(result, object, "polygon3", polygon, form);
+  put_polygon(result, object, "polygon3", "attributes", polygon, form);
   if (form.trace) {
     result["trace"] = Json::array();
     for (std::size_t i = 0; i < stages.size(); ++i)
@@ -178,21 +255,20 @@ Json clip_in_space(const Json& object, Form form) {
 
 template <class Number>
 Json homogeneous(const Json& object, Form form) {
-  expect_only(object,
-              {"polygon", "segment", "volume", "hourglass", "after_division", "attributes"});
-  const bool both = word(object, "hourglass", {"upper", "both"}) == "both";
-  if (object.contains("segment")) return homogeneous_segment<Number>(object, both, form);
-  if (flag(object, "after_division")) return after_division<Number>(object, form);
-  Json result;
-  put_half<Number>(result, object, "polygon", clipping::Half::upper, form);
-  if (both) put_half<Number>(result, object, "lower", clipping::Half::lower, form);
-  return result;
+  const bool is_polygon = object.contains("polygon"), is_segment = object.contains("segment");
+  if (is_polygon && is_segment) throw InputError("expected \"polygon\" or \"segment\", not both");
+  if (!is_polygon && !is_segment) throw InputError("\"polygon\" or \"segment\" is missing");
+  return is_polygon ? homogeneous_polygon<Number>(object, form)
+                    : homogeneous_segment<Number>(object, form);
 }
 
 template <class Number>
 Json plane(const Json& object, Form form) {
-  if (object.contains("polygon3")) return clip_in_space<Number>(object, form);
-  expect_only(object, {"plane", "triangle", "eye", "points", "line"});
+  if (object.contains("polygon3")) return clip_in_space<Number>(object, "plane", form);
+  expect_only(object, {"plane", "triangle", "eye", "points", "line"}, "plane");
+  if (object.contains("eye") && !object.contains("triangle"))
+    throw InputError(
+        "\"eye\" says on which side of a triangle it is; add \"triangle\" or leave it out");
   Json result, values = Json::array();
   const clipping::Plane<Number> H =
       object.contains("triangle")
@@ -221,9 +297,9 @@ Json plane(const Json& object, Form form) {
   return result;
 }
 
-#define FATHOM_INSTANTIATE(Number)                        \
-  template Json clip_in_space<Number>(const Json&, Form); \
-  template Json homogeneous<Number>(const Json&, Form);   \
+#define FATHOM_INSTANTIATE(Number)                                            \
+  template Json clip_in_space<Number>(const Json&, const std::string&, Form); \
+  template Json homogeneous<Number>(const Json&, Form);                       \
   template Json plane<Number>(const Json&, Form);
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(Rational)

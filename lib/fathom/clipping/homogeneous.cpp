@@ -105,13 +105,24 @@ Point3<Number> divided(const Point4<Number>& p) {
 
 template <class Number>
 std::vector<Corner3<Number>> clip_after_division(const std::vector<Corner4<Number>>& polygon,
-                                                 Volume volume) {
+                                                 Volume volume, ClipStages<Point3, Number>* trace) {
   const StandardArithmetic standard;
   std::vector<Corner3<Number>> flat;
   flat.reserve(polygon.size());
   for (const Corner4<Number>& corner : polygon)
     flat.push_back({divided(corner.position), corner.attributes});
-  return sutherland_hodgman(flat, box_of<Number>(volume));
+  return sutherland_hodgman(flat, box_of<Number>(volume), trace);
+}
+
+template <class Number>
+std::optional<Segment4<Number>> clip_after_division(const Segment4<Number>& segment, Volume volume,
+                                                    LiangBarskyTrace<Number>* trace) {
+  const StandardArithmetic standard;
+  const Point3<Number> start = divided(segment.start), end = divided(segment.end);
+  // Where w is 1, the boundaries are those of the box.
+  const Number one(1);
+  return clip_homogeneous<Number>({{start.x, start.y, start.z, one}, {end.x, end.y, end.z, one}},
+                                  volume, Half::upper, trace);
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
@@ -123,7 +134,9 @@ std::vector<Corner3<Number>> clip_after_division(const std::vector<Corner4<Numbe
                                                             LiangBarskyTrace<Number>*);            \
   template Point3<Number> divided(const Point4<Number>&);                                          \
   template std::vector<Corner3<Number>> clip_after_division(const std::vector<Corner4<Number>>&,   \
-                                                            Volume);
+                                                            Volume, ClipStages<Point3, Number>*);  \
+  template std::optional<Segment4<Number>> clip_after_division(const Segment4<Number>&, Volume,    \
+                                                               LiangBarskyTrace<Number>*);
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(Rational)
 #undef FATHOM_INSTANTIATE

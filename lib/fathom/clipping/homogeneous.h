@@ -69,6 +69,13 @@ Point3<Number> divided(const Point4<Number>& point);
 /// Fails    InputError if w = 0.
 template <class Number>
 std::vector<Corner3<Number>> clip_after_division(const std::vector<Corner4<Number>>& polygon,
-                                                 Volume volume);
+                                                 Volume volume,
+                                                 ClipStages<Point3, Number>* trace = nullptr);
+
+/// The same wrong order for a segment; what is left of it has w = 1.
+/// Fails    InputError if w = 0.
+template <class Number>
+std::optional<Segment4<Number>> clip_after_division(const Segment4<Number>& segment, Volume volume,
+                                                    LiangBarskyTrace<Number>* trace = nullptr);
 
 }  // namespace fathom::clipping
