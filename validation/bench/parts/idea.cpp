@@ -1,0 +1,84 @@
+#include "validation/bench/parts/idea.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace fathom::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds time_there_is{20};
+
+double median(std::vector<double> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  const std::size_t half = numbers.size() / 2;
+  return numbers.size() % 2 == 1 ? numbers[half] : (numbers[half - 1] + numbers[half]) / 2;
+}
+
+double time_of(const Variant& variant) {
+  variant.prepare();
+  const Clock::time_point start = Clock::now();
+  variant.draw();
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::size_t differing(const Picture& a, const Picture& b) {
+  if (a.size() != b.size()) return std::max(a.size(), b.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
+  return count;
+}
+
+/// Draws once and compares.
+Counts checked_counts(const Idea& idea, const Variant& variant) {
+  variant.prepare();
+  variant.draw();
+  Counts counts = variant.counts();
+  const std::size_t count = differing(variant.picture(), *variant.expected);
+  if (variant.may_differ) {
+    counts.push_back({"differ", static_cast<double>(count)});
+  } else if (count != 0) {
+    throw WrongPicture(
+        fmt::format("{}, {}: {} values of the picture are wrong", idea.name, variant.name, count));
+  }
+  return counts;
+}
+
+}  // namespace
+
+double VariantTimes::median_ms() const {
+  return median(milliseconds);
+}
+
+IdeaTimes time_idea(const Idea& idea, int repeat) {
+  const std::size_t n = idea.variants.size();
+  IdeaTimes times{idea.name, idea.note, {}};
+  for (const Variant& variant : idea.variants) {
+    times.variants.push_back({.name = variant.name,
+                              .plain = idea.variants[variant.plain].name,
+                              .counts = checked_counts(idea, variant)});
+  }
+  // The rounds, each beginning with another variant.
+  std::vector<std::vector<double>> rounds(n);
+  const Clock::time_point start = Clock::now();
+  for (int round = 0; round < repeat; ++round) {
+    if (round > 0 && Clock::now() - start > time_there_is) break;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t k = (i + static_cast<std::size_t>(round)) % n;
+      rounds[k].push_back(time_of(idea.variants[k]));
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::vector<double>& plain = rounds[idea.variants[k].plain];
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < plain.size(); ++i) ratios.push_back(plain[i] / rounds[k][i]);
+    times.variants[k].speed_up = median(ratios);
+    times.variants[k].milliseconds = rounds[k];
+    std::sort(times.variants[k].milliseconds.begin(), times.variants[k].milliseconds.end());
+  }
+  return times;
+}
+
+}  // namespace fathom::bench
