@@ -125,7 +125,7 @@ TEST(Ideas, BlocksSparePixels) {
 }
 
 TEST(Ideas, OrderDecidesHowManyFragmentsAreShaded) {
-  const std::vector<IdeaTimes> all = times_of("early-rejection", "soup");
+  const std::vector<IdeaTimes> all = times_of("early-rejection", "few-large");
   ASSERT_EQ(all.size(), 2U);
   const std::vector<VariantTimes>& v = all[0].variants;
   ASSERT_EQ(v.size(), 6U);

@@ -261,6 +261,9 @@ TEST(PartsKernels, TheNearestIsSeenAndOfEquallyNearOnesTheFirst) {
   EXPECT_EQ(nearest, (Picture{0.25, 1, 1, 1,  //
                               2, 0, 0, 0}));
   DepthImage image(2, 2);
+  draw_nearest(set_up_edges(first_three), image);
+  EXPECT_EQ(picture_of(image), nearest);
+  image.clear(0, 0);
   draw_nearest(set_up_edges(scene), image);
   EXPECT_EQ(picture_of(image), by_hand);
 }
