@@ -63,7 +63,7 @@ void add_boxes_by(std::span<const EdgeSetup> setups, PaddedImage<Number>& layers
     for (std::int32_t y = 0; y < s.rows; ++y) {
       const auto row0 = Edges<D>::at_row(s, 0, y), row1 = Edges<D>::at_row(s, 1, y),
                  row2 = Edges<D>::at_row(s, 2, y);
-      Number* const row = layers.row(static_cast<std::size_t>(s.first_row + y)) + s.first_column;
+      Number* const row = layers.row(s.image_row(y)) + s.first_column;
       for (std::int32_t begin = 0; begin < s.columns; begin += group) {
         for (std::int32_t i = begin; i < begin + group; i += vector) {
           const auto x = hn::Iota(d, static_cast<Number>(i));
@@ -109,7 +109,7 @@ BlockCounts add_blocks_by_8(std::span<const EdgeSetup> setups, PaddedImage<doubl
       if (b.is_outside) return;
       const auto end = hn::Set(d, b.right + 1.0);
       for (std::int32_t y = b.top; y <= b.bottom; ++y) {
-        double* const row = layers.row(static_cast<std::size_t>(s.first_row + y)) + s.first_column;
+        double* const row = layers.row(s.image_row(y)) + s.first_column;
         const auto row0 = Edges<D>::at_row(s, 0, y), row1 = Edges<D>::at_row(s, 1, y),
                    row2 = Edges<D>::at_row(s, 2, y);
         for (std::int32_t i = b.left; i <= b.right; i += vector) {

@@ -26,6 +26,10 @@ struct EdgeSetup {
   /// Window depth at the box's first pixel, and by column and row.
   double depth = 0, depth_right = 0, depth_down = 0;
 
+  /// A row of the box as one of the image.
+  [[nodiscard]] std::size_t image_row(std::int32_t y) const {
+    return static_cast<std::size_t>(first_row) + static_cast<std::size_t>(y);
+  }
   /// What a covered pixel is given: from 1 to 251, so that a pixel which one triangle gains does
   /// not hide that another lost it.
   [[nodiscard]] std::uint32_t weight() const { return number % 251 + 1; }

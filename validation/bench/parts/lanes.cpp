@@ -31,14 +31,14 @@ Counts box_counts(const std::vector<EdgeSetup>& setups, std::uint64_t lanes) {
 
 /// "4 lanes", "16 lanes: 2 vectors of 8"
 std::string lanes_name(int lanes, int of_a_vector) {
-  const std::string name = fmt::format("{} lane{}", lanes, lanes == 1 ? "" : "s");
-  if (lanes <= of_a_vector) return name;
-  return fmt::format("{}: {} vectors of {}", name, lanes / of_a_vector, of_a_vector);
+  if (lanes > of_a_vector)
+    return fmt::format("{} lanes: {} vectors of {}", lanes, lanes / of_a_vector, of_a_vector);
+  return fmt::format("{} lane{}", lanes, lanes == 1 ? "" : "s");
 }
 
 template <class Number>
 Variant box_variant(const PartsScene& scene, std::shared_ptr<PaddedImage<Number>> layers,
-                    std::shared_ptr<const Picture> expected, int lanes) {
+                    const std::shared_ptr<const Picture>& expected, int lanes) {
   return {.name = lanes_name(lanes, lanes_of_a_vector<Number>()),
           .prepare = [layers] { std::fill(layers->numbers.begin(), layers->numbers.end(), 0); },
           .draw =
@@ -51,7 +51,7 @@ Variant box_variant(const PartsScene& scene, std::shared_ptr<PaddedImage<Number>
           .picture = [layers] { return layers->picture(); },
           .counts = [&scene,
                      lanes] { return box_counts(scene.setups, static_cast<std::uint64_t>(lanes)); },
-          .expected = std::move(expected)};
+          .expected = expected};
 }
 
 template <class Number>

@@ -39,7 +39,7 @@ void add_boxes_one_by_one(std::span<const EdgeSetup> setups, PaddedImage<Layer>&
     const auto weight = static_cast<Layer>(s.weight());
     for (std::int32_t y = 0; y < s.rows; ++y) {
       const PlainEdges<Number> at_row = edges.at_row(y);
-      Layer* const row = layers.row(static_cast<std::size_t>(s.first_row + y)) + s.first_column;
+      Layer* const row = layers.row(s.image_row(y)) + s.first_column;
       for (std::int32_t x = 0; x < s.columns; ++x) {
         if (at_row.cover(x)) row[x] += weight;
       }
@@ -60,7 +60,7 @@ BlockCounts add_blocks_one_by_one(std::span<const EdgeSetup> setups, PaddedImage
       counts.add(b);
       if (b.is_outside) return;
       for (std::int32_t y = b.top; y <= b.bottom; ++y) {
-        double* const row = layers.row(static_cast<std::size_t>(s.first_row + y)) + s.first_column;
+        double* const row = layers.row(s.image_row(y)) + s.first_column;
         if (b.is_inside) {
           for (std::int32_t x = b.left; x <= b.right; ++x) row[x] += weight;
           continue;
