@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -63,7 +64,9 @@ TEST(Ideas, VariantsAreTimedInTurnEachRoundFromAnotherOn) {
   std::vector<std::string> log;
   const Idea idea{"", {drawing("a", {}, {}, &log), drawing("b", {}, {}, &log)}};
   const IdeaTimes times = time_idea(idea, 3);
-  EXPECT_THAT(log, ElementsAre("a", "b", "a", "b", "b", "a", "a", "b"));
+  // They are so fast that each draws several times in a row.
+  log.erase(std::unique(log.begin(), log.end()), log.end());
+  EXPECT_THAT(log, ElementsAre("a", "b", "a", "b", "a", "b"));  // a b, a b, b a, a b
   EXPECT_EQ(times.variants[1].plain, "a");
   EXPECT_EQ(times.variants[1].milliseconds.size(), 3U);
   EXPECT_EQ(times.variants[0].speed_up, 1);

@@ -27,7 +27,9 @@ Variant pipeline_variant(std::string name, const BenchScene& bench, const Pipeli
     *frame = pipeline::render_frame(bench.scene, bench.camera, options, with_picture);
   };
   variant.picture = [frame] {
-    Picture picture(frame->depth.begin(), frame->depth.end());
+    Picture picture;
+    for (const StoredDepth stored : frame->stored)
+      picture.push_back(static_cast<double>(stored.bits));
     for (const auto& colour : frame->picture.pixels)
       picture.insert(picture.end(), colour.begin(), colour.end());
     return picture;
