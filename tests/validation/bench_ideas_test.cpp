@@ -11,6 +11,8 @@
 #include "fathom/numeric/errors.h"
 #include "validation/bench/parts/ideas.h"
 #include "validation/bench/parts/parts_report.h"
+#include "validation/bench/shapes.h"
+#include "validation/bench/simple_camera.h"
 
 namespace fathom::bench {
 namespace {
@@ -145,6 +147,27 @@ TEST(Ideas, OrderDecidesHowManyFragmentsAreShaded) {
   const std::vector<VariantTimes>& fast = all[1].variants;
   ASSERT_EQ(fast.size(), 6U);
   EXPECT_LT(count_of(fast[4], "written"), count_of(fast[2], "written"));
+}
+
+// Two sheets, a thousandth apart at 900: the same number to the depth buffer, so that the order
+// decides which of the two depths channel Z has.
+TEST(Ideas, EquallyNearSurfacesMayBeDrawnInAnyOrder) {
+  Mesh mesh;
+  for (const double z : {900.001, 900.0}) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {{-900, -900, z}, {900, -900, z}, {0, 900, z}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  mesh.face_count = 2;
+  Camera camera = simple_camera({16, 16});
+  camera.near = 0.1;
+  camera.far = 1000;
+  const PartsScene scene({"sheets", as_scene({mesh}, "sheets"), camera});
+  const std::vector<Idea> ideas = early_rejection(scene);
+  const IdeaTimes times = time_idea(ideas.at(0), 1);
+  const double fragments = count_of(times.variants[0], "fragments");
+  EXPECT_GT(fragments, 0);
+  EXPECT_EQ(count_of(times.variants[2], "written"), fragments / 2);
 }
 
 TEST(Ideas, TheFastEngineIsNotReorderedWhereThereAreSeveralObjects) {

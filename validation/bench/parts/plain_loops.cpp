@@ -15,15 +15,14 @@ struct PlainEdges {
     }
   }
   /// Their values at the beginning of a row.
-  [[nodiscard]] PlainEdges at_row(std::int32_t y) const {
-    PlainEdges row = *this;
-    for (std::size_t k = 0; k < 3; ++k) row.start[k] += down[k] * static_cast<Number>(y);
-    return row;
+  [[nodiscard]] std::array<Number, 3> at_row(std::int32_t y) const {
+    const auto rows = static_cast<Number>(y);
+    return {start[0] + down[0] * rows, start[1] + down[1] * rows, start[2] + down[2] * rows};
   }
-  [[nodiscard]] bool cover(std::int32_t x) const {
+  [[nodiscard]] bool cover(const std::array<Number, 3>& row, std::int32_t x) const {
     bool covered = true;
     for (std::size_t k = 0; k < 3; ++k)
-      covered &= start[k] + right[k] * static_cast<Number>(x) >= least[k];
+      covered &= row[k] + right[k] * static_cast<Number>(x) >= least[k];
     return covered;
   }
 
@@ -38,10 +37,10 @@ void add_boxes_one_by_one(std::span<const EdgeSetup> setups, PaddedImage<Layer>&
     const PlainEdges<Number> edges(s);
     const auto weight = static_cast<Layer>(s.weight());
     for (std::int32_t y = 0; y < s.rows; ++y) {
-      const PlainEdges<Number> at_row = edges.at_row(y);
+      const std::array<Number, 3> at_row = edges.at_row(y);
       Layer* const row = layers.row(s.image_row(y)) + s.first_column;
       for (std::int32_t x = 0; x < s.columns; ++x) {
-        if (at_row.cover(x)) row[x] += weight;
+        if (edges.cover(at_row, x)) row[x] += weight;
       }
     }
   }
@@ -65,9 +64,9 @@ BlockCounts add_blocks_one_by_one(std::span<const EdgeSetup> setups, PaddedImage
           for (std::int32_t x = b.left; x <= b.right; ++x) row[x] += weight;
           continue;
         }
-        const PlainEdges<double> at_row = edges.at_row(y);
+        const std::array<double, 3> at_row = edges.at_row(y);
         for (std::int32_t x = b.left; x <= b.right; ++x) {
-          if (at_row.cover(x)) row[x] += weight;
+          if (edges.cover(at_row, x)) row[x] += weight;
         }
       }
     });
