@@ -142,15 +142,12 @@ void add_bench(Command& program) {
       "Each renderer runs in a process of its own on as many processors as there are threads;\n"
       "its first frame is not counted. Times of vtk are without read-back, those of embree\n"
       "without embree-build.\n"
-      "\n--parts switches each idea that makes drawing fast on and off, in one process and in "
-      "turn:\n"
+      "\n--parts switches each idea that makes drawing fast on and off, in one process, in turn:\n"
       "lanes of binary32 and binary64, blocks before pixels, early rejection by the order of\n"
-      "drawing, tiles, threads, culling. It prints times, how many times as fast that is, and "
-      "what\n"
-      "was counted, and the pixels of the textbooks' demo with closed and with half-open edges. "
-      "All\n"
-      "variants of an idea have to draw the same picture, or it fails. Scenes: sphere-20k, soup,\n"
-      "few-large; the first of --threads is the one that others are compared with.");
+      "drawing, tiles, threads, culling. It prints times, how many times as fast that is (by the\n"
+      "least time), what was counted, and the pixels of the textbooks' demo by closed and by\n"
+      "half-open edges. A variant that draws another picture ends it with an error. Scenes:\n"
+      "sphere-20k, soup, few-large; the first of --threads is what others are compared with.");
   const auto arguments = std::make_shared<BenchArguments>();
   arguments->add_to(command);
   command.answers_on_standard_output();

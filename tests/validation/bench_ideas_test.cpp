@@ -225,9 +225,9 @@ TEST(PartsReport, TableHasAColumnForEachCount) {
   EXPECT_EQ(heading(parts()), "sphere-8: 8 triangles, 40x30\n");
   EXPECT_EQ(table(parts().ideas[0]),
             "lanes (a note)\n"
-            "            median ms  x plain        steps  lanes used %\n"
-            "  1 lane        4.000        1           12             -\n"
-            "  16 lanes      1.500     2.50            1          62.5\n"
+            "            median ms   least ms  x plain        steps  lanes used %\n"
+            "  1 lane        4.000      2.000        1           12             -\n"
+            "  16 lanes      1.500      1.000     2.50            1          62.5\n"
             "\n");
 }
 

@@ -13,12 +13,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds time_there_is{20};
 constexpr std::chrono::milliseconds enough_for_a_round{30};
 
-double median(std::vector<double> numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  const std::size_t half = numbers.size() / 2;
-  return numbers.size() % 2 == 1 ? numbers[half] : (numbers[half - 1] + numbers[half]) / 2;
-}
-
 /// The least of several times, of as many as there is time for in `enough_for_a_round`: one draw may
 /// be so short that losing the processor once would double it.
 double time_of(const Variant& variant) {
@@ -59,7 +53,9 @@ Counts checked_counts(const Idea& idea, const Variant& variant) {
 }  // namespace
 
 double VariantTimes::median_ms() const {
-  return median(milliseconds);
+  const std::size_t half = milliseconds.size() / 2;
+  return milliseconds.size() % 2 == 1 ? milliseconds[half]
+                                      : (milliseconds[half - 1] + milliseconds[half]) / 2;
 }
 
 IdeaTimes time_idea(const Idea& idea, int repeat) {
@@ -81,12 +77,12 @@ IdeaTimes time_idea(const Idea& idea, int repeat) {
     }
   }
   for (std::size_t k = 0; k < n; ++k) {
-    const std::vector<double>& plain = rounds[idea.variants[k].plain];
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < plain.size(); ++i) ratios.push_back(plain[i] / rounds[k][i]);
-    times.variants[k].speed_up = median(ratios);
+    std::sort(rounds[k].begin(), rounds[k].end());
     times.variants[k].milliseconds = rounds[k];
-    std::sort(times.variants[k].milliseconds.begin(), times.variants[k].milliseconds.end());
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    times.variants[k].speed_up =
+        rounds[idea.variants[k].plain].front() / times.variants[k].milliseconds.front();
   }
   return times;
 }

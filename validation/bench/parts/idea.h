@@ -46,8 +46,8 @@ struct VariantTimes {
   std::string name, plain;
   /// In increasing order; not empty.
   std::vector<double> milliseconds;
-  /// How many times as fast as the plain variant: the median over the rounds, in each of which every
-  /// variant is timed once.
+  /// How many times as fast as the plain variant, by the least time of each: others that use the
+  /// machine can only add to a time, and more to a long one.
   double speed_up = 1;
   Counts counts;
 

@@ -70,12 +70,13 @@ std::string table(const IdeaTimes& idea) {
   std::size_t widest = 0;
   for (const VariantTimes& variant : idea.variants) widest = std::max(widest, variant.name.size());
   const std::vector<std::string> names = count_names(idea);
-  text += fmt::format("  {:<{}}{:>11}{:>9}", "", widest, "median ms", "x plain");
+  text += fmt::format("  {:<{}}{:>11}{:>11}{:>9}", "", widest, "median ms", "least ms", "x plain");
   for (const std::string& name : names) text += fmt::format("  {:>11}", name);
   text += "\n";
   for (const VariantTimes& variant : idea.variants) {
     text +=
-        fmt::format("  {:<{}}{:>11.3f}{:>9}", variant.name, widest, variant.median_ms(),
+        fmt::format("  {:<{}}{:>11.3f}{:>11.3f}{:>9}", variant.name, widest, variant.median_ms(),
+                    variant.milliseconds.front(),
                     variant.name == variant.plain ? "1" : fmt::format("{:.2f}", variant.speed_up));
     for (const std::string& name : names) {
       text += fmt::format("  {:>{}}", text_of(variant.counts, name),
