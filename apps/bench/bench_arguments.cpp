@@ -6,6 +6,7 @@
 
 #include "apps/options/channel_list.h"
 #include "fathom/numeric/errors.h"
+#include "validation/bench/parts/ideas.h"
 
 namespace fathom::app {
 namespace {
@@ -63,6 +64,15 @@ std::vector<Size> parse_sizes(const std::string& list) {
   return sizes;
 }
 
+std::vector<std::string> parse_ideas(const std::string& list) {
+  std::vector<std::string> names = parse_list(list);
+  const std::vector<std::string>& known = bench::idea_names();
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) refuse_word(name, known);
+  }
+  return names;
+}
+
 int parse_repeat(const std::string& text) {
   return static_cast<int>(std::min(parse_positive(text), 1'000'000U));
 }
@@ -72,17 +82,25 @@ int parse_repeat(const std::string& text) {
 void BenchArguments::add_to(Command& command) {
   command.option("--scene", "NAME", into(scenes, parse_scenes),
                  "Scenes to render (default: see below)");
-  command.option("--size", "WxH", into(sizes, parse_sizes), "Image sizes (default 1920x1080)");
+  command.option("--size", "WxH", into(sizes, parse_sizes),
+                 "Image sizes (default 1920x1080; with --parts 640x360)");
   command.option("--threads", "N", into(threads, parse_threads),
-                 "Numbers of threads (default: all processors)");
-  command.option("--peers", "NAME", into(peers, parse_peers),
-                 "Renderers beside fast: vtk, embree, reference or none (default: all, the "
-                 "reference engine up to 20000 triangles)");
-  command.option("--channels", "LIST", into(channels, parse_channels),
-                 "Channels that our engines compute (default Z)");
+                 "Numbers of threads (default: all processors; with --parts 1, 2, 4, …)");
+  const Option peers_option =
+      command.option("--peers", "NAME", into(peers, parse_peers),
+                     "Renderers beside fast: vtk, embree, reference or none (default: all, the "
+                     "reference engine up to 20000 triangles)");
+  const Option channels_option =
+      command.option("--channels", "LIST", into(channels, parse_channels),
+                     "Channels that our engines compute (default Z)");
   command.option("--repeat", "N", into(repeat, parse_repeat),
                  "Frames to time, within 20 seconds (default 9)");
   command.option("--json", "FILE", json, "Also write the figures as JSON; - for only them");
+  command.flag("--parts", parts, "What each idea brings, instead of a comparison with others")
+      .excludes(peers_option)
+      .excludes(channels_option);
+  command.option("--idea", "NAME", into(ideas, parse_ideas),
+                 "With --parts, only some: " + joined(bench::idea_names(), ", "));
 }
 
 }  // namespace fathom::app

@@ -21,13 +21,17 @@ struct Peers {
 
 /// The arguments of `fathom bench`.
 struct BenchArguments {
-  std::vector<std::string> scenes = bench::default_scene_names();
-  std::vector<Size> sizes{{1920, 1080}};
-  std::vector<int> threads{bench::processor_count()};
+  /// Empty where they are not given: what is timed says what is used then.
+  std::vector<std::string> scenes;
+  std::vector<Size> sizes;
+  std::vector<int> threads;
   Peers peers;
   std::vector<Channel> channels{Channel::Z};
   int repeat = 9;
   std::string json;
+  /// What each idea brings, instead of a comparison; only these ideas, if there are any.
+  bool parts = false;
+  std::vector<std::string> ideas;
 
   void add_to(Command& command);
 };

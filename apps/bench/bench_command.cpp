@@ -8,11 +8,14 @@
 #include <optional>
 
 #include "apps/bench/bench_arguments.h"
+#include "apps/bench/machine_line.h"
+#include "apps/bench/parts_command.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/program.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
+#include "fathom/numeric/errors.h"
 #include "validation/bench/renderers.h"
 #include "validation/bench/report.h"
 
@@ -29,9 +32,12 @@ constexpr std::uint64_t bearable_triangles = 20'000;
 /// Every scene at every size with every number of threads.
 std::vector<Plan> plans_of(const BenchArguments& a) {
   std::vector<Plan> plans;
-  for (const auto& [width, height] : a.sizes) {
-    for (const int threads : a.threads) {
-      for (const std::string& scene : a.scenes) {
+  const auto scenes = a.scenes.empty() ? bench::default_scene_names() : a.scenes;
+  const auto sizes = a.sizes.empty() ? std::vector<Size>{{1920, 1080}} : a.sizes;
+  const auto counts = a.threads.empty() ? std::vector<int>{bench::processor_count()} : a.threads;
+  for (const auto& [width, height] : sizes) {
+    for (const int threads : counts) {
+      for (const std::string& scene : scenes) {
         plans.push_back({scene, width, height, threads, a.repeat, a.channels});
       }
     }
@@ -77,13 +83,6 @@ Comparison compare(const Plan& plan, const Peers& peers, const Console& console,
   return comparison;
 }
 
-std::string machine_line(const bench::Machine& machine) {
-  return fmt::format("{}, {} processor{}, {:.1f} GiB; {}; {}\n\n", machine.processor,
-                     machine.processors, machine.processors == 1 ? "" : "s",
-                     static_cast<double>(machine.memory_bytes) / (1 << 30), machine.system,
-                     machine.compiler);
-}
-
 /// "vtk: VTK 9.1.0 on llvmpipe", a line for each renderer that says what it is.
 std::string version_lines(const std::vector<Comparison>& comparisons) {
   std::vector<std::string> lines;
@@ -98,6 +97,8 @@ std::string version_lines(const std::vector<Comparison>& comparisons) {
 }
 
 int run_bench(const BenchArguments& arguments, const Console& console) {
+  if (arguments.parts) return run_parts(arguments, console);
+  if (!arguments.ideas.empty()) throw UsageError("--idea belongs to --parts");
   const Peers& peers = arguments.peers;
   const std::vector<Plan> plans = plans_of(arguments);
   std::optional<OutputFile> json;
@@ -135,11 +136,18 @@ void add_bench(Command& program) {
       "  fathom bench\n"
       "  fathom bench --scene sphere-200k,soup --threads 1,2 --json times.json\n"
       "  fathom bench --scene sphere-5k --peers reference --size 640x360\n"
+      "  fathom bench --parts --scene sphere-20k --idea lanes,blocks\n"
       "\nScenes: sphere-20k, sphere-200k, sphere-2m, mesh, soup, few-large, grid-aligned,\n"
       "grid-shifted and room (default: these), room-outside, sphere-N for any N, mesh files.\n"
       "Each renderer runs in a process of its own on as many processors as there are threads;\n"
       "its first frame is not counted. Times of vtk are without read-back, those of embree\n"
-      "without embree-build.");
+      "without embree-build.\n"
+      "\n--parts switches each idea that makes drawing fast on and off, in one process, in turn:\n"
+      "lanes of binary32 and binary64, blocks before pixels, early rejection by the order of\n"
+      "drawing, tiles, threads, culling. It prints times, how many times as fast that is (by the\n"
+      "least time), what was counted, and the pixels of the textbooks' demo by closed and by\n"
+      "half-open edges. A variant that draws another picture ends it with an error. Scenes:\n"
+      "sphere-20k, soup, few-large; the first of --threads is what others are compared with.");
   const auto arguments = std::make_shared<BenchArguments>();
   arguments->add_to(command);
   command.answers_on_standard_output();

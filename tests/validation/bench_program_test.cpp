@@ -61,6 +61,52 @@ TEST(BenchProgram, TimesAMeshFileAndEverySizeAndNumberOfThreads) {
   EXPECT_EQ(json["results"][3]["triangles"], 12);
 }
 
+/// A small run of the ideas.
+std::vector<std::string> parts(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"bench",  "--parts", "--scene",  "sphere-200",
+                                     "--size", "40x30",   "--repeat", "1"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(BenchProgram, ShowsWhatEachIdeaBrings) {
+  const TestFolder folder;
+  const Outcome outcome =
+      run_fathom(parts({"--threads", "1,1", "--json", "t.json"}), {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("\nsphere-200: 200 triangles, 40x30\n"));
+  for (const char* idea : {"lanes of binary32", "lanes of binary64", "lanes of the fast engine",
+                           "blocks before pixels", "early rejection, pipeline",
+                           "early rejection, fast engine", "tiles", "threads", "culling"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(std::string("\n") + idea));
+  }
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("demo, near triangle +13955 +13955 +0\n"));
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("demo, far triangle +16830 +16970 +140\n"));
+
+  const auto json = nlohmann::json::parse(folder.read("t.json"));
+  EXPECT_TRUE(json.contains("machine"));
+  EXPECT_EQ(json["results"][0]["idea"], "lanes of binary32");
+  EXPECT_EQ(json["closed_edges"].size(), 3U);
+  EXPECT_EQ(json["left_out"].size(), 0U);
+}
+
+TEST(BenchProgram, TimesOnlyTheIdeasThatAreNamed) {
+  const Outcome outcome = run_fathom(parts({"--idea", "tiles,blocks", "--json", "-"}));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(json["results"].size(), 8U + 6);
+  EXPECT_EQ(json["results"][0]["idea"], "blocks before pixels");
+  EXPECT_EQ(json["results"][8]["idea"], "tiles");
+}
+
+TEST(BenchProgram, SaysWhyAnIdeaIsLeftOut) {
+  const Outcome outcome = run_fathom({"bench", "--parts", "--scene", "few-large", "--size", "40x30",
+                                      "--repeat", "1", "--idea", "culling"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("\nculling: changes the picture"));
+}
+
 struct Refused {
   std::string name;
   std::vector<std::string> arguments;
@@ -95,6 +141,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"NoRepeat", {"bench", "--repeat", "0"}, 2, "--repeat"},
         Refused{"Channel", small({"--channels", "depth"}), 2, "there is no channel 'depth'"},
         Refused{"Option", small({"--frobnicate"}), 2, "--frobnicate"},
+        Refused{"Idea", parts({"--idea", "sorting"}), 2, "'sorting'"},
+        Refused{"IdeaOfNoParts", small({"--idea", "lanes"}), 2, "--idea belongs to --parts"},
+        Refused{"PartsBesidePeers", parts({"--peers", "none"}), 2, "--peers"},
+        Refused{"PartsWithChannels", parts({"--channels", "Z"}), 2, "--channels"},
+        Refused{"PartsOfNoMesh", {"bench", "--parts", "--scene", "missing.obj"}, 3, "missing.obj"},
+        Refused{"PartsToNoFolder", parts({"--json", "no/t.json"}), 4, "no/t.json"},
         Refused{"MissingMesh", small({"--scene", "missing.obj", "--json", "t.json"}), 3,
                 "missing.obj"},
         Refused{"NoFolder", small({"--scene", "sphere-8", "--json", "no/t.json"}), 4, "no/t.json"}),

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "validation/bench/machine_json.h"
+
 namespace fathom::bench {
 namespace {
 
@@ -85,13 +87,7 @@ std::string to_json(const Machine& machine, const std::vector<Comparison>& compa
       results.push_back(result(comparison, m));
     }
   }
-  const nlohmann::ordered_json report{{"machine",
-                                       {{"processor", machine.processor},
-                                        {"processors", machine.processors},
-                                        {"memory_bytes", machine.memory_bytes},
-                                        {"system", machine.system},
-                                        {"compiler", machine.compiler}}},
-                                      {"results", results}};
+  const nlohmann::ordered_json report{{"machine", to_json(machine)}, {"results", results}};
   return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
