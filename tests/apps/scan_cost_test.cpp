@@ -94,7 +94,20 @@ TEST(ScanCost, AnswersFitIntoMemory) {
   expect_one_line(more, 3);
   EXPECT_THAT(more.err, HasSubstr("more than 4194304 pixels"));
   expect_one_line(scan("dda", R"({"line": [0,0,1e6,7]})", {"--trace"}), 3);
+  // Of a triangle that covers no centre, the trace has all the rejected ones of its box.
+  const std::string thin = R"({"triangle": [[0,0],[800,800],[1e-9,0]]})";
+  EXPECT_EQ(scan("edge-function", thin, {"--arithmetic", "float64"}).status, 0);
+  expect_one_line(scan("edge-function", thin, {"--arithmetic", "float64", "--trace"}), 3);
 }
+
+#ifndef FATHOM_SANITIZED  // --max-memory is not enforced under their shadow memory
+TEST(ScanCost, MaxMemoryHolds) {
+  const std::string large = R"({"polygon": [[[0,0],[2048,0],[2048,2048],[0,2048]]]})";
+  const Outcome outcome = scan("even-odd", large, {"--max-memory", "1M"});
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("--max-memory allows 1.0 MB"));
+}
+#endif
 
 }  // namespace
 }  // namespace fathom::test

@@ -83,6 +83,21 @@ TEST(Scan, TraceOfTheDecisionVariable) {
   EXPECT_EQ(slopes["steps"][1]["minor"], "1/3");
 }
 
+TEST(Scan, NothingIsChosenAtTheLastPixel) {
+  const auto steps = [](const std::string& object) {
+    return answer("midpoint", object, {"--trace"})["trace"]["steps"];
+  };
+  const Json line = steps(R"({"line": [0,0,8,3]})");
+  ASSERT_EQ(line.size(), 9u);
+  EXPECT_EQ(line[7], Json::parse(R"({"pixel": [7,3], "d": -8, "choice": "E"})"));
+  EXPECT_EQ(line[8], Json::parse(R"({"pixel": [8,3], "d": -2})"));
+  // A window's last pixel is not the line's.
+  const Json cut = steps(R"({"line": [0,0,8,3], "width": 3, "height": 3})");
+  ASSERT_EQ(cut.size(), 3u);
+  EXPECT_EQ(cut[2], Json::parse(R"({"pixel": [2,1], "d": -6, "choice": "E"})"));
+  EXPECT_FALSE(steps(R"({"line": [4,4,4,4]})")[0].contains("choice"));
+}
+
 TEST(Scan, VeryLongLinesInAWindow) {
   const Json a = answer(
       "midpoint",
@@ -120,7 +135,7 @@ TEST(Scan, PolygonsFloodAndQuestions) {
   const Json inside = answer(
       "inside", R"({"polygon": [[[0,0],[4,0],[4,2],[2,2],[2,4],[0,4]]], "points": [[1,3],[3,3]]})");
   EXPECT_EQ(inside["inside"], Json::parse("[true, false]"));
-  EXPECT_EQ(inside["left_of_every_edge"], Json::parse("[false, false]"));
+  EXPECT_EQ(inside["on_one_side_of_every_edge"], Json::parse("[false, false]"));
   const std::string grid = R"({"grid": ["#..", ".#.", "..#"], "seed": [0,0], "connectivity": )";
   EXPECT_EQ(answer("flood", grid + "4}")["pixels"], Json::parse("[[0,0]]"));
   EXPECT_EQ(answer("flood", grid + "8}")["pixels"], Json::parse("[[0,0],[1,1],[2,2]]"));
@@ -131,6 +146,102 @@ TEST(Scan, PolygonsFloodAndQuestions) {
 TEST(Scan, DiamondExitTakesAnyEnds) {
   EXPECT_EQ(answer("diamond-exit", R"({"line": [0.5,0.5,3.5,0.5]})")["pixels"],
             Json::parse("[[0,0],[1,0],[2,0]]"));
+  // Whole numbers are corners of pixels here, and centres for the other lines.
+  EXPECT_EQ(answer("diamond-exit", R"({"line": [0,0,8,3]})")["pixels"],
+            Json::parse("[[0,0],[1,0],[2,0],[3,1],[4,1],[5,2],[6,2],[7,2]]"));
+  const Json trace =
+      answer("diamond-exit", R"({"line": [0.5,0.5,0.5,2.5]})", {"--trace", "--exact"})["trace"];
+  EXPECT_EQ(trace, Json::parse(R"({"axis": "y", "steps": [
+      {"pixel": [0,0], "enters": "0", "leaves": "1/4"},
+      {"pixel": [0,1], "enters": "1/4", "leaves": "3/4"}]})"));
+}
+
+/// Counter-clockwise on the screen, y down, is positive, whatever is asked.
+TEST(Scan, TheSamePolygonHasTheSameSignEverywhere) {
+  const struct {
+    const char *corners, *point, *triangle;
+    int orientation;
+  } cases[] = {
+      {"[0,0],[4,0],[4,4],[0,4]", "[1,1]", "[0,0],[4,0],[4,4]", -1},
+      {"[0,4],[4,4],[4,0],[0,0]", "[1,1]", "[4,4],[4,0],[0,0]", 1},
+      {"[8,0],[13,15],[0,6],[16,6],[3,15]", "[8,8]", "[8,0],[13,15],[0,6]", -2},
+      {"[3,15],[16,6],[0,6],[13,15],[8,0]", "[8,8]", "[0,6],[13,15],[8,0]", 2},
+  };
+  for (const auto& [corners, point, triangle, orientation] : cases) {
+    const std::string polygon = "{\"polygon\": [[" + std::string(corners) + "]]";
+    const Json convexity = answer("convexity", polygon + "}");
+    EXPECT_EQ(convexity["turning_number"], orientation) << corners;
+    EXPECT_EQ(convexity["turns"][0], orientation > 0 ? 1 : -1) << corners;
+    const Json inside = answer("inside", polygon + ", \"points\": [" + point + "]}");
+    EXPECT_EQ(inside["winding"], Json::array({orientation})) << corners;
+    EXPECT_EQ(inside["on_one_side_of_every_edge"], Json::parse("[true]")) << corners;
+    const Json lines = answer("non-zero", polygon + "}", {"--trace"})["trace"];
+    EXPECT_EQ(lines[0]["crossings"][0]["winding"], orientation > 0 ? 1 : -1) << corners;
+    const Json edges = answer("edge-function", "{\"triangle\": [" + std::string(triangle) + "]}",
+                              {"--trace"})["trace"];
+    EXPECT_EQ(edges["winding"], orientation > 0 ? "counter-clockwise" : "clockwise") << corners;
+  }
+  // Hulls and pieces run counter-clockwise: each is a polygon of +1.
+  const Json hull = answer("convex-hull", R"({"points": [[0,0],[2,1],[4,0],[0,4]]})")["hull"];
+  EXPECT_EQ(answer("convexity", Json{{"polygon", {hull}}}.dump())["turning_number"], 1);
+  const Json pieces =
+      answer("tessellate", R"({"polygon": [[[0,0],[4,0],[4,2],[2,2],[2,4],[0,4]]]})");
+  for (const Json& piece : pieces["triangles"])
+    EXPECT_EQ(answer("convexity", Json{{"polygon", {piece}}}.dump())["turning_number"], 1);
+}
+
+TEST(Scan, CombinationsLieInTheHullUnlessAWeightIsNegative) {
+  const auto combined = [](const std::string& weights) {
+    return answer("convex-hull",
+                  R"({"points": [[0,0],[4,0],[0,4],[1,1]], "weights": )" + weights + "}",
+                  {"--exact"});
+  };
+  const Json within = combined("[1,1,2,0]");
+  EXPECT_EQ(within["hull"].size(), 3u);
+  EXPECT_EQ(within["combination"], Json::parse(R"(["1", "2"])"));
+  EXPECT_EQ(within["inside"], true);
+  const Json thirds = combined("[1,1,1,0]");
+  EXPECT_EQ(thirds["combination"], Json::parse(R"(["4/3", "4/3"])"));
+  EXPECT_EQ(thirds["inside"], true);
+  EXPECT_EQ(combined("[0,1,1,0]")["inside"], true);  // on the border
+  EXPECT_EQ(combined("[-1,1,1,0]")["inside"], false);
+  EXPECT_EQ(combined("[-1e-300,1,1,0]")["inside"], false);
+  EXPECT_EQ(combined("[-1,0,0,9]")["inside"], true);  // negative weights need not leave it
+  EXPECT_FALSE(answer("convex-hull", R"({"points": [[0,0]]})").contains("combination"));
+}
+
+TEST(Scan, TracesOfEdgeFunctionsShowTheBoxAndWhatIsRejected) {
+  const Json trace =
+      answer("edge-function", R"({"triangle": [[0,0],[3,0],[0,2]]})", {"--trace"})["trace"];
+  EXPECT_EQ(trace["box"], Json::parse(R"({"x_begin": 0, "x_end": 3, "y_begin": 0, "y_end": 2})"));
+  EXPECT_EQ(trace["samples"].size() + trace["rejected"].size(), 6u);
+  EXPECT_EQ(trace["rejected"][0], Json::parse(R"({"pixel": [2,0], "signs": [-1,1,1]})"));
+  // Centres on a right edge: 0, and not covered.
+  const Json on_edge = answer("edge-function", R"({"triangle": [[0,0],[2,0],[0,2]]})",
+                              {"--trace"})["trace"]["rejected"];
+  EXPECT_EQ(on_edge[0], Json::parse(R"({"pixel": [1,0], "signs": [0,1,1]})"));
+  const Json window =
+      answer("edge-function", R"({"triangle": [[-2,-2],[3,0],[0,2]], "width": 2, "height": 9})",
+             {"--trace"})["trace"];
+  EXPECT_EQ(window["box"], Json::parse(R"({"x_begin": 0, "x_end": 2, "y_begin": 0, "y_end": 2})"));
+  const Json flat =
+      answer("edge-function", R"({"triangle": [[0,0],[1,1],[2,2]]})", {"--trace"})["trace"];
+  EXPECT_EQ(flat["degenerate"], true);
+  EXPECT_FALSE(flat.contains("rejected"));
+}
+
+/// The value at the middle of a square depends on how it is turned.
+TEST(Scan, TwoStepInterpolationOfQuadrilateralsDependsOnRotation) {
+  const auto at_3_3 = [](const std::string& corners) {
+    const Json a =
+        answer("even-odd", "{\"polygon\": [[" + corners + "]], \"attributes\": [[0],[1],[0],[0]]}",
+               {"--exact"});
+    for (std::size_t i = 0; i < a["pixels"].size(); ++i)
+      if (a["pixels"][i] == Json::parse("[3,3]")) return a["values"][i][0];
+    return Json();
+  };
+  EXPECT_EQ(at_3_3("[0,0],[7,0],[7,7],[0,7]"), "1/4");
+  EXPECT_EQ(at_3_3("[3.5,0],[7,3.5],[3.5,7],[0,3.5]"), "1/2");
 }
 
 TEST(Scan, CasesThatCannotBeDoneDoNotStopTheOthers) {
@@ -156,6 +267,8 @@ TEST(Scan, CasesThatCannotBeDoneDoNotStopTheOthers) {
       {"flood", R"({"grid": ["ab"], "seed": [2,0]})", "no pixel of the grid"},
       {"flood", R"({"grid": ["ab"], "seed": [0,0], "connectivity": 6})", "expected 4 or 8"},
       {"convex-hull", R"({"points": []})", "expected at least one"},
+      {"convex-hull", R"({"points": [[0,0],[1,1]], "weights": [1]})", "1 numbers where 2 are"},
+      {"convex-hull", R"({"points": [[0,0],[1,1]], "weights": [-1,1]})", "expected a sum above 0"},
       {"line-forms", R"({"line": [1,2,1,2]})", "its ends are the same"},
   };
   for (const auto& [algorithm, object, said] : cases) {
@@ -181,6 +294,25 @@ TEST(Scan, WrongUsage) {
   EXPECT_EQ(scan("dda", "", {"--arithmetic", "float16"}).outcome.status, 2);
   EXPECT_EQ(scan("edge-function", "", {"--subpixel-bits", "17"}).outcome.status, 2);
   EXPECT_EQ(scan("dda", "", {"--subpixel-bits", "8"}).outcome.status, 2);
+}
+
+TEST(Scan, OptionsThatWouldChangeNothingAreRefused) {
+  const auto expect_refusal = [](const std::string& algorithm, const char* option,
+                                 const std::string& said) {
+    const Outcome outcome = scan(algorithm, "", {option}).outcome;
+    EXPECT_EQ(outcome.status, 2) << algorithm;
+    EXPECT_EQ(outcome.err, "fathom: error: " + said + "\n");
+  };
+  for (const std::string algorithm :
+       {"line-forms", "inside", "convexity", "tessellate", "convex-hull"}) {
+    expect_refusal(algorithm, "--trace",
+                   "--trace: " + algorithm + " shows no steps; leave the option out");
+    expect_refusal(algorithm, "--runs",
+                   "--runs: " + algorithm + " draws no pixels; leave the option out");
+  }
+  expect_refusal("flood", "--trace", "--trace: flood shows no steps; leave the option out");
+  EXPECT_EQ(answer("flood", R"({"grid": ["aa"], "seed": [1,0]})", {"--runs"})["runs"],
+            Json::parse("[[0,0,2]]"));
 }
 
 }  // namespace

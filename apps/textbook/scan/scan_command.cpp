@@ -19,33 +19,53 @@ using scan::Form;
 using scan::Json;
 using Algorithm = Json (*)(const Json&, const Form&);
 
+/// What an algorithm's answer has, and so which options it takes.
+struct Answers {
+  bool pixels = false;     ///< --runs
+  bool steps = false;      ///< --trace
+  bool triangles = false;  ///< --subpixel-bits
+};
+constexpr Answers drawing{.pixels = true, .steps = true};
+constexpr Answers triangle{.pixels = true, .steps = true, .triangles = true};
+constexpr Answers filling{.pixels = true};
+constexpr Answers question{};
+
 /// An algorithm over each arithmetic.
 struct ScanAlgorithm {
   Algorithm exact, float64, float32;
-  /// Whether corners can be snapped to the subpixel grid.
-  bool snaps = false;
+  Answers answers;
 };
 
 #define FATHOM_SCAN(name) scan::name<Exact>, scan::name<double>, scan::name<float>
 ScanAlgorithm parse_algorithm(const std::string& text) {
   return parse_word<ScanAlgorithm>(
-      text, {{"explicit", {FATHOM_SCAN(explicit_line)}},
-             {"dda", {FATHOM_SCAN(dda)}},
-             {"bresenham", {FATHOM_SCAN(bresenham)}},
-             {"midpoint", {FATHOM_SCAN(midpoint)}},
-             {"diamond-exit", {FATHOM_SCAN(diamond_exit)}},
-             {"line-forms", {FATHOM_SCAN(line_forms)}},
-             {"even-odd", {FATHOM_SCAN(even_odd)}},
-             {"non-zero", {FATHOM_SCAN(non_zero)}},
-             {"flood", {scan::flood, scan::flood, scan::flood}},
-             {"edge-function", {FATHOM_SCAN(edge_function), true}},
-             {"scan-line", {FATHOM_SCAN(scan_line), true}},
-             {"inside", {FATHOM_SCAN(inside)}},
-             {"convexity", {FATHOM_SCAN(convexity)}},
-             {"tessellate", {scan::tessellate, scan::tessellate, scan::tessellate}},
-             {"convex-hull", {FATHOM_SCAN(convex_hull)}}});
+      text, {{"explicit", {FATHOM_SCAN(explicit_line), drawing}},
+             {"dda", {FATHOM_SCAN(dda), drawing}},
+             {"bresenham", {FATHOM_SCAN(bresenham), drawing}},
+             {"midpoint", {FATHOM_SCAN(midpoint), drawing}},
+             {"diamond-exit", {FATHOM_SCAN(diamond_exit), drawing}},
+             {"line-forms", {FATHOM_SCAN(line_forms), question}},
+             {"even-odd", {FATHOM_SCAN(even_odd), drawing}},
+             {"non-zero", {FATHOM_SCAN(non_zero), drawing}},
+             {"flood", {scan::flood, scan::flood, scan::flood, filling}},
+             {"edge-function", {FATHOM_SCAN(edge_function), triangle}},
+             {"scan-line", {FATHOM_SCAN(scan_line), triangle}},
+             {"inside", {FATHOM_SCAN(inside), question}},
+             {"convexity", {FATHOM_SCAN(convexity), question}},
+             {"tessellate", {scan::tessellate, scan::tessellate, scan::tessellate, question}},
+             {"convex-hull", {FATHOM_SCAN(convex_hull), question}}});
 }
 #undef FATHOM_SCAN
+
+/// What --algorithm names: how it is spelt, and what it is.
+struct NamedAlgorithm {
+  std::string name;
+  ScanAlgorithm algorithm{};
+};
+
+NamedAlgorithm parse_named(const std::string& text) {
+  return {text, parse_algorithm(text)};
+}
 
 enum class Arithmetic { exact, float64, float32 };
 
@@ -64,7 +84,7 @@ int parse_subpixel_bits(const std::string& text) {
 }
 
 struct ScanArguments {
-  ScanAlgorithm algorithm{};
+  NamedAlgorithm algorithm;
   Arithmetic arithmetic = Arithmetic::exact;
   Form form;
   std::string file = "-";
@@ -81,11 +101,21 @@ Algorithm in_arithmetic(const ScanAlgorithm& algorithm, Arithmetic arithmetic) {
   }
 }
 
-int run_scan(const ScanArguments& arguments) {
-  if (arguments.form.subpixel_bits && !arguments.algorithm.snaps) {
+/// Refuses options that would change nothing.
+void check(const ScanArguments& arguments) {
+  const auto& [name, algorithm] = arguments.algorithm;
+  const Form& form = arguments.form;
+  if (form.subpixel_bits && !algorithm.answers.triangles)
     throw UsageError("--subpixel-bits is for triangles: edge-function and scan-line");
-  }
-  const Algorithm scan_case = in_arithmetic(arguments.algorithm, arguments.arithmetic);
+  if (form.runs && !algorithm.answers.pixels)
+    throw UsageError(fmt::format("--runs: {} draws no pixels; leave the option out", name));
+  if (form.numbers.trace && !algorithm.answers.steps)
+    throw UsageError(fmt::format("--trace: {} shows no steps; leave the option out", name));
+}
+
+int run_scan(const ScanArguments& arguments) {
+  check(arguments);
+  const Algorithm scan_case = in_arithmetic(arguments.algorithm.algorithm, arguments.arithmetic);
   return cases::answer_lines(arguments.file,
                              [&](const Json& object) { return scan_case(object, arguments.form); });
 }
@@ -103,25 +133,37 @@ void add_scan(Command& program) {
       "    fathom scan --algorithm line-forms --exact\n"
       "  echo '{\"polygon\": [[[1,1],[8,2],[4,7]]], \"width\": 9, \"height\": 9}' |\n"
       "    fathom scan --algorithm even-odd --runs\n"
+      "  echo '{\"polygon\": [[[0,0],[4,0],[4,4],[0,4]]], \"points\": [[1,1],[5,1]]}' |\n"
+      "    fathom scan --algorithm inside\n"
+      "  echo '{\"points\": [[0,0],[4,0],[0,4]], \"weights\": [1,1,2]}' |\n"
+      "    fathom scan --algorithm convex-hull\n"
+      "  echo '{\"grid\": [\"..#\",\".#.\"], \"seed\": [0,0], \"connectivity\": 4}' |\n"
+      "    fathom scan --algorithm flood\n"
       "  echo '{\"triangle\": [[1,1],[8,2],[4,7]], \"attributes\": [[0],[1],[2]]}' |\n"
-      "    fathom scan --algorithm edge-function --subpixel-bits 8");
+      "    fathom scan --algorithm edge-function --subpixel-bits 8\n"
+      "\n"
+      "x grows to the right and y down, as on the screen. Pixel (x, y) has its centre at (x + 1/2, "
+      "y + 1/2).\n"
+      "Counter-clockwise on the screen is positive.\n"
+      "docs/scan.md has every algorithm's keys, answer and trace.");
   command
-      .option("--algorithm", "NAME", into(arguments->algorithm, parse_algorithm),
-              "Lines: explicit, dda, bresenham, midpoint, diamond-exit, line-forms; polygons: "
-              "even-odd, "
-              "non-zero, inside, convexity, tessellate; points: convex-hull; triangles: "
-              "edge-function, scan-line; grids: flood")
+      .option("--algorithm", "NAME", into(arguments->algorithm, parse_named),
+              "Lines: explicit, dda, bresenham, midpoint (ends are pixels), diamond-exit (ends are "
+              "places, (0, 0) is a corner), line-forms; polygons: even-odd, non-zero, inside, "
+              "convexity, tessellate; points: convex-hull; triangles: edge-function, scan-line; "
+              "grids: flood")
       .required();
   command.option("--arithmetic", "NAME", into(arguments->arithmetic, parse_arithmetic),
-                 "exact (default), float64 or float32; bresenham, midpoint and flood compute in "
-                 "integers with each of them");
+                 "exact (default), float64 or float32; bresenham, midpoint, flood and tessellate "
+                 "are exact with each of them");
   command.option("--subpixel-bits", "N", into(arguments->form.subpixel_bits, parse_subpixel_bits),
                  "Snap triangles to 2^N positions a pixel, 0 to 16 (default: no snapping)");
   command.flag("--runs", arguments->form.runs,
                "Write runs [y, x_begin, x_end] instead of pixels, x_end exclusive");
   command.flag("--exact", arguments->form.numbers.exact, "Write numbers as \"p/q\"");
   command.flag("--trace", arguments->form.numbers.trace,
-               "Add decision variables, crossings, slopes and ends of spans");
+               "Add how pixels were decided: decision variables, crossings, slopes, ends of spans, "
+               "edge functions");
   command.argument("FILE", arguments->file,
                    "Cases, one a line; standard input where it is - or missing");
   command.answers_on_standard_output();

@@ -39,7 +39,7 @@ pipeline::LineEnds pixel_ends_of(const Json& object) {
 constexpr std::int64_t entries_of_a_step = 8;
 
 /// Draws a line by an algorithm that computes with Number; `describe` makes the trace of a step
-/// from its state.
+/// from its pixel and its state.
 template <class Number, class State, class Draw, class Describe>
 Json draw(const Json& object, const Form& form, const Draw& draw_line, const Describe& describe) {
   const pipeline::LineEnds ends = pixel_ends_of(object);
@@ -54,7 +54,7 @@ Json draw(const Json& object, const Form& form, const Draw& draw_line, const Des
     if (form.numbers.trace) {
       pixels.make_room(entries_of_a_step);
       Json step{{"pixel", {pixel.x, pixel.y}}};
-      step.update(describe(state));
+      step.update(describe(pixel, state));
       steps.push_back(std::move(step));
     }
   });
@@ -64,9 +64,13 @@ Json draw(const Json& object, const Form& form, const Draw& draw_line, const Des
   return result;
 }
 
+bool is_steep(const std::vector<double>& ends) {
+  return std::abs(ends[3] - ends[1]) > std::abs(ends[2] - ends[0]);
+}
+
 /// How many columns, or rows, of the window the line can pass through.
 double columns_of(const std::vector<double>& ends, const PixelWindow& window) {
-  const bool steep = std::abs(ends[3] - ends[1]) > std::abs(ends[2] - ends[0]);
+  const bool steep = is_steep(ends);
   const auto [from, to] = steep ? std::minmax(ends[1], ends[3]) : std::minmax(ends[0], ends[2]);
   const auto begin = static_cast<double>(steep ? window.y_begin : window.x_begin);
   const auto end = static_cast<double>(steep ? window.y_end : window.x_end);
@@ -81,33 +85,39 @@ constexpr double tests_of_a_column = 8;
 template <class Number>
 Json explicit_line(const Json& object, const Form& form) {
   return draw<Number, Number>(object, form, pipeline::explicit_line<Number>,
-                              [&](const Number& minor) {
+                              [&](const Pixel&, const Number& minor) {
                                 return Json{{"minor", number_to_json(minor, form)}};
                               });
 }
 
 template <class Number>
 Json dda(const Json& object, const Form& form) {
-  return draw<Number, Number>(object, form, pipeline::dda_line<Number>, [&](const Number& minor) {
-    return Json{{"minor", number_to_json(minor, form)}};
-  });
+  return draw<Number, Number>(object, form, pipeline::dda_line<Number>,
+                              [&](const Pixel&, const Number& minor) {
+                                return Json{{"minor", number_to_json(minor, form)}};
+                              });
 }
 
 template <class Number>
 Json bresenham(const Json& object, const Form& form) {
   return draw<std::int64_t, std::int64_t>(object, form, pipeline::bresenham_line,
-                                          [](std::int64_t error) {
+                                          [](const Pixel&, std::int64_t error) {
                                             return Json{{"error", error}};
                                           });
 }
 
 template <class Number>
 Json midpoint(const Json& object, const Form& form) {
-  const pipeline::LineAxes axes(pixel_ends_of(object));
+  const pipeline::LineEnds ends = pixel_ends_of(object);
+  const pipeline::LineAxes axes(ends);
   return draw<std::int64_t, std::int64_t>(
-      object, form, pipeline::midpoint_line, [&](std::int64_t d) {
+      object, form, pipeline::midpoint_line, [&](const Pixel& pixel, std::int64_t d) {
+        Json step{{"d", d}};
+        // At the last pixel nothing is left to choose.
+        if (pixel == Pixel{ends.x1, ends.y1}) return step;
         const bool north_east = d > 0 || (d == 0 && axes.minor_sign > 0);
-        return Json{{"d", d}, {"choice", north_east ? "NE" : "E"}};
+        step["choice"] = north_east ? "NE" : "E";
+        return step;
       });
 }
 
@@ -119,9 +129,21 @@ Json diamond_exit(const Json& object, const Form& form) {
   cases::check_effort<Number>(tests_of_a_column * columns_of(ends, window), "tests of diamonds",
                               window_limits_it);
   PixelList pixels(form.runs);
-  pipeline::diamond_exit_line<Number>({number(0), number(1), number(2), number(3)}, window,
-                                      [&](const Pixel& pixel) { pixels.add(pixel); });
-  return pixels.json(false);
+  Json steps = Json::array();
+  pipeline::diamond_exit_passages<Number>(
+      {number(0), number(1), number(2), number(3)}, window,
+      [&](const pipeline::DiamondPassage<Number>& passage) {
+        pixels.add(passage.pixel);
+        if (!form.numbers.trace) return;
+        pixels.make_room(entries_of_a_step);
+        steps.push_back({{"pixel", {passage.pixel.x, passage.pixel.y}},
+                         {"enters", number_to_json(passage.enters, form)},
+                         {"leaves", number_to_json(passage.leaves, form)}});
+      });
+  Json result = pixels.json(false);
+  if (form.numbers.trace)
+    result["trace"] = {{"axis", is_steep(ends) ? "y" : "x"}, {"steps", steps}};
+  return result;
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none

@@ -37,6 +37,19 @@ std::vector<pipeline::Point<Number>> points_of(const Json& object) {
   return points;
 }
 
+/// "weights", one for each point, with a sum above 0.
+template <class Number>
+std::vector<Number> weights_of(const Json& object, std::size_t points) {
+  std::vector<Number> weights;
+  Number sum(0);
+  for (const double w : cases::numbers(object["weights"], "weights", points, points)) {
+    weights.push_back(pipeline::number_from<Number>(w));
+    sum += weights.back();
+  }
+  if (!(sum > 0)) throw InputError("weights: they add up to 0 or less; expected a sum above 0");
+  return weights;
+}
+
 std::size_t edges_of(const clipping::Rings<double>& rings) {
   std::size_t edges = 0;
   for (const auto& ring : rings) edges += ring.size();
@@ -136,7 +149,7 @@ Json inside(const Json& object, const Form& form) {
               {"winding", windings},
               {"on_outline", on_outline}};
   if (rings.size() == 1) {
-    result["left_of_every_edge"] = one_side;
+    result["on_one_side_of_every_edge"] = one_side;
     result["convex"] = pipeline::convexity_of(rings[0]).convex;
   }
   return result;
@@ -162,10 +175,17 @@ Json convexity(const Json& object, const Form& form) {
 
 template <class Number>
 Json convex_hull(const Json& object, const Form& form) {
-  cases::expect_only(object, {"points", "width", "height"});
+  cases::expect_only(object, {"points", "weights", "width", "height"});
   const auto points = points_of<Number>(object);
   if (points.empty()) throw InputError("points: expected at least one");
-  return {{"hull", ring_to_json(pipeline::convex_hull(points), form)}};
+  const pipeline::Ring<Number> hull = pipeline::convex_hull(points);
+  Json result{{"hull", ring_to_json(hull, form)}};
+  if (!object.contains("weights")) return result;
+  const auto weights = weights_of<Number>(object, points.size());
+  const pipeline::Point<Number> combined = pipeline::combination(points, weights);
+  result["combination"] = point_to_json(combined, form);
+  result["inside"] = pipeline::is_in_hull(hull, combined);
+  return result;
 }
 
 Json tessellate(const Json& object, const Form& form) {
@@ -176,8 +196,9 @@ Json tessellate(const Json& object, const Form& form) {
   check_pairs<pipeline::Exact>(2 * (edges + crossings_of(polygon)), edges,
                                "pairs of triangles and edges");
   Json triangles = Json::array();
+  // Counter-clockwise as seen, as all rings in answers.
   for (const auto& t : pipeline::tessellate(over<pipeline::Exact>(polygon)))
-    triangles.push_back(ring_to_json<pipeline::Exact>({t[0], t[1], t[2]}, form));
+    triangles.push_back(ring_to_json<pipeline::Exact>({t[0], t[2], t[1]}, form));
   return {{"triangles", triangles}};
 }
 

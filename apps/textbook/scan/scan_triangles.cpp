@@ -12,12 +12,20 @@
 namespace fathom::app::scan {
 namespace {
 
+Json box_of(const pipeline::PixelWindow& box) {
+  return {{"x_begin", box.x_begin},
+          {"x_end", std::max(box.x_end, box.x_begin)},
+          {"y_begin", box.y_begin},
+          {"y_end", std::max(box.y_end, box.y_begin)}};
+}
+
 template <class Number>
 Json trace_of(const std::optional<pipeline::EdgeTriangle<Number>>& triangle,
-              const clipping::Ring<double>& corners, const Form& form) {
+              const clipping::Ring<double>& corners, const pipeline::PixelWindow& box,
+              const Form& form) {
   Json list = Json::array();
   for (const auto& p : corners) list.push_back({p.x, p.y});
-  Json trace{{"corners", list}};
+  Json trace{{"corners", list}, {"box", box_of(box)}};
   if (!triangle) {
     trace["degenerate"] = true;
     return trace;
@@ -56,6 +64,29 @@ double pixels_in_box(const clipping::Ring<double>& t, const pipeline::PixelWindo
 
 /// How much a sample of a trace takes, in pixels.
 constexpr std::int64_t entries_of_a_sample = 16;
+constexpr std::int64_t entries_of_a_rejected_sample = 8;
+
+/// The centres of the box that the triangle does not cover, with the signs of the edge functions.
+template <class Number>
+Json rejected_samples(const pipeline::EdgeTriangle<Number>& triangle,
+                      const pipeline::PixelWindow& box, PixelList& pixels) {
+  Json list = Json::array();
+  for (std::int64_t y = box.y_begin; y < box.y_end; ++y) {
+    for (std::int64_t x = box.x_begin; x < box.x_end; ++x) {
+      bool covered = true;
+      Json signs = Json::array();
+      for (const auto& e : triangle.edges) {
+        const Number value = e.at(pipeline::centre_of<Number>(x), pipeline::centre_of<Number>(y));
+        covered = covered && e.contains(value);
+        signs.push_back(clipping::sign_of(value));
+      }
+      if (covered) continue;
+      pixels.make_room(entries_of_a_rejected_sample);
+      list.push_back({{"pixel", {x, y}}, {"signs", std::move(signs)}});
+    }
+  }
+  return list;
+}
 
 }  // namespace
 
@@ -102,8 +133,11 @@ Json edge_function(const Json& object, const Form& form) {
   pipeline::rasterize_triangle<Number>(corners, window, visit);
   Json result = pixels.json(carried.any());
   if (form.numbers.trace) {
-    result["trace"] = trace_of(pipeline::edge_functions(corners), ring, form);
+    const auto triangle = pipeline::edge_functions(corners);
+    const pipeline::PixelWindow box = pipeline::bounding_box(corners, window);
+    result["trace"] = trace_of(triangle, ring, box, form);
     result["trace"]["samples"] = std::move(samples);
+    if (triangle) result["trace"]["rejected"] = rejected_samples(*triangle, box, pixels);
   }
   return result;
 }

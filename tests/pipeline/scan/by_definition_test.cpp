@@ -59,7 +59,7 @@ Crossings crossings_of(const std::vector<Corner>& ring, const Corner& p) {
     const int height = bottom[1] - top[1];
     if (top[0] * height + (p[1] - top[1]) * (bottom[0] - top[0]) <= p[0] * height) continue;
     ++result.count;
-    result.winding += a[1] < b[1] ? 1 : -1;
+    result.winding += a[1] < b[1] ? -1 : 1;  // down on the right: clockwise as seen
   }
   return result;
 }

@@ -170,6 +170,20 @@ TEST(DiamondExit, DrawsWhatIsLeft) {
   EXPECT_TRUE(diamond<Exact>(h, h, h, h).empty());
 }
 
+TEST(DiamondExit, PassagesBeginAndEndAtTheSides) {
+  const Exact h = Exact(1) / Exact(2);
+  std::vector<std::pair<Exact, Exact>> passages;
+  diamond_exit_passages<Exact>({h, h, Exact(4) + h, h}, {}, [&](const auto& passage) {
+    passages.emplace_back(passage.enters, passage.leaves);
+  });
+  // The diamonds of a row touch in points: each is entered where the one before it is left.
+  const auto eighths = [](int i) { return Exact(i) / Exact(8); };
+  EXPECT_EQ(passages, (std::vector<std::pair<Exact, Exact>>{{eighths(0), eighths(1)},
+                                                            {eighths(1), eighths(3)},
+                                                            {eighths(3), eighths(5)},
+                                                            {eighths(5), eighths(7)}}));
+}
+
 /// The perturbation with a small number in the place of the infinitely small one: ends on a grid of
 /// 1/8, so that 2⁻²⁰ and 2⁻⁴⁰ decide what ε and ε² do; the segment is cut at the diamond's sides.
 Pixels diamond_by_cutting(double x0, double y0, double x1, double y1) {

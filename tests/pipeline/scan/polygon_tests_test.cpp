@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <random>
 
+#include "fathom/pipeline/scan/edge_function.h"
+#include "fathom/pipeline/scan/polygon_fill.h"
 #include "fathom/pipeline/scan/tessellate.h"
 #include "tests/effort.h"
 #include "tests/pipeline/scan/rings.h"
@@ -107,6 +109,44 @@ TEST(Inside, WindingOfTheStarIsTwoInItsMiddle) {
   EXPECT_EQ(std::abs(ray.winding), 2);
 }
 
+/// Turns, the turning number, the winding number, edge functions and the windings of crossings all
+/// call counter-clockwise as seen positive.
+TEST(Orientation, IsTheSameForEveryQuestion) {
+  const auto expect = [](const Corners& corners, const Point<Exact>& p, int orientation) {
+    const Ring<Exact> ring = ring_of(corners);
+    const Convexity c = convexity_of(ring);
+    EXPECT_EQ(c.turning_number, orientation);
+    EXPECT_EQ(ray_crossings<Exact>({ring}, p).winding, orientation);
+    FillPolygon<Exact> polygon(1);
+    for (const auto& corner : ring) polygon[0].push_back({corner.x, corner.y, {}});
+    const auto row = floor_of(p.y);  // p is a centre
+    fill_polygon<Exact>(polygon, FillRule::non_zero, {}, [&](const ScanLine<Exact>& line) {
+      int winding = 0;
+      for (const auto& crossing : line.crossings)
+        if (crossing.x < p.x) winding += crossing.winding;
+      if (line.y == row) {
+        EXPECT_EQ(winding, orientation);
+      }
+    });
+    for (const int turn : c.turns) EXPECT_EQ(turn, orientation > 0 ? 1 : -1);
+  };
+  const Exact half = Exact(1) / 2;
+  const Point<Exact> in_square{1 + half, 1 + half}, in_star{8 + half, 8 + half};
+  // On the screen: to the right along the top, down, and back is clockwise.
+  const auto reversed = [](Corners corners) {
+    std::reverse(corners.begin(), corners.end());
+    return corners;
+  };
+  expect(square, in_square, -1);
+  expect(reversed(square), in_square, 1);
+  expect(star, in_star, -2);
+  expect(reversed(star), in_star, 2);
+  const Ring<Exact> s = ring_of(square);
+  EXPECT_TRUE(edge_functions<Exact>({s[0], s[1], s[2]})->turned);
+  EXPECT_FALSE(edge_functions<Exact>({s[2], s[1], s[0]})->turned);
+  EXPECT_LT(left_of(s[0], s[1], s[2]), 0);
+}
+
 TEST(ConvexHull, IsCgals) {
   using Kernel = CGAL::Simple_cartesian<Exact>;
   std::mt19937 random(31);
@@ -138,16 +178,45 @@ TEST(ConvexHull, HoldsEveryConvexCombination) {
   std::uniform_int_distribution<int> coordinate(0, 40), weight(0, 9);
   for (int i = 0; i < 300 / testing::effort; ++i) {
     std::vector<Point<Exact>> points;
+    std::vector<Exact> weights;
     Exact x(0), y(0), sum(0);
     for (int k = 0; k < 7; ++k) {
       points.push_back({Exact(coordinate(random)), Exact(coordinate(random))});
       const Exact t(weight(random));
+      weights.push_back(t);
       x += t * points.back().x, y += t * points.back().y, sum += t;
     }
     if (sum == 0) continue;
     const Ring<Exact> hull = convex_hull(points);
     ASSERT_TRUE(is_on_one_side_of_every_edge(hull, {Exact(x / sum), Exact(y / sum)}));
+    ASSERT_EQ(combination(points, weights), (Point<Exact>{Exact(x / sum), Exact(y / sum)}));
+    ASSERT_TRUE(is_in_hull(hull, combination(points, weights)));
   }
+}
+
+TEST(ConvexHull, NegativeWeightsLeaveIt) {
+  const Ring<Exact> corners = ring_of({{0, 0}, {4, 0}, {0, 4}});
+  const Ring<Exact> hull = convex_hull(corners);
+  const auto lies_in = [&](int a, int b, int c) {
+    return is_in_hull(hull, combination<Exact>(corners, {Exact(a), Exact(b), Exact(c)}));
+  };
+  // Of a triangle the weights are its barycentric coordinates: inside is where none is negative.
+  for (int a = -2; a <= 5; ++a)
+    for (int b = -2; b <= 5; ++b)
+      for (int c = -2; c <= 5; ++c)
+        if (a + b + c > 0) {
+          EXPECT_EQ(lies_in(a, b, c), a >= 0 && b >= 0 && c >= 0) << a << " " << b << " " << c;
+        }
+}
+
+TEST(ConvexHull, OfAPointAndOfASegmentHoldsWhatLiesOnThem) {
+  const Ring<Exact> point = ring_of({{1, 2}}), segment = ring_of({{0, 0}, {4, 2}});
+  EXPECT_TRUE(is_in_hull(point, point[0]));
+  EXPECT_FALSE(is_in_hull(point, segment[0]));
+  EXPECT_TRUE(is_in_hull<Exact>(segment, {Exact(2), Exact(1)}));
+  EXPECT_FALSE(is_in_hull<Exact>(segment, {Exact(6), Exact(3)}));
+  EXPECT_FALSE(is_in_hull<Exact>(segment, {Exact(2), Exact(2)}));
+  EXPECT_FALSE(is_in_hull<Exact>({}, {Exact(0), Exact(0)}));
 }
 
 Exact area_of(const std::array<Point<Exact>, 3>& t) {

@@ -68,6 +68,21 @@ TEST(Triangle, BothWindingsCoverTheSameAndZeroAreaNothing) {
             (std::vector<Pixel>{{0, 0}}));
 }
 
+/// The two right triangles whose areas, 100 and 18, are their counts: as many centres on the slanted
+/// edge's one side as beyond it.
+TEST(Triangle, OneHundredAndEighteenPixels) {
+  EXPECT_EQ(by_edge_functions(triangle_of(0, 0, 20, 0, 0, 10)).size(), 100u);
+  EXPECT_EQ(by_edge_functions(triangle_of(0, 0, 9, 0, 0, 4)).size(), 18u);
+}
+
+TEST(Triangle, BoundingBoxIsThePixelsThatItTouches) {
+  EXPECT_EQ(bounding_box<Exact>(triangle_of(0, 0, 20, 0, 0, 10), {}), (PixelWindow{0, 0, 20, 10}));
+  EXPECT_EQ(bounding_box<Exact>(triangle_of(0.75, -0.25, 3.25, 2, 1, 2.5), {}),
+            (PixelWindow{0, -1, 4, 3}));
+  EXPECT_EQ(bounding_box<Exact>(triangle_of(0.75, -0.25, 3.25, 2, 1, 2.5), {1, 0, 9, 2}),
+            (PixelWindow{1, 0, 4, 2}));
+}
+
 TEST(Triangle, TopLeftRuleOnASquareOfTwo) {
   const auto upper = by_edge_functions(triangle_of(0.5, 0.5, 4.5, 0.5, 0.5, 4.5));
   const auto lower = by_edge_functions(triangle_of(4.5, 0.5, 4.5, 4.5, 0.5, 4.5));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace fathom::pipeline {
@@ -19,9 +20,9 @@ struct Perturbed {
 };
 
 template <class Number>
-struct Visit {
+struct Passage {
   Pixel pixel;
-  Perturbed<Number> enters;
+  Perturbed<Number> enters, leaves;
 };
 
 /// The strip between two parallel sides of a diamond: |s − s_c| < ½, where s runs from s_a + shift
@@ -66,14 +67,14 @@ class Segment {
 
   [[nodiscard]] bool steep() const { return abs_of(dy_) > abs_of(dx_); }
 
-  /// The parameter at which it enters the pixel's diamond, if it leaves that before its end.
-  std::optional<Perturbed<Number>> exits(const Pixel& p) const {
+  /// How it passes through the pixel's diamond, if it leaves that before its end.
+  std::optional<Passage<Number>> passage(const Pixel& p) const {
     Perturbed<Number> enters{Number(0)}, leaves{Number(2)};
     if (!sums_.narrow(number_of<Number>(p.x + p.y + 1), enters, leaves)) return std::nullopt;
     if (!differences_.narrow(number_of<Number>(p.x - p.y), enters, leaves)) return std::nullopt;
     const Perturbed<Number> end{Number(1)};
     if (!(enters < leaves) || !(leaves < end)) return std::nullopt;
-    return enters;
+    return Passage<Number>{p, enters, leaves};
   }
 
   /// The minor coordinates that the segment can have while the major one is between a and b.
@@ -96,8 +97,8 @@ class Segment {
 }  // namespace
 
 template <class Number>
-void diamond_exit_line(const WindowSegment<Number>& ends, const PixelWindow& window,
-                       const std::function<void(const Pixel&)>& visit) {
+void diamond_exit_passages(const WindowSegment<Number>& ends, const PixelWindow& window,
+                           const std::function<void(const DiamondPassage<Number>&)>& visit) {
   const Segment<Number> segment(ends);
   const bool steep = segment.steep();
   const Number from = steep ? ends.y0 : ends.x0, to = steep ? ends.y1 : ends.x1;
@@ -109,25 +110,37 @@ void diamond_exit_line(const WindowSegment<Number>& ends, const PixelWindow& win
   for (std::int64_t k = 0; k <= last - first; ++k) {
     const std::int64_t major = backwards ? last - k : first + k;
     // The diamonds of a column are inside it: their order along the segment is that of the columns.
-    std::vector<Visit<Number>> column;
+    std::vector<Passage<Number>> column;
     const auto [low, high] =
         segment.minor_range(number_of<Number>(major), number_of<Number>(major + 1));
     for (std::int64_t minor = low; minor <= high; ++minor) {
       const Pixel pixel = steep ? Pixel{minor, major} : Pixel{major, minor};
       if (!window.contains(pixel)) continue;
-      if (const auto enters = segment.exits(pixel)) column.push_back({pixel, *enters});
+      if (auto passage = segment.passage(pixel)) column.push_back(std::move(*passage));
     }
     std::sort(column.begin(), column.end(),
               [](const auto& a, const auto& b) { return a.enters < b.enters; });
-    for (const Visit<Number>& v : column) visit(v.pixel);
+    for (const auto& [pixel, enters, leaves] : column) visit({pixel, enters.value, leaves.value});
   }
 }
 
-template void diamond_exit_line(const WindowSegment<Exact>&, const PixelWindow&,
-                                const std::function<void(const Pixel&)>&);
-template void diamond_exit_line(const WindowSegment<double>&, const PixelWindow&,
-                                const std::function<void(const Pixel&)>&);
-template void diamond_exit_line(const WindowSegment<float>&, const PixelWindow&,
-                                const std::function<void(const Pixel&)>&);
+template <class Number>
+void diamond_exit_line(const WindowSegment<Number>& ends, const PixelWindow& window,
+                       const std::function<void(const Pixel&)>& visit) {
+  diamond_exit_passages<Number>(
+      ends, window, [&](const DiamondPassage<Number>& passage) { visit(passage.pixel); });
+}
+
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+#define FATHOM_INSTANTIATE(Number)                                                      \
+  template void diamond_exit_line(const WindowSegment<Number>&, const PixelWindow&,     \
+                                  const std::function<void(const Pixel&)>&);            \
+  template void diamond_exit_passages(const WindowSegment<Number>&, const PixelWindow&, \
+                                      const std::function<void(const DiamondPassage<Number>&)>&);
+FATHOM_INSTANTIATE(Exact)
+FATHOM_INSTANTIATE(double)
+FATHOM_INSTANTIATE(float)
+#undef FATHOM_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fathom::pipeline

@@ -13,6 +13,15 @@ struct WindowSegment {
   Number x0, y0, x1, y1;
 };
 
+/// A pixel whose diamond a segment leaves, and the parameters, 0 at its first end and 1 at its
+/// second, at which it enters and leaves it (without the parts of ε). A segment that begins inside
+/// enters at 0.
+template <class Number>
+struct DiamondPassage {
+  Pixel pixel;
+  Number enters, leaves;
+};
+
 /// The diamond-exit rule of graphics processors: a pixel is drawn if the segment leaves its diamond
 /// |x − x_c| + |y − y_c| < ½, so that segments joined end to end draw no pixel twice. The segment
 /// is regarded as moved by (−ε, −ε²) with ε infinitely small, which decides every tie; the ε is
@@ -23,5 +32,8 @@ struct WindowSegment {
 template <class Number>
 void diamond_exit_line(const WindowSegment<Number>& segment, const PixelWindow& window,
                        const std::function<void(const Pixel&)>& visit);
+template <class Number>
+void diamond_exit_passages(const WindowSegment<Number>& segment, const PixelWindow& window,
+                           const std::function<void(const DiamondPassage<Number>&)>& visit);
 
 }  // namespace fathom::pipeline

@@ -13,11 +13,6 @@ EdgeFunction<Number> edge_between(const Point<Number>& p, const Point<Number>& q
   return e;
 }
 
-template <class Number>
-std::int64_t last_before(const Number& x) {
-  return ceiling_of(Number(x - Number(1) / Number(2))) - 1;
-}
-
 }  // namespace
 
 template <class Number>
@@ -37,18 +32,21 @@ std::optional<EdgeTriangle<Number>> edge_functions(const std::array<Point<Number
 }
 
 template <class Number>
+PixelWindow bounding_box(const std::array<Point<Number>, 3>& corners, const PixelWindow& window) {
+  const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+  const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+  return {std::max(floor_of(left), window.x_begin), std::max(floor_of(top), window.y_begin),
+          std::min(ceiling_of(right), window.x_end), std::min(ceiling_of(bottom), window.y_end)};
+}
+
+template <class Number>
 void rasterize_triangle(const std::array<Point<Number>, 3>& corners, const PixelWindow& window,
                         const std::function<void(const CoveredPixel<Number>&)>& visit) {
   const auto triangle = edge_functions(corners);
   if (!triangle) return;
-  const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
-  const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
-  const std::int64_t y_begin = std::max(floor_of(top), window.y_begin);
-  const std::int64_t y_end = std::min(last_before(bottom) + 2, window.y_end);
-  const std::int64_t x_begin = std::max(floor_of(left), window.x_begin);
-  const std::int64_t x_end = std::min(last_before(right) + 2, window.x_end);
-  for (std::int64_t y = y_begin; y < y_end; ++y) {
-    for (std::int64_t x = x_begin; x < x_end; ++x) {
+  const PixelWindow box = bounding_box(corners, window);
+  for (std::int64_t y = box.y_begin; y < box.y_end; ++y) {
+    for (std::int64_t x = box.x_begin; x < box.x_end; ++x) {
       CoveredPixel<Number> covered{{x, y}, {}, {}};
       bool inside = true;
       for (std::size_t k = 0; k < 3 && inside; ++k) {
@@ -65,10 +63,11 @@ void rasterize_triangle(const std::array<Point<Number>, 3>& corners, const Pixel
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
-#define FATHOM_INSTANTIATE(Number)                                                          \
-  template std::optional<EdgeTriangle<Number>> edge_functions(                              \
-      const std::array<Point<Number>, 3>&);                                                 \
-  template void rasterize_triangle(const std::array<Point<Number>, 3>&, const PixelWindow&, \
+#define FATHOM_INSTANTIATE(Number)                                                            \
+  template std::optional<EdgeTriangle<Number>> edge_functions(                                \
+      const std::array<Point<Number>, 3>&);                                                   \
+  template PixelWindow bounding_box(const std::array<Point<Number>, 3>&, const PixelWindow&); \
+  template void rasterize_triangle(const std::array<Point<Number>, 3>&, const PixelWindow&,   \
                                    const std::function<void(const CoveredPixel<Number>&)>&);
 FATHOM_INSTANTIATE(Exact)
 FATHOM_INSTANTIATE(double)

@@ -37,6 +37,10 @@ struct EdgeTriangle {
 template <class Number>
 std::optional<EdgeTriangle<Number>> edge_functions(const std::array<Point<Number>, 3>& corners);
 
+/// The bounding box as pixels: those of the window that it touches.
+template <class Number>
+PixelWindow bounding_box(const std::array<Point<Number>, 3>& corners, const PixelWindow& window);
+
 /// A pixel whose centre the triangle covers, with its barycentric weights, which are ratios of
 /// areas.
 template <class Number>

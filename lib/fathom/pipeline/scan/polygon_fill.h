@@ -36,7 +36,9 @@ enum class FillRule {
 template <class Number>
 struct Crossing {
   Number x;
-  int winding;  ///< +1 if the edge runs down, −1 if it runs up
+  /// +1 if the edge runs down, −1 if it runs up: added up from the left they are the winding
+  /// number, counter-clockwise as seen.
+  int winding;
   std::vector<Number> attributes;
   /// The edge's change from one scan line to the next: Δx/Δy and ΔR/Δy.
   Number dx_dy;

@@ -98,7 +98,8 @@ RayCrossings ray_crossings(const Rings<Number>& rings, const Point<Number>& p) {
       const int side = sign_of(down ? left_of(b, a, p) : left_of(a, b, p));
       if (side <= 0) continue;
       ++result.count;
-      result.winding += down ? 1 : -1;
+      // What runs down on the right of the point goes round it clockwise, as seen.
+      result.winding += down ? -1 : 1;
     }
   }
   return result;
@@ -143,13 +144,36 @@ Ring<Number> convex_hull(std::vector<Point<Number>> points) {
   return hull;
 }
 
+template <class Number>
+bool is_in_hull(const Ring<Number>& hull, const Point<Number>& p) {
+  if (hull.size() == 1) return p == hull[0];
+  if (hull.size() == 2) return is_on_edge(hull[0], hull[1], p);
+  for (std::size_t i = 0; i < hull.size(); ++i)
+    if (left_of(hull[i], hull[(i + 1) % hull.size()], p) < 0) return false;
+  return !hull.empty();
+}
+
+template <class Number>
+Point<Number> combination(const std::vector<Point<Number>>& points,
+                          const std::vector<Number>& weights) {
+  Number x(0), y(0), sum(0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    x += weights[i] * points[i].x;
+    y += weights[i] * points[i].y;
+    sum += weights[i];
+  }
+  return {Number(x / sum), Number(y / sum)};
+}
+
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
 #define FATHOM_INSTANTIATE(Number)                                                           \
   template Number left_of(const Point<Number>&, const Point<Number>&, const Point<Number>&); \
   template bool is_on_one_side_of_every_edge(const Ring<Number>&, const Point<Number>&);     \
   template RayCrossings ray_crossings(const Rings<Number>&, const Point<Number>&);           \
   template Convexity convexity_of(const Ring<Number>&);                                      \
-  template Ring<Number> convex_hull(std::vector<Point<Number>>);
+  template Ring<Number> convex_hull(std::vector<Point<Number>>);                             \
+  template bool is_in_hull(const Ring<Number>&, const Point<Number>&);                       \
+  template Point<Number> combination(const std::vector<Point<Number>>&, const std::vector<Number>&);
 FATHOM_INSTANTIATE(Exact)
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(float)

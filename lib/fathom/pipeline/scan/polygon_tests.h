@@ -5,9 +5,10 @@
 
 #include "fathom/clipping/points.h"
 
-/// Questions about polygons in window coordinates. y grows down, so a ring that runs
-/// counter-clockwise as seen has a negative cross product at its convex corners; "left" means left
-/// as seen, when walking along the edge.
+/// Questions about polygons in window coordinates, where y grows down. Every sign is told as the
+/// screen shows it: counter-clockwise turns and windings are positive, and "left" means left as
+/// seen, when walking along the edge. (As numbers, such a ring has a negative cross product at its
+/// convex corners.)
 /// Exact    over Exact; in floating point every sign is that of a rounded number.
 namespace fathom::pipeline {
 
@@ -32,8 +33,10 @@ bool is_on_one_side_of_every_edge(const Ring<Number>& ring, const Point<Number>&
 /// polygon_fill.h (y_min ≤ y < y_max), and a crossing counts if it is to the right of the point, so
 /// that the answers agree with the pixels that are filled.
 struct RayCrossings {
-  int count = 0;    ///< odd: inside by the even-odd rule
-  int winding = 0;  ///< not 0: inside by the non-zero rule
+  int count = 0;  ///< odd: inside by the even-odd rule
+  /// How often the outline goes round the point, counter-clockwise as seen; not 0: inside by the
+  /// non-zero rule.
+  int winding = 0;
   bool on_outline = false;
 };
 template <class Number>
@@ -59,5 +62,16 @@ Convexity convexity_of(const Ring<Number>& ring);
 /// Source   [And79]
 template <class Number>
 Ring<Number> convex_hull(std::vector<Point<Number>> points);
+
+/// Whether the point lies in a hull as convex_hull gives it, or on its border.
+template <class Number>
+bool is_in_hull(const Ring<Number>& hull, const Point<Number>& p);
+
+/// Σ wᵢPᵢ / Σ wᵢ: barycentric coordinates over any number of points. If no weight is negative it
+/// lies in the convex hull of the points.
+/// Shape    a weight for each point; their sum is not 0.
+template <class Number>
+Point<Number> combination(const std::vector<Point<Number>>& points,
+                          const std::vector<Number>& weights);
 
 }  // namespace fathom::pipeline
