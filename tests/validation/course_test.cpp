@@ -8,8 +8,10 @@
 #include <optional>
 #include <set>
 
+#include "fathom/pipeline/geometry/back_face_culling.h"
 #include "fathom/pipeline/rasterization/grid_samples.h"
 #include "fathom/pipeline/render_pipeline.h"
+#include "fathom/pipeline/scan/arithmetic.h"
 #include "fathom/pipeline/scan/line.h"
 #include "fathom/render.h"
 #include "fathom/scene/motion.h"
@@ -20,6 +22,7 @@
 #include "validation/studies/course/demo.h"
 #include "validation/studies/course/exercises.h"
 #include "validation/studies/course/gallery.h"
+#include "validation/studies/course/quadrangles.h"
 #include "validation/studies/course/shared_edges.h"
 #include "validation/studies/pipeline_scenes.h"
 
@@ -163,6 +166,23 @@ TEST(Course, PicturesOfAnEdgeAreTheShareOfCoveredSamples) {
     ASSERT_EQ(p.exact_picture.pixels[k][0], std::lround(255 * static_cast<double>(area[k])));
 }
 
+// The page names the edge: a pixel is cut where corners of it lie on both sides, by the signs of
+// integers, in tenths.
+TEST(Course, TheEdgeOfExercise6CutsItsPixels) {
+  const auto side = [](std::int64_t x, std::int64_t y) {
+    return (1402 + 1003) * (10 * y + 107) - (614 + 107) * (10 * x + 1003);
+  };
+  std::size_t cut = 0;
+  for (std::int64_t y = 0; y < 64; ++y) {
+    for (std::int64_t x = 0; x < 64; ++x) {
+      const auto [least, greatest] =
+          std::minmax({side(x, y), side(x + 1, y), side(x, y + 1), side(x + 1, y + 1)});
+      cut += least < 0 && greatest > 0;
+    }
+  }
+  EXPECT_EQ(cut, partial_pixels().exact);
+}
+
 TEST(Course, MoreSamplesFindMoreOfTheCutPixels) {
   const PartialPixels p = partial_pixels();
   EXPECT_EQ(p.counted[0], 0u);
@@ -192,6 +212,18 @@ TEST(Course, SixteenBitsFightAndFartherSurfacesFightMore) {
   EXPECT_NEAR(steps_of_unorm16(), 6.55, 0.005);
 }
 
+TEST(Course, TheTiltOfFightsIsThatOfTheirCorners) {
+  for (const double d : {0.5, 50.0}) {
+    const std::vector<MeshPoint> v = fight_files(d).view.scene.meshes[0].vertices;
+    ASSERT_EQ(v.size(), 8u);
+    for (std::size_t k = 0; k < 4; ++k)  // as the page says
+      EXPECT_NEAR(v[k].z, 1.2 * d + 0.3 * v[k].x + 0.3 * v[k].y, 1e-12 * d);
+  }
+  // Its normal, (0.3, 0.3, −1), against the view's direction.
+  EXPECT_NEAR(std::cos(tilt_of_fight() * std::numbers::pi / 180), 1 / std::sqrt(1.18), 1e-12);
+  EXPECT_NEAR(tilt_of_fight(), 23.0, 0.05);
+}
+
 // Red where the surface behind wins, white where the one in front does, and nothing else.
 TEST(Course, PicturesOfFightsShowTheirShare) {
   const Fight f = fight(10, Storage::float32);
@@ -214,6 +246,125 @@ TEST(Course, BallsShowWhatGeometrySays) {
     const auto n = static_cast<double>(f.triangles);
     EXPECT_NEAR(static_cast<double>(f.front_in_window) / n, f.seen_share, 0.01) << f.distance;
     EXPECT_EQ(f.disagreeing, 0u);  // the page says so
+  }
+}
+
+/// N·V of a triangle, V from its first corner to the eye at the origin.
+pipeline::Exact facing_exactly(const std::array<MeshPoint, 3>& t) {
+  using pipeline::Exact;
+  std::array<std::array<Exact, 3>, 3> p;
+  for (std::size_t k = 0; k < 3; ++k) p[k] = {Exact(t[k].x), Exact(t[k].y), Exact(t[k].z)};
+  Exact sum(0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    const Exact N =
+        (p[1][j] - p[0][j]) * (p[2][k] - p[0][k]) - (p[1][k] - p[0][k]) * (p[2][j] - p[0][j]);
+    sum -= N * p[0][i];
+  }
+  return sum;
+}
+
+// Signs of rational numbers, the world's test and snapping, each by itself.
+TEST(Course, EdgeOnTrianglesAreJudgedExactly) {
+  const SceneView view = edge_on_files().view;
+  const Mesh& mesh = view.scene.meshes.at(0);
+  std::uint64_t front = 0, wrong_in_world = 0, turned = 0;
+  for (const CornerIndices& t : mesh.triangles) {
+    std::array<MeshPoint, 3> corners;
+    std::array<pipeline::WorldVertex<float>, 3> in_binary32;
+    std::array<pipeline::GridPoint, 3> snapped;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const MeshPoint& p = corners[k] = mesh.vertices[t[k]];
+      in_binary32[k] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+      EXPECT_EQ(static_cast<double>(in_binary32[k].x), p.x);
+      EXPECT_EQ(static_cast<double>(in_binary32[k].y), p.y);
+      EXPECT_EQ(static_cast<double>(in_binary32[k].z), p.z);
+      snapped[k] = pipeline::snap(160 * p.x / p.z + 80, 160 * p.y / p.z + 60, 8);
+    }
+    const pipeline::Exact facing = facing_exactly(corners);
+    EXPECT_NE(facing, pipeline::Exact(0));
+    const bool is_front = facing > pipeline::Exact(0);
+    front += is_front;
+    wrong_in_world += is_front != (facing_in_world(in_binary32, {0, 0, 0}, true, false,
+                                                   pipeline::FrontFace::counter_clockwise) ==
+                                   pipeline::Facing::front);
+    const auto on_grid = pipeline::GridTriangle::of(snapped);
+    turned += !on_grid || on_grid->counter_clockwise() != is_front;
+  }
+  const std::vector<EdgeOnCount> counts = count_edge_on();
+  ASSERT_EQ(counts.size(), 2u);
+  for (const EdgeOnCount& c : counts) {
+    EXPECT_EQ(c.triangles, 300u);
+    EXPECT_EQ(c.front, front);
+  }
+  const EdgeOnCount &rough = counts[0], &fine = counts[1];
+  EXPECT_EQ(rough.wrong_in_world, wrong_in_world);
+  // As the page says: more errors the more was rounded before.
+  EXPECT_GT(rough.wrong_in_world, 0u);
+  EXPECT_GT(rough.wrong_in_ndc, rough.wrong_in_world);
+  EXPECT_GT(rough.wrong_in_window, rough.wrong_in_ndc);
+  EXPECT_EQ(fine.wrong_in_world + fine.wrong_in_ndc + fine.wrong_in_window, 0u);
+  EXPECT_EQ(fine.front_in_window, front);
+  EXPECT_EQ(fine.turned_by_snapping, turned);
+  EXPECT_NEAR(static_cast<double>(turned), 150, 30);
+  // The tests disagree about a triangle where one or two of them are wrong.
+  EXPECT_EQ(fine.disagreeing, 0u);
+  EXPECT_GE(rough.disagreeing, rough.wrong_in_window - rough.wrong_in_world);
+  EXPECT_LE(rough.disagreeing, rough.wrong_in_world + rough.wrong_in_ndc + rough.wrong_in_window);
+}
+
+TEST(Course, WhatIsFrontAndWhatIsCulledChangePlaces) {
+  using enum pipeline::FrontFace;
+  using pipeline::Culling;
+  const RgbImage outer = open_box(counter_clockwise, Culling::back);
+  const RgbImage inner = open_box(counter_clockwise, Culling::front);
+  EXPECT_EQ(different_pixels(open_box(clockwise, Culling::front), outer), 0u);
+  EXPECT_EQ(different_pixels(open_box(clockwise, Culling::back), inner), 0u);
+  EXPECT_GT(different_pixels(outer, inner), 1000u);
+}
+
+// By formulas in whole numbers, for the upright squares and those turned by 45 degrees.
+TEST(Course, SquaresHaveTheValuesOfTwoStepsAndTrianglesThoseOfWeights) {
+  const std::vector<TurnedSquare> squares = turned_squares();
+  ASSERT_EQ(squares.size(), 3u);
+  const auto expect_tenths = [](const RgbImage& picture, int x, int y, int tenths) {
+    const Rgb& colour = picture.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+    EXPECT_EQ(colour[0], 30 + 225 * tenths / 10) << x << " " << y;
+  };
+  for (int y = 0; y < 61; ++y) {
+    for (int x = 0; x < 61; ++x) {
+      const bool covered = x >= 10 && x < 51 && y >= 10 && y < 51;
+      const bool turned_covered = std::abs(x - 30) + std::abs(y - 30) < 29;
+      if (covered) {
+        const int upright = 10 * (2 * x - 19) * (101 - 2 * y) / (82 * 82);
+        const int triangles = 10 * std::max(0, x - y) / 41;
+        expect_tenths(squares[0].square_picture, x, y, upright);
+        expect_tenths(squares[0].triangles_picture, x, y, triangles);
+        expect_tenths(squares[2].square_picture, 60 - y, x, upright);
+        expect_tenths(squares[2].triangles_picture, 60 - y, x, triangles);
+      } else {
+        EXPECT_EQ(squares[0].square_picture.at(static_cast<std::uint32_t>(x),
+                                               static_cast<std::uint32_t>(y)),
+                  white);
+      }
+      if (turned_covered) {
+        expect_tenths(squares[1].square_picture, x, y, 10 * (x - 1 - std::abs(y - 30)) / 58);
+        expect_tenths(squares[1].triangles_picture, x, y, 10 * std::max(0, x - 30) / 29);
+      }
+    }
+  }
+}
+
+// What the page says of the middle.
+TEST(Course, OnlyTheSquareDependsOnHowItIsTurned) {
+  const std::vector<TurnedSquare> squares = turned_squares();
+  ASSERT_EQ(squares.size(), 3u);
+  EXPECT_EQ(squares[0].square, 0.25);
+  EXPECT_EQ(squares[1].square, 0.5);
+  EXPECT_EQ(squares[2].square, 0.25);
+  for (const TurnedSquare& square : squares) {
+    EXPECT_EQ(square.by_scan_lines, 0);
+    EXPECT_EQ(square.by_weights, 0);
   }
 }
 

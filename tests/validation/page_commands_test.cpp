@@ -1,9 +1,12 @@
 // The commands of the pages, run as their readers run them: they have to draw the pages' pictures.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,6 +19,7 @@ namespace fathom::test {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::HasSubstr;
 
 std::string unescaped(std::string text) {
   const std::pair<std::string, std::string> characters[] = {
@@ -52,12 +56,14 @@ Outcome run_by_shell(const std::string& command, const fs::path& folder) {
 }
 
 /// The pictures go; what is there afterwards is what the commands have drawn.
-/// `others` are those that no command draws.
-void expect_pictures_by_commands(const std::string& study, std::size_t least_commands,
-                                 const std::set<std::string>& others) {
+/// `others` are those that no command draws. Gives what the commands have printed.
+std::map<std::string, std::string> expect_pictures_by_commands(
+    const std::string& study, std::size_t least_commands, const std::set<std::string>& others) {
+  std::map<std::string, std::string> printed;
   const TestFolder folder;
   const Outcome made = run_fathom({"study", study, "--out", "made"}, {.folder = folder.path()});
-  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(made.status, 0) << made.err;
+  if (made.status != 0) return printed;
   const fs::path beside = folder.path() / "made", shown = folder.path() / "shown";
   const std::string page = folder.read("made/index.html");
   fs::create_directory(shown);
@@ -71,6 +77,7 @@ void expect_pictures_by_commands(const std::string& study, std::size_t least_com
   for (const std::string& command : commands) {
     const Outcome outcome = run_by_shell(unescaped(command), beside);
     EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.err;
+    printed[unescaped(command)] = outcome.out;
   }
   for (const std::string& picture : pictures) {
     EXPECT_EQ(fs::exists(beside / picture), !others.contains(picture)) << picture;
@@ -78,12 +85,38 @@ void expect_pictures_by_commands(const std::string& study, std::size_t least_com
       EXPECT_TRUE(folder.read("made/" + picture) == folder.read("shown/" + picture)) << picture;
     }
   }
+  return printed;
 }
 
-// Two are drawn by exact arithmetic and by the exact engine, as their captions say.
+/// What the first command that has this text in it has printed.
+std::string printed_by(const std::map<std::string, std::string>& printed, const std::string& text) {
+  for (const auto& [command, output] : printed)
+    if (command.find(text) != std::string::npos) return output;
+  ADD_FAILURE() << "no command has " << text;
+  return "";
+}
+
+// Some are drawn by exact arithmetic or by the exact engine, as their captions say.
 TEST(PageCommands, DrawThePicturesOfTheCourse) {
   if (testing::effort > 1) GTEST_SKIP() << "some sixty renderings, each by a program of its own";
-  expect_pictures_by_commands("course", 25, {"exercise-2.png", "exercise-6-exact.png"});
+  const auto printed = expect_pictures_by_commands(
+      "course", 30,
+      {"exercise-2.png", "exercise-6-exact.png", "square-0.png", "square-45.png", "square-90.png",
+       "triangles-0.png", "triangles-45.png", "triangles-90.png"});
+  // Figures of the page.
+  EXPECT_THAT(printed_by(printed, "[[[-20,-20]"), HasSubstr(R"("values":[[0.25]])"));
+  EXPECT_THAT(printed_by(printed, "[[[0.5,-28.5]"), HasSubstr(R"("values":[[0.5]])"));
+  const std::string by_scan_lines = printed_by(printed, "scan-line triangles.jsonl");
+  EXPECT_EQ(std::ranges::count(by_scan_lines, '\n'), 6);
+  EXPECT_EQ(by_scan_lines, printed_by(printed, "edge-function triangles.jsonl"));
+  EXPECT_EQ(std::ranges::count(printed_by(printed, "squares.jsonl"), '\n'), 3);
+  const std::string edge_on = printed_by(printed, "edge-on.obj");
+  for (const char* count :
+       {R"("front_in_world": 136)", R"("front_in_ndc": 141)", R"("front_in_window": 159)",
+        R"("disagreeing": 68)", R"("turned_by_snapping": 137)", R"("front_in_world": 142)",
+        R"("front_in_ndc": 142)", R"("front_in_window": 142)", R"("disagreeing": 0)",
+        R"("turned_by_snapping": 147)"})
+    EXPECT_THAT(edge_on, HasSubstr(count));
 }
 
 TEST(PageCommands, DrawThePicturesOfHiddenSurfaces) {

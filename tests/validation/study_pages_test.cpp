@@ -42,7 +42,7 @@ TEST(StudyPages, Blending) {
   EXPECT_EQ(pictures_of("blending"), 15U);
 }
 TEST(StudyPages, Course) {
-  EXPECT_EQ(pictures_of("course"), 63U);
+  EXPECT_EQ(pictures_of("course"), 70U);
 }
 TEST(StudyPages, HiddenSurface) {
   EXPECT_EQ(pictures_of("hidden-surface"), 10U);

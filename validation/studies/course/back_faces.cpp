@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <utility>
 
 #include "fathom/pipeline/render_pipeline.h"
+#include "fathom/pipeline/scan/arithmetic.h"
 #include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
@@ -58,7 +60,95 @@ FacingCount facings(double distance, pipeline::Precision precision) {
           (1 - 1 / distance) / 2};
 }
 
+/// Three corners, in units of 2^-21: with depths below 8 they are numbers of binary32.
+using WholeTriangle = std::array<std::array<std::int64_t, 3>, 3>;
+constexpr std::int64_t whole_units = std::int64_t{1} << 21;
+
+/// Two corners at random and a third in the plane through them and the eye, but for its rounding.
+WholeTriangle edge_on_triangle(std::mt19937_64& random) {
+  const auto between = [&](std::int64_t least, std::int64_t end) {
+    return least + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(end - least));
+  };
+  WholeTriangle t{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t i = 0; i < 2; ++i)
+      t[k][i] = between(-3 * whole_units / 2, 3 * whole_units / 2);
+    t[k][2] = between(5 * whole_units, 13 * whole_units / 2);
+  }
+  const std::int64_t along = between(200, 825), away = between(820, 1229);  // of 1024
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t place = away * ((1024 - along) * t[0][i] + along * t[1][i]);
+    t[2][i] = (place + (std::int64_t{1} << 19)) >> 20;
+  }
+  return t;
+}
+
+std::vector<WholeTriangle> edge_on_triangles() {
+  std::mt19937_64 random(2026);
+  std::vector<WholeTriangle> triangles(300);
+  for (WholeTriangle& t : triangles) t = edge_on_triangle(random);
+  return triangles;
+}
+
+/// N·V > 0, where N·V is −det(A, B, C) as the eye is the origin. Exact: |det| < 2^76.
+bool faces_the_eye(const WholeTriangle& t) {
+  using pipeline::Int128;
+  Int128 determinant = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    determinant += Int128{t[0][i]} * (Int128{t[1][j]} * t[2][k] - Int128{t[1][k]} * t[2][j]);
+  }
+  return determinant < 0;
+}
+
+EdgeOnCount edge_on_count(pipeline::Precision precision) {
+  PipelineOptions options;
+  options.precision = precision;
+  options.shading = pipeline::Shading::none;
+  const std::vector<WholeTriangle> triangles = edge_on_triangles();
+  const SceneView view = edge_on_files().view;
+  EdgeOnCount count{.precision = precision};
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    Scene alone = view.scene;
+    alone.meshes[0].triangles = {view.scene.meshes[0].triangles[i]};
+    const auto s = render_frame(alone, view.camera, options, false).statistics;
+    const std::uint64_t front = faces_the_eye(triangles[i]) ? 1 : 0;
+    count.triangles += s.facings.compared;
+    count.front += front;
+    count.front_in_world += s.facings.front_in_world;
+    count.front_in_ndc += s.facings.front_in_ndc;
+    count.front_in_window += s.facings.front_in_window;
+    count.wrong_in_world += s.facings.front_in_world != front;
+    count.wrong_in_ndc += s.facings.front_in_ndc != front;
+    count.wrong_in_window += s.facings.front_in_window != front;
+    count.disagreeing += s.facings.disagreeing;
+    count.turned_by_snapping += s.turned_by_snapping;
+  }
+  return count;
+}
+
 }  // namespace
+
+SceneFiles edge_on_files() {
+  Scene scene = scene_of({}, {});
+  Mesh& mesh = scene.meshes[0];
+  for (const WholeTriangle& t : edge_on_triangles()) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const auto& corner : t) {
+      const auto place = [&](std::size_t i) {
+        return static_cast<double>(corner[i]) / static_cast<double>(whole_units);
+      };
+      mesh.vertices.push_back({place(0), place(1), place(2)});
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return scene_files("edge-on", scene, front_camera(160, 120, 1, 20));
+}
+
+std::vector<EdgeOnCount> count_edge_on() {
+  return {edge_on_count(pipeline::Precision::binary32),
+          edge_on_count(pipeline::Precision::binary64)};
+}
 
 std::vector<FacingCount> count_facings() {
   std::vector<FacingCount> counts;

@@ -10,6 +10,7 @@
 #include "validation/studies/course/demo.h"
 #include "validation/studies/course/exercises.h"
 #include "validation/studies/course/gallery.h"
+#include "validation/studies/course/quadrangles.h"
 #include "validation/studies/course/shared_edges.h"
 #include "validation/studies/page_texts.h"
 #include "validation/studies/picture.h"
@@ -32,6 +33,23 @@ void exercises_1_and_2(Results& results) {
   add(results, eight_lines_files());
   show(results, "exercise-1", eight_lines(pipeline::WireLine::bresenham), 6);
   show(results, "exercise-2", edge_function_signs(), 2);
+}
+
+void quadrangles(Results& results) {
+  using Row = TurnedSquare;
+  const std::vector<Row> rows = turned_squares();
+  for (const StudyFile& file : square_files()) results.file(file);
+  for (const Row& row : rows) {
+    show(results, "square-" + std::to_string(row.degrees), row.square_picture, 4);
+    show(results, "triangles-" + std::to_string(row.degrees), row.triangles_picture, 4);
+  }
+  results.table(
+      {rows,
+       {{Column("degrees").page("turned by (degrees)"), &Row::degrees},
+        {Column("square").page("square, by scan lines"), &Row::square},
+        {Column("triangles_by_scan_lines").page("triangles, by scan lines"), &Row::by_scan_lines},
+        {Column("triangles_by_weights").page("triangles, barycentric"), &Row::by_weights}}},
+      {.json = "quadrangles", .page = "quadrangles"});
 }
 
 void exercise_3(Results& results) {
@@ -59,6 +77,7 @@ void exercise_3(Results& results) {
            f.picture, 2);
     }
   }
+  results.quote("tilt", tilt_of_fight(), ".1f");
   results.quote("window_steps", steps_of_unorm16(), ".2f");
   results.table({rows,
                  {{"distance", &Row::distance},
@@ -128,6 +147,32 @@ void exercise_6(Results& results) {
   results.table(table, {.page = "exercise_6"});
 }
 
+const char* name_of(pipeline::Precision precision) {
+  return precision == pipeline::Precision::binary32 ? "binary32" : "binary64";
+}
+
+void edge_on(Results& results) {
+  using Row = EdgeOnCount;
+  add(results, edge_on_files());
+  const std::vector<Row> rows = count_edge_on();
+  results.quote("edge_on_triangles", rows.front().triangles);
+  results.quote("edge_on_front", rows.front().front);
+  results.table(
+      {rows,
+       {{Column("precision").page("arithmetic"), [](const Row& r) { return name_of(r.precision); }},
+        {"triangles", &Row::triangles},
+        {"front", &Row::front},
+        {Column("front_in_world").page("front: world"), &Row::front_in_world},
+        {Column("front_in_ndc").page("front: NDC"), &Row::front_in_ndc},
+        {Column("front_in_window").page("front: window"), &Row::front_in_window},
+        {Column("wrong_in_world").page("wrong: world"), &Row::wrong_in_world},
+        {Column("wrong_in_ndc").page("wrong: NDC"), &Row::wrong_in_ndc},
+        {Column("wrong_in_window").page("wrong: window"), &Row::wrong_in_window},
+        {Column("disagreeing").page("the tests disagree"), &Row::disagreeing},
+        {Column("turned_by_snapping").page("turned by snapping"), &Row::turned_by_snapping}}},
+      {.json = "edge_on", .page = "edge_on"});
+}
+
 void back_faces(Results& results) {
   using Row = FacingCount;
   const auto culled_share = [](const Row& f) {
@@ -137,10 +182,7 @@ void back_faces(Results& results) {
   results.quote("ball_triangles", counts.front().triangles);
   results.table(
       {counts,
-       {{Column("precision").page("arithmetic"),
-         [](const Row& f) {
-           return f.precision == pipeline::Precision::binary32 ? "binary32" : "binary64";
-         }},
+       {{Column("precision").page("arithmetic"), [](const Row& f) { return name_of(f.precision); }},
         {Column("distance").page("distance"), &Row::distance},
         {"triangles", &Row::triangles},
         {percent_heading("culled", ".2f"), culled_share},
@@ -150,6 +192,7 @@ void back_faces(Results& results) {
         {Column("front_in_window").page("front: window"), &Row::front_in_window},
         {Column("disagreeing").page("the tests disagree"), &Row::disagreeing}}},
       {.json = "facings", .page = "facings"});
+  edge_on(results);
   using enum pipeline::FrontFace;
   using pipeline::Culling;
   add(results, open_box_files());
@@ -159,6 +202,7 @@ void back_faces(Results& results) {
   show_box("box-ccw-back", counter_clockwise, Culling::back);
   show_box("box-ccw-front", counter_clockwise, Culling::front);
   show_box("box-cw-back", clockwise, Culling::back);
+  show_box("box-cw-front", clockwise, Culling::front);
   show_box("box-none", counter_clockwise, Culling::none);
 }
 
@@ -263,6 +307,7 @@ std::vector<StudyFile> study_course(const StudyOptions& options,
     throw UsageError("the study course takes no options");
   Results results("course", page_texts::course);
   exercises_1_and_2(results);
+  quadrangles(results);
   tick(0.1);
   exercise_3(results);
   tick(0.4);

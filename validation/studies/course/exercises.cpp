@@ -135,6 +135,11 @@ Fight fight(double distance, Storage storage) {
   return result;
 }
 
+// Its depth grows by 0.2 of the distance over 2/3 of it, along x and along y.
+double tilt_of_fight() {
+  return std::atan(std::hypot(0.3, 0.3)) * 180 / std::numbers::pi;
+}
+
 double steps_of_unorm16() {
   return apart * 65535;
 }

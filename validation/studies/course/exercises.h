@@ -25,6 +25,8 @@ struct Fight {
   double wrong_share = 0;
 };
 Fight fight(double distance, Storage storage);
+/// Of the surface in front against the plane of the picture, in degrees.
+double tilt_of_fight();
 /// The separation of the surfaces in steps of unorm16, if it were one of window depths.
 double steps_of_unorm16();
 
