@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "fathom/pipeline/scan/edge_function.h"
 #include "fathom/pipeline/scan/polygon_fill.h"
@@ -20,11 +21,14 @@ struct Corner {
   int value;
 };
 using Outline = std::vector<Corner>;
-/// The exact value at each pixel's centre.
-using Values = std::map<Pixel, Exact>;
-
 constexpr std::uint32_t window_side = 61;
 constexpr Pixel middle{30, 30};
+
+/// The exact value at each pixel's centre, row by row; none where nothing is covered.
+using Values = std::vector<std::optional<Exact>>;
+constexpr std::size_t index_of(const Pixel& pixel) {
+  return static_cast<std::size_t>(pixel.y * window_side + pixel.x);
+}
 
 struct Square {
   int degrees;
@@ -52,7 +56,7 @@ void add_by_scan_lines(const Outline& outline, Values& values) {
                                   for (const auto& span : line.spans) {
                                     std::int64_t x = span.pixels.x_begin;
                                     for (const auto& value : values_along(span))
-                                      values[{x++, line.y}] = value[0];
+                                      values[index_of({x++, line.y})] = value[0];
                                   }
                                 });
 }
@@ -66,19 +70,19 @@ void add_by_weights(const Outline& t, Values& values) {
                                         Exact sum(0);
                                         for (std::size_t k = 0; k < 3; ++k)
                                           sum += covered.barycentric[k] * Exact(t[k].value);
-                                        values[covered.pixel] = sum;
+                                        values[index_of(covered.pixel)] = sum;
                                       });
 }
 
 RgbImage picture_of(const Values& values) {
   RgbImage image(window_side, window_side, {255, 255, 255});
-  for (const auto& [pixel, value] : values) {
-    const auto tenths = static_cast<int>(pipeline::floor_of(Exact(10) * value));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!values[i]) continue;
+    const auto tenths = static_cast<int>(pipeline::floor_of(Exact(10) * *values[i]));
     const auto mixed = [&](int dark, int bright) {
       return static_cast<std::uint8_t>(dark + (bright - dark) * tenths / 10);
     };
-    image.at(static_cast<std::uint32_t>(pixel.x), static_cast<std::uint32_t>(pixel.y)) = {
-        mixed(30, 255), mixed(50, 225), mixed(120, 60)};
+    image.pixels[i] = {mixed(30, 255), mixed(50, 225), mixed(120, 60)};
   }
   return image;
 }
@@ -102,14 +106,15 @@ std::string case_line(const char* kind, const Outline& outline) {
 std::vector<TurnedSquare> turned_squares() {
   std::vector<TurnedSquare> result;
   for (const Square& square : squares()) {
-    Values whole, by_scan_lines, by_weights;
+    Values whole(std::size_t{window_side} * window_side);
+    Values by_scan_lines = whole, by_weights = whole;
     add_by_scan_lines(square.corners, whole);
     for (const Outline& triangle : halves(square.corners)) {
       add_by_scan_lines(triangle, by_scan_lines);
       add_by_weights(triangle, by_weights);
     }
     const auto at_middle = [](const Values& values) {
-      return pipeline::to_binary64(values.at(middle));
+      return pipeline::to_binary64(values[index_of(middle)].value());
     };
     result.push_back({square.degrees, at_middle(whole), at_middle(by_scan_lines),
                       at_middle(by_weights), picture_of(whole), picture_of(by_scan_lines)});
