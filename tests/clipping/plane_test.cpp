@@ -53,6 +53,19 @@ TEST(Plane, ThroughAPointWithANormal) {
   EXPECT_EQ(plane.D, -(2 - 6 + 20));
 }
 
+/// (Q − P) × (R − P) of corners none of whose coordinates is 0: (3, −4, 2) × (1, 2, −7).
+TEST(Plane, ANormalOfThreePoints) {
+  const Point3<Rational> P{2, 3, 5}, Q{5, -1, 7}, R{3, 5, -2};
+  const auto normal = normal_of(P, Q, R);
+  EXPECT_EQ(normal.x, 24);
+  EXPECT_EQ(normal.y, 23);
+  EXPECT_EQ(normal.z, 10);
+  const auto reversed = normal_of(P, R, Q);
+  EXPECT_EQ(reversed.x, -24);
+  EXPECT_EQ(reversed.y, -23);
+  EXPECT_EQ(reversed.z, -10);
+}
+
 TEST(Plane, LineMeetsItAtTheFormulasParameter) {
   // t = (Q − R)·N / (S − R)·N with Q = (1, 0, 0), R = (0, 0, 0), S = (2, 3, 4).
   const auto meeting = plane_line_intersection<Rational>(lecture, {0, 0, 0}, {2, 3, 4});

@@ -20,7 +20,7 @@ struct Corner {
   double x, y;
   int value;
 };
-using Outline = std::vector<Corner>;
+using CornerRing = std::vector<Corner>;
 constexpr std::uint32_t window_side = 61;
 constexpr Pixel middle{30, 30};
 
@@ -32,7 +32,7 @@ constexpr std::size_t index_of(const Pixel& pixel) {
 
 struct Square {
   int degrees;
-  Outline corners;
+  CornerRing corners;
 };
 /// Sides of 41; of that turned by 45 degrees the diagonals are 58, so that its corners are exact: it
 /// is larger by 1/1681.
@@ -42,13 +42,13 @@ std::vector<Square> squares() {
           {90, {{51, 10, 0}, {51, 51, 1}, {10, 51, 0}, {10, 10, 0}}}};
 }
 
-std::array<Outline, 2> halves(const Outline& square) {
+std::array<CornerRing, 2> halves(const CornerRing& square) {
   return {{{square[0], square[1], square[2]}, {square[0], square[2], square[3]}}};
 }
 
 constexpr pipeline::PixelWindow whole_window{0, 0, window_side, window_side};
 
-void add_by_scan_lines(const Outline& outline, Values& values) {
+void add_by_scan_lines(const CornerRing& outline, Values& values) {
   pipeline::FillPolygon<Exact> polygon(1);
   for (const Corner& c : outline) polygon[0].push_back({Exact(c.x), Exact(c.y), {Exact(c.value)}});
   pipeline::fill_polygon<Exact>(polygon, pipeline::FillRule::even_odd, whole_window,
@@ -61,7 +61,7 @@ void add_by_scan_lines(const Outline& outline, Values& values) {
                                 });
 }
 
-void add_by_weights(const Outline& t, Values& values) {
+void add_by_weights(const CornerRing& t, Values& values) {
   pipeline::rasterize_triangle<Exact>({{{Exact(t[0].x), Exact(t[0].y)},
                                         {Exact(t[1].x), Exact(t[1].y)},
                                         {Exact(t[2].x), Exact(t[2].y)}}},
@@ -88,7 +88,7 @@ RgbImage picture_of(const Values& values) {
 }
 
 /// A polygon is a list of rings, a triangle is one.
-std::string case_line(const char* kind, const Outline& outline) {
+std::string case_line(const char* kind, const CornerRing& outline) {
   std::string corners, values;
   for (const Corner& c : outline) {
     corners += fmt::format("{}[{},{}]", corners.empty() ? "" : ",", c.x, c.y);
@@ -109,7 +109,7 @@ std::vector<TurnedSquare> turned_squares() {
     Values whole(std::size_t{window_side} * window_side);
     Values by_scan_lines = whole, by_weights = whole;
     add_by_scan_lines(square.corners, whole);
-    for (const Outline& triangle : halves(square.corners)) {
+    for (const CornerRing& triangle : halves(square.corners)) {
       add_by_scan_lines(triangle, by_scan_lines);
       add_by_weights(triangle, by_weights);
     }
@@ -126,7 +126,7 @@ std::vector<StudyFile> square_files() {
   StudyFile whole{"squares.jsonl", ""}, cut{"triangles.jsonl", ""};
   for (const Square& square : squares()) {
     whole.content += case_line("polygon", square.corners);
-    for (const Outline& triangle : halves(square.corners))
+    for (const CornerRing& triangle : halves(square.corners))
       cut.content += case_line("triangle", triangle);
   }
   return {whole, cut};
