@@ -248,6 +248,21 @@ TEST(DrawState, IsRefusedWithoutADepthBuffer) {
   EXPECT_EQ(failure(unlit()), "");
 }
 
+/// An offset beyond the far plane is stored as the far plane, and one before the near plane as that.
+TEST(PolygonOffset, StaysWithinTheDepthBuffer) {
+  for (const auto scan : {ScanConversion::edge_function, ScanConversion::scan_line}) {
+    PipelineOptions options = unlit();
+    options.scan = scan;
+    const auto stored = [&](double units) {
+      DrawState state;
+      state.polygon_offset = PolygonOffset{0, units};
+      return drawn({{3, state}}, options).stored;
+    };
+    EXPECT_THAT(stored(1e9), Each(StoredDepth{65535}));
+    EXPECT_THAT(stored(-1e9), Each(StoredDepth{0}));
+  }
+}
+
 TEST(Trace, ObeysTheScissorBox) {
   const Scene scene = layers({{3, {}}});
   PipelineOptions options = unlit();

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include "fathom/numeric/errors.h"
@@ -46,17 +47,23 @@ TEST(PipelineOptions, LimitsAreInclusive) {
 }
 
 TEST(PipelineOptions, SamplesThatThereAre) {
-  const auto count_refused = [](AntialiasMethod method, int most) {
-    int refused = 0;
-    for (int n = 0; n <= most; ++n) {
-      refused += is_refused([&](PipelineOptions& o) { o.antialias = {method, n}; });
+  const auto accepted = [](AntialiasMethod method) {
+    std::vector<int> counts;
+    for (int n = -1; n <= 300; ++n) {
+      if (!is_refused([&](PipelineOptions& o) { o.antialias = {method, n}; })) counts.push_back(n);
     }
-    return refused;
+    return counts;
   };
-  EXPECT_EQ(count_refused(AntialiasMethod::msaa, 300), 301 - 5);
-  EXPECT_EQ(count_refused(AntialiasMethod::ssaa, 300), 301 - 16);
-  EXPECT_EQ(count_refused(AntialiasMethod::jitter, 300), 301 - 5);
-  EXPECT_EQ(count_refused(AntialiasMethod::taa, 300), 301 - 256);
+  const auto to = [](int last) {
+    std::vector<int> counts(static_cast<std::size_t>(last));
+    std::iota(counts.begin(), counts.end(), 1);
+    return counts;
+  };
+  EXPECT_EQ(accepted(AntialiasMethod::msaa), (std::vector<int>{1, 2, 4, 8, 16}));
+  EXPECT_EQ(accepted(AntialiasMethod::ssaa), to(16));
+  EXPECT_EQ(accepted(AntialiasMethod::jitter), (std::vector<int>{1, 4, 16, 64, 256}));
+  EXPECT_EQ(accepted(AntialiasMethod::taa), to(256));
+  EXPECT_EQ(accepted(AntialiasMethod::temporal), to(256));
 }
 
 TEST(PipelineOptions, WhatDoesNotGoTogether) {

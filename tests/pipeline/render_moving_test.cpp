@@ -236,6 +236,43 @@ TEST(TemporalHistory, FollowsTheMovesAndIsLimitedByItsNeighbours) {
             0.5);
 }
 
+/// A colour of the past stays where one of the nine pixels around has it now, and no farther.
+TEST(TemporalHistory, IsLimitedByNineNeighbours) {
+  const PixelMoves at_rest(81, PixelMove{0, 0});
+  for (std::uint32_t y = 0; y < 9; ++y) {
+    for (std::uint32_t x = 0; x < 9; ++x) {
+      for (const auto& [px, py] : {std::pair{4U, 4U}, {0U, 0U}, {8U, 8U}, {1U, 7U}}) {
+        TemporalHistory history({true, true, 0.5});
+        history.add(picture_with(px, py, 1), {});
+        history.add(picture_with(x, y, 1), at_rest);
+        const bool near =
+            std::max(x, px) - std::min(x, px) <= 1 && std::max(y, py) - std::min(y, py) <= 1;
+        const bool same = x == px && y == py;
+        EXPECT_EQ(history.picture().at(px, py)[0], same   ? 1
+                                                   : near ? 0.5
+                                                          : 0)
+            << x << ' ' << y << " beside " << px << ' ' << py;
+      }
+    }
+  }
+}
+
+TEST(RenderMoving, OnlyTaaRefusesLines) {
+  Scene scene = square(2, 4, 1);
+  scene.meshes[0].lines = {{0, 1}};
+  MovingScene moving(scene, to_the_right(1));
+  const auto refused = [&](AntialiasMethod method) {
+    try {
+      render_moving(moving, window(10, 1), precise(method, 2), {0, 1}, true);
+      return false;
+    } catch (const UsageError&) {
+      return true;
+    }
+  };
+  EXPECT_TRUE(refused(AntialiasMethod::taa));
+  EXPECT_FALSE(refused(AntialiasMethod::temporal));
+}
+
 /// History ends where the picture does, half a pixel beyond the centres of its outer pixels.
 TEST(TemporalHistory, EndsAtTheBordersOfThePicture) {
   const ColourImage white{9, 7, std::vector<Colour>(63, Colour{1, 1, 1})};

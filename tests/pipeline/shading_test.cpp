@@ -108,6 +108,30 @@ TEST(Shading, BlinnsAndPhongsHighlightsByHand) {
   }
 }
 
+/// Where the eye is counts for highlights: a camera and all before it moved and turned together see
+/// the same, with the light moved along.
+TEST(Shading, HighlightsMoveWithTheEye) {
+  const Material shiny{.ambient = 0.1, .diffuse = 0.2, .specular = 0.7, .shininess = 10};
+  const Scene scene = triangle(8, 12, 6, {straight, straight, straight});
+  Scene moved = scene;
+  for (MeshPoint& p : moved.meshes[0].vertices) p = {p.z + 4, p.x - 8, p.y + 2};
+  for (auto& n : moved.meshes[0].normals) n = {n[2], n[0], n[1]};
+  Camera there = camera();
+  there.world_to_camera = {{{0, 1, 0, 8}, {0, 0, 1, -2}, {1, 0, 0, -4}}};
+  for (const Shading shading : areas) {
+    const PipelineOptions here = options(shading, {0.25, -0.125, -1}, shiny);
+    const PipelineOptions turned = options(shading, {-1, 0.25, -0.125}, shiny);
+    const ColourImage picture = render_frame(scene, camera(), here, true).picture;
+    const ColourImage other = render_frame(moved, there, turned, true).picture;
+    double greatest = 0;
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+      ASSERT_NEAR(picture.pixels[i][0], other.pixels[i][0], rounded) << i;
+      greatest = std::max(greatest, picture.pixels[i][0]);
+    }
+    EXPECT_GT(greatest, 0.32);  // ambient and diffuse light alone are 0.3 at most
+  }
+}
+
 TEST(Shading, GouraudMixesTheLightOfTheCorners) {
   // Corners at (0,16), (16,16), (0,0) with 0.9, 0.525, 0.15. The centre of pixel (3, 9) has the
   // weights 1 − 3.5/16 − 6.5/16 = 6/16, 3.5/16 and 6.5/16.

@@ -39,7 +39,7 @@ Judged judged_by_itself(Scene scene, const Camera& camera) {
 /// A sheet from corner to corner, in 8 × 8 parts of 2 triangles.
 void add_sheet(Tiles& tiles, const std::array<MeshPoint, 3>& corners) {
   constexpr int parts = 8;
-  const auto& [o, p, q] = corners;
+  const MeshPoint &o = corners[0], &p = corners[1], &q = corners[2];
   const auto at = [&](int i, int j) {
     const double s = static_cast<double>(i) / parts, t = static_cast<double>(j) / parts;
     return MeshPoint{o.x + s * (p.x - o.x) + t * (q.x - o.x),
