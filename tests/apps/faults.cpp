@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include "sample_files.h"
@@ -93,15 +94,29 @@ std::function<void()> without_streams(std::vector<int> streams) {
   };
 }
 
+namespace {
+
+/// What is staged is locked; what only tells the permissions of a new file is not.
+bool is_locked(const fs::path& process, const fs::path& descriptor) {
+  std::ifstream info(process / "fdinfo" / descriptor);
+  for (std::string line; std::getline(info, line);) {
+    if (line.starts_with("lock:") && line.find("FLOCK") != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::string staged_by(pid_t process, const TestFolder& folder) {
   std::error_code error;
-  const fs::path files = "/proc/" + std::to_string(process) + "/fd";
-  for (fs::directory_iterator at(files, error), end; !error && at != end; at.increment(error)) {
+  const fs::path about = "/proc/" + std::to_string(process);
+  for (fs::directory_iterator at(about / "fd", error), end; !error && at != end;
+       at.increment(error)) {
     const std::string target = fs::read_symlink(at->path(), error).string();
-    const bool is_staged =
+    const bool may_be_staged =
         target.starts_with(folder.path().string() + "/") &&
         (target.ends_with(" (deleted)") || target.find("/.fathom-") != std::string::npos);
-    if (!error && is_staged) return at->path();
+    if (!error && may_be_staged && is_locked(about, at->path().filename())) return at->path();
   }
   return {};
 }
