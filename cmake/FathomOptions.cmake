@@ -2,6 +2,10 @@
 #
 # -ffp-contract=off: the error bounds and the oracles assume that a * b + c is rounded twice unless
 # std::fma is written. fast-math is never used. Flags are private, so users of fathom::fathom keep theirs.
+#
+# -fno-tree-slp-vectorize: GCC 12 at -O3, packing neighbouring statements, drops conversions to float and back
+# to double, so that what should be rounded is not (tests/numeric/narrowing_test.cpp). Loops that gain by vector
+# instructions are written with them.
 include(GNUInstallDirs)
 
 # What keeps a mistake of ours from becoming the execution of someone else's code: canaries on the stack,
@@ -39,6 +43,9 @@ function(fathom_target_options target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False alarms on string concatenation: https://gcc.gnu.org/PR105651.
     target_compile_options(${target} PRIVATE -Wno-restrict)
+  endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -fno-tree-slp-vectorize)
   endif()
   # A few large compilations read the headers of the standard library once instead of eight times.
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${FATHOM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
