@@ -48,6 +48,9 @@ TEST(BadRings, FewerThanThreeDistinctCorners) {
 TEST(BadRings, WithoutArea) {
   EXPECT_EQ(refusal({{{0, 0}, {1, 2}, {3, 6}}}, {square}),
             "subject ring 0 has no area: its corners lie on one line");
+  // Two corners at one place do not make a line.
+  EXPECT_THAT(refusal({{{0, 0}, {1, 0}, {0, 0}, {0, 1}}}, {square}),
+              ::testing::HasSubstr("subject ring 0 is not simple"));
 }
 
 TEST(BadRings, NotSimple) {

@@ -75,5 +75,17 @@ TEST(FirstDifference, IsThePieceWithTheLeastCorner) {
   EXPECT_EQ(hole->area, 4);
 }
 
+// On no corner's level, half-way along the first stretch inside.
+TEST(FirstDifference, HasAPointInside) {
+  const auto whole = first_difference({{{0, 10}, {4, 10}, {0, 18}}}, {});
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->inside, (P{1, 14}));
+}
+
+TEST(FirstDifference, RingsWithoutAreaAreNoRegion) {
+  EXPECT_FALSE(first_difference({{{0, 0}, {4, 4}}}, {}));
+  EXPECT_FALSE(first_difference({{{0, 0}, {4, 4}, {8, 8}}}, {{{1, 1}}}));
+}
+
 }  // namespace
 }  // namespace fathom::clipping

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "fathom/numeric/errors.h"
 #include "tests/clipping/print.h"
+#include "tests/scratch_folder.h"
 
 namespace fathom::clipping {
 namespace {
@@ -67,6 +69,62 @@ TEST(SelfContact, OfRingsThatMeetThemselves) {
 
 TEST(Contacts, PointsInMessages) {
   EXPECT_EQ(to_text(P{Rational(1, 3), 2}), "(1/3, 2)");
+}
+
+/// A saw of `teeth` teeth, each with two edges that go from one side to the other.
+Ring<double> saw(int teeth, bool level) {
+  Ring<double> ring;
+  for (int i = 0; i <= 2 * teeth; ++i) {
+    const double along = 1 + i, across = i % 2 == 0 ? 0 : 2000;
+    ring.push_back(level ? Point2<double>{across, along} : Point2<double>{along, across});
+  }
+  const double beyond = 2 * teeth + 2;
+  ring.push_back(level ? Point2<double>{-1, beyond} : Point2<double>{beyond, -1});
+  return ring;
+}
+
+// Each crossing is a corner in both rings.
+TEST(Contacts, AsManyAsTheLimitAreEntered) {
+  const auto entered = [](const Sides<double>& sides) {
+    const auto [subject, clip] = enter_contacts(sides);
+    return subject[0].size() - sides.subject[0].size() + clip[0].size() - sides.clip[0].size();
+  };
+  // 512 · 256 crossings of the teeth.
+  const Sides<double> most{{saw(256, false)}, {saw(128, true)}};
+  EXPECT_EQ(entered(most), most_contacts);
+  Sides<double> more = most;
+  more.clip.push_back({{0.5, 0.25}, {1.5, 0.25}, {0.5, 0.75}});
+  EXPECT_EQ(message_of<InputError>([&] { enter_contacts(more); }),
+            "the rings meet in more than 262144 points");
+}
+
+// From (1, 0) to the next number and down: half-way the crossing is rounded to x = 1, which comes
+// before the start in the order of points.
+TEST(Contacts, RoundedBeyondAnEndAreNoCorners) {
+  const double next = 1 + 0x1p-52;
+  const Ring<double> steep{{1, 0}, {next, -1}, {2, 0}};
+  const auto [subject, clip] =
+      enter_contacts(Sides<double>{{steep}, {{{0, -0.4}, {1.25, -0.4}, {0, -4}}}});
+  const Point2<double> rounded{1, -0.4};
+  EXPECT_EQ(std::count(clip[0].begin(), clip[0].end(), rounded), 1);
+  EXPECT_EQ(std::count(subject[0].begin(), subject[0].end(), rounded), 0);
+}
+
+TEST(Contacts, ProductsBeyondBinary64AreRefused) {
+  // The products of one segment alone are too great.
+  const Segment2<double> far_away{{1e10, 1e10}, {1e10 + 1, 1e10 - 1}}, longer{{0, 0}, {1e300, 0}};
+  const std::string refusal = "where edges meet is beyond binary64; the exact kernel does it";
+  EXPECT_EQ(message_of<InputError>([&] { contacts(far_away, longer); }), refusal);
+  EXPECT_EQ(message_of<InputError>([&] { contacts(longer, far_away); }), refusal);
+}
+
+TEST(SelfContact, OfAnEdgeThatTurnsBack) {
+  const auto spike = self_contact({{-1, 0}, {-3, 0}, {-2, 0}, {-2, 5}});
+  ASSERT_TRUE(spike);
+  EXPECT_EQ(std::min(spike->first_edge, spike->second_edge), 0U);
+  EXPECT_EQ(std::max(spike->first_edge, spike->second_edge), 1U);
+  // Going on in the same direction is none.
+  EXPECT_FALSE(self_contact({{-1, 0}, {-3, 0}, {-4, 0}, {-2, 5}}));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/sutherland_hodgman.h"
@@ -20,8 +22,16 @@ TEST(ConvexPieces, AConvexRingStaysWhole) {
   EXPECT_EQ(canonical(pieces[0]), canonical(square));
 }
 
-TEST(ConvexPieces, AnLIsTwo) {
-  EXPECT_EQ(convex_pieces<Rational>({{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}).size(), 2u);
+TEST(ConvexPieces, AnLIsTwoWhicheverCornerComesFirst) {
+  const Ring<Rational> upper{{0, 0}, {1, 1}, {1, 4}, {0, 4}}, lower{{0, 0}, {4, 0}, {4, 1}, {1, 1}};
+  Ring<Rational> ell{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}};
+  for (int i = 0; i < 6; ++i) {
+    Rings<Rational> pieces = convex_pieces(ell);
+    for (Ring<Rational>& piece : pieces) piece = canonical(piece);
+    std::sort(pieces.begin(), pieces.end());
+    EXPECT_EQ(pieces, (Rings<Rational>{upper, lower}));
+    std::rotate(ell.begin(), ell.begin() + 1, ell.end());
+  }
 }
 
 // Convex pieces whose areas add up to the ring's and each of which lies in it: they overlap

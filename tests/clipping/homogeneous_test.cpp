@@ -235,5 +235,45 @@ TEST(Homogeneous, NearPlaneOfTheTwoVolumes) {
   EXPECT_EQ(divided(part->start).z, 0);
 }
 
+// In front of the eye both orders give the same polygon.
+TEST(Homogeneous, PolygonsInFrontOfTheEyeAreClippedAlikeInBothOrders) {
+  std::mt19937 random(34);
+  const auto number = [&] { return Rational(static_cast<int>(random() % 13) - 6, 2); };
+  int visible = 0;
+  for (int i = 0; i < 1000 / testing::effort; ++i)
+    for (const Volume volume : {Volume::opengl, Volume::zero_one}) {
+      std::vector<P4> points;
+      for (int k = 0; k < 3; ++k)
+        points.push_back(
+            {number(), number(), number(), Rational(static_cast<int>(random() % 6) + 1, 2)});
+      const auto before = clip_homogeneous(corners(points), volume);
+      const auto after = clip_after_division(corners(points), volume);
+      ASSERT_EQ(before.size(), after.size());
+      for (std::size_t k = 0; k < before.size(); ++k) {
+        const Point3<Rational> p = divided(before[k].position), q = after[k].position;
+        ASSERT_TRUE(p.x == q.x && p.y == q.y && p.z == q.z);
+      }
+      visible += before.empty() ? 0 : 1;
+    }
+  EXPECT_GT(visible, 100 / testing::effort);
+}
+
+TEST(Homogeneous, TheTraceNamesTheBoundaries) {
+  LiangBarskyTrace<Rational> trace;
+  const Segment4<Rational> through{{-4, 0, 0, 1}, {4, 0, 0, 1}};
+  clip_homogeneous(through, Volume::opengl, Half::upper, &trace);
+  std::vector<int> boundaries;
+  for (const auto& parameter : trace.parameters) boundaries.push_back(parameter.k);
+  EXPECT_EQ(boundaries, (std::vector{1, 2, 3, 4, 5, 6}));
+}
+
+// The part is the start alone.
+TEST(Homogeneous, ASegmentThatLeavesFromTheBoundaryIsAPoint) {
+  const auto part =
+      clip_homogeneous(Segment4<Rational>{{1, 0, 0, 1}, {2, 0, 0, 1}}, Volume::opengl);
+  ASSERT_TRUE(part);
+  EXPECT_TRUE(same(part->start, {1, 0, 0, 1}) && same(part->end, {1, 0, 0, 1}));
+}
+
 }  // namespace
 }  // namespace fathom::clipping::test

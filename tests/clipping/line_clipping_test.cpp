@@ -218,5 +218,23 @@ TEST(LineClipping, AWindowInsideOutIsRefused) {
   EXPECT_THROW(liang_barsky<Rational>(s, {0, 1, 1, 0}), InputError);
 }
 
+TEST(LineClipping, TheTraceSaysWhichEndIsMoved) {
+  const Window<Rational> window{0, 0, 2, 2};
+  const auto moved = [&](const Segment2<Rational>& s) {
+    std::vector<CohenSutherlandStep<Rational>> trace;
+    cohen_sutherland(s, window, &trace);
+    return trace.at(0).moved;
+  };
+  EXPECT_EQ(moved({{1, 1}, {5, 1}}), 2);
+  EXPECT_EQ(moved({{5, 1}, {1, 1}}), 1);
+  EXPECT_EQ(moved({{-1, 1}, {5, 1}}), 1);
+}
+
+TEST(LineClipping, AParallelLineHasNoParameter) {
+  const auto parallel = against_boundary<Rational>(3, 0, 5);
+  EXPECT_EQ(parallel.t, 0);
+  EXPECT_EQ(parallel.crossing, Crossing::parallel_inside);
+}
+
 }  // namespace
 }  // namespace fathom::clipping::test

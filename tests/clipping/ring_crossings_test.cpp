@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "fathom/clipping/exact_kernel.h"
@@ -56,6 +57,17 @@ TEST(RingCrossings, AlongSharedPiecesAlone) {
   // Along the same pieces, all inside.
   EXPECT_EQ(crossing_of({square, {{3, 3}, {6, 2}, {6, 4}, {4, 6}, {2, 6}}}), std::nullopt);
   EXPECT_EQ(crossing_of({square, square}), std::nullopt);
+}
+
+TEST(RingCrossings, WhicheverCornersComeFirst) {
+  Ring<Rational> one = square, other{{3, 3}, {6, 2}, {6, 4}, {9, 9}, {4, 6}, {2, 6}};
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    std::rotate(one.begin(), one.begin() + 1, one.end());
+    for (std::size_t k = 0; k < other.size(); ++k) {
+      std::rotate(other.begin(), other.begin() + 1, other.end());
+      EXPECT_TRUE(crossing_of({one, other}));
+    }
+  }
 }
 
 TEST(RingCrossings, ManyRingsAboutAPoint) {

@@ -154,5 +154,15 @@ TEST(SutherlandHodgman, ConcaveClipPolygonIsRefused) {
   EXPECT_NO_THROW(check_convex<double>({{0, 0}, {2, 0}, {4, 0}, {0, 4}}, "clip"));
 }
 
+// As near to the boundary as one likes.
+TEST(SutherlandHodgman, WhatHasNoCornerInsideLeavesNothing) {
+  const auto beyond = [](const Point2<Rational>& p) -> Rational { return p.x - 4; };
+  const Rational near(401, 100);
+  EXPECT_TRUE(
+      clip_at_boundary(corners_of<Rational>({{4, 1}, {near, 0}, {near, 4}, {4, 3}, {4, 2}}), beyond)
+          .empty());
+  EXPECT_TRUE(clip_at_boundary(corners_of<Rational>({{1, 1}, {3, 3}}), beyond).empty());
+}
+
 }  // namespace
 }  // namespace fathom::clipping::test

@@ -8,9 +8,11 @@
 
 #include "fathom/clipping/contacts.h"
 #include "fathom/clipping/exact_kernel.h"
+#include "fathom/numeric/errors.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
 #include "tests/effort.h"
+#include "tests/scratch_folder.h"
 
 namespace fathom::clipping::test {
 namespace {
@@ -93,6 +95,38 @@ TEST(Touches, AreThoseOfAllPairs) {
   }
   EXPECT_GT(crossing, 500U / testing::effort);
   EXPECT_GT(touching, 300U / testing::effort);
+}
+
+/// Triangles in one corner of a square, each with its legs on those of the next: the legs of the
+/// i-th have i − 1 corners of others within each.
+NumberedCorners<double> many_touches(int triangles, int teeth) {
+  Rings<double> rings;
+  for (int i = 1; i <= triangles; ++i) {
+    const double x = i;
+    rings.push_back({{0, 0}, {x, 0}, {0, x}});
+  }
+  // A square far away, whose lower edge is touched by teeth.
+  const double width = 2 * teeth + 2;
+  rings.push_back({{1000, 0}, {1000 + width, 0}, {1000 + width, 9}, {1000, 9}});
+  Ring<double> saw;
+  for (int i = 1; i <= 2 * teeth; ++i) saw.push_back({1000.0 + i, i % 2 == 0 ? 0.0 : -1.0});
+  saw.push_back({1000 + width, -9});
+  rings.push_back(saw);
+  return numbered(rings);
+}
+
+TEST(Touches, AsManyAsTheLimitAreEntered) {
+  const auto entered = [](const NumberedCorners<double>& corners) {
+    const auto touched = enter_touches(corners.rings, PointOrder(corners.points));
+    std::size_t before = 0, after = 0;
+    for (const NumberedRing& ring : corners.rings) before += ring.size();
+    for (const NumberedRing& ring : std::get<NumberedRings>(touched)) after += ring.size();
+    return after - before;
+  };
+  // 512 · 511 of the triangles.
+  EXPECT_EQ(entered(many_touches(512, 512)), most_contacts);
+  EXPECT_EQ(message_of<InputError>([&] { entered(many_touches(512, 513)); }),
+            "the rings meet in more than 262144 points");
 }
 
 }  // namespace

@@ -44,8 +44,7 @@ void append_simple(std::vector<CgalRing>& simple, const Ring<Rational>& ring) {
     if (polygon.orientation() == CGAL::CLOCKWISE) polygon.reverse_orientation();
     simple.push_back(std::move(polygon));
   };
-  if (CgalRing whole = to_cgal(ring); ring.size() > 2 && whole.is_simple())
-    return append(std::move(whole));
+  if (CgalRing whole = to_cgal(ring); ring.size() > 2 && whole.is_simple()) return append(whole);
   for (std::size_t i = 2; i < ring.size(); ++i)
     if (cross(ring[0], ring[i - 1], ring[i]) != 0) append(to_cgal({ring[0], ring[i - 1], ring[i]}));
 }

@@ -107,6 +107,7 @@ template <class Number>
 Number area_of(const std::vector<Polygon<Number>>& polygons) {
   const StandardArithmetic standard;
   std::vector<Number> areas;
+  areas.reserve(polygons.size());
   for (const Polygon<Number>& polygon : polygons)
     areas.push_back(signed_area(polygon.outline) + signed_area(polygon.holes));
   return sum_of(std::move(areas));

@@ -78,6 +78,7 @@ class Insides {
       clip_edges_.insert({from, to});
     }
     std::vector<UndirectedEdge> edges;
+    edges.reserve(borders.size());
     for (const auto& [edge, parities] : borders) edges.push_back(edge);
     std::vector<Parities> above(edges.size());
     for (const auto& [edge, next_below] : sweep(edges, points)) {
