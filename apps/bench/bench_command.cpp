@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
-#include <optional>
 
 #include "apps/bench/bench_arguments.h"
+#include "apps/bench/json_report.h"
 #include "apps/bench/machine_line.h"
 #include "apps/bench/parts_command.h"
 #include "apps/shell/exit_status.h"
-#include "apps/shell/output_file.h"
 #include "apps/shell/program.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
@@ -101,32 +100,25 @@ int run_bench(const BenchArguments& arguments, const Console& console) {
   if (!arguments.ideas.empty()) throw UsageError("--idea belongs to --parts");
   const Peers& peers = arguments.peers;
   const std::vector<Plan> plans = plans_of(arguments);
-  std::optional<OutputFile> json;
-  if (!arguments.json.empty() && arguments.json != "-") json.emplace(arguments.json);
+  JsonReport json(arguments.json);
   if (peers.by_default && !bench::peers_are_built()) {
     console.warn(
         "VTK and Embree are not built in: 'scripts/fathom bench' installs them and builds "
         "with them");
   }
 
-  const bool shows_table = arguments.json != "-";
   const bench::Machine machine = bench::this_machine();
-  if (shows_table) print(machine_line(machine));
+  if (json.leaves_tables()) print(machine_line(machine));
   std::vector<Comparison> comparisons;
   for (std::size_t i = 0; i < plans.size(); ++i) {
     {
       Progress progress(console, plans[i].scene);
       comparisons.push_back(compare(plans[i], peers, console, progress.reporter(i, plans.size())));
     }
-    if (shows_table) print(bench::table(comparisons.back()));
+    if (json.leaves_tables()) print(bench::table(comparisons.back()));
   }
-  if (shows_table) print(version_lines(comparisons));
-  const std::string report = bench::to_json(machine, comparisons) + "\n";
-  if (!shows_table) print(report);
-  if (json) {
-    json->write(report);
-    json->commit();
-  }
+  if (json.leaves_tables()) print(version_lines(comparisons));
+  json.write(bench::to_json(machine, comparisons) + "\n");
   return done;
 }
 

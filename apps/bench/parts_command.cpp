@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "apps/bench/json_report.h"
 #include "apps/bench/machine_line.h"
 #include "apps/shell/exit_status.h"
-#include "apps/shell/output_file.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/fast/render_fast.h"
@@ -47,10 +47,10 @@ std::vector<std::string> ideas_to_time(const BenchArguments& arguments) {
 /// Shows what it finds as it goes.
 class PartsRun {
  public:
-  PartsRun(const BenchArguments& arguments, const Console& console)
+  PartsRun(const BenchArguments& arguments, bool shows_tables, const Console& console)
       : a_(arguments),
         console_(console),
-        shows_tables_(arguments.json != "-"),
+        shows_tables_(shows_tables),
         threads_(arguments.threads.empty() ? doubling_threads() : arguments.threads) {}
 
   void run(const std::string& name, const Size& size) {
@@ -106,25 +106,18 @@ class PartsRun {
 }  // namespace
 
 int run_parts(const BenchArguments& arguments, const Console& console) {
-  std::optional<OutputFile> json;
-  if (!arguments.json.empty() && arguments.json != "-") json.emplace(arguments.json);
-  const bool shows_tables = arguments.json != "-";
+  JsonReport json(arguments.json);
   const bench::Machine machine = bench::this_machine();
-  if (shows_tables) {
+  if (json.leaves_tables()) {
     print(machine_line(machine));
     print(fmt::format("Vector instructions: {}\n\n", vector_instructions()));
   }
-  PartsRun run(arguments, console);
+  PartsRun run(arguments, json.leaves_tables(), console);
   const auto& scenes = arguments.scenes.empty() ? default_scenes : arguments.scenes;
   const auto sizes = arguments.sizes.empty() ? std::vector<Size>{default_size} : arguments.sizes;
   for (const Size& size : sizes)
     for (const std::string& scene : scenes) run.run(scene, size);
-  const std::string report = run.finish(machine);
-  if (!shows_tables) print(report);
-  if (json) {
-    json->write(report);
-    json->commit();
-  }
+  json.write(run.finish(machine));
   return done;
 }
 

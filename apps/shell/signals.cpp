@@ -23,7 +23,11 @@ constexpr std::array crashes{SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS, SIGSYS, S
 /// What a crash did before: what dies of a sanitizer's check is reported by that.
 std::array<struct sigaction, NSIG> action_before{};
 
-extern "C" void remove_and_exit(int) {
+/// Of handlers that do not return. Before such a call the address sanitizer asks for the bounds of the
+/// stack, which takes a lock: a signal within that very question would wait for ever.
+#define FATHOM_NOT_ADDRESS_SANITIZED __attribute__((no_sanitize("address")))
+
+extern "C" FATHOM_NOT_ADDRESS_SANITIZED void remove_and_exit(int) {
   remove_all_pending();
   ::_exit(interrupted);
 }
@@ -39,7 +43,7 @@ void say_at_once(const char* text) {
   if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
 }
 
-extern "C" void report_or_end(int signal, siginfo_t* info, void*) {
+extern "C" FATHOM_NOT_ADDRESS_SANITIZED void report_or_end(int signal, siginfo_t* info, void*) {
   const char* const file = info->si_code > 0 ? text::mapped_file_at(info->si_addr) : nullptr;
   if (file == nullptr) return remove_and_end(signal);
   remove_all_pending();

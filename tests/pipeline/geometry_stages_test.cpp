@@ -289,14 +289,14 @@ TEST(PrimitiveAssembly, NormalsAreSumsOfAreasAndColoursTheVertexs) {
             (Vector{1, 1, 1}));
   // Slanted in all directions.
   const Scene slanted = testing::scene_of({{1, 2, 3}, {2, 5, 5}, {4, 3, 9}}, {{0, 1, 2}});
-  const Vector& n =
+  const Vector n =
       assemble_triangles(slanted, 0, 0, FrontFace::counter_clockwise)[0].corners[2].normal;
   const double length = std::sqrt(16 * 16 + 8 * 8);  // (1, 3, 2) × (3, 1, 6) = (16, 0, −8)
   EXPECT_DOUBLE_EQ(n[0], 16 / length);
   EXPECT_EQ(n[1], 0);
   EXPECT_DOUBLE_EQ(n[2], -8 / length);
   const Scene other = testing::scene_of({{1, 2, 3}, {2, 2, 3.5}, {4, 3, 4}}, {{0, 1, 2}});
-  const Vector& o =
+  const Vector o =
       assemble_triangles(other, 0, 0, FrontFace::counter_clockwise)[0].corners[0].normal;
   // (1, 0, ½) × (3, 1, 1) = (−½, ½, 1)
   EXPECT_DOUBLE_EQ(o[0], -0.5 / std::sqrt(1.5));

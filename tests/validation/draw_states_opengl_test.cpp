@@ -9,6 +9,7 @@
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/gl_functions.h"
 #include "validation/opengl/read_back.h"
+#include "validation/opengl/shader_program.h"
 
 /// The draw states of the pipeline held to OpenGL: the driver draws the same layers with the same
 /// depth and stencil tests, masks, offsets and opacities, and has the same codes, stencil values
@@ -72,16 +73,7 @@ class DrawStates : public testing::Test {
     gl.GenVertexArrays(1, &array);
     gl.BindVertexArray(array);
     gl.Viewport(0, 0, width, height);
-    program = gl.CreateProgram();
-    for (const auto& [kind, text] :
-         {std::pair{GL_VERTEX_SHADER, whole_window}, std::pair{GL_FRAGMENT_SHADER, one_colour}}) {
-      const GLuint shader = gl.CreateShader(static_cast<GLenum>(kind));
-      gl.ShaderSource(shader, 1, &text, nullptr);
-      gl.CompileShader(shader);
-      gl.AttachShader(program, shader);
-    }
-    gl.LinkProgram(program);
-    gl.UseProgram(program);
+    program = use_new_program(gl, whole_window, one_colour);
   }
 
   void attach(GLenum format, GLenum place) const {

@@ -8,6 +8,7 @@
 #include "fathom/attribution/model/written_depth.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/gl_functions.h"
+#include "validation/opengl/shader_program.h"
 
 /// The driver's log2, on which the model of logarithmic depths relies: all 2²³ numbers of some
 /// binades, held against the bound that the shading language gives ([GLSL46] 4.7.1).
@@ -50,16 +51,7 @@ class ShaderLog2 : public testing::TestWithParam<int> {
 
   /// log2 of m·2^exponent for all m from 1 to 2.
   std::vector<float> drawn(int exponent) {
-    const GLuint program = gl.CreateProgram();
-    for (const auto& [kind, text] :
-         {std::pair{GL_VERTEX_SHADER, corners}, std::pair{GL_FRAGMENT_SHADER, logarithms}}) {
-      const GLuint shader = gl.CreateShader(static_cast<GLenum>(kind));
-      gl.ShaderSource(shader, 1, &text, nullptr);
-      gl.CompileShader(shader);
-      gl.AttachShader(program, shader);
-    }
-    gl.LinkProgram(program);
-    gl.UseProgram(program);
+    const GLuint program = use_new_program(gl, corners, logarithms);
     const auto set = reinterpret_cast<PFNGLUNIFORM1IPROC>(eglGetProcAddress("glUniform1i"));
     set(gl.GetUniformLocation(program, "exponent"), exponent);
     const auto draw = reinterpret_cast<PFNGLDRAWARRAYSEXTPROC>(eglGetProcAddress("glDrawArrays"));

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fathom/image/depth_map.h"
-#include "fathom/numeric/errors.h"
+#include "validation/opengl/shader_program.h"
 
 namespace fathom::validation {
 namespace {
@@ -20,25 +20,6 @@ constexpr const char* fragment_shader = R"(#version 330
 layout(location = 0) out uint triangle;
 void main() { triangle = uint(gl_PrimitiveID); }
 )";
-
-void use_program(const GlFunctions& gl, const std::array<float, 16>& clip_from_held) {
-  const GLuint program = gl.CreateProgram();
-  const auto add = [&](GLenum kind, const char* text) {
-    const GLuint shader = gl.CreateShader(kind);
-    gl.ShaderSource(shader, 1, &text, nullptr);
-    gl.CompileShader(shader);
-    gl.AttachShader(program, shader);
-  };
-  add(GL_VERTEX_SHADER, vertex_shader);
-  add(GL_FRAGMENT_SHADER, fragment_shader);
-  gl.LinkProgram(program);
-  GLint linked = 0;
-  gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
-  if (linked == 0) throw InputError("OpenGL: the driver does not take the shaders");
-  gl.UseProgram(program);
-  gl.UniformMatrix4fv(gl.GetUniformLocation(program, "clip_from_held"), 1, GL_TRUE,
-                      clip_from_held.data());
-}
 
 /// Positions and corners of the triangles, as what the next draw takes.
 void hand_over(const GlFunctions& gl, const WorldMesh& mesh, const RasterModel& model) {
@@ -69,7 +50,9 @@ void hand_over(const GlFunctions& gl, const WorldMesh& mesh, const RasterModel& 
 
 DrawnMesh::DrawnMesh(const GlFunctions& gl, const WorldMesh& mesh, const RasterModel& model)
     : gl_(gl), index_count_(static_cast<GLsizei>(3 * mesh.triangles.size())) {
-  use_program(gl, *model.matrix);
+  const GLuint program = use_new_program(gl, vertex_shader, fragment_shader);
+  gl.UniformMatrix4fv(gl.GetUniformLocation(program, "clip_from_held"), 1, GL_TRUE,
+                      model.matrix->data());
   hand_over(gl, mesh, model);
 }
 

@@ -121,7 +121,7 @@ std::optional<Json> region_difference(const Json& first, const Json& second, con
   const Rings<Rational> a = rings_of(first), b = rings_of(second);
   const auto region = clipping::first_difference(a, b);
   if (!region) {
-    if (const auto border = border_difference(a, b, names)) return border;
+    if (auto border = border_difference(a, b, names)) return border;
     return polygon_difference(first, second, names);
   }
   Json piece = Json::array({cases::to_json(region->piece.outline, exact)});
@@ -139,12 +139,12 @@ std::optional<std::string> first_place(const Json& a, const Json& b, const std::
   if (a == b) return std::nullopt;
   if (a.is_array() && b.is_array() && a.size() == b.size()) {
     for (std::size_t i = 0; i < a.size(); ++i)
-      if (const auto place = first_place(a[i], b[i], at + "/" + std::to_string(i))) return place;
+      if (auto place = first_place(a[i], b[i], at + "/" + std::to_string(i))) return place;
   }
   if (a.is_object() && b.is_object()) {
     for (const auto& [key, value] : a.items())
       if (b.contains(key)) {
-        if (const auto place = first_place(value, b[key], at + "/" + key)) return place;
+        if (auto place = first_place(value, b[key], at + "/" + key)) return place;
       }
   }
   return at;

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <variant>
 
 #include "apps/render/depth_format_json.h"
 #include "apps/render/render_outputs.h"
@@ -52,17 +54,29 @@ void add_depth_buffer(PipelineRendering& rendering) {
   }
 }
 
+/// What is drawn: the scene at one time, or while the shutter is open.
+using Drawn = std::variant<Scene, MovingScene>;
+
+Drawn drawn_from(Scene scene, const PipelinePlan& plan, const RenderArguments& arguments) {
+  if (plan.shutter) return arguments.motion.moving(std::move(scene));
+  return arguments.motion.placed(std::move(scene));
+}
+
+PipelineRendering rendering_of(Drawn& drawn, const Camera& camera, const PipelinePlan& plan) {
+  if (auto* moving = std::get_if<MovingScene>(&drawn)) {
+    return fathom::render_by_pipeline(*moving, camera, plan.stages, *plan.shutter, plan.channels,
+                                      plan.with_picture);
+  }
+  return fathom::render_by_pipeline(std::get<Scene>(drawn), camera, plan.stages, plan.channels,
+                                    plan.with_picture);
+}
+
 int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const Console& console) {
   if (plan.stages.texture != "checker") note_input(plan.stages.texture);
   Scene scene = arguments.scene.read(
       console, {.hash = true, .attributes = plan.with_picture, .primitives = true});
   const std::vector<Camera> cameras = arguments.camera.get(scene);
-  std::optional<MovingScene> moving;
-  if (plan.shutter) {
-    moving = arguments.motion.moving(std::move(scene));
-  } else {
-    scene = arguments.motion.placed(std::move(scene));
-  }
+  Drawn drawn = drawn_from(std::move(scene), plan, arguments);
   const double time = plan.shutter ? plan.shutter->close : arguments.motion.time_or_start();
   RenderOutputs outputs(arguments, cameras.size());
   if (pipeline::is_stretched(cameras[0], plan.stages)) {
@@ -77,11 +91,7 @@ int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const 
   std::vector<Camera> used;
   const Progress progress(console, "rendering");
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    PipelineRendering rendering =
-        moving ? fathom::render_by_pipeline(*moving, cameras[i], plan.stages, *plan.shutter,
-                                            plan.channels, plan.with_picture)
-               : fathom::render_by_pipeline(scene, cameras[i], plan.stages, plan.channels,
-                                            plan.with_picture);
+    PipelineRendering rendering = rendering_of(drawn, cameras[i], plan);
     arguments.motion.describe(rendering.map, time);
     if (plan.with_depth_buffer) add_depth_buffer(rendering);
     used.push_back(rendering.camera);

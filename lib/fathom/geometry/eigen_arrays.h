@@ -4,6 +4,9 @@
 #include <array>
 #include <cstddef>
 
+#include "fathom/geometry/frames.h"
+#include "fathom/numeric/rounding.h"
+
 /// Arrays, which public types are made of, as Eigen's vectors and matrices. Only for .cpp files and
 /// headers that are not installed, of targets that link fathom_linear_algebra: users have
 /// eigen_conversions.h.
@@ -41,6 +44,17 @@ Eigen::Map<RowMatrix<Real, rows, columns>> as_matrix(
     std::array<std::array<Real, columns>, rows>& a) {
   static_assert(sizeof(a) == sizeof(Real) * rows * columns);
   return Eigen::Map<RowMatrix<Real, rows, columns>>(a.front().data());
+}
+
+/// An exact map, each entry rounded once.
+template <class Target, class Source>
+RowMatrix<double, 3, 4> rounded(const ExactAffine<Target, Source>& map) {
+  RowMatrix<double, 3, 4> m;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 4; ++k)
+      m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          round_to_binary64(map.rows[i][k]);
+  return m;
 }
 
 }  // namespace fathom::geometry

@@ -38,6 +38,10 @@ void require_count(const Antialias& antialias) {
       throw UsageError(setting, "fxaa:THRESHOLD,LEAST,SUBPIXEL takes numbers from 0 to 1");
 }
 
+bool offsets_depths(const DepthBias& bias) {
+  return bias.slope_factor != 0 || bias.constant_factor != 0;
+}
+
 /// Polygon offset and depth range change what the projection and the viewport make of a depth;
 /// depths that fragments compute do not pass through them.
 void require_projected_depths(const PipelineOptions& o) {
@@ -46,8 +50,7 @@ void require_projected_depths(const PipelineOptions& o) {
       "does not reach the depths of mapping " + std::string(name_of(o.depth_format.mapping)) +
       ", which fragments compute; there are standard, reversed, infinite, reversed-infinite and "
       "opengl";
-  if (o.polygon_offset.slope_factor != 0 || o.polygon_offset.constant_factor != 0)
-    throw UsageError(Setting{"polygon_offset"}, reason);
+  if (offsets_depths(o.polygon_offset)) throw UsageError(Setting{"polygon_offset"}, reason);
   if (o.depth_range != std::array<double, 2>{0, 1})
     throw UsageError(Setting{"depth_range"}, reason);
 }
@@ -84,8 +87,7 @@ void require_meaningful(const PipelineOptions& o) {
   if (o.hidden_surface == HiddenSurface::painter && !has_areas)
     throw UsageError(Setting{"hidden_surface"},
                      "painter draws areas; points and wireframe have none");
-  if (o.hidden_surface == HiddenSurface::painter &&
-      (o.polygon_offset.slope_factor != 0 || o.polygon_offset.constant_factor != 0))
+  if (o.hidden_surface == HiddenSurface::painter && offsets_depths(o.polygon_offset))
     throw UsageError(Setting{"polygon_offset"}, "the painter compares no depths to be offset");
   if (o.hidden_surface == HiddenSurface::painter && o.blend_depth != BlendDepth::off)
     throw UsageError(Setting{"blend_depth"}, "the painter has no depth test");

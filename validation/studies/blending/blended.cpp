@@ -9,7 +9,6 @@
 namespace fathom::studies {
 namespace {
 
-using pipeline::BlendDepth;
 using pipeline::Colour;
 using pipeline::ColourImage;
 using pipeline::DrawOrder;

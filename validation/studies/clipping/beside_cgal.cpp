@@ -72,7 +72,8 @@ std::vector<Pair> squares(std::size_t corners) {
   const auto a_side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(corners) / 8)));
   Pair pair;
   for (int i = 0; i < a_side * a_side; ++i) {
-    const double x = 3 * (i % a_side), y = 3 * (i / a_side);
+    const int column = i % a_side, row = i / a_side;
+    const double x = 3 * column, y = 3 * row;
     pair.subject.push_back(square(x, y, 2));
     pair.clip.push_back(square(x + 1, y + 1, 2));
   }

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "fathom/geometry/eigen_arrays.h"
-#include "fathom/numeric/rounding.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -40,15 +39,6 @@ Map34 composed(const Map34& a, const Map34& b) {
   return c;
 }
 
-Map34 world_from_mesh(const Object& object) {
-  Map34 m;
-  for (Eigen::Index i = 0; i < 3; ++i)
-    for (Eigen::Index k = 0; k < 4; ++k)
-      m(i, k) = round_to_binary64(
-          object.world_from_mesh.rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]);
-  return m;
-}
-
 }  // namespace
 
 ImageTriangles::ImageTriangles(const Scene& scene, const Camera& camera)
@@ -57,7 +47,7 @@ ImageTriangles::ImageTriangles(const Scene& scene, const Camera& camera)
   const Map34 image_from_world = composed(image_from_camera(camera), camera_from_world);
   for (const Object& object : scene.objects) {
     as_matrix(image_from_mesh_.emplace_back()) =
-        composed(image_from_world, world_from_mesh(object));
+        composed(image_from_world, geometry::rounded(object.world_from_mesh));
     first_.push_back(first_.back() +
                      static_cast<std::uint32_t>(scene.meshes[object.mesh].triangles.size()));
   }

@@ -8,7 +8,6 @@
 
 #include "fathom/geometry/eigen_arrays.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/numeric/rounding.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -28,10 +27,7 @@ Matrix<Real> rounded(const Matrix4<double>& m) {
 
 Matrix4<double> model_matrix(const Object& object) {
   Matrix4<double> m = Matrix4<double>::Identity();
-  for (Eigen::Index i = 0; i < 3; ++i)
-    for (Eigen::Index j = 0; j < 4; ++j)
-      m(i, j) = round_to_binary64(
-          object.world_from_mesh.rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
+  m.topRows<3>() = geometry::rounded(object.world_from_mesh);
   return m;
 }
 
