@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "fathom/fast/counting_lanes-inl.h"
 #include "fathom/fast/setup-inl.h"
 #include "fathom/fast/tile.h"
 #include "fathom/scene/element_checks.h"
@@ -77,7 +78,7 @@ HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles
 HWY_INLINE void append(const Sorted& s, std::uint32_t first_number, BoxBatch& out) {
   const D d;
   const DU du;
-  const auto number = hn::Add(hn::Iota(du, 0), hn::Set(du, first_number));
+  const auto number = counting_lanes(du, std::uint64_t{first_number});
   const auto tile = hn::BitCast(du, hn::ConvertTo(DI(), s.tile));
   const auto entry = hn::Or(hn::ShiftLeft<32>(tile), number);
   out.in_one_tile += hn::CompressStore(entry, hn::RebindMask(du, s.one_tile), du,

@@ -7,6 +7,7 @@
 
 #include <limits>
 
+#include "fathom/fast/counting_lanes-inl.h"
 #include "fathom/fast/setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,7 +23,7 @@ struct CertifiedLanes {
 };
 
 HWY_INLINE V load_u(const SurfaceRow& row, std::size_t first) {
-  return hn::Add(hn::Iota(D(), static_cast<double>(first)), constant(row.first_u));
+  return hn::Add(counting_lanes(D(), static_cast<double>(first)), constant(row.first_u));
 }
 
 /// D from q. Perspective: 1/q, where |1/q̂ − 1/q| = |q − q̂|/(q·q̂) and q ≥ q̂·(1 − 2⁻²⁰), and the

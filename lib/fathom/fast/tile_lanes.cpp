@@ -9,6 +9,7 @@
 #include <bit>
 #include <limits>
 
+#include "fathom/fast/counting_lanes-inl.h"
 #include "fathom/fast/setup-inl.h"
 #include "fathom/fast/tile.h"
 
@@ -111,7 +112,7 @@ HWY_INLINE bool draw_strip(Tile& tile, const Drawn& t, const Strip& strip,
   const V minus_error = hn::Neg(f.error);
   std::size_t wins_in_all = 0;
   for (int part = 0; part < block; part += lanes) {
-    const V lane = hn::Iota(d, static_cast<double>(part));
+    const V lane = counting_lanes(d, static_cast<double>(part));
     const M counts =
         hn::And(hn::Ge(lane, constant(strip.first_lane)), hn::Le(lane, constant(strip.last_lane)));
     if (lanes < block && hn::AllFalse(d, counts)) continue;
@@ -194,7 +195,7 @@ HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, int block_row, bo
   const V top = constant(t.y + block_row * block);
   BlockRow row{0, 0};
   for (int part = 0; part < static_cast<int>(Tile::size) / block; part += lanes) {
-    const V number = hn::Iota(d, static_cast<double>(part));
+    const V number = counting_lanes(d, static_cast<double>(part));
     const V left = hn::MulAdd(number, constant(block), constant(t.x));
     M missed = hn::Lt(constant(1), constant(0)), inside = hn::Not(missed);
     for (int i = 0; i < 3; ++i) {

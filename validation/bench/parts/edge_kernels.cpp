@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "fathom/fast/counting_lanes-inl.h"
+
 // Products and sums are written apart: a fused one would round binary32 elsewhere on processors that
 // have it, and would gain nothing where there is nothing to round.
 HWY_BEFORE_NAMESPACE();
@@ -66,7 +68,7 @@ void add_boxes_by(std::span<const EdgeSetup> setups, PaddedImage<Number>& layers
       Number* const row = layers.row(s.image_row(y)) + s.first_column;
       for (std::int32_t begin = 0; begin < s.columns; begin += group) {
         for (std::int32_t i = begin; i < begin + group; i += vector) {
-          const auto x = hn::Iota(d, static_cast<Number>(i));
+          const auto x = fast::HWY_NAMESPACE::counting_lanes(d, static_cast<Number>(i));
           const auto covered = hn::And(edges.cover(row0, row1, row2, x), hn::Lt(x, columns));
           add_where(d, covered, weight, row + i);
         }
@@ -113,7 +115,7 @@ BlockCounts add_blocks_by_8(std::span<const EdgeSetup> setups, PaddedImage<doubl
         const auto row0 = Edges<D>::at_row(s, 0, y), row1 = Edges<D>::at_row(s, 1, y),
                    row2 = Edges<D>::at_row(s, 2, y);
         for (std::int32_t i = b.left; i <= b.right; i += vector) {
-          const auto x = hn::Iota(d, static_cast<double>(i));
+          const auto x = fast::HWY_NAMESPACE::counting_lanes(d, static_cast<double>(i));
           auto covered = hn::Lt(x, end);
           if (!b.is_inside) covered = hn::And(covered, edges.cover(row0, row1, row2, x));
           add_where(d, covered, weight, row + i);
@@ -144,7 +146,7 @@ void draw_one(const EdgeSetup& s, DepthImage& image) {
     double* const depths = image.depths.row(static_cast<std::size_t>(y - to_row));
     double* const numbers = image.numbers.row(static_cast<std::size_t>(y - to_row));
     for (std::int32_t i = left; i < right; i += vector) {
-      const auto x = hn::Iota(d, static_cast<double>(i));
+      const auto x = fast::HWY_NAMESPACE::counting_lanes(d, static_cast<double>(i));
       auto wins = hn::And(edges.cover(row0, row1, row2, x), hn::Lt(x, end));
       if (hn::AllFalse(d, wins)) continue;
       const auto depth = hn::Add(depth_of_row, hn::Mul(depth_right, x));
