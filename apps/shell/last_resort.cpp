@@ -18,6 +18,7 @@ namespace fathom::app {
 namespace {
 
 std::atomic<pid_t> speaker{0};
+std::atomic<int> outcome{-1};  ///< the exit status, once it is known
 
 /// A line on standard error, without stdio, which might need memory or hold a lock.
 void say(const char* text) noexcept {
@@ -39,6 +40,7 @@ ExitStatus report_unexpected(const char* what) noexcept {
 
 template <class Report>
 [[noreturn]] void end(const Report& report) noexcept {
+  if (const int known = outcome; known >= 0) ::_exit(known);
   have_the_last_word();
   remove_all_pending();
   ::_exit(report());
@@ -95,6 +97,11 @@ ExitStatus report_out_of_memory() noexcept {
 
 void name_memory_limit(const char* text) noexcept {
   std::snprintf(memory_limit.data(), memory_limit.size(), "; %s", text);
+}
+
+int outcome_is(int status) noexcept {
+  outcome = status;
+  return status;
 }
 
 ExitStatus report_lack_of_threads() noexcept {

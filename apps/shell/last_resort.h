@@ -15,6 +15,10 @@ void name_memory_limit(const char* text) noexcept;
 /// Says that the system starts no more threads.
 ExitStatus report_lack_of_threads() noexcept;
 
+/// The program has done what it does, and only leaves: a failure in a destructor of some library's
+/// (VTK 9.1 allocates in its own) is none of the command's any more. Returns the status.
+int outcome_is(int status) noexcept;
+
 /// What becomes of a failure that no `catch` can get hold of, or should: from now on it ends the
 /// program as any other failure does, with one line, no temporary file left, and its exit status.
 ///

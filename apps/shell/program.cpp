@@ -83,7 +83,7 @@ int run_reporting(const std::function<int()>& run) {
 /// Also a message takes memory: where there is none left for it, that is the message.
 int run_to_the_end(const std::function<int()>& run) {
   try {
-    return run_reporting(run);
+    return outcome_is(run_reporting(run));
   } catch (const std::bad_alloc&) {
     return report_out_of_memory();
   } catch (const std::length_error&) {
