@@ -122,7 +122,7 @@ TEST(Clip, MessagesAboutKeysNameTheAlgorithm) {
     EXPECT_EQ(clipped.outcome.err, "fathom: error: standard input: line 1: " + error + "\n");
     EXPECT_EQ(clipped.answers.at(0), Json({{"error", error}}));
   };
-  const std::string no_decompose = "\"decompose\" is no key of ";
+  const std::string no_decompose = "\"decompose\" is not a key of ";
   for (const std::string name : {"weiler-atherton", "cgal"})
     expect_error(name, decomposed_case, no_decompose + name + "; it takes subject, clip, op");
   // Neither of the two takes it.
@@ -130,19 +130,19 @@ TEST(Clip, MessagesAboutKeysNameTheAlgorithm) {
                {"--against", "weiler-atherton"});
   for (const std::string name : {"cohen-sutherland", "liang-barsky"})
     expect_error(name, R"({"line": []})",
-                 "\"line\" is no key of " + name + "; it takes segment, window");
+                 "\"line\" is not a key of " + name + "; it takes segment, window");
   expect_error(
       "sutherland-hodgman", R"({"polygon": []})",
-      "\"polygon\" is no key of sutherland-hodgman; it takes subject, clip, op, decompose");
+      "\"polygon\" is not a key of sutherland-hodgman; it takes subject, clip, op, decompose");
   const std::string in_space = R"({"polygon3": [[0,0,0],[2,0,0],[0,2,0]], "planes": [[1,0,0,-1]])";
   for (const std::string name : {"sutherland-hodgman", "plane"})
-    expect_error(
-        name, in_space + R"(, "clip": []})",
-        "\"clip\" is no key of " + name + " with polygon3; it takes polygon3, planes, attributes");
+    expect_error(name, in_space + R"(, "clip": []})",
+                 "\"clip\" is not a key of " + name +
+                     " with polygon3; it takes polygon3, planes, attributes");
   expect_error("plane", R"({"planes": []})",
-               "\"planes\" is no key of plane; it takes plane, triangle, eye, points, line");
+               "\"planes\" is not a key of plane; it takes plane, triangle, eye, points, line");
   expect_error("sutherland-hodgman", in_space + "}",
-               "--against cgal: \"polygon3\" is no key of cgal; it takes subject, clip, op",
+               "--against cgal: \"polygon3\" is not a key of cgal; it takes subject, clip, op",
                {"--against", "cgal"});
   expect_error("sutherland-hodgman", R"({"polygon3": []})", "\"planes\" is missing",
                {"--against", "plane"});
@@ -152,10 +152,10 @@ TEST(Clip, MessagesAboutKeysNameTheAlgorithm) {
                "weiler-atherton does both",
                {"--against", "sutherland-hodgman"});
   expect_error("homogeneous", R"({"segment": [[0,0,0,1],[1,1,1,1]], "attributes": [[0],[1]]})",
-               "\"attributes\" is no key of homogeneous with segment; it takes segment, volume, "
+               "\"attributes\" is not a key of homogeneous with segment; it takes segment, volume, "
                "hourglass, after_division");
   expect_error("homogeneous", R"({"polygon": [], "planes": []})",
-               "\"planes\" is no key of homogeneous with polygon; it takes polygon, volume, "
+               "\"planes\" is not a key of homogeneous with polygon; it takes polygon, volume, "
                "hourglass, after_division, attributes");
   // Keys that do not go together.
   expect_error("homogeneous", R"({"segment": [[0,0,0,1],[1,1,1,1]], "polygon": [[0,0,0,1]]})",
@@ -238,6 +238,26 @@ TEST(Clip, AgainstGoesOnAfterBadCases) {
   EXPECT_EQ(clipped.answers[2]["against"]["difference"]["kind"], "border");
 }
 
+// Two corners are a list of two also where they are text, which JSON could take for a key.
+TEST(Clip, StepsOfSutherlandHodgmanShowBothEndsOfTheirEdge) {
+  const std::string object =
+      R"({"subject": [[[0,0],[4,0],[4,4],[0,4]]], "clip": [[[1,1],[5,1],[5,3]]]})";
+  for (const bool exact : {false, true}) {
+    const Json trace = answer("sutherland-hodgman", object,
+                              exact ? std::vector<std::string>{"--trace", "--exact"}
+                                    : std::vector<std::string>{"--trace"})["trace"];
+    const char* edges[] = {"[[1,1],[5,1]]", "[[5,1],[5,3]]", "[[5,3],[1,1]]"};
+    ASSERT_EQ(trace.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      Json edge = trace[i]["edge"];
+      if (exact)
+        for (Json& corner : edge)
+          for (Json& c : corner) c = std::stod(c.get<std::string>());
+      EXPECT_EQ(edge, Json::parse(edges[i]));
+    }
+  }
+}
+
 TEST(Clip, TheTraceShowsListsAndWalks) {
   const Json trace =
       answer("weiler-atherton",
@@ -314,7 +334,7 @@ TEST(Clip, CasesThatCannotBeDoneDoNotStopTheOthers) {
       "clip ring 1 has a coordinate that is not finite, at corner 1",
       "subject ring 0 has 2 distinct corners; expected at least 3",
       "subject ring 0 has no area: its corners lie on one line",
-      "\"operation\" is no key of weiler-atherton; it takes subject, clip, op",
+      "\"operation\" is not a key of weiler-atherton; it takes subject, clip, op",
       "subject ring 0, corner 0[0]: expected finite numbers, found string",
       "not JSON at character 30",
       ""};

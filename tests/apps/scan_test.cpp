@@ -244,18 +244,26 @@ TEST(Scan, TwoStepInterpolationOfQuadrilateralsDependsOnRotation) {
   EXPECT_EQ(at_3_3("[3.5,0],[7,3.5],[3.5,7],[0,3.5]"), "1/2");
 }
 
+// To a reader of JSON it is the end of the text.
+TEST(Scan, WhatComesAfterANulIsRefused) {
+  using namespace std::string_literals;
+  const Scanned scanned = scan("dda", "{\"line\": [0,0,1,1]}\0 {\"line\": [5,5,6,6]}\n"s);
+  EXPECT_EQ(scanned.outcome.status, 3);
+  EXPECT_EQ(scanned.answers.at(0), Json({{"error", "not JSON at character 20"}}));
+}
+
 TEST(Scan, CasesThatCannotBeDoneDoNotStopTheOthers) {
   const struct {
     const char *algorithm, *object, *said;
   } cases[] = {
-      {"bresenham", R"({"line": [0,0,1.5,3]})", "1.5 is no whole number"},
+      {"bresenham", R"({"line": [0,0,1.5,3]})", "1.5 is not a whole number"},
       {"bresenham", R"({"line": [0,0,1]})", "3 numbers where 4 are expected"},
       {"dda", R"({"line": [0,0,4294967296,3]})", "beyond 2^31"},
       {"dda", R"({"line": [0,NaN,1,3]})", "not finite"},
       {"dda", R"({"line": [0,0,2147483648,3]})", "2147483649 steps of the line, more than 4194304"},
       {"midpoint", R"({"line": [0,0,1,1], "width": 0, "height": 5})", "expected a whole number"},
       {"midpoint", R"({"line": [0,0,1,1], "width": 5})", "\"height\" is missing"},
-      {"midpoint", R"({"lime": [0,0,1,1]})", "is no key"},
+      {"midpoint", R"({"lime": [0,0,1,1]})", "is not a key"},
       {"edge-function", R"({"triangle": [[0,0],[1,1]]})", "2 corners; expected 3"},
       {"edge-function", R"({"triangle": [[0,0],[1e9,1],[0,1e9]]})", "limit it"},
       {"edge-function",
@@ -263,8 +271,17 @@ TEST(Scan, CasesThatCannotBeDoneDoNotStopTheOthers) {
        "w[1] is 0"},
       {"even-odd", R"({"polygon": [[[0,0],[1,1]]]})", "expected at least 3"},
       {"even-odd", R"({"polygon": []})", "expected at least one ring"},
+      {"inside", R"({"polygon": [[[0,0],[4,0],[0,4],[0,0]]], "points": []})",
+       "ring 0 ends with its first corner"},
+      {"inside", R"({"polygon": [[[0,0],[4,0],[0,4]]], "points": [], "width": -5, "height": 3})",
+       "\"width\" is -5; expected a whole number"},
+      {"convexity", R"({"polygon": [[[0,0],[4,0],[0,4]]], "width": 3})", "\"height\" is missing"},
+      {"tessellate", R"({"polygon": [[[0,0],[4,0],[0,4]]], "height": 3})", "\"width\" is missing"},
+      {"convex-hull", R"({"points": [[0,0]], "width": "abc", "height": 3})", "expected a number"},
+      {"line-forms", R"({"line": [0,0,1e308,1e308], "points": [[1e308,-1e308]]})",
+       "a result is too large; exact arithmetic with --exact writes any number"},
       {"flood", R"({"grid": ["ab","c"], "seed": [0,0]})", "has 1 characters"},
-      {"flood", R"({"grid": ["ab"], "seed": [2,0]})", "no pixel of the grid"},
+      {"flood", R"({"grid": ["ab"], "seed": [2,0]})", "not a pixel of the grid"},
       {"flood", R"({"grid": ["ab"], "seed": [0,0], "connectivity": 6})", "expected 4 or 8"},
       {"convex-hull", R"({"points": []})", "expected at least one"},
       {"convex-hull", R"({"points": [[0,0],[1,1]], "weights": [1]})", "1 numbers where 2 are"},

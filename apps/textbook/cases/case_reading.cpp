@@ -54,6 +54,9 @@ Json parse_case(std::string_view line, Json& name) {
   };
   try {
     text::parse_json(line, value);
+    // The parser takes it for the end.
+    if (const std::size_t nul = line.find('\0'); nul != std::string_view::npos)
+      throw InputError(fmt::format("not JSON at character {}", nul + 1));
     if (!value.is_object()) throw InputError("expected a JSON object");
     take_name();
     return value;
@@ -71,7 +74,7 @@ void expect_only(const Json& object, std::initializer_list<std::string_view> kno
                  std::string_view taker) {
   for (const auto& [key, value] : object.items())
     if (key != "name" && std::find(known.begin(), known.end(), key) == known.end())
-      throw InputError(fmt::format("{} is no key of {}; it takes {}", Json(key).dump(), taker,
+      throw InputError(fmt::format("{} is not a key of {}; it takes {}", Json(key).dump(), taker,
                                    fmt::join(known, ", ")));
 }
 

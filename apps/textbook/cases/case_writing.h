@@ -21,7 +21,7 @@ struct Form {
 
 inline Json to_json(double x, Form form) {
   if (!std::isfinite(x))
-    throw InputError("a result is beyond binary64; --kernel exact --exact writes any number");
+    throw InputError("a result is too large; exact arithmetic with --exact writes any number");
   if (form.exact) return clipping::to_fraction(clipping::Rational(x));
   return x + 0.0;  // no −0
 }

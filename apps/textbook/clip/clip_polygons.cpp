@@ -151,11 +151,11 @@ Json sutherland_hodgman_2(const Json& object, Form form) {
                                                       form.trace ? &stages : nullptr);
     if (!corners.empty()) clipped.push_back(clipping::ring_of(corners));
     for (std::size_t i = 0; i < stages.size(); ++i)
-      trace.push_back({{decompose ? "piece" : "ring", r},
-                       {"edge",
-                        {cases::to_json(clip[0][i], form),
-                         cases::to_json(clip[0][(i + 1) % clip[0].size()], form)}},
-                       {"polygon", cases::to_json(clipping::ring_of(stages[i]), form)}});
+      trace.push_back(
+          {{decompose ? "piece" : "ring", r},
+           {"edge",
+            cases::to_json(Ring<Number>{clip[0][i], clip[0][(i + 1) % clip[0].size()]}, form)},
+           {"polygon", cases::to_json(clipping::ring_of(stages[i]), form)}});
   }
   Json result{{"polygons", Json::array()}};
   if (decompose)

@@ -269,15 +269,19 @@ Json plane(const Json& object, Form form) {
   if (object.contains("eye") && !object.contains("triangle"))
     throw InputError(
         "\"eye\" says on which side of a triangle it is; add \"triangle\" or leave it out");
+  if (!object.contains("plane") && !object.contains("triangle"))
+    throw InputError("\"plane\" or \"triangle\" is missing");
   Json result, values = Json::array();
   const clipping::Plane<Number> H =
       object.contains("triangle")
           ? plane_of_triangle<Number>(object, result, form)
           : plane_of<Number>(numbers(member(object, "plane"), "plane", 4, 4));
   clipping::check_plane(H);
-  const bool asks_nothing = !object.contains("line") && !object.contains("triangle");
-  if (object.contains("points") || asks_nothing) {
-    result["sides"] = result["distances"] = Json::array();
+  if (!object.contains("points") && !object.contains("line") && !object.contains("triangle"))
+    throw InputError("\"points\" or \"line\" is missing");
+  if (object.contains("points")) {
+    result["sides"] = Json::array();
+    result["distances"] = Json::array();
     for (const auto& coordinates : points(object, "points", 3, 4)) {
       const auto P = point4<Number>(coordinates);
       result["sides"].push_back(static_cast<int>(clipping::side_of(H, P)));

@@ -76,10 +76,9 @@ Arithmetic parse_arithmetic(const std::string& text) {
 }
 
 int parse_subpixel_bits(const std::string& text) {
-  const std::uint32_t bits = parse_count(text);
-  if (bits > pipeline::most_subpixel_bits) {
+  const std::int64_t bits = parse_whole(text);
+  if (bits < 0 || bits > pipeline::most_subpixel_bits)
     throw UsageError(fmt::format("{} is not between 0 and 16", bits));
-  }
   return static_cast<int>(bits);
 }
 

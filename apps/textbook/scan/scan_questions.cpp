@@ -113,7 +113,7 @@ Json flood(const Json& object, const Form& form) {
   if (seed[0] != std::floor(seed[0]) || seed[1] != std::floor(seed[1]) || seed[0] < 0 ||
       seed[1] < 0 || seed[1] >= static_cast<double>(grid.size()) ||
       seed[0] >= static_cast<double>(grid[0].size()))
-    throw InputError(fmt::format("seed: [{}, {}] is no pixel of the grid of {} by {}", seed[0],
+    throw InputError(fmt::format("seed: [{}, {}] is not a pixel of the grid of {} by {}", seed[0],
                                  seed[1], grid[0].size(), grid.size()));
   PixelList pixels(form.runs);
   for (const pipeline::Pixel& p : pipeline::flood_fill(
@@ -127,6 +127,7 @@ template <class Number>
 Json inside(const Json& object, const Form& form) {
   cases::expect_only(object, {"polygon", "points", "width", "height"});
   (void)form;
+  (void)window_of(object);
   const clipping::Rings<double> polygon = polygon_of(object);
   const auto points = points_of<Number>(object);
   check_pairs<Number>(points.size() + edges_of(polygon), edges_of(polygon),
@@ -159,11 +160,12 @@ template <class Number>
 Json convexity(const Json& object, const Form& form) {
   cases::expect_only(object, {"polygon", "width", "height"});
   (void)form;
+  (void)window_of(object);
   const clipping::Rings<double> polygon = polygon_of(object);
   check_pairs<Number>(edges_of(polygon), edges_of(polygon), "pairs of corners and edges");
   const pipeline::Rings<Number> rings = over<Number>(polygon);
   if (rings.size() != 1)
-    throw InputError(fmt::format("polygon: {} rings; convexity is asked of one", rings.size()));
+    throw InputError(fmt::format("polygon: {} rings; convexity takes one", rings.size()));
   const pipeline::Convexity c = pipeline::convexity_of(rings[0]);
   Json result{{"convex", c.convex},
               {"corners_on_one_side", c.corners_on_one_side},
@@ -176,6 +178,7 @@ Json convexity(const Json& object, const Form& form) {
 template <class Number>
 Json convex_hull(const Json& object, const Form& form) {
   cases::expect_only(object, {"points", "weights", "width", "height"});
+  (void)window_of(object);
   const auto points = points_of<Number>(object);
   if (points.empty()) throw InputError("points: expected at least one");
   const pipeline::Ring<Number> hull = pipeline::convex_hull(points);
@@ -190,6 +193,7 @@ Json convex_hull(const Json& object, const Form& form) {
 
 Json tessellate(const Json& object, const Form& form) {
   cases::expect_only(object, {"polygon", "width", "height"});
+  (void)window_of(object);
   const clipping::Rings<double> polygon = polygon_of(object);
   const std::size_t edges = edges_of(polygon);
   check_pairs<pipeline::Exact>(2 * edges, edges, "pairs of triangles and edges");

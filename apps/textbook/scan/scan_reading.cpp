@@ -40,6 +40,10 @@ clipping::Rings<double> polygon_of(const Json& object) {
     if (rings[r].size() < 3)
       throw InputError(
           fmt::format("polygon ring {} has {} corners; expected at least 3", r, rings[r].size()));
+    const auto &first = rings[r].front(), &last = rings[r].back();
+    if (first.x == last.x && first.y == last.y)
+      throw InputError(fmt::format(
+          "polygon ring {} ends with its first corner; leave it out, rings are closed", r));
     for (const auto& p : rings[r]) {
       checked_coordinate(p.x, fmt::format("polygon ring {}", r));
       checked_coordinate(p.y, fmt::format("polygon ring {}", r));
