@@ -33,6 +33,8 @@ TEST(BadRings, NotFinite) {
   for (const double bad : {nan, infinity, -infinity})
     EXPECT_EQ(refusal({square, {{0, 0}, {1, 0}, {1, bad}}}, {square}),
               "subject ring 1 has a coordinate that is not finite, at corner 2");
+  EXPECT_EQ(refusal({{{nan, 0}, {1, 0}, {1, 1}}}, {square}),
+            "subject ring 0 has a coordinate that is not finite, at corner 0");
 }
 
 TEST(BadRings, FewerThanThreeDistinctCorners) {

@@ -40,6 +40,7 @@ TEST(Plane, DistanceIsRoundedOnceFromTheSquareRoot) {
   EXPECT_EQ(signed_distance(lecture, Point4<Rational>{2, 3, 4, 1}), 4.618802153517006116);
   EXPECT_EQ(signed_distance(lecture, Point4<Rational>{0, 0, 0, 1}), -0.57735026918962576451);
   // A normal that is no unit vector: (3, 4, 0), 5 long.
+  EXPECT_EQ(signed_distance(lecture, Point4<Rational>{1, 0, 0, 1}), 0);
   EXPECT_EQ(signed_distance(Plane<Rational>{3, 4, 0, -10}, Point4<Rational>{0, 0, 7, 1}), -2);
   EXPECT_EQ(signed_distance(Plane<Rational>{Rational(3e150), Rational(4e150), 0, 0},
                             Point4<Rational>{Rational(1e-150), 0, 0, 1}),
