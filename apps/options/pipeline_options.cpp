@@ -1,6 +1,8 @@
 #include "apps/options/pipeline_options.h"
 
 #include <algorithm>
+#include <initializer_list>
+#include <string_view>
 
 #include "apps/options/pipeline_words.h"
 #include "apps/shell/values.h"
@@ -28,22 +30,29 @@ DepthBias parse_offset(const std::string& text) {
 }  // namespace
 
 void PipelineArguments::add_to(Command& command, const std::string& heading) {
+  add_to_trace(command, heading);
   const std::size_t before = declared_.size();
   add_picture_options(command);
-  add_scan_options(command);
-  add_window_options(command);
   add_merging_options(command);
   for (std::size_t i = before; i < declared_.size(); ++i) declared_[i].below(heading);
 }
 
-void PipelineArguments::add_picture_options(Command& command) {
-  declared_.push_back(command.option("--background", "R,G,B",
-                                     into(stages_.background, parse_colour),
-                                     "R,G,B from 0 to 1 (default 0,0,0)"));
+void PipelineArguments::add_to_trace(Command& command, const std::string& heading) {
+  const std::size_t before = declared_.size();
+  add_triangle_options(command);
+  add_window_options(command);
+  for (std::size_t i = before; i < declared_.size(); ++i) declared_[i].below(heading);
+}
+
+void PipelineArguments::add_triangle_options(Command& command) {
   declared_.push_back(command.option(
       "--shading", "NAME", into(stages_.shading, parse_shading),
       "none, points, wireframe (lines in the vertices' colours, white without), flat "
       "(default), gouraud or phong"));
+  declared_.push_back(command.option(
+      "--normals", "NAME", into(stages_.normals_from, parse_normal_source),
+      "Normals: file (default; where it has none, as vertex), or sums over the triangles at each "
+      "vertex or, so that no seam shows where vertices coincide, at each place"));
   declared_.push_back(command.option(
       "--light", "WHERE", into(stages_.light, parse_light),
       "Where it comes from: X,Y,Z, a direction in the world; headlight, from the camera; or "
@@ -62,29 +71,32 @@ void PipelineArguments::add_picture_options(Command& command) {
   declared_.push_back(command.option("--interpolation", "NAME",
                                      into(stages_.interpolation, parse_interpolation),
                                      "perspective (default) or affine"));
-  declared_.push_back(command.option(
-      "--line", "NAME", into(stages_.wire_line, parse_line),
-      "Of wireframes and of lines in files: explicit, dda, bresenham (default), midpoint or "
-      "diamond-exit"));
-}
-
-void PipelineArguments::add_scan_options(Command& command) {
-  declared_.push_back(command.option("--scan", "NAME", into(stages_.scan, parse_scan),
-                                     "edge-function (default) or scan-line"));
-  declared_.push_back(command.option("--hidden-surface", "NAME",
-                                     into(stages_.hidden_surface, parse_hidden_surface),
-                                     "z-buffer (default) or painter"));
-  declared_.push_back(
-      command.option("--antialias", "NAME", into(stages_.antialias, parse_antialias),
-                     "none (default), ssaa:N (N times N), msaa:N, msaa:rotated-grid, jitter:N, "
-                     "area, fxaa, fxaa:THRESHOLD,LEAST,SUBPIXEL, taa:N, or of a scene that moves "
-                     "temporal:N or temporal-area:N"));
   declared_.push_back(
       command.option("--subpixel-bits", "N", into(stages_.subpixel_bits, parse_bits),
                      "Corners are snapped to 2^N positions a pixel, 0 to 16 (default 8)"));
   declared_.push_back(command.option("--precision", "NAME",
                                      into(stages_.precision, parse_precision),
                                      "binary32 (default) or binary64"));
+}
+
+void PipelineArguments::add_picture_options(Command& command) {
+  declared_.push_back(command.option("--background", "R,G,B",
+                                     into(stages_.background, parse_colour),
+                                     "R,G,B from 0 to 1 (default 0,0,0)"));
+  declared_.push_back(command.option(
+      "--line", "NAME", into(stages_.wire_line, parse_line),
+      "Of wireframes and of lines in files: explicit, dda, bresenham (default), midpoint or "
+      "diamond-exit"));
+  declared_.push_back(command.option("--scan", "NAME", into(stages_.scan, parse_scan),
+                                     "edge-function (default) or scan-line"));
+  declared_.push_back(command.option("--hidden-surface", "NAME",
+                                     into(stages_.hidden_surface, parse_hidden_surface),
+                                     "z-buffer (default) or painter"));
+  declared_.push_back(command.option(
+      "--antialias", "NAME", into(stages_.antialias, parse_antialias),
+      "none (default), ssaa:N (N times N), msaa:N, msaa:rotated-grid, jitter:N, "
+      "area, fxaa, fxaa:THRESHOLD[,LEAST[,SUBPIXEL]], taa:N, or of a scene that moves "
+      "temporal:N or temporal-area:N"));
 }
 
 void PipelineArguments::add_window_options(Command& command) {
@@ -120,7 +132,25 @@ void PipelineArguments::add_merging_options(Command& command) {
                                    "Shade before the depth test; the picture does not change"));
 }
 
+void PipelineArguments::require_effect(pipeline::Shading shading) const {
+  using pipeline::Shading;
+  const bool smooth = shading == Shading::gouraud || shading == Shading::phong;
+  const bool lit = smooth || shading == Shading::flat;
+  const bool has_areas = lit || shading == Shading::none;
+  const auto require = [&](bool has_effect, std::initializer_list<std::string_view> names,
+                           const char* what_for) {
+    for (const Option& option : declared_) {
+      if (!has_effect && option.is_given() && std::ranges::count(names, option.name()) > 0)
+        throw UsageError(option.name() + " is for --shading " + what_for);
+    }
+  };
+  require(smooth, {"--normals"}, "gouraud and phong");
+  require(lit, {"--light", "--material", "--specular-model"}, "flat, gouraud and phong");
+  require(has_areas, {"--texture", "--scan"}, "none, flat, gouraud and phong");
+}
+
 pipeline::PipelineOptions PipelineArguments::options(Cull cull) const {
+  require_effect(stages_.shading);
   pipeline::PipelineOptions options = stages_;
   options.culling = culling_of(cull);
   options.material.highlight = highlight_;

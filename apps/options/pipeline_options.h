@@ -18,6 +18,8 @@ class PipelineArguments {
  public:
   /// Declares the options below a heading of the help.
   void add_to(Command& command, const std::string& heading);
+  /// Those that change what becomes of one triangle by itself.
+  void add_to_trace(Command& command, const std::string& heading);
 
   /// The stages as they were asked for; the depth format is still the default.
   [[nodiscard]] pipeline::PipelineOptions options(Cull cull) const;
@@ -26,10 +28,12 @@ class PipelineArguments {
   [[nodiscard]] const std::vector<Option>& declared() const { return declared_; }
 
  private:
-  void add_picture_options(Command& command);
-  void add_scan_options(Command& command);
+  void add_triangle_options(Command& command);
   void add_window_options(Command& command);
+  void add_picture_options(Command& command);
   void add_merging_options(Command& command);
+  /// Refuses what would change nothing in this shading.
+  void require_effect(pipeline::Shading shading) const;
 
   pipeline::PipelineOptions stages_;
   pipeline::SpecularModel highlight_ = pipeline::SpecularModel::blinn;

@@ -60,6 +60,12 @@ FrontFace parse_front_face(const std::string& text) {
       text, {{"ccw", FrontFace::counter_clockwise}, {"cw", FrontFace::clockwise}});
 }
 
+NormalSource parse_normal_source(const std::string& text) {
+  return parse_word<NormalSource>(text, {{"file", NormalSource::file},
+                                         {"vertex", NormalSource::vertex},
+                                         {"place", NormalSource::place}});
+}
+
 BlendDepth parse_blend_depth(const std::string& text) {
   return parse_word<BlendDepth>(
       text,
@@ -113,6 +119,14 @@ FxaaSettings parse_fxaa(const std::string& text) {
   return settings;
 }
 
+/// N of "msaa:N".
+int parse_number_of(const std::string& text, const std::string& number) {
+  if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos)
+    throw UsageError(fmt::format("'{}' needs a whole number, as in msaa:4", text));
+  return static_cast<int>(
+      std::min<std::size_t>(1000, number.size() > 4 ? 1000 : std::stoul(number)));
+}
+
 }  // namespace
 
 Antialias parse_antialias(const std::string& text) {
@@ -145,7 +159,7 @@ Antialias parse_antialias(const std::string& text) {
     antialias.count = 4;
     antialias.rotated_grid = true;
   } else if (counts) {
-    antialias.count = static_cast<int>(std::min(1000U, parse_count(text.substr(colon + 1))));
+    antialias.count = parse_number_of(text, text.substr(colon + 1));
   }
   return antialias;
 }

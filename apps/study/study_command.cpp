@@ -109,6 +109,8 @@ std::vector<StudyFile> run_with_progress(const Study& study, const studies::Stud
 
 int run_study(const StudyArguments& arguments, const Console& console) {
   if (arguments.list) {
+    if (!arguments.name.empty() || !arguments.out.empty())
+      throw UsageError("--list lists all studies; leave out NAME and --out");
     print(list_of_studies());
     return done;
   }

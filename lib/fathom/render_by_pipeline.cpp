@@ -8,6 +8,7 @@
 #include "fathom/map_description.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/pipeline/geometry/vertex_transform.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/scene/triangle_source.h"
 
@@ -48,12 +49,16 @@ ImageChannel channel_of(const Scene& scene, const pipeline::PipelineFrame& frame
 /// Inverts the depth range and the format.
 class Decoder {
  public:
-  Decoder(const DepthFormat& format, const std::array<double, 2>& range)
-      : format_(format),
-        near_(Dyadic(range[0])),
-        extent_(Dyadic(range[1]) - Dyadic(range[0])),
-        known_(bits_of(format.storage) <= 16 ? std::size_t{1} << 16 : 0) {
-    if (range[0] == range[1])
+  explicit Decoder(const PipelineDepthBuffer& buffer)
+      : format_(buffer.format),
+        near_(Dyadic(buffer.depth_range[0])),
+        extent_(Dyadic(buffer.depth_range[1]) - Dyadic(buffer.depth_range[0])),
+        known_(bits_of(format_.storage) <= 16 ? std::size_t{1} << 16 : 0) {
+    if (buffer.orthographic && !pipeline::is_per_fragment(format_.mapping)) {
+      reversed_ = is_reversed(format_.mapping);
+      format_.mapping = Mapping::linear;
+    }
+    if (extent_.sign() == Sign::zero)
       throw UsageError(Setting{"depth_range"},
                        "near and far have the same window depth, of which none can be decoded");
   }
@@ -71,20 +76,24 @@ class Decoder {
     Ratio value = quotient(value_of(format_.storage, stored) - near_, extent_);
     if (value.sign() == Sign::negative) value = Ratio();
     if (one < value) value = one;
+    if (reversed_) value = one - value;
     const std::optional<Real> depth = depth_of(format_, value);
     return depth ? round_to_binary32(*depth) : std::numeric_limits<float>::infinity();
   }
 
   DepthFormat format_;
+  bool reversed_ = false;  ///< where the mapping is not
   Ratio near_, extent_;
   /// A buffer of 16 bits holds the same values again and again.
   std::vector<std::optional<float>> known_;
 };
 
-PipelineDepthBuffer depth_buffer_of(const Scene& scene, const pipeline::PipelineOptions& options,
+PipelineDepthBuffer depth_buffer_of(const Scene& scene, const Camera& camera,
+                                    const pipeline::PipelineOptions& options,
                                     pipeline::PipelineFrame& frame) {
   PipelineDepthBuffer buffer{options.depth_format,
                              options.depth_range,
+                             camera.projection == Projection::orthographic,
                              std::move(frame.stored),
                              std::move(frame.depth_written),
                              {}};
@@ -110,7 +119,7 @@ PipelineRendering rendering_of(const Scene& scene, const Camera& camera,
   }
   describe_map(scene, result.camera, "pipeline", result.map);
   if (with_picture) result.picture = pipeline::to_rgb(frame.picture);
-  result.depth_buffer = depth_buffer_of(scene, options, frame);
+  result.depth_buffer = depth_buffer_of(scene, camera, options, frame);
   return result;
 }
 
@@ -118,7 +127,7 @@ PipelineRendering rendering_of(const Scene& scene, const Camera& camera,
 
 void add_depth_buffer(DepthMap& map, const PipelineDepthBuffer& buffer) {
   const StandardArithmetic standard;
-  Decoder decoder(buffer.format, buffer.depth_range);
+  Decoder decoder(buffer);
   if (!buffer.stencil.empty())
     map.channels.push_back(
         {"stencil", Samples<std::uint32_t>(buffer.stencil.begin(), buffer.stencil.end())});

@@ -21,7 +21,10 @@ namespace fathom {
 struct PipelineDepthBuffer {
   DepthFormat format;                       ///< with the near and far that were clipped with
   std::array<double, 2> depth_range{0, 1};  ///< what near and far become
-  std::vector<StoredDepth> stored;          ///< where nothing was written: what it was cleared to
+  /// With an orthographic camera the matrices of standard, opengl and reversed make a window depth
+  /// that is affine in the depth: (D − near)/(far − near), reversed 1 minus that.
+  bool orthographic = false;
+  std::vector<StoredDepth> stored;  ///< where nothing was written: what it was cleared to
   std::vector<bool> written;
   /// Empty where no object has a stencil state.
   std::vector<std::uint8_t> stencil;

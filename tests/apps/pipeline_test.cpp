@@ -143,6 +143,32 @@ TEST(PipelineCommand, NormalsThatAreNoNumbersAreLeftOut) {
   EXPECT_EQ(folder.read("odd.png"), folder.read("whole.png"));
 }
 
+// "facet normal 0 0 0" leaves the normal to the reader; sums at places smooth whatever the file has.
+TEST(PipelineCommand, NormalsOfStlFiles) {
+  const TestFolder folder;
+  const auto drawn = [&](const std::string& name, const std::string& normal, const char* source) {
+    const std::string loop = "\nouter loop\nvertex ", end = "\nendloop\nendfacet\n";
+    const std::string roof[] = {"0 0 1\nvertex 2 0 0\nvertex 2 2 0",
+                                "0 0 1\nvertex 2 2 0\nvertex 0 2 0"};
+    std::string text = "solid roof\n";
+    for (const std::string& face : roof) text += "facet normal " + normal + loop + face + end;
+    folder.write(name + ".stl", text + "endsolid roof\n");
+    const Outcome outcome = run_fathom(
+        {"render", name + ".stl", "--engine", "pipeline", "--shading", "phong", "--normals", source,
+         "--size", "32x24", "--image", name + ".png", "-o", "a.exr"},
+        {.folder = folder.path()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    return folder.read(name + ".png");
+  };
+  const std::string zero = drawn("zero", "0 0 0", "file");
+  EXPECT_EQ(zero, drawn("vertex", "9 9 9", "vertex"));
+  EXPECT_NE(zero, drawn("wrong", "9 9 9", "file"));
+  const std::string smooth = drawn("smooth", "9 9 9", "place");
+  EXPECT_NE(smooth, zero);
+  EXPECT_EQ(smooth, drawn("smooth-zero", "0 0 0", "place"));
+}
+
 /// Half-way between two keyframes the exact engine and the pipeline see the cube in the same place.
 TEST(PipelineCommand, MotionPlacesObjectsForEveryEngine) {
   const TestFolder folder;
@@ -194,7 +220,8 @@ TEST(PipelineCommand, MotionThatMeansNothingIsRefusedInOneLine) {
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   };
   refused(3, "the times of keyframes have to increase", {"--motion", "order.json"});
-  refused(3, "the scene has no object of this name", {"--motion", "name.json"});
+  refused(3, "name.json: object cone: the scene has no object of this name",
+          {"--motion", "name.json"});
   refused(3, "none.json", {"--motion", "none.json"});
   refused(2, "--time needs --motion", {"--time", "1"});
   refused(2, "need --motion and --shutter", {"--antialias", "temporal:4"});
@@ -244,6 +271,25 @@ TEST(PipelineCommand, WritesWhatTheDepthBufferHolds) {
   refused(2, "--blend-depth belongs to --blend", {"--blend-depth", "on"});
   refused(2, "--opacity belongs to --blend", {"--opacity", "0.25"});
   refused(2, "--filter is for a --texture", {"--filter", "nearest"});
+  refused(2, "--normals is for --shading gouraud and phong", {"--normals", "place"});
+  const std::pair<const char*, const char*> of_light[] = {
+      {"--light", "headlight"}, {"--material", "1,0,0,1"}, {"--specular-model", "phong"}};
+  for (const auto& [option, value] : of_light) {
+    for (const char* unlit : {"none", "points", "wireframe"})
+      refused(2, std::string(option) + " is for --shading flat, gouraud and phong",
+              {option, value, "--shading", unlit});
+  }
+  const std::pair<const char*, const char*> of_areas[] = {{"--texture", "checker"},
+                                                          {"--scan", "scan-line"}};
+  for (const auto& [option, value] : of_areas)
+    refused(2, std::string(option) + " is for --shading none, flat, gouraud and phong",
+            {option, value, "--shading", "wireframe"});
+  refused(2, "--hidden-surface: area finds what is visible by itself",
+          {"--hidden-surface", "painter", "--antialias", "area"});
+  refused(2, "--depth-format: the painter's algorithm has no depth buffer",
+          {"--hidden-surface", "painter", "--depth-format", "unorm16"});
+  refused(2, "--antialias: 'ssaa:2.5' needs a whole number", {"--antialias", "ssaa:2.5"});
+  refused(2, "--antialias: 'msaa:' needs a whole number", {"--antialias", "msaa:"});
   refused(2, "the painter compares no depths",
           {"--hidden-surface", "painter", "--polygon-offset", "0,1"});
   refused(2, "the painter has no depth test",
@@ -334,6 +380,16 @@ TEST(PipelineCommand, TraceInTextAndJson) {
             corner["clip"][0].get<float>() / corner["clip"][3].get<float>());
   EXPECT_EQ(run_fathom({"pipeline", "trace", cube, "--triangle", "12"}).status, 2);
   EXPECT_EQ(run_fathom({"pipeline"}).status, 2);
+  // What says nothing of a single triangle is no option; what draws none is refused.
+  const std::vector<std::string> pictures[] = {{"--scan", "scan-line"},
+                                               {"--antialias", "area"},
+                                               {"--hidden-surface", "painter"},
+                                               {"--shading", "wireframe"}};
+  for (const std::vector<std::string>& options : pictures) {
+    auto refused = arguments;
+    refused.insert(refused.end(), options.begin(), options.end());
+    EXPECT_EQ(run_fathom(refused).status, 2) << options[0];
+  }
 }
 
 // The ray of a pixel meets the cube twice: its front, and the back of another face.

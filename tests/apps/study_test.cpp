@@ -85,6 +85,8 @@ TEST_F(StudyTest, WhatCannotBeMeantIsRefused) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   };
   refused({}, "--list");
+  refused({"course", "--list"}, "leave out NAME");
+  refused({"--list", "--out", "out"}, "leave out NAME");
   refused({"depth-resolution"}, "--out");
   refused({"resolution", "--out", "out"}, "indistinguishable");
   refused({"z-fighting", "--separation", "0", "--out", "out"}, "--separation");

@@ -46,7 +46,7 @@ std::vector<Usage> wrong_usages() {
       {"PipelineMsaa", render({"--engine", "pipeline", "--antialias", "msaa:3"}),
        "msaa:3 does not exist; there are 1, 2, 4, 8 and 16"},
       {"PipelineViewport", render({"--engine", "pipeline", "--viewport", "0,0,0,5"}),
-       "--viewport: a size of 0"},
+       "--viewport: expected a size of at least 1x1"},
       {"PipelineChannel", render({"--engine", "pipeline", "--channels", "N"}),
        "the pipeline gives Z, id, face and object"},
       {"PipelineImage", render({"--engine", "pipeline", "--image", "a.jpg"}), ".png"},

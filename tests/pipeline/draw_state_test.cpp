@@ -73,6 +73,29 @@ TEST(DepthFunction, LetsThroughWhatOpenGlDefines) {
   EXPECT_EQ(seen({{100, {}}}), 0);
 }
 
+// As in OpenGL with blending and without GL_DEPTH_TEST: the stencil test comes first, and a fragment
+// that no depth test looks at passes.
+TEST(Blending, WithoutADepthTestTheStencilTestStillDecides) {
+  PipelineOptions options = unlit();
+  options.blend_alpha = 0.5;
+  DrawState never, seven, one_more;
+  never.stencil = StencilState{.test = Comparison::never, .fail = StencilAction::invert};
+  seven.stencil = StencilState{.reference = 7, .pass = StencilAction::replace};
+  one_more.stencil = StencilState{.pass = StencilAction::increment};
+  const PipelineFrame hidden = drawn({{3, never}}, options);
+  EXPECT_THAT(hidden.stencil, Each(255));
+  EXPECT_THAT(hidden.id, Each(no_surface));
+  for (const Colour& c : hidden.picture.pixels) EXPECT_EQ(c, (Colour{0, 0, 0}));
+  const PipelineFrame both = drawn({{2, seven}, {4, one_more, {1, 0, 0}}}, options);
+  EXPECT_THAT(both.stencil, Each(8));
+  for (const Colour& c : both.picture.pixels) EXPECT_EQ(c, (Colour{0.75, 0.25, 0.25}));
+  // With the test on the farther one fails it.
+  options.blend_depth = BlendDepth::on;
+  const PipelineFrame nearer = drawn({{2, seven}, {4, one_more, {1, 0, 0}}}, options);
+  EXPECT_THAT(nearer.stencil, Each(7));
+  for (const Colour& c : nearer.picture.pixels) EXPECT_EQ(c, (Colour{0.5, 0.5, 0.5}));
+}
+
 TEST(DepthWrite, WithoutItASurfaceHidesNothing) {
   DrawState read_only;
   read_only.depth_write = false;

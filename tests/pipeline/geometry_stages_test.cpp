@@ -304,6 +304,38 @@ TEST(PrimitiveAssembly, NormalsAreSumsOfAreasAndColoursTheVertexs) {
   EXPECT_DOUBLE_EQ(o[2], 1 / std::sqrt(1.5));
 }
 
+// The triangles of NormalsAreSumsOfAreas, each with vertices of its own: 0 and 3 lie at one place,
+// as -0.0 does at 0.
+TEST(PrimitiveAssembly, NormalsAtAPlaceAreSumsOverAllItsVertices) {
+  const Scene scene =
+      testing::scene_of({{0, 2, 3}, {2, 2, 3}, {0, 6, 3}, {-0.0, 2, 3}, {0, 3, 3}, {0, 2, 4}},
+                        {{0, 1, 2}, {3, 4, 5}});
+  using Vector = std::array<double, 3>;
+  const auto by_vertex = assemble_triangles(scene, 0, 0, FrontFace::counter_clockwise);
+  EXPECT_EQ(by_vertex[0].corners[0].normal, (Vector{0, 0, 1}));
+  EXPECT_EQ(by_vertex[1].corners[0].normal, (Vector{1, 0, 0}));
+  const auto by_place = assemble_triangles(scene, 0, 0, FrontFace::clockwise, NormalSource::place);
+  for (const std::size_t t : {0, 1}) {
+    const Vector& both = by_place[t].corners[0].normal;
+    EXPECT_DOUBLE_EQ(both[0], -1 / std::sqrt(65));
+    EXPECT_EQ(both[1], 0);
+    EXPECT_DOUBLE_EQ(both[2], -8 / std::sqrt(65));
+  }
+  EXPECT_EQ(by_place[0].corners[1].normal, (Vector{0, 0, -1}));
+  EXPECT_EQ(by_place[1].corners[2].normal, (Vector{-1, 0, 0}));
+  // Normals of the file give way to sums that are asked for.
+  Scene with_normals = scene;
+  with_normals.meshes[0].normals.assign(6, {0, 1, 0});
+  const auto normal = [&](NormalSource source) {
+    return assemble_triangles(with_normals, 0, 0, FrontFace::counter_clockwise, source)[1]
+        .corners[0]
+        .normal;
+  };
+  EXPECT_EQ(normal(NormalSource::file), (Vector{0, 1, 0}));
+  EXPECT_EQ(normal(NormalSource::vertex), (Vector{1, 0, 0}));
+  EXPECT_DOUBLE_EQ(normal(NormalSource::place)[2], 8 / std::sqrt(65));
+}
+
 ClipVertex<double> corner(double x, double y, double z, double w) {
   ClipVertex<double> v{{x, y, z, w}, std::vector<double>(attribute::count, 0.0)};
   for (std::size_t i = 0; i < attribute::count; ++i) {

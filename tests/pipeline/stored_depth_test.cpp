@@ -73,6 +73,34 @@ TEST(StoredDepth, IsTheExactCodeInEveryFormat) {
   }
 }
 
+/// An orthographic matrix makes z = (D − near)/(far − near), or 1 minus that, by hand: 5/8 of the way
+/// from 2 to 10 lies 7. Codes mean the depth that they are nearest to.
+TEST(StoredDepth, OfAnOrthographicCameraIsAffineInTheDepth) {
+  Camera camera = camera_of_layers(2, 10);
+  camera.projection = Projection::orthographic;
+  for (const Mapping mapping : {Mapping::standard, Mapping::opengl, Mapping::reversed}) {
+    for (const std::array<double, 2>& range : {std::array{0.0, 1.0}, {0.75, 0.25}}) {
+      PipelineOptions options = precise(mapping, Storage::unorm16);
+      options.depth_range = range;
+      PipelineRendering r = rendered(layers({{7, {}}}), options, camera);
+      const double z = mapping == Mapping::reversed ? 3.0 / 8 : 5.0 / 8;
+      const double window = range[0] + z * (range[1] - range[0]);
+      for (const StoredDepth stored : r.depth_buffer.stored)
+        EXPECT_EQ(stored.bits, static_cast<std::uint64_t>(std::lround(65535 * window)));
+      add_depth_buffer(r.map, r.depth_buffer);
+      // Half a step of the buffer.
+      const double half = 8.0 / 65535 / 2 / std::abs(range[1] - range[0]);
+      for (const float decoded : *r.map.values<float>("Zdecoded"))
+        EXPECT_NEAR(static_cast<double>(decoded), 7, half + 0x1p-22) << name_of(mapping);
+    }
+  }
+  // What fragments compute is what it is in perspective.
+  PipelineRendering r = rendered(layers({{7, {}}}), precise(Mapping::w, Storage::unorm16), camera);
+  add_depth_buffer(r.map, r.depth_buffer);
+  for (const float decoded : *r.map.values<float>("Zdecoded"))
+    EXPECT_NEAR(static_cast<double>(decoded), 7, 10.0 / 65535 / 2 + 0x1p-22);
+}
+
 TEST(StoredDepth, BackgroundIsTheFarthestThatCanBeStored) {
   Scene nothing = layers({{1, {}}});
   nothing.meshes[0].triangles.clear();

@@ -10,6 +10,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/render_pipeline.h"
+#include "fathom/pipeline/trace.h"
 #include "tests/inputs/scene_building.h"
 
 /// Texels worked out by hand. Textures here are grey: 51 is 1/5.
@@ -396,6 +397,43 @@ TEST(TextureFiles, SizesThatCannotBe) {
   EXPECT_EQ(cut(8).rfind("texture.png: broken PNG file", 0), 0U) << cut(8);
   EXPECT_EQ(cut(20).rfind("texture.png: broken PNG file", 0), 0U) << cut(20);
   EXPECT_NE(why(8192, 8192).find("too short"), std::string::npos);
+}
+
+/// What a triangle's trace says of a sample is what is drawn there, its texture included.
+TEST(TextureByHand, TraceShowsTheColourThatIsDrawn) {
+  Scene scene = testing::scene_of({{-2, -1.5, 4}, {3, -1, 9}, {0.25, 2, 20}}, {{0, 1, 2}});
+  scene.meshes[0].texture_coordinates = {{0, 0}, {8, 0}, {3, 9}};
+  const Camera camera = testing::camera_of(16, 12, 16);
+  PipelineOptions options;
+  options.texture = "checker";
+  options.filter = TextureFilter::nearest;
+  const PipelineFrame frame = render_frame(scene, camera, options, true);
+  int black = 0, white = 0;
+  for (std::uint32_t y = 0; y < 12; ++y) {
+    for (std::uint32_t x = 0; x < 16; ++x) {
+      const auto sample = trace_triangle(scene, camera, options, 0, Pixel{x, y}).sample;
+      ASSERT_TRUE(sample);
+      ASSERT_EQ(sample->covered, frame.id[y * 16 + x] == 0);
+      if (!sample->covered) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(static_cast<float>(sample->colour[k]),
+                  static_cast<float>(frame.picture.at(x, y)[k]));
+      (sample->colour[0] > 0 ? white : black) += 1;
+    }
+  }
+  EXPECT_GT(black, 5);
+  EXPECT_GT(white, 5);
+}
+
+/// Also where no picture is asked for.
+TEST(TextureFiles, AMissingOneIsSaidToBe) {
+  Scene scene = testing::scene_of({{-2, -1.5, 4}, {3, -1, 9}, {0.25, 2, 20}}, {{0, 1, 2}});
+  scene.meshes[0].texture_coordinates = {{0, 0}, {8, 0}, {3, 9}};
+  const Camera camera = testing::camera_of(16, 12, 16);
+  PipelineOptions options;
+  options.texture = "/nowhere/texture.png";
+  EXPECT_THROW(render_frame(scene, camera, options, false), InputError);
+  EXPECT_THROW(trace_triangle(scene, camera, options, 0, std::nullopt), InputError);
 }
 
 TEST(TextureFiles, ATextureHasTexels) {

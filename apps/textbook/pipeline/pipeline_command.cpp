@@ -49,6 +49,8 @@ int run_trace(const TraceArguments& arguments, const Console& console) {
   pipeline::PipelineOptions stages = arguments.pipeline.options(arguments.cull);
   stages.depth_format = arguments.depth_format;
   pipeline::require_meaningful(stages);
+  if (stages.shading == pipeline::Shading::points || stages.shading == pipeline::Shading::wireframe)
+    throw UsageError("--shading: points and wireframe draw no triangle that could be traced");
   const Scene scene = arguments.scene.read(console, {.attributes = true});
   const Camera camera = arguments.camera.get_one(scene, "trace");
   const auto& pixel = arguments.pixel;
@@ -81,7 +83,7 @@ void add_trace(Command& family) {
       "X,Y: also what becomes of the sample at this pixel's centre");
   command.flag("--json", arguments->json, "Answer in JSON");
   add_cull_option(command, arguments->cull);
-  arguments->pipeline.add_to(command, "Pipeline");
+  arguments->pipeline.add_to_trace(command, "Pipeline");
   add_depth_format(command, arguments->depth_format, "Pipeline");
   command.answers_on_standard_output();
   command.runs([arguments](const Console& console) { return run_trace(*arguments, console); });

@@ -16,7 +16,7 @@ void check_possible(const RenderArguments& a, MapFormat format) {
   if (a.deep || a.cryptomatte) {
     throw UsageError("--deep and --cryptomatte are for exact engines, not for pipeline");
   }
-  if (a.samples || (a.depth_buffer.storage && a.depth_buffer.against_exact)) {
+  if (a.samples || a.depth_buffer.against_exact) {
     throw UsageError("--samples and --against-exact are for exact engines, not for pipeline");
   }
   if (format == MapFormat::png) {
@@ -75,6 +75,9 @@ PipelinePlan plan_pipeline(const RenderArguments& a) {
   plan.writing = a.storage.write_options(a.scene.threads);
   plan.stages = stages_of(a);
   plan.with_picture = !a.image.empty();
+  if (a.depth_buffer.storage && plan.stages.hidden_surface == pipeline::HiddenSurface::painter) {
+    throw UsageError("--depth-format: the painter's algorithm has no depth buffer");
+  }
   plan.with_depth_buffer = a.depth_buffer.storage && plan.format == MapFormat::exr;
   if (plan.with_depth_buffer && plan.stages.depth_range[0] == plan.stages.depth_range[1]) {
     throw UsageError(

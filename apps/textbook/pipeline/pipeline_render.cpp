@@ -29,8 +29,10 @@ void warn_of(const pipeline::PipelineStatistics& s, const Console& console) {
                     s.not_finite, s.triangles));
   }
   if (s.turned_by_snapping > 0) {
-    console.warn(fmt::format("{} of {} triangles are turned over or lose their area by snapping",
-                             s.turned_by_snapping, s.triangles));
+    console.warn(
+        fmt::format("{} of the {} triangles that clipping leaves are turned over or lose their "
+                    "area by snapping",
+                    s.turned_by_snapping, s.drawn));
   }
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 void require_rectangle(const std::optional<WindowRectangle>& r, const Setting& setting) {
   if (r && (r->width < 1 || r->height < 1))
-    throw UsageError(setting, "a size of 0; expected at least 1x1");
+    throw UsageError(setting, "expected a size of at least 1x1");
   constexpr std::int64_t most = 1 << 20;
   if (r && (r->width > most || r->height > most || r->x > most || r->x < -most || r->y > most ||
             r->y < -most))
@@ -87,6 +87,11 @@ void require_meaningful(const PipelineOptions& o) {
   if (o.hidden_surface == HiddenSurface::painter && !has_areas)
     throw UsageError(Setting{"hidden_surface"},
                      "painter draws areas; points and wireframe have none");
+  const bool by_area = o.antialias.method == AntialiasMethod::area ||
+                       o.antialias.method == AntialiasMethod::temporal_area;
+  if (o.hidden_surface == HiddenSurface::painter && by_area)
+    throw UsageError(Setting{"hidden_surface"},
+                     "area finds what is visible by itself; there is no order to paint in");
   if (o.hidden_surface == HiddenSurface::painter && offsets_depths(o.polygon_offset))
     throw UsageError(Setting{"polygon_offset"}, "the painter compares no depths to be offset");
   if (o.hidden_surface == HiddenSurface::painter && o.blend_depth != BlendDepth::off)
@@ -99,8 +104,7 @@ void require_meaningful(const PipelineOptions& o) {
   if (!std::isfinite(o.polygon_offset.slope_factor) ||
       !std::isfinite(o.polygon_offset.constant_factor))
     throw UsageError(Setting{"polygon_offset"}, "expected finite numbers");
-  if (o.blend_alpha && (o.antialias.method == AntialiasMethod::area ||
-                        o.antialias.method == AntialiasMethod::temporal_area))
+  if (o.blend_alpha && by_area)
     throw UsageError(Setting{"antialias"}, "area sees the nearest surface; it does not blend");
   if (o.blend_alpha && !(*o.blend_alpha >= 0 && *o.blend_alpha <= 1))
     throw UsageError(Setting{"blend_alpha"}, "expected 0 to 1");

@@ -28,6 +28,9 @@ enum class Shading { none, points, wireframe, flat, gouraud, phong };
 /// Of highlights: by the vector halfway between light and eye ([Bli77]), or by the mirrored light
 /// ([Pho75]).
 enum class SpecularModel { blinn, phong };
+/// Where normals come from: the file, or `vertex` where it has none; sums over the triangles at a
+/// vertex; or over those at all vertices of the mesh that lie at one place.
+enum class NormalSource { file, vertex, place };
 enum class TextureFilter { nearest, bilinear, trilinear, anisotropic };
 enum class HiddenSurface { z_buffer, painter };
 enum class WireLine { explicit_equation, dda, bresenham, midpoint, diamond_exit };
@@ -103,6 +106,7 @@ struct PipelineOptions {
   bool early_depth = true;
   Interpolation interpolation = Interpolation::perspective;
   Shading shading = Shading::flat;
+  NormalSource normals_from = NormalSource::file;
   LightSource light;
   Material material;
   WireLine wire_line = WireLine::bresenham;

@@ -16,15 +16,6 @@
 namespace fathom::pipeline {
 namespace {
 
-std::optional<Texture> texture_of(const Scene& scene, const PipelineOptions& options) {
-  if (options.texture.empty()) return std::nullopt;
-  Texture texture =
-      options.texture == "checker" ? Texture::checker() : Texture(read_rgb_png(options.texture));
-  if (!has_texture_coordinates(scene))
-    throw InputError(Setting{"texture"}, "the scene has no texture coordinates at some corners");
-  return texture;
-}
-
 template <class Real>
 class Frame {
  public:
@@ -45,8 +36,8 @@ class Frame {
       const DepthTest test(options_);
       triangles = painters_order(std::move(triangles), test.is_nearer({1}, {0}), frame_.painter);
     }
-    std::optional<Texture> texture = with_picture ? texture_of(scene_, options_) : std::nullopt;
-    Shader<Real> shader(camera_, options_, std::move(texture));
+    // Also where no picture is asked for: a texture that is no good is said to be.
+    Shader<Real> shader(camera_, options_, texture_of(scene_, options_));
     const bool same_samples = options_.antialias.method == AntialiasMethod::none ||
                               options_.antialias.method == AntialiasMethod::fxaa;
     FrameBuffer centres = buffer(1);

@@ -10,13 +10,15 @@
 namespace fathom::pipeline {
 namespace {
 
-InputTriangle triangle_numbered(const Scene& scene, std::uint32_t number, FrontFace front_face) {
+InputTriangle triangle_numbered(const Scene& scene, std::uint32_t number,
+                                const PipelineOptions& options) {
   std::uint32_t first = 0;
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
     const auto count =
         static_cast<std::uint32_t>(scene.meshes[scene.objects[object].mesh].triangles.size());
     if (number - first < count)
-      return assemble_triangles(scene, object, first, front_face)[number - first];
+      return assemble_triangles(scene, object, first, options.front_face,
+                                options.normals_from)[number - first];
     first += count;
   }
   throw UsageError(Setting{"triangle"}, "there is no triangle " + std::to_string(number) +
@@ -43,7 +45,8 @@ class Tracer {
         options_(options),
         rules_(draw_rules_of(scene, options)),
         window_(drawable_window(camera, options)),
-        viewport_(viewport_of(camera, options)) {}
+        viewport_(viewport_of(camera, options)),
+        shader_(camera, options, texture_of(scene, options)) {}
 
   TriangleTrace run(const InputTriangle& input, const std::optional<Pixel>& pixel) {
     object_ = input.object;
@@ -128,14 +131,13 @@ class Tracer {
   }
 
   void shade(SampleTrace& s, const Interpolator<Real>& t, Fragment& fragment,
-             const GridPoint& sample) const {
-    Shader<Real> shader(camera_, options_, std::nullopt);
-    shader.begin(t.triangle());
+             const GridPoint& sample) {
+    shader_.begin(t.triangle());
     t.complete(fragment, sample);
     const auto weights = t.attribute_weights(sample);
-    s.turned = !shader.shows_normals();
-    s.light = shader.light(fragment, weights);
-    s.colour = shader.shade(fragment, weights);
+    s.turned = !shader_.shows_normals();
+    s.light = shader_.light(fragment, weights);
+    s.colour = shader_.shade(fragment, weights);
   }
 
   const Scene& scene_;
@@ -145,6 +147,7 @@ class Tracer {
   PixelWindow window_;
   std::uint32_t object_ = 0;
   Viewport viewport_;
+  Shader<Real> shader_;
   std::array<std::array<Real, 3>, 3> face_{};
   TriangleTrace trace_;
 };
@@ -160,7 +163,7 @@ TriangleTrace trace_triangle(const Scene& scene, const Camera& camera,
   PipelineOptions complete = options;
   fill_in_range(scene, camera, complete.depth_format);
   require_meaningful(complete.depth_format);
-  const InputTriangle input = triangle_numbered(scene, number, complete.front_face);
+  const InputTriangle input = triangle_numbered(scene, number, complete);
   TriangleTrace trace = complete.precision == Precision::binary32
                             ? Tracer<float>(scene, camera, complete).run(input, pixel)
                             : Tracer<double>(scene, camera, complete).run(input, pixel);

@@ -30,7 +30,7 @@ struct SampleTrace {
   double window_z = 0, depth = 0;
   StoredDepth stored;
   /// If it is covered: whether the triangle shows the side away from its normals, the light there,
-  /// and the colour without a texture.
+  /// and the colour.
   bool turned = false;
   Light light;
   Colour colour{};

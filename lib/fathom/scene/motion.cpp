@@ -32,10 +32,15 @@ ObjectMotion read_object(const JsonValue& object) {
   return motion;
 }
 
+/// Of a message about one of its objects.
+std::string start_of(const Motion& motion, const std::string& object) {
+  return motion.file + ": object " + printable(object) + ": ";
+}
+
 /// What somebody filled in.
 void require_meaningful(const Motion& motion) {
   for (const ObjectMotion& m : motion.objects) {
-    const std::string name = "motion of " + printable(m.object) + ": ";
+    const std::string name = start_of(motion, m.object);
     if (m.keyframes.empty()) throw InputError(name + "expected at least one keyframe");
     for (std::size_t i = 0; i < m.keyframes.size(); ++i) {
       if (!std::isfinite(m.keyframes[i].time)) throw InputError(name + "a time is not finite");
@@ -53,7 +58,7 @@ Motion read_motion(std::string_view text, const std::filesystem::path& path) {
   const JsonValue root = document.root();
   if (!root.is_object()) root.fail("is no object, expected a motion: {\"objects\": […]}");
   root.expect_only({"objects"});
-  Motion motion;
+  Motion motion{.objects = {}, .file = path.string()};
   for (const JsonValue& object : root.at("objects").elements()) {
     ObjectMotion next = read_object(object);
     for (const ObjectMotion& other : motion.objects) {
@@ -107,8 +112,8 @@ MovingScene::MovingScene(Scene scene, Motion motion)
       moved_.push_back({i, m, scene_.objects[i].world_from_mesh});
     }
     if (moved_.size() == before) {
-      throw InputError("motion of " + printable(motion_.objects[m].object) +
-                       ": the scene has no object of this name" + names_of(scene_));
+      throw InputError(start_of(motion_, motion_.objects[m].object) +
+                       "the scene has no object of this name" + names_of(scene_));
     }
   }
 }
@@ -122,7 +127,7 @@ const Scene& MovingScene::at(double time) {
         compose(transform_at(motion_.objects[moved.motion], time), moved.placed);
     object.placed_as_is = object.world_from_mesh.rows == WorldFromMesh().rows;
     if (const auto fault = find_fault(object.world_from_mesh))
-      throw InputError("motion of " + printable(object.name) + ": " + *fault);
+      throw InputError(start_of(motion_, object.name) + *fault);
   }
   return scene_;
 }

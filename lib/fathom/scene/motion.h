@@ -26,6 +26,7 @@ struct ObjectMotion {
 
 struct Motion {
   std::vector<ObjectMotion> objects;
+  std::string file = "motion";  ///< for messages
 };
 
 /// Reads {"objects": [{"name", "keyframes": [{"time", "transform"}]}]}; transforms as in scene files.

@@ -1,8 +1,6 @@
 #include "validation/studies/course/gallery.h"
 
 #include <algorithm>
-#include <array>
-#include <map>
 
 #include "fathom/scene/framing.h"
 #include "validation/studies/course/mesh_texts.h"
@@ -20,40 +18,22 @@ GalleryMesh framed(const StudyFile& file, const View& view) {
 
 }  // namespace
 
-Scene with_joined_vertices(Scene scene) {
-  Mesh& mesh = scene.meshes.at(0);
-  std::map<std::array<double, 3>, std::uint32_t> known;
-  std::vector<MeshPoint> joined;
-  std::vector<std::uint32_t> index;
-  for (const MeshPoint& p : mesh.vertices) {
-    const auto next = static_cast<std::uint32_t>(joined.size());
-    const auto [found, is_new] = known.try_emplace({p.x, p.y, p.z}, next);
-    if (is_new) joined.push_back(p);
-    index.push_back(found->second);
-  }
-  mesh.vertices = std::move(joined);
-  for (CornerIndices& triangle : mesh.triangles)
-    for (std::uint32_t& corner : triangle) corner = index[corner];
-  return scene;
-}
-
 std::vector<GalleryMesh> gallery_meshes() {
   const auto file = [](const char* name, std::string_view text) {
     return StudyFile{name, std::string(text)};
   };
-  const StudyFile teapot{
-      "teapot-joined.obj",
-      obj_of(with_joined_vertices(scene_in(file("teapot.obj", mesh_texts::teapot))))};
+  GalleryMesh teapot = framed(file("teapot.obj", mesh_texts::teapot), {});
+  teapot.normals_from = pipeline::NormalSource::place;
   return {framed(file("cube.obj", mesh_texts::cube), {}),
           framed(file("house.gltf", mesh_texts::house), {}),
-          framed(file("spot.obj", mesh_texts::spot), {.azimuth = 215, .elevation = 15}),
-          framed(teapot, {})};
+          framed(file("spot.obj", mesh_texts::spot), {.azimuth = 215, .elevation = 15}), teapot};
 }
 
 RgbImage shaded(const GalleryMesh& mesh, pipeline::Shading shading, const std::string& texture) {
   pipeline::PipelineOptions options;
   options.shading = shading;
   options.texture = texture;
+  options.normals_from = mesh.normals_from;
   options.background = {0.1, 0.1, 0.15};
   const bool is_surface =
       shading != pipeline::Shading::points && shading != pipeline::Shading::wireframe;

@@ -14,15 +14,12 @@ struct GalleryMesh {
   SceneView view;
   StudyFile file;
   bool has_texture_coordinates = false;
+  pipeline::NormalSource normals_from = pipeline::NormalSource::file;
 };
 
 /// Cube, house, spot and teapot. The teapot's file has many points twice, where its patches meet;
-/// normals that are sums over the triangles at a vertex would show the patches, so that here each
-/// point is one vertex: teapot-joined.obj.
+/// normals that are sums over the triangles at a vertex would show the patches.
 std::vector<GalleryMesh> gallery_meshes();
-
-/// Vertices at the same point become one, that which comes first. `scene` has one mesh without attributes.
-Scene with_joined_vertices(Scene scene);
 
 /// The picture of a mesh; surfaces are multisampled, 8 samples.
 RgbImage shaded(const GalleryMesh& mesh, pipeline::Shading shading,

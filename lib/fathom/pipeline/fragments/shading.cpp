@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "fathom/geometry/eigen_arrays.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/pipeline/geometry/primitive_assembly.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -23,6 +25,15 @@ Vector vector_at(const Values& a, std::size_t place) {
 }
 
 }  // namespace
+
+std::optional<Texture> texture_of(const Scene& scene, const PipelineOptions& options) {
+  if (options.texture.empty()) return std::nullopt;
+  Texture texture =
+      options.texture == "checker" ? Texture::checker() : Texture(read_rgb_png(options.texture));
+  if (!has_texture_coordinates(scene))
+    throw InputError(Setting{"texture"}, "the scene has no texture coordinates at some corners");
+  return texture;
+}
 
 Lighting lighting_of(const Camera& camera, const PipelineOptions& options) {
   const auto camera_from_world = geometry::as_matrix(camera.world_to_camera);

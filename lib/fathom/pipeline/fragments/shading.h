@@ -11,6 +11,10 @@ namespace fathom::pipeline {
 
 using Vector3 = std::array<double, 3>;
 
+/// The texture that the options name; none if they name none.
+/// Fails    InputError where it cannot be read, or the scene has no coordinates for it.
+std::optional<Texture> texture_of(const Scene& scene, const PipelineOptions& options);
+
 /// A light that comes from everywhere in one direction, the eye, and what surfaces do with light.
 struct Lighting {
   Vector3 towards_light{0, 0, 1};  ///< unit, in the world

@@ -179,7 +179,7 @@ WindowPrimitives<Real> to_window(const Scene& scene, const Camera& camera,
   std::uint32_t number = 0;
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
     for (const InputTriangle& triangle :
-         assemble_triangles(scene, object, number, options.front_face))
+         assemble_triangles(scene, object, number, options.front_face, options.normals_from))
       stages.run(triangle, transforms[object]);
     number += static_cast<std::uint32_t>(scene.meshes[scene.objects[object].mesh].triangles.size());
   }

@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 namespace fathom::pipeline {
 namespace {
@@ -15,18 +17,34 @@ Vector area_vector(const MeshPoint& a, const MeshPoint& b, const MeshPoint& c) {
   return Vector(b.x - a.x, b.y - a.y, b.z - a.z).cross(Vector(c.x - a.x, c.y - a.y, c.z - a.z));
 }
 
-std::vector<std::array<double, 3>> smooth_normals(const Mesh& mesh, FrontFace front_face) {
+/// For each vertex the first one that its normal is shared with, itself if none comes before it.
+std::vector<std::uint32_t> sharing_vertices(const Mesh& mesh, NormalSource source) {
+  std::vector<std::uint32_t> first(mesh.vertices.size());
+  std::iota(first.begin(), first.end(), 0U);
+  if (source != NormalSource::place) return first;
+  std::map<std::array<double, 3>, std::uint32_t> at_place;
+  for (std::uint32_t& v : first) {
+    const MeshPoint& p = mesh.vertices[v];
+    v = at_place.try_emplace({p.x, p.y, p.z}, v).first->second;
+  }
+  return first;
+}
+
+std::vector<std::array<double, 3>> smooth_normals(const Mesh& mesh, FrontFace front_face,
+                                                  NormalSource shared) {
   const double side = front_face == FrontFace::counter_clockwise ? 1 : -1;
+  const std::vector<std::uint32_t> first = sharing_vertices(mesh, shared);
   std::vector<Vector> sums(mesh.vertices.size(), Vector::Zero());
   for (const CornerIndices& t : mesh.triangles) {
     const Vector n = area_vector(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-    for (const std::uint32_t v : t) sums[v] += n;
+    for (const std::uint32_t v : t) sums[first[v]] += n;
   }
   std::vector<std::array<double, 3>> normals(sums.size());
   for (std::size_t v = 0; v < sums.size(); ++v) {
-    const double length = sums[v].stableNorm();
+    const Vector& sum = sums[first[v]];
+    const double length = sum.stableNorm();
     if (!(length > 0) || !std::isfinite(length)) continue;
-    Eigen::Map<Vector>(normals[v].data()) = sums[v] * (side / length);
+    Eigen::Map<Vector>(normals[v].data()) = sum * (side / length);
   }
   return normals;
 }
@@ -84,10 +102,12 @@ bool has_lines_or_points(const Scene& scene) {
 }
 
 std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
-                                              std::uint32_t first_number, FrontFace front_face) {
+                                              std::uint32_t first_number, FrontFace front_face,
+                                              NormalSource normals) {
   const Mesh& mesh = scene.meshes[scene.objects[object].mesh];
-  const auto smooth =
-      lacks_normals(mesh) ? smooth_normals(mesh, front_face) : std::vector<std::array<double, 3>>();
+  const bool of_file = normals == NormalSource::file;
+  const auto smooth = !of_file || lacks_normals(mesh) ? smooth_normals(mesh, front_face, normals)
+                                                      : std::vector<std::array<double, 3>>();
   std::vector<InputTriangle> triangles(mesh.triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     triangles[t].number = first_number + static_cast<std::uint32_t>(t);
@@ -96,7 +116,8 @@ std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t 
       InputVertex& corner = triangles[t].corners[k];
       const std::uint32_t v = mesh.triangles[t][k];
       corner = vertex_at(mesh, v);
-      if (const auto n = index_of(mesh.normal_triangles, mesh, t, k); n < mesh.normals.size()) {
+      const auto n = index_of(mesh.normal_triangles, mesh, t, k);
+      if (of_file && n < mesh.normals.size()) {
         corner.normal = mesh.normals[n];
       } else if (!smooth.empty()) {
         corner.normal = smooth[v];

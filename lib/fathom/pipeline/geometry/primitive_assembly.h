@@ -42,10 +42,11 @@ std::vector<std::array<std::uint32_t, corners>> assemble(
   return primitives;
 }
 
-/// The triangles of an object. Normals are those of the mesh, or else at each vertex the sum of the
-/// area vectors of its triangles, scaled to unit length: on the side of the front.
+/// The triangles of an object. Normals that are not those of the mesh are the sums of the area vectors
+/// of the triangles at a vertex or a place, scaled to unit length: on the side of the front.
 std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
-                                              std::uint32_t first_number, FrontFace front_face);
+                                              std::uint32_t first_number, FrontFace front_face,
+                                              NormalSource normals = NormalSource::file);
 
 /// The lines of an object, and its points, numbered in this order. They have no normals and no
 /// texture coordinates.

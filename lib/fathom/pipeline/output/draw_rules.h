@@ -15,7 +15,8 @@ struct DrawRules {
   bool colour_write = true;
   std::optional<StencilState> stencil;
   std::optional<double> alpha;
-  /// Fragments that fail the depth test are blended too.
+  /// Fragments that fail the depth test are blended too, and count as passing for the stencil
+  /// value, as where OpenGL's depth test is off; what they leave of their depth is nothing.
   bool blends_failed = false;
   DepthBias offset;
 };

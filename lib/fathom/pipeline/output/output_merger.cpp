@@ -59,22 +59,29 @@ bool OutputMerger::passes_depth_test(const StoredSample& there, StoredDepth stor
   return !there.depth_written || test_.is_nearer(stored, there.stored);
 }
 
-bool OutputMerger::passes(const Pixel& p, std::size_t sample, StoredDepth stored) {
+Outcome OutputMerger::test(const Pixel& p, std::size_t sample, StoredDepth stored) {
   StoredSample& there = target_.at(p, sample);
-  if (!rules_->stencil) return passes_depth_test(there, stored);
+  const auto depth_outcome = [&] {
+    return passes_depth_test(there, stored) ? Outcome::passed : Outcome::depth_failed;
+  };
+  if (!rules_->stencil) return depth_outcome();
   const StencilState& s = *rules_->stencil;
   const auto masked = [&](std::uint8_t value) { return value & s.mask; };
   const bool stencil_passed = compares(s.test, masked(s.reference), masked(there.stencil));
-  const bool passed = stencil_passed && passes_depth_test(there, stored);
-  there.stencil = after(passed ? s.pass : stencil_passed ? s.depth_fail : s.fail, s, there.stencil);
-  return passed;
+  const Outcome outcome = stencil_passed ? depth_outcome() : Outcome::stencil_failed;
+  const StencilAction action = !stencil_passed      ? s.fail
+                               : is_wanted(outcome) ? s.pass
+                                                    : s.depth_fail;
+  there.stencil = after(action, s, there.stencil);
+  return outcome;
 }
 
 void OutputMerger::merge(const Pixel& p, std::size_t sample, const MergedFragment& fragment,
-                         const Colour& colour, bool passed) {
+                         const Colour& colour, Outcome outcome) {
+  const bool passed = outcome == Outcome::passed;
   count_.depth_passed += passed;
   StoredSample& there = target_.at(p, sample);
-  if (rules_->colour_write && rules_->alpha && is_wanted(passed)) {
+  if (rules_->colour_write && rules_->alpha && is_wanted(outcome)) {
     target_.blend(p, sample, colour, *rules_->alpha);
   } else if (rules_->colour_write && passed) {
     target_.replace(p, sample, colour);

@@ -80,6 +80,9 @@ struct MergedFragment {
   double depth = 0;  ///< along the view
 };
 
+/// Which test a fragment failed, if any.
+enum class Outcome { stencil_failed, depth_failed, passed };
+
 /// The tests of the samples, and what fragments leave in them.
 class OutputMerger {
  public:
@@ -95,12 +98,15 @@ class OutputMerger {
     return test_.stored(fragment);
   }
   /// Stencil test, then depth test; changes the stencil value as the rules say.
-  bool passes(const Pixel& p, std::size_t sample, StoredDepth stored);
-  /// Whether a fragment that has passed, or not, can change the picture.
-  [[nodiscard]] bool is_wanted(bool passed) const { return passed || rules_->blends_failed; }
+  Outcome test(const Pixel& p, std::size_t sample, StoredDepth stored);
+  /// Whether a fragment can change the picture.
+  [[nodiscard]] bool is_wanted(Outcome outcome) const {
+    return outcome == Outcome::passed ||
+           (outcome == Outcome::depth_failed && rules_->blends_failed);
+  }
   /// Writes depth and colour.
   void merge(const Pixel& p, std::size_t sample, const MergedFragment& fragment,
-             const Colour& colour, bool passed);
+             const Colour& colour, Outcome outcome);
 
  private:
   [[nodiscard]] bool passes_depth_test(const StoredSample& there, StoredDepth stored) const;

@@ -95,9 +95,9 @@ class Rasterizer {
     ++count_.fragments;
     const Fragment fragment = t.depths_at(sample);
     const StoredDepth stored = merger_.stored(fragment);
-    const bool passed = merger_.passes(p, i, stored);
-    if (s_.options.early_depth && !merger_.is_wanted(passed)) return;
-    merger_.merge(p, i, {t.triangle().number, stored, fragment.depth}, shade(t, sample), passed);
+    const Outcome outcome = merger_.test(p, i, stored);
+    if (s_.options.early_depth && !merger_.is_wanted(outcome)) return;
+    merger_.merge(p, i, {t.triangle().number, stored, fragment.depth}, shade(t, sample), outcome);
   }
 
   void draw_pixel(const Interpolator<Real>& t, const Pixel& p, bool full) {
@@ -120,11 +120,11 @@ class Rasterizer {
     for (const std::size_t i : covered_) {
       const Fragment fragment = t.depths_at(sample_at(p, i));
       const StoredDepth stored = merger_.stored(fragment);
-      const bool passed = merger_.passes(p, i, stored);
-      if (!merger_.is_wanted(passed)) continue;
+      const Outcome outcome = merger_.test(p, i, stored);
+      if (!merger_.is_wanted(outcome)) continue;
       if (!shaded) colour = shade(t, place);
       shaded = true;
-      merger_.merge(p, i, {t.triangle().number, stored, fragment.depth}, colour, passed);
+      merger_.merge(p, i, {t.triangle().number, stored, fragment.depth}, colour, outcome);
     }
   }
 
@@ -161,8 +161,8 @@ class Rasterizer {
     fragment.window_z = std::clamp(static_cast<double>(v[0] + t.triangle().depth_offset), 0.0, 1.0);
     fragment.depth = static_cast<double>(v[2] / v[1]);
     const StoredDepth stored = merger_.stored(fragment);
-    const bool passed = merger_.passes(p, 0, stored);
-    if (s_.options.early_depth && !merger_.is_wanted(passed)) return;
+    const Outcome outcome = merger_.test(p, 0, stored);
+    if (s_.options.early_depth && !merger_.is_wanted(outcome)) return;
     Colour colour{};
     if (shader_) {
       ++count_.shaded;
@@ -171,7 +171,7 @@ class Rasterizer {
         fragment.attributes[i] = static_cast<double>(perspective ? v[3 + i] / v[1] : v[3 + i]);
       colour = shader_->shade(fragment, t.attribute_weights(sample_of(p)));
     }
-    merger_.merge(p, 0, {t.triangle().number, stored, fragment.depth}, colour, passed);
+    merger_.merge(p, 0, {t.triangle().number, stored, fragment.depth}, colour, outcome);
   }
 
   const RasterizerSettings& s_;

@@ -65,18 +65,22 @@ class OutlineDrawer {
     Fragment fragment;
     fragment.window_z = std::clamp(static_cast<double>(a_->z + t * (b_->z - a_->z)), 0.0, 1.0);
     const Real inverse_w = a_->inverse_w + t * (b_->inverse_w - a_->inverse_w);
-    const auto at = [&](std::size_t i) {
+    const auto perspective = [&](std::size_t i) {
       const Real a = a_->attributes[i] * a_->inverse_w, b = b_->attributes[i] * b_->inverse_w;
       return static_cast<double>((a + t * (b - a)) / inverse_w);
     };
-    fragment.depth = at(attribute::depth);
+    const auto at = [&](std::size_t i) {
+      if (s_.options.interpolation == Interpolation::perspective) return perspective(i);
+      return static_cast<double>(a_->attributes[i] + t * (b_->attributes[i] - a_->attributes[i]));
+    };
+    fragment.depth = perspective(attribute::depth);
     const StoredDepth stored = merger_.stored(fragment);
     const Colour colour{at(attribute::colour), at(attribute::colour + 1),
                         at(attribute::colour + 2)};
     // Lines and points fill whole pixels, all samples alike.
     for (std::size_t i = 0; i < samples_; ++i) {
-      const bool passed = merger_.passes(p, i, stored);
-      merger_.merge(p, i, {number_, stored, fragment.depth}, colour, passed);
+      const Outcome outcome = merger_.test(p, i, stored);
+      merger_.merge(p, i, {number_, stored, fragment.depth}, colour, outcome);
     }
   }
 
