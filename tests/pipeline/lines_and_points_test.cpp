@@ -83,6 +83,21 @@ TEST(LinesOfTheScene, HaveThePerspectiveDepth) {
   EXPECT_NEAR(frame.depth[4 * 40 + 30], 30, 1e-5);
 }
 
+/// Half way in the window between red at 10 and blue at 30, in space a quarter of the way.
+TEST(LinesOfTheScene, HaveColoursAsTheInterpolationSays) {
+  Scene scene = scene_of_lines({{10.5, 4.5, 10}, {90 + 1.5, 13.5, 30}}, {{0, 1}});
+  scene.meshes[0].colours = {{1, 0, 0, 1}, {0, 0, 1, 1}};
+  PipelineOptions options = precise();
+  for (const auto& [interpolation, blue] :
+       {std::pair{Interpolation::perspective, 0.25}, {Interpolation::affine, 0.5}}) {
+    options.interpolation = interpolation;
+    const PipelineFrame frame = render_frame(scene, camera_of_pixels(), options, true);
+    EXPECT_NEAR(frame.picture.at(20, 4)[2], blue, 0x1p-24);
+    EXPECT_NEAR(frame.picture.at(20, 4)[0], 1 - blue, 0x1p-24);
+    EXPECT_NEAR(frame.depth[4 * 40 + 20], 15, 1e-5);
+  }
+}
+
 TEST(PointsOfTheScene, FillTheirPixelAndAreClipped) {
   const Scene scene =
       scene_of_lines({{7.9, 8.1, 10}, {39.9, 29.9, 10}, {41, 5, 10}, {5, 5, 200}, {-7, -8, -10}},
