@@ -284,8 +284,6 @@ TEST(PipelineCommand, WritesWhatTheDepthBufferHolds) {
   for (const auto& [option, value] : of_areas)
     refused(2, std::string(option) + " is for --shading none, flat, gouraud and phong",
             {option, value, "--shading", "wireframe"});
-  refused(2, "--hidden-surface: area finds what is visible by itself",
-          {"--hidden-surface", "painter", "--antialias", "area"});
   refused(2, "--depth-format: the painter's algorithm has no depth buffer",
           {"--hidden-surface", "painter", "--depth-format", "unorm16"});
   refused(2, "--antialias: 'ssaa:2.5' needs a whole number", {"--antialias", "ssaa:2.5"});
@@ -404,6 +402,7 @@ TEST(PipelineCommand, TraceShowsTheLight) {
     if (!trace.contains("sample") || !trace["sample"]["covered"]) continue;
     const Json& shading = trace["sample"]["shading"];
     ++covered;
+    EXPECT_EQ(shading["normals_turned"], trace["facing"]["window"] == "back");
     turned += static_cast<int>(shading["normals_turned"].get<bool>());
     // Lit from the camera, either side has light, and no more than all; no highlight.
     EXPECT_GT(shading["diffuse"], 0.1);

@@ -243,6 +243,8 @@ TEST(FillInRange, KeepsWhatTheCameraHas) {
   const Scene at_eye = testing::scene_of({{0, 0, 0}, {1, 0, 0.5}, {0, 1, 0.5}}, {{0, 1, 2}});
   EXPECT_EQ(filled(0, none, Mapping::standard, at_eye), (Range{0.5e-4, 1}));
   const Scene behind = testing::scene_of({{0, 0, -2}, {1, 0, -1}, {0, 1, -3}}, {{0, 1, 2}});
+  const Scene flat = testing::scene_of({{0, 0, 4}, {1, 0, 4}, {0, 1, 4}}, {{0, 1, 2}});
+  EXPECT_EQ(filled(0, none, Mapping::standard, flat), (Range{2, 8}));
   EXPECT_EQ(filled(0, none, Mapping::standard, behind), (Range{1e-4, 2}));
   EXPECT_EQ(filled(0, none, Mapping::standard, Scene{}), (Range{1e-4, 2}));
 }

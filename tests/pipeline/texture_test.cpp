@@ -44,6 +44,18 @@ double looked_up(const RgbImage& image, TextureFilter filter, const Uv& uv, cons
 
 constexpr double rounded = 1e-14;
 
+/// A quarter of the way from one texel to the next, in each component.
+TEST(TextureByHand, EachComponentIsMixedByItself) {
+  RgbImage image(2, 1);
+  image.pixels = {{0, 51, 102}, {255, 204, 153}};
+  const Colour c = Texture(image).sample({{0.375, 0.5}, {}, {}}, TextureFilter::bilinear);
+  EXPECT_NEAR(c[0], 0.25, rounded);
+  EXPECT_NEAR(c[1], 0.35, rounded);
+  EXPECT_NEAR(c[2], 0.45, rounded);
+  // Between the texels 5, 6, 9 and 10, at 1.25 and 1.5 of their centres.
+  EXPECT_NEAR(looked_up(four_by_four, TextureFilter::bilinear, {0.4375, 0.5}), 7.25 / 15, rounded);
+}
+
 /// The coarsest level of a row or a column, odd ones too, is one texel.
 TEST(TextureByHand, LevelsOfRowsAndColumns) {
   for (const RgbImage& image : {grey(4, {0, 51, 102, 255}), grey(1, {0, 51, 102, 255})}) {

@@ -89,9 +89,6 @@ void require_meaningful(const PipelineOptions& o) {
                      "painter draws areas; points and wireframe have none");
   const bool by_area = o.antialias.method == AntialiasMethod::area ||
                        o.antialias.method == AntialiasMethod::temporal_area;
-  if (o.hidden_surface == HiddenSurface::painter && by_area)
-    throw UsageError(Setting{"hidden_surface"},
-                     "area finds what is visible by itself; there is no order to paint in");
   if (o.hidden_surface == HiddenSurface::painter && offsets_depths(o.polygon_offset))
     throw UsageError(Setting{"polygon_offset"}, "the painter compares no depths to be offset");
   if (o.hidden_surface == HiddenSurface::painter && o.blend_depth != BlendDepth::off)
