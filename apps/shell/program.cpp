@@ -85,9 +85,9 @@ int run_to_the_end(const std::function<int()>& run) {
   try {
     return outcome_is(run_reporting(run));
   } catch (const std::bad_alloc&) {
-    return report_out_of_memory();
+    return outcome_is(report_out_of_memory());
   } catch (const std::length_error&) {
-    return report_out_of_memory();
+    return outcome_is(report_out_of_memory());
   }
 }
 
