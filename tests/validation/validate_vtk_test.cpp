@@ -1,0 +1,105 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/apps/run_program.h"
+#include "tests/apps/test_folder.h"
+#include "tests/places.h"
+#include "tests/validation/validate_runs.h"
+
+/// `fathom validate` with VTK as it is installed (FATHOM_PEERS): its depths and its colours.
+namespace fathom::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(ValidateVtk, EveryVariantIsExplained) {
+  std::size_t single = 0, several = 0;
+  for (const auto& result : results_of("vtk", "sphere,orthographic")) {
+    expect_explained(result);
+    ++(is_multisampled(result) ? several : single);
+  }
+  EXPECT_EQ(single, 2U * 9);
+  EXPECT_GT(several, 0U);  // its default, 8, is always asked for
+}
+
+// The wall at 8000, seen by three quarters of the pixels, is not told from far at 10⁷ times near by
+// a depth that passes through z_ndc/2 + 1/2; the others tell it.
+TEST(ValidateVtk, ReversedAndLogarithmicDepthsReachFar) {
+  const TestFolder folder;
+  const Outcome outcome = run_fathom(
+      {"validate", "--against", "vtk", "--scene", "range", "--size", "64x48", "--variants",
+       "unorm24,float32 reversed,float32 reversed by shader,float32 logarithmic", "--out",
+       "report"},
+      {.folder = folder.path()});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  const auto results = nlohmann::json::parse(folder.read("report/report.json"))["results"];
+  ASSERT_EQ(results.size(), 4U);
+  for (const auto& result : results) {
+    const int edge = result["pixels"]["edge"];
+    const double typical = result["errors"]["median_relative"];
+    if (result["variant"] == "unorm24") {
+      EXPECT_GT(edge, 64 * 48 / 2);
+    } else {
+      EXPECT_LT(edge, 64 * 48 / 50) << result["variant"];
+      EXPECT_LT(typical, 2e-6) << result["variant"];
+    }
+  }
+}
+
+// VTK's pictures and the pipeline's, of meshes seen from outside and, of the house's roof, inside.
+TEST(ValidateVtk, ColoursAreThoseOfTheFormulas) {
+  const std::string cube = source_dir() / "data/meshes/cube.obj";
+  const std::string house = source_dir() / "data/meshes/house.gltf";
+  for (const auto& mesh : {cube, house}) {
+    const Outcome outcome = run_fathom({"validate", "--colour", "--size", "128x96", mesh});
+    EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("phong, VTK Gouraud: "));
+    EXPECT_THAT(outcome.out, HasSubstr(" background, 0 unexplained\n"));
+  }
+  const TestFolder folder;
+  EXPECT_EQ(
+      run_fathom({"validate", "--colour", "--scene", "sphere", "--size", "32x24", "--out", "r"},
+                 {.folder = folder.path()})
+          .status,
+      0);
+  const auto results = nlohmann::json::parse(folder.read("r/colours.json"))["results"];
+  ASSERT_EQ(results.size(), 5U);
+  for (const auto& result : results) {
+    EXPECT_EQ(result["pixels"]["unexplained"], 0);
+    EXPECT_GT(result["pixels"]["inside"], 300);
+  }
+  EXPECT_EQ(folder.read("r/sphere-gouraud.png").substr(1, 3), "PNG");
+}
+
+TEST(ValidateVtk, ColoursThatCannotBeComparedAreRefused) {
+  const Outcome outcome =
+      run_fathom({"validate", "--colour", "--scene", "orthographic,sphere", "--size", "32x24"});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.out, HasSubstr("colours are compared for perspective cameras"));
+  EXPECT_THAT(outcome.out, HasSubstr("sphere: phong, VTK Phong: "));
+  EXPECT_EQ(run_fathom({"validate", "--colour", "--against", "vtk"}).status, 2);
+  for (const auto& option : {"--variants", "--baseline", "--model", "--channel", "-o"}) {
+    const Outcome refused = run_fathom({"validate", "--colour", option, "x"});
+    EXPECT_EQ(refused.status, 2) << option;
+    EXPECT_THAT(refused.err, HasSubstr("has no meaning with --colour"));
+  }
+  const Outcome missing = run_fathom({"validate", "--colour", "missing.obj"});
+  EXPECT_EQ(missing.status, 3);
+  EXPECT_THAT(missing.err, HasSubstr("missing.obj: cannot be opened"));
+}
+
+TEST(ValidateVtk, WhatTheOtherDrewIsAMapOfOurs) {
+  const TestFolder folder;
+  const std::string cube = source_dir() / "data/meshes/cube.obj";
+  const Outcome outcome =
+      run_fathom({"validate", "--render", "vtk", cube, "--size", "40x30", "-o", "vtk.exr"},
+                 {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(run_fathom({"info", "vtk.exr"}, {.folder = folder.path()}).status, 0);
+}
+
+}  // namespace
+}  // namespace fathom::test
