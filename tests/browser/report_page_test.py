@@ -1,0 +1,151 @@
+#!/usr/bin/python3
+"""The report that `fathom validate` writes, as a reader meets it: opened from a file, clicked, pointed at.
+
+    tests/browser/report_page_test.py FATHOM-VALIDATE
+"""
+import json
+import pathlib
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import WebDriverWait
+
+from headless_chromium import PATIENCE, errors_in_console, headless_chromium
+
+WIDTH, HEIGHT = 64, 48
+PIXELS = 5  # of each result that are looked at
+READING = re.compile(r"pixel \((\d+), (\d+)\): ([a-z -]+?)(?:, triangle \d+)?\n"
+                     r"truth (\S+)   other (\S+)\ndifference ")
+
+COLOUR_OF_PIXEL = """
+const [canvas, x, y] = arguments;
+return Array.from(canvas.getContext("2d").getImageData(x, y, 1, 1).data).slice(0, 3);
+"""
+COLOUR_OF_CLASS = """
+const row = [...document.querySelectorAll("#classes tr")].find((r) => r.cells[0].textContent == arguments[0]);
+return getComputedStyle(row.querySelector(".key")).backgroundColor.match(/\\d+/g).map(Number);
+"""
+SIZE = "return [arguments[0].width, arguments[0].height]"
+DOTS = "return [...document.querySelectorAll('#scatter circle')].map((c) => [c.cx.baseVal.value, c.cy.baseVal.value])"
+LINES = "return [...document.querySelectorAll('#formats polyline')].map((line) => line.getAttribute('points'))"
+WHITE = [255, 255, 255]  # background, in pictures of depth
+
+
+def as_binary32(depth):
+    """A number of report.json, null for background, as maps store it."""
+    return float("inf") if depth is None else struct.unpack("f", struct.pack("f", depth))[0]
+
+
+def as_shown(text):
+    return float("inf") if text == "background" else float(text)
+
+
+class ReportPage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        # Rays exactly through corners, some of which slip through, beside a scene without faults.
+        folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="fathom-report-")))
+        subprocess.run([PROGRAM, "--against", "embree", "--scene", "sphere,vertices",
+                        "--size", f"{WIDTH}x{HEIGHT}", "--out", folder],
+                       check=True, stdout=subprocess.DEVNULL)
+        cls.results = json.loads((folder / "report.json").read_text())["results"]
+        cls.driver = cls.enterClassContext(headless_chromium())
+        cls.driver.get((folder / "report.html").as_uri())
+
+    def tearDown(self):
+        self.assertEqual(errors_in_console(self.driver), [])
+
+    def all(self, selector):
+        return self.driver.find_elements(By.CSS_SELECTOR, selector)
+
+    def text(self, selector):
+        return self.driver.find_element(By.CSS_SELECTOR, selector).text
+
+    def wait_for(self, condition, what):
+        WebDriverWait(self.driver, PATIENCE, poll_frequency=0.05).until(lambda _: condition(), what)
+
+    def show(self, number):
+        """Clicks the cell of a result and waits for its pictures and plots."""
+        result = self.results[number]
+        self.driver.find_element(By.CSS_SELECTOR, f'#matrix button[data-case="{number}"]').click()
+        title = f"{result['scene']}, {result['renderer']} {result['variant']}"
+        self.wait_for(lambda: self.text("#title") == title and self.all("#maps-shown canvas")
+                      and self.all("#formats svg"), title)
+        return result
+
+    def point_at(self, canvas, x, y):
+        """Moves the mouse to the middle of a pixel; what the page then says of it."""
+        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
+        size = canvas.size  # with a border of one pixel
+        ActionChains(self.driver, duration=0).move_to_element_with_offset(
+            canvas, round((x + 0.5) / WIDTH * (size["width"] - 2) + 1 - size["width"] / 2),
+            round((y + 0.5) / HEIGHT * (size["height"] - 2) + 1 - size["height"] / 2)).perform()
+        return READING.match(self.text("#reading"))
+
+    def colour(self, canvas, x, y):
+        return self.driver.execute_script(COLOUR_OF_PIXEL, canvas, x, y)
+
+    def test_the_table_has_a_cell_for_each_result(self):
+        self.assertEqual(len(self.results), 4)
+        self.assertIn("4 maps of 2 scenes: every pixel is explained", self.text("#verdict"))
+        self.assertEqual([cell.text for cell in self.all("#matrix button")], ["0"] * 4)
+
+    # The values come from compressed maps, those of report.json do not.
+    def test_a_click_shows_pictures_that_can_be_read(self):
+        for number, _ in enumerate(self.results):
+            result = self.show(number)
+            canvases = self.all("#maps-shown canvas")
+            self.assertEqual(len(canvases), 4)
+            for canvas in canvases:
+                self.assertTrue(canvas.is_displayed())
+                self.assertEqual(self.driver.execute_script(SIZE, canvas), [WIDTH, HEIGHT])
+            truth, other, _, classes = canvases
+            self.assertTrue(result["worst"])
+            for pixel in result["worst"][:PIXELS]:
+                x, y = pixel["pixel"]
+                with self.subTest(scene=result["scene"], variant=result["variant"], pixel=(x, y)):
+                    said = self.point_at(truth, x, y)
+                    self.assertEqual((int(said[1]), int(said[2]), said[3]), (x, y, pixel["class"]))
+                    depths = as_binary32(pixel["truth"]), as_binary32(pixel["other"])
+                    self.assertEqual((as_shown(said[4]), as_shown(said[5])), depths)
+                    for canvas, depth in zip((truth, other), depths):
+                        self.assertEqual(self.colour(canvas, x, y) == WHITE, depth == float("inf"))
+                    self.assertEqual(self.colour(classes, x, y),
+                                     self.driver.execute_script(COLOUR_OF_CLASS, pixel["class"]))
+
+    def test_background_is_white(self):
+        self.show(next(k for k, r in enumerate(self.results) if r["scene"] == "sphere"))
+        truth, other = self.all("#maps-shown canvas")[:2]
+        said = self.point_at(other, 0, 0)
+        self.assertEqual(said.groups(), ("0", "0", "equal", "background", "background"))
+        self.assertEqual([self.colour(truth, 0, 0), self.colour(other, 0, 0)], [WHITE, WHITE])
+
+    def test_plots_show_every_renderer_and_pixels_at_many_places(self):
+        for number, _ in enumerate(self.results):
+            result = self.show(number)
+            with self.subTest(scene=result["scene"], variant=result["variant"]):
+                dots = {tuple(dot) for dot in self.driver.execute_script(DOTS)}
+                self.assertGreater(len(dots), 50)
+                lines = self.driver.execute_script(LINES)
+                self.assertEqual(len(lines), 2)
+                for line in lines:
+                    self.assertGreater(len(line.split()), 1)
+
+    def test_the_button_of_a_pixel_reads_it(self):
+        result = self.show(next(k for k, r in enumerate(self.results) if r["pixels"]["missed surface"]))
+        button = self.all("#worst button")[0]
+        button.click()
+        said = READING.match(self.text("#reading"))
+        self.assertEqual([int(said[1]), int(said[2])], result["worst"][0]["pixel"])
+        self.assertEqual((said[3], said[5]), ("missed surface", "background"))
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main(failfast=True)
