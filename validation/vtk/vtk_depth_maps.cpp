@@ -3,7 +3,9 @@
 #include <limits>
 
 #include "fathom/attribution/model/window_depth.h"
+#include "fathom/numeric/errors.h"
 #include "validation/opengl/opengl_renderer.h"
+#include "validation/vtk/camera_matrix.h"
 #include "validation/vtk/vtk_renderer.h"
 
 namespace fathom::validation {
@@ -50,9 +52,12 @@ DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const VtkVariant&
   model.mapping = options.reversed ? Mapping::reversed : Mapping::opengl;
   model.written = options.written;
   model.storage = drawing.storage;
-  model.matrix = drawing.clip_from_held;
   model.shift = drawing.shift;
   model.scale = drawing.scale;
+  if (!is_matrix_of(camera, model, drawing.clip_from_held)) {
+    throw InputError("vtk: passed a matrix to OpenGL that is not the camera's");
+  }
+  model.matrix = drawing.clip_from_held;
   model.subpixel_bits = drawing.subpixel_bits;
   model.depth_before_snap = interpolates_before_snapping(drawn.version);
   if (options.samples > 0) {
