@@ -19,12 +19,6 @@ Compression parse_compression(const std::string& text) {
                                         {"piz", Compression::piz}});
 }
 
-double parse_scale(const std::string& text) {
-  const double scale = parse_number(text);
-  if (!(scale > 0)) throw UsageError("'" + text + "' is not positive");
-  return scale;
-}
-
 StorageOptions::Float parse_dtype(const std::string& text) {
   return parse_word<StorageOptions::Float>(text, {{"float32", StorageOptions::Float::binary32},
                                                   {"float64", StorageOptions::Float::binary64}});

@@ -9,7 +9,7 @@
 #include "apps/render/render_outputs.h"
 #include "apps/render/render_plan.h"
 #include "apps/render/render_report.h"
-#include "apps/render/stopwatch.h"
+#include "apps/shell/stopwatch.h"
 #include "apps/render/thread_limit.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/progress.h"

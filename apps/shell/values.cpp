@@ -50,6 +50,12 @@ double parse_number(const std::string& text) {
   return value;
 }
 
+double parse_scale(const std::string& text) {
+  const double scale = parse_number(text);
+  if (!(scale > 0)) throw UsageError("'" + text + "' is not positive");
+  return scale;
+}
+
 std::int64_t parse_whole(const std::string& text) {
   const double x = parse_number(text);
   if (x != std::floor(x) || std::abs(x) > 1e9)

@@ -16,6 +16,8 @@ namespace fathom::app {
 
 /// A finite number.
 double parse_number(const std::string& text);
+/// A finite number above 0.
+double parse_scale(const std::string& text);
 /// A whole number in [−10⁹, 10⁹].
 std::int64_t parse_whole(const std::string& text);
 /// An integer in [least, 2³² − 1].

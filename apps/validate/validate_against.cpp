@@ -8,6 +8,7 @@
 
 #include "apps/shell/about_option.h"
 #include "apps/shell/progress.h"
+#include "apps/shell/stopwatch.h"
 #include "apps/validate/scenes_to_draw.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/attribution/attribute_and_name.h"
@@ -45,7 +46,9 @@ std::vector<ValidationCase> draw_all(const std::vector<SceneToMake>& scenes,
       ValidationCase made{.scene = scene.name,
                           .renderer = name_of(validation::renderer_of(peer)),
                           .variant = validation::variant_name(peer)};
+      Stopwatch watch;
       validation::Drawing drawing = validation::draw_in_child(peer, scene.make, seconds);
+      made.seconds = watch.lap();
       made.failure = drawing.failure;
       if (drawing.drawn) {
         made.other = std::move(drawing.drawn->map);
@@ -65,8 +68,10 @@ void judge_all(std::vector<ValidationCase>& cases, const std::vector<SceneToMake
     const auto truth = std::make_shared<Truth>(attribution::make_truth(made.scene, made.camera));
     for (ValidationCase& c : cases) {
       if (c.scene != scene.name || !c.is_done()) continue;
+      Stopwatch watch;
       c.attribution = attribution::attribute_and_name(*truth, c.other, c.model);
       c.truth = truth;
+      c.seconds = c.seconds.value_or(0) + watch.lap();
     }
   }
 }
@@ -76,15 +81,14 @@ void judge_all(std::vector<ValidationCase>& cases, const std::vector<SceneToMake
 int validate_against(const ValidateArguments& arguments, const Console& console) {
   const std::vector<SceneToMake> scenes = scenes_of(arguments, console);
   const std::vector<Peer> peers = peers_of(arguments);
-  const ReportPlaces places{arguments.out, arguments.baseline};
-  prepare(places);
+  ValidationReport report(arguments);
   std::vector<ValidationCase> cases;
   {
     Progress progress(console, "drawing");
     cases = draw_all(scenes, peers, arguments.time_limit(), progress.reporter());
   }
   judge_all(cases, scenes);
-  return report_cases(cases, places);
+  return report.finish(cases);
 }
 
 }  // namespace fathom::app

@@ -23,13 +23,20 @@ void ValidateArguments::add_to(Command& command) {
   command.option("-o", "MAP", output, "Where --render puts its map");
   command.option("--map", "MAP", map, "The map of another renderer (EXR, PFM, PNG, NPY)");
   command.option("--channel", "NAME", channel, "Its channel of depths (default: detected)");
+  command.option("--png-scale", "N", into(png_scale, parse_scale),
+                 "Codes per unit of a map of integers that does not say it itself");
   command.option("--camera", "FILE", camera, "Camera file");
   command.option("--model", "NAME", model, "What is assumed of the renderer");
   command.option(
       "--out", "DIR", out,
       "Folder for report.json and report.html; with --colour, colours.json and pictures");
   command.option("--baseline", "REPORT", baseline,
-                 "An earlier report.json: exit status 1 if something got worse");
+                 "An earlier report.json: says what changed, exit status 1 if something got worse; "
+                 "with --out also comparison.html");
+  command.option("--junit", "FILE", junit, "Also a JUnit XML file, as CI services read it");
+  command.flag("--ctest", for_ctest,
+               "Of --map: the cause in the first line, measurements and pictures for CTest and "
+               "CDash; see fathom_add_depth_test in docs/validation.md");
 }
 
 int ValidateArguments::time_limit() const {

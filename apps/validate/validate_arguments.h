@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,11 @@ namespace fathom::app {
 /// The arguments of `fathom validate`.
 struct ValidateArguments {
   std::vector<std::string> scenes;
-  std::string map, camera, model, channel, out, baseline;
+  std::string map, camera, model, channel, out, baseline, junit;
   std::string against, scene_names, variants, render, output;
-  bool colour = false;
+  bool colour = false, for_ctest = false;
+  /// Codes per scene unit of a map of integers that does not say it itself.
+  std::optional<double> png_scale;
   ReadLimits limits;
   Size size{320, 240};
   std::uint32_t seconds = 300;

@@ -63,7 +63,7 @@ int validate_colours(const ValidateArguments& given, const Console& console) {
   if (arguments.scenes.empty() && arguments.scene_names.empty())
     arguments.scene_names = "sphere,spot,teapot";
   const std::vector<SceneToMake> scenes = scenes_of(arguments, console);
-  prepare({arguments.out, ""});
+  prepare_answer(arguments.out);
   std::vector<ColourCase> cases;
   {
     Progress progress(console, "drawing");

@@ -26,6 +26,11 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
     throw UsageError(
         "one of --against RENDERERS, --map MAP, --colour and --render RENDERER is expected");
   }
+  if (arguments.for_ctest && arguments.map.empty()) throw UsageError("--ctest goes with --map");
+  if (!arguments.junit.empty() && arguments.map.empty() && arguments.against.empty()) {
+    throw UsageError("--junit goes with --map and --against");
+  }
+  if (arguments.png_scale && arguments.map.empty()) throw UsageError("--png-scale goes with --map");
   if (!arguments.against.empty()) return validate_against(arguments, console);
   if (!arguments.render.empty()) return validate_render(arguments, console);
   if (arguments.colour) return validate_colours(arguments, console);
@@ -39,6 +44,7 @@ void add_validate(Command& program) {
       "  fathom validate --against opengl --scene sheets,room --variants unorm16,float32\n"
       "  fathom validate --against vtk spot.obj --camera camera.json\n"
       "  fathom validate --map other.exr --camera camera.json --model gl-unorm24 spot.obj\n"
+      "  fathom validate --against opengl --out new --junit new.xml --baseline old/report.json\n"
       "  fathom validate --colour --scene spot\n"
       "  fathom validate --render vtk spot.obj --camera camera.json -o vtk.exr\n"
       "\nScenes: " +

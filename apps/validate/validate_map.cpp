@@ -10,6 +10,8 @@
 
 #include "apps/options/map_argument.h"
 #include "apps/shell/about_option.h"
+#include "apps/shell/stopwatch.h"
+#include "apps/validate/other_scene.h"
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/attribution/attribute_and_name.h"
@@ -19,6 +21,7 @@
 namespace fathom::app {
 namespace {
 
+using attribution::OtherMap;
 using attribution::RendererModel;
 using attribution::Truth;
 using validation::ValidationCase;
@@ -29,7 +32,24 @@ void require_clip_planes(const RendererModel& model, const Camera& camera) {
   if (camera.far < std::numeric_limits<double>::infinity() && (camera.near > 0 || !perspective))
     return;
   throw UsageError("--model " + model.name +
-                   ": the camera file has no near and far, between which its depths are stored");
+                   ": the camera file has no near and far, between which its depths are stored; "
+                   "expected those of the renderer in it, as \"near\": 0.1, \"far\": 100");
+}
+
+/// The map of --map. Where it does not say what is needed to read it, the message does.
+OtherMap read_other_map(const ValidateArguments& arguments) {
+  DepthMap map = read_map_argument(arguments.map);
+  if (arguments.png_scale) map.png_scale = arguments.png_scale;
+  try {
+    return attribution::other_map(map, arguments.channel);
+  } catch (const InputError& error) {
+    const std::string& setting = error.setting();
+    if (setting.empty()) {
+      throw InputError(fmt::format("{}: {}: --channel NAME", arguments.map, error.what()));
+    }
+    const std::string why = std::string(error.what()).substr(setting.size() + 2);
+    throw InputError(fmt::format("{}: {}: --png-scale N", arguments.map, why));
+  }
 }
 
 ValidationCase judge_map(const ValidateArguments& arguments, const Console& console) {
@@ -37,22 +57,25 @@ ValidationCase judge_map(const ValidateArguments& arguments, const Console& cons
   made.model = about_option("--model", [&] { return attribution::model_named(arguments.model); });
   const Camera camera = read_camera(arguments.camera);
   require_clip_planes(made.model, camera);
-  made.other = attribution::other_map(read_map_argument(arguments.map), arguments.channel);
+  made.other = read_other_map(arguments);
   if (made.other.width != camera.width || made.other.height != camera.height) {
-    throw InputError(fmt::format("{}: has {}x{} pixels, the camera {}x{}", arguments.map,
-                                 made.other.width, made.other.height, camera.width, camera.height));
+    throw InputError(fmt::format(
+        "{}: has {}x{} pixels, the camera {}x{}; expected the camera that it was drawn with",
+        arguments.map, made.other.width, made.other.height, camera.width, camera.height));
   }
   const Scene scene = read_files(arguments.scenes, arguments.limits, console);
   made.scene = std::filesystem::path(arguments.scenes.front()).stem();
   const auto truth = std::make_shared<Truth>(attribution::make_truth(scene, camera));
   for (const std::uint32_t triangle : made.other.triangles) {
     if (triangle != no_surface && triangle >= truth->mesh.triangles.size()) {
-      throw InputError(fmt::format("{}: shows triangle {}, but the scene has {}", arguments.map,
-                                   triangle, truth->mesh.triangles.size()));
+      throw InputError(fmt::format(
+          "{}: shows triangle {}, but the scene has {}; expected the SCENE that it was drawn from",
+          arguments.map, triangle, truth->mesh.triangles.size()));
     }
   }
   made.attribution = attribution::attribute_and_name(*truth, made.other, made.model);
   made.truth = truth;
+  name_other_scene(made);
   return made;
 }
 
@@ -62,10 +85,11 @@ int validate_map(const ValidateArguments& arguments, const Console& console) {
   if (arguments.model.empty()) {
     throw UsageError("--model is missing: there are " + attribution::model_names());
   }
-  const ReportPlaces places{arguments.out, arguments.baseline};
-  prepare(places);
-  const std::vector<ValidationCase> cases{judge_map(arguments, console)};
-  return report_cases(cases, places);
+  ValidationReport report(arguments);
+  Stopwatch watch;
+  std::vector<ValidationCase> cases{judge_map(arguments, console)};
+  cases.front().seconds = watch.lap();
+  return report.finish(cases);
 }
 
 }  // namespace fathom::app

@@ -6,7 +6,7 @@
 namespace fathom::app {
 
 /// `validate --map`: compares a map that another renderer made with the truth. Returns the exit
-/// status, as report_cases().
+/// status, as ValidationReport::finish().
 int validate_map(const ValidateArguments& arguments, const Console& console);
 
 }  // namespace fathom::app

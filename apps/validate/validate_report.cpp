@@ -11,80 +11,133 @@
 #include "apps/shell/exit_status.h"
 #include "apps/shell/folder.h"
 #include "apps/shell/known_files.h"
-#include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
+#include "apps/validate/validate_lines.h"
+#include "fathom/image/rgb_image.h"
 #include "fathom/numeric/errors.h"
-#include "validation/report/baseline.h"
+#include "validation/report/cause.h"
+#include "validation/report/comparison_html.h"
+#include "validation/report/junit.h"
+#include "validation/report/pictures.h"
+#include "validation/report/read_report.h"
 #include "validation/report/report_html.h"
 #include "validation/report/report_json.h"
 
 namespace fathom::app {
 namespace {
 
-using attribution::Attribution;
-using attribution::PixelClass;
+using validation::Comparison;
 using validation::ValidationCase;
+using validation::Verdict;
 
-std::string title_of(const ValidationCase& c) {
-  return fmt::format("{}, {}{}", c.scene, c.renderer, c.variant.empty() ? "" : " " + c.variant);
+validation::Report read_baseline(const std::string& file) {
+  note_input(file);
+  return validation::read_report(file);
 }
 
-/// "spot, vtk unorm24: 76800 pixels: 70000 equal, 20 edge; bounds 3.1e-07 wide, 0.012 may".
-std::string line_of(const ValidationCase& c) {
-  if (!c.is_done()) return fmt::format("{}: {}\n", title_of(c), c.failure);
-  const Attribution& a = c.attribution;
-  std::string counts;
-  for (std::size_t k = 0; k < attribution::pixel_class_count; ++k) {
-    if (a.counts[k] == 0) continue;
-    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", a.counts[k],
-                          name_of(static_cast<PixelClass>(k)));
-  }
-  std::string text = fmt::format("{}: {}; median bound {:.2g} of the depth, {:.2g} may\n",
-                                 title_of(c), counts, a.median_relative_width, a.may_share);
-  for (const attribution::Finding& f : a.findings) {
-    text += fmt::format("  {}: {} ({} pixels)\n", f.kind, f.text, f.pixels);
-  }
-  return text;
+void write_picture(const std::optional<OutputFile>& file, const RgbImage& picture) {
+  if (!file) return;
+  file->write([&](const std::filesystem::path& path) { write_png(picture, path); });
+}
+
+int status_of(const std::vector<ValidationCase>& cases, const Comparison* comparison) {
+  const auto is_wrong = [](const ValidationCase& c) { return c.is_done() && !c.is_good(); };
+  if (std::any_of(cases.begin(), cases.end(), is_wrong)) return answer_is_no;
+  if (comparison != nullptr && comparison->count(Verdict::worse) > 0) return answer_is_no;
+  const auto is_done = [](const ValidationCase& c) { return c.is_done(); };
+  if (!std::all_of(cases.begin(), cases.end(), is_done)) return unusable_input;
+  return comparison == nullptr || comparison->obstacle().empty() ? done : unusable_input;
 }
 
 }  // namespace
 
-void prepare(const ReportPlaces& places) {
+void prepare_answer(const std::string& out) {
   expect_standard_output();
-  if (!places.baseline.empty()) {
-    note_input(places.baseline);
-    validation::regressions({}, places.baseline);
-  }
-  if (places.out.empty()) return;
-  make_folder(places.out);
-  if (::access(places.out.c_str(), W_OK) != 0) {
-    throw OutputError(fmt::format("{}: cannot write here: {}", places.out, std::strerror(errno)));
+  if (out.empty()) return;
+  make_folder(out);
+  if (::access(out.c_str(), W_OK) != 0) {
+    throw OutputError(fmt::format("{}: cannot write here: {}", out, std::strerror(errno)));
   }
 }
 
-int report_cases(const std::vector<ValidationCase>& cases, const ReportPlaces& places) {
-  std::vector<std::string> worse;
-  if (!places.baseline.empty()) {
-    worse = validation::regressions(cases, places.baseline);
+ValidationReport::ValidationReport(const ValidateArguments& arguments)
+    : out_(arguments.out),
+      baseline_name_(arguments.baseline),
+      for_ctest_(arguments.for_ctest),
+      junit_is_the_answer_(arguments.junit == "-"),
+      junit_(arguments.junit) {
+  if (for_ctest_ && out_.empty()) {
+    throw UsageError("--ctest needs --out DIR, where the pictures go");
   }
-  std::string text;
-  for (const ValidationCase& c : cases) text += line_of(c);
-  for (const std::string& line : worse) text += "worse than the baseline: " + line + "\n";
-  print(text);
-  if (!places.out.empty()) {
-    OutputFile json(std::filesystem::path(places.out) / "report.json");
-    OutputFile html(std::filesystem::path(places.out) / "report.html");
-    json.write(validation::to_json(cases));
-    html.write(validation::to_html(cases));
-    OutputFile::commit_together({&json, &html});
+  if (!arguments.baseline.empty()) baseline_ = read_baseline(arguments.baseline);
+  prepare_answer(out_);
+  if (out_.empty()) return;
+  const std::filesystem::path out(out_);
+  folder_.emplace(Folder{.json = OutputFile(out / "report.json"),
+                         .html = OutputFile(out / "report.html"),
+                         .comparison = {},
+                         .classes = {},
+                         .differences = {}});
+  if (baseline_) folder_->comparison.emplace(out / "comparison.html");
+  if (!for_ctest_) return;
+  folder_->classes.emplace(out / validation::class_picture_name);
+  folder_->differences.emplace(out / validation::difference_picture_name);
+}
+
+std::string ValidationReport::obstacle_of(const Comparison& comparison) const {
+  const std::string obstacle = comparison.obstacle();
+  if (obstacle.empty()) return "";
+  return fmt::format("{}: {}: expected a report of the same scenes and size, written with --out",
+                     baseline_name_, obstacle);
+}
+
+int ValidationReport::finish(const std::vector<ValidationCase>& cases) {
+  std::optional<Comparison> compared;
+  if (baseline_) compared = validation::compare(*baseline_, validation::reported(cases));
+  const Comparison* comparison = compared ? &*compared : nullptr;
+  std::string changes, obstacle;
+  if (comparison != nullptr) {
+    changes = validation::lines_of(*comparison);
+    obstacle = obstacle_of(*comparison);
+    if (!obstacle.empty()) changes += obstacle + "\n";
   }
-  const bool all_good = std::all_of(cases.begin(), cases.end(), [](const ValidationCase& c) {
-    return !c.is_done() || c.is_good();
-  });
-  if (!all_good || !worse.empty()) return answer_is_no;
-  const bool all_done =
-      std::all_of(cases.begin(), cases.end(), [](const ValidationCase& c) { return c.is_done(); });
-  return all_done ? done : unusable_input;
+  std::string cause = for_ctest_ ? validation::cause_of(cases.front()) : "";
+  if (cause.empty() && comparison != nullptr) cause = comparison->regression();
+  if (cause.empty()) cause = obstacle;
+  write_files(cases, comparison);
+  // Answers on standard output go out before files take their places.
+  if (junit_is_the_answer_) {
+    junit_.print();
+  } else {
+    print(for_ctest_ ? lines_for_ctest(cases.front(), cause, changes, out_)
+                     : lines_of(cases) + changes);
+  }
+  commit();
+  return status_of(cases, comparison);
+}
+
+void ValidationReport::write_files(const std::vector<ValidationCase>& cases,
+                                   const Comparison* comparison) {
+  junit_.write(validation::to_junit(cases, comparison));
+  if (!folder_) return;
+  folder_->json.write(validation::to_json(cases));
+  folder_->html.write(validation::to_html(cases));
+  if (comparison != nullptr) folder_->comparison->write(validation::to_html(*comparison));
+  if (!for_ctest_) return;
+  write_picture(folder_->classes, validation::class_picture(cases.front()));
+  write_picture(folder_->differences, validation::difference_picture(cases.front()));
+}
+
+void ValidationReport::commit() {
+  std::vector<OutputFile*> outputs;
+  if (junit_.file() != nullptr) outputs.push_back(junit_.file());
+  if (folder_) {
+    outputs.insert(outputs.end(), {&folder_->json, &folder_->html});
+    for (auto* file : {&folder_->comparison, &folder_->classes, &folder_->differences}) {
+      if (*file) outputs.push_back(&**file);
+    }
+  }
+  OutputFile::commit_together(outputs);
 }
 
 }  // namespace fathom::app

@@ -1,26 +1,51 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/shell/text_output.h"
+#include "apps/validate/validate_arguments.h"
+#include "validation/report/comparison.h"
 #include "validation/report/validation_case.h"
 
 namespace fathom::app {
 
-struct ReportPlaces {
-  /// Folder for report.json and report.html; empty: none is written.
-  std::string out;
-  /// An earlier report.json to compare with; empty: none.
-  std::string baseline;
+/// Makes the folder of a report, if one is asked for; to be called before the work, like the
+/// constructor below.
+/// Fails    OutputError where standard output or the folder cannot be written.
+void prepare_answer(const std::string& out);
+
+/// What a validation answers: lines on standard output, and the files that were asked for. Made
+/// before the work, which need not be done where a file cannot be written or the baseline not read.
+class ValidationReport {
+ public:
+  /// Takes --out, --junit, --baseline and --ctest.
+  /// Fails    OutputError, InputError; UsageError where --ctest has no --out.
+  explicit ValidationReport(const ValidateArguments& arguments);
+
+  /// Prints a line for each case and what was found (with --junit - the JUnit XML instead), puts the files in their places, all or none,
+  /// and returns the exit status: answer_is_no where something is unexplained, wrong or worse than
+  /// in the baseline, unusable_input where a renderer did not draw or the baseline is of other
+  /// scenes.
+  [[nodiscard]] int finish(const std::vector<validation::ValidationCase>& cases);
+
+ private:
+  struct Folder {
+    OutputFile json, html;
+    std::optional<OutputFile> comparison, classes, differences;
+  };
+
+  [[nodiscard]] std::string obstacle_of(const validation::Comparison& comparison) const;
+  void write_files(const std::vector<validation::ValidationCase>& cases,
+                   const validation::Comparison* comparison);
+  void commit();
+
+  std::string out_, baseline_name_;
+  bool for_ctest_, junit_is_the_answer_;
+  std::optional<validation::Report> baseline_;
+  TextOutput junit_;
+  std::optional<Folder> folder_;
 };
-
-/// To be called before the work: it need not be done where the report cannot be written or the
-/// baseline not be read. Fails with OutputError, InputError.
-void prepare(const ReportPlaces& places);
-
-/// Prints a line for each case and what was found, writes the report, and returns the exit status:
-/// answer_is_no where something is unexplained, wrong or worse than in the baseline, unusable_input
-/// where a renderer did not draw.
-int report_cases(const std::vector<validation::ValidationCase>& cases, const ReportPlaces& places);
 
 }  // namespace fathom::app

@@ -9,6 +9,7 @@
 
 #include "validation/report/page.h"
 #include "validation/report/report_json.h"
+#include "validation/report/script_data.h"
 
 namespace fathom::validation {
 namespace {
@@ -82,13 +83,6 @@ nlohmann::json case_data(const ValidationCase& c) {
   return {{"differences", compressed(in_planes(differences))}, {"classes", compressed(classes)}};
 }
 
-/// JSON in a script element: nothing in it can end the element.
-std::string in_script(std::string json) {
-  for (std::size_t i = 0; (i = json.find('<', i)) != std::string::npos;)
-    json.replace(i, 1, "\\u003c");
-  return json;
-}
-
 }  // namespace
 
 std::string to_html(const std::vector<ValidationCase>& cases) {
@@ -101,12 +95,11 @@ std::string to_html(const std::vector<ValidationCase>& cases) {
   }
   std::string html;
   for (const std::string_view part : {page::head, page::style, page::body}) html += part;
-  html += "<script id=\"report\" type=\"application/json\">" + in_script(to_json(cases)) +
-          "</script>\n<script id=\"maps\" type=\"application/json\">" +
-          in_script(data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) +
-          "</script>\n<script>\n";
-  for (const std::string_view part :
-       {page::names, page::maps, page::colours, page::result, page::plots, page::start}) {
+  html += script_data("report", to_json(cases));
+  html += script_data("maps", data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  html += "<script>\n";
+  for (const std::string_view part : {page::elements, page::data, page::maps, page::colours,
+                                      page::result, page::plots, page::start}) {
     html += part;
   }
   return html + "</script>\n</body></html>\n";

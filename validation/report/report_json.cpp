@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "validation/report/reported_result.h"
 #include "validation/report/worst_pixels.h"
 
 namespace fathom::validation {
@@ -83,7 +84,7 @@ Json result(const ValidationCase& c) {
 }  // namespace
 
 std::string to_json(const std::vector<ValidationCase>& cases) {
-  Json json{{"fathom", FATHOM_VERSION}, {"results", Json::array()}};
+  Json json{{"fathom", FATHOM_VERSION}, {"format", report_format}, {"results", Json::array()}};
   for (const ValidationCase& c : cases) json["results"].push_back(result(c));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

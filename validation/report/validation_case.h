@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "fathom/attribution/attribution.h"
@@ -16,6 +17,8 @@ struct ValidationCase {
   std::string version;
   /// Why there is no map, in one line; empty where there is one.
   std::string failure;
+  /// What drawing and judging took, by the clock; none where it was not measured.
+  std::optional<double> seconds;
   attribution::RendererModel model;
   std::shared_ptr<const attribution::Truth> truth;
   attribution::OtherMap other;

@@ -10,10 +10,19 @@
 namespace fathom::attribution {
 namespace {
 
+/// "R, G, B".
+std::string names_of(const std::vector<ImageChannel>& channels) {
+  std::string names;
+  for (const ImageChannel& channel : channels) {
+    names += (names.empty() ? "" : ", ") + channel.name;
+  }
+  return names;
+}
+
 const ImageChannel& depth_channel(const DepthMap& map, const std::string& name) {
   if (!name.empty()) {
     if (const ImageChannel* channel = map.find(name)) return *channel;
-    throw InputError("the map has no channel '" + name + "'");
+    throw InputError("the map has no channel '" + name + "', only " + names_of(map.channels));
   }
   if (const ImageChannel* channel = map.find("Z")) return *channel;
   for (const ImageChannel& channel : map.channels) {
@@ -21,7 +30,9 @@ const ImageChannel& depth_channel(const DepthMap& map, const std::string& name) 
     if (is_number && kind_of(channel) == ChannelKind::depth) return channel;
   }
   if (map.channels.size() == 1) return map.channels.front();
-  throw InputError("the map has no channel of depths: expected Z, or the name of its channel");
+  throw InputError("of the map's channels " + names_of(map.channels) +
+                   " none is called as depths are; expected Z, or the name of the one that holds "
+                   "them");
 }
 
 }  // namespace
@@ -29,6 +40,11 @@ const ImageChannel& depth_channel(const DepthMap& map, const std::string& name) 
 OtherMap other_map(const DepthMap& map, const std::string& name) {
   const StandardArithmetic standard;
   const ImageChannel& channel = depth_channel(map, name);
+  const bool is_code = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
+  if (is_code && !map.png_scale) {
+    throw InputError(Setting{"png_scale"},
+                     "the map holds integers and does not say how many are a unit of depth");
+  }
   OtherMap other{.width = map.width, .height = map.height};
   const std::vector<std::uint8_t> seen = surface_mask(map, channel, detect_background(channel));
   const double scale = map.png_scale.value_or(1);
@@ -36,7 +52,6 @@ OtherMap other_map(const DepthMap& map, const std::string& name) {
       [&](const auto& values) {
         for (std::size_t i = 0; i < values.size(); ++i) {
           const double depth = static_cast<double>(values[i]);
-          const bool is_code = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
           other.depths.push_back(seen[i] == 0 ? std::numeric_limits<double>::infinity()
                                  : is_code    ? depth / scale
                                               : depth);

@@ -19,7 +19,8 @@ struct OtherMap {
 };
 
 /// The channel `channel` of a map, or the one that holds depths; also `id` if there is one.
-/// Fails    InputError if there is no such channel.
+/// Fails    InputError if there is no such channel, naming those that there are, or if it holds
+///          integers and the map has no png_scale: what their unit is, nothing tells.
 OtherMap other_map(const DepthMap& map, const std::string& channel = "");
 
 /// As a map of ours: Z, rounded to binary32, and, if known, id.

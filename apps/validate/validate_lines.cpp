@@ -1,0 +1,66 @@
+#include "apps/validate/validate_lines.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "validation/report/cause.h"
+#include "validation/report/ctest_lines.h"
+#include "validation/report/pictures.h"
+#include "validation/report/reported_result.h"
+#include "validation/report/worst_pixels.h"
+
+namespace fathom::app {
+namespace {
+
+using attribution::Attribution;
+using attribution::PixelClass;
+using validation::ValidationCase;
+
+/// "spot, vtk unorm24: 70000 equal, 20 edge; median bound 3.1e-07 of the depth, 0.012 may".
+std::string line_of(const ValidationCase& c) {
+  if (!c.is_done()) return fmt::format("{}: {}\n", title_of(c), c.failure);
+  const Attribution& a = c.attribution;
+  std::string counts;
+  for (std::size_t k = 0; k < attribution::pixel_class_count; ++k) {
+    if (a.counts[k] == 0) continue;
+    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", a.counts[k],
+                          name_of(static_cast<PixelClass>(k)));
+  }
+  std::string text = fmt::format("{}: {}; median bound {:.2g} of the depth, {:.2g} may\n",
+                                 title_of(c), counts, a.median_relative_width, a.may_share);
+  for (const attribution::Finding& f : a.findings) {
+    text += fmt::format("  {}: {} ({} pixels)\n", f.kind, f.text, f.pixels);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string lines_of(const std::vector<ValidationCase>& cases) {
+  std::string text;
+  for (const ValidationCase& c : cases) text += line_of(c);
+  return text;
+}
+
+std::string lines_for_ctest(const ValidationCase& c, const std::string& cause,
+                            const std::string& more, const std::string& folder) {
+  const std::filesystem::path out(folder);
+  std::string text;
+  if (!cause.empty()) text += cause + "\n";
+  text += line_of(c) + more;
+  if (!cause.empty()) {
+    constexpr std::size_t listed_pixels = 8;
+    for (const std::size_t i : validation::worst_pixels(c, listed_pixels)) {
+      text +=
+          fmt::format("  {} {}\n", name_of(c.attribution.classes[i]), validation::pixel_text(c, i));
+    }
+    text += std::filesystem::absolute(out / "report.html").string() + "\n";
+  }
+  return text +
+         validation::to_ctest_lines(c, cause,
+                                    {.classes = out / validation::class_picture_name,
+                                     .differences = out / validation::difference_picture_name});
+}
+
+}  // namespace fathom::app
