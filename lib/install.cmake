@@ -1,5 +1,6 @@
-# The installed package: find_package(Fathom) gives fathom::fathom and a target per room, and
-# fathom::eigen_conversions where Eigen is found; find_package(Fathom COMPONENTS eigen_conversions) demands it.
+# The installed package: find_package(Fathom) gives fathom::fathom and a target per room,
+# fathom::eigen_conversions where Eigen is found, which find_package(Fathom COMPONENTS eigen_conversions) demands,
+# and fathom_add_depth_test; COMPONENTS depth_test gives that function alone.
 include(CMakePackageConfigHelpers)
 set(FATHOM_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/Fathom")
 
@@ -7,12 +8,15 @@ install(EXPORT FathomTargets NAMESPACE fathom:: DESTINATION "${FATHOM_PACKAGE_DI
 install(EXPORT FathomEigenTargets NAMESPACE fathom:: DESTINATION "${FATHOM_PACKAGE_DIR}")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/FathomConfig.cmake.in"
                               "${PROJECT_BINARY_DIR}/FathomConfig.cmake"
-                              INSTALL_DESTINATION "${FATHOM_PACKAGE_DIR}")
+                              INSTALL_DESTINATION "${FATHOM_PACKAGE_DIR}"
+                              PATH_VARS CMAKE_INSTALL_BINDIR)
 # Before 1.0 a minor version may break the interface.
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/FathomConfigVersion.cmake"
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/FathomConfig.cmake"
               "${PROJECT_BINARY_DIR}/FathomConfigVersion.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/FathomDepthTest.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindGMP.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindMPFR.cmake"
         DESTINATION "${FATHOM_PACKAGE_DIR}")
+install(PROGRAMS "${PROJECT_SOURCE_DIR}/cmake/run-depth-test" DESTINATION "${FATHOM_PACKAGE_DIR}")

@@ -106,6 +106,140 @@ TEST_F(ValidateProgram, HoldsARunAgainstAnEarlierOne) {
   EXPECT_THAT(worse.out, HasSubstr("worse than the baseline: cube, map gl-unorm24: "));
 }
 
+TEST_F(ValidateProgram, SaysAndShowsWhatChangedSinceABaseline) {
+  ASSERT_EQ(validate("map.exr", {"--out", "good"}).status, 0);
+  const Outcome worse = validate("aside.exr", {"--baseline", "good/report.json", "--out", "bad"});
+  EXPECT_EQ(worse.status, 1);
+  EXPECT_THAT(worse.out, HasSubstr("worse than the baseline: cube, map gl-unorm24: the image is "
+                                   "shifted by"));
+  EXPECT_THAT(worse.out,
+              HasSubstr("baseline: 1 worse, 0 better, 0 changed, 0 same, 0 new, 0 gone"));
+  EXPECT_THAT(folder.read("bad/comparison.html"), HasSubstr("\"verdict\":\"worse\""));
+  const Outcome better = validate("map.exr", {"--baseline", "bad/report.json"});
+  EXPECT_EQ(better.status, 0);
+  EXPECT_THAT(better.out, HasSubstr("better than the baseline: cube, map gl-unorm24: no longer: "));
+  EXPECT_FALSE(std::filesystem::exists(folder / "good/comparison.html"));
+  // Fewer equal pixels are worse though each of them is explained.
+  nlohmann::json more_equal = nlohmann::json::parse(folder.read("good/report.json"));
+  more_equal["results"][0]["pixels"]["equal"] = 1201;
+  folder.write("more.json", more_equal.dump());
+  const Outcome fewer =
+      validate("map.exr", {"--baseline", "more.json", "--ctest", "--out", "fewer"});
+  EXPECT_EQ(fewer.status, 1);
+  EXPECT_THAT(fewer.out, testing::StartsWith("worse than the baseline: cube, map gl-unorm24: 1200 "
+                                             "equal pixels, 1201 in the baseline\n"));
+  // Where nothing is compared, nothing is worse; that is no reason to pass.
+  const Outcome other =
+      run_fathom({"validate", "--map", "map.exr", "--camera", "camera.json", "--model",
+                  "float32-ray", cube, "--baseline", "good/report.json"},
+                 {.folder = folder.path()});
+  EXPECT_EQ(other.status, 3);
+  EXPECT_THAT(other.out, HasSubstr("good/report.json: has none of the results of this run"));
+}
+
+TEST_F(ValidateProgram, WritesJunitWithTheReportOrNeither) {
+  const Outcome outcome = validate("aside.exr", {"--junit", "junit.xml", "--out", "report"});
+  EXPECT_EQ(outcome.status, 1);
+  const Outcome read = run({python, "-c",
+                            "import sys, xml.etree.ElementTree as tree\n"
+                            "case = tree.parse(sys.argv[1]).getroot()[0][0]\n"
+                            "assert float(case.get('time')) > 0\n"
+                            "print(case.get('name'), case.find('failure').get('message'))",
+                            folder / "junit.xml"});
+  EXPECT_THAT(read.out,
+              testing::StartsWith("map gl-unorm24 shift: the image is shifted by (-0.5, "))
+      << read.err;
+  const Outcome printed = validate("map.exr", {"--junit", "-"});
+  EXPECT_EQ(printed.status, 0);
+  EXPECT_THAT(printed.out, testing::StartsWith("<?xml"));
+  EXPECT_THAT(printed.out, testing::EndsWith("</testsuites>\n"));
+  EXPECT_EQ(validate("map.exr", {"--junit", "none/junit.xml", "--out", "other"}).status, 4);
+  EXPECT_FALSE(std::filesystem::exists(folder / "other/report.json"));
+}
+
+TEST_F(ValidateProgram, TellsCtestTheCauseFirstAndThePictures) {
+  const Outcome bad = validate("aside.exr", {"--ctest", "--out", "report"});
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_THAT(bad.out, testing::StartsWith("shift: the image is shifted by (-0.5, "));
+  EXPECT_THAT(bad.out, HasSubstr("<CTestMeasurementFile type=\"image/png\" "
+                                 "name=\"Classes of pixels\">" +
+                                 folder / "report/classes.png" + "</CTestMeasurementFile>\n"));
+  for (const char* name : {"report/classes.png", "report/differences.png"}) {
+    EXPECT_THAT(folder.read(name), testing::StartsWith("\x89PNG")) << name;
+  }
+  const Outcome good = validate("map.exr", {"--ctest", "--out", "report"});
+  EXPECT_EQ(good.status, 0);
+  EXPECT_THAT(good.out, testing::StartsWith("cube, map gl-unorm24: 1200 equal"));
+}
+
+/// What a map lacks, or what does not belong to it, is said with what to give instead.
+TEST_F(ValidateProgram, SaysWhatToGiveForMapsThatDoNotFit) {
+  const auto expect = [&](const Outcome& outcome, int status, const std::string& line) {
+    EXPECT_EQ(outcome.status, status) << outcome.out << outcome.err;
+    EXPECT_THAT(status == 1 ? outcome.out : outcome.err, HasSubstr(line));
+    const auto lines = std::count(outcome.err.begin(), outcome.err.end(), '\n');
+    EXPECT_EQ(lines, status == 1 ? 0 : 1) << outcome.err;
+  };
+  const auto validate_with = [&](const std::string& camera, const std::string& mesh) {
+    return run_fathom({"validate", "--map", "map.exr", "--camera", camera, "--model", "gl-unorm24",
+                       source_dir() / "data/meshes" / mesh},
+                      {.folder = folder.path()});
+  };
+  nlohmann::json camera = nlohmann::json::parse(folder.read("camera.json"));
+  const auto write_camera = [&](const std::string& name, nlohmann::json::object_t changes) {
+    nlohmann::json changed = camera;
+    changed.update(nlohmann::json(changes));
+    folder.write(name, changed.dump());
+  };
+  write_camera("small.json", {{"width", 20}});
+  expect(validate_with("small.json", "cube.obj"), 3,
+         "map.exr: has 40x30 pixels, the camera 20x30; expected the camera that it was drawn with");
+  nlohmann::json unclipped = camera;
+  unclipped.erase("near");
+  unclipped.erase("far");
+  folder.write("unclipped.json", unclipped.dump());
+  expect(validate_with("unclipped.json", "cube.obj"), 2,
+         "--model gl-unorm24: the camera file has no near and far, between which its depths are "
+         "stored; expected those of the renderer in it");
+
+  const std::string pixels(4 * 3 * 40 * 30, '\0');
+  folder.write("rgb.pfm", "PF\n40 30\n-1\n" + pixels);
+  expect(validate("rgb.pfm"), 3,
+         "rgb.pfm: of the map's channels R, G, B none is called as depths are; expected Z, or the "
+         "name of the one that holds them: --channel NAME");
+  expect(validate("map.exr", {"--channel", "Q"}), 3,
+         "map.exr: the map has no channel 'Q', only A, Z: --channel NAME");
+
+  // Of foreign PNGs of 16 bits nobody knows the unit.
+  ASSERT_EQ(run_fathom({"render", cube, "--camera", "camera.json", "-o", "map.png", "--png-scale",
+                        "10000"},
+                       {.folder = folder.path()})
+                .status,
+            0);
+  ASSERT_EQ(run({"oiiotool", folder / "map.png", "--eraseattrib", "fathom:scale", "-o",
+                 folder / "unit.png"})
+                .status,
+            0);
+  expect(validate("unit.png"), 3,
+         "unit.png: the map holds integers and does not say how many are a unit of depth: "
+         "--png-scale N");
+  const Outcome scaled = validate("unit.png", {"--png-scale", "10000"});
+  EXPECT_THAT(scaled.out, HasSubstr("within arithmetic")) << scaled.err;
+
+  const std::string fits_nowhere =
+      "other-scene: neither outlines nor depths fit: expected the SCENE and the camera that the "
+      "map was drawn from";
+  expect(validate_with("camera.json", "spot.obj"), 1, fits_nowhere);
+  expect(validate_with("camera.json", "teapot.obj"), 1, fits_nowhere);
+  EXPECT_THAT(validate_with("camera.json", "teapot.obj").out,
+              testing::Not(HasSubstr("missing-triangle")));
+  write_camera("away.json", {{"world_to_camera", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, -9}}}});
+  expect(validate_with("away.json", "cube.obj"), 1,
+         "other-scene: SCENE is out of the camera's sight: expected the camera");
+  folder.write("empty.pfm", "Pf\n40 30\n-1\n" + pixels.substr(0, 4 * 40 * 30));
+  expect(validate("empty.pfm"), 1, "other-scene: the map shows no surface at all");
+}
+
 TEST_F(ValidateProgram, RefusesInOneLine) {
   const auto expect_refused = [](const Outcome& outcome, int status, const std::string& message) {
     EXPECT_EQ(outcome.status, status) << outcome.out;
@@ -118,6 +252,11 @@ TEST_F(ValidateProgram, RefusesInOneLine) {
   folder.write("report.json", "{\"results\":" + std::string(100'000, '['));
   expect_refused(validate("map.exr", {"--baseline", "report.json"}), 3,
                  "not a report.json of fathom validate: nested more than 100 deep");
+  const std::string report = "{\"fathom\": \"0.1.0\", \"results\": [";
+  folder.write("report.json", report);
+  expect_refused(
+      validate("map.exr", {"--baseline", "report.json"}), 3,
+      "report.json: is cut off: it ends within its JSON; write it anew: fathom validate");
   folder.write("file", "");
   expect_refused(validate("map.exr", {"--out", "file"}), 4, "file: cannot make this folder");
   const auto run = [&](std::vector<std::string> arguments) {
@@ -132,6 +271,10 @@ TEST_F(ValidateProgram, RefusesInOneLine) {
                  "--model is missing");
   expect_refused(run({"--map", "map.exr", "--camera", "camera.json", "--model", "cycles"}), 2,
                  "SCENE is missing");
+  expect_refused(validate("map.exr", {"--ctest"}), 2, "--ctest needs --out DIR");
+  expect_refused(run({"--against", "embree", "--scene", "spot", "--ctest", "--out", "o"}), 2,
+                 "--ctest goes with --map");
+  expect_refused(run({"--colour", "--junit", "o.xml"}), 2, "--junit goes with --map and --against");
 }
 
 TEST_F(ValidateProgram, RefusesVariantsThatItDoesNotUnderstand) {
