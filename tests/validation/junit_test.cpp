@@ -11,7 +11,7 @@
 #include "tests/apps/test_folder.h"
 #include "validation/report/cause.h"
 #include "validation/report/ctest_lines.h"
-#include "validation/report/xml_text.h"
+#include "validation/report/xml.h"
 
 /// The XML that CI services and CTest read, read back by Python.
 namespace fathom::validation {
@@ -124,12 +124,12 @@ TEST(Junit, WhatIsWorseThanTheBaselineFails) {
 
 TEST(Junit, TextsThatAreNotOursStayTexts) {
   ValidationCase c = case_of("a<b>&\"'", "]]>\x01\x1b[31m", bad);
-  c.version = std::string("tab\tnul") + '\0' + "\xff\xef\xbf\xbf\xc2\x85 ünï";
+  c.version = std::string("tab\tline\nnul") + '\0' + "\xff\xef\xbf\xbf\xc2\x85 ünï";
   c.attribution.findings = {{"shift", "<![CDATA[ & \x08 \xed\xa0\x80", 1}};
   const auto test_case = parsed(to_junit({c}, nullptr))[3][0][3][0];
   EXPECT_EQ(test_case[1]["classname"], "fathom.validate.a<b>&\"'");
   EXPECT_EQ(test_case[1]["name"], "vtk ]]>??[31m");
-  EXPECT_EQ(test_case[3][0][3][0][1]["value"], "tab\tnul?\ufffd\ufffd? ünï");
+  EXPECT_EQ(test_case[3][0][3][0][1]["value"], "tab\tline\nnul?\ufffd\ufffd? ünï");
   EXPECT_THAT(test_case[3][1][1]["message"].get<std::string>(),
               HasSubstr("shift: <![CDATA[ & ? \ufffd"));
 }
@@ -146,7 +146,7 @@ TEST(XmlText, CanAlwaysStandInADocument) {
   c.version = all;
   c.attribution.findings = {{"shift", all, 1}};
   EXPECT_EQ(parsed(to_junit({c}, nullptr))[0], "testsuites");
-  EXPECT_EQ(xml_text("a\tb\n\x7f"), "a\tb\n?");
+  EXPECT_EQ(xml_text("a\tb\n\x7f"), "a&#9;b&#10;?");
 }
 
 TEST(CtestLines, HoldTheCauseTheCountsAndThePictures) {

@@ -2,33 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <pugixml.hpp>
-#include <sstream>
-
-#include "validation/report/xml_text.h"
+#include "validation/report/xml.h"
 
 namespace fathom::validation {
 namespace {
 
-/// An element in a line of its own: CTest looks for them one by one, each as a document.
-std::string element(const char* name, const std::string& type, const std::string& title,
-                    const std::string& value) {
-  pugi::xml_document document;
-  pugi::xml_node node = document.append_child(name);
-  if (!type.empty()) node.append_attribute("type").set_value(type.c_str());
-  if (!title.empty()) node.append_attribute("name").set_value(title.c_str());
-  node.append_child(pugi::node_pcdata).set_value(xml_text(value).c_str());
-  std::ostringstream text;
-  node.print(text, "", pugi::format_raw, pugi::encoding_utf8);
-  return text.str() + "\n";
-}
-
 std::string number(const std::string& title, const std::string& value) {
-  return element("CTestMeasurement", "numeric/double", title, value);
+  return to_xml({"CTestMeasurement", {{"type", "numeric/double"}, {"name", title}}, {}, value});
 }
 
 std::string picture(const std::string& title, const std::filesystem::path& file) {
-  return element("CTestMeasurementFile", "image/png", title, std::filesystem::absolute(file));
+  return to_xml({"CTestMeasurementFile",
+                 {{"type", "image/png"}, {"name", title}},
+                 {},
+                 std::filesystem::absolute(file)});
 }
 
 }  // namespace
@@ -37,7 +24,7 @@ std::string to_ctest_lines(const ValidationCase& c, const std::string& cause,
                            const PictureFiles& pictures) {
   const attribution::Attribution& a = c.attribution;
   std::string text;
-  if (!cause.empty()) text += element("CTestDetails", "", "", cause);
+  if (!cause.empty()) text += to_xml({"CTestDetails", {}, {}, cause});
   for (std::size_t k = 0; k < attribution::pixel_class_count; ++k) {
     text += number(attribution::name_of(static_cast<attribution::PixelClass>(k)) + " pixels",
                    std::to_string(a.counts[k]));

@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
-#include <pugixml.hpp>
-#include <sstream>
 
 #include "validation/report/cause.h"
 #include "validation/report/worst_pixels.h"
-#include "validation/report/xml_text.h"
+#include "validation/report/xml.h"
 
 namespace fathom::validation {
 namespace {
@@ -19,13 +16,8 @@ using attribution::PixelClass;
 
 /// What is wrong with a test case: `element` is failure or error.
 struct Complaint {
-  const char* element;
-  std::string type, message, details;
+  std::string element, type, message, details;
 };
-
-void set(pugi::xml_node node, const char* name, const std::string& value) {
-  node.append_attribute(name).set_value(xml_text(value).c_str());
-}
 
 constexpr std::size_t listed_pixels = 8;
 
@@ -58,85 +50,91 @@ std::optional<Complaint> complaint_about(const ValidationCase& c, const ResultCh
                    details};
 }
 
-void add_case(pugi::xml_node suite, const ValidationCase& c,
-              const std::optional<Complaint>& complaint) {
-  pugi::xml_node node = suite.append_child("testcase");
-  set(node, "classname", "fathom.validate." + c.scene);
-  set(node, "name", c.renderer + (c.variant.empty() ? "" : " " + c.variant));
-  if (c.seconds) set(node, "time", fmt::format("{:.3f}", *c.seconds));
-  pugi::xml_node properties = node.append_child("properties");
-  const auto property = [&](const std::string& name, const std::string& value) {
-    pugi::xml_node p = properties.append_child("property");
-    set(p, "name", name);
-    set(p, "value", value);
+XmlElement properties_of(const ValidationCase& c) {
+  XmlElement properties{.name = "properties"};
+  const auto add = [&](const std::string& name, const std::string& value) {
+    properties.elements.push_back({"property", {{"name", name}, {"value", value}}, {}, ""});
   };
-  property("version", c.version);
-  if (c.is_done()) {
-    for (std::size_t k = 0; k < attribution::pixel_class_count; ++k) {
-      property(attribution::name_of(static_cast<PixelClass>(k)) + " pixels",
-               std::to_string(c.attribution.counts[k]));
-    }
-    property("median relative bound", fmt::format("{:.3g}", c.attribution.median_relative_width));
-    property("greatest relative error",
-             fmt::format("{:.3g}", c.attribution.errors.greatest_relative));
+  add("version", c.version);
+  if (!c.is_done()) return properties;
+  const attribution::Attribution& a = c.attribution;
+  for (std::size_t k = 0; k < attribution::pixel_class_count; ++k) {
+    add(attribution::name_of(static_cast<PixelClass>(k)) + " pixels", std::to_string(a.counts[k]));
   }
-  if (!complaint) return;
-  pugi::xml_node told = node.append_child(complaint->element);
-  set(told, "message", complaint->message);
-  set(told, "type", complaint->type);
-  if (!complaint->details.empty()) {
-    told.append_child(pugi::node_pcdata).set_value(xml_text(complaint->details).c_str());
-  }
+  add("median relative bound", fmt::format("{:.3g}", a.median_relative_width));
+  add("greatest relative error", fmt::format("{:.3g}", a.errors.greatest_relative));
+  return properties;
 }
 
-/// Sums of a suite, or of all.
-struct Totals {
+std::string seconds_text(double seconds) {
+  return fmt::format("{:.3f}", seconds);
+}
+
+XmlElement test_case(const ValidationCase& c, const std::optional<Complaint>& complaint) {
+  XmlElement element{
+      .name = "testcase",
+      .attributes = {{"classname", "fathom.validate." + c.scene},
+                     {"name", c.renderer + (c.variant.empty() ? "" : " ") + c.variant}}};
+  if (c.seconds) element.attributes.emplace_back("time", seconds_text(*c.seconds));
+  element.elements.push_back(properties_of(c));
+  if (complaint) {
+    element.elements.push_back({complaint->element,
+                                {{"message", complaint->message}, {"type", complaint->type}},
+                                {},
+                                complaint->details});
+  }
+  return element;
+}
+
+/// The test cases of a scene, or all scenes, and their sums.
+struct Suite {
+  XmlElement element;
   std::size_t tests = 0, failures = 0, errors = 0;
   double seconds = 0;
 
-  void add(const ValidationCase& c, const std::optional<Complaint>& complaint) {
+  void count(const ValidationCase& c, const std::optional<Complaint>& complaint) {
     ++tests;
-    if (complaint) ++(std::string(complaint->element) == "error" ? errors : failures);
+    if (complaint) ++(complaint->element == "error" ? errors : failures);
     seconds += c.seconds.value_or(0);
   }
-  void write_to(pugi::xml_node node) const {
-    set(node, "tests", std::to_string(tests));
-    set(node, "failures", std::to_string(failures));
-    set(node, "errors", std::to_string(errors));
-    if (seconds > 0) set(node, "time", fmt::format("{:.3f}", seconds));
+  [[nodiscard]] XmlElement finished() const {
+    XmlElement done = element;
+    done.attributes.insert(done.attributes.end(), {{"tests", std::to_string(tests)},
+                                                   {"failures", std::to_string(failures)},
+                                                   {"errors", std::to_string(errors)}});
+    if (seconds > 0) done.attributes.emplace_back("time", seconds_text(seconds));
+    return done;
   }
 };
+
+Suite suite_called(const std::string& element, const std::string& name) {
+  return {.element = {.name = element, .attributes = {{"name", name}}}};
+}
+
+Suite& suite_of(std::vector<Suite>& suites, const std::string& scene) {
+  for (Suite& suite : suites) {
+    if (suite.element.attributes.front().second == scene) return suite;
+  }
+  return suites.emplace_back(suite_called("testsuite", scene));
+}
 
 }  // namespace
 
 std::string to_junit(const std::vector<ValidationCase>& cases, const Comparison* comparison) {
-  pugi::xml_document document;
-  pugi::xml_node declaration = document.append_child(pugi::node_declaration);
-  set(declaration, "version", "1.0");
-  set(declaration, "encoding", "UTF-8");
-  pugi::xml_node all = document.append_child("testsuites");
-  set(all, "name", "fathom validate");
-  Totals total;
-  std::map<std::string, std::pair<pugi::xml_node, Totals>> suites;
+  Suite all = suite_called("testsuites", "fathom validate");
+  std::vector<Suite> suites;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const ValidationCase& c = cases[i];
     // A comparison begins with this run's results, in their order.
     const auto complaint =
         complaint_about(c, comparison != nullptr ? &comparison->changes[i] : nullptr);
-    auto& [suite, sums] = suites[c.scene];
-    if (!suite) {
-      suite = all.append_child("testsuite");
-      set(suite, "name", c.scene);
-    }
-    add_case(suite, c, complaint);
-    sums.add(c, complaint);
-    total.add(c, complaint);
+    Suite& suite = suite_of(suites, c.scene);
+    suite.element.elements.push_back(test_case(c, complaint));
+    suite.count(c, complaint);
+    all.count(c, complaint);
   }
-  for (auto& [scene, suite] : suites) suite.second.write_to(suite.first);
-  total.write_to(all);
-  std::ostringstream text;
-  document.save(text, "  ", pugi::format_indent, pugi::encoding_utf8);
-  return text.str();
+  for (const Suite& suite : suites) all.element.elements.push_back(suite.finished());
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + to_xml(all.finished());
 }
 
 }  // namespace fathom::validation
