@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -39,7 +40,14 @@ void require_clip_planes(const RendererModel& model, const Camera& camera) {
 /// The map of --map. Where it does not say what is needed to read it, the message does.
 OtherMap read_other_map(const ValidateArguments& arguments) {
   DepthMap map = read_map_argument(arguments.map);
-  if (arguments.png_scale) map.png_scale = arguments.png_scale;
+  if (arguments.png_scale) {
+    const bool has_codes =
+        std::any_of(map.channels.begin(), map.channels.end(), [](const ImageChannel& channel) {
+          return std::holds_alternative<Samples<std::uint16_t>>(channel.values);
+        });
+    if (!has_codes) throw UsageError("--png-scale: " + arguments.map + " holds no 16-bit integers");
+    map.png_scale = arguments.png_scale;
+  }
   try {
     return attribution::other_map(map, arguments.channel);
   } catch (const InputError& error) {

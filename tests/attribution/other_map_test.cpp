@@ -44,12 +44,23 @@ TEST(OtherMaps, AreReadAndWritten) {
 
 TEST(OtherMaps, HoldTheChannelThatIsNamed) {
   EXPECT_EQ(other_map(two_pixels(), "far.Z").depths[0], 3);
-  EXPECT_EQ(refusal_of(two_pixels(), "none"), "the map has no channel 'none'");
+  EXPECT_EQ(refusal_of(two_pixels(), "none"), "the map has no channel 'none', only Z, id, far.Z");
   DepthMap without{.width = 1, .height = 1};
   without.channels.push_back({"id", Samples<std::uint32_t>{1}});
   without.channels.push_back({"face", Samples<std::uint32_t>{1}});
-  EXPECT_EQ(refusal_of(without, ""),
-            "the map has no channel of depths: expected Z, or the name of its channel");
+  EXPECT_EQ(
+      refusal_of(without, ""),
+      "of the map's channels id, face none is called as depths are; expected Z, or the name of "
+      "the one that holds them");
+}
+
+TEST(OtherMaps, OfIntegersNeedAScale) {
+  DepthMap codes{.width = 2, .height = 1};
+  codes.channels.push_back({"Z", Samples<std::uint16_t>{1500, 0}});
+  EXPECT_EQ(refusal_of(codes, ""),
+            "png_scale: the map holds integers and does not say how many are a unit of depth");
+  codes.png_scale = 1000;
+  EXPECT_EQ(other_map(codes).depths, (std::vector<double>{1.5, infinity}));
 }
 
 }  // namespace

@@ -226,6 +226,9 @@ TEST_F(ValidateProgram, SaysWhatToGiveForMapsThatDoNotFit) {
   const Outcome scaled = validate("unit.png", {"--png-scale", "10000"});
   EXPECT_THAT(scaled.out, HasSubstr("within arithmetic")) << scaled.err;
 
+  expect(validate("map.exr", {"--png-scale", "1000"}), 2,
+         "--png-scale: map.exr holds no 16-bit integers");
+
   const std::string fits_nowhere =
       "other-scene: neither outlines nor depths fit: expected the SCENE and the camera that the "
       "map was drawn from";
