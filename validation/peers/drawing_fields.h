@@ -39,10 +39,12 @@ template <>
 struct Fields<attribution::OtherMap> {
   template <class Visit, class S>
   static void each(Visit&& visit, S& s) {
-    auto& [width, height, depths, windows, triangles] = s;
+    auto& [width, height, depths, windows, triangles, values, code_scale] = s;
     visit("width", width);
     visit("height", height);
     visit("depths", depths);
+    visit("values", values);
+    visit("code_scale", code_scale);
     visit("windows", windows);
     visit("triangles", triangles);
   }
@@ -100,9 +102,47 @@ template <>
 struct Fields<attribution::SamplePosition> {
   template <class Visit, class S>
   static void each(Visit&& visit, S& s) {
-    auto& [x, y, error] = s;
+    auto& [x, y, error, k1, k2] = s;
     visit("x", x);
     visit("y", y);
+    visit("error", error);
+    visit("k1", k1);
+    visit("k2", k2);
+  }
+};
+
+template <>
+struct Enumerators<attribution::DepthTerm> {
+  using Term = attribution::DepthTerm;
+  static constexpr Term all[] = {Term::depth, Term::inverse, Term::logarithm};
+  static std::string name(Term term) {
+    constexpr const char* names[] = {"depth", "inverse", "logarithm"};
+    return names[static_cast<std::size_t>(term)];
+  }
+};
+
+template <>
+struct Enumerators<attribution::RecordedDepth::Rounding> {
+  using Rounding = attribution::RecordedDepth::Rounding;
+  static constexpr Rounding all[] = {Rounding::binary32, Rounding::binary16, Rounding::nearest,
+                                     Rounding::down};
+  static std::string name(Rounding rounding) {
+    constexpr const char* names[] = {"binary32", "binary16", "nearest", "down"};
+    return names[static_cast<std::size_t>(rounding)];
+  }
+};
+
+template <>
+struct Fields<attribution::RecordedDepth> {
+  template <class Visit, class S>
+  static void each(Visit&& visit, S& s) {
+    auto& [term, factor, offset, rounding, origin, step, error] = s;
+    visit("term", term);
+    visit("factor", factor);
+    visit("offset", offset);
+    visit("rounding", rounding);
+    visit("origin", origin);
+    visit("step", step);
     visit("error", error);
   }
 };
@@ -111,11 +151,12 @@ template <>
 struct Fields<attribution::RendererModel> {
   template <class Visit, class S>
   static void each(Visit&& visit, S& s) {
-    auto& [name, sample, watertight, first_of_equals, kind] = s;
+    auto& [name, sample, watertight, first_of_equals, recorded, kind] = s;
     visit("name", name);
     visit("sample", sample);
     visit("watertight", watertight);
     visit("first_of_equals", first_of_equals);
+    visit("recorded", recorded);
     visit("kind", kind);
   }
 };

@@ -2,103 +2,238 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 
+#include "fathom/attribution/faults/background.h"
 #include "fathom/attribution/faults/depth_relation.h"
+#include "fathom/attribution/faults/deviation_fit.h"
+#include "fathom/attribution/faults/deviation_hypothesis.h"
 #include "fathom/attribution/faults/hypotheses.h"
+#include "fathom/attribution/faults/pixels_at_fault.h"
+#include "fathom/attribution/faults/storage.h"
+#include "fathom/attribution/faults/triangles_at_fault.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
-// How to read this file: attribute_and_name() at the end. What names single triangles comes first;
-// where that does not explain nine tenths, what names faults of the whole image.
+// How to read this file: attribute_and_name() at the end. What is wrong is looked for from what
+// needs least to be said to what needs most, and the first that explains nine tenths of what is
+// unexplained is taken.
 namespace fathom::attribution {
 namespace {
 
-void name_bias(Attribution& found) {
-  if (!found.is_biased()) return;
-  found.findings.push_back(
+class Diagnosis {
+ public:
+  Diagnosis(const Truth& truth, const OtherMap& other, const RendererModel& model)
+      : truth_(truth),
+        other_(other),
+        model_(model),
+        found_(attribute(truth, other, model)),
+        searched_(found_) {}
+
+  /// Looks for what is wrong until most is explained.
+  void search();
+  [[nodiscard]] Attribution result() && { return std::move(found_); }
+
+ private:
+  /// Takes a coarse storage for known from here on: that it is coarse is in the values themselves.
+  void name_storage();
+  /// Each of these names what it finds and says whether it found something.
+  bool by_triangles();
+  bool by_hypotheses();
+  bool by_relations(bool gross);
+  bool by_deviation();
+  bool by_pixels();
+
+  void name(const Finding& finding, const std::vector<std::uint8_t>& explained);
+  void name_bias();
+  void name_what_is_within_bounds();
+
+  [[nodiscard]] std::uint64_t unexplained() const {
+    return searched_.count(PixelClass::unexplained);
+  }
+
+  const Truth& truth_;
+  const OtherMap& other_;
+  RendererModel model_;
+  Attribution found_;     ///< as the model was given
+  Attribution searched_;  ///< as it is known by now
+};
+
+/// Unexplained pixels that are explained become a convention, and `finding` is its name.
+void Diagnosis::name(const Finding& finding, const std::vector<std::uint8_t>& explained) {
+  for (std::size_t i = 0; i < found_.classes.size(); ++i) {
+    PixelClass& c = found_.classes[i];
+    if (c == PixelClass::unexplained && explained[i] != 0) c = PixelClass::convention;
+  }
+  found_.counts = {};
+  for (const PixelClass c : found_.classes) ++found_.counts[static_cast<std::size_t>(c)];
+  found_.findings.push_back(finding);
+}
+
+void Diagnosis::name_bias() {
+  if (!found_.is_biased()) return;
+  found_.findings.push_back(
       {"bias",
        fmt::format("window depths are biased by {:+.3g} steps of the storage on average",
-                   found.bias_steps),
-       found.bias_pixels});
+                   found_.bias_steps),
+       found_.bias_pixels});
 }
 
-void name_ties(Attribution& found) {
-  if (found.wrong_ties == 0) return;
-  found.findings.push_back({"ties",
-                            "of triangles with the same corners a later one is seen, where the "
-                            "first should be",
-                            found.wrong_ties});
+/// 1 for each pixel that is explained.
+std::vector<std::uint8_t> explained_by(const Attribution& found) {
+  std::vector<std::uint8_t> explained;
+  for (const PixelClass c : found.classes) {
+    explained.push_back(c == PixelClass::unexplained ? 0 : 1);
+  }
+  return explained;
 }
 
-/// Triangles that are absent wherever they are certain to be visible.
-void name_missing_triangles(const Truth& truth, Attribution& found) {
-  std::map<std::uint32_t, std::uint64_t> absent;
-  std::map<std::uint32_t, std::uint64_t> present;
-  for (std::size_t i = 0; i < found.absent.size(); ++i) {
-    const std::uint32_t visible = truth.triangles[i];
-    if (visible == no_surface) continue;
-    if (found.absent[i] != no_surface) {
-      ++absent[visible];
-    } else if (found.classes[i] <= PixelClass::arithmetic) {
-      ++present[visible];
+/// What a hypothesis explains, if nine tenths: `explained` has 1 for each pixel that it does.
+struct Trial {
+  std::uint64_t left = 0;
+  std::vector<std::uint8_t> explained;
+};
+
+Trial tried(const Truth& truth, const Hypothesis& h, std::uint64_t before) {
+  const Attribution found = attribute(h.truth ? *h.truth : truth, h.map, h.model);
+  Trial trial{found.count(PixelClass::unexplained), {}};
+  if (trial.left * 10 > before) return trial;
+  trial.explained = explained_by(found);
+  return trial;
+}
+
+/// The first that leaves none, or that which leaves fewest.
+class BestTrial {
+ public:
+  BestTrial(const Truth& truth, std::uint64_t unexplained)
+      : truth_(truth), unexplained_(unexplained), fewest_(unexplained + 1) {}
+
+  void add(const Hypothesis& h) {
+    if (is_perfect()) return;
+    Trial trial = tried(truth_, h, unexplained_);
+    if (trial.explained.empty() || trial.left >= fewest_) return;
+    fewest_ = trial.left;
+    explained_ = std::move(trial.explained);
+    finding_ =
+        Finding{h.kind, h.text, unexplained_ - trial.left, true, h.estimates, h.alternatives};
+  }
+  [[nodiscard]] bool is_perfect() const { return fewest_ == 0; }
+  [[nodiscard]] bool has_one() const { return finding_.has_value(); }
+  [[nodiscard]] const Finding& finding() const { return *finding_; }
+  [[nodiscard]] const std::vector<std::uint8_t>& explained() const { return explained_; }
+
+ private:
+  const Truth& truth_;
+  std::uint64_t unexplained_, fewest_;
+  std::vector<std::uint8_t> explained_;
+  std::optional<Finding> finding_;
+};
+
+void Diagnosis::name_storage() {
+  if (!other_.windows.empty()) return;
+  std::optional<CoarseStorage> storage = coarse_storage(truth_.camera, other_, model_);
+  const bool is_known = !storage && model_.recorded;
+  if (is_known) storage = CoarseStorage{*model_.recorded, "codes"};
+  if (!storage) return;
+  using Rounding = RecordedDepth::Rounding;
+  const bool down = storage->recorded.rounding == Rounding::nearest &&
+                    is_rounded_down(truth_, other_, storage->recorded);
+  if (is_known && !down) return;
+  if (down) storage->recorded.rounding = Rounding::down;
+  model_.recorded = storage->recorded;
+  Attribution next = attribute(truth_, other_, model_);
+  const std::uint64_t before = unexplained(), left = next.count(PixelClass::unexplained);
+  if (left >= before) {
+    model_.recorded.reset();
+    return;
+  }
+  searched_ = std::move(next);
+  name({"storage",
+        fmt::format("depths are stored as {}{}", storage->text, down ? ", rounded down" : ""),
+        before - left},
+       explained_by(searched_));
+}
+
+bool Diagnosis::by_triangles() {
+  const std::vector<Finding> findings = triangles_at_fault(truth_, searched_);
+  std::uint64_t named = 0;
+  for (const Finding& finding : findings) named += finding.pixels;
+  if (named == 0 || named * 10 < unexplained() * 9) return false;
+  found_.findings.insert(found_.findings.end(), findings.begin(), findings.end());
+  return true;
+}
+
+bool Diagnosis::by_hypotheses() {
+  BestTrial best(truth_, unexplained());
+  for (const MakeHypothesis& make : hypotheses(truth_, other_, model_, searched_)) {
+    if (best.is_perfect()) break;
+    if (const std::optional<Hypothesis> h = make()) best.add(*h);
+  }
+  if (!best.has_one()) return false;
+  name(best.finding(), best.explained());
+  return true;
+}
+
+/// One that is gross has one constant at most: then no camera need be doubted.
+bool Diagnosis::by_relations(bool gross) {
+  BestTrial best(truth_, unexplained());
+  for (const DepthRelation& relation : depth_relations(truth_, other_)) {
+    if (best.has_one()) break;
+    if (gross && !(relation.is_gross && relation.parameters <= 1)) continue;
+    Hypothesis h{relation.kind, relation.text, model_, read_by(relation, other_)};
+    h.model.recorded = relation.recorded;
+    best.add(h);
+  }
+  if (!best.has_one()) return false;
+  name(best.finding(), best.explained());
+  return true;
+}
+
+bool Diagnosis::by_deviation() {
+  const std::optional<FittedDeviation> fit = fitted_deviation(truth_, other_, model_, searched_);
+  if (!fit) return false;
+  BestTrial best(truth_, unexplained());
+  best.add(deviation_hypothesis(truth_, other_, model_, *fit));
+  if (!best.has_one()) return false;
+  name(best.finding(), best.explained());
+  return true;
+}
+
+bool Diagnosis::by_pixels() {
+  for (const auto look : {isolated, clipped, lost_lines, mixed}) {
+    if (const std::optional<PixelFinding> some = look(truth_, other_, searched_)) {
+      name(some->finding, some->explained);
+      return true;
     }
   }
-  for (const auto& [triangle, pixels] : absent) {
-    if (present[triangle] > pixels / 10) continue;
-    found.findings.push_back(
-        {"missing-triangle", fmt::format("triangle {} is missing", triangle), pixels});
-  }
+  return false;
 }
 
-/// Unexplained pixels for which `is_explained(pixel)` become a convention, and `finding` is its
-/// name.
-template <class IsExplained>
-void name_convention(Attribution& found, const Finding& finding, const IsExplained& is_explained) {
-  for (std::size_t i = 0; i < found.classes.size(); ++i) {
-    PixelClass& c = found.classes[i];
-    if (c == PixelClass::unexplained && is_explained(i)) c = PixelClass::convention;
+/// What is off within what roundings allow: on the whole it shows.
+void Diagnosis::name_what_is_within_bounds() {
+  if (!found_.is_biased()) return;
+  const std::optional<FittedDeviation> fit = fitted_deviation(truth_, other_, model_, searched_);
+  if (!fit || std::string_view(fit->set->kind) == "bias") {
+    name_bias();
+    return;
   }
-  found.counts = {};
-  for (const PixelClass c : found.classes) ++found.counts[static_cast<std::size_t>(c)];
-  found.findings.push_back(finding);
+  const Hypothesis h = deviation_hypothesis(truth_, other_, model_, *fit);
+  found_.findings.push_back(
+      {h.kind, h.text, found_.bias_pixels, true, h.estimates, h.alternatives});
 }
 
-/// The hypothesis that leaves the fewest pixels unexplained becomes a finding, if it leaves few.
-bool name_by_hypothesis(const Truth& truth, const OtherMap& other, const RendererModel& model,
-                        Attribution& found) {
-  const std::uint64_t before = found.count(PixelClass::unexplained);
-  std::uint64_t fewest = before / 10 + 1;
-  std::optional<Finding> best;
-  std::vector<PixelClass> classes;
-  for (const MakeHypothesis& make : hypotheses(truth, other, model, found)) {
-    const std::optional<Hypothesis> h = make();
-    if (!h) continue;
-    Attribution trial = attribute(truth, h->map, h->model);
-    const std::uint64_t left = trial.count(PixelClass::unexplained);
-    if (left >= fewest) continue;
-    fewest = left;
-    best = Finding{h->kind, h->text, before - left};
-    classes = std::move(trial.classes);
-    if (left == 0) break;
+void Diagnosis::search() {
+  if (unexplained() == 0) {
+    name_what_is_within_bounds();
+    return;
   }
-  if (!best) return false;
-  name_convention(found, *best,
-                  [&](std::size_t i) { return classes[i] != PixelClass::unexplained; });
-  return true;
-}
-
-/// A formula of depths becomes a finding, if it holds at half as many pixels as are unexplained.
-bool name_by_relation(const Truth& truth, const OtherMap& other, Attribution& found) {
-  const std::optional<Finding> finding = related_depths(truth, other);
-  if (!finding || finding->pixels * 2 < found.count(PixelClass::unexplained)) return false;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  name_convention(found, *finding, [&](std::size_t i) {
-    return truth.depths[i] < infinity && other.depths[i] < infinity;
-  });
-  return true;
+  name_storage();
+  if (unexplained() == 0) return;
+  by_triangles() || by_hypotheses() || by_relations(true) || by_deviation() ||
+      by_relations(false) || by_pixels();
 }
 
 }  // namespace
@@ -106,23 +241,17 @@ bool name_by_relation(const Truth& truth, const OtherMap& other, Attribution& fo
 Attribution attribute_and_name(const Truth& truth, const OtherMap& other,
                                const RendererModel& model) {
   const StandardArithmetic standard;
-  Attribution found = attribute(truth, other, model);
-  const std::uint64_t unexplained = found.count(PixelClass::unexplained);
-  if (unexplained == 0) {
-    name_bias(found);
-    return found;
+  KnownBackground known = known_background(truth, other);
+  RendererModel known_model = model;
+  if (!known_model.recorded && other.code_scale) {
+    known_model.recorded =
+        RecordedDepth{.rounding = RecordedDepth::Rounding::nearest, .step = 1 / *other.code_scale};
   }
-  name_ties(found);
-  name_missing_triangles(truth, found);
-  std::uint64_t named = 0;
-  for (const Finding& finding : found.findings) named += finding.pixels;
-  if (named * 10 >= unexplained * 9) return found;
-
-  std::vector<Finding> few = std::exchange(found.findings, {});
-  const bool is_named =
-      name_by_hypothesis(truth, other, model, found) || name_by_relation(truth, other, found);
-  if (!is_named) found.findings = std::move(few);
-  return found;
+  Diagnosis diagnosis(truth, known.map, known_model);
+  diagnosis.search();
+  Attribution result = std::move(diagnosis).result();
+  if (known.note) result.findings.insert(result.findings.begin(), *known.note);
+  return result;
 }
 
 }  // namespace fathom::attribution

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/attribution/finding.h"
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/other_map.h"
 #include "fathom/attribution/pixel_class.h"
@@ -12,16 +13,6 @@
 
 /// Every pixel of another renderer's map, attributed to a cause (docs/validation.md).
 namespace fathom::attribution {
-
-/// Something that is wrong with the whole image or a whole triangle.
-struct Finding {
-  /// shift, mirrored, ray-distance, scale, decoding, affine, missing-triangle, ties or bias.
-  std::string kind;
-  /// A clause that says what is wrong.
-  std::string text;
-  /// How many it explains.
-  std::uint64_t pixels = 0;
-};
 
 /// Errors of depth over the pixels where both see the same surface: in scene units, and relative to
 /// the exact depth.
@@ -50,6 +41,8 @@ struct Attribution {
   double bias_steps = 0, bias_deviation = 0;
   std::uint64_t bias_pixels = 0, bias_triangles = 0;
 
+  /// 1 where the visible triangle is certain to be drawn and no other is near it in depth.
+  std::vector<std::uint8_t> alone;
   /// For each pixel, if it is unexplained and the absence of the visible triangle explains it: that
   /// triangle, else no_surface.
   std::vector<std::uint32_t> absent;
@@ -61,6 +54,13 @@ struct Attribution {
 
   [[nodiscard]] std::uint64_t count(PixelClass c) const {
     return counts[static_cast<std::size_t>(c)];
+  }
+  /// Whether one of the findings is a fault.
+  [[nodiscard]] bool has_fault() const {
+    for (const Finding& finding : findings) {
+      if (finding.is_fault) return true;
+    }
+    return false;
   }
   /// A constant seems to be added to all window depths: the mean is three quarters of a step or
   /// more, and four times its deviation.

@@ -48,13 +48,14 @@ OtherMap other_map(const DepthMap& map, const std::string& name) {
   OtherMap other{.width = map.width, .height = map.height};
   const std::vector<std::uint8_t> seen = surface_mask(map, channel, detect_background(channel));
   const double scale = map.png_scale.value_or(1);
+  if (is_code) other.code_scale = scale;
   std::visit(
       [&](const auto& values) {
         for (std::size_t i = 0; i < values.size(); ++i) {
-          const double depth = static_cast<double>(values[i]);
+          const double stored = static_cast<double>(values[i]);
+          other.values.push_back(is_code ? stored / scale : stored);
           other.depths.push_back(seen[i] == 0 ? std::numeric_limits<double>::infinity()
-                                 : is_code    ? depth / scale
-                                              : depth);
+                                              : other.values.back());
         }
       },
       channel.values);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "fathom/image/depth_map.h"
@@ -16,6 +17,11 @@ struct OtherMap {
   std::vector<double> windows;
   /// Numbers of the visible triangles, no_surface where there is none; may be empty.
   std::vector<std::uint32_t> triangles;
+  /// What the map holds as it is, before background was told from surfaces; may be empty, then
+  /// `depths` is all that is known. Of integer codes with a scale, depths in scene units.
+  std::vector<double> values;
+  /// Codes per scene unit of a map of integers, rounded to nearest.
+  std::optional<double> code_scale;
 };
 
 /// The channel `channel` of a map, or the one that holds depths; also `id` if there is one.

@@ -25,4 +25,7 @@ struct Truth {
 /// Renders it. Fails as render() and world_mesh() do.
 Truth make_truth(const Scene& scene, const Camera& camera);
 
+/// The same mesh as another camera sees it. Fails as render() does.
+Truth seen_by(const Truth& truth, const Camera& camera);
+
 }  // namespace fathom::attribution

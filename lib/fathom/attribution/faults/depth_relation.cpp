@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/QR>
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <vector>
+#include <optional>
+
+#include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {
 namespace {
@@ -14,124 +17,266 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Pixels on which an estimate has to rest.
-constexpr Eigen::Index least_pixels = 16;
+constexpr std::size_t least_pixels = 16;
 /// Where a depth agrees, relatively, and the share of the pixels that has to.
-constexpr double agreement = 1e-4, agreeing_share = 0.95;
+constexpr double agreement = 1e-4, agreeing_share = 0.8;
+/// How well a constant has to be known to be taken for a round number, relatively.
+constexpr double as_good_as_round = 1e-4;
 
-/// A number, as it is or made anew.
-enum class As { itself, inverse, logarithm };
-
-double as(As kind, double x) {
-  return kind == As::itself ? x : kind == As::inverse ? 1 / x : std::log(x);
-}
-double from(As kind, double x) {
-  return kind == As::logarithm ? std::exp(x) : as(kind, x);
-}
-
-/// A relation between what is stored and the depth: y(stored) = alpha·x(depth) + beta.
-struct Relation {
+/// stored = alpha·term(depth) + beta, of the terms of what is stored and of the depth; `free` are
+/// the constants that are estimated, the others are 1 and 0.
+struct Form {
   const char *kind, *text;
-  As stored, depth;
+  DepthTerm stored, depth;
+  bool free_factor = true, free_offset = true;
 };
-constexpr Relation relations[] = {
-    {"scale", "depths are scaled and offset: stored = {:.6g}·depth + {:.6g}", As::itself,
-     As::itself},
-    {"decoding",
-     "depths were decoded with the wrong near and far: 1/stored = {:.6g}/depth + {:.6g}",
-     As::inverse, As::inverse},
-    {"decoding",
-     "window depths (or disparities) that were not decoded: stored = {:.6g}/depth + {:.6g}",
-     As::itself, As::inverse},
-    {"decoding",
-     "window depths decoded by the wrong projection's formula: 1/stored = {:.6g}·depth + {:.6g}",
-     As::inverse, As::itself},
-    {"decoding",
-     "logarithmic depths were decoded with the wrong near and far: ln(stored) = {:.6g}·ln(depth) + "
-     "{:.6g}",
-     As::logarithm, As::logarithm},
-    {"decoding", "logarithmic depths that were not decoded: stored = {:.6g}·ln(depth) + {:.6g}",
-     As::itself, As::logarithm},
-};
+constexpr std::array forms{
+    Form{"scale", "depths are scaled: stored = {:.6g}·depth", DepthTerm::depth, DepthTerm::depth,
+         true, false},
+    Form{"scale", "depths are offset: stored = depth + {1:.6g}", DepthTerm::depth, DepthTerm::depth,
+         false, true},
+    Form{"scale", "depths are scaled and offset: stored = {:.6g}·depth + {:.6g}", DepthTerm::depth,
+         DepthTerm::depth},
+    Form{"decoding",
+         "depths were decoded with the wrong near and far: 1/stored = {:.6g}/depth + {:.6g}",
+         DepthTerm::inverse, DepthTerm::inverse},
+    Form{"decoding", "disparities in place of depths: stored = {:.6g}/depth", DepthTerm::depth,
+         DepthTerm::inverse, true, false},
+    Form{"decoding",
+         "window depths (or disparities) that were not decoded: stored = {:.6g}/depth + {:.6g}",
+         DepthTerm::depth, DepthTerm::inverse},
+    Form{
+        "decoding",
+        "window depths decoded by the wrong projection's formula: 1/stored = {:.6g}·depth + {:.6g}",
+        DepthTerm::inverse, DepthTerm::depth},
+    Form{"decoding",
+         "logarithmic depths were decoded with the wrong near and far: ln(stored) = "
+         "{:.6g}·ln(depth) + {:.6g}",
+         DepthTerm::logarithm, DepthTerm::logarithm},
+    Form{"decoding", "logarithmic depths that were not decoded: stored = {:.6g}·ln(depth) + {:.6g}",
+         DepthTerm::depth, DepthTerm::logarithm}};
 
-/// x(depth) and y(stored) of a pixel.
+/// term(depth) and term(stored) of a pixel, and how well the former knows the latter: the change of
+/// the depth's term by a relative change of the depth.
 struct Pair {
-  double x, y, depth;
+  double x, y, slope, depth;
 };
 
-std::vector<Pair> pairs_of(const Truth& truth, const OtherMap& other, const Relation& relation) {
+double slope_of(DepthTerm term, double depth) {
+  return term == DepthTerm::depth ? depth : term == DepthTerm::inverse ? 1 / depth : 1;
+}
+
+std::vector<Pair> pairs_of(const Truth& truth, const OtherMap& other, const Form& form) {
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < truth.depths.size(); ++i) {
     const double depth = truth.depths[i], stored = other.depths[i];
-    if (!(depth < infinity) || !(stored < infinity) || stored == 0) continue;
-    if (relation.stored == As::logarithm && !(stored > 0)) continue;
-    pairs.push_back({as(relation.depth, depth), as(relation.stored, stored), depth});
+    if (!(std::abs(depth) < infinity) || !(std::abs(stored) < infinity)) continue;
+    const bool needs_positive = form.stored == DepthTerm::logarithm;
+    if (form.stored != DepthTerm::depth && (stored == 0 || (needs_positive && stored < 0)))
+      continue;
+    const double y = form.stored == DepthTerm::inverse ? 1 / stored : term_of(form.stored, stored);
+    pairs.push_back({term_of(form.depth, depth), y, slope_of(form.depth, depth), depth});
   }
   return pairs;
 }
 
-/// y = alpha·x + beta.
 struct Line {
   double alpha = 1, beta = 0;
 
-  [[nodiscard]] double residual(const Pair& p) const { return std::abs(p.y - alpha * p.x - beta); }
+  [[nodiscard]] double residual(const Pair& p) const {
+    return std::abs(p.y - alpha * p.x - beta) / p.slope;
+  }
 };
 
-/// The line of least squares through the pairs that lie within `limit` of `before`.
-std::optional<Line> fitted(const std::vector<Pair>& pairs, const Line& before, double limit) {
-  Eigen::MatrixX2d terms(static_cast<Eigen::Index>(pairs.size()), 2);  // x, 1
-  Eigen::VectorXd y(terms.rows());
+double median_residual(const std::vector<Pair>& pairs, const Line& line) {
+  std::vector<double> residuals;
+  residuals.reserve(pairs.size());
+  for (const Pair& p : pairs) residuals.push_back(line.residual(p));
+  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
+  std::nth_element(residuals.begin(), middle, residuals.end());
+  return *middle;
+}
+
+/// The line of least squares of relative errors, without the pairs beyond `limit`.
+std::optional<Line> fitted(const std::vector<Pair>& pairs, const Form& form, const Line& before,
+                           double limit) {
+  const auto rows = static_cast<Eigen::Index>(pairs.size());
+  Eigen::MatrixXd terms(rows,
+                        static_cast<int>(form.free_factor) + static_cast<int>(form.free_offset));
+  Eigen::VectorXd y(rows);
   Eigen::Index n = 0;
   for (const Pair& p : pairs) {
     if (before.residual(p) > limit) continue;
-    terms.row(n) << p.x, 1;
-    y[n] = p.y;
-    ++n;
+    int k = 0;
+    if (form.free_factor) terms(n, k++) = p.x / p.slope;
+    if (form.free_offset) terms(n, k++) = 1 / p.slope;
+    y[n++] = (form.free_factor ? p.y : p.y - p.x) / p.slope;
   }
-  if (n < least_pixels) return std::nullopt;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixX2d> decomposed(terms.topRows(n));
-  if (decomposed.rank() < 2) return std::nullopt;
-  const Eigen::Vector2d line = decomposed.solve(y.head(n));
-  return Line{line[0], line[1]};
+  if (n < static_cast<Eigen::Index>(least_pixels)) return std::nullopt;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposed(terms.topRows(n));
+  if (decomposed.rank() < terms.cols()) return std::nullopt;
+  const Eigen::VectorXd found = decomposed.solve(y.head(n));
+  Line line;
+  int k = 0;
+  if (form.free_factor) line.alpha = found[k++];
+  if (form.free_offset) line.beta = found[k++];
+  return line;
 }
 
-/// Four times, from the second time on without the worst.
-std::optional<Line> robust_fit(const std::vector<Pair>& pairs) {
+/// From the second time on without what is ten times as far off as half of the pixels.
+std::optional<Line> robust_fit(const std::vector<Pair>& pairs, const Form& form) {
+  if (pairs.size() < least_pixels) return std::nullopt;
   Line line;
   double limit = infinity;
-  for (int round = 0; round < 4; ++round) {
-    const std::optional<Line> next = fitted(pairs, line, limit);
+  for (int round = 0; round < 6; ++round) {
+    const std::optional<Line> next = fitted(pairs, form, line, limit);
     if (!next) return std::nullopt;
     line = *next;
-    double sum = 0;
-    for (const Pair& p : pairs) sum += line.residual(p);
-    limit = 2 * sum / static_cast<double>(pairs.size());
+    limit = (round == 0 ? 3 : 10) * median_residual(pairs, line);
   }
   return line;
 }
 
-std::optional<Finding> related(const Truth& truth, const OtherMap& other,
-                               const Relation& relation) {
-  const std::vector<Pair> pairs = pairs_of(truth, other, relation);
-  const std::optional<Line> line = robust_fit(pairs);
-  if (!line || !(std::abs(line->alpha) > 0)) return std::nullopt;
-  std::uint64_t agreeing = 0;
-  for (const Pair& p : pairs) {
-    const double depth = from(relation.depth, (p.y - line->beta) / line->alpha);
-    if (std::abs(depth - p.depth) <= agreement * p.depth) ++agreeing;
+/// A factor that is nearly 1, 10, 100, … of a unit or its inverse, or the negative, is that.
+double rounded_factor(double alpha) {
+  for (const double round : {1.0, 10.0, 100.0, 1000.0, 10000.0, 1e6, 0.0254, 0.3048, 0.9144, 255.0,
+                             256.0, 5000.0, 65535.0, 65536.0}) {
+    for (const double r : {round, 1 / round, -round}) {
+      if (std::abs(alpha / r - 1) < as_good_as_round) return r;
+    }
   }
-  const auto needed = agreeing_share * static_cast<double>(pairs.size());
-  if (static_cast<double>(agreeing) < needed) return std::nullopt;
-  return Finding{relation.kind, fmt::format(fmt::runtime(relation.text), line->alpha, line->beta),
-                 agreeing};
+  return alpha;
+}
+
+/// What the constants are, where near and far tell.
+std::string meaning_of(const Form& form, const Line& line, const Camera& c) {
+  const auto is = [&](double alpha, double beta) {
+    return std::abs(line.alpha - alpha) <= 1e-3 * std::abs(alpha) &&
+           std::abs(line.beta - beta) <= 1e-3 * std::max(std::abs(alpha), std::abs(beta));
+  };
+  if (form.stored == DepthTerm::depth && form.depth == DepthTerm::depth) {
+    if (is(1000, 0)) return " (millimetres for metres)";
+    if (is(100, 0)) return " (centimetres for metres)";
+    if (is(0.001, 0)) return " (metres for millimetres)";
+    if (is(-1, 0)) return " (the camera's z axis points backwards)";
+  }
+  if (!(c.far < infinity)) return "";
+  if (is(1 / c.far, 0)) return " (as parts of far)";
+  if (is(1 / (c.far - c.near), -c.near / (c.far - c.near))) {
+    return " (0 at near and 1 at far, not decoded)";
+  }
+  const double range = c.far - c.near, a = c.far / range, b = -c.far * c.near / range;
+  if (form.stored == DepthTerm::depth && form.depth == DepthTerm::inverse) {
+    if (is(b, a)) return " (0 at near and 1 at far)";
+    if (is(2 * b, 2 * a - 1)) return " (z of −1 at near and 1 at far)";
+    if (is(-b, 1 - a)) return " (reversed: 1 at near and 0 at far)";
+  }
+  if (form.stored == DepthTerm::inverse && form.depth == DepthTerm::inverse && c.near > 0) {
+    const double near = 1 / (line.beta + line.alpha / c.near);
+    const double far = 1 / (line.beta + line.alpha / c.far);
+    return fmt::format(" (near {:.6g} and far {:.6g} for {:.6g} and {:.6g})", near, far, c.near,
+                       c.far);
+  }
+  return "";
+}
+
+/// Codes that all of what is recorded is: whole numbers, or parts of 255, 1023, 4095 or 65535; of
+/// numbers that are at least 16 times as far apart as binary32 resolves them.
+void set_codes(RecordedDepth& recorded, const std::vector<Pair>& pairs) {
+  for (const double step : {1.0, 1.0 / 255, 1.0 / 1023, 1.0 / 4095, 1.0 / 65535}) {
+    const bool all = std::all_of(pairs.begin(), pairs.end(), [&](const Pair& p) {
+      const double resolved = 4 * unit_roundoff<float> * std::abs(p.y);
+      return 16 * resolved <= step && std::abs(p.y - step * std::nearbyint(p.y / step)) <= resolved;
+    });
+    if (!all) continue;
+    recorded.rounding = RecordedDepth::Rounding::nearest;
+    recorded.step = step;
+    return;
+  }
+}
+
+/// Lines that near and far make, of a form.
+std::vector<Line> known_lines(const Form& form, const Camera& c) {
+  const bool are_two = form.free_factor && form.free_offset;
+  if (form.stored != DepthTerm::depth || !are_two || !(c.far < infinity)) return {};
+  const double range = c.far - c.near;
+  if (form.depth == DepthTerm::depth) return {{1 / range, -c.near / range}};
+  if (form.depth == DepthTerm::logarithm && c.near > 0) {
+    const double scale = 1 / std::log(c.far / c.near);
+    return {{scale, -scale * std::log(c.near)}};
+  }
+  const double a = c.far / range, b = -c.far * c.near / range;
+  return {{b, a}, {2 * b, 2 * a - 1}, {-b, 1 - a}, {-2 * b, 1 - 2 * a}};
+}
+
+/// Whether a line says the same as the one that was estimated, as far as codes or roundings tell.
+bool is_as_good(const std::vector<Pair>& pairs, const Line& line, const Line& fitted, double step) {
+  const double typical = pairs[pairs.size() / 2].slope;
+  return median_residual(pairs, line) <=
+         std::max(1.5 * median_residual(pairs, fitted), step / 2 / typical);
+}
+
+std::optional<DepthRelation> related(const Truth& truth, const OtherMap& other, const Form& form) {
+  const std::vector<Pair> pairs = pairs_of(truth, other, form);
+  std::optional<Line> line = robust_fit(pairs, form);
+  if (!line || line->alpha == 0) return std::nullopt;
+  DepthRelation relation{.kind = form.kind, .stored = form.stored};
+  relation.parameters = static_cast<int>(form.free_factor) + static_cast<int>(form.free_offset);
+  set_codes(relation.recorded, pairs);
+  if (form.free_factor && !form.free_offset) line->alpha = rounded_factor(line->alpha);
+  for (const Line& known : known_lines(form, truth.camera)) {
+    if (relation.parameters == 0 || !is_as_good(pairs, known, *line, relation.recorded.step)) {
+      continue;
+    }
+    line = known;
+    relation.parameters = 0;
+  }
+  relation.recorded.term = form.depth;
+  relation.recorded.factor = line->alpha;
+  relation.recorded.offset = line->beta;
+  relation.is_gross = !(std::abs(line->alpha - 1) < 0.01) || form.depth != form.stored;
+  const double error = relation.recorded.step;
+  for (const Pair& p : pairs) {
+    const bool agrees =
+        line->residual(p) * p.slope <= agreement * std::abs(line->alpha) * p.slope + error;
+    relation.pixels += agrees ? 1 : 0;
+  }
+  if (static_cast<double>(relation.pixels) < agreeing_share * static_cast<double>(pairs.size())) {
+    return std::nullopt;
+  }
+  relation.text = fmt::format(fmt::runtime(form.text), line->alpha, line->beta) +
+                  meaning_of(form, *line, truth.camera);
+  if (relation.recorded.step > 0) {
+    relation.text += relation.recorded.step == 1
+                         ? ", in whole numbers"
+                         : fmt::format(", in codes of 1/{:.0f}", 1 / relation.recorded.step);
+  }
+  return relation;
 }
 
 }  // namespace
 
-std::optional<Finding> related_depths(const Truth& truth, const OtherMap& other) {
-  for (const Relation& relation : relations) {
-    if (auto finding = related(truth, other, relation)) return finding;
+std::vector<DepthRelation> depth_relations(const Truth& truth, const OtherMap& other) {
+  std::vector<DepthRelation> found;
+  for (const Form& form : forms) {
+    if (auto relation = related(truth, other, form)) found.push_back(std::move(*relation));
   }
-  return std::nullopt;
+  std::stable_sort(found.begin(), found.end(), [](const DepthRelation& a, const DepthRelation& b) {
+    return a.parameters < b.parameters;
+  });
+  return found;
+}
+
+OtherMap read_by(const DepthRelation& relation, const OtherMap& other) {
+  OtherMap read = other;
+  read.windows.clear();
+  for (double& depth : read.depths) {
+    if (!(std::abs(depth) < infinity)) continue;
+    const double recorded =
+        relation.stored == DepthTerm::inverse ? 1 / depth : term_of(relation.stored, depth);
+    depth = relation.recorded.to_depth(recorded);
+  }
+  return read;
 }
 
 }  // namespace fathom::attribution

@@ -2,32 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <variant>
-
-#include "fathom/attribution/faults/shift_estimate.h"
-#include "fathom/attribution/pixels/storage_step.h"
 
 namespace fathom::attribution {
 namespace {
 
-/// The window depth at which a step of the storage stands for all of them.
-constexpr double typical_window = 0.75;
-
-std::optional<Hypothesis> biased(const OtherMap& other, const RendererModel& model,
-                                 const Attribution& found) {
-  if (!found.is_biased()) return std::nullopt;
-  const double steps =
-      std::abs(found.bias_steps) < 64 ? std::round(found.bias_steps) : found.bias_steps;
-  Hypothesis h{"bias",
-               fmt::format("window depths are biased by {:+.4g} steps of the storage", steps),
-               model, other};
-  auto* const raster = std::get_if<RasterModel>(&h.model.kind);
-  if (raster == nullptr) return std::nullopt;
-  raster->bias += steps * storage_step(*raster, typical_window);
-  return h;
-}
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::optional<Hypothesis> affine(const OtherMap& other, const RendererModel& model) {
   Hypothesis h{"affine", "depth is interpolated linearly in the image, without perspective", model,
@@ -38,47 +22,100 @@ std::optional<Hypothesis> affine(const OtherMap& other, const RendererModel& mod
   return h;
 }
 
-Hypothesis shifted(const OtherMap& other, const RendererModel& model, const ImageShift& shift) {
-  Hypothesis h{"shift",
-               fmt::format("the image is shifted by ({:.4g}, {:.4g}) pixels: its samples lie there "
-                           "from the centres of the pixels",
-                           shift.x, shift.y),
-               model, other};
-  h.model.sample.x += shift.x;
-  h.model.sample.y += shift.y;
+/// By whole pixels.
+struct WholeShift {
+  int x = 0, y = 0;
+};
+
+/// How many of some pixels show, that far away, what they should.
+std::uint64_t agreeing(const Truth& truth, const OtherMap& other, double agreement,
+                       const WholeShift& shift) {
+  constexpr int every = 3;  // a prime to what rows and columns repeat by
+  const int width = static_cast<int>(other.width), height = static_cast<int>(other.height);
+  std::uint64_t count = 0;
+  for (int y = 0; y < height; y += every) {
+    for (int x = y % every; x < width; x += every) {
+      const int from_x = x + shift.x, from_y = y + shift.y;
+      if (from_x < 0 || from_y < 0 || from_x >= width || from_y >= height) continue;
+      const double depth = truth.depths[static_cast<std::size_t>(from_y) * other.width +
+                                        static_cast<std::size_t>(from_x)];
+      const double stored =
+          other.depths[static_cast<std::size_t>(y) * other.width + static_cast<std::size_t>(x)];
+      if (!(depth < infinity)) continue;
+      count += std::abs(stored - depth) <= agreement * depth ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+std::optional<Hypothesis> shifted(const Truth& truth, const OtherMap& other,
+                                  const RendererModel& model, double agreement) {
+  constexpr int most = 16;
+  WholeShift best;
+  const std::uint64_t none = agreeing(truth, other, agreement, best);
+  std::uint64_t greatest = none;
+  for (int y = -most; y <= most; ++y) {
+    for (int x = -most; x <= most; ++x) {
+      const std::uint64_t count = agreeing(truth, other, agreement, {x, y});
+      if (count <= greatest) continue;
+      greatest = count;
+      best = {x, y};
+    }
+  }
+  if (greatest == none) return std::nullopt;
+  Hypothesis h{
+      "shift",
+      fmt::format("the image is shifted by ({}, {}) pixels: its samples lie there from the "
+                  "centres of the pixels",
+                  best.x, best.y),
+      model, other};
+  h.model.sample.x += best.x;
+  h.model.sample.y += best.y;
   return h;
 }
 
-/// Which axes of the image are mirrored: the horizontal one, the vertical one or both.
+/// How the axes of an image were exchanged: columns and rows first, then either mirrored.
 struct Axes {
-  bool x = false, y = false;
+  bool exchanged = false, x = false, y = false;
 };
 
 template <class T>
-std::vector<T> mirrored_values(const std::vector<T>& values, std::uint32_t width, Axes axes) {
+std::vector<T> exchanged_values(const std::vector<T>& values, std::uint32_t width, Axes axes) {
   if (values.empty()) return values;
   const std::size_t height = values.size() / width;
   std::vector<T> result(values.size());
   for (std::size_t row = 0; row < height; ++row) {
     for (std::size_t column = 0; column < width; ++column) {
-      result[row * width + column] = values[(axes.y ? height - 1 - row : row) * width +
-                                            (axes.x ? width - 1 - column : column)];
+      const std::size_t from_row = axes.y ? height - 1 - row : row;
+      const std::size_t from_column = axes.x ? width - 1 - column : column;
+      result[row * width + column] = axes.exchanged ? values[from_column * width + from_row]
+                                                    : values[from_row * width + from_column];
     }
   }
   return result;
 }
 
-Hypothesis mirrored(const OtherMap& other, const RendererModel& model, Axes axes) {
-  Hypothesis h{"mirrored",
-               std::string("the image is mirrored: ") +
-                   (axes.x && axes.y ? "both axes are"
-                    : axes.x         ? "the horizontal axis is"
-                                     : "the vertical axis is") +
-                   " flipped",
-               model, other};
-  h.map.depths = mirrored_values(other.depths, other.width, axes);
-  h.map.windows = mirrored_values(other.windows, other.width, axes);
-  h.map.triangles = mirrored_values(other.triangles, other.width, axes);
+std::string text_of(Axes axes) {
+  if (axes.exchanged) {
+    return axes.x && axes.y ? "rows and columns are exchanged, and both axes are flipped"
+           : axes.x         ? "the image is turned by a quarter, clockwise"
+           : axes.y         ? "the image is turned by a quarter, counter-clockwise"
+                            : "rows and columns are exchanged";
+  }
+  return std::string("the image is mirrored: ") +
+         (axes.x && axes.y ? "both axes are"
+          : axes.x         ? "the horizontal axis is"
+                           : "the vertical axis is") +
+         " flipped";
+}
+
+std::optional<Hypothesis> mirrored(const OtherMap& other, const RendererModel& model, Axes axes) {
+  if (axes.exchanged && other.width != other.height) return std::nullopt;
+  Hypothesis h{axes.exchanged ? "axes" : "mirrored", text_of(axes), model, other};
+  for (auto* values : {&h.map.depths, &h.map.windows}) {
+    *values = exchanged_values(*values, other.width, axes);
+  }
+  h.map.triangles = exchanged_values(other.triangles, other.width, axes);
   return h;
 }
 
@@ -109,23 +146,18 @@ std::optional<Hypothesis> ray_distance(const Camera& camera, const OtherMap& oth
 std::vector<MakeHypothesis> hypotheses(const Truth& truth, const OtherMap& other,
                                        const RendererModel& model, const Attribution& found) {
   std::vector<MakeHypothesis> list;
-  list.emplace_back([&] { return biased(other, model, found); });
   list.emplace_back([&] { return affine(other, model); });
-  list.emplace_back([&]() -> std::optional<Hypothesis> {
-    const auto shift = estimated_shift(truth, other);
-    if (!shift) return std::nullopt;
-    return shifted(other, model, *shift);
-  });
-  for (const double dx : {-0.5, 0.0, 0.5}) {
-    for (const double dy : {-0.5, 0.0, 0.5}) {
-      if (dx == 0 && dy == 0) continue;
-      list.emplace_back([&other, &model, dx, dy] { return shifted(other, model, {dx, dy}); });
+  for (const bool exchanged : {false, true}) {
+    for (const Axes axes : {Axes{exchanged, true, false},
+                            {exchanged, false, true},
+                            {exchanged, true, true},
+                            {exchanged, false, false}}) {
+      if (!axes.exchanged && !axes.x && !axes.y) continue;
+      list.emplace_back([&other, &model, axes] { return mirrored(other, model, axes); });
     }
   }
-  for (const Axes axes : {Axes{true, false}, {false, true}, {true, true}}) {
-    list.emplace_back([&other, &model, axes] { return mirrored(other, model, axes); });
-  }
   list.emplace_back([&] { return ray_distance(truth.camera, other, model); });
+  list.emplace_back([&] { return shifted(truth, other, model, found.median_relative_width); });
   return list;
 }
 

@@ -15,6 +15,11 @@ struct Hypothesis {
   std::string kind, text;
   RendererModel model;
   OtherMap map;
+  /// Where it is not the one that the map was compared with.
+  std::optional<Truth> truth = {};
+  /// As of a Finding.
+  std::vector<Estimate> estimates = {};
+  std::vector<std::string> alternatives = {};
 };
 
 /// Makes it when it is to be tried; nothing where it does not apply.

@@ -1,6 +1,7 @@
 #include "fathom/attribution/model/named_models.h"
 
-#include <vector>
+#include <limits>
+#include <variant>
 
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/unit_roundoff.h"
@@ -28,7 +29,9 @@ RendererModel ray(const std::string& name, double sample_error, double rotation_
 /// numbers, up to π), and their sines and products are six roundings more.
 constexpr double cycles_rotation_error = 24 * unit_roundoff<float>;
 
-std::vector<RendererModel> models() {
+}  // namespace
+
+std::vector<RendererModel> named_models() {
   return {raster("gl-unorm16", Mapping::opengl, Storage::unorm16),
           raster("gl-unorm24", Mapping::opengl, Storage::unorm24),
           raster("gl-unorm32", Mapping::opengl, Storage::unorm32),
@@ -38,16 +41,20 @@ std::vector<RendererModel> models() {
           ray("cycles", 1e-3, cycles_rotation_error)};
 }
 
-}  // namespace
+bool has_clip_planes_for(const RendererModel& model, const Camera& camera) {
+  if (std::holds_alternative<RayModel>(model.kind)) return true;
+  const bool perspective = camera.projection == Projection::perspective;
+  return camera.far < std::numeric_limits<double>::infinity() && (camera.near > 0 || !perspective);
+}
 
 std::string model_names() {
   std::string names;
-  for (const RendererModel& model : models()) names += (names.empty() ? "" : ", ") + model.name;
+  for (const RendererModel& model : named_models()) names += (names.empty() ? "" : ", ") + model.name;
   return names;
 }
 
 RendererModel model_named(const std::string& name) {
-  for (const RendererModel& model : models()) {
+  for (const RendererModel& model : named_models()) {
     if (model.name == name) return model;
   }
   throw UsageError("there is no model '" + name + "'; there are " + model_names());

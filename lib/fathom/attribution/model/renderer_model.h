@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "fathom/attribution/model/recorded_depth.h"
 #include "fathom/attribution/model/written_depth.h"
 #include "fathom/depth_format/depth_format.h"
 
@@ -64,6 +65,10 @@ struct RayModel {
 struct SamplePosition {
   double x = 0.5, y = 0.5;
   double error = 0;
+  /// Radial distortion of the lens, without a unit: what an ideal one shows at radius r of the plane
+  /// at depth 1 is shown at r·(1 + k1·r² + k2·r⁴). Perspective only.
+  /// Source   [Bro71], as OpenCV has it.
+  double k1 = 0, k2 = 0;
 };
 
 /// What renderers of all kinds have, and the kind.
@@ -74,6 +79,9 @@ struct RendererModel {
   bool watertight = true;
   /// Of triangles with the same corners the one of the lowest number is seen.
   bool first_of_equals = false;
+  /// What was written down in place of the depths, where that is known; depths of the map are then
+  /// those that its values mean.
+  std::optional<RecordedDepth> recorded;
   std::variant<RasterModel, RayModel> kind;
 };
 

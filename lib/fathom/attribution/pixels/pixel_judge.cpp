@@ -139,12 +139,13 @@ void PixelJudge::measure(const Pixel& p, PixelResult& result) const {
   const Interval allowed = values_->as_depths(*p.visible);
   result.visible = {allowed, (allowed.upper - allowed.lower) / depth,
                     values_->steps(*p.visible, depth)};
+  result.alone = is_alone(*p.visible, p.fragments);
   if (!(other_.depths[p.index] < infinity)) return;
   if (result.pixel_class <= PixelClass::arithmetic) {  // the same surface
     const double error = std::abs(other_.depths[p.index] - depth);
     result.error = {error, error / depth};
   }
-  if (is_alone(*p.visible, p.fragments)) result.bias = values_->bias_steps(p.index, *p.visible);
+  if (result.alone) result.bias = values_->bias_steps(p.index, *p.visible);
 }
 
 PixelResult PixelJudge::judge(std::size_t index, const std::vector<Fragment>& fragments) const {

@@ -18,6 +18,8 @@ struct PixelResult {
   PixelClass pixel_class = PixelClass::equal;
   /// A triangle may be seen here or not; some triangle is drawn here or may be.
   bool may = false, touched = false;
+  /// The visible triangle is certain to be drawn, and no other is near it in depth.
+  bool alone = false;
   /// Unexplained, and another than the first of equal triangles is shown.
   bool wrong_tie = false;
   /// The triangle whose absence would explain it, if it is unexplained.

@@ -22,10 +22,12 @@ void set_images(const std::vector<PixelResult>& pixels, Attribution& result) {
   result.least.assign(count, std::numeric_limits<float>::quiet_NaN());
   result.greatest = result.least;
   result.absent.resize(count);
+  result.alone.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const PixelResult& p = pixels[i];
     result.classes[i] = p.pixel_class;
     result.absent[i] = p.absent;
+    result.alone[i] = p.alone ? 1 : 0;
     ++result.counts[static_cast<std::size_t>(p.pixel_class)];
     result.wrong_ties += p.wrong_tie ? 1 : 0;
     if (!p.visible) continue;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <variant>
 
 #include "fathom/numeric/unit_roundoff.h"
@@ -25,7 +26,10 @@ struct Values {
 
 std::unique_ptr<StoredValues> stored_values(const Camera& camera, const OtherMap& other,
                                             const RendererModel& model) {
-  return std::visit(Values{camera, other}, model.kind);
+  auto values = std::visit(Values{camera, other}, model.kind);
+  const bool is_recorded = model.recorded && other.windows.empty();
+  return is_recorded ? recorded_values(std::move(values), other, *model.recorded)
+                     : std::move(values);
 }
 
 Interval rounded_to_binary32(const Interval& depths) {

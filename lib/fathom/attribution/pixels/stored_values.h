@@ -53,6 +53,9 @@ std::unique_ptr<StoredValues> stored_values(const Camera& camera, const OtherMap
 std::unique_ptr<StoredValues> raster_values(const Camera& camera, const OtherMap& other,
                                             const RasterModel& model);
 std::unique_ptr<StoredValues> ray_values(const OtherMap& other);
+/// Of depths that were written down once more: `made` as of the renderer itself.
+std::unique_ptr<StoredValues> recorded_values(std::unique_ptr<StoredValues> made,
+                                              const OtherMap& other, const RecordedDepth& recorded);
 
 /// Depths as they may be once they are decoded and rounded to binary32.
 Interval rounded_to_binary32(const Interval& depths);

@@ -7,6 +7,7 @@
 #include "fathom/attribution/fragment_source.h"
 #include "fathom/attribution/image_box.h"
 #include "fathom/attribution/model/own_roundings.h"
+#include "fathom/attribution/model/sample_grid.h"
 #include "fathom/attribution/raster/raster_depth.h"
 #include "fathom/attribution/raster/raster_polygon.h"
 
@@ -81,6 +82,7 @@ class RasterFragments final : public FragmentSource {
       : mesh_(mesh),
         camera_(camera),
         sample_(sample),
+        grid_(camera, sample),
         vertices_(clip_vertices(mesh, camera, model)),
         polygons_(camera, model),
         depth_(camera, model, sample.error) {}
@@ -98,6 +100,7 @@ class RasterFragments final : public FragmentSource {
   const WorldMesh& mesh_;
   Camera camera_;
   SamplePosition sample_;
+  SampleGrid grid_;
   std::vector<ClipVertex> vertices_;
   RasterPolygons polygons_;
   RasterDepth depth_;
@@ -108,7 +111,8 @@ PixelBox RasterFragments::box(std::uint32_t triangle) const {
   for (const RasterPolygon& p : polygons(triangle)) {
     if (p.anywhere) return whole_image(camera_);
     for (const WindowVertex& c : p.corners) {
-      box.add(c.x, c.y, c.snapped_x + sample_.error, c.snapped_y + sample_.error);
+      const double more = sample_.error + grid_.reach();
+      box.add(c.x, c.y, c.snapped_x + more, c.snapped_y + more);
     }
   }
   return pixels_of(box, camera_, 1);
@@ -133,7 +137,7 @@ void RasterFragments::each(std::uint32_t triangle, const PixelBox& box,
   if (found.empty() || box.is_empty()) return;
   for (std::uint32_t row = box.first_row; row <= box.last_row; ++row) {
     for (std::uint32_t column = box.first_column; column <= box.last_column; ++column) {
-      const double x = column + sample_.x, y = row + sample_.y;
+      const auto [x, y] = grid_.at(column, row);
       std::optional<Fragment> f = on(found[0], x, y);
       if (found.size() == 2) f = both(f, on(found[1], x, y));
       if (!f) continue;

@@ -4,6 +4,7 @@
 
 #include "fathom/attribution/fragment_source.h"
 #include "fathom/attribution/image_box.h"
+#include "fathom/attribution/model/sample_grid.h"
 #include "fathom/attribution/ray/model_ray.h"
 #include "fathom/attribution/ray/ray_triangle.h"
 #include "fathom/attribution/ray/vector3.h"
@@ -30,7 +31,11 @@ class RayFragments final : public FragmentSource {
  public:
   RayFragments(const WorldMesh& mesh, const Camera& camera, const SamplePosition& sample,
                const RayModel& model)
-      : mesh_(mesh), sample_(sample), model_(model), rays_(camera, model, sample.error) {}
+      : mesh_(mesh),
+        sample_(sample),
+        grid_(camera, sample),
+        model_(model),
+        rays_(camera, model, sample.error) {}
 
   [[nodiscard]] PixelBox box(std::uint32_t triangle) const override;
   void each(std::uint32_t triangle, const PixelBox& box, const TakeFragment& take) const override;
@@ -45,6 +50,7 @@ class RayFragments final : public FragmentSource {
 
   const WorldMesh& mesh_;
   SamplePosition sample_;
+  SampleGrid grid_;
   RayModel model_;
   ModelRays rays_;
 };
@@ -67,7 +73,7 @@ PixelBox RayFragments::box(std::uint32_t triangle) const {
     const double margin = (64 * u + 8 * model_.rotation_error) * size / w *
                               (std::abs(c.fx) + std::abs(c.fy) + std::abs(c.skew) +
                                std::abs(x - cx) + std::abs(y - cy)) +
-                          sample_.error + 1;
+                          sample_.error + 1 + grid_.reach();
     box.add(x, y, margin, margin);
   }
   if (!before) return {};
@@ -80,7 +86,8 @@ void RayFragments::each(std::uint32_t triangle, const PixelBox& box,
   const std::array<Vector3, 3> points = corners(triangle);
   for (std::uint32_t row = box.first_row; row <= box.last_row; ++row) {
     for (std::uint32_t column = box.first_column; column <= box.last_column; ++column) {
-      const Ray ray = rays_.through(column + sample_.x, row + sample_.y);
+      const auto [x, y] = grid_.at(column, row);
+      const Ray ray = rays_.through(x, y);
       std::optional<Fragment> f = ray_on_triangle(points, ray, rays_, model_);
       if (!f) continue;
       f->triangle = triangle;

@@ -1,0 +1,207 @@
+#include "fathom/attribution/faults/pixels_at_fault.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "fathom/attribution/faults/pixel_groups.h"
+
+namespace fathom::attribution {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Pixels that touch each other and still are by themselves.
+constexpr std::size_t most_together = 4;
+
+bool is_unexplained(const Attribution& found, std::size_t pixel) {
+  return found.classes[pixel] == PixelClass::unexplained;
+}
+
+/// The finding, if it explains nine tenths of the unexplained pixels.
+std::optional<PixelFinding> if_most(const Attribution& found, const std::string& kind,
+                                    const std::string& text,
+                                    const std::function<bool(std::size_t)>& explains) {
+  PixelFinding result{{kind, text}, std::vector<std::uint8_t>(found.classes.size())};
+  for (std::size_t i = 0; i < found.classes.size(); ++i) {
+    result.explained[i] = is_unexplained(found, i) && explains(i) ? 1 : 0;
+    result.finding.pixels += result.explained[i];
+  }
+  if (result.finding.pixels * 10 < found.count(PixelClass::unexplained) * 9) return std::nullopt;
+  return result;
+}
+
+/// Least and greatest depth of the surfaces that a map shows where they should be.
+struct Range {
+  double least = infinity, greatest = -infinity;
+};
+
+Range explained_range(const Truth& truth, const Attribution& found) {
+  std::vector<double> depths;
+  for (std::size_t i = 0; i < truth.depths.size(); ++i) {
+    const bool is_seen = truth.depths[i] < infinity && found.classes[i] <= PixelClass::arithmetic;
+    if (is_seen) depths.push_back(truth.depths[i]);
+  }
+  if (depths.size() < 64) return {};
+  // Without a thousandth on either side: edges show what is behind them.
+  const auto some = static_cast<std::ptrdiff_t>(depths.size() / 1000);
+  std::nth_element(depths.begin(), depths.begin() + some, depths.end());
+  const double least = depths[static_cast<std::size_t>(some)];
+  std::nth_element(depths.begin(), depths.end() - 1 - some, depths.end());
+  return {least, *(depths.end() - 1 - some)};
+}
+
+/// Rows (or columns) of which nearly all pixels with a surface are unexplained.
+std::vector<std::uint8_t> lost(const Truth& truth, const Attribution& found, bool rows) {
+  const std::uint32_t width = truth.camera.width, height = truth.camera.height;
+  std::vector<std::uint64_t> all(rows ? height : width), bad(all.size());
+  for (std::size_t i = 0; i < truth.depths.size(); ++i) {
+    const std::size_t line = rows ? i / width : i % width;
+    const bool counts = truth.depths[i] < infinity || is_unexplained(found, i);
+    all[line] += counts ? 1 : 0;
+    bad[line] += is_unexplained(found, i) ? 1 : 0;
+  }
+  std::vector<std::uint8_t> result(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) result[k] = bad[k] >= 4 && bad[k] * 10 >= all[k] * 9;
+  return result;
+}
+
+/// Whether surfaces are shown in the other rows (or columns) as they should be.
+bool others_are_good(const Truth& truth, const Attribution& found,
+                     const std::vector<std::uint8_t>& lost, bool rows) {
+  std::uint64_t all = 0, good = 0;
+  for (std::size_t i = 0; i < truth.depths.size(); ++i) {
+    if (!(truth.depths[i] < infinity)) continue;
+    const std::size_t line = rows ? i / truth.camera.width : i % truth.camera.width;
+    ++all;
+    good += lost[line] == 0 && !is_unexplained(found, i) ? 1 : 0;
+  }
+  return good * 20 >= all;
+}
+
+std::string text_of_lines(const std::vector<std::uint8_t>& lost, bool rows) {
+  const auto first = std::find(lost.begin(), lost.end(), 1) - lost.begin();
+  const auto last = lost.rend() - std::find(lost.rbegin(), lost.rend(), 1) - 1;
+  const auto count = std::count(lost.begin(), lost.end(), 1);
+  const char* what = rows ? "row" : "column";
+  if (count == 1) return fmt::format("{} {} does not show what it should", what, first);
+  return fmt::format("{} {}s from {} to {} do not show what they should", count, what, first, last);
+}
+
+/// Least and greatest of the exact depths of a pixel and its neighbours, two to each side; background
+/// counts as infinite.
+Range around(const Truth& truth, std::size_t pixel) {
+  constexpr std::size_t reach = 2;
+  const std::size_t width = truth.camera.width, height = truth.camera.height;
+  const std::size_t x = pixel % width, y = pixel / width;
+  Range range;
+  for (std::size_t row = y - std::min(y, reach); row <= std::min(y + reach, height - 1); ++row) {
+    for (std::size_t column = x - std::min(x, reach); column <= std::min(x + reach, width - 1);
+         ++column) {
+      range.least = std::min(range.least, truth.depths[row * width + column]);
+      range.greatest = std::max(range.greatest, truth.depths[row * width + column]);
+    }
+  }
+  return range;
+}
+
+std::string shown(double depth) {
+  return depth < infinity ? fmt::format("{:.7g}", depth) : "background";
+}
+
+}  // namespace
+
+std::optional<PixelFinding> clipped(const Truth& truth, const OtherMap& other,
+                                    const Attribution& found) {
+  const Range seen = explained_range(truth, found);
+  const auto missing_where = [&](const std::function<bool(double)>& is_beyond) {
+    return [&truth, &other, is_beyond](std::size_t i) {
+      return truth.depths[i] < infinity && is_beyond(truth.depths[i]) &&
+             other.depths[i] > truth.depths[i];
+    };
+  };
+  if (found.count(PixelClass::unexplained) < 16 || !(seen.least < seen.greatest)) {
+    return std::nullopt;
+  }
+  const auto near = [&](double d) { return d < seen.least; };
+  if (auto cut = if_most(found, "clipped",
+                         fmt::format("surfaces nearer than {:.6g} are missing", seen.least),
+                         missing_where(near))) {
+    return cut;
+  }
+  const auto far = [&](double d) { return d > seen.greatest; };
+  return if_most(found, "clipped",
+                 fmt::format("surfaces farther than {:.6g} are missing", seen.greatest),
+                 missing_where(far));
+}
+
+std::optional<PixelFinding> lost_lines(const Truth& truth, const OtherMap& /*other*/,
+                                       const Attribution& found) {
+  for (const bool rows : {true, false}) {
+    const std::vector<std::uint8_t> lines = lost(truth, found, rows);
+    const auto count = static_cast<std::size_t>(std::count(lines.begin(), lines.end(), 1));
+    if (count == 0 || !others_are_good(truth, found, lines, rows)) continue;
+    const std::uint32_t width = truth.camera.width;
+    const auto in_one = [&](std::size_t i) { return lines[rows ? i / width : i % width] != 0; };
+    if (auto result = if_most(found, rows ? "lost-rows" : "lost-columns",
+                              text_of_lines(lines, rows), in_one)) {
+      return result;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<PixelFinding> mixed(const Truth& truth, const OtherMap& other,
+                                  const Attribution& found) {
+  const auto is_between = [&](std::size_t i) {
+    const Range range = around(truth, i);
+    return range.least < other.depths[i] && other.depths[i] < range.greatest;
+  };
+  // What is off by a little lies between neighbours on every slope: only silhouettes tell.
+  constexpr double jump = 1.05, least_share = 0.05;
+  std::uint64_t at_jumps = 0, between = 0;
+  for (std::size_t i = 0; i < found.classes.size(); ++i) {
+    const Range range = around(truth, i);
+    if (!(range.greatest > jump * range.least)) continue;
+    const double tenth = std::min(range.greatest - range.least, range.least) / 10;
+    ++at_jumps;
+    between += is_unexplained(found, i) && other.depths[i] > range.least + tenth &&
+                       other.depths[i] < range.greatest - tenth
+                   ? 1
+                   : 0;
+  }
+  if (between < 16 || static_cast<double>(between) < least_share * static_cast<double>(at_jumps)) {
+    return std::nullopt;
+  }
+  return if_most(found, "mixed",
+                 "depths lie between those of neighbouring pixels, as a filter or a resize makes "
+                 "them: take the nearest pixel for depths",
+                 is_between);
+}
+
+std::optional<PixelFinding> isolated(const Truth& truth, const OtherMap& other,
+                                     const Attribution& found) {
+  const auto groups = pixel_groups(truth.camera.width, truth.camera.height,
+                                   [&](std::size_t i) { return is_unexplained(found, i); });
+  const std::size_t most_groups = std::max<std::size_t>(4, truth.depths.size() / 50);
+  const bool few = groups.size() <= most_groups &&
+                   std::all_of(groups.begin(), groups.end(),
+                               [](const auto& g) { return g.size() <= most_together; });
+  if (!few || groups.empty()) return std::nullopt;
+  const std::size_t first = groups.front().front();
+  const std::uint64_t count = found.count(PixelClass::unexplained);
+  return if_most(
+      found, "isolated-pixels",
+      fmt::format("{} by {}; {}({}, {}) shows {} for {}",
+                  count == 1 ? "a pixel is wrong" : fmt::format("{} pixels are wrong", count),
+                  count == 1 ? "itself" : "themselves", count == 1 ? "" : "the first at ",
+                  first % truth.camera.width, first / truth.camera.width,
+                  shown(other.depths[first]), shown(truth.depths[first])),
+      [](std::size_t) { return true; });
+}
+
+}  // namespace fathom::attribution

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "fathom/attribution/attribution.h"
+#include "fathom/attribution/other_map.h"
+#include "fathom/attribution/truth.h"
+
+namespace fathom::attribution {
+
+/// A finding about some pixels, and which of the unexplained ones it explains: 1 for each that it
+/// does.
+struct PixelFinding {
+  Finding finding;
+  std::vector<std::uint8_t> explained;
+};
+
+// Each of these explains nine tenths of the unexplained pixels or is nothing.
+
+/// `clipped`: all surfaces nearer than some depth are missing, or all that are farther.
+std::optional<PixelFinding> clipped(const Truth& truth, const OtherMap& other,
+                                    const Attribution& found);
+
+/// `lost-rows`, `lost-columns`: whole rows or columns do not show the surfaces that they should.
+std::optional<PixelFinding> lost_lines(const Truth& truth, const OtherMap& other,
+                                       const Attribution& found);
+
+/// `mixed`: pixels at silhouettes hold depths between those of their neighbours, as a filter makes
+/// them that mixes pixels.
+std::optional<PixelFinding> mixed(const Truth& truth, const OtherMap& other,
+                                  const Attribution& found);
+
+/// `isolated-pixels`: a few pixels, each by itself.
+std::optional<PixelFinding> isolated(const Truth& truth, const OtherMap& other,
+                                     const Attribution& found);
+
+}  // namespace fathom::attribution

@@ -1,0 +1,190 @@
+#include "fathom/attribution/faults/storage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "fathom/attribution/model/window_depth.h"
+#include "fathom/attribution/pixels/storage_step.h"
+#include "fathom/numeric/unit_roundoff.h"
+
+namespace fathom::attribution {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double u = unit_roundoff<float>;
+
+/// How improbable it has to be that all distinct values fit by chance, as a power of two.
+constexpr double least_bits = 20;
+/// Distinct values from which a step may be estimated.
+constexpr std::size_t least_distinct = 24;
+
+/// The distinct depths of surfaces, in ascending order.
+std::vector<double> distinct_depths(const OtherMap& other) {
+  std::vector<double> depths;
+  for (const double d : other.depths) {
+    if (std::abs(d) < infinity) depths.push_back(d);
+  }
+  std::sort(depths.begin(), depths.end());
+  depths.erase(std::unique(depths.begin(), depths.end()), depths.end());
+  return depths;
+}
+
+/// How far what is recorded may be off for the rounding of the depth to binary32.
+double tolerance(const RecordedDepth& r, double depth) {
+  const double moved = depth * (1 + 4 * u);
+  return std::abs(r.exact(moved) - r.exact(depth)) + 4 * u * std::abs(r.exact(depth));
+}
+
+bool fits(const RecordedDepth& r, const std::vector<double>& depths) {
+  double bits = 0;
+  const bool all = std::all_of(depths.begin(), depths.end(), [&](double d) {
+    const double value = r.exact(d), allowed = tolerance(r, d);
+    bits += std::log2(r.step_at(value) / (2 * allowed));
+    return 16 * allowed <= r.step_at(value) && std::abs(r.rounded(value) - value) <= allowed;
+  });
+  return all && bits >= least_bits;
+}
+
+/// Depths that are apart by one step, at a typical depth.
+double coarseness(const RecordedDepth& r, double depth) {
+  const double value = r.exact(depth), step = r.step_at(value);
+  return std::abs(r.to_depth(value + step / 2) - r.to_depth(value - step / 2));
+}
+
+RecordedDepth multiples_of(double step) {
+  return {.rounding = RecordedDepth::Rounding::nearest, .step = step};
+}
+
+/// Codes of n bits from 0 at near to 1 at far.
+RecordedDepth codes(const Camera& c, bool of_windows, Mapping mapping, int bits) {
+  RecordedDepth r{.rounding = RecordedDepth::Rounding::nearest,
+                  .step = 1 / (std::ldexp(1.0, bits) - 1)};
+  const WindowDepth window = window_depth(c.projection, mapping, c.near, c.far);
+  if (of_windows && window.perspective) {
+    r.term = DepthTerm::inverse;
+    r.factor = window.b;
+    r.offset = window.a;
+  } else {
+    r.factor = 1 / (c.far - c.near);
+    r.offset = -c.near / (c.far - c.near);
+  }
+  return r;
+}
+
+bool has_both_planes(const Camera& c) {
+  return c.far < infinity && (c.near > 0 || c.projection == Projection::orthographic);
+}
+
+void add_codes(const Camera& camera, const RendererModel& model,
+               std::vector<CoarseStorage>& storages) {
+  if (!has_both_planes(camera)) return;
+  const auto* const raster = std::get_if<RasterModel>(&model.kind);
+  for (const int bits : {8, 10, 12, 16}) {
+    if (camera.projection == Projection::perspective) {
+      storages.push_back(
+          {codes(camera, true, raster != nullptr ? raster->mapping : Mapping::opengl, bits),
+           fmt::format("window depths in {} bits", bits)});
+    }
+    storages.push_back({codes(camera, false, Mapping::opengl, bits),
+                        fmt::format("{} bits from near to far", bits)});
+  }
+}
+
+std::string text_of_step(double step) {
+  const double per_unit = std::nearbyint(1 / step);
+  const bool is_part = std::abs(per_unit * step - 1) < 1e-6;
+  std::string text = is_part && per_unit > 1 && std::fmod(per_unit, 10) != 0
+                         ? fmt::format("multiples of 1/{}", per_unit)
+                         : fmt::format("multiples of {:.7g}", step);
+  if (is_part && per_unit == 1000) text += ", whole millimetres if the scene is in metres";
+  return text;
+}
+
+/// A window depth's own step, as a depth; what is recorded has to be coarser by twice that.
+double own_coarseness(const Camera& camera, const RendererModel& model, double depth) {
+  if (model.recorded) return coarseness(*model.recorded, depth);
+  const auto* const raster = std::get_if<RasterModel>(&model.kind);
+  if (raster == nullptr) return binary32_spacing(depth);
+  const WindowDepth window =
+      window_depth(camera.projection, raster->stored_mapping(), camera.near, camera.far);
+  const double z = window.of_depth(depth);
+  const double step = storage_step(*raster, z);
+  return std::abs(window.to_depth(z + step / 2) - window.to_depth(z - step / 2));
+}
+
+}  // namespace
+
+/// The mean of what is stored less what is exact: none, or half a step.
+bool is_rounded_down(const Truth& truth, const OtherMap& other, const RecordedDepth& recorded) {
+  double sum = 0, pixels = 0;
+  for (std::size_t i = 0; i < truth.depths.size(); ++i) {
+    if (!(truth.depths[i] < infinity) || !(std::abs(other.depths[i]) < infinity)) continue;
+    const double off = recorded.exact(other.depths[i]) - recorded.exact(truth.depths[i]);
+    if (!(std::abs(off) < 2 * recorded.step)) continue;  // another surface
+    sum += off;
+    ++pixels;
+  }
+  return sum < -recorded.step / 4 * pixels;
+}
+
+/// Candidates are fractions of the least difference of neighbours, which is a small multiple of the
+/// step, made exact by the greatest value.
+std::optional<double> common_step(const std::vector<double>& values) {
+  if (values.size() < least_distinct) return std::nullopt;
+  double least = infinity;
+  const double greatest = std::max(std::abs(values.front()), std::abs(values.back()));
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double difference = values[i] - values[i - 1];
+    if (difference > 32 * u * greatest) least = std::min(least, difference);
+  }
+  if (!(least < infinity)) return std::nullopt;
+  for (int part = 1; part <= 8; ++part) {
+    double step = least / part;
+    // From value to value, each a known multiple of the step by what is known of it so far.
+    for (const double v : values) {
+      const double k = std::nearbyint(std::abs(v) / step);
+      if (k > 0 && std::abs(std::abs(v) / step - k) < 0.25) step = std::abs(v) / k;
+    }
+    const double inverse = std::nearbyint(1 / step);
+    if (inverse > 0 && std::abs(inverse * step - 1) < 1e-5) step = 1 / inverse;
+    if (fits(multiples_of(step), values)) return step;
+  }
+  return std::nullopt;
+}
+
+std::optional<CoarseStorage> coarse_storage(const Camera& camera, const OtherMap& other,
+                                            const RendererModel& model) {
+  const std::vector<double> depths = distinct_depths(other);
+  if (depths.empty()) return std::nullopt;
+  const double typical = depths[depths.size() / 2];
+  std::vector<CoarseStorage> storages;
+  for (const double per_unit : {1.0, 10.0, 100.0, 256.0, 512.0, 1000.0, 4000.0, 5000.0, 10000.0}) {
+    storages.push_back({multiples_of(1 / per_unit), text_of_step(1 / per_unit)});
+  }
+  if (const std::optional<double> step = common_step(depths)) {
+    storages.push_back({multiples_of(*step), text_of_step(*step)});
+  }
+  add_codes(camera, model, storages);
+  storages.push_back({{.rounding = RecordedDepth::Rounding::binary16}, "half floats (binary16)"});
+  std::optional<CoarseStorage> coarsest;
+  for (const CoarseStorage& s : storages) {
+    const double step = coarseness(s.recorded, typical);
+    if (!(step > 2 * own_coarseness(camera, model, typical)) || !fits(s.recorded, depths)) continue;
+    const double coarsest_step = coarsest ? coarseness(coarsest->recorded, typical) : 0;
+    // Half floats are multiples of a step as long as they lie between two powers of two.
+    const bool is_half = s.recorded.rounding == RecordedDepth::Rounding::binary16;
+    if (step > 1.0001 * coarsest_step) {
+      coarsest = s;
+    } else if (is_half && step > 0.9999 * coarsest_step) {
+      coarsest = CoarseStorage{s.recorded, s.text + ", or " + coarsest->text};
+    }
+  }
+  return coarsest;
+}
+
+}  // namespace fathom::attribution

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fathom::attribution {
+
+/// A quantity that was estimated from a map.
+struct Estimate {
+  std::string name;
+  double value = 0;
+  /// Standard deviation, from residuals that are summed corner by corner of the mesh: triangles that
+  /// share one share its roundings.
+  double deviation = 0;
+  /// "pixels", "scene units", "rad" or empty.
+  std::string unit;
+};
+
+/// What was found out about the whole image, a triangle or some pixels.
+struct Finding {
+  /// See docs/validation.md, "Findings".
+  std::string kind;
+  /// A clause that says what is wrong.
+  std::string text;
+  /// How many it explains.
+  std::uint64_t pixels = 0;
+  /// False: a convention that was recognised, nothing is wrong.
+  bool is_fault = true;
+  std::vector<Estimate> estimates = {};
+  /// Kinds of others that explain the map as well with as many parameters.
+  std::vector<std::string> alternatives = {};
+};
+
+}  // namespace fathom::attribution

@@ -1,0 +1,48 @@
+#include "fathom/attribution/model_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/model/named_models.h"
+
+namespace fathom::attribution {
+namespace {
+
+std::uint64_t faults_of(const Attribution& found) {
+  return static_cast<std::uint64_t>(
+      std::count_if(found.findings.begin(), found.findings.end(),
+                    [](const Finding& finding) { return finding.is_fault; }));
+}
+
+/// The less, the better.
+auto rank(const ModelTrial& trial) {
+  const Attribution& found = trial.attribution;
+  return std::tuple(found.count(PixelClass::unexplained), faults_of(found),
+                    found.median_relative_width);
+}
+
+}  // namespace
+
+ModelChoice chosen_model(const Truth& truth, const OtherMap& other) {
+  std::vector<ModelTrial> trials;
+  ModelChoice choice;
+  for (RendererModel& model : named_models()) {
+    if (!has_clip_planes_for(model, truth.camera)) continue;
+    Attribution found = attribute_and_name(truth, other, model);
+    choice.evidence.push_back(
+        fmt::format("{}: {} pixels unexplained, {} faults, bounds {:.2g} of the depth", model.name,
+                    found.count(PixelClass::unexplained), faults_of(found),
+                    found.median_relative_width));
+    trials.push_back({std::move(model), std::move(found)});
+  }
+  choice.chosen = std::move(*std::min_element(
+      trials.begin(), trials.end(),
+      [](const ModelTrial& a, const ModelTrial& b) { return rank(a) < rank(b); }));
+  return choice;
+}
+
+}  // namespace fathom::attribution
