@@ -49,7 +49,7 @@ void add_validate(Command& program) {
       "  fathom validate --render vtk spot.obj --camera camera.json -o vtk.exr\n"
       "\nScenes: " +
           fmt::format("{}", fmt::join(validation::scene_names(), ", ")) +
-          ".\nModels: " + attribution::model_names() +
+          ".\nModels: " + attribution::model_names() + "; or auto" +
           ".\nExit status 1 where a pixel is unexplained or a fault was found; see "
           "docs/validation.md.");
   const auto arguments = std::make_shared<ValidateArguments>();

@@ -1,6 +1,7 @@
 #include "apps/validate/validate_lines.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 
@@ -29,8 +30,13 @@ std::string line_of(const ValidationCase& c) {
   }
   std::string text = fmt::format("{}: {}; median bound {:.2g} of the depth, {:.2g} may\n",
                                  title_of(c), counts, a.median_relative_width, a.may_share);
+  for (const attribution::Finding& f : a.notes) {
+    text += fmt::format("  note: {} ({} pixels)\n", f.text, f.pixels);
+  }
   for (const attribution::Finding& f : a.findings) {
     text += fmt::format("  {}: {} ({} pixels)\n", f.kind, f.text, f.pixels);
+    if (f.alternatives.empty()) continue;
+    text += fmt::format("    as good an explanation: {}\n", fmt::join(f.alternatives, ", "));
   }
   return text;
 }

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <memory>
-#include <variant>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/options/map_argument.h"
@@ -16,7 +17,10 @@
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/background.h"
 #include "fathom/attribution/model/named_models.h"
+#include "fathom/attribution/model_choice.h"
+#include "fathom/attribution/other_size.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -27,11 +31,11 @@ using attribution::RendererModel;
 using attribution::Truth;
 using validation::ValidationCase;
 
+/// The value of --model that asks for the one that fits best.
+constexpr const char* any_model = "auto";
+
 void require_clip_planes(const RendererModel& model, const Camera& camera) {
-  if (std::holds_alternative<attribution::RayModel>(model.kind)) return;
-  const bool perspective = camera.projection == Projection::perspective;
-  if (camera.far < std::numeric_limits<double>::infinity() && (camera.near > 0 || !perspective))
-    return;
+  if (attribution::has_clip_planes_for(model, camera)) return;
   throw UsageError("--model " + model.name +
                    ": the camera file has no near and far, between which its depths are stored; "
                    "expected those of the renderer in it, as \"near\": 0.1, \"far\": 100");
@@ -60,29 +64,76 @@ OtherMap read_other_map(const ValidateArguments& arguments) {
   }
 }
 
+void require_known_triangles(const ValidateArguments& arguments, const OtherMap& other,
+                             const Scene& scene) {
+  const std::uint64_t count = triangle_count(scene);
+  for (const std::uint32_t triangle : other.triangles) {
+    if (triangle == no_surface || triangle < count) continue;
+    throw InputError(fmt::format(
+        "{}: shows triangle {}, but the scene has {}; expected the SCENE that it was drawn from",
+        arguments.map, triangle, count));
+  }
+}
+
+/// Sets what is found by the model of --model, or by the one that fits best.
+void judge(const ValidateArguments& arguments, ValidationCase& made) {
+  made.other = attribution::known_background(*made.truth, made.other).map;
+  if (arguments.model != any_model) {
+    made.attribution = attribution::attribute_and_name(*made.truth, made.other, made.model);
+    return;
+  }
+  attribution::ModelChoice choice = attribution::chosen_model(*made.truth, made.other);
+  made.model = std::move(choice.chosen.model);
+  made.attribution = std::move(choice.chosen.attribution);
+  std::string text = "taken for " + made.model.name;
+  for (const std::string& line : choice.evidence) text += "; " + line;
+  made.attribution.notes.push_back({"model", text, made.attribution.classes.size()});
+}
+
+/// A map of another size is judged as what explains it best, if that explains half of it.
+void judge_other_size(const ValidateArguments& arguments, const Camera& camera, const Scene& scene,
+                      ValidationCase& made) {
+  const std::string size =
+      fmt::format("{}: has {}x{} pixels, the camera {}x{}", arguments.map, made.other.width,
+                  made.other.height, camera.width, camera.height);
+  std::optional<ValidationCase> best;
+  const auto unexplained = [](const ValidationCase& c) {
+    return c.attribution.count(attribution::PixelClass::unexplained);
+  };
+  for (const attribution::SizedMap& sized :
+       attribution::readings_of_other_size(camera, made.other)) {
+    ValidationCase next = made;
+    next.truth = std::make_shared<Truth>(attribution::make_truth(scene, sized.camera));
+    next.other = sized.map;
+    judge(arguments, next);
+    attribution::Finding finding = sized.finding;
+    finding.pixels = next.attribution.classes.size();
+    next.attribution.findings.insert(next.attribution.findings.begin(), std::move(finding));
+    if (!best || unexplained(next) < unexplained(*best)) best = std::move(next);
+  }
+  if (!best || unexplained(*best) * 2 > best->attribution.classes.size()) {
+    throw InputError(size + "; expected the camera that it was drawn with");
+  }
+  made = std::move(*best);
+}
+
 ValidationCase judge_map(const ValidateArguments& arguments, const Console& console) {
   ValidationCase made{.renderer = "map", .variant = arguments.model, .version = arguments.map};
-  made.model = about_option("--model", [&] { return attribution::model_named(arguments.model); });
   const Camera camera = read_camera(arguments.camera);
-  require_clip_planes(made.model, camera);
-  made.other = read_other_map(arguments);
-  if (made.other.width != camera.width || made.other.height != camera.height) {
-    throw InputError(fmt::format(
-        "{}: has {}x{} pixels, the camera {}x{}; expected the camera that it was drawn with",
-        arguments.map, made.other.width, made.other.height, camera.width, camera.height));
+  if (arguments.model != any_model) {
+    made.model = about_option("--model", [&] { return attribution::model_named(arguments.model); });
+    require_clip_planes(made.model, camera);
   }
+  made.other = read_other_map(arguments);
   const Scene scene = read_files(arguments.scenes, arguments.limits, console);
   made.scene = std::filesystem::path(arguments.scenes.front()).stem();
-  const auto truth = std::make_shared<Truth>(attribution::make_truth(scene, camera));
-  for (const std::uint32_t triangle : made.other.triangles) {
-    if (triangle != no_surface && triangle >= truth->mesh.triangles.size()) {
-      throw InputError(fmt::format(
-          "{}: shows triangle {}, but the scene has {}; expected the SCENE that it was drawn from",
-          arguments.map, triangle, truth->mesh.triangles.size()));
-    }
+  require_known_triangles(arguments, made.other, scene);
+  if (made.other.width != camera.width || made.other.height != camera.height) {
+    judge_other_size(arguments, camera, scene, made);
+  } else {
+    made.truth = std::make_shared<Truth>(attribution::make_truth(scene, camera));
+    judge(arguments, made);
   }
-  made.attribution = attribution::attribute_and_name(*truth, made.other, made.model);
-  made.truth = truth;
   name_other_scene(made);
   return made;
 }
@@ -91,7 +142,8 @@ ValidationCase judge_map(const ValidateArguments& arguments, const Console& cons
 
 int validate_map(const ValidateArguments& arguments, const Console& console) {
   if (arguments.model.empty()) {
-    throw UsageError("--model is missing: there are " + attribution::model_names());
+    throw UsageError("--model is missing: there are " + attribution::model_names() +
+                     ", and auto for the one that fits best");
   }
   ValidationReport report(arguments);
   Stopwatch watch;

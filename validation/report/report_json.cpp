@@ -48,6 +48,22 @@ Json pixel(const ValidationCase& c, std::size_t i) {
   return json;
 }
 
+Json list_of(const std::vector<Finding>& findings) {
+  Json list = Json::array();
+  for (const Finding& f : findings) {
+    Json json{{"kind", f.kind}, {"text", f.text}, {"pixels", f.pixels}};
+    for (const attribution::Estimate& e : f.estimates) {
+      json["estimates"].push_back({{"name", e.name},
+                                   {"value", number(e.value)},
+                                   {"standard_deviation", number(e.deviation)},
+                                   {"unit", e.unit}});
+    }
+    if (!f.alternatives.empty()) json["alternatives"] = f.alternatives;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 Json result(const ValidationCase& c) {
   Json json{
       {"scene", c.scene}, {"renderer", c.renderer}, {"variant", c.variant}, {"version", c.version}};
@@ -72,10 +88,8 @@ Json result(const ValidationCase& c) {
                     {"greatest_relative", a.errors.greatest_relative},
                     {"median_relative", a.errors.median_relative}};
   json["bias_in_steps"] = a.bias_steps;
-  json["findings"] = Json::array();
-  for (const Finding& f : a.findings) {
-    json["findings"].push_back({{"kind", f.kind}, {"text", f.text}, {"pixels", f.pixels}});
-  }
+  json["findings"] = list_of(a.findings);
+  json["notes"] = list_of(a.notes);
   json["worst"] = Json::array();
   for (const std::size_t i : worst_pixels(c, listed_pixels)) json["worst"].push_back(pixel(c, i));
   return json;

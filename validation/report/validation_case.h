@@ -28,7 +28,7 @@ struct ValidationCase {
   /// Nothing is unexplained and nothing was found to be wrong.
   [[nodiscard]] bool is_good() const {
     return is_done() && attribution.count(attribution::PixelClass::unexplained) == 0 &&
-           !attribution.has_fault();
+           attribution.findings.empty();
   }
 };
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "fathom/attribution/faults/background.h"
+#include "fathom/attribution/background.h"
 #include "fathom/attribution/faults/depth_relation.h"
 #include "fathom/attribution/faults/deviation_fit.h"
 #include "fathom/attribution/faults/deviation_hypothesis.h"
@@ -117,8 +117,7 @@ class BestTrial {
     if (trial.explained.empty() || trial.left >= fewest_) return;
     fewest_ = trial.left;
     explained_ = std::move(trial.explained);
-    finding_ =
-        Finding{h.kind, h.text, unexplained_ - trial.left, true, h.estimates, h.alternatives};
+    finding_ = Finding{h.kind, h.text, unexplained_ - trial.left, h.estimates, h.alternatives};
   }
   [[nodiscard]] bool is_perfect() const { return fewest_ == 0; }
   [[nodiscard]] bool has_one() const { return finding_.has_value(); }
@@ -221,8 +220,7 @@ void Diagnosis::name_what_is_within_bounds() {
     return;
   }
   const Hypothesis h = deviation_hypothesis(truth_, other_, model_, *fit);
-  found_.findings.push_back(
-      {h.kind, h.text, found_.bias_pixels, true, h.estimates, h.alternatives});
+  found_.findings.push_back({h.kind, h.text, found_.bias_pixels, h.estimates, h.alternatives});
 }
 
 void Diagnosis::search() {
@@ -250,7 +248,7 @@ Attribution attribute_and_name(const Truth& truth, const OtherMap& other,
   Diagnosis diagnosis(truth, known.map, known_model);
   diagnosis.search();
   Attribution result = std::move(diagnosis).result();
-  if (known.note) result.findings.insert(result.findings.begin(), *known.note);
+  if (known.note) result.notes.push_back(*known.note);
   return result;
 }
 

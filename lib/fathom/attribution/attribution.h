@@ -50,17 +50,13 @@ struct Attribution {
   std::vector<std::uint32_t> certain_pixels;
   /// Unexplained pixels that show another than the first of equal triangles.
   std::uint64_t wrong_ties = 0;
+  /// What is wrong.
   std::vector<Finding> findings;
+  /// Conventions that were recognised, in which nothing is wrong: `background`, `model`.
+  std::vector<Finding> notes;
 
   [[nodiscard]] std::uint64_t count(PixelClass c) const {
     return counts[static_cast<std::size_t>(c)];
-  }
-  /// Whether one of the findings is a fault.
-  [[nodiscard]] bool has_fault() const {
-    for (const Finding& finding : findings) {
-      if (finding.is_fault) return true;
-    }
-    return false;
   }
   /// A constant seems to be added to all window depths: the mean is three quarters of a step or
   /// more, and four times its deviation.

@@ -17,16 +17,14 @@ struct Estimate {
   std::string unit;
 };
 
-/// What was found out about the whole image, a triangle or some pixels.
+/// What was found out about the whole image, a triangle or some pixels: mostly that it is wrong.
 struct Finding {
   /// See docs/validation.md, "Findings".
   std::string kind;
-  /// A clause that says what is wrong.
+  /// A clause that says it.
   std::string text;
   /// How many it explains.
   std::uint64_t pixels = 0;
-  /// False: a convention that was recognised, nothing is wrong.
-  bool is_fault = true;
   std::vector<Estimate> estimates = {};
   /// Kinds of others that explain the map as well with as many parameters.
   std::vector<std::string> alternatives = {};

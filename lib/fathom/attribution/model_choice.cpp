@@ -12,16 +12,10 @@
 namespace fathom::attribution {
 namespace {
 
-std::uint64_t faults_of(const Attribution& found) {
-  return static_cast<std::uint64_t>(
-      std::count_if(found.findings.begin(), found.findings.end(),
-                    [](const Finding& finding) { return finding.is_fault; }));
-}
-
 /// The less, the better.
 auto rank(const ModelTrial& trial) {
   const Attribution& found = trial.attribution;
-  return std::tuple(found.count(PixelClass::unexplained), faults_of(found),
+  return std::tuple(found.count(PixelClass::unexplained), found.findings.size(),
                     found.median_relative_width);
 }
 
@@ -33,10 +27,9 @@ ModelChoice chosen_model(const Truth& truth, const OtherMap& other) {
   for (RendererModel& model : named_models()) {
     if (!has_clip_planes_for(model, truth.camera)) continue;
     Attribution found = attribute_and_name(truth, other, model);
-    choice.evidence.push_back(
-        fmt::format("{}: {} pixels unexplained, {} faults, bounds {:.2g} of the depth", model.name,
-                    found.count(PixelClass::unexplained), faults_of(found),
-                    found.median_relative_width));
+    choice.evidence.push_back(fmt::format(
+        "{}: {} pixels unexplained, {} findings, bounds {:.2g} of the depth", model.name,
+        found.count(PixelClass::unexplained), found.findings.size(), found.median_relative_width));
     trials.push_back({std::move(model), std::move(found)});
   }
   choice.chosen = std::move(*std::min_element(

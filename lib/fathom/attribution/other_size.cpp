@@ -43,7 +43,8 @@ SizedMap exchanged(const Camera& camera, const OtherMap& other) {
   map.values = transposed(other.values, other.width);
   map.windows = transposed(other.windows, other.width);
   map.triangles = transposed(other.triangles, other.width);
-  return {camera, std::move(map),
+  return {camera,
+          std::move(map),
           {"axes", sizes(camera, other) + ": its rows and columns are exchanged"}};
 }
 
@@ -59,21 +60,24 @@ SizedMap cropped(const Camera& camera, const OtherMap& other, long left, long ab
                        const char* what) -> std::string {
     if (missing == 0) return "";
     const char* where = first != 0 ? before : after;
-    return fmt::format("{} {}{} {} {}", std::labs(missing), what, std::labs(missing) == 1 ? "" : "s",
-                       missing > 0 ? "missing" : "too many", where);
+    return fmt::format("{} {}{} {} {}", std::labs(missing), what,
+                       std::labs(missing) == 1 ? "" : "s", missing > 0 ? "missing" : "too many",
+                       where);
   };
-  const std::string columns = side(difference(camera.width, other.width), left, "at the left",
-                                   "at the right", "column");
+  const std::string columns =
+      side(difference(camera.width, other.width), left, "at the left", "at the right", "column");
   const std::string rows =
       side(difference(camera.height, other.height), above, "at the top", "at the bottom", "row");
   const std::string both = columns.empty() || rows.empty() ? "" : ", ";
-  return {part, other, {"size", fmt::format("{}: {}{}{}", sizes(camera, other), columns, both, rows)}};
+  return {
+      part, other, {"size", fmt::format("{}: {}{}{}", sizes(camera, other), columns, both, rows)}};
 }
 
 /// The whole view in an image of another size.
 SizedMap drawn_in_another_size(const Camera& camera, const OtherMap& other) {
   Camera scaled = camera;
-  const double x = double{other.width} / camera.width, y = double{other.height} / camera.height;
+  const double x = static_cast<double>(other.width) / camera.width,
+               y = static_cast<double>(other.height) / camera.height;
   scaled.width = other.width;
   scaled.height = other.height;
   scaled.fx *= x;
@@ -83,8 +87,8 @@ SizedMap drawn_in_another_size(const Camera& camera, const OtherMap& other) {
   scaled.pixel_centre = 0.5;
   scaled.cx = centre.x * x;
   scaled.cy = centre.y * y;
-  return {scaled, other,
-          {"size", sizes(camera, other) + ": the whole view was drawn in that size"}};
+  return {
+      scaled, other, {"size", sizes(camera, other) + ": the whole view was drawn in that size"}};
 }
 
 }  // namespace

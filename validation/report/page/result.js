@@ -7,6 +7,7 @@ async function show(k) {
   byId("version").textContent = r.version || "";
   for (const id of ["findings", "maps-shown", "classes", "bounds", "scatter", "formats", "worst"]) byId(id).replaceChildren();
   if (r.failure) { byId("findings").append(element("div", r.failure, { class: "finding" })); return; }
+  for (const f of r.notes) byId("findings").append(element("div", f.text + " (" + f.pixels + " pixels)", { class: "note" }));
   for (const f of r.findings) byId("findings").append(element("div", f.text + " (" + f.pixels + " pixels)", { class: "finding" }));
   const scene = await sceneOf(r.scene), map = await mapOf(k), n = scene.depths.length;
   if (current != k) return;

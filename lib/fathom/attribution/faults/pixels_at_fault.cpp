@@ -80,7 +80,7 @@ bool others_are_good(const Truth& truth, const Attribution& found,
     ++all;
     good += lost[line] == 0 && !is_unexplained(found, i) ? 1 : 0;
   }
-  return good * 20 >= all;
+  return good > 0 && good * 20 >= all;
 }
 
 std::string text_of_lines(const std::vector<std::uint8_t>& lost, bool rows) {

@@ -1,4 +1,4 @@
-#include "fathom/attribution/faults/background.h"
+#include "fathom/attribution/background.h"
 
 #include <fmt/format.h>
 
@@ -92,7 +92,7 @@ KnownBackground known_background(const Truth& truth, const OtherMap& other) {
     known.note =
         Finding{"background",
                 fmt::format("the background is stored as {}", described(*value, truth.camera)),
-                pixels, false};
+                pixels};
   }
   return known;
 }

@@ -11,7 +11,7 @@ namespace fathom::attribution {
 /// A map whose background was told from surfaces by what stands where the truth has none.
 struct KnownBackground {
   OtherMap map;
-  /// Of kind `background`; no fault. Nothing where the background is infinite, as ours is.
+  /// Of kind `background`. Nothing where the background is infinite, as ours is.
   std::optional<Finding> note;
 };
 
