@@ -27,6 +27,8 @@ constexpr std::size_t most_of_a_size = 4;
 /// A smaller set is as good as a larger one whose cost is not less than this part of its own: a
 /// larger one also follows roundings that corners of a triangle share.
 constexpr double as_good = 0.5;
+/// Residuals of a tenth of what the model allows are its roundings, whatever would follow them.
+constexpr double roundings = 0.01;
 /// Sets of the same size whose costs are so close cannot be told apart: the first in their order is
 /// named, the others are alternatives.
 constexpr double indistinguishable = 1.05;
@@ -226,7 +228,8 @@ bool is_significant(const FittedDeviation& fit) {
 std::optional<FittedDeviation> simplest_of(const std::vector<FittedDeviation>& fits, double least) {
   const FittedDeviation* best = nullptr;
   for (const FittedDeviation& fit : fits) {
-    if (!(fit.cost * as_good <= least && is_significant(fit))) continue;
+    const bool is_good = fit.cost * as_good <= least || fit.cost <= roundings;
+    if (!is_good || !is_significant(fit)) continue;
     if (best != nullptr && best->set->size() < fit.set->size()) break;
     if (best == nullptr || fit.cost < best->cost) best = &fit;
   }
@@ -261,7 +264,8 @@ std::optional<FittedDeviation> fitted_deviation(const Truth& truth, const OtherM
   for (const Candidate& c : candidates) {
     const bool is_larger = !fits.empty() && fits.back().set->size() < c.set->size();
     // Residuals of half of what is allowed are explained: larger sets need not be tried.
-    if (is_larger && least < 0.25 && least * as_good <= least_linear) break;
+    const bool is_as_good = least * as_good <= least_linear || least <= roundings;
+    if (is_larger && least < 0.25 && is_as_good) break;
     fits.push_back(fitting.fitted(*c.set));
     least = std::min(least, fits.back().cost);
   }
