@@ -16,6 +16,7 @@
 namespace fathom::attribution {
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 using P = Parameter;
 
@@ -83,20 +84,32 @@ SamplePoint sample_point(const Camera& c, const SamplePosition& sample, std::siz
   return s;
 }
 
+/// Derivatives of the affine value by where the lens shows the point: those by the ideal point p
+/// times the inverse of ∂(f·p)/∂p = f·1 + 2f′·p·pᵀ, f = 1 + k1·|p|² + k2·|p|⁴.
+Vector2d by_shown(const AffineValue& v, const SamplePoint& s, const SamplePosition& lens) {
+  const Vector2d by_ideal(v.by_x, v.by_y), p(s.x, s.y);
+  const double square = p.squaredNorm();
+  const double factor = 1 + square * (lens.k1 + square * lens.k2);
+  const double change = 2 * (lens.k1 + 2 * square * lens.k2);
+  return (by_ideal - p * (change * p.dot(by_ideal) / (factor + change * square))) / factor;
+}
+
 /// Derivatives of the affine value by what moves the view.
 void set_view_slopes(const Camera& c, const AffineValue& v, const SamplePoint& s,
+                     const SamplePosition& lens,
                      Eigen::Ref<Eigen::Matrix<double, 1, parameter_count>> slopes) {
   slopes.segment<3>(index_of(P::turn_x)) = v.by_turn.transpose();
   slopes.segment<3>(index_of(P::move_x)) = v.by_move.transpose();
   const double skew = c.skew / c.fx;
-  slopes[index_of(P::focal_x)] = -v.by_x * s.shown_x;
-  slopes[index_of(P::focal_y)] = -v.by_y * s.shown_y + v.by_x * skew * s.shown_y;
-  slopes[index_of(P::centre_x)] = -v.by_x / c.fx;
-  slopes[index_of(P::centre_y)] = (-v.by_y + v.by_x * skew) / c.fy;
-  slopes[index_of(P::skew)] = -v.by_x * s.shown_y / c.fx;
+  const Vector2d by = by_shown(v, s, lens);
+  slopes[index_of(P::focal_x)] = -by.x() * s.shown_x;
+  slopes[index_of(P::focal_y)] = -by.y() * s.shown_y + by.x() * skew * s.shown_y;
+  slopes[index_of(P::centre_x)] = -by.x() / c.fx;
+  slopes[index_of(P::centre_y)] = (-by.y() + by.x() * skew) / c.fy;
+  slopes[index_of(P::skew)] = -by.x() * s.shown_y / c.fx;
   if (c.projection != Projection::perspective) return;
   const double square = s.x * s.x + s.y * s.y;
-  const double outwards = -(v.by_x * s.x + v.by_y * s.y) * square;
+  const double outwards = -(by.x() * s.x + by.y() * s.y) * square;
   slopes[index_of(P::k1)] = outwards;
   slopes[index_of(P::k2)] = outwards * square;
 }
@@ -206,7 +219,7 @@ Residuals ResidualSource::of(const Truth& seen, const Deviation& deviation) cons
     const double residual = (stored - expected) / width;
     Eigen::Matrix<double, 1, parameter_count> row =
         Eigen::Matrix<double, 1, parameter_count>::Zero();
-    set_view_slopes(camera, v, s, row);
+    set_view_slopes(camera, v, s, sample, row);
     set_depth_slopes(depths, v.a, row);
     row /= width;
     if (!std::isfinite(residual) || !row.allFinite()) continue;
