@@ -145,11 +145,14 @@ std::optional<double> common_step(const std::vector<double>& values) {
   if (!(least < infinity)) return std::nullopt;
   for (int part = 1; part <= 8; ++part) {
     double step = least / part;
-    // From value to value, each a known multiple of the step by what is known of it so far.
-    for (const double v : values) {
-      const double k = std::nearbyint(std::abs(v) / step);
-      if (k > 0 && std::abs(std::abs(v) / step - k) < 0.25) step = std::abs(v) / k;
-    }
+    // From value to value, each a known multiple of the step by what is known of it so far: first
+    // those from the least value on, which begin with few steps, then the values themselves.
+    const auto refine = [&step](double multiple) {
+      const double k = std::nearbyint(multiple / step);
+      if (k > 0 && std::abs(multiple / step - k) < 0.25) step = multiple / k;
+    };
+    for (const double v : values) refine(v - values.front());
+    for (const double v : values) refine(std::abs(v));
     const double inverse = std::nearbyint(1 / step);
     if (inverse > 0 && std::abs(inverse * step - 1) < 1e-5) step = 1 / inverse;
     if (fits(multiples_of(step), values)) return step;
