@@ -92,21 +92,37 @@ std::string text_of_lines(const std::vector<std::uint8_t>& lost, bool rows) {
   return fmt::format("{} {}s from {} to {} do not show what they should", count, what, first, last);
 }
 
-/// Least and greatest of the exact depths of a pixel and its neighbours, two to each side; background
-/// counts as infinite.
-Range around(const Truth& truth, std::size_t pixel) {
+/// The exact depths of a pixel and its neighbours, two to each side; background counts as infinite.
+std::vector<double> depths_around(const Truth& truth, std::size_t pixel) {
   constexpr std::size_t reach = 2;
   const std::size_t width = truth.camera.width, height = truth.camera.height;
   const std::size_t x = pixel % width, y = pixel / width;
-  Range range;
+  std::vector<double> depths;
   for (std::size_t row = y - std::min(y, reach); row <= std::min(y + reach, height - 1); ++row) {
     for (std::size_t column = x - std::min(x, reach); column <= std::min(x + reach, width - 1);
          ++column) {
-      range.least = std::min(range.least, truth.depths[row * width + column]);
-      range.greatest = std::max(range.greatest, truth.depths[row * width + column]);
+      depths.push_back(truth.depths[row * width + column]);
     }
   }
-  return range;
+  return depths;
+}
+
+Range range_around(const Truth& truth, std::size_t pixel) {
+  const std::vector<double> depths = depths_around(truth, pixel);
+  const auto [least, greatest] = std::minmax_element(depths.begin(), depths.end());
+  return {*least, *greatest};
+}
+
+/// The greatest relative gap between the exact depths of a pixel and its neighbours: at a silhouette
+/// that between the surfaces, on a slope the little that it falls from pixel to pixel.
+Range gap_around(const Truth& truth, std::size_t pixel) {
+  std::vector<double> depths = depths_around(truth, pixel);
+  std::sort(depths.begin(), depths.end());
+  Range gap{depths.front(), depths.front()};
+  for (std::size_t i = 1; i < depths.size() && depths[i - 1] < infinity; ++i) {
+    if (depths[i] * gap.least > gap.greatest * depths[i - 1]) gap = {depths[i - 1], depths[i]};
+  }
+  return gap;
 }
 
 std::string shown(double depth) {
@@ -158,19 +174,19 @@ std::optional<PixelFinding> lost_lines(const Truth& truth, const OtherMap& /*oth
 std::optional<PixelFinding> mixed(const Truth& truth, const OtherMap& other,
                                   const Attribution& found) {
   const auto is_between = [&](std::size_t i) {
-    const Range range = around(truth, i);
+    const Range range = range_around(truth, i);
     return range.least < other.depths[i] && other.depths[i] < range.greatest;
   };
   // What is off by a little lies between neighbours on every slope: only silhouettes tell.
   constexpr double jump = 1.05, least_share = 0.05;
   std::uint64_t at_jumps = 0, between = 0;
   for (std::size_t i = 0; i < found.classes.size(); ++i) {
-    const Range range = around(truth, i);
-    if (!(range.greatest > jump * range.least)) continue;
-    const double tenth = std::min(range.greatest - range.least, range.least) / 10;
+    const Range gap = gap_around(truth, i);
+    if (!(gap.greatest > jump * gap.least)) continue;
+    const double tenth = std::min(gap.greatest - gap.least, gap.least) / 10;
     ++at_jumps;
-    between += is_unexplained(found, i) && other.depths[i] > range.least + tenth &&
-                       other.depths[i] < range.greatest - tenth
+    between += is_unexplained(found, i) && other.depths[i] > gap.least + tenth &&
+                       other.depths[i] < gap.greatest - tenth
                    ? 1
                    : 0;
   }
