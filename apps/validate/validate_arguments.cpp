@@ -10,6 +10,10 @@ void ValidateArguments::add_to(Command& command) {
                  "Renderers that draw the scenes: vtk, opengl, embree, blender");
   command.flag("--colour", colour,
                "Compare the pipeline's flat, Gouraud and Phong pictures with VTK's");
+  command.flag(
+      "--faults", faults,
+      "Make the maps of the renderers wrong in every way of the catalogue, and see what is "
+      "found");
   command.option("--scene", "NAME", scene_names,
                  "Scenes of ours instead of SCENE (default: all, see below)");
   command.option("--variants", "NAME", variants,

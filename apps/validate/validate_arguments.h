@@ -16,7 +16,7 @@ struct ValidateArguments {
   std::vector<std::string> scenes;
   std::string map, camera, model, channel, out, baseline, junit;
   std::string against, scene_names, variants, render, output;
-  bool colour = false, for_ctest = false;
+  bool colour = false, faults = false, for_ctest = false;
   /// Codes per scene unit of a map of integers that does not say it itself.
   std::optional<double> png_scale;
   ReadLimits limits;

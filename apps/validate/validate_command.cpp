@@ -9,6 +9,7 @@
 #include "apps/validate/validate_against.h"
 #include "apps/validate/validate_arguments.h"
 #include "apps/validate/validate_colours.h"
+#include "apps/validate/validate_faults.h"
 #include "apps/validate/validate_map.h"
 #include "apps/validate/validate_render.h"
 #include "fathom/attribution/model/named_models.h"
@@ -26,11 +27,15 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
     throw UsageError(
         "one of --against RENDERERS, --map MAP, --colour and --render RENDERER is expected");
   }
+  if (arguments.faults && arguments.against.empty()) {
+    throw UsageError("--faults goes with --against RENDERERS");
+  }
   if (arguments.for_ctest && arguments.map.empty()) throw UsageError("--ctest goes with --map");
   if (!arguments.junit.empty() && arguments.map.empty() && arguments.against.empty()) {
     throw UsageError("--junit goes with --map and --against");
   }
   if (arguments.png_scale && arguments.map.empty()) throw UsageError("--png-scale goes with --map");
+  if (arguments.faults) return validate_faults(arguments, console);
   if (!arguments.against.empty()) return validate_against(arguments, console);
   if (!arguments.render.empty()) return validate_render(arguments, console);
   if (arguments.colour) return validate_colours(arguments, console);
@@ -45,6 +50,7 @@ void add_validate(Command& program) {
       "  fathom validate --against vtk spot.obj --camera camera.json\n"
       "  fathom validate --map other.exr --camera camera.json --model gl-unorm24 spot.obj\n"
       "  fathom validate --against opengl --out new --junit new.xml --baseline old/report.json\n"
+      "  fathom validate --faults --against vtk --scene spot --out faults\n"
       "  fathom validate --colour --scene spot\n"
       "  fathom validate --render vtk spot.obj --camera camera.json -o vtk.exr\n"
       "\nScenes: " +

@@ -157,7 +157,7 @@ void Diagnosis::name_storage() {
 }
 
 bool Diagnosis::by_triangles() {
-  const std::vector<Finding> findings = triangles_at_fault(truth_, searched_);
+  const std::vector<Finding> findings = triangles_at_fault(truth_, other_, searched_);
   std::uint64_t named = 0;
   for (const Finding& finding : findings) named += finding.pixels;
   if (named == 0 || named * 10 < unexplained() * 9) return false;

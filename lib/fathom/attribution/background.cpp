@@ -89,10 +89,9 @@ KnownBackground known_background(const Truth& truth, const OtherMap& other) {
     pixels += is_background ? 1 : 0;
   }
   if (*value != infinity) {
-    known.note =
-        Finding{"background",
-                fmt::format("the background is stored as {}", described(*value, truth.camera)),
-                pixels};
+    known.note = Finding{
+        "background",
+        fmt::format("the background is stored as {}", described(*value, truth.camera)), pixels};
   }
   return known;
 }

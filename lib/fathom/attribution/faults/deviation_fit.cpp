@@ -243,8 +243,10 @@ std::optional<FittedDeviation> simplest_of(const std::vector<FittedDeviation>& f
   std::sort(equals.begin(), equals.end(),
             [](const auto* a, const auto* b) { return a->set < b->set; });
   FittedDeviation result = *equals.front();
-  for (std::size_t i = 1; i < equals.size(); ++i)
-    result.alternatives.emplace_back(equals[i]->set->kind);
+  for (const FittedDeviation* equal : equals) {
+    const std::string kind = equal->set->kind;
+    if (kind != result.set->kind) result.alternatives.push_back(kind);
+  }
   return result;
 }
 

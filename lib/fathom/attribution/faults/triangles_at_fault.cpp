@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -65,7 +67,19 @@ bool is_turned_away(const Truth& truth, std::uint32_t triangle) {
   return truth.camera.projection == Projection::perspective ? n.dot(a) > 0 : n.z() > 0;
 }
 
-/// All that are turned one way are missing and none that is turned the other way.
+/// Whether surfaces are shown where triangles are missing: what is behind them.
+bool shows_what_is_behind(const OtherMap& other, const Attribution& found) {
+  std::uint64_t all = 0, surfaces = 0;
+  for (std::size_t i = 0; i < found.absent.size(); ++i) {
+    if (found.absent[i] == no_surface) continue;
+    ++all;
+    surfaces += std::isfinite(other.depths[i]) ? 1 : 0;
+  }
+  return surfaces * 5 >= all * 4;
+}
+
+/// Nearly all that are turned one way are missing, and hardly any that is turned the other way. Edges
+/// leave some of either.
 std::optional<Finding> culling(const Truth& truth, const std::map<std::uint32_t, Sightings>& seen,
                                const std::set<std::uint32_t>& gone, std::uint64_t pixels) {
   std::array<std::uint64_t, 2> all{}, lost{};
@@ -75,9 +89,9 @@ std::optional<Finding> culling(const Truth& truth, const std::map<std::uint32_t,
     lost[way] += gone.contains(triangle) ? sighting.absent : 0;
   }
   for (const std::size_t way : {0U, 1U}) {
-    const bool is_culled = lost[way] >= 16 && lost[way] * 20 >= all[way] * 19 &&
-                           lost[1 - way] * 20 <= all[1 - way] && all[1 - way] > 0;
-    if (!is_culled || gone.size() < 2) continue;
+    const bool is_culled = gone.size() >= 2 && lost[way] >= 16 && lost[way] * 5 >= all[way] * 4 &&
+                           lost[1 - way] * 5 <= all[1 - way];
+    if (!is_culled) continue;
     return Finding{"culling",
                    way == 1 ? "triangles that are turned away from the camera are missing"
                             : "triangles that face the camera are missing",
@@ -88,7 +102,8 @@ std::optional<Finding> culling(const Truth& truth, const std::map<std::uint32_t,
 
 }  // namespace
 
-std::vector<Finding> triangles_at_fault(const Truth& truth, const Attribution& found) {
+std::vector<Finding> triangles_at_fault(const Truth& truth, const OtherMap& other,
+                                        const Attribution& found) {
   std::vector<Finding> findings;
   if (found.wrong_ties > 0) {
     findings.push_back({"ties",
@@ -100,7 +115,9 @@ std::vector<Finding> triangles_at_fault(const Truth& truth, const Attribution& f
   const std::set<std::uint32_t> gone = missing(truth, found, seen);
   std::uint64_t pixels = 0;
   for (const std::uint32_t t : gone) pixels += seen.at(t).absent;
-  if (auto culled = culling(truth, seen, gone, pixels)) {
+  const auto culled =
+      shows_what_is_behind(other, found) ? culling(truth, seen, gone, pixels) : std::nullopt;
+  if (culled) {
     findings.push_back(*culled);
     return findings;
   }

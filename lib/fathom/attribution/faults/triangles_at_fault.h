@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "fathom/attribution/attribution.h"
+#include "fathom/attribution/other_map.h"
 #include "fathom/attribution/truth.h"
 
 namespace fathom::attribution {
@@ -11,6 +12,7 @@ namespace fathom::attribution {
 /// equal ones. A triangle is missing where its absence explains three pixels or more that touch and
 /// it is seen nowhere; what a pixel or two show may be chance.
 /// `found`: what attribute() says.
-std::vector<Finding> triangles_at_fault(const Truth& truth, const Attribution& found);
+std::vector<Finding> triangles_at_fault(const Truth& truth, const OtherMap& other,
+                                        const Attribution& found);
 
 }  // namespace fathom::attribution

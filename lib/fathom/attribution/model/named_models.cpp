@@ -49,7 +49,8 @@ bool has_clip_planes_for(const RendererModel& model, const Camera& camera) {
 
 std::string model_names() {
   std::string names;
-  for (const RendererModel& model : named_models()) names += (names.empty() ? "" : ", ") + model.name;
+  for (const RendererModel& model : named_models())
+    names += (names.empty() ? "" : ", ") + model.name;
   return names;
 }
 
