@@ -142,13 +142,12 @@ void Diagnosis::name_storage() {
                     is_rounded_down(truth_, other_, storage->recorded);
   if (is_known && !down) return;
   if (down) storage->recorded.rounding = Rounding::down;
-  model_.recorded = storage->recorded;
-  Attribution next = attribute(truth_, other_, model_);
+  RendererModel known = model_;
+  known.recorded = storage->recorded;
+  Attribution next = attribute(truth_, other_, known);
   const std::uint64_t before = unexplained(), left = next.count(PixelClass::unexplained);
-  if (left >= before) {
-    model_.recorded.reset();
-    return;
-  }
+  if (left >= before) return;
+  model_ = std::move(known);
   searched_ = std::move(next);
   name({"storage",
         fmt::format("depths are stored as {}{}", storage->text, down ? ", rounded down" : ""),

@@ -37,7 +37,8 @@ constexpr double indistinguishable = 1.05;
 /// to see.
 constexpr double evidence = 0.99, least_deviations = 6;
 
-/// Weights that fall with what a residual exceeds the typical ones by (Geman and McClure).
+/// Weights that fall with what a residual exceeds the typical ones by.
+/// Source   [GM85].
 VectorXd weights_of(const VectorXd& r) {
   const double scale = 3 * Residuals{.r = r, .slopes = {}, .triangles = {}}.median() +
                        std::numeric_limits<double>::min();
