@@ -16,15 +16,6 @@ using attribution::PixelClass;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The exact depths of what a fault draws, rounded as a map has them.
-OtherMap exact_map_of(const ValidationScene& scene) {
-  const attribution::Truth truth = attribution::make_truth(scene.scene, scene.camera);
-  OtherMap map{.width = scene.camera.width, .height = scene.camera.height};
-  map.depths = truth.depths;
-  map.values = truth.depths;
-  return map;
-}
-
 double effect_of_size(const Fault& fault, const FaultSubject& subject, double size) {
   if (!fault.drawn) return effect_of(subject, changed_map(fault, subject, size));
   // Beside the exact map, not the renderer's: its roundings are not the fault's.
@@ -44,6 +35,14 @@ bool names(const Fault& fault, const Finding& finding) {
 }
 
 }  // namespace
+
+OtherMap exact_map_of(const ValidationScene& scene) {
+  const attribution::Truth truth = attribution::make_truth(scene.scene, scene.camera);
+  OtherMap map{.width = scene.camera.width, .height = scene.camera.height};
+  map.depths = truth.depths;
+  map.values = truth.depths;
+  return map;
+}
 
 OtherMap as_brought(const OtherMap& drawn) {
   OtherMap map{.width = drawn.width, .height = drawn.height};

@@ -21,6 +21,9 @@ struct FaultSubject {
   attribution::Attribution found;  ///< of the right map
 };
 
+/// What a renderer without any rounding would draw.
+attribution::OtherMap exact_map_of(const ValidationScene& scene);
+
 /// What a renderer drew as a map that someone brings: its depths alone, in binary32.
 attribution::OtherMap as_brought(const attribution::OtherMap& drawn);
 
