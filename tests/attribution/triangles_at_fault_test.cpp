@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <vector>
+
 #include "tests/attribution/hand_made.h"
 
 namespace fathom::attribution {
@@ -13,6 +16,8 @@ namespace {
 struct Wall {
   Truth truth = test::truth_of(30, 30, [](std::uint32_t, std::uint32_t) { return 2.0; });
   Attribution found = test::all_equal(truth);
+  /// What is behind the wall.
+  OtherMap other{.width = 30, .height = 30, .depths = std::vector<double>(900, 3.0)};
 
   Wall() {
     for (std::uint32_t t = 0; t < 100; ++t) {
@@ -46,7 +51,7 @@ struct Wall {
 TEST(MissingTriangle, IsNamed) {
   Wall wall;
   wall.remove(34);
-  const auto findings = triangles_at_fault(wall.truth, wall.found);
+  const auto findings = triangles_at_fault(wall.truth, wall.other, wall.found);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].kind, "missing-triangle");
   EXPECT_EQ(findings[0].text, "triangle 34 is missing");
@@ -56,7 +61,7 @@ TEST(MissingTriangle, IsNamed) {
 TEST(MissingTriangle, IsSeenNowhere) {
   Wall wall;
   wall.remove(34, 8);  // one pixel shows it
-  EXPECT_TRUE(triangles_at_fault(wall.truth, wall.found).empty());
+  EXPECT_TRUE(triangles_at_fault(wall.truth, wall.other, wall.found).empty());
 }
 
 /// `pixels` of triangle 34 are all that is certain of it.
@@ -66,7 +71,7 @@ std::vector<Finding> with_pixels(std::size_t pixels) {
     if (wall.truth.triangles[i] == 34) wall.found.classes[i] = PixelClass::edge;
   }
   wall.remove(34, pixels);
-  return triangles_at_fault(wall.truth, wall.found);
+  return triangles_at_fault(wall.truth, wall.other, wall.found);
 }
 
 TEST(MissingTriangle, OfTwoPixelsMayBeChance) {
@@ -87,13 +92,13 @@ TEST(MissingTriangle, NeighboursOfFewPixelsCountTogether) {
     wall.found.absent[pixel] = wall.truth.triangles[pixel];
     test::set_unexplained(wall.found, pixel);
   }
-  EXPECT_EQ(triangles_at_fault(wall.truth, wall.found).size(), 2U);
+  EXPECT_EQ(triangles_at_fault(wall.truth, wall.other, wall.found).size(), 2U);
 }
 
 TEST(MissingTriangle, ManyAreNamedTogether) {
   Wall wall;
   for (const std::uint32_t t : {11U, 44U, 46U, 88U}) wall.remove(t);
-  const auto findings = triangles_at_fault(wall.truth, wall.found);
+  const auto findings = triangles_at_fault(wall.truth, wall.other, wall.found);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].text, "4 triangles are missing: 11, 44, 46, …");
   EXPECT_EQ(findings[0].pixels, 36U);
@@ -108,7 +113,7 @@ TEST_P(Culling, OfEitherWay) {
     for (std::uint32_t t = 0; t < 100; ++t) {
       if (Wall::faces(t) == facing) wall.remove(t);
     }
-    const auto findings = triangles_at_fault(wall.truth, wall.found);
+    const auto findings = triangles_at_fault(wall.truth, wall.other, wall.found);
     ASSERT_EQ(findings.size(), 1U);
     EXPECT_EQ(findings[0].kind, "culling");
     EXPECT_EQ(findings[0].pixels, 450U);
@@ -127,14 +132,22 @@ INSTANTIATE_TEST_SUITE_P(All, Culling,
 
 TEST(CullingOfSome, IsNone) {
   Wall wall;
-  for (std::uint32_t t = 1; t < 80; t += 2) wall.remove(t);
-  EXPECT_EQ(triangles_at_fault(wall.truth, wall.found)[0].kind, "missing-triangle");
+  for (std::uint32_t t = 1; t < 60; t += 2) wall.remove(t);
+  EXPECT_EQ(triangles_at_fault(wall.truth, wall.other, wall.found)[0].kind, "missing-triangle");
+}
+
+// An object that is not drawn at all leaves the background.
+TEST(CullingOfSome, ShowsWhatIsBehind) {
+  Wall wall;
+  wall.other.depths.assign(900, std::numeric_limits<double>::infinity());
+  for (std::uint32_t t = 1; t < 100; t += 2) wall.remove(t);
+  EXPECT_EQ(triangles_at_fault(wall.truth, wall.other, wall.found)[0].kind, "missing-triangle");
 }
 
 TEST(Ties, AreCounted) {
   Wall wall;
   wall.found.wrong_ties = 7;
-  const auto findings = triangles_at_fault(wall.truth, wall.found);
+  const auto findings = triangles_at_fault(wall.truth, wall.other, wall.found);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].kind, "ties");
   EXPECT_EQ(findings[0].pixels, 7U);
@@ -142,7 +155,7 @@ TEST(Ties, AreCounted) {
 
 TEST(TrianglesAtFault, NoneWhereNoneIs) {
   const Wall wall;
-  EXPECT_TRUE(triangles_at_fault(wall.truth, wall.found).empty());
+  EXPECT_TRUE(triangles_at_fault(wall.truth, wall.other, wall.found).empty());
 }
 
 }  // namespace
