@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -89,9 +90,16 @@ double RasterValues::steps(const Fragment& f, double depth) const {
   return (f.value.upper - f.value.lower) / storage_step(model_, window_.of_depth(depth));
 }
 
+/// Depths that were decoded are as coarse as binary32 is, where that is coarser than the storage.
 std::optional<double> RasterValues::bias_steps(std::size_t pixel, const Fragment& f) const {
   const double expected = sign_ * f.exact;
-  return (window_of(pixel) - expected) / storage_step(model_, expected);
+  double step = storage_step(model_, expected);
+  if (!has_windows()) {
+    const double depth = window_.to_depth(expected);
+    const double next = depth + binary32_spacing(depth);
+    step = std::max(step, std::abs(window_.of_depth(next) - expected));
+  }
+  return (window_of(pixel) - expected) / step;
 }
 
 }  // namespace
