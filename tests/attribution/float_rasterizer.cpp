@@ -71,6 +71,19 @@ bool covers(const std::array<Corner, 3>& t, std::int64_t x, std::int64_t y) {
   return true;
 }
 
+/// Where an ideal lens shows what a distorting one shows at (x, y), in pixels: by bisection.
+std::array<double, 2> without_lens(const Camera& c, const Fault& fault, double x, double y) {
+  if (fault.k1 == 0 && fault.k2 == 0) return {x, y};
+  const auto [cx, cy] = principal_point(c);
+  const double b = (y - cy) / c.fy, a = (x - cx - c.skew * b) / c.fx;
+  double low = 0, high = 2;  // times as far from the centre
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2, q = middle * middle * (a * a + b * b);
+    (middle * (1 + q * (fault.k1 + q * fault.k2)) < 1 ? low : high) = middle;
+  }
+  return {cx + low * (x - cx), cy + low * (y - cy)};
+}
+
 }  // namespace
 
 OtherMap draw_in_binary32(const WorldMesh& mesh, const Camera& camera,
@@ -154,10 +167,11 @@ OtherMap trace_in_binary32(const WorldMesh& mesh, const Camera& camera, const Fa
   }
   for (std::uint32_t row = 0; row < camera.height; ++row) {
     for (std::uint32_t column = 0; column < camera.width; ++column) {
-      const double x = column + 0.5 + fault.shift_x, y = row + 0.5 + fault.shift_y;
+      const auto [x, y] =
+          without_lens(camera, fault, column + 0.5 + fault.shift_x, row + 0.5 + fault.shift_y);
       V o{}, d{};
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = [&](const attribution::CameraRays::Affine& f) {
+        const auto at = [&, x = x, y = y](const attribution::CameraRays::Affine& f) {
           return static_cast<float>(f.at_corner[k] + x * f.per_u[k] + y * f.per_v[k]);
         };
         o[k] = at(rays.origin);

@@ -15,6 +15,7 @@ struct Fault {
   bool affine = false;          ///< depth, not window depth, is interpolated linearly
   bool last_of_equals = false;  ///< the depth test lets equals win
   int bias_codes = 0;           ///< of the storage
+  double k1 = 0, k2 = 0;        ///< radial distortion of the lens, of rays only
 };
 
 /// A rasterizer in binary32 that is what a raster model with a known matrix describes, whole

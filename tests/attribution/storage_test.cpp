@@ -161,6 +161,9 @@ TEST(RoundedDown, IsToldFromNearest) {
   const auto down = [](double d) { return std::floor(d * 1000) / 1000; };
   EXPECT_TRUE(is_rounded_down(truth, written(truth, down), recorded));
   EXPECT_FALSE(is_rounded_down(truth, written(truth, multiples(1000)), recorded));
+  // An offset of more than a step is not a rounding.
+  const auto lower = [](double d) { return std::nearbyint(d * 1000 - 1.4) / 1000; };
+  EXPECT_FALSE(is_rounded_down(truth, written(truth, lower), recorded));
   OtherMap with_holes = written(truth, down);
   for (std::size_t i = 0; i < 200; ++i) with_holes.depths[i] = i < 100 ? 15 : INFINITY;
   EXPECT_TRUE(is_rounded_down(truth, with_holes, recorded));

@@ -79,6 +79,15 @@ std::vector<Estimate> estimates_of(const Camera& camera, const RendererModel& mo
   return estimates;
 }
 
+/// Depths that were rounded to steps lie between them once a fault of before is undone: within half
+/// a step, or below by a whole one.
+void set_between_steps(std::optional<RecordedDepth>& recorded) {
+  using Rounding = RecordedDepth::Rounding;
+  if (!recorded || recorded->step == 0) return;
+  recorded->error += recorded->rounding == Rounding::down ? recorded->step : recorded->step / 2;
+  recorded->rounding = Rounding::binary32;
+}
+
 void undo_depths(OtherMap& map, const Camera& camera, const RendererModel& model,
                  const FittedDeviation& fit) {
   const DepthDeviation depths(camera, model, fit.deviation);
@@ -106,6 +115,7 @@ Hypothesis deviation_hypothesis(const Truth& truth, const OtherMap& other,
     }
   } else {
     undo_depths(h.map, truth.camera, model, fit);
+    set_between_steps(h.model.recorded);
   }
   return h;
 }

@@ -125,6 +125,19 @@ void set_depth_slopes(const DepthDeviation& depths, double a,
   slopes[index_of(P::bias)] = s.bias;
 }
 
+/// Half a step of what is recorded, relative to the depth.
+double half_step(const RecordedDepth& recorded, double depth) {
+  const double value = recorded.exact(depth), step = recorded.step_at(value);
+  const double width = recorded.to_depth(value + step / 2) - recorded.to_depth(value - step / 2);
+  return std::abs(width / depth) / 2;
+}
+
+/// The middle of those that are rounded down to what is recorded for a depth.
+double middle_of_step(const RecordedDepth& recorded, double depth) {
+  if (recorded.rounding != RecordedDepth::Rounding::down) return depth;
+  return recorded.to_depth(recorded.exact(depth) + recorded.step / 2);
+}
+
 double median_of(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -174,12 +187,15 @@ bool ResidualSource::has_enough(const Residuals& residuals) const {
   return residuals.r.size() >= least_pixels && typical_width_ < infinity;
 }
 
-/// Half of what the model allows, relative to the depth; never much less than it typically is.
+/// Half of what the model allows, relative to the depth; never much less than it typically is. What
+/// is expected is not rounded to what is recorded: its step adds to that.
 double ResidualSource::relative_width(std::size_t pixel) const {
   const double least = found_.least[pixel], greatest = found_.greatest[pixel];
   const double width = (greatest - least) / (greatest + least);
   const bool is_known = found_.alone[pixel] != 0 && width < infinity && width > 0;
-  return is_known ? std::max(width, typical_width_ / 8) : typical_width_;
+  const double allowed = is_known ? std::max(width, typical_width_ / 8) : typical_width_;
+  if (!model_.recorded) return allowed;
+  return allowed + half_step(*model_.recorded, other_.depths[pixel]);
 }
 
 Residuals ResidualSource::of(const Truth& seen, const Deviation& deviation) const {
@@ -214,7 +230,9 @@ Residuals ResidualSource::of(const Truth& seen, const Deviation& deviation) cons
     const AffineValue v = perspective ? perspective_value(plane->second, ray)
                                       : orthographic_value(plane->second, ray);
     const double expected = depths.of(v.a);
-    const double stored = perspective ? 1 / other_.depths[i] : other_.depths[i];
+    const double depth =
+        model_.recorded ? middle_of_step(*model_.recorded, other_.depths[i]) : other_.depths[i];
+    const double stored = perspective ? 1 / depth : depth;
     const double width = relative_width(i) * std::abs(expected);
     const double residual = (stored - expected) / width;
     Eigen::Matrix<double, 1, parameter_count> row =

@@ -119,7 +119,7 @@ double own_coarseness(const Camera& camera, const RendererModel& model, double d
 
 }  // namespace
 
-/// The mean of what is stored less what is exact: none, or half a step.
+/// The mean of what is stored less what is exact: none, half a step, or that of another fault.
 bool is_rounded_down(const Truth& truth, const OtherMap& other, const RecordedDepth& recorded) {
   double sum = 0, pixels = 0;
   for (std::size_t i = 0; i < truth.depths.size(); ++i) {
@@ -129,7 +129,8 @@ bool is_rounded_down(const Truth& truth, const OtherMap& other, const RecordedDe
     sum += off;
     ++pixels;
   }
-  return sum < -recorded.step / 4 * pixels;
+  const double half = -recorded.step / 2 * pixels;
+  return sum < half / 2 && sum > 1.5 * half;
 }
 
 /// Candidates are fractions of the least difference of neighbours, which is a small multiple of the
