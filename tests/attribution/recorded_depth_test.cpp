@@ -100,6 +100,10 @@ const std::array recordings{
     Recording{"Logarithm", {DepthTerm::logarithm, -0.27, 1.2, Rounding::down, 0.0001, 1 / 4095.0}},
     Recording{"NegativeHalf", {.factor = -1, .rounding = Rounding::binary16}}};
 
+void PrintTo(const Recording& r, std::ostream* stream) {
+  *stream << r.name;
+}
+
 class Recorded : public testing::TestWithParam<Recording> {};
 
 /// What is written by the text book: independent of rounded().
