@@ -49,6 +49,20 @@ TEST(ValidateVtk, ReversedAndLogarithmicDepthsReachFar) {
   }
 }
 
+// The catalogue of faults in VTK's own map: nothing is found in the right one, and every fault that
+// is large enough is rightly named.
+TEST(ValidateVtk, FaultsInItsMapAreFoundAndNamed) {
+  const TestFolder folder;
+  const Outcome outcome = run_fathom({"validate", "--faults", "--against", "vtk", "--scene", "spot",
+                                      "--size", "160x120", "--out", "faults"},
+                                     {.folder = folder.path()});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("1 right maps; "));
+  const auto faults = nlohmann::json::parse(folder.read("faults/faults.json"))["faults"];
+  EXPECT_GE(faults.size(), 100U);
+  EXPECT_THAT(folder.read("faults/faults.md"), HasSubstr("| camera | roll |"));
+}
+
 // VTK's pictures and the pipeline's, of meshes seen from outside and, of the house's roof, inside.
 TEST(ValidateVtk, ColoursAreThoseOfTheFormulas) {
   const std::string cube = source_dir() / "data/meshes/cube.obj";
