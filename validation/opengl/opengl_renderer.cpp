@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "fathom/attribution/model/clip_from_held.h"
+#include "fathom/attribution/model/opengl_drivers.h"
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/ray/camera_rays.h"
 #include "fathom/numeric/errors.h"
@@ -93,10 +94,6 @@ std::string version_of(const GlFunctions& gl) {
 
 }  // namespace
 
-bool interpolates_before_snapping(const std::string& version) {
-  return version.find("llvmpipe") != std::string::npos;
-}
-
 DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlVariant& variant) {
   const EglContext context;
   const GlFunctions gl;
@@ -112,7 +109,7 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlVa
   GLint subpixel_bits = 0;
   gl.GetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits);
   model.subpixel_bits = subpixel_bits;
-  model.depth_before_snap = interpolates_before_snapping(drawn.version);
+  model.depth_before_snap = attribution::interpolates_before_snapping(drawn.version);
   const DrawnMesh drawn_mesh(gl, mesh, model);
   if (variant.offset_units != 0) {
     measure_offset(gl, drawn_mesh, camera, variant, model);

@@ -17,9 +17,4 @@ namespace fathom::validation {
 DrawnMap draw_opengl(const attribution::WorldMesh& mesh, const Camera& camera,
                      const OpenGlVariant& variant);
 
-/// Whether a driver, recognised by its version, interpolates depth between the corners as they were
-/// before they were snapped. OpenGL leaves this open. Mesa's llvmpipe does; of other drivers it is
-/// not assumed, which gives the wider bound.
-bool interpolates_before_snapping(const std::string& version);
-
 }  // namespace fathom::validation

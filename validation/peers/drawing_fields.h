@@ -67,8 +67,10 @@ template <>
 struct Fields<attribution::RasterModel> {
   template <class Visit, class S>
   static void each(Visit&& visit, S& s) {
-    auto& [shift, scale, matrix, premultiplied, subpixel_bits, border, mapping, storage, written,
-           depth_before_snap, decoded_in_binary32, bias, bias_error, affine] = s;
+    // A mesh drawn in a process of its own is one part.
+    [[maybe_unused]] auto& [shift, scale, matrix, parts, premultiplied, subpixel_bits, border,
+                            mapping, storage, written, depth_before_snap, decoded_in_binary32, bias,
+                            bias_error, affine] = s;
     visit("shift", shift);
     visit("scale", scale);
     visit("matrix", matrix);

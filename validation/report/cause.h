@@ -10,8 +10,7 @@ namespace fathom::validation {
 /// pixels are unexplained and the one to look at first. Empty where the result is good.
 std::string cause_of(const ValidationCase& validated);
 
-/// A pixel with its depths: "(12, 7): 3.25 instead of 3.21, allowed 3.2099 to 3.2101". Depths are in
-/// scene units, to 9 digits.
+/// As attribution::pixel_text().
 std::string pixel_text(const ValidationCase& validated, std::size_t pixel);
 
 }  // namespace fathom::validation

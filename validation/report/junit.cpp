@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "fathom/attribution/worst_pixels.h"
 #include "validation/report/cause.h"
-#include "validation/report/worst_pixels.h"
 #include "validation/report/xml.h"
 
 namespace fathom::validation {
@@ -26,7 +26,8 @@ std::string details_of(const ValidationCase& c) {
   for (const attribution::Finding& f : c.attribution.findings) {
     text += fmt::format("{}: {} ({} pixels)\n", f.kind, f.text, f.pixels);
   }
-  for (const std::size_t i : worst_pixels(c, listed_pixels)) {
+  for (const std::size_t i :
+       attribution::worst_pixels(*c.truth, c.other, c.attribution, listed_pixels)) {
     text += attribution::name_of(c.attribution.classes[i]) + " " + pixel_text(c, i) + "\n";
   }
   return text;

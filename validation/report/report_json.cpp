@@ -3,8 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "fathom/attribution/worst_pixels.h"
 #include "validation/report/reported_result.h"
-#include "validation/report/worst_pixels.h"
 
 namespace fathom::validation {
 namespace {
@@ -91,7 +91,9 @@ Json result(const ValidationCase& c) {
   json["findings"] = list_of(a.findings);
   json["notes"] = list_of(a.notes);
   json["worst"] = Json::array();
-  for (const std::size_t i : worst_pixels(c, listed_pixels)) json["worst"].push_back(pixel(c, i));
+  for (const std::size_t i :
+       attribution::worst_pixels(*c.truth, c.other, c.attribution, listed_pixels))
+    json["worst"].push_back(pixel(c, i));
   return json;
 }
 

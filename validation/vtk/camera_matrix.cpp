@@ -20,7 +20,7 @@ bool is_matrix_of(const Camera& camera, const RasterModel& model,
   for (std::size_t r = 0; r < 4; ++r) {
     for (std::size_t k = 0; k < 4; ++k) {
       const double scale = k < 3 ? model.scale[k] : 1;
-      const double terms = k < 3 ? rows[r].magnitude[k] : rows[r].loss + rows[r].magnitude[k];
+      const double terms = rows[r].loss[k] + rows[r].magnitude[k];
       const double exact = rows[r].row[k] / scale;
       const double bound = unit_roundoff<float> * std::abs(exact) + lost * terms / std::abs(scale);
       if (!(std::abs(clip_from_held[4 * r + k] - exact) <= bound)) return false;

@@ -2,9 +2,9 @@
 
 #include <limits>
 
+#include "fathom/attribution/model/opengl_drivers.h"
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/numeric/errors.h"
-#include "validation/opengl/opengl_renderer.h"
 #include "validation/vtk/camera_matrix.h"
 #include "validation/vtk/vtk_renderer.h"
 
@@ -59,7 +59,7 @@ DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const VtkVariant&
   }
   model.matrix = drawing.clip_from_held;
   model.subpixel_bits = drawing.subpixel_bits;
-  model.depth_before_snap = interpolates_before_snapping(drawn.version);
+  model.depth_before_snap = attribution::interpolates_before_snapping(drawn.version);
   if (options.samples > 0) {
     drawn.version += ", " + std::to_string(drawing.samples) + " samples granted";
     drawn.model.sample = {drawing.sample[0], drawing.sample[1]};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -53,5 +54,11 @@ std::vector<ImportedCamera> import_bop(const std::filesystem::path& file, std::u
 /// Takes perspective and orthographic projections without rotation, including skewed, off-centre
 /// and depth-reversed ones and those with an infinite far plane.
 std::vector<ImportedCamera> import_opengl(const std::filesystem::path& file);
+
+/// The same of matrices at hand, each 4×4, row by row; with OpenGL's own clip depths, −1 and 1, and
+/// a viewport of width × height.
+Camera camera_from_opengl(const std::array<double, 16>& projection,
+                          const std::array<double, 16>& modelview, std::uint32_t width,
+                          std::uint32_t height);
 
 }  // namespace fathom

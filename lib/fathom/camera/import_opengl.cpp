@@ -1,4 +1,6 @@
+#include <charconv>
 #include <limits>
+#include <string>
 
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/camera/pose.h"
@@ -118,6 +120,26 @@ void read_near_and_far(const JsonValue& entry, const JsonValue& projection, cons
                     ", expected 0 <= near < far (\"clip_depth\": \"none\" leaves them out)");
 }
 
+/// A list of JSON, each number such that reading it gives the same one.
+std::string list_of(const std::array<double, 4>& row) {
+  std::string list = "[";
+  for (const double number : row) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, number);
+    list.append(list.size() == 1 ? "" : ", ").append(text, end.ptr);
+  }
+  return list + "]";
+}
+
+std::string list_of(const std::array<double, 16>& matrix) {
+  std::string list;
+  for (std::size_t r = 0; r < 4; ++r) {
+    const double* const row = matrix.data() + 4 * r;
+    list += (r == 0 ? "[" : ", ") + list_of(std::array{row[0], row[1], row[2], row[3]});
+  }
+  return list + "]";
+}
+
 ImportedCamera read_camera(const JsonValue& entry, std::size_t index) {
   entry.expect_only({"name", "projection", "modelview", "view", "viewport", "clip_depth"});
   const JsonValue projection = entry.at("projection");
@@ -149,6 +171,16 @@ std::vector<ImportedCamera> camera::parse_opengl(std::string_view text, const st
 std::vector<ImportedCamera> import_opengl(const std::filesystem::path& file) {
   const StandardArithmetic standard;
   return parse_opengl(InputFile(file).text(), file.string());
+}
+
+Camera camera_from_opengl(const std::array<double, 16>& projection,
+                          const std::array<double, 16>& modelview, std::uint32_t width,
+                          std::uint32_t height) {
+  const StandardArithmetic standard;
+  const std::string text = "{\"projection\": " + list_of(projection) +
+                           ", \"modelview\": " + list_of(modelview) + ", \"viewport\": [" +
+                           std::to_string(width) + ", " + std::to_string(height) + "]}";
+  return parse_opengl(text, "camera").front().camera;
 }
 
 }  // namespace fathom

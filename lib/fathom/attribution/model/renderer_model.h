@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "fathom/attribution/model/recorded_depth.h"
 #include "fathom/attribution/model/written_depth.h"
@@ -12,6 +14,16 @@
 /// What is assumed of a renderer whose map is compared with the truth. docs/validation.md derives
 /// the bounds that follow from it.
 namespace fathom::attribution {
+
+/// Corners that a renderer holds in a frame of their own, in binary32 as position − shift, and takes
+/// to clip coordinates by one matrix, which it has multiplied in binary64 and rounded once.
+struct RasterPart {
+  /// Takes the part's frame to the world.
+  std::array<std::array<double, 4>, 3> world_from_part{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  /// In the part's frame.
+  std::array<double, 3> shift{0, 0, 0};
+  std::shared_ptr<const std::vector<std::array<double, 3>>> points;
+};
 
 /// Corners are transformed and snapped to a grid; window depth is interpolated and stored.
 struct RasterModel {
@@ -22,6 +34,9 @@ struct RasterModel {
   /// The matrix that takes held positions to clip coordinates, row by row, where it is known; its
   /// entries then are not a source of error, and neither are the positions.
   std::optional<std::array<float, 16>> matrix;
+  /// Where parts of the scene are held in frames of their own: together all points of the mesh, in
+  /// its order. Then shift, scale, matrix and premultiplied say nothing.
+  std::vector<RasterPart> parts;
   /// Whether model-view and projection are multiplied to one matrix before corners meet them.
   bool premultiplied = true;
   /// Corners are snapped to multiples of 2^−subpixel_bits pixel.

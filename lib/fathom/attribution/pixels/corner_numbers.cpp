@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 #include <unordered_map>
+#include <vector>
 
 namespace fathom::attribution {
 namespace {
@@ -21,14 +22,27 @@ struct PositionHash {
   }
 };
 
+using Points = std::vector<std::array<double, 3>>;
+
+void append_numbers(const Points& points, std::vector<std::uint32_t>& numbers) {
+  std::unordered_map<std::array<double, 3>, std::uint32_t, PositionHash> first;
+  for (const auto& point : points) {
+    numbers.push_back(first.emplace(point, numbers.size()).first->second);
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> corner_numbers(const WorldMesh& mesh) {
-  std::unordered_map<std::array<double, 3>, std::uint32_t, PositionHash> first;
-  std::vector<std::uint32_t> numbers(mesh.points.size());
-  for (std::uint32_t i = 0; i < numbers.size(); ++i) {
-    numbers[i] = first.emplace(mesh.points[i], i).first->second;
-  }
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(mesh.points.size());
+  append_numbers(mesh.points, numbers);
+  return numbers;
+}
+
+std::vector<std::uint32_t> corner_numbers(const std::vector<RasterPart>& parts) {
+  std::vector<std::uint32_t> numbers;
+  for (const RasterPart& part : parts) append_numbers(*part.points, numbers);
   return numbers;
 }
 

@@ -52,32 +52,55 @@ std::array<ClipRow, 4> rows_of_matrix(const std::array<float, 16>& matrix) {
   return rows;
 }
 
-}  // namespace
+/// Where positions stand before the view is applied: place·(position) with the shift put back, and the
+/// sums of the magnitudes of its terms.
+struct Place {
+  Eigen::Matrix4d value = Eigen::Matrix4d::Identity(), terms = Eigen::Matrix4d::Identity();
+};
 
-std::array<ClipRow, 4> rows_of_camera(const Camera& camera, const RasterModel& model) {
-  const WindowDepth window =
-      window_depth(camera.projection, model.mapping, camera.near, camera.far);
+Place place_of(const std::array<std::array<double, 4>, 3>& world_from_part,
+               const std::array<double, 3>& shift) {
+  Place place;
+  const Eigen::Vector3d s = geometry::as_vector(shift);
+  place.value.topRows<3>() = geometry::as_matrix(world_from_part);
+  place.terms = place.value.cwiseAbs();
+  place.terms.col(3).head<3>() += place.terms.topLeftCorner<3, 3>() * s.cwiseAbs();
+  place.value.col(3).head<3>() += place.value.topLeftCorner<3, 3>() * s;
+  return place;
+}
+
+std::array<ClipRow, 4> rows_from(const Camera& camera, Mapping mapping, const Place& place,
+                                 bool premultiplied) {
+  const WindowDepth window = window_depth(camera.projection, mapping, camera.near, camera.far);
   const Eigen::Matrix4d projection = clip_from_camera(camera, window);
   const Eigen::Matrix4d view = camera_from_world(camera);
-  const Eigen::Vector3d shift = geometry::as_vector(model.shift);
-  // For positions less the shift.
-  Eigen::Matrix4d view_of_shifted = view;
-  view_of_shifted.col(3).head<3>() += view.topLeftCorner<3, 3>() * shift;
-  const Eigen::Matrix4d product = projection * view_of_shifted;
-  const Eigen::Matrix4d magnitude =
-      model.premultiplied ? product.cwiseAbs().eval()
-                          : (projection.cwiseAbs() * view_of_shifted.cwiseAbs()).eval();
-  Eigen::Vector4d terms = view.col(3).cwiseAbs();
-  terms.head<3>() += view.topLeftCorner<3, 3>().cwiseAbs() * shift.cwiseAbs();
-  const Eigen::Vector4d loss = projection.cwiseAbs() * terms;
+  const Eigen::Matrix4d placed_view = view * place.value;
+  const Eigen::Matrix4d product = projection * placed_view;
+  const Eigen::Matrix4d magnitude = premultiplied
+                                        ? product.cwiseAbs().eval()
+                                        : (projection.cwiseAbs() * placed_view.cwiseAbs()).eval();
+  const Eigen::Matrix4d loss = projection.cwiseAbs() * view.cwiseAbs() * place.terms;
   std::array<ClipRow, 4> rows;
   for (std::size_t r = 0; r < 4; ++r) {
     const auto i = static_cast<Eigen::Index>(r);
     Eigen::Map<Eigen::RowVector4d>(rows[r].row.data()) = product.row(i);
     Eigen::Map<Eigen::RowVector4d>(rows[r].magnitude.data()) = magnitude.row(i);
-    rows[r].loss = loss[i];
+    Eigen::Map<Eigen::RowVector4d>(rows[r].loss.data()) = loss.row(i);
   }
   return rows;
+}
+
+}  // namespace
+
+std::array<ClipRow, 4> rows_of_camera(const Camera& camera, const RasterModel& model) {
+  const RasterPart as_it_is;
+  const Place place = place_of(as_it_is.world_from_part, model.shift);
+  return rows_from(camera, model.mapping, place, model.premultiplied);
+}
+
+std::array<ClipRow, 4> rows_of_part(const Camera& camera, const RasterModel& model,
+                                    const RasterPart& part) {
+  return rows_from(camera, model.mapping, place_of(part.world_from_part, part.shift), true);
 }
 
 std::array<ClipRow, 4> clip_rows(const Camera& camera, const RasterModel& model) {

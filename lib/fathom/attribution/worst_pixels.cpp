@@ -1,13 +1,11 @@
-#include "validation/report/worst_pixels.h"
+#include "fathom/attribution/worst_pixels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
-
-using attribution::PixelClass;
 
 /// Classes in the order in which they are looked at; 0: not at all.
 int urgency(PixelClass c) {
@@ -25,20 +23,20 @@ int urgency(PixelClass c) {
   }
 }
 
-double relative_error(const ValidationCase& c, std::size_t i) {
-  const double truth = c.truth->depths[i], other = c.other.depths[i];
+double relative_error(double truth, double other) {
   if (std::isinf(truth) || std::isinf(other)) return 0;
   return std::abs(other - truth) / truth;
 }
 
 }  // namespace
 
-std::vector<std::size_t> worst_pixels(const ValidationCase& c, std::size_t count) {
+std::vector<std::size_t> worst_pixels(const Truth& truth, const OtherMap& other,
+                                      const Attribution& found, std::size_t count) {
   using Rank = std::pair<int, double>;
   std::vector<std::pair<Rank, std::size_t>> ranked;
-  for (std::size_t i = 0; i < c.attribution.classes.size(); ++i) {
-    const int rank = urgency(c.attribution.classes[i]);
-    if (rank > 0) ranked.push_back({{rank, relative_error(c, i)}, i});
+  for (std::size_t i = 0; i < found.classes.size(); ++i) {
+    const int rank = urgency(found.classes[i]);
+    if (rank > 0) ranked.push_back({{rank, relative_error(truth.depths[i], other.depths[i])}, i});
   }
   count = std::min(count, ranked.size());
   std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(count),
@@ -50,4 +48,4 @@ std::vector<std::size_t> worst_pixels(const ValidationCase& c, std::size_t count
   return worst;
 }
 
-}  // namespace fathom::validation
+}  // namespace fathom::attribution

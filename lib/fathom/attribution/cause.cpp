@@ -1,0 +1,43 @@
+#include "fathom/attribution/cause.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "fathom/attribution/worst_pixels.h"
+
+namespace fathom::attribution {
+namespace {
+
+std::string depth_text(double depth) {
+  return std::isfinite(depth) ? fmt::format("{:.9g}", depth) : "background";
+}
+
+}  // namespace
+
+std::string pixel_text(const Truth& truth, const OtherMap& other, const Attribution& found,
+                       std::size_t pixel) {
+  std::string text =
+      fmt::format("({}, {}): {} instead of {}", pixel % other.width, pixel / other.width,
+                  depth_text(other.depths[pixel]), depth_text(truth.depths[pixel]));
+  const float least = found.least[pixel], greatest = found.greatest[pixel];
+  // Where the renderer may have drawn nothing there is no interval.
+  if (std::isfinite(least) && std::isfinite(greatest)) {
+    text += fmt::format(", allowed {} to {}", depth_text(least), depth_text(greatest));
+  }
+  return text;
+}
+
+std::string cause_of(const Truth& truth, const OtherMap& other, const Attribution& found) {
+  if (!found.findings.empty()) {
+    const Finding& first = found.findings.front();
+    return fmt::format("{}: {} ({} pixel{})", first.kind, first.text, first.pixels,
+                       first.pixels == 1 ? "" : "s");
+  }
+  const std::uint64_t unexplained = found.count(PixelClass::unexplained);
+  if (unexplained == 0) return "";
+  return fmt::format("{} of {} pixels unexplained, the worst {}", unexplained, found.classes.size(),
+                     pixel_text(truth, other, found, worst_pixels(truth, other, found, 1).front()));
+}
+
+}  // namespace fathom::attribution

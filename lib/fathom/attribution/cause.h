@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "fathom/attribution/attribution.h"
+
+namespace fathom::attribution {
+
+/// Why a map is not as it should be, in one line: the first finding, else how many pixels are unexplained
+/// and the one to look at first. Empty where every pixel is explained and nothing was found.
+std::string cause_of(const Truth& truth, const OtherMap& other, const Attribution& found);
+
+/// A pixel with its depths: "(12, 7): 3.25 instead of 3.21, allowed 3.2099 to 3.2101". Depths are in
+/// scene units, to 9 digits.
+std::string pixel_text(const Truth& truth, const OtherMap& other, const Attribution& found,
+                       std::size_t pixel);
+
+}  // namespace fathom::attribution
