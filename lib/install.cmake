@@ -1,6 +1,6 @@
 # The installed package: find_package(Fathom) gives fathom::fathom and a target per room,
 # fathom::eigen_conversions where Eigen is found, which find_package(Fathom COMPONENTS eigen_conversions) demands,
-# and fathom_add_depth_test; COMPONENTS depth_test gives that function alone.
+# fathom::vtk where COMPONENTS vtk asks for it, and fathom_add_depth_test; COMPONENTS depth_test gives that function alone.
 include(CMakePackageConfigHelpers)
 set(FATHOM_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/Fathom")
 

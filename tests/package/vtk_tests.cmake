@@ -1,0 +1,26 @@
+# The ten lines of README.md as a regression test of VTK, in a project outside the tree; and with a fault in VTK.
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+set(build "${WORK}/vtk_tests")
+file(REMOVE_RECURSE "${build}")
+file(READ "${SOURCE}/README.md" readme)
+string(REGEX MATCH "```cpp\n(#include <fathom/vtk[^`]*)```" found "${readme}")
+if(NOT found)
+  message(FATAL_ERROR "README.md has no test of VTK")
+endif()
+file(WRITE "${WORK}/readme_vtk_test.cpp" "${CMAKE_MATCH_1}")
+run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/vtk_tests" -B "${build}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
+    "-DEXAMPLE=${WORK}/readme_vtk_test.cpp" "-DCMAKE_CXX_COMPILER=${COMPILER}"
+    "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}")
+run("${CMAKE_COMMAND}" --build "${build}" --parallel ${PROCESSORS})
+
+# expect(PROGRAM STATUS BEGINNING): VTK's windows need a display.
+function(expect program status beginning)
+  execute_process(COMMAND xvfb-run -a "${build}/${program}" RESULT_VARIABLE is OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  string(FIND "${out}" "${beginning}" at)
+  if(NOT is EQUAL status OR NOT at EQUAL 0)
+    message(FATAL_ERROR "${program} was expected to end with ${status} and begin with\n  ${beginning}\n"
+                        "but it ended with ${is}:\n${out}${err}")
+  endif()
+endfunction()
+expect(right 0 "every pixel is explained\n")
+expect(faulty 1 "focal-length: ")
