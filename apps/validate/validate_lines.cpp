@@ -5,11 +5,11 @@
 
 #include <filesystem>
 
+#include "fathom/attribution/worst_pixels.h"
 #include "validation/report/cause.h"
 #include "validation/report/ctest_lines.h"
 #include "validation/report/pictures.h"
 #include "validation/report/reported_result.h"
-#include "validation/report/worst_pixels.h"
 
 namespace fathom::app {
 namespace {
@@ -57,7 +57,8 @@ std::string lines_for_ctest(const ValidationCase& c, const std::string& cause,
   text += line_of(c) + more;
   if (!cause.empty()) {
     constexpr std::size_t listed_pixels = 8;
-    for (const std::size_t i : validation::worst_pixels(c, listed_pixels)) {
+    for (const std::size_t i :
+         attribution::worst_pixels(*c.truth, c.other, c.attribution, listed_pixels)) {
       text +=
           fmt::format("  {} {}\n", name_of(c.attribution.classes[i]), validation::pixel_text(c, i));
     }
