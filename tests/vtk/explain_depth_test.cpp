@@ -154,6 +154,24 @@ TEST(ExplainDepth, OfEveryCamera) {
   }
 }
 
+// As Render() would place it.
+TEST(ExplainDepth, OfACameraThatNobodyMade) {
+  const validation::EglContext context;
+  vtkNew<validation::SurfacelessWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(ball());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  renderer->AddActor(actor);
+  window->SetSize(160, 120);
+  window->AddRenderer(renderer);
+  const DepthVerdict verdict = explain_depth(*window, *renderer);
+  expect_explained(verdict);
+  EXPECT_LT(covered_pixels(verdict), 160U * 120U / 2);
+  window->Finalize();
+}
+
 TEST(ExplainDepth, OfAPartOfTheWindow) {
   Drawing drawing;
   drawing.add(ball());

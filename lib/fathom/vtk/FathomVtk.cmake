@@ -1,7 +1,11 @@
 # fathom::vtk, compiled with the VTK of whoever includes this: of this source tree, and of the installed package, which has
 # the sources.
-find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel CommonMath RenderingCore RenderingOpenGL2)
-if(NOT VTK_FOUND)
+# In a function, so that the project keeps its own VTK_LIBRARIES.
+function(fathom_find_vtk)
+  find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel CommonMath RenderingCore RenderingOpenGL2)
+endfunction()
+fathom_find_vtk()
+if(NOT TARGET VTK::RenderingOpenGL2)
   return()
 endif()
 set(files explain_depth camera_description camera_of depth_buffer drawn_scene reason_to_leave_out triangles_of)

@@ -111,7 +111,8 @@ std::string cause_of(const DepthVerdict& verdict, vtkRenderer& renderer) {
 
 DepthVerdict explain_depth(vtkRenderWindow& any_window, vtkRenderer& renderer) {
   vtkOpenGLRenderWindow& window = window_to_judge(any_window, renderer);
-  renderer.GetActiveCamera();  // where there was none, it is placed to see all props
+  // A renderer without a camera makes one that sees all props: also those that will be hidden.
+  if (renderer.IsActiveCameraCreated() == 0) renderer.ResetCamera();
   DrawnScene drawn = drawn_scene(renderer);
   if (drawn.scene.objects.empty()) {
     throw InputError("the renderer shows no opaque triangles" +
