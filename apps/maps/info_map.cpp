@@ -131,7 +131,9 @@ std::string describe_as_text(const DepthMap& map, const std::string& file) {
     if (s.nan > 0) text += fmt::format("  {} NaN", s.nan);
     text += "\n";
   }
-  if (map.png_scale) text += fmt::format("  scale      {} codes per unit\n", *map.png_scale);
+  if (map.png_scale)
+    text += fmt::format("  scale      {} {} per unit\n", *map.png_scale,
+                        *map.png_scale == 1 ? "code" : "codes");
   if (!map.object_names.empty()) {
     text += fmt::format("  objects    {}\n", text::printable(joined(map.object_names, ", ")));
   }

@@ -6,6 +6,7 @@
 #include "apps/maps/info.h"
 #include "apps/shell/json_answer.h"
 #include "fathom/scene/bounds.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {
@@ -81,8 +82,8 @@ std::string describe_as_text(const Scene& scene, FileKind kind, const std::strin
                   totals.triangles, to_text(world_bounds(scene)));
   if (scene.objects.size() > 1 || kind == FileKind::scene) {
     for (const Object& object : scene.objects) {
-      text += fmt::format("  object     {}: {} triangles, {}\n", text::printable(object.name),
-                          scene.meshes[object.mesh].triangles.size(),
+      text += fmt::format("  object     {}: {}, {}\n", text::printable(object.name),
+                          text::counted(scene.meshes[object.mesh].triangles.size(), "triangle"),
                           to_text(bounds_of(scene, object)));
     }
   }

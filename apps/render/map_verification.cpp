@@ -6,6 +6,7 @@
 
 #include "apps/shell/progress.h"
 #include "fathom/reference/verify.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::app {
 namespace {
@@ -35,14 +36,15 @@ std::string agreement(const MapVerification& v, std::size_t pixels) {
           ? ""
           : fmt::format(" ({} of them at which a bound hardly settles something)",
                         v.nearly_unsettled);
-  return fmt::format("{} of {} pixels verified by exact arithmetic{}, all agree", v.verified,
-                     pixels, nearly);
+  return fmt::format("{} of {} verified by exact arithmetic{}, all agree", v.verified,
+                     text::counted(pixels, "pixel"), nearly);
 }
 
 std::string disagreement(const MapVerification& v, const Disagreement& first) {
-  return fmt::format(
-      "pixel ({}, {}): {} is {}, exact arithmetic gives {}; {} of {} verified pixels differ",
-      first.x, first.y, first.channel, first.found, first.expected, v.differing, v.verified);
+  return fmt::format("pixel ({}, {}): {} is {}, exact arithmetic gives {}; {} of {} {}", first.x,
+                     first.y, first.channel, first.found, first.expected, v.differing,
+                     text::counted(v.verified, "verified pixel"),
+                     v.differing == 1 ? "differs" : "differ");
 }
 
 }  // namespace

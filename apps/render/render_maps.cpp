@@ -18,6 +18,7 @@
 #include "fathom/image/deep_map.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::app {
 namespace {
@@ -26,8 +27,11 @@ void warn_of(const RenderStatistics& statistics, const Console& console) {
   if (statistics.triangles == 0) {
     console.warn("the scene has no triangle: the map is background");
   } else if (statistics.degenerate_triangles > 0) {
-    console.warn(fmt::format("{} of {} triangles are degenerate or seen edge on and cover nothing",
-                             statistics.degenerate_triangles, statistics.triangles));
+    console.warn(fmt::format("{} of {} {}", statistics.degenerate_triangles,
+                             text::counted(statistics.triangles, "triangle"),
+                             statistics.degenerate_triangles == 1
+                                 ? "is degenerate or seen edge on and covers nothing"
+                                 : "are degenerate or seen edge on and cover nothing"));
   }
 }
 

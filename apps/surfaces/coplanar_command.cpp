@@ -16,6 +16,7 @@
 #include "apps/surfaces/surface_commands.h"
 #include "fathom/area/coplanar.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {
@@ -41,14 +42,13 @@ std::string in_words(const Scene& scene, std::uint32_t number) {
 std::string as_text(const Scene& scene, const std::vector<CoplanarPair>& pairs, double within) {
   std::string text;
   for (const CoplanarPair& pair : pairs) {
-    text += fmt::format("{} before {}: {} behind, {} {}", in_words(scene, pair.visible),
-                        in_words(scene, pair.behind), pair.separation, pair.pixels,
-                        pair.pixels == 1 ? "pixel" : "pixels");
+    text += fmt::format("{} before {}: {} behind, {}", in_words(scene, pair.visible),
+                        in_words(scene, pair.behind), pair.separation,
+                        text::counted(pair.pixels, "pixel"));
     text += fmt::format(", columns {} to {}, rows {} to {}\n", pair.box.first_column,
                         pair.box.last_column, pair.box.first_row, pair.box.last_row);
   }
-  return text + fmt::format("{} {} within {}\n", pairs.size(),
-                            pairs.size() == 1 ? "coplanar pair" : "coplanar pairs", within);
+  return text + fmt::format("{} within {}\n", text::counted(pairs.size(), "coplanar pair"), within);
 }
 
 Json triangle_as_json(const Scene& scene, std::uint32_t number) {

@@ -16,6 +16,7 @@
 #include "fathom/area/visible_areas.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/triangle_source.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {
@@ -114,8 +115,8 @@ std::string as_text(const Answer& answer) {
     ++(!area.ratio ? outside : area.visible == 0 ? hidden : *area.ratio == 1 ? wholly : partly);
   }
   text += fmt::format(
-      "{} triangles: {} visible, {} partly, {} hidden, {} outside the image, edge on or culled\n",
-      answer.areas.triangles.size(), wholly, partly, hidden, outside);
+      "{}: {} visible, {} partly, {} hidden, {} outside the image, edge on or culled\n",
+      text::counted(answer.areas.triangles.size(), "triangle"), wholly, partly, hidden, outside);
   return text;
 }
 

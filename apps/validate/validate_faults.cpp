@@ -15,6 +15,7 @@
 #include "apps/validate/scenes_to_draw.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/counted.h"
 #include "validation/child/in_child.h"
 #include "validation/faults/fault_report.h"
 #include "validation/peers/drawing.h"
@@ -115,7 +116,7 @@ std::string said_of(const attribution::Attribution& found) {
   if (!found.findings.empty())
     return found.findings.front().kind + ": " + found.findings.front().text;
   const auto unexplained = found.count(attribution::PixelClass::unexplained);
-  return unexplained == 0 ? "" : std::to_string(unexplained) + " pixels unexplained";
+  return unexplained == 0 ? "" : text::counted(unexplained, "pixel") + " unexplained";
 }
 
 void judge(const SpoiledMaps& maps, FaultStudy& study) {

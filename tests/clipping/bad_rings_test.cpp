@@ -40,7 +40,7 @@ TEST(BadRings, NotFinite) {
 TEST(BadRings, FewerThanThreeDistinctCorners) {
   EXPECT_EQ(refusal({square}, {{}}), "clip ring 0 has 0 distinct corners; expected at least 3");
   EXPECT_EQ(refusal({square}, {{{1, 1}}}),
-            "clip ring 0 has 1 distinct corners; expected at least 3");
+            "clip ring 0 has 1 distinct corner; expected at least 3");
   EXPECT_EQ(refusal({{{1, 1}, {2, 2}, {1, 1}, {2, 2}}}, {square}),
             "subject ring 0 has 2 distinct corners; expected at least 3");
   // Corners that repeat the one before, or the first at the end, are no fault.

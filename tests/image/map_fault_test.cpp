@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"NoRows", [](DepthMap& map) { map.height = 0; }, "it has no pixels"},
         Fault{"NoChannels", [](DepthMap& map) { map.channels.clear(); }, "it has no channels"},
         Fault{"TooFewValues", [](DepthMap& map) { map = short_map(); },
-              "channel 'Z' has 1 values, expected one for each of 2 pixels"},
+              "channel 'Z' has 1 value, expected one for each of 2 pixels"},
         Fault{"NameWithNul", [](DepthMap& map) { map.channels[0].name.push_back('\0'); },
               "the name of a channel holds a NUL"},
         Fault{"NameTwice", [](DepthMap& map) { map.channels.push_back(map.channels[0]); },
@@ -111,7 +111,7 @@ TEST_P(EveryFunction, TakesWhatIsRight) {
 }
 
 TEST_P(EveryFunction, RefusesAMapThatIsWrong) {
-  EXPECT_THAT(failure_of(short_map(), {}), HasSubstr("map: channel 'Z' has 1 values"));
+  EXPECT_THAT(failure_of(short_map(), {}), HasSubstr("map: channel 'Z' has 1 value,"));
 }
 
 TEST_P(EveryFunction, RefusesAViewThatIsWrong) {

@@ -57,7 +57,7 @@ TEST(ValidateVtk, FaultsInItsMapAreFoundAndNamed) {
                                       "--size", "160x120", "--out", "faults"},
                                      {.folder = folder.path()});
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("1 right maps; "));
+  EXPECT_THAT(outcome.out, HasSubstr("1 right map; "));
   const auto faults = nlohmann::json::parse(folder.read("faults/faults.json"))["faults"];
   EXPECT_GE(faults.size(), 100U);
   EXPECT_THAT(folder.read("faults/faults.md"), HasSubstr("| camera | roll |"));

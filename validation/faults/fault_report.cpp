@@ -7,6 +7,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "fathom/text/counted.h"
+
 namespace fathom::validation {
 namespace {
 
@@ -135,10 +137,9 @@ std::string lines_of(const FaultStudy& study) {
                           c.result.is_found ? "said to be " + c.result.said : "not found");
     }
   }
-  return text + fmt::format(
-                    "{} right maps; {} of {} faults of {} bounds or more found and rightly "
-                    "named\n",
-                    maps, named, all, effect_to_be_named);
+  return text + fmt::format("{}; {} of {} of {} bounds or more found and rightly named\n",
+                            text::counted(maps, "right map"), named, text::counted(all, "fault"),
+                            effect_to_be_named);
 }
 
 std::string to_markdown(const FaultStudy& study) {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/printable.h"
 
@@ -113,9 +114,9 @@ std::vector<double> numbers(const Json& value, const std::string& where, std::si
                             std::size_t most) {
   const std::size_t size = list(value, where).size();
   if (size < least || size > most)
-    throw InputError(fmt::format(
-        "{}: {} numbers where {} are expected", where, size,
-        least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most)));
+    throw InputError(fmt::format("{}: {} where {} expected", where, text::counted(size, "number"),
+                                 least == most ? text::counted(least, "is", "are")
+                                               : fmt::format("{} to {} are", least, most)));
   std::vector<double> result;
   for (const Json& number : value) {
     if (!number.is_number())
@@ -152,11 +153,12 @@ std::vector<std::vector<double>> attributes(const Json& object, std::size_t corn
   if (!object.contains("attributes")) return std::vector<std::vector<double>>(corners);
   auto result = points(object, "attributes", 0, std::numeric_limits<std::size_t>::max());
   if (result.size() != corners)
-    throw InputError(fmt::format("attributes: {} lists for {} corners", result.size(), corners));
+    throw InputError(fmt::format("attributes: {} for {}", text::counted(result.size(), "list"),
+                                 text::counted(corners, "corner")));
   for (std::size_t i = 0; i < corners; ++i)
     if (result[i].size() != result[0].size())
-      throw InputError(fmt::format("{}: {} numbers, but {} at the first corner",
-                                   at("attributes", i), result[i].size(), result[0].size()));
+      throw InputError(fmt::format("{}: {}, but {} at the first corner", at("attributes", i),
+                                   text::counted(result[i].size(), "number"), result[0].size()));
   return result;
 }
 

@@ -16,6 +16,7 @@
 #include "fathom/camera/camera_files.h"
 #include "fathom/pipeline/geometry/window_transform.h"
 #include "fathom/render_by_pipeline.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::app {
 namespace {
@@ -24,15 +25,14 @@ void warn_of(const pipeline::PipelineStatistics& s, const Console& console) {
   if (s.triangles + s.lines + s.points == 0)
     console.warn("the scene has nothing to draw: the map is background");
   if (s.not_finite > 0) {
-    console.warn(
-        fmt::format("{} of {} triangles are left out: a corner is not finite after the transform",
-                    s.not_finite, s.triangles));
+    console.warn(fmt::format("{} of {} {} left out: a corner is not finite after the transform",
+                             s.not_finite, text::counted(s.triangles, "triangle"),
+                             s.not_finite == 1 ? "is" : "are"));
   }
   if (s.turned_by_snapping > 0) {
     console.warn(
-        fmt::format("{} of the {} triangles that clipping leaves are turned over or lose their "
-                    "area by snapping",
-                    s.turned_by_snapping, s.drawn));
+        fmt::format("of the {} that clipping leaves, snapping turns {} over or takes their area",
+                    text::counted(s.drawn, "triangle"), s.turned_by_snapping));
   }
 }
 

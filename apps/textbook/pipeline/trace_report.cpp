@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/shell/json_answer.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::app {
 namespace {
@@ -71,8 +72,8 @@ std::string as_text(const TriangleTrace& t) {
   }
   if (t.polygon.empty()) return text + "\nclipping: nothing is left in the view volume\n";
   text += fmt::format(
-      "\nclipping, division, viewport: {} corners; the window from its upper left corner, y down\n",
-      t.polygon.size());
+      "\nclipping, division, viewport: {}; the window from its upper left corner, y down\n",
+      text::counted(t.polygon.size(), "corner"));
   for (const auto& c : t.polygon)
     text += fmt::format("  clip     ({})\n  NDC      ({})\n  window   ({})\n  snapped  ({})\n\n",
                         fmt::join(c.clip, ", "), fmt::join(c.ndc, ", "), fmt::join(c.window, ", "),
@@ -80,7 +81,7 @@ std::string as_text(const TriangleTrace& t) {
   text += fmt::format(
       "facing: {} by N.V in the world, {} by n_z in NDC, {} by the determinant in the window{}\n",
       name_of(t.in_world), name_of(t.in_ndc), name_of(t.in_window), t.culled ? ": culled" : "");
-  text += fmt::format("scan conversion: {} fragments\n", t.fragments);
+  text += fmt::format("scan conversion: {}\n", text::counted(t.fragments, "fragment"));
   if (!t.sample) return text;
   const auto& s = *t.sample;
   text += fmt::format("\nsample: {}\n  edge functions       {}\n  weights              {}\n",

@@ -12,6 +12,7 @@
 #include "fathom/pipeline/scan/flood_fill.h"
 #include "fathom/pipeline/scan/polygon_tests.h"
 #include "fathom/pipeline/scan/tessellate.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::app::scan {
 namespace {
@@ -94,8 +95,8 @@ pipeline::CharacterGrid grid_of(const Json& object) {
     if (!row.is_string()) throw InputError(fmt::format("grid[{}]: expected a string", grid.size()));
     grid.push_back(row.get<std::string>());
     if (grid.back().size() != grid[0].size())
-      throw InputError(fmt::format("grid[{}] has {} characters, the first row {}", grid.size() - 1,
-                                   grid.back().size(), grid[0].size()));
+      throw InputError(fmt::format("grid[{}] has {}, the first row {}", grid.size() - 1,
+                                   text::counted(grid.back().size(), "character"), grid[0].size()));
   }
   if (grid.empty()) throw InputError("grid: expected at least one row");
   return grid;

@@ -6,6 +6,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/geometry/subpixel_grid.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::app::scan {
 namespace {
@@ -38,8 +39,8 @@ clipping::Rings<double> polygon_of(const Json& object) {
   if (rings.empty()) throw InputError("polygon: expected at least one ring");
   for (std::size_t r = 0; r < rings.size(); ++r) {
     if (rings[r].size() < 3)
-      throw InputError(
-          fmt::format("polygon ring {} has {} corners; expected at least 3", r, rings[r].size()));
+      throw InputError(fmt::format("polygon ring {} has {}; expected at least 3", r,
+                                   text::counted(rings[r].size(), "corner")));
     const auto &first = rings[r].front(), &last = rings[r].back();
     if (first.x == last.x && first.y == last.y)
       throw InputError(fmt::format(
@@ -55,7 +56,8 @@ clipping::Rings<double> polygon_of(const Json& object) {
 clipping::Ring<double> triangle_of(const Json& object, const Form& form) {
   const auto corners = cases::points(object, "triangle", 2, 2);
   if (corners.size() != 3)
-    throw InputError(fmt::format("triangle: {} corners; expected 3", corners.size()));
+    throw InputError(
+        fmt::format("triangle: {}; expected 3", text::counted(corners.size(), "corner")));
   clipping::Ring<double> triangle;
   for (const auto& p : corners) {
     const double x = checked_coordinate(p[0], "triangle"), y = checked_coordinate(p[1], "triangle");

@@ -8,6 +8,7 @@
 
 #include "fathom/attribution/attribute_and_name.h"
 #include "fathom/attribution/model/named_models.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::attribution {
 namespace {
@@ -27,9 +28,10 @@ ModelChoice chosen_model(const Truth& truth, const OtherMap& other) {
   for (RendererModel& model : named_models()) {
     if (!has_clip_planes_for(model, truth.camera)) continue;
     Attribution found = attribute_and_name(truth, other, model);
-    choice.evidence.push_back(fmt::format(
-        "{}: {} pixels unexplained, {} findings, bounds {:.2g} of the depth", model.name,
-        found.count(PixelClass::unexplained), found.findings.size(), found.median_relative_width));
+    choice.evidence.push_back(
+        fmt::format("{}: {} unexplained, {}, bounds {:.2g} of the depth", model.name,
+                    text::counted(found.count(PixelClass::unexplained), "pixel"),
+                    text::counted(found.findings.size(), "finding"), found.median_relative_width));
     trials.push_back({std::move(model), std::move(found)});
   }
   choice.chosen = std::move(*std::min_element(

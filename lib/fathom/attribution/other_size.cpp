@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "fathom/text/counted.h"
+
 namespace fathom::attribution {
 namespace {
 
@@ -60,9 +62,9 @@ SizedMap cropped(const Camera& camera, const OtherMap& other, long left, long ab
                        const char* what) -> std::string {
     if (missing == 0) return "";
     const char* where = first != 0 ? before : after;
-    return fmt::format("{} {}{} {} {}", std::labs(missing), what,
-                       std::labs(missing) == 1 ? "" : "s", missing > 0 ? "missing" : "too many",
-                       where);
+    return fmt::format("{} {} {}",
+                       text::counted(static_cast<std::uint64_t>(std::labs(missing)), what),
+                       missing > 0 ? "missing" : "too many", where);
   };
   const std::string columns =
       side(difference(camera.width, other.width), left, "at the left", "at the right", "column");

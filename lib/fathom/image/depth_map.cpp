@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/text/counted.h"
 
 namespace fathom {
 
@@ -31,8 +32,8 @@ std::optional<std::string> find_fault_of_channels(const DepthMap& map) {
     if (!names.insert(channel.name).second) return "it has two channels '" + channel.name + "'";
     const std::size_t size = std::visit([](const auto& v) { return v.size(); }, channel.values);
     if (size != pixels) {
-      return "channel '" + channel.name + "' has " + std::to_string(size) +
-             " values, expected one for each of " + std::to_string(pixels) + " pixels";
+      return "channel '" + channel.name + "' has " + text::counted(size, "value") +
+             ", expected one for each of " + text::counted(pixels, "pixel");
     }
   }
   return std::nullopt;

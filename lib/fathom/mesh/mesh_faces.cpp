@@ -4,6 +4,7 @@
 
 #include "fathom/mesh/triangulate_face.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::mesh {
 namespace {
@@ -26,10 +27,6 @@ void write_cut(std::vector<CornerIndices>& list, FanRange fan,
   ring_of_fan(list, fan, ring);
   for (std::size_t k = 0; k < cut.size(); ++k)
     list[fan.first + k] = {ring[cut[k][0]], ring[cut[k][1]], ring[cut[k][2]]};
-}
-
-std::string counted(std::uint64_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
 }  // namespace
@@ -57,13 +54,13 @@ void warn_of_faces(std::uint64_t skipped, std::uint64_t odd, const std::string& 
                    Warnings& warnings) {
   if (skipped > 0)
     warnings.push_back(file + ": " +
-                       counted(skipped, "face of fewer than three corners is skipped",
-                               "faces of fewer than three corners are skipped"));
+                       text::counted(skipped, "face of fewer than three corners is skipped",
+                                     "faces of fewer than three corners are skipped"));
   if (odd > 0)
     warnings.push_back(
         file + ": " +
-        counted(odd, "face that is not a simple polygon or has no normal is cut into a fan",
-                "faces that are not simple polygons or have no normal are cut into fans"));
+        text::counted(odd, "face that is not a simple polygon or has no normal is cut into a fan",
+                      "faces that are not simple polygons or have no normal are cut into fans"));
 }
 
 std::uint64_t cut_polygons(Mesh& mesh) {

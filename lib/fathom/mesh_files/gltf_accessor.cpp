@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fathom/mesh_files/gltf_references.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::mesh_files {
 using namespace text;
@@ -85,8 +86,9 @@ GltfAccessor::GltfAccessor(const JsonValue& description, GltfBufferViews& views,
 
 GltfAccessor::GltfAccessor(const JsonValue& description, Bytes bytes) : GltfAccessor(description) {
   if (bytes.size() < count_ * element_size())
-    description_.fail("its " + std::to_string(count_) + " elements do not fit into the " +
-                      std::to_string(bytes.size()) + " bytes that were decoded");
+    description_.fail("its " + text::counted(count_, "element does not", "elements do not") +
+                      " fit into the " +
+                      text::counted(bytes.size(), "byte that was", "bytes that were") + " decoded");
   elements_ = GltfLayout{bytes, element_size()};
 }
 

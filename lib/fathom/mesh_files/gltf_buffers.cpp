@@ -8,6 +8,7 @@
 #include "fathom/mesh_files/gltf_uri.h"
 #include "fathom/mesh_files/named_files.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::mesh_files {
 using namespace text;
@@ -70,7 +71,7 @@ GltfContainer split_gltf(Bytes file, const std::string& name) {
     fail(4, "expected version 2 of GLB, found " + std::to_string(word_at(file, 4)));
   const std::size_t length = word_at(file, 8);
   if (length > file.size())
-    fail(8, "the file is said to be " + std::to_string(length) + " bytes long, found " +
+    fail(8, "the file is said to be " + text::counted(length, "byte") + " long, found " +
                 std::to_string(file.size()));
   GltfContainer container;
   bool first = true;
@@ -124,7 +125,7 @@ Bytes GltfBuffers::load(const JsonValue& buffer, bool may_be_binary_chunk) {
       buffer.at("byteLength").integer(0, std::numeric_limits<std::uint64_t>::max());
   const auto cut = [&](Bytes bytes) {
     if (bytes.size() < length)
-      buffer.fail("is said to have " + std::to_string(length) + " bytes, found " +
+      buffer.fail("is said to have " + text::counted(length, "byte") + ", found " +
                   std::to_string(bytes.size()));
     return bytes.first(length);
   };

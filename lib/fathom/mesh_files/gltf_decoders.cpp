@@ -5,6 +5,7 @@
 #include "fathom/mesh_files/formats_program/process.h"
 #include "fathom/mesh_files/formats_program/reasons.h"
 #include "fathom/mesh_files/gltf_references.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::mesh_files {
 using namespace formats_program;
@@ -43,7 +44,7 @@ DracoAttribute as_described(std::uint32_t number, const JsonValue& accessor) {
 void expect_count(const JsonValue& accessor, std::uint64_t decoded) {
   const std::uint64_t count = accessor.at("count").integer(0, largest_integer);
   if (count != decoded)
-    accessor.fail("has " + std::to_string(count) + " elements, but Draco decoded " +
+    accessor.fail("has " + text::counted(count, "element") + ", but Draco decoded " +
                   std::to_string(decoded));
 }
 
@@ -60,8 +61,9 @@ Bytes GltfDecoders::decode_view(const JsonValue& extension, std::uint64_t length
                          extension.at("count").integer(0, largest_integer),
                          extension.at("byteStride").integer(1, 256)};
   if (length % view.stride != 0 || view.count != length / view.stride)
-    extension.fail("is of " + std::to_string(view.count) + " times " + std::to_string(view.stride) +
-                   " bytes, expected the " + std::to_string(length) + " of its bufferView");
+    extension.fail("is of " + std::to_string(view.count) + " times " +
+                   text::counted(view.stride, "byte") + ", expected the " + std::to_string(length) +
+                   " of its bufferView");
   MessageWriter parameters;
   parameters.put(view);
   const Bytes answer =

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "fathom/text/counted.h"
 #include "fathom/text/warnings.h"
 
 namespace fathom::mesh_files {
@@ -24,7 +25,7 @@ class Occurrences {
   void warn(const std::string& file, const char* one, const char* many, const char* done,
             Warnings& warnings) const {
     if (count_ == 0) return;
-    warnings.push_back(file + ": " + std::to_string(count_) + " " + (count_ == 1 ? one : many) +
+    warnings.push_back(file + ": " + text::counted(count_, one, many) +
                        (count_ == 1 ? ", on line " : ", the first on line ") +
                        std::to_string(line_) + ": " + done);
   }

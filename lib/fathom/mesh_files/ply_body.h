@@ -8,6 +8,7 @@
 
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/ply_rows.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/warnings.h"
 
 namespace fathom::mesh_files {
@@ -99,8 +100,9 @@ class PlyBody {
     mesh::expect_countable(element.count, ("rows of element " + element.name).c_str(), file_);
     const std::uint64_t size = Rows::least_row_size(element);
     if (element.count > rows().rest() / size)
-      throw InputError(file_ + ": " + std::to_string(element.count) + " rows of element " +
-                       element.name + " are claimed, expected a file long enough for them");
+      throw InputError(file_ + ": " + text::counted(element.count, "row") + " of element " +
+                       element.name + (element.count == 1 ? " is" : " are") +
+                       " claimed, expected a file long enough for them");
   }
 
   std::vector<int> plan_vertex(const PlyElement& element) const {

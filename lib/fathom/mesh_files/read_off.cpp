@@ -8,6 +8,7 @@
 #include "fathom/mesh_files/off_keyword.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/text_cursor.h"
 #include "fathom/text/text_ends.h"
 
@@ -77,9 +78,9 @@ class OffReader {
   void reserve() {
     const std::uint64_t rest = cursor_.rest() + 1;
     if (header_.vertices > rest / 6 || header_.faces > (rest - 6 * header_.vertices) / 2)
-      throw InputError(file_ + ": " + std::to_string(header_.vertices) + " vertices and " +
-                       std::to_string(header_.faces) +
-                       " faces are claimed, expected a file long enough for them");
+      throw InputError(file_ + ": " + text::counted(header_.vertices, "vertex", "vertices") +
+                       " and " + text::counted(header_.faces, "face") +
+                       " are claimed, expected a file long enough for them");
     mesh_.vertices.reserve(header_.vertices);
     mesh_.triangles.reserve(std::min(header_.faces, rest / 8));  // "3 0 1 2" and a line end
     if (!keep_attributes_) return;

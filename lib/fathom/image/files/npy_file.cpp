@@ -5,6 +5,7 @@
 #include "fathom/numeric/binary16.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
+#include "fathom/text/counted.h"
 
 /// NPY ([Ker07]): "\x93NUMPY", version, length of the header, a Python dictionary of descr,
 /// fortran_order and shape, then the values.
@@ -144,8 +145,8 @@ ImageChannel channel_of_array(const Array& array, ByteView data, const std::stri
   if (data.size() / size != pixels || data.size() % size != 0)
     throw InputError(name + ": truncated or overlong NPY file: expected " +
                      std::to_string(array.height) + "×" + std::to_string(array.width) +
-                     " values of " + std::to_string(size) + " bytes, found " +
-                     std::to_string(data.size()) + " bytes");
+                     " values of " + text::counted(size, "byte") + ", found " +
+                     text::counted(data.size(), "byte"));
   const auto same = [](auto value) { return value; };
   if (kind == "f2")
     return {"Z", values_of<std::uint16_t, float>(array, data, order, widen_binary16)};
