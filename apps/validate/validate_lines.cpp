@@ -18,7 +18,8 @@ using attribution::Attribution;
 using attribution::PixelClass;
 using validation::ValidationCase;
 
-/// "spot, vtk unorm24: 70000 equal, 20 edge; median bound 3.1e-07 of the depth, 0.012 may".
+/// "spot, vtk unorm24: 70000 equal, 20 edge; median bound 3.1e-07 of the depth, 1.20 % of the pixels
+/// undecided".
 std::string line_of(const ValidationCase& c) {
   if (!c.is_done()) return fmt::format("{}: {}\n", title_of(c), c.failure);
   const Attribution& a = c.attribution;
@@ -28,13 +29,15 @@ std::string line_of(const ValidationCase& c) {
     counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", a.counts[k],
                           name_of(static_cast<PixelClass>(k)));
   }
-  std::string text = fmt::format("{}: {}; median bound {:.2g} of the depth, {:.2g} may\n",
-                                 title_of(c), counts, a.median_relative_width, a.may_share);
+  std::string text =
+      fmt::format("{}: {}; median bound {:.2g} of the depth, {:.2f} % of the pixels undecided\n",
+                  title_of(c), counts, a.median_relative_width, 100 * a.may_share);
   for (const attribution::Finding& f : a.notes) {
-    text += fmt::format("  note: {} ({} pixels)\n", f.text, f.pixels);
+    text += "  note: " + validation::finding_text(f) + "\n";
+    for (const std::string& line : f.evidence) text += "    " + line + "\n";
   }
   for (const attribution::Finding& f : a.findings) {
-    text += fmt::format("  {}: {} ({} pixels)\n", f.kind, f.text, f.pixels);
+    text += "  " + validation::finding_line(f) + "\n";
     if (f.alternatives.empty()) continue;
     text += fmt::format("    as good an explanation: {}\n", fmt::join(f.alternatives, ", "));
   }

@@ -85,9 +85,11 @@ void judge(const ValidateArguments& arguments, ValidationCase& made) {
   attribution::ModelChoice choice = attribution::chosen_model(*made.truth, made.other);
   made.model = std::move(choice.chosen.model);
   made.attribution = std::move(choice.chosen.attribution);
-  std::string text = "taken for " + made.model.name;
-  for (const std::string& line : choice.evidence) text += "; " + line;
-  made.attribution.notes.push_back({"model", text, made.attribution.classes.size()});
+  made.attribution.notes.push_back(
+      {.kind = "model",
+       .text = "taken for " + made.model.name + ", the model that fits best",
+       .pixels = made.attribution.classes.size(),
+       .evidence = std::move(choice.evidence)});
 }
 
 /// A map of another size is judged as what explains it best, if that explains half of it.

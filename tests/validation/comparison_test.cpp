@@ -65,6 +65,16 @@ TEST(Comparison, MoreUnexplainedOrMissedPixelsAndFewerEqualOnesAreWorse) {
   EXPECT_EQ(change(before, after).verdict, Verdict::worse) << "better does not make up for worse";
 }
 
+TEST(Comparison, OnePixelAndOneTriangleAreNotPlural) {
+  const ReportedResult before = result("spot", "unorm24");
+  ReportedResult after = before;
+  after.counts[missed] = 1;
+  EXPECT_THAT(change(before, after).worse,
+              ElementsAre("1 missed surface pixel, 0 in the baseline"));
+  after.triangles = 1;
+  EXPECT_EQ(change(after, before).obstacle, "a scene of 1 triangle in the baseline, of 12 now");
+}
+
 TEST(Comparison, OtherCountsAndErrorsAreAChangeAndVersionsAreNot) {
   const ReportedResult before = result("spot", "unorm24");
   ReportedResult after = before;

@@ -71,6 +71,13 @@ TEST(Cause, IsTheFailureElseTheFirstFindingElseTheWorstPixel) {
   EXPECT_EQ(cause_of(c), "it crashed");
 }
 
+TEST(Cause, OnePixelIsNotPlural) {
+  EXPECT_EQ(finding_line({"shift", "it is shifted", 1}), "shift: it is shifted (1 pixel)");
+  ValidationCase c = case_of("spot", "", bad);
+  c.attribution.findings = {{"shift", "it is shifted", 1}};
+  EXPECT_EQ(cause_of(c), "shift: it is shifted (1 pixel)");
+}
+
 TEST(Junit, HasASuiteForEachSceneAndACaseForEachRenderer) {
   std::vector<ValidationCase> cases{case_of("spot", "unorm24", good), case_of("room", "own", bad),
                                     case_of("spot", "own", {})};

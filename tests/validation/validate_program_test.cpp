@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,26 @@ TEST_F(ValidateProgram, ExplainsWhatThePipelineStores) {
   EXPECT_GT(unexplained("gl-unorm24", {"--depth-format", "unorm24", "--mapping", "opengl",
                                        "--polygon-offset", "0,500"}),
             0);
+}
+
+/// A line for each model, and the one that is taken above them.
+TEST_F(ValidateProgram, SaysWhatEachModelMakesOfTheMap) {
+  const Outcome outcome = run_fathom({"validate", "--map", "map.exr", "--camera", "camera.json",
+                                      "--model", "auto", cube, "--out", "report"},
+                                     {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  std::istringstream text(outcome.out);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 9U) << outcome.out;
+  EXPECT_EQ(lines[1], "  note: taken for float32-ray, the model that fits best (1200 pixels)");
+  EXPECT_THAT(std::vector(lines.begin() + 2, lines.end()),
+              testing::Each(testing::MatchesRegex(
+                  "    [a-z0-9-]+: [0-9]+ pixels? unexplained, [0-9]+ findings?, bounds .*")));
+  const auto note =
+      nlohmann::json::parse(folder.read("report/report.json"))["results"][0]["notes"][0];
+  EXPECT_EQ(note["kind"], "model");
+  EXPECT_EQ(note["evidence"].size(), 7U);
 }
 
 TEST_F(ValidateProgram, HoldsARunAgainstAnEarlierOne) {

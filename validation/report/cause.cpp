@@ -1,7 +1,5 @@
 #include "validation/report/cause.h"
 
-#include "fathom/attribution/cause.h"
-
 namespace fathom::validation {
 
 std::string pixel_text(const ValidationCase& c, std::size_t pixel) {

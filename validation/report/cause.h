@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "fathom/attribution/cause.h"
 #include "validation/report/validation_case.h"
 
 namespace fathom::validation {

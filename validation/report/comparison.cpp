@@ -6,6 +6,8 @@
 #include <array>
 #include <utility>
 
+#include "fathom/text/counted.h"
+
 namespace fathom::validation {
 namespace {
 
@@ -39,8 +41,8 @@ std::string obstacle_between(const ReportedResult& before, const ReportedResult&
                        after.width, after.height);
   }
   if (before.triangles != after.triangles) {
-    return fmt::format("a scene of {} triangles in the baseline, of {} now", before.triangles,
-                       after.triangles);
+    return fmt::format("a scene of {} in the baseline, of {} now",
+                       text::counted(before.triangles, "triangle"), after.triangles);
   }
   return "";
 }
@@ -52,8 +54,8 @@ void compare_counts(ResultChange& change) {
     if (before == after) continue;
     const bool is_worse = (c == PixelClass::equal) == (after < before);
     (is_worse ? change.worse : change.better)
-        .push_back(fmt::format("{} {} pixels, {} in the baseline", after, attribution::name_of(c),
-                               before));
+        .push_back(fmt::format("{}, {} in the baseline",
+                               text::counted(after, attribution::name_of(c) + " pixel"), before));
   }
 }
 

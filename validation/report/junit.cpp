@@ -24,7 +24,7 @@ constexpr std::size_t listed_pixels = 8;
 std::string details_of(const ValidationCase& c) {
   std::string text;
   for (const attribution::Finding& f : c.attribution.findings) {
-    text += fmt::format("{}: {} ({} pixels)\n", f.kind, f.text, f.pixels);
+    text += finding_line(f) + "\n";
   }
   for (const std::size_t i :
        attribution::worst_pixels(*c.truth, c.other, c.attribution, listed_pixels)) {

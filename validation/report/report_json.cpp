@@ -59,6 +59,7 @@ Json list_of(const std::vector<Finding>& findings) {
                                    {"unit", e.unit}});
     }
     if (!f.alternatives.empty()) json["alternatives"] = f.alternatives;
+    if (!f.evidence.empty()) json["evidence"] = f.evidence;
     list.push_back(std::move(json));
   }
   return list;

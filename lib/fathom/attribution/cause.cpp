@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fathom/attribution/worst_pixels.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::attribution {
 namespace {
@@ -28,15 +29,20 @@ std::string pixel_text(const Truth& truth, const OtherMap& other, const Attribut
   return text;
 }
 
+std::string finding_text(const Finding& f) {
+  return fmt::format("{} ({})", f.text, text::counted(f.pixels, "pixel"));
+}
+
+std::string finding_line(const Finding& f) {
+  return f.kind + ": " + finding_text(f);
+}
+
 std::string cause_of(const Truth& truth, const OtherMap& other, const Attribution& found) {
-  if (!found.findings.empty()) {
-    const Finding& first = found.findings.front();
-    return fmt::format("{}: {} ({} pixel{})", first.kind, first.text, first.pixels,
-                       first.pixels == 1 ? "" : "s");
-  }
+  if (!found.findings.empty()) return finding_line(found.findings.front());
   const std::uint64_t unexplained = found.count(PixelClass::unexplained);
   if (unexplained == 0) return "";
-  return fmt::format("{} of {} pixels unexplained, the worst {}", unexplained, found.classes.size(),
+  return fmt::format("{} of {} unexplained, the worst {}", unexplained,
+                     text::counted(found.classes.size(), "pixel"),
                      pixel_text(truth, other, found, worst_pixels(truth, other, found, 1).front()));
 }
 

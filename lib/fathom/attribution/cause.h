@@ -7,6 +7,12 @@
 
 namespace fathom::attribution {
 
+/// What was found and in how many pixels: "the image is mirrored (1 pixel)".
+std::string finding_text(const Finding& finding);
+
+/// The same with its kind: "mirrored: the image is mirrored (1 pixel)".
+std::string finding_line(const Finding& finding);
+
 /// Why a map is not as it should be, in one line: the first finding, else how many pixels are unexplained
 /// and the one to look at first. Empty where every pixel is explained and nothing was found.
 std::string cause_of(const Truth& truth, const OtherMap& other, const Attribution& found);

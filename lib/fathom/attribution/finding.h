@@ -28,6 +28,8 @@ struct Finding {
   std::vector<Estimate> estimates = {};
   /// Kinds of others that explain the map as well with as many parameters.
   std::vector<std::string> alternatives = {};
+  /// What it rests on, a clause each, for lines of their own.
+  std::vector<std::string> evidence = {};
 };
 
 }  // namespace fathom::attribution
