@@ -13,15 +13,14 @@ import tempfile
 import unittest
 
 from selenium.webdriver.common.action_chains import ActionChains
-from selenium.webdriver.common.by import By
-from selenium.webdriver.support.ui import WebDriverWait
 
-from headless_chromium import PATIENCE, errors_in_console, headless_chromium
+from headless_chromium import headless_chromium
+from page_case import PageCase
 
 WIDTH, HEIGHT = 64, 48
 PIXELS = 5  # of each result that are looked at
 READING = re.compile(r"pixel \((\d+), (\d+)\): ([a-z -]+?)(?:, triangle \d+)?\n"
-                     r"truth (\S+)   other (\S+)\ndifference ")
+                     r"truth (\S+)   other (\S+)\ndifference [^\n]+\n([a-z -]+): (.+)$")
 
 COLOUR_OF_PIXEL = """
 const [canvas, x, y] = arguments;
@@ -46,7 +45,7 @@ def as_shown(text):
     return float("inf") if text == "background" else float(text)
 
 
-class ReportPage(unittest.TestCase):
+class ReportPage(PageCase):
     @classmethod
     def setUpClass(cls):
         # Rays exactly through corners, some of which slip through, beside a scene without faults.
@@ -58,22 +57,10 @@ class ReportPage(unittest.TestCase):
         cls.driver = cls.enterClassContext(headless_chromium())
         cls.driver.get((folder / "report.html").as_uri())
 
-    def tearDown(self):
-        self.assertEqual(errors_in_console(self.driver), [])
-
-    def all(self, selector):
-        return self.driver.find_elements(By.CSS_SELECTOR, selector)
-
-    def text(self, selector):
-        return self.driver.find_element(By.CSS_SELECTOR, selector).text
-
-    def wait_for(self, condition, what):
-        WebDriverWait(self.driver, PATIENCE, poll_frequency=0.05).until(lambda _: condition(), what)
-
     def show(self, number):
         """Clicks the cell of a result and waits for its pictures and plots."""
         result = self.results[number]
-        self.driver.find_element(By.CSS_SELECTOR, f'#matrix button[data-case="{number}"]').click()
+        self.one(f'#matrix button[data-case="{number}"]').click()
         title = f"{result['scene']}, {result['renderer']} {result['variant']}"
         self.wait_for(lambda: self.text("#title") == title and self.all("#maps-shown canvas")
                       and self.all("#formats svg"), title)
@@ -87,6 +74,10 @@ class ReportPage(unittest.TestCase):
             canvas, round((x + 0.5) / WIDTH * (size["width"] - 2) + 1 - size["width"] / 2),
             round((y + 0.5) / HEIGHT * (size["height"] - 2) + 1 - size["height"] / 2)).perform()
         return READING.match(self.text("#reading"))
+
+    def meaning(self, word):
+        """As the list of words has it."""
+        return self.texts("#words dd")[self.texts("#words dt").index(word)]
 
     def colour(self, canvas, x, y):
         return self.driver.execute_script(COLOUR_OF_PIXEL, canvas, x, y)
@@ -112,6 +103,7 @@ class ReportPage(unittest.TestCase):
                 with self.subTest(scene=result["scene"], variant=result["variant"], pixel=(x, y)):
                     said = self.point_at(truth, x, y)
                     self.assertEqual((int(said[1]), int(said[2]), said[3]), (x, y, pixel["class"]))
+                    self.assertEqual((said[6], said[7]), (pixel["class"], self.meaning(pixel["class"])))
                     depths = as_binary32(pixel["truth"]), as_binary32(pixel["other"])
                     self.assertEqual((as_shown(said[4]), as_shown(said[5])), depths)
                     for canvas, depth in zip((truth, other), depths):
@@ -123,7 +115,7 @@ class ReportPage(unittest.TestCase):
         self.show(next(k for k, r in enumerate(self.results) if r["scene"] == "sphere"))
         truth, other = self.all("#maps-shown canvas")[:2]
         said = self.point_at(other, 0, 0)
-        self.assertEqual(said.groups(), ("0", "0", "equal", "background", "background"))
+        self.assertEqual(said.groups()[:5], ("0", "0", "equal", "background", "background"))
         self.assertEqual([self.colour(truth, 0, 0), self.colour(other, 0, 0)], [WHITE, WHITE])
 
     def test_plots_show_every_renderer_and_pixels_at_many_places(self):

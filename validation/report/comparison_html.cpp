@@ -54,7 +54,9 @@ std::string to_html(const Comparison& comparison) {
   for (const std::string_view part : {page::head, page::style, page::comparison_body}) html += part;
   html += script_data("comparison", data.dump(-1, ' ', false, Json::error_handler_t::replace));
   html += "<script>\n";
-  for (const std::string_view part : {page::elements, page::comparison}) html += part;
+  for (const std::string_view part :
+       {page::elements, page::words, page::overview, page::comparison})
+    html += part;
   return html + "</script>\n</body></html>\n";
 }
 

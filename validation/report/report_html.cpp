@@ -98,8 +98,9 @@ std::string to_html(const std::vector<ValidationCase>& cases) {
   html += script_data("report", to_json(cases));
   html += script_data("maps", data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   html += "<script>\n";
-  for (const std::string_view part : {page::elements, page::data, page::maps, page::colours,
-                                      page::result, page::plots, page::start}) {
+  for (const std::string_view part :
+       {page::elements, page::words, page::overview, page::data, page::maps, page::colours,
+        page::result, page::plots, page::start}) {
     html += part;
   }
   return html + "</script>\n</body></html>\n";

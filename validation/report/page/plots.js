@@ -2,7 +2,7 @@ const svgElement = (tag, attributes, text) => { const e = document.createElement
 function axes(xLow, xHigh, yLow, yHigh) {
   const W = 460, H = 300, left = 58, bottom = 36, top = 10, right = 12;
   const lx = Math.log10, x = (v) => left + (W - left - right) * (lx(v) - lx(xLow)) / (lx(xHigh) - lx(xLow) || 1), y = (v) => H - bottom - (H - top - bottom) * (lx(v) - lx(yLow)) / (lx(yHigh) - lx(yLow) || 1);
-  const svg = svgElement("svg", { viewBox: "0 0 " + W + " " + H, role: "img" });
+  const svg = svgElement("svg", { viewBox: "0 0 " + W + " " + H, role: "img", "aria-label": "Errors against depth, both on logarithmic scales" });
   for (let e = Math.ceil(lx(yLow)); e <= lx(yHigh); ++e) { const v = 10 ** e; svg.append(svgElement("line", { x1: left, x2: W - right, y1: y(v), y2: y(v), stroke: "#ddd" }), svgElement("text", { x: left - 6, y: y(v) + 4, "text-anchor": "end" }, "1e" + e)); }
   const ticks = []; for (let e = Math.floor(lx(xLow)); e <= Math.ceil(lx(xHigh)); ++e) for (const m of [1, 2, 5]) { const v = m * 10 ** e; if (v >= xLow && v <= xHigh) ticks.push(v); }
   const step = Math.ceil(ticks.length / 8);

@@ -1,14 +1,21 @@
+/// What was found, and what it rests on.
+function findingBox(f, style) {
+  const box = element("div", findingText(f), { class: style });
+  if (f.alternatives) box.append(element("div", "As good an explanation: " + f.alternatives.join(", ")));
+  if (f.evidence) { const list = element("ul"); for (const line of f.evidence) list.append(element("li", line)); box.append(list); }
+  return box;
+}
 let current = -1, marked = null;
 async function show(k) {
   current = k; marked = null;
   const r = results[k];
   for (const b of document.querySelectorAll("#matrix button")) b.setAttribute("aria-pressed", b.dataset.case == k);
-  byId("title").textContent = r.scene + ", " + label(r);
+  byId("title").textContent = titleOf(r);
   byId("version").textContent = r.version || "";
   for (const id of ["findings", "maps-shown", "classes", "bounds", "scatter", "formats", "worst"]) byId(id).replaceChildren();
   if (r.failure) { byId("findings").append(element("div", r.failure, { class: "finding" })); return; }
-  for (const f of r.notes) byId("findings").append(element("div", f.text + " (" + f.pixels + " pixels)", { class: "note" }));
-  for (const f of r.findings) byId("findings").append(element("div", f.text + " (" + f.pixels + " pixels)", { class: "finding" }));
+  for (const f of r.notes) byId("findings").append(findingBox(f, "note"));
+  for (const f of r.findings) byId("findings").append(findingBox(f, "finding"));
   const scene = await sceneOf(r.scene), map = await mapOf(k), n = scene.depths.length;
   if (current != k) return;
   let low = Infinity, high = -Infinity;
@@ -29,7 +36,7 @@ async function show(k) {
     return isFinite(relative[i]) ? diverging(Math.max(-1, Math.min(1, relative[i] / most))) : [255, 255, 255];
   };
   const key = element("div"); key.style.fontSize = ".8rem";
-  classNames.forEach((name, c) => { if (!r.pixels[name]) return; const s = element("span"); s.style.marginRight = ".8em"; s.style.display = "inline-block"; const b = element("span", undefined, { class: "key" }); b.style.background = "rgb(" + classColours[c] + ")"; s.append(b, name); key.append(s); });
+  classNames.forEach((name, c) => { if (!r.pixels[name]) return; const s = element("span"); s.style.marginRight = ".8em"; s.style.display = "inline-block"; s.append(colourKey(c), term(name)); key.append(s); });
   const scale = () => bar((t) => viridis(1 - t), short(low), short(high) + (log ? " (logarithmic)" : ""));
   const w = scene.width, h = scene.height;
   const differenceKey = bar((t) => diverging(2 * t - 1), short(-most, 2), short(most, 2));
@@ -41,22 +48,22 @@ async function show(k) {
     figure("Class", drawn(w, h, (i) => classColours[map.classes[i]]), key));
   const read = (x, y) => {
     const i = y * w + x, t = scene.depths[i], o = map.depths[i], id = scene.triangles[i];
-    byId("reading").textContent = "pixel (" + x + ", " + y + "): " + classNames[map.classes[i]] + (id == 4294967295 ? "" : ", triangle " + id) + "\ntruth " + (isFinite(t) ? t : "background") + "   other " + (isFinite(o) ? o : "background") + "\ndifference " + (isFinite(o - t) ? short(o - t) + ", relative " + short(relative[i]) : "–");
+    byId("reading").textContent = "pixel (" + x + ", " + y + "): " + classNames[map.classes[i]] + (id == 4294967295 ? "" : ", triangle " + id) + "\ntruth " + (isFinite(t) ? t : "background") + "   other " + (isFinite(o) ? o : "background") + "\ndifference " + (isFinite(o - t) ? short(o - t) + ", relative " + short(relative[i]) : "–") + "\n" + classNames[map.classes[i]] + ": " + meanings[classNames[map.classes[i]]];
   };
   for (const canvas of document.querySelectorAll("#maps-shown canvas")) {
     const at = (e) => { const b = canvas.getBoundingClientRect(); read(Math.min(w - 1, Math.max(0, Math.floor((e.clientX - b.left - 1) / (b.width - 2) * w))), Math.min(h - 1, Math.max(0, Math.floor((e.clientY - b.top - 1) / (b.height - 2) * h)))); };
     canvas.addEventListener("pointermove", at); canvas.addEventListener("pointerdown", at);
   }
   const classes = byId("classes"); row(classes, ["class", "pixels", "share", element("th", "meaning", { class: "text" })], "th");
-  classNames.forEach((name, c) => { const cell = element("td"), b = element("span", undefined, { class: "key" }); b.style.background = "rgb(" + classColours[c] + ")"; cell.append(b, name); row(classes, [cell, r.pixels[name], (100 * r.pixels[name] / n).toFixed(3) + " %", element("td", classMeaning[c], { class: "text" })]); });
-  byId("bounds").textContent = "Bounds: half of the depth intervals are narrower than " + short(r.bounds.median_relative_width, 3) + " of the depth (" + short(r.bounds.median_width_in_steps, 3) + " steps of the storage); " + (100 * r.bounds.may_share).toFixed(2) + " % of the pixels that triangles touch are undecided. Errors: median " + short(r.errors.median_relative, 3) + ", greatest " + short(r.errors.greatest_relative, 3) + " of the depth.";
+  classNames.forEach((name, c) => { const cell = element("td"); cell.append(colourKey(c), name); row(classes, [cell, r.pixels[name], (100 * r.pixels[name] / n).toFixed(3) + " %", element("td", meanings[name], { class: "text" })]); });
+  byId("bounds").textContent = "Bounds: half of the depth intervals are narrower than " + short(r.bounds.median_relative_width, 3) + " of the depth (" + short(r.bounds.median_width_in_steps, 3) + " steps of the storage); " + (100 * r.bounds.may_share).toFixed(2) + " % of the pixels that triangles touch are undecided: a triangle may be drawn there or not. Errors: median " + short(r.errors.median_relative, 3) + ", greatest " + short(r.errors.greatest_relative, 3) + " of the depth.";
   scatter(scene, map, relative);
   formats(r.scene);
-  const worst = byId("worst"); row(worst, ["pixel", "class", "truth", "other", "allowed", element("th", "triangle and its corners", { class: "text" })], "th");
+  const worst = byId("worst"); row(worst, ["pixel", element("th", "class", { class: "text" }), "truth", "other", heading(term("bound", "allowed")), element("th", "triangle and its corners", { class: "text" })], "th");
   for (const p of r.worst) {
     const b = element("button", "(" + p.pixel.join(", ") + ")", { type: "button" }), cell = element("td"); cell.append(b);
     b.addEventListener("click", () => { read(...p.pixel); byId("reading").scrollIntoView({ block: "center" }); mark(p.pixel); });
-    row(worst, [cell, element("td", p.class, { class: "text" }), short(p.truth, 9), short(p.other, 9), short(p.least, 9) + " … " + short(p.greatest, 9), element("td", p.corners ? p.triangle + ": " + p.corners.map((c) => "(" + c.join(", ") + ")").join(" ") : "–", { class: "text" })]);
+    row(worst, [cell, element("td", p.class, { class: "text whole" }), short(p.truth, 9), short(p.other, 9), short(p.least, 9) + " … " + short(p.greatest, 9), element("td", p.corners ? p.triangle + ": " + p.corners.map((c) => "(" + c.join(", ") + ")").join(" ") : "–", { class: "text" })]);
   }
   function mark(pixel) {
     const canvas = document.querySelectorAll("#maps-shown canvas");

@@ -1,24 +1,54 @@
-function start() {
-  const sceneNames = [...new Set(results.map((r) => r.scene))], labels = [...new Set(results.map(label))];
-  const failures = results.filter((r) => r.failure).length, bad = results.reduce((s, r) => s + (r.failure ? 0 : r.pixels.unexplained), 0), found = results.reduce((s, r) => s + (r.failure ? 0 : r.findings.length), 0);
-  byId("verdict").textContent = results.length - failures + " maps of " + sceneNames.length + " scenes: " + (bad ? bad + " pixels unexplained" : "every pixel is explained") + (found ? ", " + found + " findings" : "") + (failures ? ", " + failures + " not drawn" : "") + ". Fathom " + report.fathom + ".";
-  const matrix = byId("matrix"); const head = row(matrix, ["scene"], "th");
-  for (const l of labels) head.append(element("th", l, { class: "turned" }));
-  for (const s of sceneNames) {
-    const line = row(matrix, [element("th", s)]);
-    for (const l of labels) {
-      const k = results.findIndex((r) => r.scene == s && label(r) == l), cell = element("td"); line.append(cell);
-      if (k < 0) continue;
-      const r = results[k], b = element("button", r.failure ? "not drawn" : r.pixels.unexplained + (r.findings.length ? " + " + r.findings.map((f) => f.kind).join(", ") : ""), { type: "button", "data-case": k });
-      cell.className = r.failure ? "none" : faults(r) || r.findings.length ? "fault" : "good";
-      b.addEventListener("click", () => show(k)); cell.append(b);
-    }
+const isGood = (r) => !r.failure && !r.pixels.unexplained && !r.findings.length;
+const sums = [
+  { name: "unexplained", word: "unexplained", of: (r) => r.failure ? 0 : r.pixels.unexplained, tone: "fault" },
+  { name: "findings", word: "finding", of: (r) => r.failure ? 0 : r.findings.length, tone: "fault" },
+  { name: "not drawn", word: "not drawn", of: (r) => r.failure ? 1 : 0, tone: "none" }];
+function verdict() {
+  const drawn = results.filter((r) => !r.failure), [bad, found, failures] = sums.map((sum) => results.reduce((s, r) => s + sum.of(r), 0));
+  return counted(drawn.length, "map") + " of " + counted(distinct(drawn, (r) => r.scene).length, "scene") + ": "
+    + (bad ? counted(bad, "pixel is", "pixels are") + " unexplained" : "every pixel is explained")
+    + (found ? ", " + counted(found, "finding") : "") + (failures ? ", " + failures + " not drawn" : "") + ". Fathom " + report.fathom + ".";
+}
+function cellOf(k) {
+  const r = results[k];
+  if (r.failure) return { text: "not drawn", tone: "none", says: r.failure };
+  const kinds = r.findings.map((f) => f.kind).join(", ");
+  return { text: r.pixels.unexplained + (kinds ? " + " + kinds : ""), tone: faults(r) || kinds ? "fault" : "good",
+    says: counted(r.pixels.unexplained, "pixel") + " unexplained" + (kinds ? "; found: " + kinds : "") };
+}
+function allResults(shown) {
+  const all = byId("all");
+  all.replaceChildren();
+  row(all.createTHead(), [heading("scene", { class: "corner" }), heading("renderer", { class: "text" }), ...classNames.map((name) => heading(term(name))), heading("median error"), heading("greatest error"), heading(term("bound")), heading(term("may"))]);
+  const body = all.createTBody();
+  for (const r of results) {
+    if (!shown(r)) continue;
+    const names = [heading(r.scene, { scope: "row" }), element("td", label(r), { class: "text" })];
+    row(body, r.failure ? [...names, element("td", r.failure, { colspan: 12, class: "text" })] : [...names, ...classNames.map((c) => r.pixels[c]), short(r.errors.median_relative, 2), short(r.errors.greatest_relative, 2), short(r.bounds.median_relative_width, 2), (100 * r.bounds.may_share).toFixed(2) + " %"]);
   }
-  const all = byId("all"); row(all, ["scene", "renderer", ...classNames, "median error", "greatest error", "bound", "may"], "th");
-  for (const r of results) row(all, r.failure ? [r.scene, label(r), element("td", r.failure, { colspan: 12, class: "text" })] : [r.scene, label(r), ...classNames.map((c) => r.pixels[c]), short(r.errors.median_relative, 2), short(r.errors.greatest_relative, 2), short(r.bounds.median_relative_width, 2), (100 * r.bounds.may_share).toFixed(2) + " %"]);
-  const versions = byId("versions"); row(versions, ["renderer", element("th", "version", { class: "text" })], "th");
-  for (const text of new Set(results.map((r) => JSON.stringify([label(r), r.version || r.failure])))) { const [l, v] = JSON.parse(text); row(versions, [l, element("td", v, { class: "text" })]); }
-  const first = results.findIndex((r) => faults(r)), any = results.findIndex((r) => !r.failure);
-  if (results.length) show(first >= 0 ? first : Math.max(any, 0));
+}
+function versions() {
+  const table = byId("versions");
+  row(table, ["renderer", element("th", "version", { class: "text" })], "th");
+  for (const text of new Set(results.map((r) => JSON.stringify([label(r), r.version || r.failure])))) { const [l, v] = JSON.parse(text); row(table, [l, element("td", v, { class: "text" })]); }
+}
+/// A link to the page that shows a result: report.html#spot,%20vtk%20unorm24.
+const linkTo = (r) => "#" + encodeURI(titleOf(r));
+function choose(k) {
+  history.replaceState(null, "", linkTo(results[k]));
+  show(k);
+}
+function start() {
+  byId("verdict").textContent = verdict();
+  explainWords();
+  filterBy(results, (r) => !isGood(r), "only what is not fully explained", (shown) => {
+    overviewTable(byId("matrix"), results, { cellOf, sums, shown, choose, isChosen: (k) => k == current, about: "Unexplained pixels and findings of each renderer and variant on each scene" });
+    allResults(shown);
+  });
+  walkByArrows(byId("matrix"));
+  addEventListener("resize", () => keepClear(byId("matrix")));
+  versions();
+  const linked = results.findIndex((r) => location.hash == linkTo(r)), first = results.findIndex((r) => faults(r)), any = results.findIndex((r) => !r.failure);
+  if (results.length) show(linked >= 0 ? linked : first >= 0 ? first : Math.max(any, 0));
 }
 start();
