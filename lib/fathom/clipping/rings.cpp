@@ -10,7 +10,6 @@
 #include "fathom/clipping/nesting.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/counted.h"
 
 namespace fathom::clipping {
 namespace {
@@ -46,7 +45,8 @@ void check_corners(const Ring<Rational>& ring, const std::string& side, std::siz
   const auto distinct = std::unique(corners.begin(), corners.end()) - corners.begin();
   if (distinct < 3)
     refuse(side, number,
-           "has " + text::counted(static_cast<std::uint64_t>(distinct), "distinct corner") +
+           "has " + std::to_string(distinct) +
+               (distinct == 1 ? " distinct corner" : " distinct corners") +
                "; expected at least 3");
   for (const Point2<Rational>& p : ring)
     if (cross(ring[0], ring[1], p) != 0) return;
