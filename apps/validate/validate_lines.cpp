@@ -33,11 +33,11 @@ std::string line_of(const ValidationCase& c) {
       fmt::format("{}: {}; median bound {:.2g} of the depth, {:.2f} % of the pixels undecided\n",
                   title_of(c), counts, a.median_relative_width, 100 * a.may_share);
   for (const attribution::Finding& f : a.notes) {
-    text += "  note: " + validation::finding_text(f) + "\n";
+    text += "  note: " + attribution::finding_text(f) + "\n";
     for (const std::string& line : f.evidence) text += "    " + line + "\n";
   }
   for (const attribution::Finding& f : a.findings) {
-    text += "  " + validation::finding_line(f) + "\n";
+    text += "  " + attribution::finding_line(f) + "\n";
     if (f.alternatives.empty()) continue;
     text += fmt::format("    as good an explanation: {}\n", fmt::join(f.alternatives, ", "));
   }
