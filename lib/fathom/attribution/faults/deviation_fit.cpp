@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "fathom/attribution/faults/deviation_choice.h"
 #include "fathom/attribution/faults/residuals.h"
 #include "fathom/numeric/errors.h"
 
@@ -24,19 +25,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_rounds = 8;
 /// Sets of one size that are fitted.
 constexpr std::size_t most_of_a_size = 4;
-/// A smaller set is as good as a larger one whose cost is not less than this part of its own: a
-/// larger one also follows roundings that corners of a triangle share.
-constexpr double as_good = 0.5;
-/// Residuals of a tenth of what the model allows are its roundings, whatever would follow them.
-constexpr double roundings = 0.01;
-/// Sets of the same size whose costs are so close cannot be told apart: the first in their order is
-/// named, the others are alternatives.
-constexpr double indistinguishable = 1.05;
-/// What the cost has to fall to for anything to be named, and how many standard deviations each
-/// parameter has to be off by. That it then explains the pixels that were unexplained is for others
-/// to see.
-constexpr double evidence = 0.99, least_deviations = 6;
-
 /// Weights that fall with what a residual exceeds the typical ones by.
 /// Source   [GM85].
 VectorXd weights_of(const VectorXd& r) {
@@ -218,39 +206,6 @@ FittedDeviation Fitting::fitted(const DeviationSet& set) const {
   return best;
 }
 
-bool is_significant(const FittedDeviation& fit) {
-  return fit.cost <= evidence * fit.cost_before &&
-         std::all_of(fit.set->parameters.begin(), fit.set->parameters.end(), [&](Parameter p) {
-           return std::abs(of(fit.deviation, p)) >= least_deviations * of(fit.standard, p);
-         });
-}
-
-/// The best of the smallest size that has one which is good enough.
-std::optional<FittedDeviation> simplest_of(const std::vector<FittedDeviation>& fits, double least) {
-  const FittedDeviation* best = nullptr;
-  for (const FittedDeviation& fit : fits) {
-    const bool is_good = fit.cost * as_good <= least || fit.cost <= roundings;
-    if (!is_good || !is_significant(fit)) continue;
-    if (best != nullptr && best->set->size() < fit.set->size()) break;
-    if (best == nullptr || fit.cost < best->cost) best = &fit;
-  }
-  if (best == nullptr) return std::nullopt;
-  std::vector<const FittedDeviation*> equals;
-  for (const FittedDeviation& fit : fits) {
-    const bool is_as_good =
-        fit.set->size() == best->set->size() && fit.cost <= indistinguishable * best->cost;
-    if (is_as_good) equals.push_back(&fit);
-  }
-  std::sort(equals.begin(), equals.end(),
-            [](const auto* a, const auto* b) { return a->set < b->set; });
-  FittedDeviation result = *equals.front();
-  for (const FittedDeviation* equal : equals) {
-    const std::string kind = equal->set->kind;
-    if (kind != result.set->kind) result.alternatives.push_back(kind);
-  }
-  return result;
-}
-
 }  // namespace
 
 std::optional<FittedDeviation> fitted_deviation(const Truth& truth, const OtherMap& other,
@@ -267,8 +222,7 @@ std::optional<FittedDeviation> fitted_deviation(const Truth& truth, const OtherM
   for (const Candidate& c : candidates) {
     const bool is_larger = !fits.empty() && fits.back().set->size() < c.set->size();
     // Residuals of half of what is allowed are explained: larger sets need not be tried.
-    const bool is_as_good = least * as_good <= least_linear || least <= roundings;
-    if (is_larger && least < 0.25 && is_as_good) break;
+    if (is_larger && least < 0.25 && is_as_good(least, least_linear)) break;
     fits.push_back(fitting.fitted(*c.set));
     least = std::min(least, fits.back().cost);
   }
