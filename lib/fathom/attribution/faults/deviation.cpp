@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include "fathom/attribution/pixels/storage_step.h"
+#include "fathom/camera/clip_planes.h"
 #include "fathom/geometry/eigen_arrays.h"
 
 namespace fathom::attribution {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using P = Parameter;
 
@@ -149,7 +147,7 @@ DepthDeviation::DepthDeviation(const Camera& c, const RendererModel& model, cons
       offset_(attribution::of(d, P::offset)) {
   if (const std::optional<WindowSteps> stored = window_steps(c, model)) {
     const WindowDepth& w = stored->window;
-    decodes_ = w.log_range == 0 && c.far < infinity && (c.near > 0 || !perspective_);
+    decodes_ = w.log_range == 0 && has_clip_planes(c);
     if (w.log_range != 0) {
       factor_per_step_ = (perspective_ ? -1 : 1) * w.log_range * stored->step;
     } else {

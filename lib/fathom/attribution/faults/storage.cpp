@@ -10,6 +10,7 @@
 
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/pixels/storage_step.h"
+#include "fathom/camera/clip_planes.h"
 #include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {
@@ -76,13 +77,9 @@ RecordedDepth codes(const Camera& c, bool of_windows, Mapping mapping, int bits)
   return r;
 }
 
-bool has_both_planes(const Camera& c) {
-  return c.far < infinity && (c.near > 0 || c.projection == Projection::orthographic);
-}
-
 void add_codes(const Camera& camera, const RendererModel& model,
                std::vector<CoarseStorage>& storages) {
-  if (!has_both_planes(camera)) return;
+  if (!has_clip_planes(camera)) return;
   const auto* const raster = std::get_if<RasterModel>(&model.kind);
   for (const int bits : {8, 10, 12, 16}) {
     if (camera.projection == Projection::perspective) {

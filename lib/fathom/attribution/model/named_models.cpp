@@ -1,8 +1,8 @@
 #include "fathom/attribution/model/named_models.h"
 
-#include <limits>
 #include <variant>
 
+#include "fathom/camera/clip_planes.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/unit_roundoff.h"
 
@@ -42,9 +42,7 @@ std::vector<RendererModel> named_models() {
 }
 
 bool has_clip_planes_for(const RendererModel& model, const Camera& camera) {
-  if (std::holds_alternative<RayModel>(model.kind)) return true;
-  const bool perspective = camera.projection == Projection::perspective;
-  return camera.far < std::numeric_limits<double>::infinity() && (camera.near > 0 || !perspective);
+  return std::holds_alternative<RayModel>(model.kind) || has_clip_planes(camera);
 }
 
 std::string model_names() {

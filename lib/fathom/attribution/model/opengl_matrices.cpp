@@ -1,16 +1,14 @@
 #include "fathom/attribution/model/opengl_matrices.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "fathom/camera/clip_planes.h"
 
 namespace fathom::attribution {
 
 ClipRange clip_range(const WorldMesh& mesh, const Camera& camera) {
-  const bool perspective = camera.projection == Projection::perspective;
-  if (std::isfinite(camera.far) && (camera.near > 0 || !perspective)) {
-    return {camera.near, camera.far};
-  }
+  if (has_clip_planes(camera)) return {camera.near, camera.far};
   double least = std::numeric_limits<double>::infinity(), greatest = 0;
   const auto& r = camera.world_to_camera[2];
   for (const auto& [x, y, z] : mesh.points) {
@@ -22,6 +20,7 @@ ClipRange clip_range(const WorldMesh& mesh, const Camera& camera) {
   if (greatest == 0) return {1, 2};  // nothing lies in front
   const double far = std::min(greatest * 1.001, camera.far);
   const double near = std::max(least * 0.999, camera.near);
+  const bool perspective = camera.projection == Projection::perspective;
   return {perspective ? std::max(near, far / 1e4) : near, far};
 }
 

@@ -1,0 +1,27 @@
+#include "fathom/camera/clip_planes.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace fathom {
+namespace {
+
+TEST(ClipPlanes, AreThereWhereWindowDepthsAreDefined) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  using enum Projection;
+  const auto has = [](Projection projection, double near, double far) {
+    return has_clip_planes({.projection = projection, .near = near, .far = far});
+  };
+  for (const Projection projection : {perspective, orthographic}) {
+    EXPECT_TRUE(has(projection, 0.1, 100));
+    EXPECT_FALSE(has(projection, 0.1, infinity));
+    EXPECT_FALSE(has(projection, 0, infinity));
+  }
+  // Depth 0 has a window depth only where it is not divided by.
+  EXPECT_FALSE(has(perspective, 0, 100));
+  EXPECT_TRUE(has(orthographic, 0, 100));
+}
+
+}  // namespace
+}  // namespace fathom
