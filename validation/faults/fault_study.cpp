@@ -16,12 +16,35 @@ using attribution::PixelClass;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+OtherMap exact_map_of(const attribution::Truth& truth) {
+  OtherMap map{.width = truth.camera.width, .height = truth.camera.height};
+  map.depths = truth.depths;
+  map.values = truth.depths;
+  return map;
+}
+
+double effect_between(const Attribution& found, const OtherMap& before_map,
+                      const OtherMap& after_map) {
+  std::vector<double> effects;
+  for (std::size_t i = 0; i < after_map.depths.size(); ++i) {
+    const double before = before_map.depths[i], after = after_map.depths[i];
+    if (before == after || (std::isinf(before) && std::isinf(after))) continue;
+    const double half_width = (double{found.greatest[i]} - found.least[i]) / 2;
+    const bool is_surface = before < infinity && std::abs(after) < infinity;
+    if (is_surface && !(half_width < infinity)) continue;  // nothing is allowed or forbidden here
+    effects.push_back(is_surface ? std::abs(after - before) / half_width : infinity);
+  }
+  if (effects.empty()) return 0;
+  const auto middle = effects.begin() + static_cast<std::ptrdiff_t>(effects.size() / 2);
+  std::nth_element(effects.begin(), middle, effects.end());
+  return *middle;
+}
+
 double effect_of_size(const Fault& fault, const FaultSubject& subject, double size) {
   if (!fault.drawn) return effect_of(subject, changed_map(fault, subject, size));
   // Beside the exact map, not the renderer's: its roundings are not the fault's.
-  FaultSubject exact = subject;
-  exact.map = exact_map_of(subject.scene);
-  return effect_of(exact, exact_map_of(fault.drawn(subject.scene, size)));
+  return effect_between(subject.found, exact_map_of(subject.truth),
+                        exact_map_of(fault.drawn(subject.scene, size)));
 }
 
 bool is_kind(const Fault& fault, const std::string& kind) {
@@ -37,11 +60,7 @@ bool names(const Fault& fault, const Finding& finding) {
 }  // namespace
 
 OtherMap exact_map_of(const ValidationScene& scene) {
-  const attribution::Truth truth = attribution::make_truth(scene.scene, scene.camera);
-  OtherMap map{.width = scene.camera.width, .height = scene.camera.height};
-  map.depths = truth.depths;
-  map.values = truth.depths;
-  return map;
+  return exact_map_of(attribution::make_truth(scene.scene, scene.camera));
 }
 
 OtherMap as_brought(const OtherMap& drawn) {
@@ -62,19 +81,7 @@ FaultSubject fault_subject(const ValidationScene& scene, const OtherMap& drawn,
 }
 
 double effect_of(const FaultSubject& subject, const OtherMap& map) {
-  std::vector<double> effects;
-  for (std::size_t i = 0; i < map.depths.size(); ++i) {
-    const double before = subject.map.depths[i], after = map.depths[i];
-    if (before == after || (std::isinf(before) && std::isinf(after))) continue;
-    const double half_width = (double{subject.found.greatest[i]} - subject.found.least[i]) / 2;
-    const bool is_surface = before < infinity && std::abs(after) < infinity;
-    if (is_surface && !(half_width < infinity)) continue;  // nothing is allowed or forbidden here
-    effects.push_back(is_surface ? std::abs(after - before) / half_width : infinity);
-  }
-  if (effects.empty()) return 0;
-  const auto middle = effects.begin() + static_cast<std::ptrdiff_t>(effects.size() / 2);
-  std::nth_element(effects.begin(), middle, effects.end());
-  return *middle;
+  return effect_between(subject.found, subject.map, map);
 }
 
 std::vector<double> sizes_of(const Fault& fault, const FaultSubject& subject) {

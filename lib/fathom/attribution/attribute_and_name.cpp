@@ -47,6 +47,7 @@ class Diagnosis {
   bool by_deviation();
   bool by_pixels();
 
+  [[nodiscard]] const std::vector<DepthRelation>& relations();
   void name(const Finding& finding, const std::vector<std::uint8_t>& explained);
   void name_bias();
   void name_what_is_within_bounds();
@@ -60,6 +61,7 @@ class Diagnosis {
   RendererModel model_;
   Attribution found_;     ///< as the model was given
   Attribution searched_;  ///< as it is known by now
+  std::optional<std::vector<DepthRelation>> relations_;
 };
 
 /// Unexplained pixels that are explained become a convention, and `finding` is its name.
@@ -74,7 +76,6 @@ void Diagnosis::name(const Finding& finding, const std::vector<std::uint8_t>& ex
 }
 
 void Diagnosis::name_bias() {
-  if (!found_.is_biased()) return;
   found_.findings.push_back(
       {"bias",
        fmt::format("window depths are biased by {:+.3g} steps of the storage on average",
@@ -175,10 +176,16 @@ bool Diagnosis::by_hypotheses() {
   return true;
 }
 
+/// Looked for when they are first asked for.
+const std::vector<DepthRelation>& Diagnosis::relations() {
+  if (!relations_) relations_ = depth_relations(truth_, other_);
+  return *relations_;
+}
+
 /// One that is gross has one constant at most: then no camera need be doubted.
 bool Diagnosis::by_relations(bool gross) {
   BestTrial best(truth_, unexplained());
-  for (const DepthRelation& relation : depth_relations(truth_, other_)) {
+  for (const DepthRelation& relation : relations()) {
     if (best.has_one()) break;
     if (gross && !(relation.is_gross && relation.parameters <= 1)) continue;
     Hypothesis h{relation.kind, relation.text, model_, read_by(relation, other_)};

@@ -90,7 +90,8 @@ class DepthDeviation {
 struct DeviationSet {
   /// As of a Finding.
   const char* kind;
-  /// What is off, for a sentence "… is off".
+  /// What is off, for a sentence "… is off"; nothing for a kind that has a sentence of its own: bias,
+  /// shift, decoding.
   const char* subject;
   std::span<const Parameter> parameters;
   /// focal_x and focal_y are one.

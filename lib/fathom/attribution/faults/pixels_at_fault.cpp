@@ -181,6 +181,8 @@ std::optional<PixelFinding> mixed(const Truth& truth, const OtherMap& other,
   constexpr double jump = 1.05, least_share = 0.05;
   std::uint64_t at_jumps = 0, between = 0;
   for (std::size_t i = 0; i < found.classes.size(); ++i) {
+    const Range range = range_around(truth, i);
+    if (!(range.greatest > jump * range.least)) continue;  // and no gap in it is greater
     const Range gap = gap_around(truth, i);
     if (!(gap.greatest > jump * gap.least)) continue;
     const double tenth = std::min(gap.greatest - gap.least, gap.least) / 10;
