@@ -9,9 +9,14 @@
 #include "apps/shell/about_option.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/stopwatch.h"
+#include "apps/validate/judge_brought.h"
+#include "apps/validate/other_scene.h"
 #include "apps/validate/scenes_to_draw.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/model/named_models.h"
+#include "fathom/numeric/errors.h"
+#include "validation/faults/fault_study.h"
 #include "validation/peers/drawing.h"
 
 namespace fathom::app {
@@ -33,6 +38,13 @@ std::vector<Peer> peers_of(const ValidateArguments& arguments) {
   if (arguments.variants.empty()) return peers;
   const std::vector<std::string> variants = parse_list(arguments.variants);
   return about_option("--variants", [&] { return validation::with_variants(peers, variants); });
+}
+
+/// With --model matching, those that a named model is of.
+std::vector<Peer> with_models(std::vector<Peer> peers) {
+  std::erase_if(peers, [](const Peer& peer) { return !validation::matching_model(peer); });
+  if (peers.empty()) throw UsageError("--model matching: none of the models is of these variants");
+  return peers;
 }
 
 /// Every scene drawn by every peer. Before any thread is started: see draw_in_child.
@@ -62,15 +74,32 @@ std::vector<ValidationCase> draw_all(const std::vector<SceneToMake>& scenes,
   return cases;
 }
 
-void judge_all(std::vector<ValidationCase>& cases, const std::vector<SceneToMake>& scenes) {
+/// As a map that someone brings.
+void judge_by_model(const std::string& model, ValidationCase& c) {
+  const Peer peer = validation::peer_named(validation::renderer_named(c.renderer), c.variant);
+  const std::string name = model == matching ? validation::matching_model(peer).value() : model;
+  c.variant += " as " + name;
+  c.other = validation::as_brought(c.other);
+  judge_brought(name, c);
+  name_other_scene(c);
+}
+
+/// By all that is known of how it was drawn, or by --model.
+void judge(const std::string& model, ValidationCase& c) {
+  if (!model.empty()) return judge_by_model(model, c);
+  c.attribution = attribution::attribute_and_name(*c.truth, c.other, c.model);
+}
+
+void judge_all(std::vector<ValidationCase>& cases, const std::vector<SceneToMake>& scenes,
+               const std::string& model) {
   for (const SceneToMake& scene : scenes) {
     const ValidationScene made = scene.make();
     const auto truth = std::make_shared<Truth>(attribution::make_truth(made.scene, made.camera));
     for (ValidationCase& c : cases) {
       if (c.scene != scene.name || !c.is_done()) continue;
       Stopwatch watch;
-      c.attribution = attribution::attribute_and_name(*truth, c.other, c.model);
       c.truth = truth;
+      judge(model, c);
       c.seconds = c.seconds.value_or(0) + watch.lap();
     }
   }
@@ -80,14 +109,19 @@ void judge_all(std::vector<ValidationCase>& cases, const std::vector<SceneToMake
 
 int validate_against(const ValidateArguments& arguments, const Console& console) {
   const std::vector<SceneToMake> scenes = scenes_of(arguments, console);
-  const std::vector<Peer> peers = peers_of(arguments);
+  std::vector<Peer> peers = peers_of(arguments);
+  if (arguments.model == matching) {
+    peers = with_models(std::move(peers));
+  } else if (!arguments.model.empty() && arguments.model != any_model) {
+    about_option("--model", [&] { return attribution::model_named(arguments.model); });
+  }
   ValidationReport report(arguments);
   std::vector<ValidationCase> cases;
   {
     Progress progress(console, "drawing");
     cases = draw_all(scenes, peers, arguments.time_limit(), progress.reporter());
   }
-  judge_all(cases, scenes);
+  judge_all(cases, scenes, arguments.model);
   return report.finish(cases);
 }
 

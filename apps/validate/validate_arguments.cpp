@@ -30,7 +30,11 @@ void ValidateArguments::add_to(Command& command) {
   command.option("--png-scale", "N", into(png_scale, parse_scale),
                  "Codes per unit of a map of integers that does not say it itself");
   command.option("--camera", "FILE", camera, "Camera file");
-  command.option("--model", "NAME", model, "What is assumed of the renderer; auto: what fits best");
+  command.option(
+      "--model", "NAME", model,
+      "What is assumed of the renderer; auto: what fits best. With --against, their maps are "
+      "judged as maps that someone brings, in binary32; matching: each by the model of "
+      "its variant");
   command.option(
       "--out", "DIR", out,
       "Folder for report.json and report.html; with --colour, colours.json and pictures");

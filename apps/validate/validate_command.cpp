@@ -30,6 +30,9 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
   if (arguments.faults && arguments.against.empty()) {
     throw UsageError("--faults goes with --against RENDERERS");
   }
+  if (arguments.faults && !arguments.model.empty()) {
+    throw UsageError("--faults has models of its own: --model goes without it");
+  }
   if (arguments.for_ctest && arguments.map.empty()) throw UsageError("--ctest goes with --map");
   if (!arguments.junit.empty() && arguments.map.empty() && arguments.against.empty()) {
     throw UsageError("--junit goes with --map and --against");
@@ -48,6 +51,7 @@ void add_validate(Command& program) {
       "  fathom validate --against vtk,opengl,embree,blender --out report\n"
       "  fathom validate --against opengl --scene sheets,room --variants unorm16,float32\n"
       "  fathom validate --against vtk spot.obj --camera camera.json\n"
+      "  fathom validate --against vtk,opengl,embree --model matching\n"
       "  fathom validate --map other.exr --camera camera.json --model gl-unorm24 spot.obj\n"
       "  fathom validate --against opengl --out new --junit new.xml --baseline old/report.json\n"
       "  fathom validate --faults --against vtk --scene spot --out faults\n"
@@ -55,7 +59,7 @@ void add_validate(Command& program) {
       "  fathom validate --render vtk spot.obj --camera camera.json -o vtk.exr\n"
       "\nScenes: " +
           fmt::format("{}", fmt::join(validation::scene_names(), ", ")) +
-          ".\nModels: " + attribution::model_names() + "; or auto" +
+          ".\nModels: " + attribution::model_names() + "; auto; with --against, matching" +
           ".\nExit status 1 where a pixel is unexplained or a fault was found; see "
           "docs/validation.md.");
   const auto arguments = std::make_shared<ValidateArguments>();

@@ -1,9 +1,12 @@
 #include "apps/validate/validate_faults.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "apps/shell/about_option.h"
@@ -45,19 +48,21 @@ struct Spoiled {
 
 Spoiled spoiled(validation::Renderer renderer) {
   using validation::Renderer;
-  const auto made = [&](const char* variant, const char* model) {
-    return Spoiled{validation::peer_named(renderer, variant), attribution::model_named(model)};
+  const auto made = [&](const char* variant) {
+    Peer peer = validation::peer_named(renderer, variant);
+    const std::string model = validation::matching_model(peer).value();
+    return Spoiled{std::move(peer), attribution::model_named(model)};
   };
   switch (renderer) {
     case Renderer::vtk:
     case Renderer::opengl:
-      return made("unorm24", "gl-unorm24");
+      return made("unorm24");
     case Renderer::embree:
-      return made("robust", "float32-ray");
+      return made("robust");
     case Renderer::blender:
       break;
   }
-  return made("cycles", "cycles");
+  return made("cycles");
 }
 
 /// A map that a fault spoiled, drawn or yet to be made of the right one.

@@ -11,15 +11,12 @@
 #include <vector>
 
 #include "apps/options/map_argument.h"
-#include "apps/shell/about_option.h"
 #include "apps/shell/stopwatch.h"
+#include "apps/validate/judge_brought.h"
 #include "apps/validate/other_scene.h"
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_report.h"
-#include "fathom/attribution/attribute_and_name.h"
-#include "fathom/attribution/background.h"
 #include "fathom/attribution/model/named_models.h"
-#include "fathom/attribution/model_choice.h"
 #include "fathom/attribution/other_size.h"
 #include "fathom/numeric/errors.h"
 
@@ -27,19 +24,8 @@ namespace fathom::app {
 namespace {
 
 using attribution::OtherMap;
-using attribution::RendererModel;
 using attribution::Truth;
 using validation::ValidationCase;
-
-/// The value of --model that asks for the one that fits best.
-constexpr const char* any_model = "auto";
-
-void require_clip_planes(const RendererModel& model, const Camera& camera) {
-  if (attribution::has_clip_planes_for(model, camera)) return;
-  throw UsageError("--model " + model.name +
-                   ": the camera file has no near and far, between which its depths are stored; "
-                   "expected those of the renderer in it, as \"near\": 0.1, \"far\": 100");
-}
 
 /// The map of --map. Where it does not say what is needed to read it, the message does.
 OtherMap read_other_map(const ValidateArguments& arguments) {
@@ -75,23 +61,6 @@ void require_known_triangles(const ValidateArguments& arguments, const OtherMap&
   }
 }
 
-/// Sets what is found by the model of --model, or by the one that fits best.
-void judge(const ValidateArguments& arguments, ValidationCase& made) {
-  made.other = attribution::known_background(*made.truth, made.other).map;
-  if (arguments.model != any_model) {
-    made.attribution = attribution::attribute_and_name(*made.truth, made.other, made.model);
-    return;
-  }
-  attribution::ModelChoice choice = attribution::chosen_model(*made.truth, made.other);
-  made.model = std::move(choice.chosen.model);
-  made.attribution = std::move(choice.chosen.attribution);
-  made.attribution.notes.push_back(
-      {.kind = "model",
-       .text = "taken for " + made.model.name + ", the model that fits best",
-       .pixels = made.attribution.classes.size(),
-       .evidence = std::move(choice.evidence)});
-}
-
 /// A map of another size is judged as what explains it best, if that explains half of it.
 void judge_other_size(const ValidateArguments& arguments, const Camera& camera, const Scene& scene,
                       ValidationCase& made) {
@@ -107,7 +76,7 @@ void judge_other_size(const ValidateArguments& arguments, const Camera& camera, 
     ValidationCase next = made;
     next.truth = std::make_shared<Truth>(attribution::make_truth(scene, sized.camera));
     next.other = sized.map;
-    judge(arguments, next);
+    judge_brought(arguments.model, next);
     attribution::Finding finding = sized.finding;
     finding.pixels = next.attribution.classes.size();
     next.attribution.findings.insert(next.attribution.findings.begin(), std::move(finding));
@@ -122,10 +91,8 @@ void judge_other_size(const ValidateArguments& arguments, const Camera& camera, 
 ValidationCase judge_map(const ValidateArguments& arguments, const Console& console) {
   ValidationCase made{.renderer = "map", .variant = arguments.model, .version = arguments.map};
   const Camera camera = read_camera(arguments.camera);
-  if (arguments.model != any_model) {
-    made.model = about_option("--model", [&] { return attribution::model_named(arguments.model); });
-    require_clip_planes(made.model, camera);
-  }
+  // What is wrong with it is said before the files are read.
+  if (arguments.model != any_model) made.model = model_for(arguments.model, camera);
   made.other = read_other_map(arguments);
   const Scene scene = read_files(arguments.scenes, arguments.limits, console);
   made.scene = std::filesystem::path(arguments.scenes.front()).stem();
@@ -134,7 +101,7 @@ ValidationCase judge_map(const ValidateArguments& arguments, const Console& cons
     judge_other_size(arguments, camera, scene, made);
   } else {
     made.truth = std::make_shared<Truth>(attribution::make_truth(scene, camera));
-    judge(arguments, made);
+    judge_brought(arguments.model, made);
   }
   name_other_scene(made);
   return made;

@@ -60,7 +60,40 @@ std::string variant_names(Renderer renderer) {
   return "cycles";
 }
 
+using ModelName = std::optional<std::string>;
+
+ModelName matching_model_of(Storage storage, bool reversed) {
+  if (!reversed) return "gl-" + std::string(name_of(storage));
+  if (storage == Storage::float32) return "gl-float32-reversed";
+  return std::nullopt;
+}
+
+ModelName matching_model_of(const VtkVariant& variant) {
+  using Encoding = VtkVariant::Encoding;
+  const bool reversed = variant.encoding == Encoding::reversed;
+  if (!variant.attachment || variant.samples > 0) return std::nullopt;
+  if (!reversed && variant.encoding != Encoding::interpolated) return std::nullopt;
+  return matching_model_of(*variant.attachment, reversed);
+}
+
+ModelName matching_model_of(const OpenGlVariant& variant) {
+  if (variant.samples > 1 || variant.offset_units > 0) return std::nullopt;
+  return matching_model_of(variant.storage, variant.reversed);
+}
+
+ModelName matching_model_of(const EmbreeVariant& /*variant*/) {
+  return "float32-ray";
+}
+
+ModelName matching_model_of(const BlenderVariant& /*variant*/) {
+  return "cycles";
+}
+
 }  // namespace
+
+std::optional<std::string> matching_model(const Peer& peer) {
+  return std::visit([](const auto& variant) { return matching_model_of(variant); }, peer);
+}
 
 std::string name_of(Renderer renderer) {
   constexpr const char* names[] = {"vtk", "opengl", "embree", "blender"};

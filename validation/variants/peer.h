@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,6 +40,9 @@ Renderer renderer_named(std::string_view name);
 Renderer renderer_of(const Peer& peer);
 /// The variant alone: "float32 reversed", "robust", "cycles".
 std::string variant_name(const Peer& peer);
+
+/// The named model (attribution/model/named_models.h) that fits what it draws, where there is one.
+std::optional<std::string> matching_model(const Peer& peer);
 
 /// Fails    UsageError where `variant` is not one of the renderer's, saying which there are.
 Peer peer_named(Renderer renderer, std::string_view variant);
