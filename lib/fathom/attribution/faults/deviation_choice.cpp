@@ -15,14 +15,16 @@ constexpr double roundings = 0.01;
 /// named, the others are alternatives.
 constexpr double indistinguishable = 1.05;
 /// What the cost has to fall to for anything to be named, and how many standard deviations each
-/// parameter has to be off by. That it then explains the pixels that were unexplained is for others
-/// to see.
-constexpr double evidence = 0.99, least_deviations = 6;
+/// parameter has to be off by: of those that the residuals show, and of all. That it then explains
+/// the pixels that were unexplained is for others to see.
+constexpr double evidence = 0.99, least_shown = 6, least_deviations = 3;
 
 bool is_significant(const FittedDeviation& fit) {
   return fit.cost <= evidence * fit.cost_before &&
          std::all_of(fit.set->parameters.begin(), fit.set->parameters.end(), [&](Parameter p) {
-           return std::abs(of(fit.deviation, p)) >= least_deviations * of(fit.standard, p);
+           const double off = std::abs(of(fit.deviation, p));
+           return off >= least_shown * of(fit.shown, p) &&
+                  off >= least_deviations * of(fit.standard, p);
          });
 }
 

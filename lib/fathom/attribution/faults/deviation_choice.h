@@ -12,6 +12,8 @@ namespace fathom::attribution {
 struct FittedDeviation {
   const DeviationSet* set = nullptr;
   Deviation deviation = Deviation::Zero(), standard = Deviation::Zero();
+  /// Of the standard deviations, what the residuals show.
+  Deviation shown = Deviation::Zero();
   /// Residuals::cost() without and with it.
   double cost_before = 0, cost = 0;
   /// Kinds of other sets of the same size that explain the differences as well.

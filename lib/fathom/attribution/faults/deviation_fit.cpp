@@ -1,14 +1,14 @@
 #include "fathom/attribution/faults/deviation_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 #include <vector>
 
 #include "fathom/attribution/faults/deviation_choice.h"
+#include "fathom/attribution/faults/normal_equations.h"
 #include "fathom/attribution/faults/residuals.h"
+#include "fathom/attribution/faults/standard_deviations.h"
 #include "fathom/numeric/errors.h"
 
 // How to read this file: fitted_deviation() at the end. All sets are compared by one linear step,
@@ -25,11 +25,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_rounds = 8;
 /// Sets of one size that are fitted.
 constexpr std::size_t most_of_a_size = 4;
+
 /// Weights that fall with what a residual exceeds the typical ones by.
 /// Source   [GM85].
 VectorXd weights_of(const VectorXd& r) {
-  const double scale = 3 * Residuals{.r = r, .slopes = {}, .triangles = {}}.median() +
-                       std::numeric_limits<double>::min();
+  const double scale =
+      3 * Residuals{.r = r, .slopes = {}, .triangles = {}, .corner_parts = {}}.median() +
+      std::numeric_limits<double>::min();
   return (1 + (r.array() / scale).square()).square().inverse();
 }
 
@@ -56,53 +58,6 @@ Deviation as_deviation(const VectorXd& values, const DeviationSet& set) {
     d[static_cast<int>(p)] = is_same ? values[0] : values[k++];
   }
   return d;
-}
-
-/// The weighted normal equations of columns that are scaled to length 1.
-struct Normal {
-  VectorXd scale;
-  Eigen::LLT<MatrixXd> products;
-  VectorXd right;
-  bool is_regular = false;
-
-  [[nodiscard]] VectorXd solution() const { return products.solve(right).cwiseProduct(scale); }
-};
-
-Normal normal_of(const MatrixXd& columns, const VectorXd& r, const VectorXd& weights) {
-  Normal n;
-  const MatrixXd weighted = weights.asDiagonal() * columns;
-  MatrixXd products = columns.transpose() * weighted;
-  n.scale = products.diagonal().cwiseSqrt().cwiseInverse();
-  if (!n.scale.allFinite()) return n;
-  products = n.scale.asDiagonal() * products * n.scale.asDiagonal();
-  n.products.compute(products);
-  n.right = n.scale.cwiseProduct(weighted.transpose() * r);
-  n.is_regular = n.products.info() == Eigen::Success && n.products.rcond() > 1e-11;
-  return n;
-}
-
-/// Standard deviations: residuals of all triangles that share a corner count as one, since they
-/// share its roundings. A triangle then counts with each of its corners, which is to the safe side.
-VectorXd standard_deviations(const Truth& truth, const Residuals& residuals,
-                             const MatrixXd& columns) {
-  const VectorXd weights = weights_of(residuals.r);
-  const Normal normal = normal_of(columns, residuals.r, weights);
-  if (!normal.is_regular) return VectorXd::Constant(columns.cols(), infinity);
-  std::unordered_map<std::uint32_t, VectorXd> sums;
-  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
-    const VectorXd score = weights[i] * residuals.r[i] * columns.row(i).transpose();
-    const std::uint32_t triangle = residuals.triangles[static_cast<std::size_t>(i)];
-    for (const std::uint32_t point : truth.mesh.triangles[triangle]) {
-      const auto [sum, is_new] =
-          sums.try_emplace(truth.corner_numbers[point], VectorXd::Zero(columns.cols()));
-      sum->second += score;
-    }
-  }
-  MatrixXd squares = MatrixXd::Zero(columns.cols(), columns.cols());
-  for (const auto& [corner, sum] : sums) squares += sum * sum.transpose();
-  const MatrixXd inverse =
-      normal.scale.asDiagonal() * normal.products.solve(MatrixXd(normal.scale.asDiagonal()));
-  return (inverse * squares * inverse).diagonal().cwiseMax(0).cwiseSqrt();
 }
 
 /// A set, how much one linear step leaves, and the fit itself.
@@ -202,7 +157,10 @@ FittedDeviation Fitting::fitted(const DeviationSet& set) const {
     now = std::move(*residuals);
     if (stands) break;
   }
-  best.standard = as_deviation(standard_deviations(truth_, now, columns_of(now, set)), set);
+  const StandardDeviations deviations =
+      standard_deviations(truth_, now, columns_of(now, set), weights_of(now.r));
+  best.standard = as_deviation(deviations.all, set);
+  best.shown = as_deviation(deviations.shown, set);
   return best;
 }
 

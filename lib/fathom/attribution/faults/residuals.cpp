@@ -33,7 +33,14 @@ int index_of(P p) {
 struct Plane {
   Vector3d n;
   double c = 0;
+  Vector3d first, to_second, to_third;  ///< the first corner, and the ways to the others
 };
+
+Vector3d corner_parts(const Plane& plane, const Vector3d& point) {
+  const Vector3d p = point - plane.first, n = plane.n / plane.n.squaredNorm();
+  const double second = p.cross(plane.to_third).dot(n), third = plane.to_second.cross(p).dot(n);
+  return {1 - second - third, second, third};
+}
 
 Plane plane_of(const WorldMesh& mesh, std::uint32_t triangle, const Camera& camera) {
   const auto view = geometry::as_matrix(camera.world_to_camera);
@@ -43,7 +50,7 @@ Plane plane_of(const WorldMesh& mesh, std::uint32_t triangle, const Camera& came
   };
   const Vector3d a = corner(0), b = corner(1), d = corner(2);
   const Vector3d n = (b - a).cross(d - a);
-  return {n, n.dot(a)};
+  return {n, n.dot(a), a, b - a, d - a};
 }
 
 /// The affine value over a triangle, its derivatives by x and y, by turn and by move.
@@ -211,6 +218,7 @@ Residuals ResidualSource::of(const Truth& seen, const Deviation& deviation) cons
   Residuals result;
   std::vector<double> r;
   std::vector<Eigen::Matrix<double, 1, parameter_count>> slopes;
+  std::vector<Vector3d> parts;
   std::size_t count = 0;
   for (std::size_t i = 0; i < seen.depths.size(); ++i) {
     std::size_t shown = i;  // the pixel whose triangle the lens shows here
@@ -244,11 +252,15 @@ Residuals ResidualSource::of(const Truth& seen, const Deviation& deviation) cons
     r.push_back(residual);
     slopes.push_back(row);
     result.triangles.push_back(triangle);
+    const Vector3d hit = perspective ? Vector3d(ray / v.a) : Vector3d(s.x, s.y, v.a);
+    parts.push_back(corner_parts(plane->second, hit));
   }
   result.r = Eigen::Map<Eigen::VectorXd>(r.data(), static_cast<Eigen::Index>(r.size()));
   result.slopes.resize(result.r.size(), parameter_count);
+  result.corner_parts.resize(result.r.size(), 3);
   for (Eigen::Index k = 0; k < result.r.size(); ++k) {
     result.slopes.row(k) = slopes[static_cast<std::size_t>(k)];
+    result.corner_parts.row(k) = parts[static_cast<std::size_t>(k)].transpose();
   }
   return result;
 }

@@ -18,6 +18,8 @@ struct Residuals {
   /// Derivatives of what is expected by each parameter, in the same unit.
   Eigen::Matrix<double, Eigen::Dynamic, parameter_count> slopes;
   std::vector<std::uint32_t> triangles;
+  /// Barycentric coordinates of what each pixel shows of its triangle.
+  Eigen::Matrix<double, Eigen::Dynamic, 3> corner_parts;
 
   /// Median of |r|.
   [[nodiscard]] double median() const;
