@@ -143,7 +143,7 @@ TEST_P(Bias, OfOneCode) {
         truth, draw_in_binary32(truth.mesh, truth.camera, model, {.bias_codes = codes}), model);
     ASSERT_EQ(found.findings.size(), 1U)
         << found.bias_steps << " ± " << found.bias_deviation << " in " << found.bias_triangles;
-    EXPECT_EQ(found.findings[0].kind, "bias");
+    EXPECT_EQ(found.findings[0].kind, "bias") << found.findings[0].text;
     EXPECT_EQ(std::signbit(found.bias_steps), codes < 0);
     // Roundings that do not cancel are worth a fifth of a code here; three quarters are named.
     if (GetParam().codes == 1) {

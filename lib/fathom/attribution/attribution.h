@@ -36,9 +36,10 @@ struct Attribution {
   double median_relative_width = 0, median_steps_width = 0, may_share = 0;
   DepthErrors errors;
   /// Mean over triangles of stored minus expected, in steps of the storage, weighted by the inverse
-  /// squares of the widths of their intervals, and the standard deviation of that mean; of pixels
-  /// where nothing else is near. Raster models only.
-  double bias_steps = 0, bias_deviation = 0;
+  /// squares of the widths of their intervals, the standard deviation of that mean, and how much of
+  /// it roundings of a matrix that is not known may be, which all triangles share; of pixels where
+  /// nothing else is near. Raster models only.
+  double bias_steps = 0, bias_deviation = 0, bias_shared = 0;
   std::uint64_t bias_pixels = 0, bias_triangles = 0;
 
   /// 1 where the visible triangle is certain to be drawn and no other is near it in depth.
@@ -59,10 +60,10 @@ struct Attribution {
     return counts[static_cast<std::size_t>(c)];
   }
   /// A constant seems to be added to all window depths: the mean is three quarters of a step or
-  /// more, and four times its deviation.
+  /// more, and what of it the matrix cannot be is four times its deviation.
   [[nodiscard]] bool is_biased() const {
     const double mean = bias_steps < 0 ? -bias_steps : bias_steps;
-    return bias_triangles >= 64 && mean >= 0.75 && mean >= 4 * bias_deviation;
+    return bias_triangles >= 64 && mean >= 0.75 && mean - bias_shared >= 4 * bias_deviation;
   }
 };
 

@@ -37,8 +37,8 @@ struct PixelResult {
     double absolute = 0, relative = 0;
   };
   std::optional<Error> error;
-  /// Stored minus expected, in steps of the storage, where nothing else is near.
-  std::optional<double> bias;
+  /// Stored minus expected, where nothing else is near.
+  std::optional<BiasSteps> bias;
 };
 
 /// Says what may be stored at a pixel, and why what is stored is. Calls may come from several

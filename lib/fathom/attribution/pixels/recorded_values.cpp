@@ -41,8 +41,8 @@ class RecordedValues final : public StoredValues {
     const double width = recorded_.exact(depths.upper) - recorded_.exact(depths.lower);
     return std::abs(width) / recorded_.step_at(recorded_.exact(depth));
   }
-  [[nodiscard]] std::optional<double> bias_steps(std::size_t /*pixel*/,
-                                                 const Fragment& /*f*/) const override {
+  [[nodiscard]] std::optional<BiasSteps> bias_steps(std::size_t /*pixel*/,
+                                                    const Fragment& /*f*/) const override {
     return std::nullopt;
   }
 

@@ -72,9 +72,10 @@ DepthErrors errors_of(const std::vector<PixelResult>& pixels) {
   return errors;
 }
 
-/// Of the pixels of a triangle: stored minus expected and the widths of the intervals, in steps.
+/// Of the pixels of a triangle: stored minus expected, how much of that roundings may be that all
+/// triangles share, and the widths of the intervals, in steps.
 struct TriangleBias {
-  double sum = 0, widths = 0;
+  double sum = 0, shared = 0, widths = 0;
   std::uint32_t pixels = 0;
 };
 
@@ -82,17 +83,19 @@ struct TriangleBias {
 /// what is averaged, each with the inverse square of how uncertain its depth is.
 void set_mean_bias(const std::vector<TriangleBias>& triangles, Attribution& result) {
   std::vector<std::pair<double, double>> means;  // and weights
-  double weights = 0, sum = 0;
+  double weights = 0, sum = 0, shared = 0;
   for (const TriangleBias& t : triangles) {
     if (t.pixels == 0 || !(t.widths > 0) || std::isinf(t.widths)) continue;
     const double weight = std::pow(t.pixels / t.widths, 2);
     means.emplace_back(t.sum / t.pixels, weight);
     weights += weight;
     sum += weight * means.back().first;
+    shared += weight * t.shared / t.pixels;
   }
   result.bias_triangles = means.size();
   if (means.size() < 2) return;
   result.bias_steps = sum / weights;
+  result.bias_shared = shared / weights;
   double squares = 0;
   for (const auto& [mean, weight] : means) {
     squares += std::pow(weight * (mean - result.bias_steps), 2);
@@ -107,7 +110,8 @@ void set_bias(const std::vector<PixelResult>& pixels, const Truth& truth, Attrib
     if (!p.bias) continue;
     ++result.bias_pixels;
     TriangleBias& bias = triangles[truth.triangles[i]];
-    bias.sum += *p.bias;
+    bias.sum += p.bias->off;
+    bias.shared += p.bias->shared;
     bias.widths += p.visible->steps_width;
     ++bias.pixels;
   }

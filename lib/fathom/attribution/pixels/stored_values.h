@@ -12,6 +12,12 @@
 
 namespace fathom::attribution {
 
+/// A window depth less what is expected without any rounding, in steps of the storage, and how much
+/// of that roundings may be that all triangles share.
+struct BiasSteps {
+  double off = 0, shared = 0;
+};
+
 /// What fragments and the other map are compared by: window depths where the other's are known (the
 /// nearer the less), else depths in scene units. Pixels are numbered row by row from the top left.
 class StoredValues {
@@ -41,10 +47,9 @@ class StoredValues {
   [[nodiscard]] virtual bool is_neighbour(std::size_t pixel, double depth) const = 0;
   /// Width of a fragment's interval in steps of the storage about `depth`.
   [[nodiscard]] virtual double steps(const Fragment& f, double depth) const = 0;
-  /// The other's distance from what the model expects without any rounding of its own, in steps of
-  /// the storage; nothing for a model without window depths.
-  [[nodiscard]] virtual std::optional<double> bias_steps(std::size_t pixel,
-                                                         const Fragment& f) const = 0;
+  /// Of the other's value; nothing for a model without window depths.
+  [[nodiscard]] virtual std::optional<BiasSteps> bias_steps(std::size_t pixel,
+                                                            const Fragment& f) const = 0;
 };
 
 /// The map outlives what is returned.

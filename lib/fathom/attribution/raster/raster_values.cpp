@@ -5,6 +5,7 @@
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/pixels/storage_step.h"
 #include "fathom/attribution/pixels/stored_values.h"
+#include "fathom/attribution/raster/matrix_roundings.h"
 #include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {
@@ -19,7 +20,8 @@ class RasterValues final : public StoredValues {
       : other_(other),
         model_(model),
         window_(window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far)),
-        sign_(window_.reversed() ? -1 : 1) {}
+        sign_(window_.reversed() ? -1 : 1),
+        roundings_(camera, model) {}
 
   [[nodiscard]] Interval interval(const Fragment& f) const override {
     return has_windows() ? f.value : as_depths(f);
@@ -44,8 +46,8 @@ class RasterValues final : public StoredValues {
   [[nodiscard]] bool is_nearest(std::size_t pixel, double depth) const override;
   [[nodiscard]] bool is_neighbour(std::size_t pixel, double depth) const override;
   [[nodiscard]] double steps(const Fragment& f, double depth) const override;
-  [[nodiscard]] std::optional<double> bias_steps(std::size_t pixel,
-                                                 const Fragment& f) const override;
+  [[nodiscard]] std::optional<BiasSteps> bias_steps(std::size_t pixel,
+                                                    const Fragment& f) const override;
 
  private:
   [[nodiscard]] bool has_windows() const { return !other_.windows.empty(); }
@@ -58,6 +60,7 @@ class RasterValues final : public StoredValues {
   RasterModel model_;
   WindowDepth window_;  ///< of what is stored
   double sign_;         ///< of a window depth in a fragment's value
+  MatrixRoundings roundings_;
 };
 
 /// Of a fragment's value. Window depths beyond the far plane's infinity are infinitely far.
@@ -91,15 +94,15 @@ double RasterValues::steps(const Fragment& f, double depth) const {
 }
 
 /// Depths that were decoded are as coarse as binary32 is, where that is coarser than the storage.
-std::optional<double> RasterValues::bias_steps(std::size_t pixel, const Fragment& f) const {
+std::optional<BiasSteps> RasterValues::bias_steps(std::size_t pixel, const Fragment& f) const {
   const double expected = sign_ * f.exact;
+  const double depth = window_.to_depth(expected);
   double step = storage_step(model_, expected);
   if (!has_windows()) {
-    const double depth = window_.to_depth(expected);
     const double next = depth + binary32_spacing(depth);
     step = std::max(step, std::abs(window_.of_depth(next) - expected));
   }
-  return (window_of(pixel) - expected) / step;
+  return BiasSteps{(window_of(pixel) - expected) / step, roundings_.of_window(pixel, depth) / step};
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ class RayValues final : public StoredValues {
   [[nodiscard]] double steps(const Fragment& f, double depth) const override {
     return (f.value.upper - f.value.lower) / binary32_spacing(depth);
   }
-  [[nodiscard]] std::optional<double> bias_steps(std::size_t /*pixel*/,
-                                                 const Fragment& /*f*/) const override {
+  [[nodiscard]] std::optional<BiasSteps> bias_steps(std::size_t /*pixel*/,
+                                                    const Fragment& /*f*/) const override {
     return std::nullopt;
   }
 
