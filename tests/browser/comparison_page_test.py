@@ -111,6 +111,10 @@ class ComparisonPage(PageCase):
         equal = self.now["sphere", "robust"]["equal"]
         self.assertEqual(worse[head.index("equal")], f"{equal + 1} → {equal}")
         self.assertEqual(better[head.index("unexplained")], "5 → 0")
+        coloured = [[(c.text, c.get_attribute("class")) for c in r.find_elements("css selector", "td.good, td.fault")]
+                    for r in self.all("#changed tbody tr")[:2]]
+        self.assertEqual(coloured, [[(f"{equal + 1} → {equal}", "fault")],
+                                    [(better[head.index("equal")], "good"), ("5 → 0", "good")]])
         self.assertIn("gone: the image is shifted", better[-1])
         self.assertIn("128x48 pixels in the baseline, 64x48 now", rows[3][-1])
         self.assertEqual(self.texts("#findings div"), ["Gone – sphere, embree default: the image is shifted (1 pixel)"])
