@@ -69,8 +69,8 @@ struct Fields<attribution::RasterModel> {
   static void each(Visit&& visit, S& s) {
     // A mesh drawn in a process of its own is one part.
     [[maybe_unused]] auto& [shift, scale, matrix, parts, premultiplied, subpixel_bits, border,
-                            mapping, storage, written, depth_before_snap, decoded_in_binary32, bias,
-                            bias_error, affine] = s;
+                            mapping, storage, written, depth_before_snap, nearest_codes,
+                            decoded_in_binary32, bias, bias_error, affine] = s;
     visit("shift", shift);
     visit("scale", scale);
     visit("matrix", matrix);
@@ -81,6 +81,7 @@ struct Fields<attribution::RasterModel> {
     visit("storage", storage);
     visit("written", written);
     visit("depth_before_snap", depth_before_snap);
+    visit("nearest_codes", nearest_codes);
     visit("decoded_in_binary32", decoded_in_binary32);
     visit("bias", bias);
     visit("bias_error", bias_error);

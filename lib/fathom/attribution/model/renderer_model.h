@@ -52,6 +52,8 @@ struct RasterModel {
   std::optional<WrittenDepth> written;
   /// Whether depth is interpolated between corners as they were before they were snapped.
   bool depth_before_snap = false;
+  /// Whether a window depth is rounded to the nearest code, or to either of the two about it.
+  bool nearest_codes = true;
   /// Depths were decoded from window depths in binary32 before they reached us.
   bool decoded_in_binary32 = false;
   /// Added to every window depth (polygon offset), and how uncertain that is.

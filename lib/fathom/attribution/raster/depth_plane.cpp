@@ -64,13 +64,13 @@ double plane_error(const DepthPlane& plane, const Part& part, const Named& named
     displaced = std::max(displaced, v->*named.error + g_x * dx + g_y * dy);
     values = std::max(values, std::abs(v->*named.value));
     offset_x = std::max(offset_x, std::abs(v->x));
-    offset_y = std::max(offset_y, std::abs(v->y));
+    offset_y = std::max(offset_y, v->from_border);
   }
   const double outside = 2 * uncertain / (area - uncertain);  // how far λ' may be negative, in all
   const double spread = 1 + 2 * outside;
 
   // The plane evaluated in binary32: a gradient, quotients of products over an area; the value at
-  // the image's corner; the value at the sample.
+  // the image's corner, from which rows run up or down; the value at the sample.
   const double at_a = a->*named.value;
   const double range =
       std::abs(b->*named.value - at_a) + std::abs(c->*named.value - at_a) + 4 * displaced;

@@ -18,7 +18,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 double RasterDepth::storage_error(double z) const {
   double error = model_.decoded_in_binary32 ? 4 * u : 0;
   if (is_unorm(model_.storage)) {
-    return error + 0.5 / greatest_code(model_.storage) + u * std::abs(z);
+    const double codes = model_.nearest_codes ? 0.5 : 1;
+    return error + codes / greatest_code(model_.storage) + u * std::abs(z);
   }
   if (model_.storage == Storage::float16) return error + 0x1p-11 * std::abs(z) + 0x1p-25;
   return error;  // what is interpolated is binary32 already

@@ -24,6 +24,8 @@ WindowVertex to_window(const ClipVertex& v, const Camera& camera, const RasterMo
   window.error_y = own_roundings * (half_height * divided_error(v.value[1] / w, v.error[1]) +
                                     2 * u * (std::abs(window.y) + half_height));
 
+  window.from_border = std::max(std::abs(window.y), std::abs(camera.height - window.y));
+
   const double z = v.value[2] / w;
   // Of z_ndc/2 where there is one: z is that and a half.
   const double divided = model.mapping == Mapping::opengl ? z - 0.5 : z;

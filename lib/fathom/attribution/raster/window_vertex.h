@@ -14,6 +14,8 @@ struct WindowVertex {
   double x = 0, y = 0, z = 0, q = 0, depth = 0;
   /// Errors in either direction; those of x and y before the corner is snapped and after.
   double error_x = 0, error_y = 0, error_z = 0, error_q = 0, snapped_x = 0, snapped_y = 0;
+  /// How far the image's upper or lower border is from the corner, whichever is farther.
+  double from_border = 0;
   /// As of the ClipVertex.
   unsigned borders = 0;
 };
