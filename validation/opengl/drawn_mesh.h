@@ -22,7 +22,7 @@ class DrawnMesh {
 
  private:
   const GlFunctions& gl_;
-  GLsizei index_count_ = 0;
+  GLsizei vertex_count_ = 0;
 };
 
 }  // namespace fathom::validation

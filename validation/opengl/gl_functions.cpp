@@ -13,7 +13,8 @@ template <class Function>
 void find(Function& function, const char* name) {
   function = reinterpret_cast<Function>(eglGetProcAddress(name));
   if (function == nullptr) {
-    throw InputError(std::string("OpenGL: the driver has no ") + name + ": OpenGL 4.5 is needed");
+    throw InputError(std::string("OpenGL: the driver has no ") + name +
+                     ": OpenGL 3.3 with glClipControl is needed");
   }
 }
 
@@ -28,7 +29,7 @@ GlFunctions::GlFunctions() {
   find(Disable, "glDisable");
   find(DepthFunc, "glDepthFunc");
   find(PolygonOffset, "glPolygonOffset");
-  find(DrawElements, "glDrawElements");
+  find(DrawArrays, "glDrawArrays");
   find(ReadBuffer, "glReadBuffer");
   find(ReadPixels, "glReadPixels");
   find(PixelStorei, "glPixelStorei");
@@ -38,6 +39,8 @@ GlFunctions::GlFunctions() {
   find(ClipControl, "glClipControl");
   find(GenFramebuffers, "glGenFramebuffers");
   find(BindFramebuffer, "glBindFramebuffer");
+  find(DeleteFramebuffers, "glDeleteFramebuffers");
+  find(FramebufferTexture2D, "glFramebufferTexture2D");
   find(GenRenderbuffers, "glGenRenderbuffers");
   find(BindRenderbuffer, "glBindRenderbuffer");
   find(RenderbufferStorageMultisample, "glRenderbufferStorageMultisample");
@@ -54,6 +57,7 @@ GlFunctions::GlFunctions() {
   find(GenVertexArrays, "glGenVertexArrays");
   find(BindVertexArray, "glBindVertexArray");
   find(VertexAttribPointer, "glVertexAttribPointer");
+  find(VertexAttribIPointer, "glVertexAttribIPointer");
   find(EnableVertexAttribArray, "glEnableVertexAttribArray");
   find(CreateShader, "glCreateShader");
   find(ShaderSource, "glShaderSource");

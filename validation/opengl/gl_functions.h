@@ -20,7 +20,7 @@ struct GlFunctions {
   decltype(&::glDisable) Disable;
   decltype(&::glDepthFunc) DepthFunc;
   decltype(&::glPolygonOffset) PolygonOffset;
-  decltype(&::glDrawElements) DrawElements;
+  decltype(&::glDrawArrays) DrawArrays;
   decltype(&::glReadBuffer) ReadBuffer;
   decltype(&::glReadPixels) ReadPixels;
   decltype(&::glPixelStorei) PixelStorei;
@@ -30,6 +30,8 @@ struct GlFunctions {
   PFNGLCLIPCONTROLPROC ClipControl;
   PFNGLGENFRAMEBUFFERSPROC GenFramebuffers;
   PFNGLBINDFRAMEBUFFERPROC BindFramebuffer;
+  PFNGLDELETEFRAMEBUFFERSPROC DeleteFramebuffers;
+  PFNGLFRAMEBUFFERTEXTURE2DPROC FramebufferTexture2D;
   PFNGLGENRENDERBUFFERSPROC GenRenderbuffers;
   PFNGLBINDRENDERBUFFERPROC BindRenderbuffer;
   PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC RenderbufferStorageMultisample;
@@ -46,6 +48,7 @@ struct GlFunctions {
   PFNGLGENVERTEXARRAYSPROC GenVertexArrays;
   PFNGLBINDVERTEXARRAYPROC BindVertexArray;
   PFNGLVERTEXATTRIBPOINTERPROC VertexAttribPointer;
+  PFNGLVERTEXATTRIBIPOINTERPROC VertexAttribIPointer;
   PFNGLENABLEVERTEXATTRIBARRAYPROC EnableVertexAttribArray;
   PFNGLCREATESHADERPROC CreateShader;
   PFNGLSHADERSOURCEPROC ShaderSource;
