@@ -6,8 +6,10 @@ namespace fathom::app {
 
 void ValidateArguments::add_to(Command& command) {
   command.arguments("SCENE", scenes, "Meshes and scene files");
-  command.option("--against", "NAME", against,
-                 "Renderers that draw the scenes: vtk, opengl, embree, blender");
+  command.option(
+      "--against", "NAME", against,
+      "Renderers that draw the scenes: vtk, opengl, embree, blender; vtk and opengl also "
+      "with a driver: opengl@softpipe, vtk@llvmpipe");
   command.flag("--colour", colour,
                "Compare the pipeline's flat, Gouraud and Phong pictures with VTK's");
   command.flag(

@@ -46,14 +46,14 @@ struct Spoiled {
   }
 };
 
-Spoiled spoiled(validation::Renderer renderer) {
+Spoiled spoiled(const validation::DrivenRenderer& renderer) {
   using validation::Renderer;
   const auto made = [&](const char* variant) {
     Peer peer = validation::peer_named(renderer, variant);
     const std::string model = validation::matching_model(peer).value();
     return Spoiled{std::move(peer), attribution::model_named(model)};
   };
-  switch (renderer) {
+  switch (renderer.renderer) {
     case Renderer::vtk:
     case Renderer::opengl:
       return made("unorm24");

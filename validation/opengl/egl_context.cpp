@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "fathom/numeric/errors.h"
+#include "validation/opengl/demanded_driver.h"
 #include "validation/opengl/virtual_display.h"
 
 namespace fathom::validation {
@@ -51,9 +52,41 @@ bool has_x_platform() {
          std::string_view(extensions).find("platform_x11") != std::string_view::npos;
 }
 
+// libGL itself is not linked.
+constexpr unsigned gl_renderer = 0x1F01, gl_version = 0x1F02;
+
+/// glGetString in the context that is current.
+std::string text_of(unsigned name) {
+  using GetString = const unsigned char* (*)(unsigned);
+  const auto get_string = reinterpret_cast<GetString>(eglGetProcAddress("glGetString"));
+  const unsigned char* const value = get_string != nullptr ? get_string(name) : nullptr;
+  return value != nullptr ? reinterpret_cast<const char*>(value) : "unknown";
+}
+
 }  // namespace
 
-EglContext::EglContext() {
+EglContext::EglContext(Driver driver) {
+  demand(driver);
+  try {
+    open_somehow();
+  } catch (const InputError&) {
+    require(driver, "");
+    throw;
+  }
+  try {
+    require(driver, text_of(gl_renderer));
+  } catch (const InputError&) {
+    close();
+    throw;
+  }
+}
+
+EglContext::~EglContext() {
+  close();
+}
+
+/// Without a display where the driver allows it, else on an Xvfb.
+void EglContext::open_somehow() {
   std::string failure;
   try {
     if (is_xvfb_demanded()) fail("an Xvfb, which FATHOM_OPENGL_DISPLAY demands,");
@@ -69,10 +102,6 @@ EglContext::EglContext() {
   } catch (const InputError&) {
     throw InputError(failure);  // what a display would have made unnecessary
   }
-}
-
-EglContext::~EglContext() {
-  close();
 }
 
 /// Opens display and context and makes them current, or leaves nothing open.
@@ -111,14 +140,7 @@ std::string EglContext::way() const {
 }
 
 std::string EglContext::description() const {
-  // GL_RENDERER and GL_VERSION; libGL itself is not linked.
-  using GetString = const unsigned char* (*)(unsigned int);
-  const auto get_string = reinterpret_cast<GetString>(eglGetProcAddress("glGetString"));
-  const auto text = [&](unsigned int name) -> std::string {
-    const unsigned char* value = get_string != nullptr ? get_string(name) : nullptr;
-    return value != nullptr ? reinterpret_cast<const char*>(value) : "unknown";
-  };
-  return text(0x1F01) + ", " + text(0x1F02) + way();
+  return text_of(gl_renderer) + ", " + text_of(gl_version) + way();
 }
 
 void EglContext::make_current() const {

@@ -3,6 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "validation/variants/driver.h"
+
 namespace fathom::validation {
 
 class VirtualDisplay;
@@ -12,12 +14,14 @@ class VirtualDisplay;
 /// otherwise. Current on the thread that made it until it is destroyed.
 ///
 /// Environment  Mesa's software renderer reads LP_NUM_THREADS when the context is made.
-///              FATHOM_OPENGL_DISPLAY=xvfb forces an Xvfb.
-/// Needs        a process that has started no threads, for Xvfb.
+///              FATHOM_OPENGL_DISPLAY=xvfb forces an Xvfb. Another driver than the usual one
+///              sets variables: demand().
+/// Needs        a process that has started no threads, for Xvfb and for another driver; and for
+///              that also one in which no other context was made.
 /// Fails        InputError: one line that says which step failed and what to install.
 class EglContext {
  public:
-  EglContext();
+  explicit EglContext(Driver driver = Driver::usual);
   ~EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
@@ -30,6 +34,7 @@ class EglContext {
   void make_current() const;
 
  private:
+  void open_somehow();
   void open(unsigned platform);
   void close();
 

@@ -1,6 +1,7 @@
 #include "validation/opengl/framebuffer.h"
 
 #include <algorithm>
+#include <string>
 
 #include "fathom/numeric/errors.h"
 
@@ -31,7 +32,8 @@ Framebuffer::Framebuffer(const GlFunctions& gl, const Camera& camera, Storage st
   attach(GL_R32UI, GL_COLOR_ATTACHMENT0, camera, samples);
   granted_samples_ = attach(internal_format(storage), GL_DEPTH_ATTACHMENT, camera, samples);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw InputError("OpenGL: the driver offers no framebuffer with this depth attachment");
+    throw InputError("OpenGL: the driver offers no framebuffer with this depth attachment" +
+                     (samples > 1 ? " and " + std::to_string(samples) + " samples" : ""));
   }
 }
 

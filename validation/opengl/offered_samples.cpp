@@ -8,8 +8,8 @@
 
 namespace fathom::validation {
 
-std::vector<int> offered_samples() {
-  const EglContext context;
+std::vector<int> offered_samples(Driver driver) {
+  const EglContext context(driver);
   const GlFunctions gl;
   const auto offered = [&](GLenum format) {
     GLint count = 0;

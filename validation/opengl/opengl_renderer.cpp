@@ -95,7 +95,7 @@ std::string version_of(const GlFunctions& gl) {
 }  // namespace
 
 DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlVariant& variant) {
-  const EglContext context;
+  const EglContext context(variant.driver);
   const GlFunctions gl;
   DrawnMap drawn;
   drawn.version = version_of(gl) + context.way();
@@ -108,8 +108,6 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlVa
   model.storage = depth_attachment_storage(gl, GL_FRAMEBUFFER);
   GLint subpixel_bits = 0;
   gl.GetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits);
-  model.subpixel_bits = subpixel_bits;
-  model.depth_before_snap = attribution::interpolates_before_snapping(drawn.version);
   const DrawnMesh drawn_mesh(gl, mesh, model);
   if (variant.offset_units != 0) {
     measure_offset(gl, drawn_mesh, camera, variant, model);
@@ -127,6 +125,7 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlVa
   drawn.model.name = "OpenGL";
   drawn.model.first_of_equals = true;
   drawn.model.kind = model;
+  attribution::set_driver_facts(drawn.version, subpixel_bits, camera, drawn.model);
   if (gl.GetError() != GL_NO_ERROR) throw InputError("OpenGL: the driver reports an error");
   return drawn;
 }

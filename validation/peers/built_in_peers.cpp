@@ -35,8 +35,8 @@ GreyPicture draw_built_in_colours(const LitScene& scene, VtkShading shading) {
   return draw_vtk_colours(scene, shading);
 }
 
-std::vector<int> built_in_samples() {
-  return offered_samples();
+std::vector<int> built_in_samples(Driver driver) {
+  return offered_samples(driver);
 }
 
 }  // namespace fathom::validation

@@ -18,9 +18,9 @@ DrawnMap draw_built_in(const EmbreeVariant& variant, const ValidationScene& scen
 /// A lit scene drawn by VTK in colour. Fails as above.
 GreyPicture draw_built_in_colours(const LitScene& scene, VtkShading shading);
 
-/// The numbers of samples per pixel, more than one, that OpenGL's driver offers; none where this
+/// The numbers of samples per pixel, more than one, that this driver of OpenGL offers; none where this
 /// program is built without OpenGL.
 /// Fails    InputError where OpenGL does not start.
-std::vector<int> built_in_samples();
+std::vector<int> built_in_samples(Driver driver);
 
 }  // namespace fathom::validation

@@ -29,7 +29,7 @@ GreyPicture draw_built_in_colours(const LitScene& /*scene*/, VtkShading /*shadin
   refuse(Renderer::vtk);
 }
 
-std::vector<int> built_in_samples() {
+std::vector<int> built_in_samples(Driver /*driver*/) {
   return {};
 }
 

@@ -15,15 +15,16 @@ using attribution::world_mesh;
 namespace {
 
 /// None where there is no OpenGL: the variants without samples say so.
-std::vector<int> offered_samples(int seconds) {
+std::vector<int> offered_samples(Driver driver, int seconds) {
   try {
-    return in_child(built_in_samples, {.name = "opengl", .seconds = seconds});
+    return in_child([&] { return built_in_samples(driver); },
+                    {.name = "opengl", .seconds = seconds});
   } catch (const InputError&) {
     return {};
   }
 }
 
-std::vector<Peer> vtk_peers(int seconds) {
+std::vector<Peer> vtk_peers(Driver driver, int seconds) {
   using Encoding = VtkVariant::Encoding;
   std::vector<Peer> peers{
       VtkVariant{},
@@ -35,21 +36,23 @@ std::vector<Peer> vtk_peers(int seconds) {
       VtkVariant{.attachment = Storage::float32, .encoding = Encoding::reversed_by_shader},
       VtkVariant{.attachment = Storage::unorm24, .encoding = Encoding::logarithmic},
       VtkVariant{.attachment = Storage::float32, .encoding = Encoding::logarithmic}};
-  std::vector<int> counts = offered_samples(seconds);
+  std::vector<int> counts = offered_samples(driver, seconds);
   const int usual = 8;  // VTK's default, whatever is granted of it
   if (std::find(counts.begin(), counts.end(), usual) == counts.end()) counts.push_back(usual);
   for (const int count : counts) peers.emplace_back(VtkVariant{.samples = count});
+  peers.emplace_back(VtkVariant{.mesh = VtkVariant::Mesh::peeled});
+  peers.emplace_back(VtkVariant{.mesh = VtkVariant::Mesh::behind_peeled});
   return peers;
 }
 
-std::vector<Peer> opengl_peers(int seconds) {
+std::vector<Peer> opengl_peers(Driver driver, int seconds) {
   std::vector<Peer> peers{OpenGlVariant{.storage = Storage::unorm16},
                           OpenGlVariant{.storage = Storage::unorm24},
                           OpenGlVariant{.storage = Storage::unorm32},
                           OpenGlVariant{.storage = Storage::float32},
                           OpenGlVariant{.storage = Storage::float32, .reversed = true},
                           OpenGlVariant{.storage = Storage::unorm24, .offset_units = 16}};
-  for (const int count : offered_samples(seconds)) {
+  for (const int count : offered_samples(driver, seconds)) {
     peers.emplace_back(OpenGlVariant{.storage = Storage::unorm24, .samples = count});
   }
   return peers;
@@ -66,12 +69,17 @@ DrawnMap draw_variant(const BuiltIn& variant, const ValidationScene& scene) {
 
 }  // namespace
 
-std::vector<Peer> peers_of(Renderer renderer, int seconds) {
+std::vector<Peer> peers_of(const DrivenRenderer& driven, int seconds) {
+  const auto& [renderer, driver] = driven;
+  const auto with_driver = [&](std::vector<Peer> peers) {
+    for (Peer& peer : peers) set_driver(peer, driver);
+    return peers;
+  };
   switch (renderer) {
     case Renderer::vtk:
-      return vtk_peers(seconds);
+      return with_driver(vtk_peers(driver, seconds));
     case Renderer::opengl:
-      return opengl_peers(seconds);
+      return with_driver(opengl_peers(driver, seconds));
     case Renderer::embree:
       return {EmbreeVariant{}, EmbreeVariant{.robust = true}};
     case Renderer::blender:

@@ -14,7 +14,7 @@ namespace fathom::validation {
 /// The variants of a renderer in which each scene is validated. Numbers of samples are those that
 /// OpenGL's driver offers, which is asked in a process of its own that is ended after `seconds`.
 /// Needs    a process that has started no threads.
-std::vector<Peer> peers_of(Renderer renderer, int seconds);
+std::vector<Peer> peers_of(const DrivenRenderer& renderer, int seconds);
 
 /// A map, or why there is none, in one line.
 struct Drawing {

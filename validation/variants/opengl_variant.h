@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "fathom/depth_format/depth_format.h"
+#include "validation/variants/driver.h"
 
 namespace fathom::validation {
 
@@ -19,11 +20,12 @@ struct OpenGlVariant {
   /// Samples per pixel; 1: no multisampling. What is read back is what glBlitFramebuffer resolves
   /// to.
   int samples = 1;
+  Driver driver = Driver::usual;
 
   friend bool operator==(const OpenGlVariant&, const OpenGlVariant&) = default;
 };
 
-/// "unorm24", "float32 reversed", "unorm24 offset 16", "unorm24 4 samples".
+/// Without the driver: "unorm24", "float32 reversed", "unorm24 offset 16", "unorm24 4 samples".
 std::string name_of(const OpenGlVariant& variant);
 
 /// What `name` says: a storage and, each at most once, `reversed`, `offset` with a positive number

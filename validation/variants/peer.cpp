@@ -46,6 +46,13 @@ std::optional<Peer> peer_if_named(Renderer renderer, std::string_view variant) {
   return std::nullopt;
 }
 
+Renderer plain_renderer_named(std::string_view name) {
+  for (const Renderer renderer : all_renderers) {
+    if (name_of(renderer) == name) return renderer;
+  }
+  throw UsageError(fmt::format("'{}' is not one of vtk, opengl, embree and blender", name));
+}
+
 std::string variant_names(Renderer renderer) {
   switch (renderer) {
     case Renderer::vtk:
@@ -62,7 +69,9 @@ std::string variant_names(Renderer renderer) {
 
 using ModelName = std::optional<std::string>;
 
-ModelName matching_model_of(Storage storage, bool reversed) {
+/// What named models take for known of a driver does not hold of every one.
+ModelName matching_model_of(Storage storage, bool reversed, Driver driver) {
+  if (driver != Driver::usual) return std::nullopt;
   if (!reversed) return "gl-" + std::string(name_of(storage));
   if (storage == Storage::float32) return "gl-float32-reversed";
   return std::nullopt;
@@ -73,12 +82,12 @@ ModelName matching_model_of(const VtkVariant& variant) {
   const bool reversed = variant.encoding == Encoding::reversed;
   if (!variant.attachment || variant.samples > 0) return std::nullopt;
   if (!reversed && variant.encoding != Encoding::interpolated) return std::nullopt;
-  return matching_model_of(*variant.attachment, reversed);
+  return matching_model_of(*variant.attachment, reversed, variant.driver);
 }
 
 ModelName matching_model_of(const OpenGlVariant& variant) {
   if (variant.samples > 1 || variant.offset_units > 0) return std::nullopt;
-  return matching_model_of(variant.storage, variant.reversed);
+  return matching_model_of(variant.storage, variant.reversed, variant.driver);
 }
 
 ModelName matching_model_of(const EmbreeVariant& /*variant*/) {
@@ -95,28 +104,52 @@ std::optional<std::string> matching_model(const Peer& peer) {
   return std::visit([](const auto& variant) { return matching_model_of(variant); }, peer);
 }
 
-std::string name_of(Renderer renderer) {
+std::string name_of(const DrivenRenderer& driven) {
   constexpr const char* names[] = {"vtk", "opengl", "embree", "blender"};
-  return names[static_cast<std::size_t>(renderer)];
+  const std::string name = names[static_cast<std::size_t>(driven.renderer)];
+  return driven.driver == Driver::usual ? name : name + "@" + name_of(driven.driver);
 }
 
-Renderer renderer_named(std::string_view name) {
-  for (const Renderer renderer : all_renderers) {
-    if (name_of(renderer) == name) return renderer;
+DrivenRenderer renderer_named(std::string_view name) {
+  const std::size_t at = name.find('@');
+  const Renderer renderer = plain_renderer_named(name.substr(0, at));
+  if (at == std::string_view::npos) return renderer;
+  if (renderer != Renderer::vtk && renderer != Renderer::opengl) {
+    throw UsageError(fmt::format("'{}': {} draws without OpenGL, only vtk and opengl take a driver",
+                                 name, name_of(renderer)));
   }
-  throw UsageError(fmt::format("'{}' is not one of vtk, opengl, embree and blender", name));
+  if (const auto driver = driver_named(name.substr(at + 1))) return {renderer, *driver};
+  throw UsageError(fmt::format("'{}': the driver is not one of {}", name, driver_names()));
 }
 
-Renderer renderer_of(const Peer& peer) {
-  return all_renderers[peer.index()];
+DrivenRenderer renderer_of(const Peer& peer) {
+  return std::visit(
+      [&](const auto& variant) -> DrivenRenderer {
+        const Renderer renderer = all_renderers[peer.index()];
+        if constexpr (requires { variant.driver; }) return {renderer, variant.driver};
+        return renderer;
+      },
+      peer);
+}
+
+void set_driver(Peer& peer, Driver driver) {
+  std::visit(
+      [&](auto& variant) {
+        if constexpr (requires { variant.driver; }) variant.driver = driver;
+      },
+      peer);
 }
 
 std::string variant_name(const Peer& peer) {
   return std::visit([](const auto& variant) { return name_of(variant); }, peer);
 }
 
-Peer peer_named(Renderer renderer, std::string_view variant) {
-  if (const auto peer = peer_if_named(renderer, variant)) return *peer;
+Peer peer_named(const DrivenRenderer& driven, std::string_view variant) {
+  const auto& [renderer, driver] = driven;
+  if (auto peer = peer_if_named(renderer, variant)) {
+    set_driver(*peer, driver);
+    return *peer;
+  }
   throw UsageError(fmt::format("{} has no variant '{}', only {}", name_of(renderer), variant,
                                variant_names(renderer)));
 }

@@ -32,20 +32,33 @@ using Peer = std::variant<VtkVariant, OpenGlVariant, EmbreeVariant, BlenderVaria
 
 enum class Renderer { vtk, opengl, embree, blender };
 
-/// "vtk", "opengl", "embree", "blender".
-std::string name_of(Renderer renderer);
-/// Fails    UsageError where there is no such renderer, naming those that there are.
-Renderer renderer_named(std::string_view name);
+/// A renderer, with the driver where it draws with OpenGL.
+struct DrivenRenderer {
+  DrivenRenderer(Renderer which, Driver with = Driver::usual) : renderer(which), driver(with) {}
 
-Renderer renderer_of(const Peer& peer);
-/// The variant alone: "float32 reversed", "robust", "cycles".
+  Renderer renderer;
+  Driver driver;
+
+  friend bool operator==(const DrivenRenderer&, const DrivenRenderer&) = default;
+};
+
+/// "vtk", "opengl", "embree", "blender"; "opengl@softpipe".
+std::string name_of(const DrivenRenderer& renderer);
+/// Fails    UsageError where there is no such renderer or driver, naming those that there are, or
+///          where the renderer draws without OpenGL.
+DrivenRenderer renderer_named(std::string_view name);
+
+DrivenRenderer renderer_of(const Peer& peer);
+/// Nothing for a renderer that draws without OpenGL.
+void set_driver(Peer& peer, Driver driver);
+/// The variant alone, without its driver: "float32 reversed", "robust", "cycles".
 std::string variant_name(const Peer& peer);
 
 /// The named model (attribution/model/named_models.h) that fits what it draws, where there is one.
 std::optional<std::string> matching_model(const Peer& peer);
 
 /// Fails    UsageError where `variant` is not one of the renderer's, saying which there are.
-Peer peer_named(Renderer renderer, std::string_view variant);
+Peer peer_named(const DrivenRenderer& renderer, std::string_view variant);
 
 /// Those of `peers` whose variant is among `variants`, in the order of `peers`.
 /// Fails    UsageError for a variant that none of them has, naming those that there are.

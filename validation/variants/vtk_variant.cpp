@@ -6,6 +6,7 @@ namespace fathom::validation {
 namespace {
 
 using Encoding = VtkVariant::Encoding;
+using Mesh = VtkVariant::Mesh;
 
 struct NamedEncoding {
   Encoding encoding;
@@ -16,9 +17,13 @@ constexpr NamedEncoding encodings[] = {{Encoding::interpolated, ""},
                                        {Encoding::reversed_by_shader, "reversed by shader"},
                                        {Encoding::logarithmic, "logarithmic"}};
 
+constexpr std::string_view peeled = "own peeled", behind_peeled = "own behind peeled";
+
 }  // namespace
 
 std::string name_of(const VtkVariant& variant) {
+  if (variant.mesh == Mesh::peeled) return std::string(peeled);
+  if (variant.mesh == Mesh::behind_peeled) return std::string(behind_peeled);
   std::string name = variant.attachment ? std::string(name_of(*variant.attachment)) : "own";
   for (const NamedEncoding& e : encodings) {
     if (e.encoding == variant.encoding && !e.name.empty()) name += " " + std::string(e.name);
@@ -28,6 +33,8 @@ std::string name_of(const VtkVariant& variant) {
 }
 
 std::optional<VtkVariant> vtk_variant_named(std::string_view name) {
+  if (name == peeled) return VtkVariant{.mesh = Mesh::peeled};
+  if (name == behind_peeled) return VtkVariant{.mesh = Mesh::behind_peeled};
   const std::vector<std::string_view> words = words_of(name);
   VtkVariant variant{.attachment = attachment_named(words[0])};
   if (!variant.attachment && words[0] != "own") return std::nullopt;
@@ -49,7 +56,7 @@ std::optional<VtkVariant> vtk_variant_named(std::string_view name) {
 
 std::string vtk_variant_names() {
   return "own, unorm16, unorm24, unorm32 and float32, each also with 'reversed', 'reversed by "
-         "shader', 'logarithmic' or 'N samples'";
+         "shader', 'logarithmic' or 'N samples'; and own peeled and own behind peeled";
 }
 
 }  // namespace fathom::validation

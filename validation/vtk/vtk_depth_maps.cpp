@@ -18,7 +18,10 @@ using attribution::WorldMesh;
 using attribution::written_depth;
 
 VtkOptions options_of(const VtkVariant& variant, const Camera& camera) {
-  VtkOptions options{.depth = variant.attachment, .samples = variant.samples};
+  VtkOptions options{.depth = variant.attachment,
+                     .samples = variant.samples,
+                     .mesh = variant.mesh,
+                     .driver = variant.driver};
   const auto write = [&](Mapping mapping) {
     options.written = written_depth(camera.projection, mapping, camera.near, camera.far);
   };
@@ -58,13 +61,12 @@ DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const VtkVariant&
     throw InputError("vtk: passed a matrix to OpenGL that is not the camera's");
   }
   model.matrix = drawing.clip_from_held;
-  model.subpixel_bits = drawing.subpixel_bits;
-  model.depth_before_snap = attribution::interpolates_before_snapping(drawn.version);
   if (options.samples > 0) {
     drawn.version += ", " + std::to_string(drawing.samples) + " samples granted";
     drawn.model.sample = {drawing.sample[0], drawing.sample[1]};
   }
   drawn.model.kind = model;
+  attribution::set_driver_facts(drawn.version, drawing.subpixel_bits, camera, drawn.model);
   drawn.map = {.width = camera.width, .height = camera.height, .windows = drawing.windows};
   const WindowDepth window =
       window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far);

@@ -19,10 +19,13 @@
 
 #include <algorithm>
 
+#include "fathom/numeric/errors.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/read_back.h"
+#include "validation/vtk/peeling.h"
 #include "validation/vtk/recording_mapper.h"
 #include "validation/vtk/surfaceless_window.h"
+#include "validation/vtk/translucent_pane.h"
 
 namespace fathom::validation {
 namespace {
@@ -97,12 +100,23 @@ void write_depth(vtkShaderProperty& shader, const WrittenDepth& written) {
   if (logarithmic) uniforms->SetUniformf("depth_scale", written.scale);
 }
 
+/// Otherwise what is behind the pane was not seen through it.
+void require_a_layer(const PeelingRenderer& peeling) {
+  const std::vector<float>& layer = peeling.nearest_layer();
+  if (std::all_of(layer.begin(), layer.end(), [](float z) { return z == 1; })) {
+    throw InputError("vtk: nothing of this scene lies behind a pane just beyond near");
+  }
+}
+
 }  // namespace
 
 struct VtkRenderer::Parts {
+  explicit Parts(Driver driver) : context(driver) {}
+
   EglContext context;  // outlives the window
   vtkNew<SurfacelessWindow> window;
   vtkNew<RecordingMapper> mapper;
+  vtkSmartPointer<PeelingRenderer> peeling;  ///< where something is translucent
   vtkSmartPointer<vtkTextureObject> depth;
   VtkOptions options;
   int width = 0, height = 0;
@@ -110,7 +124,7 @@ struct VtkRenderer::Parts {
 
 VtkRenderer::VtkRenderer(const WorldMesh& mesh, const Camera& camera, const ClipRange& range,
                          const VtkOptions& options)
-    : parts_(std::make_unique<Parts>()) {
+    : parts_(std::make_unique<Parts>(options.driver)) {
   parts_->width = static_cast<int>(camera.width);
   parts_->height = static_cast<int>(camera.height);
 
@@ -121,7 +135,16 @@ VtkRenderer::VtkRenderer(const WorldMesh& mesh, const Camera& camera, const Clip
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->LightingOff();
-  vtkNew<vtkRenderer> renderer;
+  vtkSmartPointer<vtkRenderer> renderer;
+  if (options.mesh == VtkVariant::Mesh::opaque) {
+    renderer = vtkSmartPointer<vtkRenderer>::New();
+  } else {
+    renderer = parts_->peeling = vtkSmartPointer<PeelingRenderer>::New();
+    if (options.mesh == VtkVariant::Mesh::peeled) actor->GetProperty()->SetOpacity(0.5);
+    if (options.mesh == VtkVariant::Mesh::behind_peeled) {
+      renderer->AddActor(translucent_pane(camera));
+    }
+  }
   renderer->AddActor(actor);
   set_camera(*renderer->GetActiveCamera(), camera, range,
              options.reversed ? ClipDepth::one_to_zero : ClipDepth::minus_one_to_one);
@@ -168,7 +191,12 @@ VtkDrawing VtkRenderer::drawing() {
   drawing.shift = p.mapper->shift();
   drawing.scale = p.mapper->scale();
   drawing.clip_from_held = p.mapper->clip_from_held();
-  if (p.options.samples > 0) {
+  if (p.options.mesh == VtkVariant::Mesh::behind_peeled) require_a_layer(*p.peeling);
+  if (p.options.mesh == VtkVariant::Mesh::peeled) {
+    const std::vector<float>& layer = p.peeling->nearest_layer();
+    drawing.windows.assign(layer.begin(), layer.end());
+    drawing.storage = Storage::float32;
+  } else if (p.options.samples > 0) {
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer->GetFBOIndex());
     gl.GetIntegerv(GL_SAMPLES, &drawing.samples);
     std::array<GLfloat, 2> position{0.5F, 0.5F};  // rows from the bottom

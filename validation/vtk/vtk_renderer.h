@@ -10,6 +10,7 @@
 #include "fathom/attribution/model/written_depth.h"
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/depth_format/depth_format.h"
+#include "validation/variants/vtk_variant.h"
 
 namespace fathom::validation {
 
@@ -23,6 +24,8 @@ struct VtkOptions {
   /// VTK's fragment shader writes this depth in place of the interpolated one; with a reversed one,
   /// the depth test also lets the greater win.
   std::optional<attribution::WrittenDepth> written;
+  VtkVariant::Mesh mesh = VtkVariant::Mesh::opaque;
+  Driver driver = Driver::usual;
 };
 
 /// What a frame was drawn with, and its depths.
@@ -64,7 +67,9 @@ class VtkRenderer {
   /// was drawn.
   [[nodiscard]] std::vector<float> window_depths();
 
-  /// The last frame; with several samples, what OpenGL resolves them to.
+  /// The last frame; with several samples, what OpenGL resolves them to; of a peeled mesh, the
+  /// nearest layer.
+  /// Fails    InputError if VTK did not peel.
   [[nodiscard]] VtkDrawing drawing();
 
   /// "VTK 9.1.0 on llvmpipe (…)".

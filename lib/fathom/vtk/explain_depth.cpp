@@ -84,8 +84,6 @@ RasterModel raster_model(DrawnScene& drawn, const DepthBuffer& buffer) {
   RasterModel model;
   model.parts = std::move(drawn.parts);
   model.storage = buffer.storage;
-  model.subpixel_bits = buffer.subpixel_bits;
-  model.depth_before_snap = attribution::interpolates_before_snapping(buffer.renderer);
   return model;
 }
 
@@ -135,6 +133,7 @@ DepthVerdict explain_depth(vtkRenderWindow& any_window, vtkRenderer& renderer) {
   verdict.model.sample = buffer.sample;
   verdict.map = map_of(buffer, camera);
   verdict.model.kind = raster_model(drawn, buffer);
+  attribution::set_driver_facts(buffer.renderer, buffer.subpixel_bits, camera, verdict.model);
   verdict.attribution = attribution::attribute_and_name(verdict.truth, verdict.map, verdict.model);
   verdict.cause = cause_of(verdict, renderer);
   return verdict;
