@@ -7,6 +7,7 @@
 
 #include "fathom/attribution/model/clip_from_held.h"
 #include "fathom/attribution/model/named_models.h"
+#include "fathom/attribution/model/window_depth.h"
 #include "fathom/camera/camera_making.h"
 #include "tests/attribution/float_rasterizer.h"
 #include "validation/bench/shapes.h"
@@ -271,6 +272,26 @@ TEST(RayModel, TheRotationOfBlendersCameraIsKnownUpToItsRoundings) {
   EXPECT_EQ(attribute(truth, map, model).count(PixelClass::unexplained), 0U);
   std::get<RayModel>(model.kind).rotation_error = 0;
   EXPECT_GT(attribute(truth, map, model).count(PixelClass::unexplained), 900U);
+}
+
+// OpenGL allows a window depth to become either of the two codes about it.
+TEST(Codes, RoundedDownAreExplainedWhereTheNearestIsNotPromised) {
+  const Truth truth = make_truth(sphere_and_sheets(), sphere_camera());
+  const RendererModel exact = model_of(Storage::float32);
+  OtherMap map = draw_in_binary32(truth.mesh, truth.camera, exact, {});
+  const WindowDepth window = window_depth(Projection::perspective, Mapping::opengl, 0.5, 20);
+  for (std::size_t i = 0; i < map.windows.size(); ++i) {
+    if (map.windows[i] == 1) continue;
+    map.windows[i] = std::floor(map.windows[i] * 65535) / 65535;
+    map.depths[i] = window.to_depth(map.windows[i]);
+  }
+  const auto unexplained = [&](bool nearest) {
+    RendererModel model = model_of(Storage::unorm16);
+    std::get<RasterModel>(model.kind).nearest_codes = nearest;
+    return attribute(truth, map, model).count(PixelClass::unexplained);
+  };
+  EXPECT_EQ(unexplained(false), 0U);
+  EXPECT_GT(unexplained(true), 100U);
 }
 
 }  // namespace

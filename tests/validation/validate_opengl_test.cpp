@@ -34,6 +34,53 @@ TEST(ValidateOpenGl, EveryVariantIsExplained) {
   EXPECT_GT(several, 0U);  // OpenGL 4.5 demands 4 samples of depth ([GL46] table 23.60)
 }
 
+// One triangle, 16 pixels wide: softpipe steps a depth of 16 bits from pixel to pixel by a whole
+// number of codes, rounded towards zero, so that it drifts by up to a code a pixel (docs/validation.md).
+TEST(ValidateOpenGl, SoftpipesStepsOf16BitsAreFound) {
+  const TestFolder folder;
+  folder.write("sheet.obj", "v -4 -4 3\nv 4 -4 4\nv 0 8 3.5\nf 1 2 3\n");
+  folder.write("camera.json",
+               R"({"width": 16, "height": 2, "projection": "perspective", "fx": 16, "fy": 16,
+                   "cx": 8, "cy": 1, "world_to_camera": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]],
+                   "near": 1, "far": 10})");
+  const Outcome outcome =
+      run_fathom({"validate", "--against", "opengl@softpipe,opengl", "sheet.obj", "--camera",
+                  "camera.json", "--variants", "unorm16,unorm24", "--out", "report"},
+                 {.folder = folder.path()});
+  EXPECT_EQ(outcome.status, 1) << outcome.out << outcome.err;
+  const auto results = nlohmann::json::parse(folder.read("report/report.json"))["results"];
+  ASSERT_EQ(results.size(), 4U);
+  for (const auto& result : results) {
+    const bool drifts = result["renderer"] == "opengl@softpipe" && result["variant"] == "unorm16";
+    EXPECT_EQ(result["pixels"]["unexplained"] > 0, drifts) << result.dump();
+    const std::string version = result["version"];
+    EXPECT_EQ(version.find("softpipe") != std::string::npos,
+              result["renderer"] == "opengl@softpipe");
+  }
+}
+
+TEST(ValidateOpenGl, ADriverThatIsNotThereIsNamed) {
+  const std::string command = "LIBGL_DRIVERS_PATH=/nonexistent " + program_path() +
+                              " validate --against opengl@softpipe,embree --scene sphere --size "
+                              "32x24 --variants unorm24,robust";
+  const Outcome outcome = run({"/bin/sh", "-c", command});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("softpipe: OpenGL has no such driver here; a Mesa that is "
+                                     "built with it provides it"));
+  EXPECT_THAT(outcome.out, HasSubstr("sphere, embree robust: "));
+}
+
+TEST(ValidateOpenGl, SamplesThatADriverDoesNotOfferAreRefused) {
+  const TestFolder folder;
+  const Outcome outcome =
+      run_fathom({"validate", "--render", "opengl@softpipe", "--variants", "unorm24 4 samples",
+                  source_dir() / "data/meshes/cube.obj", "--size", "32x24", "-o", "cube.exr"},
+                 {.folder = folder.path()});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("no framebuffer with this depth attachment and 4 samples"));
+}
+
 /// A shell that runs `fathom validate --against opengl` on an Xvfb which is ours: `server` is
 /// what stands in its place. Says whether all that were started are gone afterwards; half a minute
 /// is for a machine that has other things to do.

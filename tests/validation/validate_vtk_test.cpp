@@ -21,7 +21,7 @@ TEST(ValidateVtk, EveryVariantIsExplained) {
     expect_explained(result);
     ++(is_multisampled(result) ? several : single);
   }
-  EXPECT_EQ(single, 2U * 9);
+  EXPECT_EQ(single, 2U * 11);
   EXPECT_GT(several, 0U);  // its default, 8, is always asked for
 }
 
@@ -47,6 +47,20 @@ TEST(ValidateVtk, ReversedAndLogarithmicDepthsReachFar) {
       EXPECT_LT(typical, 2e-6) << result["variant"];
     }
   }
+}
+
+// Something translucent in front leaves no trace in VTK's depth buffer.
+TEST(ValidateVtk, APaneThatIsPeeledLeavesDepthsAsTheyAre) {
+  const TestFolder folder;
+  const std::string cube = source_dir() / "data/meshes/cube.obj";
+  const auto drawn = [&](const std::string& variant, const std::string& file) {
+    const Outcome outcome = run_fathom(
+        {"validate", "--render", "vtk", cube, "--size", "40x30", "--variants", variant, "-o", file},
+        {.folder = folder.path()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return folder.read(file);
+  };
+  EXPECT_TRUE(drawn("own behind peeled", "behind.pfm") == drawn("own", "own.pfm"));
 }
 
 // The catalogue of faults in VTK's own map: nothing is found in the right one, and every fault that

@@ -41,7 +41,7 @@ TEST(VariantWords, CountsAreWholeWords) {
 /// A peer and the name under which reports show it.
 struct Named {
   Peer peer;
-  Renderer renderer;
+  DrivenRenderer renderer;
   std::string name;
 };
 
@@ -70,6 +70,16 @@ INSTANTIATE_TEST_SUITE_P(
               Renderer::vtk, "float32 reversed by shader"},
         Named{VtkVariant{.attachment = Storage::unorm24, .encoding = Encoding::logarithmic},
               Renderer::vtk, "unorm24 logarithmic"},
+        Named{VtkVariant{.mesh = VtkVariant::Mesh::peeled}, Renderer::vtk, "own peeled"},
+        Named{VtkVariant{.mesh = VtkVariant::Mesh::behind_peeled}, Renderer::vtk,
+              "own behind peeled"},
+        Named{VtkVariant{.driver = Driver::llvmpipe}, {Renderer::vtk, Driver::llvmpipe}, "own"},
+        Named{VtkVariant{.mesh = VtkVariant::Mesh::peeled, .driver = Driver::softpipe},
+              {Renderer::vtk, Driver::softpipe},
+              "own peeled"},
+        Named{OpenGlVariant{.samples = 4, .driver = Driver::softpipe},
+              {Renderer::opengl, Driver::softpipe},
+              "unorm24 4 samples"},
         Named{OpenGlVariant{.storage = Storage::unorm32}, Renderer::opengl, "unorm32"},
         Named{OpenGlVariant{.storage = Storage::float32, .reversed = true}, Renderer::opengl,
               "float32 reversed"},
@@ -113,11 +123,13 @@ TEST(Peers, NamesThatAreNotUnderstoodAreRefused) {
   for (const char* name :
        {"", "mine", "float16", "own ", "own x samples", "own 0 samples", "own -8 samples",
         "own 8 samples 8 samples", "unorm24 by shader", "float32 reversed by", "own samples",
-        "float32 reversed by shader by shader", "unorm24 offset 4"}) {
+        "float32 reversed by shader by shader", "unorm24 offset 4", "peeled", "own behind",
+        "unorm24 peeled", "own peeled 8 samples"}) {
     EXPECT_EQ(message(Renderer::vtk, name),
               "vtk has no variant '" + std::string(name) +
                   "', only own, unorm16, unorm24, unorm32 and float32, each also with 'reversed', "
-                  "'reversed by shader', 'logarithmic' or 'N samples'");
+                  "'reversed by shader', 'logarithmic' or 'N samples'; and own peeled and own "
+                  "behind peeled");
   }
   EXPECT_EQ(message(Renderer::embree, "robbust"),
             "embree has no variant 'robbust', only default and robust");
@@ -131,6 +143,19 @@ TEST(Peers, RenderersHaveNames) {
   }
   EXPECT_EQ(usage_error_of([] { renderer_named("pbrt"); }),
             "'pbrt' is not one of vtk, opengl, embree and blender");
+}
+
+TEST(Peers, RenderersOfOpenGlHaveDrivers) {
+  for (const char* name : {"vtk@llvmpipe", "vtk@softpipe", "opengl@llvmpipe", "opengl@softpipe"}) {
+    EXPECT_EQ(name_of(renderer_named(name)), name);
+  }
+  EXPECT_EQ(renderer_named("opengl").driver, Driver::usual);
+  for (const std::string name : {"opengl@", "opengl@zink", "vtk@softpipe "}) {
+    EXPECT_EQ(usage_error_of([&] { renderer_named(name); }),
+              "'" + name + "': the driver is not one of llvmpipe and softpipe");
+  }
+  EXPECT_EQ(usage_error_of([] { renderer_named("embree@softpipe"); }),
+            "'embree@softpipe': embree draws without OpenGL, only vtk and opengl take a driver");
 }
 
 TEST(Peers, AreChosenByVariantInTheirOwnOrder) {
