@@ -28,8 +28,9 @@ using Point = std::array<double, 3>;
 
 Point point_at(const Camera& camera, std::size_t pixel, double depth) {
   const CameraRays rays = camera_rays(camera);
-  const double x = static_cast<double>(pixel % camera.width) + 0.5;
-  const double y = static_cast<double>(pixel / camera.width) + 0.5;
+  const std::size_t column = pixel % camera.width, row = pixel / camera.width;
+  const double x = static_cast<double>(column) + 0.5;
+  const double y = static_cast<double>(row) + 0.5;
   Point p{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto at = [&](const CameraRays::Affine& f) {

@@ -33,8 +33,8 @@ MatrixRoundings::MatrixRoundings(const Camera& camera, const RasterModel& model)
 
 double MatrixRoundings::of_window(std::size_t pixel, double depth) const {
   if (!rows_) return 0;
-  const double x = static_cast<double>(pixel % width_) + 0.5;
-  const double y = static_cast<double>(pixel / width_) + 0.5;
+  const std::size_t column = pixel % width_, row = pixel / width_;
+  const double x = static_cast<double>(column) + 0.5, y = static_cast<double>(row) + 0.5;
   std::array<double, 3> point{};
   for (std::size_t k = 0; k < 3; ++k) {
     point[k] = value(rays_.origin, k, x, y) + depth * value(rays_.direction, k, x, y) - shift_[k];
