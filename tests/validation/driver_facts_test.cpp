@@ -1,7 +1,6 @@
-#include "validation/opengl/driver_facts.h"
-
 #include <gtest/gtest.h>
 
+#include "fathom/attribution/model/opengl_drivers.h"
 #include "fathom/numeric/errors.h"
 #include "validation/opengl/demanded_driver.h"
 
@@ -13,7 +12,7 @@ using attribution::RendererModel;
 
 RasterModel raster_with(const std::string& version, std::uint32_t size) {
   RendererModel model{.kind = RasterModel{}};
-  set_driver_facts(version, 4, {.width = size, .height = size / 2}, model);
+  attribution::set_driver_facts(version, 4, {.width = size, .height = size / 2}, model);
   EXPECT_EQ(model.watertight, version.find("softpipe") == std::string::npos);
   return std::get<RasterModel>(model.kind);
 }

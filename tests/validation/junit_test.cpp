@@ -72,7 +72,8 @@ TEST(Cause, IsTheFailureElseTheFirstFindingElseTheWorstPixel) {
 }
 
 TEST(Cause, OnePixelIsNotPlural) {
-  EXPECT_EQ(finding_line({"shift", "it is shifted", 1}), "shift: it is shifted (1 pixel)");
+  EXPECT_EQ(attribution::finding_line({"shift", "it is shifted", 1}),
+            "shift: it is shifted (1 pixel)");
   ValidationCase c = case_of("spot", "", bad);
   c.attribution.findings = {{"shift", "it is shifted", 1}};
   EXPECT_EQ(cause_of(c), "shift: it is shifted (1 pixel)");

@@ -7,6 +7,7 @@
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkOpenGLSphereMapper.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkProperty.h>
@@ -72,6 +73,12 @@ void draw_by_data_set_mapper(vtkActor& actor) {
   actor.SetMapper(mapper);
 }
 
+void draw_as_spheres(vtkActor& actor) {
+  vtkNew<vtkOpenGLSphereMapper> mapper;
+  mapper->SetInputData(vtkPolyData::SafeDownCast(actor.GetMapper()->GetInputAsDataSet()));
+  actor.SetMapper(mapper);
+}
+
 void project(vtkActor& actor) {
   vtkNew<vtkMatrix4x4> matrix;
   matrix->SetElement(3, 2, 0.1);
@@ -104,6 +111,7 @@ const std::vector<Case> cases{
     {"has hidden or ghost cells", hide_a_cell},
     {"is drawn by a vtkCompositePolyDataMapper2, not a vtkPolyDataMapper", draw_by_composite},
     {"is drawn by a vtkOpenGLGlyph3DMapper, not a vtkPolyDataMapper", draw_as_glyphs},
+    {"is drawn by a vtkOpenGLSphereMapper, not a vtkPolyDataMapper", draw_as_spheres},
     {"is drawn by a vtkDataSetMapper, not a vtkPolyDataMapper", draw_by_data_set_mapper},
     {"has a matrix that is not affine", project},
     {"has no mapper", [](vtkActor& a) { a.SetMapper(nullptr); }},

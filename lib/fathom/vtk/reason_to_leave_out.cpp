@@ -1,7 +1,6 @@
 #include "fathom/vtk/reason_to_leave_out.h"
 
 #include <vtkActor.h>
-#include <vtkCompositePolyDataMapper2.h>
 #include <vtkMatrix4x4.h>
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkPlaneCollection.h>
@@ -40,6 +39,19 @@ std::string reason_of_property(vtkProperty& property) {
   return "";
 }
 
+/// By name, since not every VTK has all of them.
+template <std::size_t count>
+bool is_one_of(vtkObject& object, const char* const (&classes)[count]) {
+  return std::any_of(classes, classes + count,
+                     [&](const char* name) { return object.IsA(name) != 0; });
+}
+
+/// Mappers of VTK's that are vtkOpenGLPolyDataMappers and draw something else than their input's polygons.
+constexpr const char* other_mappers[] = {"vtkCompositePolyDataMapper2", "vtkOpenGLSphereMapper",
+                                         "vtkOpenGLStickMapper"};
+/// Actors that draw by other mappers than their own where time is short.
+constexpr const char* actors_of_levels[] = {"vtkLODActor", "vtkQuadricLODActor"};
+
 bool has_code(vtkShaderProperty& shaders) {
   return shaders.HasVertexShaderCode() || shaders.HasFragmentShaderCode() ||
          shaders.HasGeometryShaderCode() || shaders.GetNumberOfShaderReplacements() > 0;
@@ -66,10 +78,11 @@ std::string reason_to_leave_out(vtkProp& prop) {
   if (actor == nullptr) return "is no actor";
   if (actor->GetMapper() == nullptr) return "has no mapper";
   auto* const mapper = vtkOpenGLPolyDataMapper::SafeDownCast(actor->GetMapper());
-  if (mapper == nullptr || vtkCompositePolyDataMapper2::SafeDownCast(mapper) != nullptr) {
+  if (mapper == nullptr || is_one_of(*mapper, other_mappers)) {
     return std::string("is drawn by a ") + actor->GetMapper()->GetClassName() +
            ", not a vtkPolyDataMapper";
   }
+  if (is_one_of(*actor, actors_of_levels)) return "chooses its level of detail by time";
   if (!is_affine(prop.GetMatrix())) return "has a matrix that is not affine";
   if (actor->HasTranslucentPolygonalGeometry() != 0) return "is translucent";
   if (has_code(*actor->GetShaderProperty())) return "has shader code of its own";
