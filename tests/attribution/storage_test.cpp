@@ -169,6 +169,16 @@ TEST(RoundedDown, IsToldFromNearest) {
   EXPECT_TRUE(is_rounded_down(truth, with_holes, recorded));
 }
 
+// 3·10⁻⁶ away from 1/971, which thousands of steps tell from it.
+TEST(CommonStep, IsNotAPartOfOneThatItComesCloseTo) {
+  const double step = 0.001029862956521739;
+  std::vector<double> values;
+  for (int k = 3400; k < 4400; ++k) values.push_back(static_cast<float>(k * step));
+  const auto found = common_step(values);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(*found / step, 1, 1e-7);
+}
+
 TEST(CommonStep, IsTheCoarsest) {
   std::vector<double> values;
   for (int k = 40; k < 100; k += 2) values.push_back(0.3 * k);
