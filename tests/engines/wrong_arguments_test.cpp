@@ -375,7 +375,7 @@ TEST(WrongArguments, IdentifiersOfNoTriangle) {
                 add_depth_buffer(map, triangle(), small_camera(),
                                  {.format = {Mapping::standard, Storage::float32, 1, 100, 1}});
               }),
-              HasSubstr("channel 'id' holds 1, and the scene has 1 triangles"));
+              HasSubstr("channel 'id' holds 1, and the scene has 1 triangle"));
   EXPECT_THROW(pixel_coverage({triangle(), small_camera()}, std::vector<std::uint32_t>{1}, 0, 0),
                std::out_of_range);
 }

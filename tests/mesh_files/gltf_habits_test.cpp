@@ -117,7 +117,7 @@ TEST(GltfHabits, AttributesThatCannotBeUsedAreLeftOut) {
         Case{"COLOR_0", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, nan, 1}, "VEC3"}}) {
     const Read one = read(with(bad.name, bad.numbers, bad.type));
     EXPECT_THAT(one.warnings,
-                ElementsAre(HasSubstr("1 lists of normals, texture coordinates or colours")));
+                ElementsAre(HasSubstr("1 list of normals, texture coordinates or colours")));
     const Mesh& mesh = one.scene.meshes[0];
     ASSERT_EQ(mesh.triangles.size(), 4U);
     EXPECT_EQ(mesh.texture_triangles.at(0), none);

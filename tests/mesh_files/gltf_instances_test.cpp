@@ -103,7 +103,7 @@ TEST(GltfInstances, ThatMakeNoSenseAreRefused) {
   uneven.add("TRANSLATION", {0, 0, 0, 1, 2, 3});
   uneven.add("SCALE", {1, 1, 1});
   EXPECT_THAT(fault_of(uneven.done()),
-              HasSubstr("EXT_mesh_gpu_instancing.attributes.SCALE: has 1 elements, expected 2"));
+              HasSubstr("EXT_mesh_gpu_instancing.attributes.SCALE: has 1 element, expected 2"));
   Instanced none;
   EXPECT_THAT(fault_of(none.done()), HasSubstr("expected TRANSLATION, ROTATION or SCALE"));
   Instanced pairs;

@@ -112,7 +112,7 @@ TEST_F(LinesAndPoints, OfGltf) {
   EXPECT_EQ(read("a.gltf", gltf(3)).lines, (Lines{{0, 1}, {1, 2}, {2, 3}}));
   EXPECT_THAT(warnings, IsEmpty());
   EXPECT_TRUE(read("a.gltf", gltf(3), false).is_empty());
-  EXPECT_THAT(warnings, testing::Contains(HasSubstr("1 primitives are points or lines")));
+  EXPECT_THAT(warnings, testing::Contains(HasSubstr("1 primitive is of points or lines")));
 }
 
 TEST_F(LinesAndPoints, ThatSomebodyFilledInAreLookedAt) {

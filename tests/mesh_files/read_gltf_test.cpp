@@ -29,7 +29,7 @@ TEST(Gltf, ModesAreThoseOfTheSpecification) {
   for (const int mode : {0, 1, 2, 3}) {
     const Read points = read(five({{"mode", mode}}).done());
     EXPECT_TRUE(points.scene.meshes[0].triangles.empty());
-    EXPECT_THAT(points.warnings, ElementsAre(HasSubstr("1 primitives are points or lines")));
+    EXPECT_THAT(points.warnings, ElementsAre(HasSubstr("1 primitive is of points or lines")));
   }
   EXPECT_THAT(fault_of(five({{"mode", 7}}).done()), HasSubstr("mode: expected an integer"));
 }
@@ -346,7 +346,7 @@ TEST(Gltf, WarnsOfWhatItIgnores) {
   asset.tree["meshes"][0]["primitives"].push_back({{"attributes", {{"NORMAL", 0}}}});
   EXPECT_THAT(read(asset.done()).warnings,
               ElementsAre(HasSubstr("1 node has skin"), HasSubstr("1 node has morph targets"),
-                          HasSubstr("1 primitives have no positions")));
+                          HasSubstr("1 primitive has no positions")));
 }
 
 TEST(Gltf, ExternalBuffersAreSources) {

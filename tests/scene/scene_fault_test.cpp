@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
     All, SceneFault,
     ::testing::Values(
         FaultCase{"ObjectWithoutMesh", [](Scene& s) { s.objects[0].mesh = 1; },
-                  "object 0: there is no mesh 1 among 1 meshes"},
+                  "object 0: there is no mesh 1 among 1 mesh"},
         FaultCase{"ObjectsButNoMeshes", [](Scene& s) { s.meshes.clear(); },
                   "object 0: there is no mesh 0 among 0 meshes"},
         FaultCase{"MovedAndNot", [](Scene& s) { s.objects[0].world_from_mesh.rows[1][3] = 1.0; },
@@ -145,9 +145,9 @@ INSTANTIATE_TEST_SUITE_P(
                     s.meshes[0].normals.resize(1);
                     s.meshes[0].normal_triangles.resize(5, {0, 0, 1});
                   },
-                  "normal_triangles 0: a corner is beyond the 1 normals"},
+                  "normal_triangles 0: a corner is beyond the 1 normal"},
         FaultCase{"ColoursOfSomeVertices", [](Scene& s) { s.meshes[0].colours.resize(1); },
-                  "colours has 1 elements"},
+                  "colours has 1 element"},
         FaultCase{"ColourNaN",
                   [](Scene& s) {
                     s.meshes[0].colours.resize(7);

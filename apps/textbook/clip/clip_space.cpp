@@ -9,6 +9,7 @@
 #include "fathom/clipping/homogeneous.h"
 #include "fathom/clipping/plane.h"
 #include "fathom/clipping/sutherland_hodgman.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::app::clip {
 namespace {
@@ -38,8 +39,8 @@ std::vector<clipping::Corner<Point, Number>> corners(const Json& object, const s
                                                      const ToPoint& to_point) {
   const auto positions = points(object, key, coordinates, coordinates);
   if (positions.size() < 3)
-    throw InputError(key + " has " + std::to_string(positions.size()) +
-                     " corners; expected at least 3");
+    throw InputError(key + " has " + text::counted(positions.size(), "corner") +
+                     "; expected at least 3");
   const auto carried = attributes(object, positions.size());
   std::vector<clipping::Corner<Point, Number>> result;
   for (std::size_t i = 0; i < positions.size(); ++i)

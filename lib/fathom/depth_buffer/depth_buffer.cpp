@@ -7,6 +7,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_fault.h"
+#include "fathom/text/counted.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/map_of_camera.h"
 
@@ -59,7 +60,7 @@ void require_known_triangles(const Samples<std::uint32_t>& ids, std::uint64_t co
   for (const std::uint32_t id : ids) {
     if (id != no_surface && id >= count) {
       throw InputError("map: channel 'id' holds " + std::to_string(id) + ", and the scene has " +
-                       std::to_string(count) + " triangles");
+                       text::counted(count, "triangle"));
     }
   }
 }

@@ -52,17 +52,16 @@ GltfLayout lay_out(GltfBufferViews& views, const JsonValue& holder, std::uint64_
   if (view.stride && strided) {
     stride = view.stride->integer(4, 252);
     if (stride < element_size)
-      view.stride->fail("is less than the size of an element of " + std::to_string(element_size) +
-                        " bytes");
+      view.stride->fail("is less than the size of an element of " +
+                        text::counted(element_size, "byte"));
   }
   // The last element need not be followed by a whole stride. count < 2³² and stride < 2⁸: this
   // cannot overflow.
   const std::uint64_t offset = optional_integer(holder, "byteOffset", 0);
   const std::uint64_t needed = count == 0 ? 0 : stride * (count - 1) + element_size;
   if (offset > view.bytes.size() || needed > view.bytes.size() - offset)
-    holder.fail("its " + std::to_string(count) +
-                " elements reach beyond the end of their bufferView of " +
-                std::to_string(view.bytes.size()) + " bytes");
+    holder.fail("its " + text::counted(count, "element reaches", "elements reach") +
+                " beyond the end of the bufferView of " + text::counted(view.bytes.size(), "byte"));
   return {view.bytes.subspan(offset, needed), stride};
 }
 

@@ -4,6 +4,7 @@
 
 #include "fathom/mesh_files/gltf_extensions.h"
 #include "fathom/mesh_files/gltf_references.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::mesh_files {
 using namespace text;
@@ -38,8 +39,7 @@ Bytes GltfBufferViews::bytes_in_buffer(const JsonValue& place) {
   const std::uint64_t offset = optional_integer(place, "byteOffset", 0);
   const std::uint64_t length = place.at("byteLength").integer(0, largest_integer);
   if (offset > buffer.size() || length > buffer.size() - offset)
-    place.fail("reaches beyond the end of its buffer of " + std::to_string(buffer.size()) +
-               " bytes");
+    place.fail("reaches beyond the end of its buffer of " + text::counted(buffer.size(), "byte"));
   return buffer.subspan(offset, length);
 }
 

@@ -1,5 +1,7 @@
 #include "fathom/mesh_files/gltf_instances.h"
 
+#include "fathom/text/counted.h"
+
 namespace fathom::mesh_files {
 using namespace text;
 
@@ -42,7 +44,7 @@ std::optional<GltfInstances> GltfInstances::of(const JsonValue& node, GltfAccess
     auto accessor = accessors.at(*reference);
     expect(*accessor);
     if ((result.translation_ || result.rotation_) && accessor->count() != result.count_)
-      reference->fail("has " + std::to_string(accessor->count()) + " elements, expected " +
+      reference->fail("has " + text::counted(accessor->count(), "element") + ", expected " +
                       std::to_string(result.count_) + " as the others have");
     result.count_ = accessor->count();
     return accessor;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fathom/mesh_files/gltf_references.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::mesh_files {
 using namespace text;
@@ -263,21 +264,26 @@ void GltfPrimitives::read_indices(const JsonValue& primitive, const GltfAccessor
   indices.for_each_index([&](std::uint64_t i, std::uint32_t index) {
     if (index >= vertices.count)
       primitive.fail("index " + std::to_string(index) + " at place " + std::to_string(i) +
-                     " is out of range, the primitive has " + std::to_string(vertices.count) +
-                     " vertices");
+                     " is out of range, the primitive has " +
+                     text::counted(vertices.count, "vertex", "vertices"));
     corners_.push_back(index);
   });
 }
 
 void GltfPrimitives::report(const std::string& file, Warnings& warnings) const {
-  const auto warn = [&](std::uint64_t count, const std::string& what) {
-    if (count > 0) warnings.push_back(file + ": " + std::to_string(count) + what);
+  const auto warn = [&](std::uint64_t count, std::string_view one, std::string_view many) {
+    if (count > 0) warnings.push_back(file + ": " + text::counted(count, one, many));
   };
-  warn(not_triangles_, " primitives are points or lines; they are skipped");
-  warn(without_positions_, " primitives have no positions; they are skipped");
-  warn(leftover_corners_, " indices are left over after the last whole primitive");
+  warn(not_triangles_, "primitive is of points or lines; it is skipped",
+       "primitives are of points or lines; they are skipped");
+  warn(without_positions_, "primitive has no positions; it is skipped",
+       "primitives have no positions; they are skipped");
+  warn(leftover_corners_, "index is left over after the last whole primitive",
+       "indices are left over after the last whole primitive");
   warn(unusable_attributes_,
-       " lists of normals, texture coordinates or colours are of the wrong type or length, or not "
+       "list of normals, texture coordinates or colours is of the wrong type or length, or not "
+       "finite; it is left out",
+       "lists of normals, texture coordinates or colours are of the wrong type or length, or not "
        "finite; they are left out");
 }
 

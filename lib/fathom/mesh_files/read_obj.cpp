@@ -8,6 +8,7 @@
 #include "fathom/mesh_files/occurrences.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
 #include "fathom/text/text_chunks.h"
 #include "fathom/text/text_cursor.h"
@@ -441,8 +442,10 @@ void make_room(const ObjCounts& total, const ReadOptions& options, const std::st
 void warn(const ObjCounts& total, const ObjOddities& odd, const ReadOptions& options,
           const std::string& file, Warnings& warnings) {
   if (total.in_the_plane())
-    warnings.push_back(file + ": its " + std::to_string(total.vertices) +
-                       " vertices have two coordinates: read with z = 0");
+    warnings.push_back(file + ": its " +
+                       text::counted(total.vertices, "vertex has two coordinates",
+                                     "vertices have two coordinates") +
+                       ": read with z = 0");
   odd.weights.warn(file, "vertex has a weight w other than 1",
                    "vertices have a weight w other than 1", "read as x/w, y/w, z/w", warnings);
   odd.colours.warn(file,

@@ -8,6 +8,7 @@
 
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/text_cursor.h"
 #include "fathom/text/text_ends.h"
 
@@ -35,11 +36,11 @@ std::uint64_t count_binary_stl(std::span<const std::byte> head, std::uint64_t si
   const std::uint64_t expected = stl_header_size + stl_triangle_size * count;
   if (size < expected)
     throw InputError(file + ": byte " + std::to_string(size) + ": the file ends, expected " +
-                     std::to_string(expected) + " bytes for " + std::to_string(count) +
-                     " triangles");
+                     std::to_string(expected) + " bytes for " + text::counted(count, "triangle"));
   if (size > expected)
-    warnings.push_back(file + ": " + std::to_string(size - expected) +
-                       " bytes after the last triangle are ignored");
+    warnings.push_back(file + ": " +
+                       text::counted(size - expected, "byte after the last triangle is ignored",
+                                     "bytes after the last triangle are ignored"));
   return count;
 }
 

@@ -10,6 +10,7 @@
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/object_fault.h"
+#include "fathom/text/counted.h"
 #include "fathom/threads/threads.h"
 
 // How to read this file: every list is looked at in parts, by several threads, in a way that
@@ -22,8 +23,11 @@ namespace {
 
 using Fault = std::optional<std::string>;
 
-std::string count_of(std::uint64_t count, const char* what) {
-  return std::to_string(count) + " " + what;
+/// `what` in the plural.
+std::string count_of(std::uint64_t count, const std::string& what) {
+  if (what == "vertices") return text::counted(count, "vertex", what);
+  if (what == "meshes") return text::counted(count, "mesh", what);
+  return text::counted(count, what.substr(0, what.size() - 1), what);
 }
 
 /// Whether `is_good` says so of all parts of a list.
