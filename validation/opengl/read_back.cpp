@@ -1,27 +1,25 @@
 #include "validation/opengl/read_back.h"
 
-#include <string>
+#include <algorithm>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/depth_format/opengl_storage.h"
 
 namespace fathom::validation {
 namespace {
 
-/// An image read from the bottom, its rows turned; every value made anew by `value`.
-template <class T, class Value>
-std::vector<Value> read_pixels(const GlFunctions& gl, std::uint32_t width, std::uint32_t height,
-                               GLenum format, GLenum type, Value (*value)(T)) {
+/// An image read from the bottom, its rows turned.
+template <class T>
+std::vector<T> read_pixels(const GlFunctions& gl, std::uint32_t width, std::uint32_t height,
+                           GLenum format, GLenum type) {
   std::vector<T> read(std::size_t{width} * height);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.ReadPixels(0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height), format, type,
                 read.data());
-  std::vector<Value> values(read.size());
+  std::vector<T> turned(read.size());
   for (std::size_t row = 0; row < height; ++row) {
-    for (std::size_t x = 0; x < width; ++x) {
-      values[row * width + x] = value(read[(height - 1 - row) * width + x]);
-    }
+    std::copy_n(&read[(height - 1 - row) * width], width, &turned[row * width]);
   }
-  return values;
+  return turned;
 }
 
 }  // namespace
@@ -32,40 +30,32 @@ Storage depth_attachment_storage(const GlFunctions& gl, GLenum target) {
                                          GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE, &bits);
   gl.GetFramebufferAttachmentParameteriv(target, GL_DEPTH_ATTACHMENT,
                                          GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, &type);
-  if (type == GL_FLOAT) return Storage::float32;
-  if (bits == 16) return Storage::unorm16;
-  if (bits == 24) return Storage::unorm24;
-  if (bits == 32) return Storage::unorm32;
-  throw InputError("OpenGL: the driver's depth attachment has " + std::to_string(bits) + " bits");
+  return storage_of_attachment(bits, type == GL_FLOAT);
 }
 
 std::vector<double> read_window_depths(const GlFunctions& gl, std::uint32_t width,
                                        std::uint32_t height, Storage storage) {
-  const auto read_codes = [&](double (*value)(std::uint32_t)) {
-    return read_pixels<std::uint32_t, double>(gl, width, height, GL_DEPTH_COMPONENT,
-                                              GL_UNSIGNED_INT, value);
+  constexpr GLenum depths = GL_DEPTH_COMPONENT;
+  if (storage == Storage::float32) {
+    const auto read = read_pixels<float>(gl, width, height, depths, GL_FLOAT);
+    return {read.begin(), read.end()};
+  }
+  const auto windows = [&](const auto& pixels) {
+    std::vector<double> made(pixels.size());
+    std::transform(pixels.begin(), pixels.end(), made.begin(),
+                   [&](std::uint32_t pixel) { return window_depth_of_pixel(storage, pixel); });
+    return made;
   };
   if (storage == Storage::unorm16) {
-    return read_pixels<std::uint16_t, double>(gl, width, height, GL_DEPTH_COMPONENT,
-                                              GL_UNSIGNED_SHORT,
-                                              [](std::uint16_t code) { return code / 65535.0; });
+    return windows(read_pixels<std::uint16_t>(gl, width, height, depths, GL_UNSIGNED_SHORT));
   }
-  if (storage == Storage::unorm24) {  // in the upper 24 bits
-    return read_codes([](std::uint32_t code) { return (code >> 8) / 16777215.0; });
-  }
-  if (storage == Storage::unorm32) {
-    return read_codes([](std::uint32_t code) { return code / 4294967295.0; });
-  }
-  return read_pixels<float, double>(gl, width, height, GL_DEPTH_COMPONENT, GL_FLOAT,
-                                    [](float z) { return double{z}; });
+  return windows(read_pixels<std::uint32_t>(gl, width, height, depths, GL_UNSIGNED_INT));
 }
 
 std::vector<std::uint32_t> read_numbers(const GlFunctions& gl, std::uint32_t width,
                                         std::uint32_t height) {
   gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
-  return read_pixels<std::uint32_t, std::uint32_t>(gl, width, height, GL_RED_INTEGER,
-                                                   GL_UNSIGNED_INT,
-                                                   [](std::uint32_t number) { return number; });
+  return read_pixels<std::uint32_t>(gl, width, height, GL_RED_INTEGER, GL_UNSIGNED_INT);
 }
 
 }  // namespace fathom::validation

@@ -14,23 +14,19 @@
 #include <algorithm>
 #include <array>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/depth_format/opengl_storage.h"
 
 namespace fathom::vtk {
 namespace {
 
-Storage storage_of_attachment() {
+Storage storage_of_bound_attachment() {
   GLint bits = 0, type = 0;
   const auto ask = [](GLenum what, GLint& answer) {
     glGetFramebufferAttachmentParameteriv(GL_READ_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, what, &answer);
   };
   ask(GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE, bits);
   ask(GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, type);
-  if (type == GL_FLOAT) return Storage::float32;
-  if (bits == 16) return Storage::unorm16;
-  if (bits == 24) return Storage::unorm24;
-  if (bits == 32) return Storage::unorm32;
-  throw InputError("the window's depth attachment has " + std::to_string(bits) + " bits");
+  return storage_of_attachment(bits, type == GL_FLOAT);
 }
 
 /// Rows from the bottom.
@@ -55,15 +51,11 @@ std::vector<double> read_windows(const WindowPart& part, Storage storage) {
   if (storage == Storage::float32) {
     return converted(read<float>(part, GL_FLOAT), [](float z) { return double{z}; });
   }
+  const auto window = [&](std::uint32_t pixel) { return window_depth_of_pixel(storage, pixel); };
   if (storage == Storage::unorm16) {
-    return converted(read<std::uint16_t>(part, GL_UNSIGNED_SHORT),
-                     [](std::uint16_t code) { return code / 65535.0; });
+    return converted(read<std::uint16_t>(part, GL_UNSIGNED_SHORT), window);
   }
-  const auto codes = read<std::uint32_t>(part, GL_UNSIGNED_INT);
-  if (storage == Storage::unorm24) {  // in the upper 24 bits
-    return converted(codes, [](std::uint32_t code) { return (code >> 8) / 16777215.0; });
-  }
-  return converted(codes, [](std::uint32_t code) { return code / 4294967295.0; });
+  return converted(read<std::uint32_t>(part, GL_UNSIGNED_INT), window);
 }
 
 /// OpenGL's rows run from the bottom.
@@ -94,7 +86,7 @@ DepthBuffer read_depth_buffer(vtkOpenGLRenderWindow& window, const WindowPart& p
   glGetIntegerv(GL_SUBPIXEL_BITS, &read.subpixel_bits);
   GLint samples = 0;
   glGetIntegerv(GL_SAMPLES, &samples);
-  read.storage = storage_of_attachment();
+  read.storage = storage_of_bound_attachment();
   if (samples > 1) {
     std::array<GLfloat, 2> position{0.5F, 0.5F};  // rows from the bottom
     glGetMultisamplefv(GL_SAMPLE_POSITION, 0, position.data());

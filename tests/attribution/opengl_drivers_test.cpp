@@ -1,18 +1,13 @@
+#include "fathom/attribution/model/opengl_drivers.h"
+
 #include <gtest/gtest.h>
 
-#include "fathom/attribution/model/opengl_drivers.h"
-#include "fathom/numeric/errors.h"
-#include "validation/opengl/demanded_driver.h"
-
-namespace fathom::validation {
+namespace fathom::attribution {
 namespace {
-
-using attribution::RasterModel;
-using attribution::RendererModel;
 
 RasterModel raster_with(const std::string& version, std::uint32_t size) {
   RendererModel model{.kind = RasterModel{}};
-  attribution::set_driver_facts(version, 4, {.width = size, .height = size / 2}, model);
+  set_driver_facts(version, 4, {.width = size, .height = size / 2}, model);
   EXPECT_EQ(model.watertight, version.find("softpipe") == std::string::npos);
   return std::get<RasterModel>(model.kind);
 }
@@ -39,13 +34,5 @@ TEST(DriverFacts, SoftpipesRoundingsGrowWithTheImage) {
   EXPECT_EQ(raster_with("Mesa, softpipe, 3.3", 2560).subpixel_bits, 8);
 }
 
-TEST(DemandedDriver, AnotherOneIsRefused) {
-  EXPECT_NO_THROW(require(Driver::usual, "llvmpipe (LLVM 15.0.6, 256 bits)"));
-  EXPECT_NO_THROW(require(Driver::llvmpipe, "llvmpipe (LLVM 15.0.6, 256 bits)"));
-  EXPECT_NO_THROW(require(Driver::softpipe, "softpipe"));
-  EXPECT_THROW(require(Driver::softpipe, "llvmpipe (LLVM 15.0.6, 256 bits)"), InputError);
-  EXPECT_THROW(require(Driver::llvmpipe, ""), InputError);
-}
-
 }  // namespace
-}  // namespace fathom::validation
+}  // namespace fathom::attribution
