@@ -61,7 +61,7 @@ class RoundedMatrix : public testing::TestWithParam<Mapping> {
 
 TEST_P(RoundedMatrix, MovesWindowDepthsByUpToTheBound) {
   constexpr double u = unit_roundoff<float>;
-  const MatrixRoundings roundings(camera_, model_);
+  const MatrixRoundings roundings(camera_, model_, {});
   const std::array<ClipRow, 4> rows = rows_of_camera(camera_, model_);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> rounding(-u, u);
@@ -92,12 +92,12 @@ INSTANTIATE_TEST_SUITE_P(All, RoundedMatrix, testing::Values(Mapping::opengl, Ma
 TEST(MatrixRoundings, AreNoneOfAMatrixThatIsKnown) {
   RasterModel model;
   model.matrix = clip_from_held(level_camera(), model);
-  EXPECT_EQ(MatrixRoundings(level_camera(), model).of_window(0, 3), 0);
+  EXPECT_EQ(MatrixRoundings(level_camera(), model, {}).of_window(0, 3), 0);
 }
 
 TEST(MatrixRoundings, OfTwoMatricesAreMore) {
-  const MatrixRoundings one(level_camera(), {.premultiplied = true});
-  const MatrixRoundings two(level_camera(), {.premultiplied = false});
+  const MatrixRoundings one(level_camera(), {.premultiplied = true}, {});
+  const MatrixRoundings two(level_camera(), {.premultiplied = false}, {});
   EXPECT_GE(two.of_window(0, 3), 2 * one.of_window(0, 3));
 }
 

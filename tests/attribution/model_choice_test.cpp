@@ -44,7 +44,7 @@ TEST(ModelChoice, SixteenBits) {
   const ModelChoice choice = chosen_model(truth, in_codes(truth, 16));
   EXPECT_EQ(choice.chosen.model.name, "gl-unorm16") << testing::PrintToString(choice.evidence);
   EXPECT_EQ(choice.chosen.attribution.count(PixelClass::unexplained), 0U);
-  ASSERT_EQ(choice.evidence.size(), named_models().size());
+  ASSERT_EQ(choice.evidence.size(), 7U);  // none of VTK's is needed
   EXPECT_THAT(choice.evidence[0],
               testing::StartsWith("gl-unorm16: 0 pixels unexplained, 0 findings, bounds "));
 }

@@ -68,11 +68,12 @@ struct Fields<attribution::RasterModel> {
   template <class Visit, class S>
   static void each(Visit&& visit, S& s) {
     // A mesh drawn in a process of its own is one part.
-    [[maybe_unused]] auto& [shift, scale, matrix, parts, premultiplied, subpixel_bits, border,
-                            mapping, storage, written, depth_before_snap, nearest_codes,
+    [[maybe_unused]] auto& [shift, scale, shift_as_vtk, matrix, parts, premultiplied, subpixel_bits,
+                            border, mapping, storage, written, depth_before_snap, nearest_codes,
                             decoded_in_binary32, bias, bias_error, affine] = s;
     visit("shift", shift);
     visit("scale", scale);
+    visit("shift_as_vtk", shift_as_vtk);
     visit("matrix", matrix);
     visit("premultiplied", premultiplied);
     visit("subpixel_bits", subpixel_bits);

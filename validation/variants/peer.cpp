@@ -70,10 +70,11 @@ std::string variant_names(Renderer renderer) {
 using ModelName = std::optional<std::string>;
 
 /// What named models take for known of a driver does not hold of every one.
-ModelName matching_model_of(Storage storage, bool reversed, Driver driver) {
+ModelName matching_model_of(const std::string& family, Storage storage, bool reversed,
+                            Driver driver) {
   if (driver != Driver::usual) return std::nullopt;
-  if (!reversed) return "gl-" + std::string(name_of(storage));
-  if (storage == Storage::float32) return "gl-float32-reversed";
+  if (!reversed) return fmt::format("{}-{}", family, name_of(storage));
+  if (storage == Storage::float32) return family + "-float32-reversed";
   return std::nullopt;
 }
 
@@ -82,12 +83,12 @@ ModelName matching_model_of(const VtkVariant& variant) {
   const bool reversed = variant.encoding == Encoding::reversed;
   if (!variant.attachment || variant.samples > 0) return std::nullopt;
   if (!reversed && variant.encoding != Encoding::interpolated) return std::nullopt;
-  return matching_model_of(*variant.attachment, reversed, variant.driver);
+  return matching_model_of("vtk", *variant.attachment, reversed, variant.driver);
 }
 
 ModelName matching_model_of(const OpenGlVariant& variant) {
   if (variant.samples > 1 || variant.offset_units > 0) return std::nullopt;
-  return matching_model_of(variant.storage, variant.reversed, variant.driver);
+  return matching_model_of("gl", variant.storage, variant.reversed, variant.driver);
 }
 
 ModelName matching_model_of(const EmbreeVariant& /*variant*/) {

@@ -9,9 +9,18 @@
 namespace fathom::attribution {
 namespace {
 
-RendererModel raster(const std::string& name, Mapping mapping, Storage storage) {
+RendererModel opengl(const std::string& name, Mapping mapping, Storage storage) {
   return {.name = name,
           .kind = RasterModel{.premultiplied = false,
+                              .mapping = mapping,
+                              .storage = storage,
+                              .decoded_in_binary32 = true}};
+}
+
+/// VTK multiplies its matrices in binary64, with the shift of the mesh in them.
+RendererModel vtk(const std::string& name, Mapping mapping, Storage storage) {
+  return {.name = name,
+          .kind = RasterModel{.shift_as_vtk = true,
                               .mapping = mapping,
                               .storage = storage,
                               .decoded_in_binary32 = true}};
@@ -32,17 +41,27 @@ constexpr double cycles_rotation_error = 24 * unit_roundoff<float>;
 }  // namespace
 
 std::vector<RendererModel> named_models() {
-  return {raster("gl-unorm16", Mapping::opengl, Storage::unorm16),
-          raster("gl-unorm24", Mapping::opengl, Storage::unorm24),
-          raster("gl-unorm32", Mapping::opengl, Storage::unorm32),
-          raster("gl-float32", Mapping::opengl, Storage::float32),
-          raster("gl-float32-reversed", Mapping::reversed, Storage::float32),
+  return {opengl("gl-unorm16", Mapping::opengl, Storage::unorm16),
+          opengl("gl-unorm24", Mapping::opengl, Storage::unorm24),
+          opengl("gl-unorm32", Mapping::opengl, Storage::unorm32),
+          opengl("gl-float32", Mapping::opengl, Storage::float32),
+          opengl("gl-float32-reversed", Mapping::reversed, Storage::float32),
+          vtk("vtk-unorm16", Mapping::opengl, Storage::unorm16),
+          vtk("vtk-unorm24", Mapping::opengl, Storage::unorm24),
+          vtk("vtk-unorm32", Mapping::opengl, Storage::unorm32),
+          vtk("vtk-float32", Mapping::opengl, Storage::float32),
+          vtk("vtk-float32-reversed", Mapping::reversed, Storage::float32),
           ray("float32-ray", 0x1p-20),
           ray("cycles", 1e-3, cycles_rotation_error)};
 }
 
 bool has_clip_planes_for(const RendererModel& model, const Camera& camera) {
   return std::holds_alternative<RayModel>(model.kind) || has_clip_planes(camera);
+}
+
+bool is_of_vtk(const RendererModel& model) {
+  const auto* raster = std::get_if<RasterModel>(&model.kind);
+  return raster != nullptr && raster->shift_as_vtk;
 }
 
 std::string model_names() {

@@ -18,6 +18,9 @@ std::vector<RendererModel> named_models();
 /// Whether the camera has the near and far between which a model's depths are stored.
 bool has_clip_planes_for(const RendererModel& model, const Camera& camera);
 
+/// Whether it is a model of OpenGL as VTK uses it.
+bool is_of_vtk(const RendererModel& model);
+
 /// Fails    UsageError where there is no such model, naming those that there are.
 RendererModel model_named(const std::string& name);
 

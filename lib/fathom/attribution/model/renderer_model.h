@@ -31,6 +31,9 @@ struct RasterModel {
   ///
   /// Frame    world, scene units.
   std::array<double, 3> shift{0, 0, 0}, scale{1, 1, 1};
+  /// Whether the shift is the one that VTK's mappers choose for the mesh (raster/vtk_shift.h), where
+  /// the matrix is not known; `shift` then says nothing.
+  bool shift_as_vtk = false;
   /// The matrix that takes held positions to clip coordinates, row by row, where it is known; its
   /// entries then are not a source of error, and neither are the positions.
   std::optional<std::array<float, 16>> matrix;

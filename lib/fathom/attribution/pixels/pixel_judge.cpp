@@ -30,7 +30,7 @@ PixelJudge::PixelJudge(const Truth& truth, const OtherMap& other, const Renderer
       other_(other),
       watertight_(model.watertight),
       first_of_equals_(model.first_of_equals && !other.triangles.empty()),
-      values_(stored_values(truth.camera, other, model)) {}
+      values_(stored_values(truth, other, model)) {}
 
 PixelJudge::Pixel PixelJudge::pixel(std::size_t index,
                                     const std::vector<Fragment>& fragments) const {

@@ -11,11 +11,11 @@ namespace fathom::attribution {
 namespace {
 
 struct Values {
-  const Camera& camera;
+  const Truth& truth;
   const OtherMap& other;
 
   std::unique_ptr<StoredValues> operator()(const RasterModel& model) const {
-    return raster_values(camera, other, model);
+    return raster_values(truth, other, model);
   }
   std::unique_ptr<StoredValues> operator()(const RayModel& /*model*/) const {
     return ray_values(other);
@@ -24,9 +24,9 @@ struct Values {
 
 }  // namespace
 
-std::unique_ptr<StoredValues> stored_values(const Camera& camera, const OtherMap& other,
+std::unique_ptr<StoredValues> stored_values(const Truth& truth, const OtherMap& other,
                                             const RendererModel& model) {
-  auto values = std::visit(Values{camera, other}, model.kind);
+  auto values = std::visit(Values{truth, other}, model.kind);
   const bool is_recorded = model.recorded && other.windows.empty();
   return is_recorded ? recorded_values(std::move(values), other, *model.recorded)
                      : std::move(values);

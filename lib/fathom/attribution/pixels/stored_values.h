@@ -7,7 +7,7 @@
 #include "fathom/attribution/fragment.h"
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/other_map.h"
-#include "fathom/camera/camera.h"
+#include "fathom/attribution/truth.h"
 #include "fathom/numeric/interval.h"
 
 namespace fathom::attribution {
@@ -52,10 +52,10 @@ class StoredValues {
                                                             const Fragment& f) const = 0;
 };
 
-/// The map outlives what is returned.
-std::unique_ptr<StoredValues> stored_values(const Camera& camera, const OtherMap& other,
+/// Truth and map outlive what is returned.
+std::unique_ptr<StoredValues> stored_values(const Truth& truth, const OtherMap& other,
                                             const RendererModel& model);
-std::unique_ptr<StoredValues> raster_values(const Camera& camera, const OtherMap& other,
+std::unique_ptr<StoredValues> raster_values(const Truth& truth, const OtherMap& other,
                                             const RasterModel& model);
 std::unique_ptr<StoredValues> ray_values(const OtherMap& other);
 /// Of depths that were written down once more: `made` as of the renderer itself.

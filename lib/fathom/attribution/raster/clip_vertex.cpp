@@ -4,6 +4,7 @@
 
 #include "fathom/attribution/model/own_roundings.h"
 #include "fathom/attribution/raster/clip_rows.h"
+#include "fathom/attribution/raster/vtk_shift.h"
 #include "fathom/numeric/unit_roundoff.h"
 
 // docs/validation.md, "A rasterizer", "Corners", derives what stands here.
@@ -75,8 +76,9 @@ std::vector<ClipVertex> vertices_of_parts(const Camera& camera, const RasterMode
 
 std::vector<ClipVertex> clip_vertices(const WorldMesh& mesh, const Camera& camera,
                                       const RasterModel& model) {
-  std::vector<ClipVertex> vertices = model.parts.empty() ? vertices_of_mesh(mesh, camera, model)
-                                                         : vertices_of_parts(camera, model);
+  std::vector<ClipVertex> vertices =
+      model.parts.empty() ? vertices_of_mesh(mesh, camera, with_known_shift(model, mesh))
+                          : vertices_of_parts(camera, model);
   if (model.mapping != Mapping::opengl) return vertices;
   for (ClipVertex& vertex : vertices) {  // z is 2·z_window − w there
     vertex.value[2] = (vertex.value[2] + vertex.value[3]) / 2;

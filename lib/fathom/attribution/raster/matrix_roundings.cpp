@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "fathom/attribution/raster/vtk_shift.h"
 #include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {
@@ -22,13 +23,14 @@ double value(const CameraRays::Affine& f, std::size_t k, double x, double y) {
 
 }  // namespace
 
-MatrixRoundings::MatrixRoundings(const Camera& camera, const RasterModel& model)
+MatrixRoundings::MatrixRoundings(const Camera& camera, const RasterModel& model,
+                                 const WorldMesh& mesh)
     : rays_(camera_rays(camera)),
-      shift_(model.shift),
+      shift_(with_known_shift(model, mesh).shift),
       width_(camera.width),
       of_entry_((model.premultiplied ? 1 : 2) * unit_roundoff<float>),
       half_(model.mapping == Mapping::opengl ? 0.5 : 1) {
-  if (!model.matrix) rows_ = rows_of_camera(camera, model);
+  if (!model.matrix) rows_ = rows_of_camera(camera, with_known_shift(model, mesh));
 }
 
 double MatrixRoundings::of_window(std::size_t pixel, double depth) const {

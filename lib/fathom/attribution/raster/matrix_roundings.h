@@ -7,6 +7,7 @@
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/raster/clip_rows.h"
 #include "fathom/attribution/ray/camera_rays.h"
+#include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"
 
 namespace fathom::attribution {
@@ -15,7 +16,7 @@ namespace fathom::attribution {
 /// unlike those of corners and planes they do not cancel, however many triangles there are.
 class MatrixRoundings {
  public:
-  MatrixRoundings(const Camera& camera, const RasterModel& model);
+  MatrixRoundings(const Camera& camera, const RasterModel& model, const WorldMesh& mesh);
 
   /// How far they may move the window depth of a surface at a depth that a pixel shows, of the
   /// rows of z and w. (Those of x and y move the image, by which some surfaces come nearer and

@@ -16,12 +16,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Of a rasterizer: window depths, or depths that were decoded from them.
 class RasterValues final : public StoredValues {
  public:
-  RasterValues(const Camera& camera, const OtherMap& other, const RasterModel& model)
+  RasterValues(const Truth& truth, const OtherMap& other, const RasterModel& model)
       : other_(other),
         model_(model),
-        window_(window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far)),
+        window_(window_depth(truth.camera.projection, model.stored_mapping(), truth.camera.near,
+                             truth.camera.far)),
         sign_(window_.reversed() ? -1 : 1),
-        roundings_(camera, model) {}
+        roundings_(truth.camera, model, truth.mesh) {}
 
   [[nodiscard]] Interval interval(const Fragment& f) const override {
     return has_windows() ? f.value : as_depths(f);
@@ -107,9 +108,9 @@ std::optional<BiasSteps> RasterValues::bias_steps(std::size_t pixel, const Fragm
 
 }  // namespace
 
-std::unique_ptr<StoredValues> raster_values(const Camera& camera, const OtherMap& other,
+std::unique_ptr<StoredValues> raster_values(const Truth& truth, const OtherMap& other,
                                             const RasterModel& model) {
-  return std::make_unique<RasterValues>(camera, other, model);
+  return std::make_unique<RasterValues>(truth, other, model);
 }
 
 }  // namespace fathom::attribution
