@@ -49,9 +49,8 @@ struct Spoiled {
 Spoiled spoiled(const validation::DrivenRenderer& renderer) {
   using validation::Renderer;
   const auto made = [&](const char* variant) {
-    Peer peer = validation::peer_named(renderer, variant);
-    const std::string model = validation::matching_model(peer).value();
-    return Spoiled{std::move(peer), attribution::model_named(model)};
+    const Peer peer = validation::peer_named(renderer, variant);
+    return Spoiled{peer, attribution::model_named(validation::matching_model(peer).value())};
   };
   switch (renderer.renderer) {
     case Renderer::vtk:
@@ -90,6 +89,7 @@ std::vector<std::vector<double>> planned_sizes(const std::vector<Fault>& faults,
         const FaultSubject subject =
             fault_subject(scene, maps.right.drawn->map, maps.renderer.model);
         std::vector<std::vector<double>> sizes;
+        sizes.reserve(faults.size());
         for (const Fault& fault : faults) sizes.push_back(sizes_of(fault, subject));
         return sizes;
       },
