@@ -24,9 +24,9 @@ struct ModelChoice {
   std::vector<std::string> evidence;
 };
 
-/// Of the named models that mean something for the camera (near and far, where one is needed), those
-/// of VTK only where none of the others explains the map without a fault: the one that leaves the fewest pixels unexplained with the fewest faults, of those the one with the
-/// narrowest bounds.
+/// Of the named models that mean something for the camera (near and far, where one is needed): the
+/// one that leaves the fewest pixels unexplained with the fewest faults, of those the one with the
+/// narrowest bounds. VTK's are tried only where none of the others explains the map without a fault.
 ModelChoice chosen_model(const Truth& truth, const OtherMap& other);
 
 }  // namespace fathom::attribution
