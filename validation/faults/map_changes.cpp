@@ -28,6 +28,12 @@ void set(OtherMap& map, std::size_t pixel, double value) {
   map.values[pixel] = map.depths[pixel] = value;
 }
 
+/// Of a pixel, in the image.
+std::array<double, 2> centre_of(const OtherMap& map, std::size_t pixel) {
+  const std::size_t column = pixel % map.width, row = pixel / map.width;
+  return {static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5};
+}
+
 /// Pixels with a surface, in an order that is random but always the same.
 std::vector<std::size_t> shuffled_surfaces(const OtherMap& map) {
   std::vector<std::size_t> pixels;
@@ -218,8 +224,7 @@ MapChange affine_depths() {
     const attribution::Truth& truth = right.truth;
     for (std::size_t i = 0; i < map.depths.size(); ++i) {
       if (truth.triangles[i] == no_surface || !is_surface(map.depths[i])) continue;
-      const double x = static_cast<double>(i % map.width) + 0.5;
-      const double y = static_cast<double>(i / map.width) + 0.5;
+      const auto [x, y] = centre_of(map, i);
       set(map, i, rounded(linear_depth(truth, truth.triangles[i], x, y)));
     }
   };
@@ -228,11 +233,11 @@ MapChange affine_depths() {
 MapChange ray_distances() {
   return [](OtherMap& map, const RightMap& right, double) {
     const Camera& c = right.truth.camera;
-    const PrincipalPoint centre = principal_point(c);
+    const auto [cx, cy] = principal_point(c);
     for (std::size_t i = 0; i < map.depths.size(); ++i) {
       if (!is_surface(map.depths[i])) continue;
-      const double y = (static_cast<double>(i / map.width) + 0.5 - centre.y) / c.fy;
-      const double x = (static_cast<double>(i % map.width) + 0.5 - centre.x - c.skew * y) / c.fx;
+      const auto [u, v] = centre_of(map, i);
+      const double y = (v - cy) / c.fy, x = (u - cx - c.skew * y) / c.fx;
       set(map, i, rounded(map.depths[i] * std::sqrt(1 + x * x + y * y)));
     }
   };

@@ -70,16 +70,15 @@ DrawnMap draw_variant(const BuiltIn& variant, const ValidationScene& scene) {
 }  // namespace
 
 std::vector<Peer> peers_of(const DrivenRenderer& driven, int seconds) {
-  const auto& [renderer, driver] = driven;
   const auto with_driver = [&](std::vector<Peer> peers) {
-    for (Peer& peer : peers) set_driver(peer, driver);
+    for (Peer& peer : peers) set_driver(peer, driven.driver);
     return peers;
   };
-  switch (renderer) {
+  switch (driven.renderer) {
     case Renderer::vtk:
-      return with_driver(vtk_peers(driver, seconds));
+      return with_driver(vtk_peers(driven.driver, seconds));
     case Renderer::opengl:
-      return with_driver(opengl_peers(driver, seconds));
+      return with_driver(opengl_peers(driven.driver, seconds));
     case Renderer::embree:
       return {EmbreeVariant{}, EmbreeVariant{.robust = true}};
     case Renderer::blender:

@@ -19,8 +19,6 @@
 namespace fathom::vtk {
 namespace {
 
-using attribution::RasterPart;
-
 std::array<std::array<double, 4>, 3> affine_of(vtkMatrix4x4* matrix) {
   std::array<std::array<double, 4>, 3> rows{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   if (matrix == nullptr) return rows;

@@ -82,9 +82,10 @@ struct SamplePoint {
 
 SamplePoint sample_point(const Camera& c, const SamplePosition& sample, std::size_t pixel) {
   const auto [cx, cy] = principal_point(c);
+  const std::size_t column = pixel % c.width, row = pixel / c.width;
   SamplePoint s;
-  s.shown_y = (static_cast<double>(pixel / c.width) + sample.y - cy) / c.fy;
-  s.shown_x = (static_cast<double>(pixel % c.width) + sample.x - cx - c.skew * s.shown_y) / c.fx;
+  s.shown_y = (static_cast<double>(row) + sample.y - cy) / c.fy;
+  s.shown_x = (static_cast<double>(column) + sample.x - cx - c.skew * s.shown_y) / c.fx;
   const auto [x, y] = undistorted(s.shown_x, s.shown_y, sample.k1, sample.k2);
   s.x = x;
   s.y = y;
