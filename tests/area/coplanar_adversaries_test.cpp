@@ -30,7 +30,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 void take_corners_apart(Draw& draw, Mesh& mesh) {
   constexpr double weights[][3] = {{8, 0, 0}, {6, 1, 1}, {5, 2, 1},
                                    {4, 1, 3}, {7, 0, 1}, {6, 2, 0}};
-  const std::vector<MeshPoint> shared = mesh.vertices;
+  const MeshArray<MeshPoint> shared = mesh.vertices;
   mesh.vertices.clear();
   for (CornerIndices& t : mesh.triangles) {
     const auto& w = draw.one_of(weights);

@@ -41,7 +41,7 @@ TEST_P(Disjoint, IsSaidOnlyOfTrianglesWithoutACommonArea) {
   int apart = 0, overlapping = 0;
   for (int i = 0; i < 2000 / testing::effort; ++i) {
     Case c = maker.make();
-    std::vector<CornerIndices>& triangles = c.scene.meshes[0].triangles;
+    auto& triangles = c.scene.meshes[0].triangles;
     triangles.resize(2);
     const auto surfaces = surfaces_by_number(c.scene, c.camera);
     if (!surfaces[0] || !surfaces[1]) continue;

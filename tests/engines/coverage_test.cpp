@@ -260,7 +260,7 @@ TEST(CoverageLaws, CullingLeavesTrianglesOut) {
       options.cull = cull;
       const Samples<float> culled = coverage_of(c.scene, c.camera, options);
       Scene kept = c.scene;
-      std::vector<CornerIndices>& triangles = kept.meshes[0].triangles;
+      auto& triangles = kept.meshes[0].triangles;
       TierCounts counts;
       triangles.clear();
       for (std::uint32_t t = 0; t < triangle_count(c.scene); ++t) {

@@ -214,7 +214,7 @@ bool any_is_beyond(const std::vector<std::vector<const Node*>>& ways,
 /// mesh, and the four that tell what any affine map is.
 void expect_placed(const Object& object, const Mesh& mesh, const std::vector<const Node*>& way,
                    const Numbers& transform) {
-  std::vector<MeshPoint> points = mesh.vertices;
+  std::vector<MeshPoint> points(mesh.vertices.begin(), mesh.vertices.end());
   points.insert(points.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   for (const MeshPoint& p : points) {
     const Point expected = placed(way, transform, {p.x, p.y, p.z});

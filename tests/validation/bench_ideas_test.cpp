@@ -155,7 +155,8 @@ TEST(Ideas, EquallyNearSurfacesMayBeDrawnInAnyOrder) {
   Mesh mesh;
   for (const double z : {900.001, 900.0}) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), {{-900, -900, z}, {900, -900, z}, {0, 900, z}});
+    for (const MeshPoint corner : {MeshPoint{-900, -900, z}, {900, -900, z}, {0, 900, z}})
+      mesh.vertices.push_back(corner);
     mesh.triangles.push_back({first, first + 1, first + 2});
   }
   mesh.face_count = 2;

@@ -216,7 +216,7 @@ TEST(Course, SixteenBitsFightAndFartherSurfacesFightMore) {
 
 TEST(Course, TheTiltOfFightsIsThatOfTheirCorners) {
   for (const double d : {0.5, 50.0}) {
-    const std::vector<MeshPoint> v = fight_files(d).view.scene.meshes[0].vertices;
+    const MeshArray<MeshPoint> v = fight_files(d).view.scene.meshes[0].vertices;
     ASSERT_EQ(v.size(), 8u);
     for (std::size_t k = 0; k < 4; ++k)  // as the page says
       EXPECT_NEAR(v[k].z, 1.2 * d + 0.3 * v[k].x + 0.3 * v[k].y, 1e-12 * d);

@@ -17,7 +17,7 @@ namespace fathom::attribution {
 /// Exact    points of objects that are placed as they are; the others are rounded once, to binary64.
 struct WorldMesh {
   std::vector<std::array<double, 3>> points;
-  std::vector<CornerIndices> triangles;
+  MeshArray<CornerIndices> triangles;
 };
 
 /// Fails    InputError if the scene has a fault (find_fault), or more than 2³² − 1 corners in all.

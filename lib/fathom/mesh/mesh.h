@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fathom/geometry/frames.h"
+#include "fathom/mesh/mesh_array.h"
 
 namespace fathom {
 
@@ -18,9 +19,9 @@ using CornerIndices = std::array<std::uint32_t, 3>;
 /// need not. Not in it: a transform (see Object), topology, materials.
 struct Mesh {
   /// One point per vertex, in the file's own frame and unit.
-  std::vector<MeshPoint> vertices;
+  MeshArray<MeshPoint> vertices;
   /// Three indices into `vertices` per triangle; at most 2³² − 2 triangles.
-  std::vector<CornerIndices> triangles;
+  MeshArray<CornerIndices> triangles;
   /// For each triangle the number of the face of its file that it comes from, counted from 0 over
   /// all faces, including skipped ones. Empty where triangle t is face t.
   std::vector<std::uint32_t> face_of_triangle;
@@ -39,8 +40,8 @@ struct Mesh {
   std::vector<std::array<float, 4>> colours;
   /// For each triangle, indices of its corners into the lists above (no_index where a corner has
   /// none). Empty where an attribute is given per vertex, so that the indices of `triangles` apply.
-  std::vector<CornerIndices> texture_triangles;
-  std::vector<CornerIndices> normal_triangles;
+  MeshArray<CornerIndices> texture_triangles;
+  MeshArray<CornerIndices> normal_triangles;
 
   /// Whether there is nothing to draw.
   [[nodiscard]] bool is_empty() const {

@@ -15,14 +15,14 @@ struct FanRange {
 };
 
 /// The corners of a fan, as they are in `list`.
-void ring_of_fan(const std::vector<CornerIndices>& list, FanRange fan,
+void ring_of_fan(std::span<const CornerIndices> list, FanRange fan,
                  std::vector<std::uint32_t>& ring) {
   ring.assign({list[fan.first][0], list[fan.first][1]});
   for (std::size_t t = fan.first; t < fan.end; ++t) ring.push_back(list[t][2]);
 }
 
-void write_cut(std::vector<CornerIndices>& list, FanRange fan,
-               const std::vector<CornerIndices>& cut, std::vector<std::uint32_t>& ring) {
+void write_cut(MeshArray<CornerIndices>& list, FanRange fan, const std::vector<CornerIndices>& cut,
+               std::vector<std::uint32_t>& ring) {
   if (list.empty()) return;
   ring_of_fan(list, fan, ring);
   for (std::size_t k = 0; k < cut.size(); ++k)

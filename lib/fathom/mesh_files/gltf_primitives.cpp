@@ -72,9 +72,9 @@ void expect_indices(const GltfAccessor& accessor) {
 
 /// The indices of the corners that have an attribute, if not all have it.
 template <class HasIt>
-std::vector<CornerIndices> only_where(const std::vector<CornerIndices>& triangles,
+std::vector<CornerIndices> only_where(std::span<const CornerIndices> triangles,
                                       const HasIt& has_it) {
-  std::vector<CornerIndices> result(triangles);
+  std::vector<CornerIndices> result(triangles.begin(), triangles.end());
   for (std::size_t i = 0; i < result.size(); ++i)
     if (!has_it(i)) result[i] = {no_index, no_index, no_index};
   return result;
@@ -93,9 +93,9 @@ Mesh GltfPrimitives::read(const JsonValue& description) {
   return mesh;
 }
 
-template <class T>
-void GltfPrimitives::make_room(std::vector<T>& list, std::uint64_t more) {
-  accessors_.budget().take(more, sizeof(T));
+template <class List>
+void GltfPrimitives::make_room(List& list, std::uint64_t more) {
+  accessors_.budget().take(more, sizeof(typename List::value_type));
   const std::size_t needed = list.size() + more;
   if (needed > list.capacity()) list.reserve(std::max(needed, 2 * list.capacity()));
 }
@@ -103,7 +103,7 @@ void GltfPrimitives::make_room(std::vector<T>& list, std::uint64_t more) {
 /// An attribute is per vertex if all triangles have it, per corner if only some do, and nothing if
 /// none do.
 void GltfPrimitives::settle_attributes(Mesh& mesh) {
-  const auto settle = [&](auto has_it, auto& values, std::vector<CornerIndices>& corners) {
+  const auto settle = [&](auto has_it, auto& values, MeshArray<CornerIndices>& corners) {
     if (std::all_of(runs_.begin(), runs_.end(), has_it)) return;
     if (std::none_of(runs_.begin(), runs_.end(), has_it)) {
       values.clear();

@@ -58,8 +58,8 @@ class GltfPrimitives {
   void settle_attributes(Mesh& mesh);
   /// Makes room for `more` elements, if the budget allows it. Many primitives are appended to one
   /// list: it at least doubles when it grows, so that this takes linear time.
-  template <class T>
-  void make_room(std::vector<T>& list, std::uint64_t more);
+  template <class List>
+  void make_room(List& list, std::uint64_t more);
 
   GltfAccessors& accessors_;
   bool attributes_, lines_and_points_;

@@ -20,8 +20,8 @@ bool is_zero(const std::array<double, 3>& value) {
 /// How many are not finite. What `corners` names of these and of those that mean nothing, or else
 /// the triangles by their vertices, is none.
 template <class Value, class MeansNothing>
-std::size_t leave_out(std::vector<Value>& values, std::vector<CornerIndices>& corners,
-                      const std::vector<CornerIndices>& triangles, MeansNothing means_nothing) {
+std::size_t leave_out(std::vector<Value>& values, MeshArray<CornerIndices>& corners,
+                      const MeshArray<CornerIndices>& triangles, MeansNothing means_nothing) {
   std::vector<bool> odd(values.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {

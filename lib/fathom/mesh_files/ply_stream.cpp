@@ -111,7 +111,7 @@ class ScanSink {
 /// The vertices of a chunk, each only once if its uses follow each other closely.
 class ChunkVertices {
  public:
-  ChunkVertices(const PlyVertices& all, std::vector<MeshPoint>& chunk)
+  ChunkVertices(const PlyVertices& all, MeshArray<MeshPoint>& chunk)
       : all_(all), chunk_(chunk), recent_(1U << 16, {no_index, 0}) {}
 
   std::uint32_t number_of(std::uint32_t vertex) {
@@ -126,7 +126,7 @@ class ChunkVertices {
 
  private:
   const PlyVertices& all_;
-  std::vector<MeshPoint>& chunk_;
+  MeshArray<MeshPoint>& chunk_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> recent_;
 };
 

@@ -43,7 +43,7 @@ class StlStream : public TriangleStream {
     chunk.mesh.triangles.reserve(count);
     for_each(first, count, [&](std::uint32_t, const std::array<MeshPoint, 3>& corners) {
       const auto vertex = static_cast<std::uint32_t>(chunk.mesh.vertices.size());
-      chunk.mesh.vertices.insert(chunk.mesh.vertices.end(), corners.begin(), corners.end());
+      chunk.mesh.vertices.append(corners.begin(), corners.end());
       chunk.mesh.triangles.push_back({vertex, vertex + 1, vertex + 2});
     });
     file_->expect_unchanged();

@@ -32,9 +32,8 @@ std::string count_of(std::uint64_t count, const std::string& what) {
 
 /// Whether `is_good` says so of all parts of a list.
 template <class T, class IsGood>
-bool all_parts(const std::vector<T>& list, const IsGood& is_good) {
+bool all_parts(std::span<const T> all, const IsGood& is_good) {
   constexpr std::size_t part = 1U << 14;
-  const std::span<const T> all(list);
   const std::size_t parts = (all.size() + part - 1) / part;
   if (parts <= 1) return is_good(all);
   std::atomic<bool> all_good = true;
@@ -55,7 +54,7 @@ bool all_below_or_none(std::span<const CornerIndices> triangles, std::uint64_t e
 
 /// Names the first element of a list of which `is_good` does not hold.
 template <class T, class IsGood>
-Fault find_bad(const std::vector<T>& list, const char* element, const std::string& what,
+Fault find_bad(std::span<const T> list, const char* element, const std::string& what,
                const IsGood& is_good) {
   if (all_parts(list, is_good)) return std::nullopt;
   const auto bad = std::find_if_not(list.begin(), list.end(),
@@ -63,15 +62,17 @@ Fault find_bad(const std::vector<T>& list, const char* element, const std::strin
   return std::string(element) + " " + std::to_string(bad - list.begin()) + what;
 }
 
-template <class Real, class T>
-Fault find_not_finite(const std::vector<T>& list, const char* element) {
-  return find_bad(list, element, " has a number that is not finite", all_finite<Real, T>);
+template <class Real, class List>
+Fault find_not_finite(const List& list, const char* element) {
+  using T = typename List::value_type;
+  return find_bad(std::span<const T>(list), element, " has a number that is not finite",
+                  all_finite<Real, T>);
 }
 
 /// Names the first triangle with a corner that is none of so many; no_index is one where it is
 /// allowed.
 template <class IsGood>
-Fault find_index_beyond(const std::vector<CornerIndices>& triangles, std::uint64_t end,
+Fault find_index_beyond(std::span<const CornerIndices> triangles, std::uint64_t end,
                         const char* element, const char* of, const IsGood& is_good) {
   return find_bad(triangles, element, ": a corner is beyond the " + count_of(end, of),
                   [&](std::span<const CornerIndices> part) { return is_good(part, end); });
@@ -86,7 +87,7 @@ Fault find_wrong_size(std::size_t size, std::uint64_t count, const char* name, c
 
 /// An attribute, which is for each vertex, or for the corners of its own triangles.
 Fault find_fault_of_attribute(const Mesh& mesh, std::size_t size,
-                              const std::vector<CornerIndices>& triangles, const char* name,
+                              std::span<const CornerIndices> triangles, const char* name,
                               const char* name_of_triangles) {
   if (triangles.empty()) return find_wrong_size(size, mesh.vertices.size(), name, "vertices");
   if (auto fault =

@@ -75,7 +75,7 @@ std::optional<BenchScene> in_order(const BenchScene& bench, DrawOrder order) {
                                   pipeline::draw_rules_of(bench.scene, options), statistics)
           .triangles;
   put_into_draw_order(drawn, options);
-  const std::vector<CornerIndices>& triangles = bench.scene.meshes[0].triangles;
+  const MeshArray<CornerIndices>& triangles = bench.scene.meshes[0].triangles;
   std::vector<bool> taken(triangles.size());
   std::vector<CornerIndices> sorted;
   const auto take = [&](std::size_t i) {

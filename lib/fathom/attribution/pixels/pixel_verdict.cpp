@@ -14,7 +14,7 @@ struct OpenEdge {
 };
 
 std::vector<OpenEdge> open_edges(std::span<const Fragment> fragments,
-                                 const std::vector<CornerIndices>& triangles,
+                                 std::span<const CornerIndices> triangles,
                                  const std::vector<std::uint32_t>& numbers) {
   std::vector<OpenEdge> edges;
   for (std::size_t i = 0; i < fragments.size(); ++i) {
@@ -88,7 +88,7 @@ double joint_cap(std::span<const Fragment> fragments, std::vector<OpenEdge> edge
 }  // namespace
 
 PixelVerdict verdict_of(std::span<const Fragment> fragments, bool watertight,
-                        const std::vector<CornerIndices>& triangles,
+                        std::span<const CornerIndices> triangles,
                         const std::vector<std::uint32_t>& numbers) {
   PixelVerdict verdict;
   bool some_may = false;

@@ -22,7 +22,7 @@ struct PixelVerdict {
 /// `triangles` and `numbers` of the mesh. Where a renderer is watertight, fragments that share all
 /// edges which the model leaves open count as one that is certain (docs/validation.md, "Together").
 PixelVerdict verdict_of(std::span<const Fragment> fragments, bool watertight,
-                        const std::vector<CornerIndices>& triangles,
+                        std::span<const CornerIndices> triangles,
                         const std::vector<std::uint32_t>& numbers);
 
 }  // namespace fathom::attribution

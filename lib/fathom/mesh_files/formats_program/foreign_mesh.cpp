@@ -97,8 +97,7 @@ void ForeignMeshBuilder::add_attributes(const std::vector<Part>& parts, Mesh& me
     if (!complete) ++bad_attributes_;
     return complete;
   };
-  const auto add = [&](auto list, auto& values, auto otherwise,
-                       std::vector<CornerIndices>* corners) {
+  const auto add = [&](auto list, auto& values, auto otherwise, MeshArray<CornerIndices>* corners) {
     using Value = decltype(otherwise);
     std::vector<bool> given;
     given.reserve(parts.size());
