@@ -1,0 +1,42 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "fathom/image/samples.h"
+
+/// Arrays that own their memory, made of what the library returns without copying it.
+namespace fathom::python {
+
+using Shape = std::vector<pybind11::ssize_t>;
+
+template <class T>
+pybind11::array array_of(Samples<T>&& samples, Shape shape) {
+  auto kept = std::make_unique<Samples<T>>(std::move(samples));
+  T* const data = kept->data();
+  const pybind11::capsule owner(kept.get(),
+                                [](void* memory) { delete static_cast<Samples<T>*>(memory); });
+  kept.release();
+  return pybind11::array_t<T>(std::move(shape), data, owner);
+}
+
+template <class T>
+pybind11::array array_of(std::vector<T>&& values) {
+  auto kept = std::make_unique<std::vector<T>>(std::move(values));
+  const T* const data = kept->data();
+  const auto size = static_cast<pybind11::ssize_t>(kept->size());
+  const pybind11::capsule owner(kept.get(),
+                                [](void* memory) { delete static_cast<std::vector<T>*>(memory); });
+  kept.release();
+  return pybind11::array_t<T>(Shape{size}, data, owner);
+}
+
+/// What Python's code has made sure of: C order, and this type of elements.
+template <class T>
+using ContiguousArray = pybind11::array_t<T, pybind11::array::c_style>;
+
+}  // namespace fathom::python

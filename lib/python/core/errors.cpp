@@ -1,0 +1,57 @@
+#include "errors.h"
+
+#include <exception>
+#include <new>
+
+#include "fathom/numeric/errors.h"
+
+namespace py = pybind11;
+
+namespace fathom::python {
+namespace {
+
+/// Borrowed: the module, which is never unloaded, holds them.
+PyObject *usage_error, *input_error, *output_error;
+
+PyObject* make_error(py::module_& core, const char* name, const char* doc, const py::tuple& bases) {
+  const std::string full = std::string("fathom.") + name;
+  PyObject* type = PyErr_NewExceptionWithDoc(full.c_str(), doc, bases.ptr(), nullptr);
+  if (!type) throw py::error_already_set();
+  core.attr(name) = py::reinterpret_steal<py::object>(type);
+  return type;
+}
+
+void translate(std::exception_ptr pointer) {
+  try {
+    if (pointer) std::rethrow_exception(pointer);
+  } catch (const UsageError& error) {
+    PyErr_SetString(usage_error, error.what());
+  } catch (const InputError& error) {
+    PyErr_SetString(input_error, error.what());
+  } catch (const OutputError& error) {
+    PyErr_SetString(output_error, error.what());
+  } catch (const std::bad_alloc&) {
+    PyErr_SetString(PyExc_MemoryError, "fathom: there is not enough memory");
+  }
+}
+
+}  // namespace
+
+void bind_errors(py::module_& core) {
+  PyObject* const base = make_error(core, "Error", "What fathom cannot do, and why, in one line.",
+                                    py::make_tuple(py::handle(PyExc_Exception)));
+  const auto under = [&](PyObject* builtin) {
+    return py::make_tuple(py::handle(base), py::handle(builtin));
+  };
+  usage_error = make_error(core, "UsageError", "A request that makes no sense: a ValueError, too.",
+                           under(PyExc_ValueError));
+  input_error = make_error(core, "InputError",
+                           "A file, scene, camera or map that cannot be used: a ValueError, too.",
+                           under(PyExc_ValueError));
+  output_error = make_error(core, "OutputError",
+                            "What cannot be written, or does not fit its format: an OSError, too.",
+                            under(PyExc_OSError));
+  py::register_exception_translator(&translate);
+}
+
+}  // namespace fathom::python

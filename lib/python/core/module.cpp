@@ -1,0 +1,15 @@
+#include "bindings.h"
+#include "errors.h"
+
+PYBIND11_MODULE(_core, core) {
+  core.doc() = "What the modules of fathom call: see those.";
+  using namespace fathom::python;
+  bind_errors(core);
+  bind_camera(core);
+  bind_scene(core);
+  bind_maps(core);
+  bind_render(core);
+  bind_questions(core);
+  bind_depth_formats(core);
+  bind_clipping(core);
+}

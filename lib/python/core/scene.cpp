@@ -1,0 +1,153 @@
+#include "scene.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "fathom/scene/bounds.h"
+#include "fathom/scene/read_scene.h"
+#include "running.h"
+
+namespace py = pybind11;
+
+namespace fathom::python {
+namespace {
+
+/// Keeps an array of Python's, and lets go of it in whichever thread the last user ends.
+std::shared_ptr<const void> keeper_of(py::object array) {
+  return {new py::object(std::move(array)), [](py::object* kept) {
+            const py::gil_scoped_acquire hold;
+            delete kept;
+          }};
+}
+
+static_assert(sizeof(MeshPoint) == 3 * sizeof(double));
+static_assert(sizeof(CornerIndices) == 3 * sizeof(std::uint32_t));
+
+/// The rows of an array of three columns, where they are.
+template <class Row, class Number>
+MeshArray<Row> lent_rows(const ContiguousArray<Number>& array) {
+  const auto* const first = reinterpret_cast<const Row*>(array.data());
+  return MeshArray<Row>::of_lent({first, static_cast<std::size_t>(array.shape(0))},
+                                 keeper_of(array));
+}
+
+Mesh mesh_of(const ContiguousArray<double>& vertices, const ContiguousArray<std::uint32_t>& faces) {
+  Mesh mesh;
+  mesh.vertices = lent_rows<MeshPoint>(vertices);
+  mesh.triangles = lent_rows<CornerIndices>(faces);
+  mesh.face_count = mesh.triangles.size();
+  return mesh;
+}
+
+using Rows = std::array<std::array<double, 4>, 3>;
+
+WorldFromMesh exact(const Rows& rows) {
+  WorldFromMesh transform;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 4; ++k) transform.rows[i][k] = Dyadic(rows[i][k]);
+  return transform;
+}
+
+std::size_t add_mesh(SharedScene& shared, const ContiguousArray<double>& vertices,
+                     const ContiguousArray<std::uint32_t>& faces) {
+  auto scene = std::make_shared<Scene>(*shared.scene);
+  scene->meshes.push_back(mesh_of(vertices, faces));
+  shared.scene = scene;
+  return scene->meshes.size() - 1;
+}
+
+void add_object(SharedScene& shared, std::size_t mesh, const std::optional<Rows>& pose,
+                const std::string& name) {
+  auto scene = std::make_shared<Scene>(*shared.scene);
+  if (scene->sources.empty()) scene->sources.push_back({"(arrays)", "", ""});
+  Object object;
+  object.mesh = mesh;
+  object.name = name;
+  if (pose) {
+    object.world_from_mesh = exact(*pose);
+    object.placed_as_is = false;
+  }
+  scene->objects.push_back(std::move(object));
+  shared.scene = scene;
+}
+
+std::pair<SharedScene, Warnings> read(const std::vector<std::filesystem::path>& files,
+                                      const std::string& formats_program, int threads) {
+  ReadOptions options;
+  options.threads = threads;
+  if (!formats_program.empty()) {
+    options.formats_program = [&] { return std::filesystem::path(formats_program); };
+  }
+  Warnings warnings;
+  auto scene = run([&](const auto&) {
+    return std::make_shared<const Scene>(read_scene(files, options, warnings));
+  });
+  return {SharedScene{std::move(scene)}, std::move(warnings)};
+}
+
+template <class Number, class Row>
+py::array view_of(const std::shared_ptr<const Scene>& scene, const MeshArray<Row>& rows) {
+  const py::capsule owner(new std::shared_ptr<const Scene>(scene), [](void* memory) {
+    delete static_cast<std::shared_ptr<const Scene>*>(memory);
+  });
+  const auto count = static_cast<py::ssize_t>(rows.size());
+  py::array_t<Number> array(Shape{count, 3}, reinterpret_cast<const Number*>(rows.data()), owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+using Corner = std::array<double, 3>;
+
+std::optional<std::pair<Corner, Corner>> bounds(const SharedScene& shared) {
+  const auto box = run([&](const auto&) { return world_bounds(*shared.scene); });
+  if (!box) return std::nullopt;
+  return std::pair(box->lower, box->upper);
+}
+
+std::vector<std::tuple<std::string, std::size_t, std::string>> objects(const SharedScene& shared) {
+  std::vector<std::tuple<std::string, std::size_t, std::string>> list;
+  list.reserve(shared.scene->objects.size());
+  for (const Object& object : shared.scene->objects)
+    list.emplace_back(object.name, object.mesh, shared.scene->sources.at(object.source).path);
+  return list;
+}
+
+std::tuple<std::uint32_t, std::uint32_t, std::uint32_t> origin(const SharedScene& shared,
+                                                               std::uint32_t number) {
+  const TriangleOrigin origin = origin_of(*shared.scene, number);
+  return {origin.object, origin.triangle, origin.face};
+}
+
+}  // namespace
+
+void bind_scene(py::module_& core) {
+  py::class_<SharedScene>(core, "Scene")
+      .def(py::init<>())
+      .def("add_mesh", &add_mesh)
+      .def("add_object", &add_object)
+      .def("objects", &objects)
+      .def("origin", &origin)
+      .def("bounds", &bounds)
+      .def_property_readonly("mesh_count",
+                             [](const SharedScene& shared) { return shared.scene->meshes.size(); })
+      .def_property_readonly(
+          "triangle_count", [](const SharedScene& shared) { return triangle_count(*shared.scene); })
+      .def("vertices",
+           [](const SharedScene& shared, std::size_t mesh) {
+             return view_of<double>(shared.scene, shared.scene->meshes.at(mesh).vertices);
+           })
+      .def("faces", [](const SharedScene& shared, std::size_t mesh) {
+        return view_of<std::uint32_t>(shared.scene, shared.scene->meshes.at(mesh).triangles);
+      });
+  core.def("read_scene", &read);
+}
+
+}  // namespace fathom::python

@@ -1,0 +1,40 @@
+"""Fathom renders depth maps of triangle meshes in which every pixel is the exact depth, rounded once.
+
+>>> import numpy as np, fathom
+>>> vertices = np.array([(-1, -1, 4), (1, -1, 4), (0, 1, 5)], float)
+>>> K = np.array([[400, 0, 320], [0, 400, 240], [0, 0, 1]], float)
+>>> maps = fathom.render(vertices, [(0, 1, 2)], K, np.eye(4), (640, 480), pixel_centre=0.5, channels=("Z", "id"))
+>>> maps["Z"].shape, maps["Z"].dtype.name, int((maps["id"] != fathom.NO_SURFACE).sum())
+((480, 640), 'float32', 18000)
+"""
+
+from ._core import Error, InputError, OutputError, UsageError
+from ._render import render
+from .camera import Camera, read_cameras, write_cameras
+from .clipping import clip
+from .depth_formats import DepthFormat
+from .maps import NO_SURFACE, Map, compare, read_map
+from .questions import probe, render_deep, verify, visible
+from .scene import Scene
+
+__all__ = [
+    "NO_SURFACE",
+    "Camera",
+    "DepthFormat",
+    "Error",
+    "InputError",
+    "Map",
+    "OutputError",
+    "Scene",
+    "UsageError",
+    "clip",
+    "compare",
+    "probe",
+    "read_cameras",
+    "read_map",
+    "render",
+    "render_deep",
+    "verify",
+    "visible",
+    "write_cameras",
+]

@@ -1,0 +1,172 @@
+"""What every function that takes arrays asks of them: one sentence that names the argument."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+
+from . import _core
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Numbers = npt.NDArray[np.float64]
+
+Rows = tuple[tuple[float, ...], ...]
+Size = Union[tuple[int, int], Sequence[int]]
+
+most_rows = 2**32 - 2
+
+
+def as_array(name: str, value: object) -> npt.NDArray[Any]:
+    """`value` as an array, without a copy where it is one."""
+    try:
+        array = np.asarray(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: expected an array of numbers") from None
+    if array.dtype == object:
+        raise TypeError(f"{name}: expected an array of numbers, found objects (rows of different lengths?)")
+    return array
+
+
+def as_numbers(name: str, value: object, shape: tuple[int, ...] | None = None) -> Numbers:
+    """Finite float64 numbers in C order. Integers and narrower floats are taken as what they are; a copy is made
+    only where they have to be widened or moved."""
+    array = as_array(name, value)
+    if array.dtype.kind not in "fiu" or (array.dtype.kind == "f" and array.dtype.itemsize > 8):
+        raise TypeError(f"{name}: expected float64 or float32 numbers, found {array.dtype}")
+    if shape is not None and array.shape != shape:
+        raise ValueError(f"{name}: expected shape {in_words(shape)}, found {in_words(array.shape)}")
+    numbers = np.asarray(array, dtype=np.float64, order="C")
+    if array.dtype.kind in "iu" and array.dtype.itemsize == 8 and ((array > 2**53) | (array < -(2**53))).any():
+        raise ValueError(f"{name}: an integer beyond 2^53 may be no float64 number: pass floats")
+    return numbers
+
+
+def as_finite(name: str, value: object, shape: tuple[int, ...] | None = None) -> Numbers:
+    numbers = as_numbers(name, value, shape)
+    if not np.isfinite(numbers).all():
+        raise ValueError(f"{name}: {_first_not_finite(numbers)} is not a finite number")
+    return numbers
+
+
+def _first_not_finite(numbers: Numbers) -> str:
+    place = tuple(int(i) for i in np.argwhere(~np.isfinite(numbers))[0])
+    return f"{numbers[place]} at {list(place)}"
+
+
+def as_number(name: str, value: Any) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise TypeError(f"{name}: expected a number, found {value!r}") from None
+    return number
+
+
+def as_count(name: str, value: Any, least: int, most: int) -> int:
+    try:
+        count = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name}: expected an integer, found {value!r}") from None
+    if not least <= count <= most:
+        raise ValueError(f"{name}: expected {least} to {most}, found {count}")
+    return count
+
+
+def as_size(size: Any) -> tuple[int, int]:
+    """(width, height) in pixels."""
+    try:
+        width, height = size
+    except (TypeError, ValueError):
+        raise TypeError(f"size: expected (width, height), found {size!r}") from None
+    return as_count("size: width", width, 1, 2**32 - 1), as_count("size: height", height, 1, 2**32 - 1)
+
+
+def one_of(name: str, value: object, allowed: Iterable[str]) -> str:
+    names = list(allowed)
+    if not isinstance(value, str) or value not in names:
+        raise ValueError(f"{name}: expected {', '.join(map(repr, names))}, found {value!r}")
+    return value
+
+
+def scene_handle(scene: object) -> _core.Scene:
+    """What the extension module calls a Scene."""
+    handle = getattr(scene, "_handle", None)
+    if not isinstance(handle, _core.Scene):
+        raise TypeError(f"scene: expected a Scene, found {scene!r}")
+    return handle
+
+
+def camera_handle(camera: object) -> _core.Camera:
+    handle = getattr(camera, "_handle", None)
+    if not isinstance(handle, _core.Camera):
+        raise TypeError(f"camera: expected a Camera, found {camera!r}")
+    return handle
+
+
+def in_words(shape: tuple[int, ...]) -> str:
+    return "×".join(map(str, shape)) if shape else "a single number"
+
+
+def vertices_of(value: object) -> Numbers:
+    """N×3 float64 numbers in C order, the caller's own array where it is one. Not looked at, since engines look."""
+    array = as_array("vertices", value)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"vertices: expected shape N×3, found {in_words(array.shape)}")
+    if len(array) > most_rows:
+        raise ValueError(f"vertices: {len(array)} rows are more than {most_rows}")
+    return as_numbers("vertices", array)
+
+
+def faces_of(value: object, vertex_count: int) -> npt.NDArray[np.uint32]:
+    """M×3 32-bit integers in C order, the caller's own array where it is one."""
+    array = as_array("faces", value)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"faces: expected integers, found {array.dtype}")
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"faces: expected shape M×3 (triangles), found {in_words(array.shape)}")
+    if len(array) == 0:
+        raise ValueError("faces: a mesh needs at least one triangle")
+    if len(array) > most_rows:
+        raise ValueError(f"faces: {len(array)} rows are more than {most_rows}")
+    if array.dtype.itemsize == 4 and array.dtype.isnative:
+        # A negative index is beyond any count as an unsigned one, and engines refuse those.
+        return np.ascontiguousarray(array).view(np.uint32)
+    check_corners(array, vertex_count)
+    return np.ascontiguousarray(array, dtype=np.uint32)
+
+
+def check_corners(faces: npt.NDArray[Any], vertex_count: int) -> None:
+    bad = np.argwhere((faces < 0) | (faces >= vertex_count))
+    if len(bad):
+        row, column = (int(i) for i in bad[0])
+        raise IndexError(
+            f"faces: row {row} has vertex {int(faces[row, column])}, but there are {vertex_count} vertices, "
+            "numbered from 0"
+        )
+
+
+def check_elements(vertices: Numbers, faces: npt.NDArray[Any]) -> None:
+    """The caller's words for what an engine has refused."""
+    if not np.isfinite(vertices).all():
+        raise ValueError(f"vertices: {_first_not_finite(vertices)} is not a finite number")
+    check_corners(faces, len(vertices))
+
+
+def pose_of(name: str, value: object) -> Rows:
+    """The three rows of a 3×4 matrix, or of a 4×4 matrix whose last row is 0 0 0 1."""
+    array = as_array(name, value)
+    if array.shape not in ((3, 4), (4, 4)):
+        raise ValueError(f"{name}: expected shape 4×4 or 3×4, found {in_words(array.shape)}")
+    matrix = as_finite(name, array)
+    if len(matrix) == 4 and matrix[3].tolist() != [0, 0, 0, 1]:
+        hint = "; is it transposed?" if matrix[:, 3].tolist() == [0, 0, 0, 1] else ""
+        raise ValueError(f"{name}: expected the last row to be 0 0 0 1, found {_row(matrix[3])}{hint}")
+    return tuple(map(tuple, matrix[:3].tolist()))
+
+
+def _row(numbers: Numbers) -> str:
+    return " ".join(f"{number:g}" for number in numbers)

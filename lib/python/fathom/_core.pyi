@@ -1,0 +1,182 @@
+"""The extension module: what core/*.cpp bind. Its callers have checked what they pass."""
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+Codes = npt.NDArray[np.uint64]
+Rows = tuple[tuple[float, ...], ...]
+Named = list[tuple[str, Camera]]
+
+no_surface: int
+mappings: list[str]
+storages: list[str]
+
+class Error(Exception): ...
+class UsageError(Error, ValueError): ...
+class InputError(Error, ValueError): ...
+class OutputError(Error, OSError): ...
+
+class Camera:
+    def __init__(
+        self,
+        width: int,
+        height: int,
+        orthographic: bool,
+        intrinsics: list[float],
+        pixel_centre: float,
+        pose: Rows,
+        near: float,
+        far: float,
+    ) -> None: ...
+    width: int
+    height: int
+    orthographic: bool
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    skew: float
+    pixel_centre: float
+    near: float
+    far: float
+    world_to_camera: list[list[float]]
+    camera_to_world: list[list[float]]
+
+class Lens:
+    def __init__(
+        self,
+        width: int,
+        height: int,
+        orthographic: bool,
+        fov: float | None,
+        focal: float | None,
+        extent: float | None,
+        near: float,
+        far: float,
+    ) -> None: ...
+
+class View:
+    def __init__(self, azimuth: float, elevation: float, z_up: bool) -> None: ...
+
+def look_at(eye: list[float], target: list[float], up: list[float], lens: Lens) -> Camera: ...
+def orbit(view: View, count: int, centre: list[float], distance: float, lens: Lens) -> list[Camera]: ...
+def frame_scene(scene: Scene, view: View, lens: Lens) -> Camera: ...
+def orbit_scene(scene: Scene, view: View, count: int, lens: Lens) -> list[Camera]: ...
+def import_colmap(folder: str) -> Named: ...
+def import_nerf(file: str, width: int, height: int) -> tuple[Named, list[str]]: ...
+def import_bop(file: str, width: int, height: int) -> Named: ...
+def camera_from_opengl(projection: list[float], modelview: list[float], width: int, height: int) -> Camera: ...
+def cameras_from_json(text: str, name: str) -> list[Camera]: ...
+def cameras_to_json(cameras: list[Camera]) -> str: ...
+def camera_to_json(camera: Camera) -> str: ...
+
+class Scene:
+    mesh_count: int
+    triangle_count: int
+    def add_mesh(self, vertices: Floats, faces: npt.NDArray[np.uint32]) -> int: ...
+    def add_object(self, mesh: int, pose: Rows | None, name: str) -> None: ...
+    def objects(self) -> list[tuple[str, int, str]]: ...
+    def origin(self, triangle: int) -> tuple[int, int, int]: ...
+    def bounds(self) -> tuple[list[float], list[float]] | None: ...
+    def vertices(self, mesh: int) -> Floats: ...
+    def faces(self, mesh: int) -> npt.NDArray[np.uint32]: ...
+
+def read_scene(files: list[str], formats_program: str, threads: int) -> tuple[Scene, list[str]]: ...
+
+class Map:
+    def __init__(self) -> None: ...
+    width: int
+    height: int
+    texts: dict[str, str]
+    object_names: list[str]
+    png_scale: float | None
+    def take_channels(self) -> dict[str, npt.NDArray[Any]]: ...
+    def with_channels(self, height: int, width: int, channels: list[tuple[str, npt.NDArray[Any]]]) -> Map: ...
+
+def read_map(file: str) -> Map: ...
+def write_map(map: Map, file: str, channel: str, compression: str, threads: int) -> None: ...
+def convert_quantity(
+    map: Map, source: str, to: str, camera: Camera, baseline: float | None, doffs: float
+) -> Map: ...
+def with_storage(map: Map, channel: str, type: str, scale: float | None) -> Map: ...
+def write_point_cloud(map: Map, camera: Camera, file: str, in_camera_frame: bool, binary64: bool) -> None: ...
+
+class DifferenceSummary:
+    max: float
+    mean: float
+    p50: float
+    p90: float
+    p99: float
+    p99_9: float
+    worst: tuple[int, int]
+
+class ChannelComparison:
+    truth_channel: str
+    other_channel: str
+    pixels: int
+    both: int
+    only_truth: int
+    only_other: int
+    neither: int
+    compared: int
+    bit_equal: int
+    incommensurable: int
+    different_identifiers: int
+    beyond_tolerance: int
+    absolute: DifferenceSummary
+    relative: DifferenceSummary
+    ulp: DifferenceSummary
+    notes: list[str]
+    within_tolerance: bool
+
+class MapComparison:
+    channels: list[ChannelComparison]
+    only_in_truth: list[str]
+    only_in_other: list[str]
+    notes: list[str]
+    within_tolerance: bool
+
+def compare_maps(
+    truth: Map,
+    other: Map,
+    tolerance_ulp: float,
+    channel: str,
+    other_channel: str,
+    truth_background: float | None,
+    other_background: float | None,
+) -> MapComparison: ...
+
+class RenderOptions:
+    def __init__(
+        self, channels: list[str], cull: str, type: str, scale: float, engine: str, threads: int
+    ) -> None: ...
+
+def render_one(scene: Scene, camera: Camera, options: RenderOptions) -> tuple[Map, dict[str, npt.NDArray[Any]]]: ...
+def render_stack(scene: Scene, cameras: list[Camera], options: RenderOptions) -> dict[str, npt.NDArray[Any]]: ...
+def require_bytes(what: str, bytes: float) -> None: ...
+def channels() -> dict[str, tuple[str, str]]: ...
+def probe(scene: Scene, camera: Camera, x: int, y: int, cull: str) -> list[tuple[Any, ...]]: ...
+def visible(
+    scene: Scene, camera: Camera, cull: str, threads: int
+) -> tuple[tuple[Floats, Floats, Floats], tuple[Floats, Floats, Floats]]: ...
+def deep(scene: Scene, camera: Camera, cull: str, threads: int) -> dict[str, npt.NDArray[Any]]: ...
+def verify(
+    map: Map, scene: Scene, camera: Camera, options: RenderOptions, count: int
+) -> tuple[int, int, tuple[int, int, str, str, str] | None]: ...
+
+class DepthFormat:
+    greatest: int
+    def __init__(self, mapping: str, storage: str, near: float, far: float, c: float) -> None: ...
+    def encode(self, depths: Floats, clamp: bool) -> Codes: ...
+    def decode(self, stored: Codes) -> Floats: ...
+    def values(self, stored: Codes) -> Floats: ...
+    def to_nearer(self, depths: Floats) -> Floats: ...
+    def to_farther(self, depths: Floats) -> Floats: ...
+    def separation_behind(self, depths: Floats) -> Floats: ...
+    def bin_width(self, depths: Floats) -> Floats: ...
+    def codes_between(self, nearest: float, farthest: float) -> int: ...
+
+def clip(subject: list[list[Any]], window: list[list[Any]], difference: bool, by_cgal: bool) -> list[Any]: ...

@@ -1,0 +1,232 @@
+"""Rendering, and what is asked of its options."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal, Union, cast
+
+import numpy as np
+
+from . import _core
+from ._arguments import as_count, as_number, camera_handle, one_of, scene_handle
+from .camera import Camera
+from .maps import Map
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from .scene import Scene
+
+Cull = Literal["none", "back", "front"]
+Background = Union[float, Literal["inf", "nan"]]
+
+most_threads = 1024
+depth_channels = ("Z", "distance")
+
+
+def render_cameras(
+    scene: Scene,
+    camera: Camera | Sequence[Camera],
+    channels: Sequence[str],
+    cull: str,
+    dtype: npt.DTypeLike,
+    scale: float,
+    background: Background,
+    engine: str,
+    threads: int,
+) -> Map:
+    names = channel_names(channels)
+    stored = stored_type(dtype)
+    options = _core.RenderOptions(
+        names,
+        one_of("cull", cull, ("none", "back", "front")),
+        stored,
+        as_number("scale", scale),
+        one_of("engine", engine, ("fast", "reference")),
+        as_count("threads", threads, 0, most_threads),
+    )
+    nothing = background_value(background, stored)
+    if isinstance(camera, Camera):
+        require_room([camera], names, stored)
+        result = _render_one(scene, camera, options)
+    else:
+        cameras = list_of_cameras(camera)
+        require_room(cameras, names, stored)
+        result = _render_stack(scene, cameras, options)
+    if nothing is not None:
+        set_background(result, nothing)
+    return result
+
+
+def _render_one(scene: Scene, camera: Camera, options: _core.RenderOptions) -> Map:
+    try:
+        description, arrays = _core.render_one(scene_handle(scene), camera_handle(camera), options)
+    except _core.InputError:
+        scene._check()
+        raise
+    return Map(arrays, camera, description)
+
+
+def _render_stack(scene: Scene, cameras: list[Camera], options: _core.RenderOptions) -> Map:
+    try:
+        arrays = _core.render_stack(scene_handle(scene), [camera_handle(each) for each in cameras], options)
+    except _core.InputError:
+        scene._check()
+        raise
+    return Map(arrays)
+
+
+def list_of_cameras(cameras: Sequence[Camera]) -> list[Camera]:
+    try:
+        listed = list(cameras)
+    except TypeError:
+        raise TypeError(f"camera: expected a Camera or a sequence of them, found {cameras!r}") from None
+    if not listed:
+        raise ValueError("camera: expected at least one")
+    for each in listed:
+        camera_handle(each)
+        if each.size != listed[0].size:
+            raise ValueError(
+                "camera: a stack of maps needs cameras of one size, found "
+                f"{in_pixels(listed[0])} and {in_pixels(each)}"
+            )
+    return listed
+
+
+def in_pixels(camera: Camera) -> str:
+    return f"{camera.width}×{camera.height}"
+
+
+def channel_names(channels: Sequence[str]) -> list[str]:
+    if isinstance(channels, str):
+        raise TypeError(f"channels: expected a sequence of names such as ({channels!r},), found a string")
+    known = _core.channels()
+    names: list[str] = []
+    for name in channels:
+        one_of("channels", name, known)
+        if name not in names:
+            names.append(name)
+    if not names:
+        raise ValueError("channels: expected at least one")
+    return names
+
+
+def stored_type(dtype: npt.DTypeLike) -> str:
+    try:
+        name = np.dtype(dtype).name
+    except TypeError:
+        name = str(dtype)
+    if name not in ("float32", "float64", "uint16"):
+        raise TypeError(f"dtype: expected float32, float64 or uint16, found {name}")
+    return name
+
+
+def background_value(background: Background, stored: str) -> float | None:
+    """The value to put in; None where the one that maps have anyway is asked for."""
+    value = math.inf if background == "inf" else math.nan if background == "nan" else as_number("background", background)
+    if stored == "uint16":
+        if value not in (0, math.inf):
+            raise ValueError("background: codes of uint16 have 0 where there is no surface, and nothing else")
+        return None
+    return None if value == math.inf else value
+
+
+def set_background(arrays: Map, value: float) -> None:
+    for name in depth_channels:
+        if name in arrays:
+            depths = arrays[name]
+            depths[np.isposinf(depths)] = value
+
+
+def require_room(cameras: list[Camera], names: list[str], stored: str) -> None:
+    """Raises MemoryError rather than have the system end the process."""
+    pixels = float(cameras[0].width) * cameras[0].height
+    if pixels > 2.0**44:
+        raise ValueError(f"size: an image of {in_pixels(cameras[0])} has more than 2^44 pixels")
+    known = _core.channels()
+    bytes_of_pixel = sum(
+        (8 if stored == "float64" and name in depth_channels else 4) * max(1, len(known[name][0])) for name in names
+    )
+    maps = "" if len(cameras) == 1 else f"{len(cameras)} maps of "
+    _core.require_bytes(f"{maps}{in_pixels(cameras[0])} pixels", pixels * len(cameras) * bytes_of_pixel)
+
+
+def render(
+    vertices: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    K: npt.ArrayLike,
+    T: npt.ArrayLike,
+    size: Sequence[int],
+    *,
+    pixel_centre: float,
+    channels: Sequence[str] = ("Z",),
+    near: float = 0,
+    far: float = math.inf,
+    cull: Cull = "none",
+    dtype: npt.DTypeLike = "float32",
+    scale: float = 1000,
+    background: Background = math.inf,
+    threads: int = 0,
+) -> Map:
+    """Renders the exact depth map of a mesh: every value is the exact number, rounded once.
+
+    vertices      N×3, float64 or float32, in the world
+    faces         M×3 triangles; integers of any type, numbers of vertices from 0
+    K             3×3, fx skew cx / 0 fy cy / 0 0 1, in pixels; or a stack of n, n×3×3
+    T             4×4 or 3×4, world to camera, x right, y down, z forward (OpenCV); or a stack of n
+    size          (width, height) in pixels
+    pixel_centre  the image coordinate of the first pixel's centre, as K counts: 0.5 (COLMAP, OpenGL) or 0 (OpenCV,
+                  BOP). There is no default: half a pixel is the error that is made most often.
+    channels      what to render: Z (planar depth), A (coverage), Zlow (exact depth minus Z), distance (along the ray),
+                  id, face, object (numbers of what is visible; NO_SURFACE where nothing is), N (normal) and P
+                  (position), both in the world, bary (weights of a triangle's second and third corner)
+    near, far     the range of planar depth that counts, in scene units
+    cull          "back" or "front" leaves out triangles that face so
+    dtype         of Z and distance: float32, float64, or uint16 for codes round(scale · depth), 0 for no surface
+    background    what Z and distance have where there is no surface (and where a depth is beyond the greatest number
+                  of the type): inf, nan, 0 or any other number
+    threads       to work in; 0: all. Results never depend on it.
+
+    Returns a dict: H×W arrays by the names of channels, H×W×3 for N and P, H×W×2 for bary; with n cameras, n of each,
+    n×H×W(×3). Arrays of vertices and faces that fit (see Scene.add_mesh()) are not copied. Other Python threads run
+    meanwhile, and Ctrl-C ends it.
+
+    Raises TypeError, ValueError or IndexError, which name the argument; MemoryError; OutputError where a depth has no
+    code.
+
+    >>> corners = np.array([(-1, -1, 4), (1, -1, 4), (0, 1, 4)], float)
+    >>> K = np.array([[4, 0, 2], [0, 4, 2], [0, 0, 1]], float)
+    >>> render(corners, [(0, 1, 2)], K, np.eye(4), (4, 4), pixel_centre=0.5)["Z"]
+    array([[inf, inf, inf, inf],
+           [inf,  4.,  4., inf],
+           [inf, inf, inf, inf],
+           [inf, inf, inf, inf]], dtype=float32)
+    """
+    from .scene import Scene
+
+    scene = Scene()
+    scene.add_mesh(vertices, faces)
+    cameras = cameras_of(K, T, size, pixel_centre, near, far)
+    return render_cameras(scene, cameras, channels, cull, dtype, scale, background, "fast", threads)
+
+
+def cameras_of(
+    K: npt.ArrayLike, T: npt.ArrayLike, size: Sequence[int], pixel_centre: float, near: float, far: float
+) -> Camera | list[Camera]:
+    """One camera, or as many as K or T is a stack of; the other one may be a single matrix for all."""
+    intrinsics, poses = np.asarray(K), np.asarray(T)
+    counts = {len(stack) for stack in (intrinsics, poses) if stack.ndim == 3}
+    if not counts:
+        return Camera.from_opencv(K, T, size, pixel_centre=pixel_centre, near=near, far=far)
+    if len(counts) > 1:
+        raise ValueError(f"K and T: expected stacks of one length, found {len(intrinsics)} and {len(poses)}")
+    count = counts.pop()
+
+    def each(stack: npt.NDArray[np.float64], i: int) -> npt.NDArray[np.float64]:
+        return cast("npt.NDArray[np.float64]", stack[i]) if stack.ndim == 3 else stack
+
+    return [
+        Camera.from_opencv(each(intrinsics, i), each(poses, i), size, pixel_centre=pixel_centre, near=near, far=far)
+        for i in range(count)
+    ]

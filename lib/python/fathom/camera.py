@@ -1,0 +1,440 @@
+"""Cameras: made, imported, read and written."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Literal, Union
+
+import numpy as np
+
+from . import _core
+from ._arguments import (
+    Rows,
+    Size,
+    as_count,
+    as_finite,
+    as_number,
+    as_size,
+    camera_handle,
+    one_of,
+    pose_of,
+    scene_handle,
+)
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from .scene import Scene
+
+Path = Union[str, "os.PathLike[str]"]
+Projection = Literal["perspective", "orthographic"]
+Up = Literal["y", "z"]
+
+projections = ("perspective", "orthographic")
+
+
+class Camera:
+    """A pinhole or orthographic camera. Every number is taken as the real number that it denotes; a camera does not
+    change.
+
+    width, height    of the image in pixels
+    fx, fy, skew     pixels (perspective) or pixels per scene unit (orthographic)
+    cx, cy           pixels
+    pixel_centre     the image coordinate of the top left pixel's centre, as cx and cy count: 0.5 (COLMAP, OpenGL,
+                     NeRF) or 0 (OpenCV, BOP). It has no default, since half a pixel is what goes wrong most often.
+    world_to_camera  4×4 or 3×4, [R | t]; x right, y down, z forward (OpenCV's axes). R need not be a rotation.
+    near, far        the range of planar depth that counts, in scene units
+
+    >>> camera = Camera(640, 480, 500, 500, 320, 240, pixel_centre=0.5)
+    >>> camera.K
+    array([[500.,   0., 320.],
+           [  0., 500., 240.],
+           [  0.,   0.,   1.]])
+
+    Raises TypeError or ValueError, which name the argument.
+    """
+
+    __slots__ = ("_handle",)
+    _handle: _core.Camera
+
+    def __init__(
+        self,
+        width: int,
+        height: int,
+        fx: float,
+        fy: float,
+        cx: float,
+        cy: float,
+        *,
+        pixel_centre: float,
+        skew: float = 0,
+        world_to_camera: npt.ArrayLike | None = None,
+        projection: Projection = "perspective",
+        near: float = 0,
+        far: float = math.inf,
+    ) -> None:
+        size = as_size((width, height))
+        intrinsics = [as_number(name, value) for name, value in
+                      (("fx", fx), ("fy", fy), ("cx", cx), ("cy", cy), ("skew", skew))]
+        pose = _identity if world_to_camera is None else pose_of("world_to_camera", world_to_camera)
+        self._set(size, projection, intrinsics, pixel_centre, pose, near, far)
+
+    def _set(self, size: tuple[int, int], projection: object, intrinsics: list[float], pixel_centre: object,
+             pose: Rows, near: object, far: object) -> None:
+        made = _core.Camera(
+            *size,
+            one_of("projection", projection, projections) == "orthographic",
+            intrinsics,
+            as_number("pixel_centre", pixel_centre),
+            pose,
+            as_number("near", near),
+            as_number("far", far),
+        )
+        object.__setattr__(self, "_handle", made)
+
+    @classmethod
+    def _of(cls, core: _core.Camera) -> Camera:
+        camera = cls.__new__(cls)
+        object.__setattr__(camera, "_handle", core)
+        return camera
+
+    # Made
+
+    @classmethod
+    def from_opencv(
+        cls,
+        K: npt.ArrayLike,
+        T: npt.ArrayLike,
+        size: Size,
+        *,
+        pixel_centre: float,
+        near: float = 0,
+        far: float = math.inf,
+    ) -> Camera:
+        """The camera of OpenCV's matrices.
+
+        K     3×3: fx skew cx / 0 fy cy / 0 0 1, in pixels
+        T     4×4 or 3×4, world to camera, x right, y down, z forward
+        size  (width, height) in pixels
+
+        A K of cv2.calibrateCamera() has its first pixel's centre at 0; one that COLMAP has exported, at 0.5.
+
+        >>> Camera.from_opencv([[500, 0, 320], [0, 500, 240], [0, 0, 1]], np.eye(4), (640, 480), pixel_centre=0)
+        Camera(640×480, perspective, fx=500, fy=500, cx=320, cy=240, pixel_centre=0)
+        """
+        camera = cls.__new__(cls)
+        camera._set(as_size(size), "perspective", intrinsics_of(K), pixel_centre, pose_of("T", T), near, far)
+        return camera
+
+    @classmethod
+    def from_opengl(cls, projection: npt.ArrayLike, modelview: npt.ArrayLike, size: Size) -> Camera:
+        """The camera of OpenGL's matrices, each 4×4 for column vectors (transpose what glGetFloatv gives), for a
+        viewport of `size` and clip depths from −1 to 1. Near and far are those of the projection.
+
+        Exact: entries that follow from a formula are computed exactly and rounded once.
+        """
+        return cls._of(
+            _core.camera_from_opengl(
+                as_finite("projection", projection, (4, 4)).ravel().tolist(),
+                as_finite("modelview", modelview, (4, 4)).ravel().tolist(),
+                *as_size(size),
+            )
+        )
+
+    @classmethod
+    def look_at(
+        cls,
+        eye: npt.ArrayLike,
+        target: npt.ArrayLike = (0, 0, 0),
+        up: npt.ArrayLike = (0, 1, 0),
+        *,
+        size: Size = (1280, 720),
+        fov: float | None = None,
+        focal: float | None = None,
+        extent: float | None = None,
+        projection: Projection = "perspective",
+        near: float = 0,
+        far: float = math.inf,
+    ) -> Camera:
+        """The camera at `eye` that looks at `target` with `up` upwards in the image. World, scene units.
+
+        fov     the angle in degrees that the image's height spans: 40 where neither it nor `focal` is given
+        focal   fx = fy in pixels, in its place
+        extent  orthographic cameras: the scene units that the image's height spans
+
+        >>> Camera.look_at((0, 0, 3)).world_to_camera[2]
+        array([ 0.,  0., -1.,  3.])
+        """
+        lens = _lens(size, fov, focal, extent, projection, near, far)
+        return cls._of(_core.look_at(_point("eye", eye), _point("target", target), _point("up", up), lens))
+
+    @classmethod
+    def orbit(
+        cls,
+        count: int,
+        *,
+        distance: float,
+        centre: npt.ArrayLike = (0, 0, 0),
+        azimuth: float = 35,
+        elevation: float = 25,
+        up: Up = "y",
+        size: Size = (1280, 720),
+        fov: float | None = None,
+        focal: float | None = None,
+        extent: float | None = None,
+        projection: Projection = "perspective",
+        near: float = 0,
+        far: float = math.inf,
+    ) -> list[Camera]:
+        """`count` cameras around `centre` at `distance`, in steps of 360°/count from `azimuth` on, all of them at
+        `elevation` degrees above the horizon. `up` is the axis of the world that points up.
+
+        >>> len(Camera.orbit(12, distance=3))
+        12
+        """
+        view = _view(azimuth, elevation, up)
+        lens = _lens(size, fov, focal, extent, projection, near, far)
+        made = _core.orbit(view, as_count("count", count, 1, 1_000_000), _point("centre", centre),
+                           as_number("distance", distance), lens)
+        return [cls._of(each) for each in made]
+
+    @classmethod
+    def frame(
+        cls,
+        scene: Scene,
+        *,
+        azimuth: float = 35,
+        elevation: float = 25,
+        up: Up = "y",
+        size: Size = (1280, 720),
+        fov: float | None = None,
+        focal: float | None = None,
+        extent: float | None = None,
+        projection: Projection = "perspective",
+        near: float = 0,
+        far: float = math.inf,
+    ) -> Camera:
+        """The camera that sees the whole of a scene, with a margin, from a direction in degrees."""
+        view = _view(azimuth, elevation, up)
+        lens = _lens(size, fov, focal, extent, projection, near, far)
+        return cls._of(_core.frame_scene(scene_handle(scene), view, lens))
+
+    @classmethod
+    def orbit_scene(
+        cls,
+        scene: Scene,
+        count: int,
+        *,
+        azimuth: float = 35,
+        elevation: float = 25,
+        up: Up = "y",
+        size: Size = (1280, 720),
+        fov: float | None = None,
+        focal: float | None = None,
+        extent: float | None = None,
+        projection: Projection = "perspective",
+        near: float = 0,
+        far: float = math.inf,
+    ) -> list[Camera]:
+        """As orbit(), around a scene, at the distance from which each camera sees all of it."""
+        view = _view(azimuth, elevation, up)
+        lens = _lens(size, fov, focal, extent, projection, near, far)
+        made = _core.orbit_scene(scene_handle(scene), view, as_count("count", count, 1, 1_000_000), lens)
+        return [cls._of(each) for each in made]
+
+    # Imported
+
+    @classmethod
+    def from_colmap(cls, folder: Path) -> dict[str, Camera]:
+        """The cameras of a COLMAP model (cameras and images, .bin or .txt), by the names of their images."""
+        return {name: cls._of(camera) for name, camera in _core.import_colmap(os.fspath(folder))}
+
+    @classmethod
+    def from_nerf(cls, file: Path, size: Size | None = None) -> dict[str, Camera]:
+        """The cameras of a transforms.json, by their file_path. `size` is for files without w and h."""
+        import warnings
+
+        width, height = (0, 0) if size is None else as_size(size)
+        cameras, notes = _core.import_nerf(os.fspath(file), width, height)
+        for note in notes:
+            warnings.warn(note, stacklevel=2)
+        return {name: cls._of(camera) for name, camera in cameras}
+
+    @classmethod
+    def from_bop(cls, file: Path, size: Size) -> dict[str, Camera]:
+        """The cameras of a scene_camera.json of BOP, by image id. Lengths are millimetres, as in the file."""
+        return {name: cls._of(camera) for name, camera in _core.import_bop(os.fspath(file), *as_size(size))}
+
+    @classmethod
+    def from_json(cls, text: str) -> Camera:
+        """The camera of a camera file's text."""
+        return _only(cameras_from_json(text))
+
+    @classmethod
+    def read(cls, file: Path) -> Camera:
+        """The camera of a camera file with one; read_cameras() takes those with several."""
+        return _only(read_cameras(file))
+
+    def to_json(self) -> str:
+        """Every number to 17 digits: from_json() gives the same camera, bit for bit."""
+        return _core.camera_to_json(self._handle)
+
+    def write(self, file: Path) -> None:
+        """Writes a camera file, as the program reads it."""
+        write_cameras(file, [self])
+
+    # What it is
+
+    @property
+    def width(self) -> int:
+        return self._handle.width
+
+    @property
+    def height(self) -> int:
+        return self._handle.height
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """(width, height) in pixels."""
+        return self._handle.width, self._handle.height
+
+    @property
+    def projection(self) -> Projection:
+        return "orthographic" if self._handle.orthographic else "perspective"
+
+    @property
+    def fx(self) -> float:
+        return self._handle.fx
+
+    @property
+    def fy(self) -> float:
+        return self._handle.fy
+
+    @property
+    def cx(self) -> float:
+        return self._handle.cx
+
+    @property
+    def cy(self) -> float:
+        return self._handle.cy
+
+    @property
+    def skew(self) -> float:
+        return self._handle.skew
+
+    @property
+    def pixel_centre(self) -> float:
+        return self._handle.pixel_centre
+
+    @property
+    def near(self) -> float:
+        return self._handle.near
+
+    @property
+    def far(self) -> float:
+        return self._handle.far
+
+    @property
+    def K(self) -> npt.NDArray[np.float64]:
+        """3×3: fx skew cx / 0 fy cy / 0 0 1."""
+        return np.array([[self.fx, self.skew, self.cx], [0, self.fy, self.cy], [0, 0, 1]], np.float64)
+
+    @property
+    def world_to_camera(self) -> npt.NDArray[np.float64]:
+        """4×4, x right, y down, z forward."""
+        return np.array([*self._handle.world_to_camera, (0, 0, 0, 1)], np.float64)
+
+    @property
+    def camera_to_world(self) -> npt.NDArray[np.float64]:
+        """4×4, the inverse: each entry the exact one, rounded once."""
+        return np.array([*self._handle.camera_to_world, (0, 0, 0, 1)], np.float64)
+
+    def with_size(self, width: int, height: int) -> Camera:
+        """The same camera with another image size; the principal point stays where it is, in pixels."""
+        return Camera(width, height, self.fx, self.fy, self.cx, self.cy, pixel_centre=self.pixel_centre,
+                      skew=self.skew, world_to_camera=self.world_to_camera, projection=self.projection,
+                      near=self.near, far=self.far)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("a Camera does not change: make another one")
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Camera) and self.to_json() == other.to_json()
+
+    def __hash__(self) -> int:
+        return hash(self.to_json())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _from_json, (self.to_json(),)
+
+    def __repr__(self) -> str:
+        numbers = " ".join(f"{name}={getattr(self, name):.10g}," for name in ("fx", "fy", "cx", "cy"))
+        skew = f" skew={self.skew:.10g}," if self.skew else ""
+        return (f"Camera({self.width}×{self.height}, {self.projection}, {numbers}{skew} "
+                f"pixel_centre={self.pixel_centre:.10g})")
+
+
+_identity: Rows = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0))
+
+
+def _from_json(text: str) -> Camera:
+    return Camera.from_json(text)
+
+
+def intrinsics_of(K: npt.ArrayLike) -> list[float]:
+    """fx, fy, cx, cy, skew of a 3×3 matrix."""
+    matrix = as_finite("K", K, (3, 3))
+    if matrix[1, 0] != 0 or matrix[2].tolist() != [0, 0, 1]:
+        raise ValueError("K: expected fx skew cx / 0 fy cy / 0 0 1; is it transposed?")
+    return [float(matrix[i]) for i in ((0, 0), (1, 1), (0, 2), (1, 2), (0, 1))]
+
+
+def _point(name: str, value: npt.ArrayLike) -> list[float]:
+    return [float(each) for each in as_finite(name, value, (3,))]
+
+
+def _lens(size: Size, fov: float | None, focal: float | None, extent: float | None, projection: str, near: float,
+          far: float) -> _core.Lens:
+    def or_none(name: str, value: float | None) -> float | None:
+        return None if value is None else as_number(name, value)
+
+    return _core.Lens(
+        *as_size(size),
+        one_of("projection", projection, projections) == "orthographic",
+        or_none("fov", fov),
+        or_none("focal", focal),
+        or_none("extent", extent),
+        as_number("near", near),
+        as_number("far", far),
+    )
+
+
+def _view(azimuth: float, elevation: float, up: str) -> _core.View:
+    return _core.View(as_number("azimuth", azimuth), as_number("elevation", elevation),
+                      one_of("up", up, ("y", "z")) == "z")
+
+
+def _only(cameras: Sequence[Camera]) -> Camera:
+    if len(cameras) != 1:
+        raise ValueError(f"expected one camera, found {len(cameras)}: read_cameras() takes several")
+    return cameras[0]
+
+
+def cameras_from_json(text: str, name: str = "camera") -> list[Camera]:
+    """The cameras of a camera file's text; `name` begins messages."""
+    return [Camera._of(each) for each in _core.cameras_from_json(text, name)]
+
+
+def read_cameras(file: Path) -> list[Camera]:
+    """The cameras of a camera file: one, or a list (a camera path)."""
+    with open(file, encoding="utf-8") as stream:
+        return cameras_from_json(stream.read(), os.fspath(file))
+
+
+def write_cameras(file: Path, cameras: Iterable[Camera]) -> None:
+    """Writes a camera file. A single camera is an object, several are a list."""
+    text = _core.cameras_to_json([camera_handle(camera) for camera in cameras])
+    with open(file, "w", encoding="utf-8") as stream:
+        stream.write(text + "\n")

@@ -1,0 +1,91 @@
+"""Depth formats: what a depth buffer stores, and how finely it tells depths apart."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core
+from ._arguments import as_array, as_number, as_numbers, one_of
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+MAPPINGS: tuple[str, ...] = tuple(_core.mappings)
+STORAGES: tuple[str, ...] = tuple(_core.storages)
+
+
+class DepthFormat:
+    """A map from planar depth to [0, 1], and a type that keeps the value.
+
+    mapping    one of MAPPINGS: "standard", "reversed", "infinite", "reversed_infinite", "opengl", "linear", "w", "log",
+               "log_ulrich"
+    storage    one of STORAGES: "unorm16", "unorm24", "unorm32", "float16", "float32", "float64"
+    near, far  planar depths in scene units
+    c          the constant of "log"
+
+    Stored values are the codes of a unorm storage, the bits of a float storage; greater values have greater ones.
+
+    >>> z24 = DepthFormat("standard", "unorm24", near=0.1, far=100)
+    >>> z24.encode([0.1, 1, 100]).tolist()
+    [0, 15114608, 16777215]
+    >>> float(z24.bin_width(50.0).round(8))  # depths that differ by more than this are told apart
+    0.00148863
+    """
+
+    def __init__(self, mapping: str, storage: str, *, near: float, far: float, c: float = 1) -> None:
+        self.mapping = one_of("mapping", mapping, MAPPINGS)
+        self.storage = one_of("storage", storage, STORAGES)
+        self.near = as_number("near", near)
+        self.far = as_number("far", far)
+        self.c = as_number("c", c)
+        self._handle = _core.DepthFormat(self.mapping, self.storage, self.near, self.far, self.c)
+
+    @property
+    def greatest(self) -> int:
+        """The stored value that means 1."""
+        return self._handle.greatest
+
+    def encode(self, depths: npt.ArrayLike, *, clamp: bool = False) -> npt.NDArray[np.uint64]:
+        """The stored values nearest to the exact ones, ties to even. Depths outside near and far are an error, or
+        taken as the nearer of these."""
+        return self._handle.encode(as_numbers("depths", depths), bool(clamp))
+
+    def decode(self, stored: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """The depths that stored values mean, exact numbers rounded once; inf where that is infinite."""
+        return self._handle.decode(_stored(stored))
+
+    def values(self, stored: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """The numbers in [0, 1] that stored values are."""
+        return self._handle.values(_stored(stored))
+
+    def resolution(self, depths: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """The distances from the depth that the stored value of each depth means to those that the next nearer and
+        the next farther one mean; NaN where there is none."""
+        numbers = as_numbers("depths", depths)
+        return self._handle.to_nearer(numbers), self._handle.to_farther(numbers)
+
+    def separation_behind(self, depths: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """How far behind each depth a surface has to be to be told apart from it; NaN where none is."""
+        return self._handle.separation_behind(as_numbers("depths", depths))
+
+    def bin_width(self, depths: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """The length of the interval of depths that are stored like each depth."""
+        return self._handle.bin_width(as_numbers("depths", depths))
+
+    def codes_between(self, nearest: float, farthest: float) -> int:
+        """As how many different values depths between these two are stored."""
+        return self._handle.codes_between(as_number("nearest", nearest), as_number("farthest", farthest))
+
+    def __repr__(self) -> str:
+        return f"DepthFormat({self.mapping!r}, {self.storage!r}, near={self.near:g}, far={self.far:g})"
+
+
+def _stored(value: Any) -> npt.NDArray[np.uint64]:
+    array = as_array("stored", value)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"stored: expected integers, found {array.dtype}")
+    if (array < 0).any():
+        raise ValueError("stored: expected values from 0 on")
+    return np.asarray(array, dtype=np.uint64, order="C")

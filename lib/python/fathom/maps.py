@@ -1,0 +1,264 @@
+"""Depth maps: their channels as arrays, their files, comparisons, conversions and point clouds."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+
+from . import _core
+from ._arguments import camera_handle, as_array, as_count, as_number, one_of
+from .camera import Camera, cameras_from_json
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from ._arguments import Numbers
+
+Path = Union[str, "os.PathLike[str]"]
+
+#: What id, face and object have where there is no surface.
+NO_SURFACE = _core.no_surface
+
+#: The channels that are one array with a last axis: N is N.X, N.Y, N.Z in files.
+parts_of = {name: parts for name, (parts, _) in _core.channels().items() if parts}
+
+quantities = ("Z", "distance", "disparity")
+
+
+class Map(dict[str, "npt.NDArray[Any]"]):
+    """The channels of a depth map, H×W arrays by name (H×W×3 for N and P, H×W×2 for bary), and what the map carries
+    so that it can be computed again. Maps of several cameras have the number of the camera as their first axis, and
+    carry nothing: map[i] … of them are what arrays[i] are.
+
+    camera    the Camera that it shows; None where that is not known
+    metadata  the texts of its file: fathom.camera, fathom.sources with their SHA-256, …
+    objects   the names of the objects that channel `object` numbers
+    scale     for uint16 codes: codes per scene unit
+    """
+
+    def __init__(
+        self,
+        channels: dict[str, npt.NDArray[Any]] | None = None,
+        camera: Camera | None = None,
+        _description: _core.Map | None = None,
+    ) -> None:
+        super().__init__(channels or {})
+        self.camera = camera
+        self._description = _core.Map() if _description is None else _description
+
+    @classmethod
+    def read(cls, file: Path) -> Map:
+        """Reads EXR (also of other programs), PFM, 16-bit PNG or NPY, which is told by its content."""
+        return cls._of(_core.read_map(os.fspath(file)))
+
+    @classmethod
+    def _of(cls, description: _core.Map) -> Map:
+        planes = description.take_channels()
+        return cls(_grouped(planes), _camera_of(description), description)
+
+    def write(self, file: Path, *, channel: str | None = None, compression: str = "zip", threads: int = 0) -> None:
+        """Writes the map in the format that the file's suffix names.
+
+        .exr  all channels, with camera and metadata
+        .pfm, .npy, .png  one channel, `channel` where the map has several; .png holds uint16 codes and identifiers
+        """
+        _core.write_map(self._handle(), os.fspath(file), channel or "", compression,
+                        as_count("threads", threads, 0, 1024))
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        return dict(self._description.texts)
+
+    @property
+    def objects(self) -> list[str]:
+        return list(self._description.object_names)
+
+    @property
+    def scale(self) -> float | None:
+        return self._description.png_scale
+
+    def mask(self) -> npt.NDArray[np.bool_]:
+        """True where there is a surface: by id, face or object where the map has one, else where Z or distance is a
+        finite number (a positive one of codes)."""
+        for name in ("id", "face", "object"):
+            if name in self:
+                return np.asarray(self[name] != NO_SURFACE)
+        for name in ("Z", "distance"):
+            if name in self:
+                depths = self[name]
+                return np.asarray(depths != 0 if depths.dtype == np.uint16 else np.isfinite(depths))
+        raise ValueError("mask: the map has none of id, face, object, Z and distance")
+
+    def _handle(self) -> _core.Map:
+        planes = _planes(self)
+        if not planes:
+            raise ValueError("map: it has no channels")
+        shape = planes[0][1].shape
+        for name, plane in planes:
+            if plane.ndim != 2 or plane.size == 0:
+                raise ValueError(f"map: channel {name}: expected shape H×W, found {plane.shape}")
+            if plane.shape != shape:
+                raise ValueError(f"map: channels {planes[0][0]} and {name} differ in shape: {shape}, {plane.shape}")
+        return self._description.with_channels(shape[0], shape[1], planes)
+
+    def _camera(self, camera: Camera | None) -> Camera:
+        chosen = camera or self.camera
+        if chosen is None:
+            raise ValueError("camera: the map carries none: give one")
+        return chosen
+
+    def to_distance(self, camera: Camera | None = None) -> Map:
+        """Ray distances, of planar depths. Computed from the stored values in binary64: rounded twice. Render
+        channel `distance` for values that are rounded once."""
+        return self._converted("distance", camera, None, 0)
+
+    def to_depth(self, camera: Camera | None = None) -> Map:
+        """Planar depths, of ray distances."""
+        return self._converted("Z", camera, None, 0)
+
+    def to_disparity(self, baseline: float, *, doffs: float = 0, camera: Camera | None = None) -> Map:
+        """Disparities in pixels of a rectified stereo pair, |fx|·baseline/Z − doffs. The baseline is in scene
+        units."""
+        return self._converted("disparity", camera, as_number("baseline", baseline), as_number("doffs", doffs))
+
+    def _converted(self, to: str, camera: Camera | None, baseline: float | None, doffs: float) -> Map:
+        source = next((name for name in quantities if name in self), None)
+        if source is None:
+            raise ValueError("map: it has none of Z, distance and disparity")
+        return Map._of(_core.convert_quantity(self._handle(), source, to, camera_handle(self._camera(camera)), baseline, doffs))
+
+    def stored_as(self, dtype: npt.DTypeLike, *, channel: str = "", scale: float | None = None) -> Map:
+        """The map with one depth channel alone, stored as float32, float64 or uint16 codes of round(scale · depth)."""
+        name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64", "uint16"))
+        factor = None if scale is None else as_number("scale", scale)
+        return Map._of(_core.with_storage(self._handle(), channel, name, factor))
+
+    def points(self, camera: Camera | None = None, *, frame: str = "world") -> Numbers:
+        """N×3 float64 points, one for each pixel with a surface at a finite depth, row by row, in scene units, of Z
+        (or distance) and the camera; or those of channel P, which are exact numbers rounded once, for the world."""
+        one_of("frame", frame, ("world", "camera"))
+        if frame == "world" and "P" in self:
+            positions = self["P"]
+            return np.array(positions[np.isfinite(positions).all(axis=-1)], np.float64)
+        view = self._camera(camera)
+        depths = self if "Z" in self else self.to_depth(view)
+        z = np.asarray(depths["Z"], np.float64)
+        if depths["Z"].dtype == np.uint16:
+            z = np.where(z == 0, np.inf, z) / (self.scale or 1)
+        rows, columns = np.nonzero(np.isfinite(z))
+        return _points(view, rows, columns, z[rows, columns], frame)
+
+    def write_points(self, file: Path, camera: Camera | None = None, *, frame: str = "world",
+                     dtype: npt.DTypeLike = "float64") -> None:
+        """Writes the points as PLY, with normals and identifiers where the map has these."""
+        name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64"))
+        in_camera = one_of("frame", frame, ("world", "camera")) == "camera"
+        _core.write_point_cloud(self._handle(), camera_handle(self._camera(camera)), os.fspath(file), in_camera,
+                                name == "float64")
+
+    def __repr__(self) -> str:
+        channels = ", ".join(f"{name}: {array.dtype} {array.shape}" for name, array in self.items())
+        return f"Map({channels})"
+
+
+def _points(view: Camera, rows: npt.NDArray[Any], columns: npt.NDArray[Any], z: Numbers,
+            frame: str) -> Numbers:
+    offset = 0.5 - view.pixel_centre
+    y = (rows + 0.5 - (view.cy + offset)) / view.fy
+    x = (columns + 0.5 - (view.cx + offset) - view.skew * y) / view.fx
+    reach = z if view.projection == "perspective" else np.ones_like(z)
+    points: Numbers = np.stack([x * reach, y * reach, z], axis=-1)
+    if frame == "camera":
+        return points
+    pose = view.camera_to_world
+    world: Numbers = points @ pose[:3, :3].T + pose[:3, 3]
+    return world
+
+
+def _camera_of(description: _core.Map) -> Camera | None:
+    text = description.texts.get("fathom.camera")
+    if text is None:
+        return None
+    cameras = cameras_from_json(text, "fathom.camera")
+    return cameras[0] if len(cameras) == 1 else None
+
+
+def _grouped(planes: dict[str, npt.NDArray[Any]]) -> dict[str, npt.NDArray[Any]]:
+    """N.X, N.Y and N.Z become N, and so on; all others stay."""
+    channels: dict[str, npt.NDArray[Any]] = {}
+    for name, plane in planes.items():
+        stem, _, _ = name.rpartition(".")
+        names = [f"{stem}.{part}" for part in parts_of.get(stem, "")]
+        if names and all(each in planes for each in names):
+            if stem not in channels:
+                channels[stem] = np.stack([planes[each] for each in names], axis=-1)
+        else:
+            channels[name] = plane
+    return channels
+
+
+def _planes(channels: dict[str, npt.NDArray[Any]]) -> list[tuple[str, npt.NDArray[Any]]]:
+    """The channels as files have them."""
+    planes: list[tuple[str, npt.NDArray[Any]]] = []
+    for name, value in channels.items():
+        array = as_array(f"map: channel {name}", value)
+        parts = parts_of.get(name)
+        if parts and array.ndim == 3 and array.shape[2] == len(parts):
+            planes += [(f"{name}.{part}", np.ascontiguousarray(array[..., i])) for i, part in enumerate(parts)]
+        else:
+            planes.append((name, np.ascontiguousarray(array)))
+    return planes
+
+
+def read_map(file: Path) -> Map:
+    """Map.read()."""
+    return Map.read(file)
+
+
+def as_map(name: str, value: object) -> Map:
+    """A Map, a dict of arrays, or one array, which is Z."""
+    if isinstance(value, Map):
+        return value
+    if isinstance(value, dict):
+        return Map(value)
+    array = as_array(name, value)
+    if array.ndim != 2:
+        raise ValueError(f"{name}: expected an H×W array or a Map, found shape {array.shape}")
+    if array.dtype.kind == "f" and array.dtype.itemsize < 4:
+        array = array.astype(np.float32)
+    return Map({"Z": array})
+
+
+def compare(
+    truth: Map | npt.ArrayLike,
+    other: Map | npt.ArrayLike,
+    *,
+    tolerance_ulp: float = 0,
+    channel: str = "",
+    other_channel: str = "",
+    truth_background: float | None = None,
+    other_background: float | None = None,
+) -> _core.MapComparison:
+    """How two maps of one view differ, channel by channel: which pixels show a surface in one only, and the absolute,
+    relative and ulp differences of the others. Arrays are taken for Z.
+
+    >>> truth = np.array([[1, 2], [3, np.inf]], np.float32)
+    >>> found = compare(truth, np.array([[1, 2], [3.5, np.inf]], np.float32))
+    >>> found.within_tolerance, found.channels[0].bit_equal, found.channels[0].absolute.max
+    (False, 2, 0.5)
+    """
+
+    def value(name: str, background: float | None) -> float | None:
+        return None if background is None else as_number(name, background)
+
+    return _core.compare_maps(
+        as_map("truth", truth)._handle(),
+        as_map("other", other)._handle(),
+        as_number("tolerance_ulp", tolerance_ulp),
+        channel,
+        other_channel,
+        value("truth_background", truth_background),
+        value("other_background", other_background),
+    )

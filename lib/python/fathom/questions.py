@@ -1,0 +1,162 @@
+"""What can be asked about a scene and a camera beside a map: each answer is exact."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from . import _core
+from ._arguments import as_count, camera_handle, one_of, scene_handle
+from ._render import Cull, stored_type
+from .maps import Map
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from .camera import Camera
+    from .scene import Scene
+
+culls = ("none", "back", "front")
+
+
+class CoveringTriangle(NamedTuple):
+    """A triangle that covers the centre of a pixel."""
+
+    #: Its number in the scene, as in channel `id`.
+    id: int
+    object: int
+    #: Its number within its object's mesh, and that of its face within its file.
+    triangle: int
+    face: int
+    front_facing: bool
+    #: The planar depth at the centre, exactly, in scene units.
+    depth: Fraction
+    #: Whether it can be visible: it is in front, within near and far, and not culled.
+    counts: bool
+    #: The signs of the edge functions: 1 inside, 0 on the edge.
+    edges: tuple[int, int, int]
+
+
+def probe(scene: Scene, camera: Camera, x: int, y: int, *, cull: Cull = "none") -> list[CoveringTriangle]:
+    """Every triangle that covers the centre of the pixel in column `x` and row `y` from the top left: nearest first,
+    ties by number, and last those that do not count. The first one that counts is visible.
+
+    >>> import fathom
+    >>> scene = fathom.Scene()
+    >>> _ = scene.add_mesh([(0, 0, 3), (9, 0, 3), (0, 9, 4)], [(0, 1, 2)])
+    >>> camera = fathom.Camera(8, 8, 8, 8, 0, 0, pixel_centre=0.5)
+    >>> probe(scene, camera, 2, 2)[0].depth
+    Fraction(432, 139)
+    """
+    scene_handle(scene), camera_handle(camera)
+    column = as_count("x", x, 0, camera.width - 1)
+    row = as_count("y", y, 0, camera.height - 1)
+    found = _core.probe(scene_handle(scene), camera_handle(camera), column, row, one_of("cull", cull, culls))
+    return [_covering(*each) for each in found]
+
+
+def _covering(id: int, object: int, triangle: int, face: int, front_facing: bool, depth: tuple[int, int, int, int],
+              counts: bool, edges: tuple[int, int, int]) -> CoveringTriangle:
+    return CoveringTriangle(id, object, triangle, face, front_facing, _fraction(*depth), counts, edges)
+
+
+def _fraction(m: int, e: int, n: int, f: int) -> Fraction:
+    """m·2^e / (n·2^f)"""
+    power = e - f
+    return Fraction(m << max(power, 0), n << max(-power, 0))
+
+
+class Areas(NamedTuple):
+    """Areas in pixels, each exact number rounded once to float64, by the numbers of triangles or objects."""
+
+    #: Where it is the visible one.
+    visible: npt.NDArray[np.float64]
+    #: Where it would be visible if there were nothing else.
+    unoccluded: npt.NDArray[np.float64]
+    #: visible / unoccluded; NaN where there is no unoccluded area.
+    ratio: npt.NDArray[np.float64]
+
+
+class VisibleAreas(NamedTuple):
+    triangles: Areas
+    objects: Areas
+
+
+def visible(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: int = 0) -> VisibleAreas:
+    """The exact visible area of every triangle and every object, in pixels of the image, whatever its size."""
+    triangles, objects = _core.visible(scene_handle(scene), camera_handle(camera), one_of("cull", cull, culls),
+                                       as_count("threads", threads, 0, 1024))
+    return VisibleAreas(Areas(*triangles), Areas(*objects))
+
+
+class DeepMap:
+    """The visible fragments of every pixel, as arrays of one element per fragment: those of a pixel follow each
+    other, nearest first, and pixels row by row.
+
+    Z, ZBack  planar depth of a fragment's nearest and of its farthest visible point
+    area      the fraction of the pixel where it is visible; A: over what the ones before it leave
+    id        of its triangle
+    offsets   H·W + 1 numbers: the fragments of pixel (x, y) are offsets[y·W + x] to offsets[y·W + x + 1]
+    """
+
+    def __init__(self, arrays: dict[str, npt.NDArray[Any]], camera: Camera) -> None:
+        self.Z = arrays["Z"]
+        self.ZBack = arrays["ZBack"]
+        self.area = arrays["area"]
+        self.A = arrays["A"]
+        self.id = arrays["id"]
+        self.offsets = arrays["offsets"]
+        self.camera = camera
+
+    @property
+    def counts(self) -> npt.NDArray[np.int64]:
+        """H×W: how many fragments each pixel has."""
+        return np.diff(self.offsets.astype(np.int64)).reshape(self.camera.height, self.camera.width)
+
+    def at(self, x: int, y: int) -> slice:
+        """Where the fragments of a pixel are: deep.Z[deep.at(3, 5)]."""
+        pixel = as_count("y", y, 0, self.camera.height - 1) * self.camera.width
+        pixel += as_count("x", x, 0, self.camera.width - 1)
+        return slice(int(self.offsets[pixel]), int(self.offsets[pixel + 1]))
+
+
+def render_deep(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: int = 0) -> DeepMap:
+    """The visible fragments of every pixel, with their exact areas, each rounded once to float32."""
+    return DeepMap(_core.deep(scene_handle(scene), camera_handle(camera), one_of("cull", cull, culls),
+                              as_count("threads", threads, 0, 1024)), camera)
+
+
+class Disagreement(NamedTuple):
+    x: int
+    y: int
+    channel: str
+    found: str
+    expected: str
+
+
+class Verification(NamedTuple):
+    #: Pixels that were computed again, and how many of them differ.
+    verified: int
+    differing: int
+    first: Disagreement | None
+
+
+def verify(map: Map, scene: Scene, camera: Camera | None = None, *, pixels: int = 1000, cull: Cull = "none",
+           threads: int = 0) -> Verification:
+    """Computes up to `pixels` pixels of a rendered map again by exact arithmetic alone, and compares every channel bit
+    for bit. Which pixels, is always the same for an image size. The map's background must be inf."""
+    if not isinstance(map, Map):
+        raise TypeError(f"map: expected a Map, found {map!r}")
+    view = map._camera(camera)
+    channels = [name for name in map if name in _core.channels()]
+    if len(channels) < len(map):
+        raise ValueError(f"map: expected channels that fathom renders, found {', '.join(set(map) - set(channels))}")
+    depths = next((map[name] for name in ("Z", "distance") if name in map), None)
+    stored = "float32" if depths is None else stored_type(depths.dtype)
+    options = _core.RenderOptions(channels, one_of("cull", cull, culls), stored, map.scale or 1000, "fast",
+                                  as_count("threads", threads, 0, 1024))
+    verified, differing, first = _core.verify(map._handle(), scene_handle(scene), camera_handle(view), options,
+                                              as_count("pixels", pixels, 1, 2**63))
+    return Verification(verified, differing, None if first is None else Disagreement(*first))

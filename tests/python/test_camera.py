@@ -1,0 +1,154 @@
+"""fathom.Camera: its conventions, judged by projections in NumPy; its files; what it refuses."""
+
+import copy
+import json
+import pickle
+
+import numpy as np
+import pytest
+
+import fathom
+
+
+def project(camera, points):
+    """Pixel coordinates with (0, 0) at the image's corner, by the textbook."""
+    p = np.c_[points, np.ones(len(points))] @ camera.world_to_camera.T
+    return (p[:, :3] / p[:, 2:3] @ camera.K.T)[:, :2] + 0.5 - camera.pixel_centre
+
+
+def sees(camera, point, radius=1e-3):
+    """The pixels in which a tiny triangle around a point is drawn."""
+    scene = fathom.Scene()
+    corners = np.array(point) + radius * np.array([(-1, -1, 0), (1, -1, 0), (0, 1, 0)])
+    scene.add_mesh(corners, [(0, 1, 2)])
+    scene.add_mesh(corners[:, [2, 0, 1]] - np.array(point)[[2, 0, 1]] + point, [(0, 1, 2)])
+    coverage = scene.render(camera, channels=("A",))["A"]
+    return {(int(x), int(y)) for y, x in np.argwhere(coverage > 0)}
+
+
+@pytest.mark.parametrize("pixel_centre", [0, 0.5])
+def test_from_opencv_projects_as_opencv_does(pixel_centre):
+    K = np.array([(100, 3, 31.25), (0, 110, 22.5), (0, 0, 1)])
+    T = np.array([(0, -1, 0, 0.25), (1, 0, 0, -0.5), (0, 0, 1, 4), (0, 0, 0, 1)], float)
+    camera = fathom.Camera.from_opencv(K, T, (64, 48), pixel_centre=pixel_centre, near=1, far=9)
+    assert np.array_equal(camera.K, K) and np.array_equal(camera.world_to_camera, T)
+    assert (camera.size, camera.near, camera.far, camera.skew) == ((64, 48), 1, 9, 3)
+    for point in [(0, 0, 0), (0.5, 0.25, 1), (0.25, 0, -1)]:
+        u, v = project(camera, np.array([point]))[0]
+        assert (int(u), int(v)) in sees(camera, point)
+    assert np.allclose(camera.camera_to_world @ camera.world_to_camera, np.eye(4), atol=1e-15)
+
+
+def test_from_opengl_agrees_with_clip_coordinates():
+    near, far, width, height = 0.5, 20.0, 64, 48
+    projection = np.array([(1.5, 0, 0.125, 0), (0, 2, -0.25, 0),
+                           (0, 0, -(far + near) / (far - near), -2 * far * near / (far - near)), (0, 0, -1, 0)])
+    modelview = np.eye(4)
+    modelview[:3, 3] = (0.5, 0.25, -5)
+    camera = fathom.Camera.from_opengl(projection, modelview, (width, height))
+    points = np.array([(0, 0, 0), (1, 0.5, 1), (-1, -0.5, -2)], float)
+    clip = np.c_[points, np.ones(3)] @ modelview.T @ projection.T
+    window = np.c_[(1 + clip[:, 0] / clip[:, 3]) * width / 2, (1 - clip[:, 1] / clip[:, 3]) * height / 2]
+    assert np.allclose(project(camera, points), window, atol=1e-12)
+    assert np.isclose(camera.near, near) and np.isclose(camera.far, far)
+
+
+def test_look_at_has_the_target_in_the_middle_and_up_upwards():
+    camera = fathom.Camera.look_at((3, 1, 2), (0.5, 0, 0), size=(64, 48), fov=60)
+    middle, above = project(camera, np.array([(0.5, 0, 0), (0.5, 0.1, 0)]))
+    assert np.allclose(middle, (32, 24)) and above[1] < 24
+    assert np.isclose(camera.fy, 24 / np.tan(np.pi / 6))
+    assert fathom.Camera.look_at((0, 0, 3), size=(64, 48), focal=77).fx == 77
+    flat = fathom.Camera.look_at((0, 0, 3), size=(64, 48), projection="orthographic", extent=2)
+    assert flat.projection == "orthographic" and flat.fy == 24
+
+
+def test_orbit_and_frame(spot):
+    cameras = fathom.Camera.orbit(8, distance=2, centre=(1, 2, 3), up="z", elevation=0, azimuth=0)
+    eyes = np.array([camera.camera_to_world[:3, 3] for camera in cameras])
+    assert np.allclose(np.linalg.norm(eyes - (1, 2, 3), axis=1), 2) and np.allclose(eyes[:, 2], 3)
+    for camera in [fathom.Camera.frame(spot, size=(64, 48)), *fathom.Camera.orbit_scene(spot, 5, size=(64, 48))]:
+        (low, high) = spot.bounds
+        corners = np.array([(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+        images = project(camera, corners)
+        assert (images > 0).all() and (images < (64, 48)).all()
+
+
+def test_json_keeps_every_bit(tmp_path):
+    camera = fathom.Camera(7, 5, 1 / 3, 2 / 3, 0.1, 1e-300, pixel_centre=0.1, skew=1e300,
+                           world_to_camera=[(1 / 7, 0, 0, 1e-5), (0, 1, 0, 2**60), (0, 0, -1, 3)], near=0.1)
+    for again in (fathom.Camera.from_json(camera.to_json()), pickle.loads(pickle.dumps(camera)), copy.deepcopy(camera)):
+        assert again == camera and hash(again) == hash(camera)
+    camera.write(tmp_path / "camera.json")
+    assert fathom.Camera.read(tmp_path / "camera.json") == camera
+    fathom.write_cameras(tmp_path / "path.json", [camera, camera.with_size(9, 9)])
+    path = fathom.read_cameras(tmp_path / "path.json")
+    assert path == [camera, camera.with_size(9, 9)] and path[0] != path[1]
+    assert isinstance(json.loads((tmp_path / "path.json").read_text()), list)
+    with pytest.raises(ValueError, match="expected one camera, found 2"):
+        fathom.Camera.read(tmp_path / "path.json")
+
+
+def test_cameras_of_other_programs(tmp_path):
+    (tmp_path / "cameras.txt").write_text("1 PINHOLE 64 48 100 110 32.5 24.5\n")
+    (tmp_path / "images.txt").write_text("1 1 0 0 0 0.5 0.25 4 1 a.png\n\n2 1 0 0 0 0 0 5 1 b.png\n\n")
+    colmap = fathom.Camera.from_colmap(tmp_path)
+    assert list(colmap) == ["a.png", "b.png"]
+    assert colmap["a.png"].pixel_centre == 0.5 and colmap["a.png"].world_to_camera[:3, 3].tolist() == [0.5, 0.25, 4]
+
+    pose = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 4], [0, 0, 0, 1]]
+    (tmp_path / "transforms.json").write_text(json.dumps(
+        {"fl_x": 100, "fl_y": 110, "cx": 32, "cy": 24, "w": 64, "h": 48, "scale": 0.33,
+         "frames": [{"file_path": "a", "transform_matrix": pose}]}))
+    with pytest.warns(UserWarning, match="scale"):
+        nerf = fathom.Camera.from_nerf(tmp_path / "transforms.json")
+    assert nerf["a"].camera_to_world[:3, 3].tolist() == [0, 0, 4] and nerf["a"].world_to_camera[2, 2] == -1
+
+    (tmp_path / "scene_camera.json").write_text(json.dumps({"3": {"cam_K": [100, 0, 32, 0, 110, 24, 0, 0, 1]}}))
+    bop = fathom.Camera.from_bop(tmp_path / "scene_camera.json", (64, 48))
+    assert bop["3"].pixel_centre == 0 and bop["3"].size == (64, 48)
+
+
+def make(**changes):
+    arguments = dict(width=64, height=48, fx=40, fy=40, cx=32, cy=24, pixel_centre=0.5)
+    return fathom.Camera(**{**arguments, **changes})
+
+
+@pytest.mark.parametrize("changes, error, words", [
+    ({"width": 0}, ValueError, "size: width: expected 1 to"),
+    ({"height": -5}, ValueError, "size: height"),
+    ({"width": 2.5}, TypeError, "size: width: expected an integer"),
+    ({"fx": 0}, ValueError, "fx"),
+    ({"fx": np.nan}, ValueError, "fx"),
+    ({"cx": "a"}, TypeError, "cx: expected a number, found 'a'"),
+    ({"near": -1}, ValueError, "near"),
+    ({"near": 5, "far": 5}, ValueError, "far"),
+    ({"pixel_centre": np.inf}, ValueError, "pixel_centre"),
+    ({"projection": "fisheye"}, ValueError, "projection: expected 'perspective', 'orthographic', found 'fisheye'"),
+    ({"world_to_camera": np.eye(3)}, ValueError, "world_to_camera: expected shape 4×4 or 3×4, found 3×3"),
+    ({"world_to_camera": np.zeros((4, 4))}, ValueError, "expected the last row to be 0 0 0 1, found 0 0 0 0"),
+    ({"world_to_camera": np.zeros((3, 4))}, ValueError, "singular|det"),
+    ({"world_to_camera": np.array([(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (5, 6, 7, 1)])}, ValueError,
+     "is it transposed"),
+    ({"world_to_camera": [[1, 2], [3]]}, TypeError, "world_to_camera: expected an array of numbers"),
+])
+def test_what_a_camera_refuses(changes, error, words):
+    with pytest.raises(error, match=words) as raised:
+        make(**changes)
+    assert "\n" not in str(raised.value)
+
+
+def test_K_is_looked_at():
+    with pytest.raises(ValueError, match="K: .*is it transposed"):
+        fathom.Camera.from_opencv(np.array([(40, 0, 0), (0, 40, 0), (32, 24, 1.0)]), np.eye(4), (64, 48), pixel_centre=0)
+    with pytest.raises(ValueError, match="K: nan at \\[0, 2\\] is not a finite number"):
+        fathom.Camera.from_opencv([(40, 0, np.nan), (0, 40, 0), (0, 0, 1)], np.eye(4), (64, 48), pixel_centre=0)
+
+
+def test_a_camera_does_not_change():
+    camera = make()
+    for name in ("width", "fx", "anything"):
+        with pytest.raises(AttributeError, match="does not change"):
+            setattr(camera, name, 3)
+    camera.world_to_camera[0, 0] = 9  # of an array of its own
+    assert camera.world_to_camera[0, 0] == 1

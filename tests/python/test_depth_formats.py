@@ -1,0 +1,82 @@
+"""fathom.DepthFormat: judged by fractions."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import fathom
+from fathom.depth_formats import MAPPINGS, STORAGES
+
+
+def exact_standard(depth, near, far):
+    d, n, f = Fraction(depth), Fraction(near), Fraction(far)
+    return f * (d - n) / (d * (f - n))
+
+
+def nearest_even(value):
+    return round(value)  # Fraction rounds half to even
+
+
+@pytest.mark.parametrize("bits", [16, 24, 32])
+def test_encode_is_the_exact_code(bits):
+    near, far = 0.1, 100.0
+    depths = np.concatenate([[near, far], np.random.default_rng(1).uniform(near, far, 500)])
+    format = fathom.DepthFormat("standard", f"unorm{bits}", near=near, far=far)
+    codes = format.encode(depths)
+    assert codes.tolist() == [nearest_even(exact_standard(d, near, far) * (2**bits - 1)) for d in depths]
+    assert format.greatest == 2**bits - 1 and codes[1] == format.greatest
+    back = format.decode(codes)
+    for code, depth in zip(codes.tolist(), back):
+        v = Fraction(code, 2**bits - 1)
+        n, f = Fraction(near), Fraction(far)
+        assert depth == float(f * n / (f - v * (f - n)))
+
+
+def test_floats_are_bits():
+    format = fathom.DepthFormat("linear", "float32", near=1, far=3)
+    stored = format.encode([[1, 2], [2.5, 3]])
+    assert stored.shape == (2, 2)
+    assert np.array_equal(stored.astype(np.uint32).view(np.float32), np.array([[0, 0.5], [0.75, 1]], np.float32))
+    assert np.array_equal(format.values(stored), [[0, 0.5], [0.75, 1]])
+
+
+def test_resolution():
+    format = fathom.DepthFormat("linear", "unorm16", near=1, far=65536)
+    nearer, farther = format.resolution([1, 8, 65536])
+    assert np.array_equal(nearer, [np.nan, 1, 1], equal_nan=True) and np.array_equal(farther, [1, 1, np.nan], equal_nan=True)
+    assert format.bin_width(8) == 1 and format.codes_between(3, 10) == 8
+    assert format.separation_behind(7.25) == 0.25
+
+
+@pytest.mark.parametrize("mapping", MAPPINGS)
+@pytest.mark.parametrize("storage", STORAGES)
+def test_every_format_goes_there_and_back(mapping, storage):
+    far = np.inf if "infinite" in mapping else 50
+    format = fathom.DepthFormat(mapping, storage, near=0.5, far=far)
+    depths = np.linspace(0.5, 50, 33)
+    stored = format.encode(depths)
+    steps = np.diff(stored.astype(np.int64))
+    assert (steps <= 0).all() if "reversed" in mapping else (steps >= 0).all()
+    assert np.array_equal(format.encode(format.decode(stored), clamp=True), stored)
+
+
+@pytest.mark.parametrize("call, error, words", [
+    (lambda: fathom.DepthFormat("standart", "unorm16", near=1, far=2), ValueError, "mapping: expected 'standard'"),
+    (lambda: fathom.DepthFormat("standard", "unorm8", near=1, far=2), ValueError, "storage: expected 'unorm16'"),
+    (lambda: fathom.DepthFormat("standard", "unorm16", near=0, far=2), ValueError, "near"),
+    (lambda: fathom.DepthFormat("standard", "unorm16", near=1, far=np.inf), ValueError, "far"),
+    (lambda: fathom.DepthFormat("linear", "unorm16", near=1, far=2).encode(3), ValueError, "3"),
+    (lambda: fathom.DepthFormat("linear", "unorm16", near=1, far=2).encode([np.nan]), ValueError, "NaN"),
+    (lambda: fathom.DepthFormat("linear", "unorm16", near=1, far=2).decode([65536]), ValueError, "0 to 65535"),
+    (lambda: fathom.DepthFormat("linear", "unorm16", near=1, far=2).decode([-1]), ValueError, "from 0 on"),
+    (lambda: fathom.DepthFormat("linear", "unorm16", near=1, far=2).decode([0.5]), TypeError, "expected integers"),
+])
+def test_what_formats_refuse(call, error, words):
+    with pytest.raises(error, match=words):
+        call()
+
+
+def test_clamp():
+    format = fathom.DepthFormat("linear", "unorm16", near=1, far=2)
+    assert format.encode([-np.inf, 0, 9, np.inf], clamp=True).tolist() == [0, 0, 65535, 65535]

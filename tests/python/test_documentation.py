@@ -1,0 +1,62 @@
+"""Examples in docstrings run; every public name has a docstring; types are complete; importing is quick."""
+
+import doctest
+import importlib
+import inspect
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+import fathom
+
+modules = ["_render", "camera", "clipping", "depth_formats", "maps", "questions", "scene"]
+
+
+@pytest.mark.parametrize("name", ["fathom", *(f"fathom.{name}" for name in modules)])
+def test_examples(name):
+    results = doctest.testmod(importlib.import_module(name))
+    assert results.failed == 0 and results.attempted > 0
+
+
+def public_members():
+    for name in fathom.__all__:
+        member = getattr(fathom, name)
+        yield name, member
+        if inspect.isclass(member):
+            for inner, value in vars(member).items():
+                if not inner.startswith("_") and callable(value):
+                    yield f"{name}.{inner}", value
+
+
+def test_everything_public_is_documented():
+    names = {"NO_SURFACE"}
+    for name, member in public_members():
+        if name not in names:
+            assert inspect.getdoc(member), name
+
+
+def test_types_are_complete():
+    package = pathlib.Path(fathom.__file__).parent
+    checked = subprocess.run(
+        ["/usr/bin/python3", "-m", "mypy", "--strict", "--python-version", "3.9", "--cache-dir", "/dev/null", package.name],
+        cwd=package.parent, capture_output=True, text=True)
+    assert checked.returncode == 0, checked.stdout
+    assert (package / "py.typed").exists()
+
+
+def test_the_stub_has_what_the_extension_module_has():
+    from fathom import _core
+
+    stub = (pathlib.Path(fathom.__file__).parent / "_core.pyi").read_text()
+    for name in dir(_core):
+        if not name.startswith("_"):
+            assert f"class {name}" in stub or f"def {name}(" in stub or f"\n{name}: " in stub, name
+
+
+def test_numpy_alone_is_imported():
+    code = "import sys, numpy; before = set(sys.modules); import fathom; print(*sorted(set(sys.modules) - before))"
+    loaded = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout.split()
+    others = {name for name in loaded if not name.startswith("fathom")}
+    assert others <= {"fractions", "decimal", "_decimal", "numbers", "_typing", "typing", "typing.io", "typing.re"}, others

@@ -1,0 +1,158 @@
+"""fathom.Map: files, comparison, conversion, points."""
+
+import subprocess
+
+import numpy as np
+import pytest
+
+import fathom
+
+all_channels = ("Z", "A", "id", "object", "N", "P", "bary", "distance")
+
+
+@pytest.fixture(scope="module")
+def camera(spot):
+    return fathom.Camera.frame(spot, size=(80, 60))
+
+
+@pytest.fixture
+def map(spot, camera):
+    return spot.render(camera, channels=all_channels)
+
+
+def test_exr_keeps_channels_camera_and_metadata(map, camera, tmp_path):
+    map.write(tmp_path / "map.exr")
+    again = fathom.read_map(tmp_path / "map.exr")
+    assert set(again) == set(map)
+    for name, values in map.items():
+        assert again[name].tobytes() == values.tobytes() and again[name].shape == values.shape
+    assert again.camera == camera and again.objects == map.objects == ["spot"]
+    assert again.metadata["fathom.sources"] == map.metadata["fathom.sources"] != ""
+
+
+def test_other_programs_read_what_is_written(map, tmp_path):
+    map.write(tmp_path / "map.exr")
+    code = ("import OpenImageIO, sys; b = OpenImageIO.ImageBuf(sys.argv[1]); n = b.spec().channelnames;"
+            "p = b.get_pixels(OpenImageIO.FLOAT); print(n.index('Z') >= 0, float(p[30, 40, n.index('Z')]).hex())")
+    told = subprocess.run(["/usr/bin/python3", "-c", code, str(tmp_path / "map.exr")], check=True, capture_output=True,
+                          text=True).stdout.split()
+    assert told == ["True", float(map["Z"][30, 40]).hex()]
+
+
+@pytest.mark.parametrize("suffix", ["pfm", "npy"])
+def test_single_channels(map, tmp_path, suffix):
+    file = tmp_path / f"map.{suffix}"
+    map.write(file, channel="Z")
+    again = fathom.Map.read(file)
+    assert list(again.values())[0].tobytes() == map["Z"].tobytes()
+    if suffix == "npy":
+        assert np.array_equal(np.load(file), map["Z"])
+    with pytest.raises(fathom.UsageError, match="channel"):
+        map.write(file)
+
+
+def test_codes(spot, camera, tmp_path):
+    codes = spot.render(camera, dtype=np.uint16, scale=2000)
+    codes.write(tmp_path / "codes.png")
+    again = fathom.read_map(tmp_path / "codes.png")
+    assert again.scale == 2000 and np.array_equal(again["Z"], codes["Z"]) and again["Z"].dtype == np.uint16
+    assert np.array_equal(again.mask(), codes.mask()) and codes.mask().any() and not codes.mask().all()
+
+
+def test_mask(map):
+    assert np.array_equal(map.mask(), np.isfinite(map["Z"])) and np.array_equal(map.mask(), map["id"] != fathom.NO_SURFACE)
+    assert np.array_equal(fathom.Map({"Z": map["Z"]}).mask(), map.mask())
+    with pytest.raises(ValueError, match="mask: the map has none of"):
+        fathom.Map({"A": map["A"]}).mask()
+
+
+def test_compare(map):
+    same = fathom.compare(map, map)
+    assert same.within_tolerance and {c.truth_channel for c in same.channels} >= {"Z", "N.X", "id"}
+    other = map["Z"].copy()
+    y, x = np.argwhere(map.mask())[7]
+    other[y, x] = np.nextafter(other[y, x], np.float32(np.inf))
+    found = fathom.compare(map, other, channel="Z").channels[0]
+    assert found.both == map.mask().sum() and found.bit_equal == found.both - 1 and found.ulp.max == 1
+    assert found.absolute.worst == (x, y) and not found.within_tolerance
+    assert fathom.compare(map, other, channel="Z", tolerance_ulp=1).within_tolerance
+    holes = np.where(map["Z"] < np.median(map["Z"][map.mask()]), map["Z"], np.float32(0))
+    found = fathom.compare(map["Z"], holes, other_background=0).channels[0]
+    assert found.only_truth == (map.mask() & (holes == 0)).sum() > 0
+    with pytest.raises(fathom.InputError, match="size"):
+        fathom.compare(map, map["Z"][:, 1:])
+    with pytest.raises(ValueError, match="other: expected an H×W array or a Map, found shape"):
+        fathom.compare(map, np.zeros(3))
+
+
+def test_quantities(map, camera):
+    distance = map.to_distance()["distance"]
+    seen = map.mask()
+    assert np.allclose(distance[seen], map["distance"][seen], rtol=2e-7)
+    only = fathom.Map({"distance": map["distance"]}, camera)
+    assert np.allclose(only.to_depth()["Z"][seen], map["Z"][seen], rtol=2e-7)
+    disparity = map.to_disparity(0.1, doffs=2)["disparity"]
+    assert np.allclose(disparity[seen], camera.fx * 0.1 / map["Z"][seen].astype(float) - 2, rtol=1e-6)
+    with pytest.raises(ValueError, match="camera: the map carries none: give one"):
+        fathom.Map({"Z": map["Z"]}).to_distance()
+    assert np.array_equal(fathom.Map({"Z": map["Z"]}).to_distance(camera)["distance"], distance)
+
+
+def test_stored_as(map):
+    codes = map.stored_as(np.uint16, channel="Z", scale=1000)
+    seen = map.mask()
+    assert np.array_equal(codes["Z"][seen], np.rint(map["Z"][seen].astype(float) * 1000)) and codes.scale == 1000
+    assert map.stored_as("float64", channel="Z")["Z"].dtype == np.float64
+
+
+def test_points_are_on_the_surface(map, camera, tmp_path):
+    exact = map.points()
+    assert exact.shape == (map.mask().sum(), 3)
+    depths = fathom.Map({"Z": map["Z"]}, camera)
+    assert np.allclose(depths.points(), exact, atol=1e-6)
+    in_camera = depths.points(frame="camera")
+    assert np.array_equal(in_camera[:, 2], map["Z"][map.mask()])
+    assert np.allclose(in_camera @ camera.camera_to_world[:3, :3].T + camera.camera_to_world[:3, 3], exact, atol=1e-6)
+    map.write_points(tmp_path / "points.ply")
+    header, _, body = (tmp_path / "points.ply").read_bytes().partition(b"end_header\n")
+    assert f"element vertex {len(exact)}".encode() in header and b"property double x" in header
+    assert np.frombuffer(body[:24], "<f8").tolist() == exact[0].tolist()
+
+
+def test_points_of_orthographic_cameras_and_codes(spot):
+    camera = fathom.Camera.frame(spot, size=(40, 30), projection="orthographic")
+    codes = spot.render(camera, dtype=np.uint16, scale=10000)
+    exact = spot.render(camera, channels=("P",))
+    assert np.allclose(codes.points(), exact.points(), atol=1e-4)
+
+
+@pytest.mark.parametrize("channels, error, words", [
+    ({}, ValueError, "map: it has no channels"),
+    ({"Z": np.zeros(3, np.float32)}, ValueError, r"map: channel Z: expected shape H×W, found \(3,\)"),
+    ({"Z": np.zeros((0, 3), np.float32)}, ValueError, "expected shape H×W"),
+    ({"Z": np.zeros((2, 2), np.float32), "A": np.zeros((2, 3), np.float32)}, ValueError, "channels Z and A differ"),
+    ({"Z": np.zeros((2, 2), np.int8)}, TypeError, "channel Z: expected float32, float64, uint16 or uint32, found int8"),
+    ({"Z": np.zeros((2, 2), np.float64)}, OSError, "EXR"),
+])
+def test_maps_that_cannot_be_written(channels, error, words, tmp_path):
+    with pytest.raises(error, match=words):
+        fathom.Map(channels).write(tmp_path / "x.exr")
+
+
+def test_files_that_cannot_be_read_or_written(map, tmp_path):
+    with pytest.raises(fathom.InputError, match="none.exr"):
+        fathom.read_map(tmp_path / "none.exr")
+    (tmp_path / "short.exr").write_bytes(b"\x76\x2f\x31\x01\x02\x00\x00\x00")
+    with pytest.raises(fathom.InputError, match="short.exr"):
+        fathom.read_map(tmp_path / "short.exr")
+    with pytest.raises(fathom.OutputError, match="no/folder|cannot"):
+        map.write(tmp_path / "no/folder/x.exr")
+    with pytest.raises(fathom.UsageError, match="ends in"):
+        map.write(tmp_path / "x.jpg")
+    with pytest.raises(OSError, match="space"):
+        write_to_full_disk(map, tmp_path)
+
+
+def write_to_full_disk(map, folder):
+    (folder / "full.exr").symlink_to("/dev/full")
+    map.write(folder / "full.exr")

@@ -1,0 +1,175 @@
+"""fathom.render() and Scene.render(): judged by closed forms over fractions, and by the program."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import fathom
+
+size = (64, 48)
+identity = np.eye(4)
+
+
+def plane_depth(x, y, K, pixel_centre):
+    """The depth of z = 4 + X/2 at the centre of a pixel, rounded once: X = z·a gives z = 4 / (1 − a/2)."""
+    a = (Fraction(x) + Fraction(pixel_centre) - Fraction(K[0, 2])) / Fraction(K[0, 0])
+    return np.float32(float(4 / (1 - a / 2)))
+
+
+@pytest.mark.parametrize("pixel_centre", [0.5, 0, 0.25])
+def test_every_depth_is_that_of_the_plane(triangle, K, pixel_centre):
+    depths = fathom.render(*triangle, K, identity, size, pixel_centre=pixel_centre)["Z"]
+    assert depths.shape == (48, 64) and depths.dtype == np.float32
+    seen = np.argwhere(np.isfinite(depths))
+    assert len(seen) > 500
+    for y, x in seen:
+        assert depths[y, x] == plane_depth(int(x), int(y), K, pixel_centre)
+
+
+def test_pixel_centre_moves_the_image_and_has_no_default(triangle, K):
+    with pytest.raises(TypeError, match="pixel_centre"):
+        fathom.render(*triangle, K, identity, size)
+    moved = K.copy()
+    moved[:2, 2] += 0.5
+    assert np.array_equal(
+        fathom.render(*triangle, K, identity, size, pixel_centre=0)["Z"],
+        fathom.render(*triangle, moved, identity, size, pixel_centre=0.5)["Z"],
+    )
+
+
+def test_T_is_world_to_camera_in_opencv_axes(triangle, K):
+    vertices, faces = triangle
+    moved = np.eye(4)
+    moved[:3, 3] = (0.25, -0.5, 1)
+    assert np.array_equal(
+        fathom.render(vertices, faces, K, moved, size, pixel_centre=0.5)["Z"],
+        fathom.render(vertices + moved[:3, 3], faces, K, identity[:3], size, pixel_centre=0.5)["Z"],
+    )
+    below = fathom.render(vertices + (0, 1, 0), faces, K, identity, size, pixel_centre=0.5)["Z"]
+    assert np.isfinite(below[-1]).any() and not np.isfinite(below[0]).any(), "y points down"
+
+
+def test_maps_are_those_of_the_program(spot, run_program, tmp_path):
+    camera = fathom.Camera.frame(spot, size=(160, 90))
+    camera.write(tmp_path / "camera.json")
+    run_program("render", _spot(), "--camera", tmp_path / "camera.json",
+                "--channels", "Z,A,id,N,P,bary,distance,Zlow,face,object", "-o", tmp_path / "map.exr")
+    expected = fathom.read_map(tmp_path / "map.exr")
+    found = spot.render(camera, channels=list(expected))
+    assert set(found) == {"Z", "A", "id", "N", "P", "bary", "distance", "Zlow", "face", "object"}
+    assert found["N"].shape == (90, 160, 3) and found["bary"].shape == (90, 160, 2)
+    for name, values in expected.items():
+        assert values.dtype == found[name].dtype
+        assert values.tobytes() == found[name].tobytes(), name
+    assert expected.camera == camera == found.camera
+
+
+def _spot():
+    from conftest import source
+
+    return source / "data/meshes/spot.obj"
+
+
+def test_both_engines_agree(spot):
+    camera = fathom.Camera.frame(spot, size=(40, 30))
+    channels = ("Z", "A", "id", "N")
+    fast, reference = (spot.render(camera, channels=channels, engine=engine) for engine in ("fast", "reference"))
+    for name in channels:
+        assert fast[name].tobytes() == reference[name].tobytes()
+
+
+def test_a_stack_of_cameras_gives_a_stack_of_maps(spot):
+    for count in (3, 40):  # a map after another, and one in each thread
+        cameras = fathom.Camera.orbit_scene(spot, count, size=(48, 32))
+        stack = spot.render(cameras, channels=("Z", "N", "id"))
+        assert stack["Z"].shape == (count, 32, 48) and stack["N"].shape == (count, 32, 48, 3)
+        for i, camera in enumerate(cameras):
+            for name, values in spot.render(camera, channels=("Z", "N", "id")).items():
+                assert values.tobytes() == stack[name][i].tobytes()
+
+
+def test_stacks_of_matrices(triangle, K):
+    poses = np.stack([np.eye(4), np.eye(4)])
+    poses[1, 0, 3] = 0.5
+    stack = fathom.render(*triangle, K, poses, size, pixel_centre=0.5)["Z"]
+    for i in range(2):
+        assert np.array_equal(stack[i], fathom.render(*triangle, K, poses[i], size, pixel_centre=0.5)["Z"])
+    both = fathom.render(*triangle, np.stack([K, K]), poses[:, :3], size, pixel_centre=0.5)["Z"]
+    assert np.array_equal(both, stack)
+    assert fathom.render(*triangle, K, poses[:1], size, pixel_centre=0.5)["Z"].shape == (1, 48, 64)
+    with pytest.raises(ValueError, match="K and T: expected stacks of one length, found 3 and 2"):
+        fathom.render(*triangle, np.stack([K] * 3), poses, size, pixel_centre=0.5)
+
+
+@pytest.mark.parametrize("vertex_type", [np.float64, np.float32, ">f8", np.int16])
+@pytest.mark.parametrize("face_type", [np.uint32, np.int32, np.int64, np.uint8, ">i4"])
+def test_any_type_and_order_of_arrays_gives_the_same_map(triangle, K, vertex_type, face_type):
+    vertices, faces = triangle
+    expected = fathom.render(vertices, faces, K, identity, size, pixel_centre=0.5)["Z"]
+    for arrange in (np.ascontiguousarray, np.asfortranarray, lambda a: np.repeat(a, 2, axis=0)[::2]):
+        found = fathom.render(arrange(vertices.astype(vertex_type)), arrange(faces.astype(face_type)), K, identity, size,
+                              pixel_centre=0.5)
+        assert np.array_equal(found["Z"], expected)
+
+
+def test_float32_is_taken_as_the_number_that_it_is(K):
+    tenth = np.array([(-1, -1, 0.1), (1, -1, 0.1), (0, 1, 0.1)], np.float32)
+    depths = fathom.render(tenth, [(0, 1, 2)], K, identity, size, pixel_centre=0.5, dtype=np.float64)["Z"]
+    assert depths[24, 32] == float(np.float32(0.1))
+
+
+def test_arrays_that_fit_are_not_copied(triangle):
+    for face_type in (np.uint32, np.int32):
+        vertices, faces = triangle[0], triangle[1].astype(face_type)
+        scene = fathom.Scene()
+        scene.add_mesh(vertices, faces)
+        assert np.shares_memory(scene.vertices(), vertices) and np.shares_memory(scene.faces(), faces)
+    read_only = triangle[0].copy()
+    read_only.flags.writeable = False
+    scene.add_mesh(read_only, faces)
+    assert np.shares_memory(scene.vertices(1), read_only)
+
+
+def test_results_own_their_memory(triangle, K):
+    vertices, faces = (array.copy() for array in triangle)
+    depths = fathom.render(vertices, faces, K, identity, size, pixel_centre=0.5)["Z"]
+    before = depths.copy()
+    vertices[:] = 0
+    del vertices, faces
+    for _ in range(20):
+        fathom.render(*triangle, K, identity, size, pixel_centre=0.5, near=4.5)
+    assert np.array_equal(depths, before) and depths.flags.writeable and depths.flags.c_contiguous
+
+
+def test_options(triangle, K):
+    def render(**options):
+        return fathom.render(*triangle, K, identity, size, pixel_centre=0.5, **options)
+
+    whole = render()["Z"]
+    behind = render(near=4)["Z"]
+    assert np.array_equal(behind, np.where(whole >= 4, whole, np.inf))
+    assert np.array_equal(render(far=4)["Z"], np.where(whole <= 4, whole, np.inf))
+    kinds = [np.isfinite(render(cull=cull)["Z"]).any() for cull in ("none", "back", "front")]
+    assert kinds[0] and kinds[1] != kinds[2]
+    wide = render(dtype="float64")["Z"]
+    assert wide.dtype == np.float64 and np.array_equal(wide.astype(np.float32), whole)
+    codes = render(dtype=np.uint16, scale=1000)
+    assert codes.scale == 1000
+    assert np.array_equal(codes["Z"], np.where(np.isfinite(wide), np.rint(np.where(np.isfinite(wide), wide, 0) * 1000), 0))
+    for threads in (1, 2, 7):
+        assert np.array_equal(render(threads=threads)["Z"], whole)
+
+
+@pytest.mark.parametrize("background", [0, np.nan, "nan", -1.5, "inf", np.inf])
+def test_background(triangle, K, background):
+    whole = fathom.render(*triangle, K, identity, size, pixel_centre=0.5)["Z"]
+    found = fathom.render(*triangle, K, identity, size, pixel_centre=0.5, background=background, channels=("Z", "id"))
+    assert np.array_equal(found["Z"], np.where(np.isfinite(whole), whole, np.float32(background)), equal_nan=True)
+    assert found["id"][0, 0] == fathom.NO_SURFACE == 2**32 - 1
+
+
+def test_depths_without_a_code_are_an_output_error(triangle, K):
+    with pytest.raises(fathom.OutputError, match="65535") as raised:
+        fathom.render(*triangle, K, identity, size, pixel_centre=0.5, dtype=np.uint16, scale=20000)
+    assert isinstance(raised.value, OSError)

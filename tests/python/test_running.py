@@ -1,0 +1,111 @@
+"""Beside other threads and processes: the GIL, Ctrl-C, fork, memory that is given back."""
+
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import fathom
+
+# What takes long enough to be interrupted: exact areas of a crowd of triangles.
+crowd = """
+import numpy as np, fathom, sys
+source = np.random.default_rng(1)
+vertices = source.uniform(-1, 1, (30000, 3)) + (0, 0, 3)
+K = np.array([(400, 0, 320), (0, 400, 240), (0, 0, 1)], float)
+scene = fathom.Scene()
+scene.add_mesh(vertices, np.arange(30000).reshape(-1, 3))
+camera = fathom.Camera.from_opencv(K, np.eye(4), (640, 480), pixel_centre=0.5)
+"""
+
+
+@pytest.mark.parametrize("call", ["fathom.visible(scene, camera)", "scene.render(camera, channels=('A',))",
+                                  "scene.render(camera, engine='reference')",
+                                  "scene.render([camera] * 4000)"])
+def test_ctrl_c_ends_a_call(call):
+    code = crowd + f"""
+print("started", flush=True)
+try:
+    while True:
+        {call}
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+assert np.isfinite(scene.render(camera)["Z"]).any()
+print("works on", flush=True)
+"""
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "started\n"
+    time.sleep(0.3)
+    process.send_signal(signal.SIGINT)
+    assert process.communicate(timeout=60)[0] == "interrupted\nworks on\n"
+    assert process.returncode == 0
+
+
+def test_other_threads_run_meanwhile(spot):
+    camera = fathom.Camera.frame(spot, size=(640, 480))
+    ended = threading.Event()
+
+    def work():
+        for _ in range(3):
+            fathom.visible(spot, camera)
+        ended.set()
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    steps = 0
+    while not ended.is_set():
+        steps += 1
+        time.sleep(0)
+    thread.join()
+    assert steps > 100
+
+
+def test_threads_of_python_render_side_by_side(spot):
+    camera = fathom.Camera.frame(spot, size=(120, 80))
+    expected = spot.render(camera)["Z"]
+    results = []
+
+    def work():
+        for _ in range(20):
+            results.append(np.array_equal(spot.render(camera)["Z"], expected))
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(results) == 80 and all(results)
+
+
+def _render(size):
+    scene = fathom.Scene.read(os.path.join(os.environ["FATHOM_SOURCE"], "data/meshes/spot.obj"))
+    return scene.render(fathom.Camera.frame(scene, size=size))["Z"]
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+def test_processes_of_a_pool(method):
+    expected = _render((90, 60))
+    with multiprocessing.get_context(method).Pool(2) as pool:
+        for found in pool.map_async(_render, [(90, 60)] * 6).get(timeout=120):
+            assert np.array_equal(found, expected)
+
+
+def test_memory_is_given_back(triangle, K):
+    def resident():
+        with open("/proc/self/statm") as file:
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+    def work():
+        for _ in range(40):
+            fathom.render(*triangle, K, np.eye(4), (1000, 700), pixel_centre=0.5, channels=("Z", "N", "id"))
+
+    work()
+    before = resident()
+    work()
+    assert resident() - before < 100_000_000, "40 maps would be 560 MB"
