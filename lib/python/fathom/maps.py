@@ -84,12 +84,18 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         finite number (a positive one of codes)."""
         for name in ("id", "face", "object"):
             if name in self:
-                return np.asarray(self[name] != NO_SURFACE)
+                return np.asarray(self._channel(name) != NO_SURFACE)
         for name in ("Z", "distance"):
             if name in self:
-                depths = self[name]
+                depths = self._channel(name)
                 return np.asarray(depths != 0 if depths.dtype == np.uint16 else np.isfinite(depths))
         raise ValueError("mask: the map has none of id, face, object, Z and distance")
+
+    def _channel(self, name: str) -> npt.NDArray[Any]:
+        array = as_array(f"map: channel {name}", self[name])
+        if array.dtype.kind not in "fiu":
+            raise TypeError(f"map: channel {name}: expected numbers, found {array.dtype}")
+        return array
 
     def _handle(self) -> _core.Map:
         planes = _planes(self)
@@ -140,12 +146,18 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         (or distance) and the camera; or those of channel P, which are exact numbers rounded once, for the world."""
         one_of("frame", frame, ("world", "camera"))
         if frame == "world" and "P" in self:
-            positions = self["P"]
+            positions = self._channel("P")
+            if positions.ndim != 3:
+                raise ValueError(f"map: channel P: expected shape H×W×3, found {positions.shape}")
             return np.array(positions[np.isfinite(positions).all(axis=-1)], np.float64)
         view = self._camera(camera)
         depths = self if "Z" in self else self.to_depth(view)
-        z = np.asarray(depths["Z"], np.float64)
-        if depths["Z"].dtype == np.uint16:
+        stored = depths._channel("Z")
+        if stored.shape != (view.height, view.width):
+            raise ValueError(f"map: channel Z: expected the shape of the camera, {(view.height, view.width)}, found "
+                             f"{stored.shape}")
+        z = stored.astype(np.float64)
+        if stored.dtype == np.uint16:
             z = np.where(z == 0, np.inf, z) / (self.scale or 1)
         rows, columns = np.nonzero(np.isfinite(z))
         return _points(view, rows, columns, z[rows, columns], frame)
