@@ -6,7 +6,9 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 
+#include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/numeric/errors.h"
 #include "tests/camera/seen_points.h"
@@ -203,6 +205,53 @@ TEST(ImportOpengl, NamesFaults) {
               HasSubstr("near and far"));
   EXPECT_THAT(projection_fault("[[0,0,0,0],[0,1,0,0],[0,0,-2,-3],[0,0,-1,0]]"),
               HasSubstr("fx is 0"));
+}
+
+/// Numbers at hand say what a file of them says, fault for fault.
+TEST(ImportOpengl, MatricesAtHandAreThoseOfAFile) {
+  using Numbers = std::array<double, 16>;
+  constexpr Numbers P{1.5, 0.25, 0.125, 0, 0, 2, -0.5, 0, 0, 0, -1.5, -0.1, 0, 0, -1, 0};
+  constexpr Numbers M{0.6, 0, 0.8, 1, 0, 1, 0, 0.1, -0.8, 0, 0.6, -3, 0, 0, 0, 1};
+  const auto with = [](Numbers numbers, std::size_t place, double number) {
+    numbers.at(place) = number;
+    return numbers;
+  };
+  const auto rows = [](const Numbers& numbers) {
+    std::ostringstream out;
+    out.precision(17);
+    for (std::size_t i = 0; i < 16; ++i)
+      out << (i == 0 ? "[[" : i % 4 == 0 ? "],[" : ",") << numbers.at(i);
+    return out.str() + "]]";
+  };
+  const auto of_file = [&](const Numbers& projection, const Numbers& modelview) {
+    return parse_opengl("{\"projection\":" + rows(projection) +
+                            ",\"modelview\":" + rows(modelview) + ",\"viewport\":[640,480]}",
+                        "camera")
+        .at(0)
+        .camera;
+  };
+  EXPECT_EQ(to_json(camera_from_opengl(P, M, 640, 480)), to_json(of_file(P, M)));
+  const std::pair<Numbers, Numbers> faulty[] = {{with(P, 12, 1), M}, {with(P, 4, 1), M},
+                                                {with(P, 3, 1), M},  {with(P, 10, -0.5), M},
+                                                {with(P, 0, 0), M},  {P, with(M, 15, 2)}};
+  for (const auto& [projection, modelview] : faulty) {
+    const auto expected =
+        message_of<InputError>([&, &p = projection, &m = modelview] { (void)of_file(p, m); });
+    EXPECT_EQ(message_of<InputError>([&, &p = projection, &m = modelview] {
+                (void)camera_from_opengl(p, m, 640, 480);
+              }),
+              expected);
+  }
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(message_of<InputError>([&] { (void)camera_from_opengl(with(P, 9, nan), M, 4, 4); }),
+            "camera: projection: has a number that is not finite");
+  EXPECT_EQ(message_of<InputError>([&] {
+              (void)camera_from_opengl(P, with(M, 3, std::numeric_limits<double>::infinity()), 4,
+                                       4);
+            }),
+            "camera: modelview: has a number that is not finite");
+  EXPECT_EQ(message_of<InputError>([&] { (void)camera_from_opengl(P, M, 0, 4); }),
+            "camera: width is 0, expected at least 1");
 }
 
 TEST(ImportOpengl, ReadsTheFileInTheData) {

@@ -1,5 +1,6 @@
-#include <charconv>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "fathom/camera/camera_import_internal.h"
@@ -17,6 +18,28 @@ using namespace text;
 namespace {
 
 using Matrix4 = std::array<std::array<double, 4>, 4>;
+
+constexpr Matrix4 identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+
+/// What OpenGL knows of a camera, in numbers.
+struct OpenGlView {
+  Matrix4 projection = identity, modelview = identity;
+  std::uint32_t width = 0, height = 0;
+  /// The clip depth of the near plane; nothing where near and far are not taken over.
+  std::optional<double> nearest = -1;
+};
+
+enum class Part { projection, modelview, whole };
+
+/// What is wrong with a view, and with which part of it; who gave the numbers knows their names.
+class ViewFault : public InputError {
+ public:
+  ViewFault(Part part, const std::string& message) : InputError(message), part_(part) {}
+  [[nodiscard]] Part part() const { return part_; }
+
+ private:
+  Part part_;
+};
 
 /// Four rows, or OpenGL's flat list of 16, column by column.
 Matrix4 read_matrix(const JsonValue& value) {
@@ -36,7 +59,7 @@ Matrix4 read_matrix(const JsonValue& value) {
   return matrix;
 }
 
-void read_viewport(const JsonValue& viewport, Camera& camera) {
+void read_viewport(const JsonValue& viewport, OpenGlView& view) {
   if (!viewport.is_list() || (viewport.size() != 2 && viewport.size() != 4))
     viewport.fail("expected [width, height] or [x, y, width, height]");
   const auto entries = viewport.elements();
@@ -44,41 +67,46 @@ void read_viewport(const JsonValue& viewport, Camera& camera) {
     return static_cast<std::uint32_t>(
         entries[i].integer(1, std::numeric_limits<std::uint32_t>::max()));
   };
-  camera.width = size(entries.size() - 2);
-  camera.height = size(entries.size() - 1);
+  view.width = size(entries.size() - 2);
+  view.height = size(entries.size() - 1);
 }
 
-/// OpenGL's eye space looks along −z with y up; ours looks along z with y down. Exact.
-void read_view(const JsonValue& entry, Camera& camera) {
-  auto value = entry.find("modelview");
-  const auto view = entry.find("view");
-  if (value && view) view->fail("expected either \"modelview\" or \"view\"");
-  if (!value) value = view;
-  Matrix4 M{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-  if (value) M = read_matrix(*value);
-  if (M[3] != std::array<double, 4>{0, 0, 0, 1}) value->fail("expected the last row to be 0 0 0 1");
-  camera.world_to_camera[0] = M[0];
-  for (std::size_t i : {1, 2})
-    for (std::size_t k = 0; k < 4; ++k) camera.world_to_camera[i][k] = 0.0 - M[i][k];
+void read_clip_depth(const JsonValue& clip_depth, OpenGlView& view) {
+  const std::string& range = clip_depth.string();
+  if (range == "none")
+    view.nearest = std::nullopt;
+  else if (range == "zero-one")
+    view.nearest = 0;
+  else if (range != "minus-one-one")
+    clip_depth.fail("expected \"minus-one-one\", \"zero-one\" or \"none\"");
 }
 
 double rounded(const Dyadic& numerator, const Dyadic& denominator) {
   return round_to_binary64(Ratio(numerator, denominator));
 }
 
+/// OpenGL's eye space looks along −z with y up; ours looks along z with y down. Exact.
+void set_pose(const Matrix4& M, Camera& camera) {
+  if (M[3] != identity[3]) throw ViewFault(Part::modelview, "expected the last row to be 0 0 0 1");
+  camera.world_to_camera[0] = M[0];
+  for (std::size_t i : {1, 2})
+    for (std::size_t k = 0; k < 4; ++k) camera.world_to_camera[i][k] = 0.0 - M[i][k];
+}
+
 /// Window coordinates are u = (1 + X/W)·width/2 and, y down, v = (1 − Y/W)·height/2. With
 /// X = P₀·(x, −y, −z, 1) and so on, and W = k·z (perspective) or k (orthographic), comparing
 /// coefficients with U and V of the specification gives the intrinsics.
-void read_intrinsics(const JsonValue& value, const Matrix4& P, Camera& camera) {
+void set_intrinsics(const Matrix4& P, Camera& camera) {
+  const auto refuse = [](const char* message) { throw ViewFault(Part::projection, message); };
   const bool perspective = P[3][2] != 0;
   const Dyadic k = perspective ? -Dyadic(P[3][2]) : Dyadic(P[3][3]);
   if (P[3][0] != 0 || P[3][1] != 0 || (perspective && P[3][3] != 0) || k.sign() != Sign::positive)
-    value.fail("expected the last row to be 0 0 -1 0 (perspective) or 0 0 0 1 (orthographic)");
-  if (P[1][0] != 0) value.fail("expected 0 in the second row's first place");
+    refuse("expected the last row to be 0 0 -1 0 (perspective) or 0 0 0 1 (orthographic)");
+  if (P[1][0] != 0) refuse("expected 0 in the second row's first place");
   if (perspective && (P[0][3] != 0 || P[1][3] != 0))
-    value.fail("expected a perspective projection without translation of x and y");
+    refuse("expected a perspective projection without translation of x and y");
   if (!perspective && (P[0][2] != 0 || P[1][2] != 0))
-    value.fail("an oblique orthographic projection cannot be expressed");
+    refuse("an oblique orthographic projection cannot be expressed");
   camera.projection = perspective ? Projection::perspective : Projection::orthographic;
   const Dyadic w = camera.width, h = camera.height, twice_k = k + k;
   camera.fx = rounded(w * P[0][0], twice_k);
@@ -99,60 +127,67 @@ double depth_of_plane(const Matrix4& P, Projection projection, double ndc) {
   return rounded(numerator, denominator);
 }
 
-void read_near_and_far(const JsonValue& entry, const JsonValue& projection, const Matrix4& P,
-                       Camera& camera) {
-  double nearest = -1;
-  if (const auto clip_depth = entry.find("clip_depth")) {
-    const std::string& range = clip_depth->string();
-    if (range == "none") return;
-    if (range == "zero-one")
-      nearest = 0;
-    else if (range != "minus-one-one")
-      clip_depth->fail("expected \"minus-one-one\", \"zero-one\" or \"none\"");
-  }
+void set_near_and_far(const Matrix4& P, double nearest, Camera& camera) {
   const double one = depth_of_plane(P, camera.projection, nearest);
   const double other = depth_of_plane(P, camera.projection, 1);
   camera.near = std::min(one, other);
   camera.far = std::max(one, other);
-  if (!(camera.near >= 0 && camera.near < camera.far))
-    projection.fail("its near and far planes lie at " + std::to_string(one) + " and " +
-                    std::to_string(other) +
-                    ", expected 0 <= near < far (\"clip_depth\": \"none\" leaves them out)");
+  if (!(camera.near >= 0 && camera.near < camera.far)) {
+    throw ViewFault(Part::projection,
+                    "its near and far planes lie at " + std::to_string(one) + " and " +
+                        std::to_string(other) +
+                        ", expected 0 <= near < far (\"clip_depth\": \"none\" leaves them out)");
+  }
 }
 
-/// A list of JSON, each number such that reading it gives the same one.
-std::string list_of(const std::array<double, 4>& row) {
-  std::string list = "[";
-  for (const double number : row) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, number);
-    list.append(list.size() == 1 ? "" : ", ").append(text, end.ptr);
-  }
-  return list + "]";
+void require_finite(const Matrix4& matrix, Part part) {
+  for (const auto& row : matrix)
+    for (const double number : row)
+      if (!std::isfinite(number)) throw ViewFault(part, "has a number that is not finite");
 }
 
-std::string list_of(const std::array<double, 16>& matrix) {
-  std::string list;
-  for (std::size_t r = 0; r < 4; ++r) {
-    const double* const row = matrix.data() + 4 * r;
-    list += (r == 0 ? "[" : ", ") + list_of(std::array{row[0], row[1], row[2], row[3]});
-  }
-  return list + "]";
+/// Fails    ViewFault.
+Camera camera_of(const OpenGlView& view) {
+  require_finite(view.projection, Part::projection);
+  require_finite(view.modelview, Part::modelview);
+  Camera camera;
+  camera.width = view.width;
+  camera.height = view.height;
+  set_pose(view.modelview, camera);
+  set_intrinsics(view.projection, camera);
+  if (view.nearest) set_near_and_far(view.projection, *view.nearest, camera);
+  if (const auto fault = find_fault(camera)) throw ViewFault(Part::whole, *fault);
+  return camera;
 }
 
 ImportedCamera read_camera(const JsonValue& entry, std::size_t index) {
   entry.expect_only({"name", "projection", "modelview", "view", "viewport", "clip_depth"});
   const JsonValue projection = entry.at("projection");
-  ImportedCamera result;
+  auto modelview = entry.find("modelview");
+  const auto other = entry.find("view");
   const auto name = entry.find("name");
-  result.name = name ? name->string() : std::to_string(index);
-  const Matrix4 P = read_matrix(projection);
-  read_viewport(entry.at("viewport"), result.camera);
-  read_view(entry, result.camera);
-  read_intrinsics(projection, P, result.camera);
-  read_near_and_far(entry, projection, P, result.camera);
-  if (const auto fault = find_fault(result.camera)) entry.fail(*fault);
-  return result;
+  const std::string known_as = name ? name->string() : std::to_string(index);
+  OpenGlView view;
+  view.projection = read_matrix(projection);
+  read_viewport(entry.at("viewport"), view);
+  if (modelview && other) other->fail("expected either \"modelview\" or \"view\"");
+  if (!modelview) modelview = other;
+  if (modelview) view.modelview = read_matrix(*modelview);
+  if (const auto clip_depth = entry.find("clip_depth")) read_clip_depth(*clip_depth, view);
+  try {
+    return {known_as, camera_of(view)};
+  } catch (const ViewFault& fault) {
+    const JsonValue& part = fault.part() == Part::projection               ? projection
+                            : fault.part() == Part::modelview && modelview ? *modelview
+                                                                           : entry;
+    part.fail(fault.what());
+  }
+}
+
+Matrix4 rows_of(const std::array<double, 16>& list) {
+  Matrix4 matrix;
+  for (std::size_t i = 0; i < 16; ++i) matrix[i / 4][i % 4] = list[i];
+  return matrix;
 }
 
 }  // namespace
@@ -177,10 +212,14 @@ Camera camera_from_opengl(const std::array<double, 16>& projection,
                           const std::array<double, 16>& modelview, std::uint32_t width,
                           std::uint32_t height) {
   const StandardArithmetic standard;
-  const std::string text = "{\"projection\": " + list_of(projection) +
-                           ", \"modelview\": " + list_of(modelview) + ", \"viewport\": [" +
-                           std::to_string(width) + ", " + std::to_string(height) + "]}";
-  return parse_opengl(text, "camera").front().camera;
+  try {
+    return camera_of({rows_of(projection), rows_of(modelview), width, height});
+  } catch (const ViewFault& fault) {
+    const char* const part = fault.part() == Part::projection  ? "projection: "
+                             : fault.part() == Part::modelview ? "modelview: "
+                                                               : "";
+    throw InputError(std::string("camera: ") + part + fault.what());
+  }
 }
 
 }  // namespace fathom
