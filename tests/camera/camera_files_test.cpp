@@ -82,6 +82,99 @@ TEST(CameraJson, TakesA4x4WithTheLastRow0001) {
       HasSubstr("world_to_camera[3]: expected the last row"));
 }
 
+TEST(CameraJson, SaysThatAMatrixLooksTransposed) {
+  const auto of = [&](const std::string& key, const std::string& rows) {
+    return message_of<InputError>(
+        [&] { read(std::string("{") + plain + ",\"" + key + "\": " + rows + "}"); });
+  };
+  const std::string columns = "[[1,0,0,0],[0,1,0,0],[0,0,1,0],[1,2,3,1]]";
+  for (const char* key : {"world_to_camera", "camera_to_world"})
+    EXPECT_THAT(of(key, columns),
+                AllOf(HasSubstr(std::string(key) + "[3]: "), HasSubstr("looks transposed")));
+  EXPECT_THAT(of("world_to_camera", "[[1,0,0,5],[0,1,0,0],[0,0,1,0],[1,2,3,1]]"),
+              testing::Not(HasSubstr("transposed")));
+}
+
+TEST(CameraJson, PixelCenterIsPixelCentre) {
+  EXPECT_EQ(with(R"("pixel_center": 0)").pixel_centre, 0);
+  EXPECT_THAT(message_of<InputError>([&] { with(R"("pixel_center": 0, "pixel_centre": 0)"); }),
+              HasSubstr("both \"pixel_centre\" and \"pixel_center\""));
+}
+
+TEST(CameraJson, KIsItsFiveNumbers) {
+  const std::string start = R"({"width": 640, "height": 480, "K": )";
+  const auto of = [&](const std::string& K, const std::string& more = "") {
+    return read(start + K + "," + pose + more + "}").at(0);
+  };
+  const Camera camera = of("[[525, 1.5, 320], [0, 525.5, 240], [0, 0, 1]]");
+  const Camera expected = with(R"("skew": 1.5)");
+  EXPECT_TRUE(same_bits(camera, expected)) << to_json(camera);
+  const auto fault = [&](const std::string& K, const std::string& more = "") {
+    return message_of<InputError>([&] { of(K, more); });
+  };
+  EXPECT_THAT(fault("[[525,0,320],[1e-9,525,240],[0,0,1]]"), HasSubstr("K[1]: expected 0"));
+  EXPECT_THAT(fault("[[525,0,320],[0,525,240],[0,0,2]]"), HasSubstr("K[2]: expected the last row"));
+  EXPECT_THAT(fault("[[525,0,320],[0,525,240]]"), HasSubstr("K: expected a list of 3"));
+  EXPECT_THAT(fault("[525,0,320]"), HasSubstr("K[0]: expected a list of 3"));
+  EXPECT_THAT(fault("[[525,0],[0,525,240],[0,0,1]]"), HasSubstr("K[0]: expected a list of 3"));
+  EXPECT_THAT(fault("[[0,0,320],[0,525,240],[0,0,1]]"), HasSubstr("fx is 0"));
+  for (const std::string key : {"fx", "fy", "cx", "cy", "skew"})
+    EXPECT_THAT(fault("[[525,0,320],[0,525,240],[0,0,1]]", ", \"" + key + "\": 1"),
+                HasSubstr("both \"K\" and \"" + key + "\""));
+}
+
+TEST(CameraJson, CameraToWorldIsInvertedExactly) {
+  const auto of = [&](const std::string& rows, const std::string& more = "") {
+    return read(std::string("{") + plain + ",\"camera_to_world\": " + rows + more + "}").at(0);
+  };
+  // A third is no binary64 number: each entry is rounded once.
+  const Camera camera = of("[[3,0,0,1],[0,1,0,-2],[0,0,1,4],[0,0,0,1]]");
+  EXPECT_EQ(camera.world_to_camera[0], (std::array<double, 4>{1.0 / 3, 0, 0, -1.0 / 3}));
+  EXPECT_EQ(camera.world_to_camera[1], (std::array<double, 4>{0, 1, 0, 2}));
+  EXPECT_EQ(camera.world_to_camera[2], (std::array<double, 4>{0, 0, 1, -4}));
+  // The inverse of what the library inverts, on a pose of many digits.
+  Camera posed = with("");
+  posed.world_to_camera = {
+      {{0.77, 0.01, 0.63, -0.07}, {-0.14, -0.97, 0.17, 0.1}, {0.6, -0.2, -0.7, 3}}};
+  Camera inverted = posed;
+  inverted.world_to_camera = camera_to_world(posed);
+  std::string text = to_json(inverted);
+  text.replace(text.find("world_to_camera"), 15, "camera_to_world");
+  EXPECT_EQ(read(text).at(0).world_to_camera, camera_to_world(inverted));
+  const auto fault = [&](const std::string& rows, const std::string& more = "") {
+    return message_of<InputError>([&] { of(rows, more); });
+  };
+  EXPECT_THAT(fault("[[1,2,3,0],[2,4,6,0],[0,0,1,0]]"), HasSubstr("camera_to_world: is singular"));
+  EXPECT_THAT(fault("[[1e-300,0,0,1e300],[0,1,0,0],[0,0,1,0]]"),
+              HasSubstr("camera_to_world: its inverse has an entry beyond"));
+  EXPECT_THAT(fault("[[1,0,0,0],[0,1,0,0]]"), HasSubstr("camera_to_world: expected 3 rows"));
+  EXPECT_THAT(fault("[[1,0,0,0],[0,1,0,0],[0,0,1,0]]", std::string(",") + pose),
+              HasSubstr("both \"world_to_camera\" and \"camera_to_world\""));
+}
+
+TEST(CameraJson, AFileThatDoesNotSayPixelCentreIsWarnedOfOnce) {
+  const std::string start = std::string("{") + plain + "," + pose;
+  const std::string silent = start + "}", said = start + ",\"pixel_centre\": 0.5}",
+                    spelled = start + ",\"pixel_center\": 0}";
+  const auto warnings_of = [](const std::string& text) {
+    Warnings warnings;
+    (void)read_cameras(text, "camera.json", warnings);
+    return warnings;
+  };
+  using testing::ElementsAre;
+  using testing::IsEmpty;
+  EXPECT_THAT(warnings_of(silent),
+              ElementsAre(AllOf(testing::StartsWith("camera.json: "), HasSubstr("pixel_centre"))));
+  EXPECT_THAT(warnings_of("[" + said + "," + silent + "," + silent + "]"), testing::SizeIs(1));
+  EXPECT_THAT(warnings_of(said), IsEmpty());
+  EXPECT_THAT(warnings_of(spelled), IsEmpty());
+  EXPECT_THAT(warnings_of(to_json(read(silent))), IsEmpty());
+  const ScratchFolder folder;
+  Warnings warnings;
+  (void)read_cameras(folder.write("mine.json", silent), warnings);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("mine.json: does not say")));
+}
+
 TEST(CameraJson, NumbersAreRoundedCorrectly) {
   // 2⁵³ + 1 is a tie (to even, downwards); a digit behind it decides otherwise.
   EXPECT_EQ(with(R"("skew": 9007199254740993)").skew, 9007199254740992.0);

@@ -6,12 +6,13 @@
 #include <limits>
 #include <string>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/camera/pose.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
 namespace fathom {
+using namespace camera;
 using namespace text;
 
 namespace {
@@ -22,39 +23,97 @@ Projection read_projection(const JsonValue& value) {
   value.fail("expected \"perspective\" or \"orthographic\"");
 }
 
-void read_matrix(const JsonValue& value, Camera& camera) {
+/// Whether a matrix of 4 rows has the bottom row of an affine one in its last column.
+bool looks_transposed(const std::array<std::vector<double>, 4>& rows) {
+  return rows[0][3] == 0 && rows[1][3] == 0 && rows[2][3] == 0 && rows[3][3] == 1;
+}
+
+Matrix34 read_pose(const JsonValue& value) {
   const std::vector<JsonValue> rows = value.elements();
   if (rows.size() != 3 && rows.size() != 4)
     value.fail("expected 3 rows (or 4, the last being 0 0 0 1), found " +
                std::to_string(rows.size()));
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::vector<double> row = rows[i].numbers(4);
-    std::copy(row.begin(), row.end(), camera.world_to_camera[i].begin());
+  std::array<std::vector<double>, 4> read{{{}, {}, {}, {0, 0, 0, 1}}};
+  for (std::size_t i = 0; i < rows.size(); ++i) read[i] = rows[i].numbers(4);
+  if (read[3] != std::vector<double>{0, 0, 0, 1}) {
+    rows[3].fail(std::string("expected the last row of a 4×4 matrix to be 0 0 0 1") +
+                 (looks_transposed(read) ? "; it is the last column: the matrix looks transposed, "
+                                           "expected a list of its rows"
+                                         : ""));
   }
-  if (rows.size() == 4 && rows[3].numbers(4) != std::vector<double>{0, 0, 0, 1})
-    rows[3].fail("expected the last row of a 4×4 matrix to be 0 0 0 1");
+  Matrix34 pose;
+  for (std::size_t i = 0; i < 3; ++i) std::ranges::copy(read[i], pose[i].begin());
+  return pose;
+}
+
+Matrix34 read_inverse_pose(const JsonValue& value) {
+  const std::optional<Matrix34> pose = inverse(read_pose(value));
+  if (!pose) value.fail("is singular: the determinant of its first three columns is exactly 0");
+  for (const auto& row : *pose) {
+    if (!std::ranges::all_of(row, [](double entry) { return std::isfinite(entry); }))
+      value.fail("its inverse has an entry beyond the largest binary64 number");
+  }
+  return *pose;
+}
+
+/// Refuses an object with both keys.
+void expect_either(const JsonValue& value, const char* one, const char* other) {
+  if (value.find(one) && value.find(other)) {
+    value.fail("has both \"" + std::string(one) + "\" and \"" + other + "\", expected one of them");
+  }
+}
+
+void read_K(const JsonValue& value, Camera& camera) {
+  const std::vector<JsonValue> rows = value.elements(3);
+  const std::vector<double> u = rows[0].numbers(3), v = rows[1].numbers(3), w = rows[2].numbers(3);
+  if (v[0] != 0) rows[1].fail("expected 0 in the first place of K's second row");
+  if (w != std::vector<double>{0, 0, 1}) rows[2].fail("expected the last row of K to be 0 0 1");
+  camera.fx = u[0], camera.skew = u[1], camera.cx = u[2];
+  camera.fy = v[1], camera.cy = v[2];
+}
+
+void read_number(const JsonValue& value, const char* key, double& number) {
+  if (const auto member = value.find(key)) number = member->number();
+}
+
+/// fx, fy, cx, cy and skew, or all of them as the matrix K.
+void read_intrinsics_or_K(const JsonValue& value, Camera& camera) {
+  for (const char* number : {"fx", "fy", "cx", "cy", "skew"}) expect_either(value, "K", number);
+  if (const auto K = value.find("K")) return read_K(*K, camera);
+  camera.fx = value.at("fx").number();
+  camera.fy = value.at("fy").number();
+  camera.cx = value.at("cx").number();
+  camera.cy = value.at("cy").number();
+  read_number(value, "skew", camera.skew);
+}
+
+void read_world_to_camera(const JsonValue& value, Camera& camera) {
+  expect_either(value, "world_to_camera", "camera_to_world");
+  const auto inverse = value.find("camera_to_world");
+  camera.world_to_camera =
+      inverse ? read_inverse_pose(*inverse) : read_pose(value.at("world_to_camera"));
+}
+
+bool says_pixel_centre(const JsonValue& value) {
+  return value.find("pixel_centre") || value.find("pixel_center");
 }
 
 Camera read_camera(const JsonValue& value) {
-  value.expect_only({"width", "height", "projection", "fx", "fy", "cx", "cy", "skew",
-                     "pixel_centre", "world_to_camera", "near", "far"});
+  value.expect_only({"width", "height", "projection", "fx", "fy", "cx", "cy", "skew", "K",
+                     "pixel_centre", "pixel_center", "world_to_camera", "camera_to_world", "near",
+                     "far"});
   constexpr auto largest_size = std::numeric_limits<std::uint32_t>::max();
-  const auto optional_number = [&](const char* key, double& number) {
-    if (const auto member = value.find(key)) number = member->number();
-  };
   Camera camera;
   camera.width = static_cast<std::uint32_t>(value.at("width").integer(1, largest_size));
   camera.height = static_cast<std::uint32_t>(value.at("height").integer(1, largest_size));
   if (const auto projection = value.find("projection"))
     camera.projection = read_projection(*projection);
-  camera.fx = value.at("fx").number();
-  camera.fy = value.at("fy").number();
-  camera.cx = value.at("cx").number();
-  camera.cy = value.at("cy").number();
-  optional_number("skew", camera.skew);
-  optional_number("pixel_centre", camera.pixel_centre);
-  read_matrix(value.at("world_to_camera"), camera);
-  optional_number("near", camera.near);
+  read_intrinsics_or_K(value, camera);
+  expect_either(value, "pixel_centre", "pixel_center");
+  read_number(value, "pixel_centre", camera.pixel_centre);
+  read_number(value, "pixel_center", camera.pixel_centre);
+  read_world_to_camera(value, camera);
+  read_number(value, "near", camera.near);
   if (const auto far = value.find("far"); far && !far->is_null()) camera.far = far->number();
   if (const auto fault = find_fault(camera)) value.fail(*fault);
   return camera;
@@ -72,19 +131,35 @@ std::string to_json(double number) {
 
 }  // namespace
 
-std::vector<Camera> read_cameras(std::string_view text, const std::string& name) {
+std::vector<Camera> read_cameras(std::string_view text, const std::string& name,
+                                 Warnings& warnings) {
   const StandardArithmetic standard;
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
-  if (!root.is_list()) return {read_camera(root)};
+  const std::vector<JsonValue> values = root.is_list() ? root.elements() : std::vector{root};
+  if (values.empty()) root.fail("the list of cameras is empty");
   std::vector<Camera> cameras;
-  for (const JsonValue& element : root.elements()) cameras.push_back(read_camera(element));
-  if (cameras.empty()) root.fail("the list of cameras is empty");
+  for (const JsonValue& value : values) cameras.push_back(read_camera(value));
+  if (!std::ranges::all_of(values, says_pixel_centre)) {
+    warnings.push_back(name +
+                       ": does not say \"pixel_centre\", so that 0.5 is taken; write 0.5 (COLMAP, "
+                       "OpenGL), or 0 if cx and cy are from OpenCV");
+  }
   return cameras;
 }
 
+std::vector<Camera> read_cameras(const std::filesystem::path& file, Warnings& warnings) {
+  return read_cameras(InputFile(file).text(), file.string(), warnings);
+}
+
+std::vector<Camera> read_cameras(std::string_view text, const std::string& name) {
+  Warnings warnings;
+  return read_cameras(text, name, warnings);
+}
+
 std::vector<Camera> read_cameras(const std::filesystem::path& file) {
-  return read_cameras(InputFile(file).text(), file.string());
+  Warnings warnings;
+  return read_cameras(file, warnings);
 }
 
 std::string to_json(const Camera& camera) {

@@ -6,13 +6,21 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
+#include "fathom/text/warnings.h"
 
 namespace fathom {
 
-/// Reads a camera file: one camera, or a list of them (a camera path).
+/// Reads a camera file: one camera, or a list of them (a camera path). docs/camera-files.md has the
+/// keys. Warns, once, of a file that leaves pixel_centre to be guessed.
+/// Exact    numbers are rounded once. `camera_to_world` is inverted exactly; each entry of
+///          world_to_camera is then rounded once.
 /// Fails    InputError, naming the key; unknown keys are errors.
-std::vector<Camera> read_cameras(const std::filesystem::path& file);
+std::vector<Camera> read_cameras(const std::filesystem::path& file, Warnings& warnings);
 /// The same of a file's text; `name` is the file's name for messages.
+std::vector<Camera> read_cameras(std::string_view text, const std::string& name,
+                                 Warnings& warnings);
+/// The same without warnings, for files that a program wrote.
+std::vector<Camera> read_cameras(const std::filesystem::path& file);
 std::vector<Camera> read_cameras(std::string_view text, const std::string& name);
 
 /// The JSON of camera files with every number to 17 significant digits, so that reading it back
