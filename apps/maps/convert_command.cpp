@@ -53,7 +53,7 @@ std::optional<StereoRig> rig_of(const ConvertArguments& arguments) {
   return std::nullopt;
 }
 
-int write_points(const DepthMap& map, const ConvertArguments& arguments) {
+int write_points(const DepthMap& map, const ConvertArguments& arguments, const Console& console) {
   if (arguments.to || !arguments.channel.empty()) {
     throw UsageError("--to and --channel do not go with a point cloud");
   }
@@ -63,14 +63,14 @@ int write_points(const DepthMap& map, const ConvertArguments& arguments) {
   const PointCloudOptions options{
       .frame = arguments.frame,
       .binary64 = arguments.storage.dtype != StorageOptions::Float::binary32};
-  const MapView view = view_for(map, arguments.map, arguments.camera);
+  const MapView view = view_for(map, arguments.map, arguments.camera, console);
   OutputFile output(arguments.output);
   output.write([&](const auto& path) { write_point_cloud(map, view, path, options); });
   output.commit();
   return done;
 }
 
-DepthMap converted(DepthMap map, const ConvertArguments& arguments) {
+DepthMap converted(DepthMap map, const ConvertArguments& arguments, const Console& console) {
   if (!arguments.to) {
     if (arguments.from) throw UsageError("--from needs --to");
     return map;
@@ -78,7 +78,8 @@ DepthMap converted(DepthMap map, const ConvertArguments& arguments) {
   const DepthQuantity from = arguments.from.value_or(DepthQuantity::planar_depth);
   // PFM, PNG and NPY do not name their channel: it is what the user says it is.
   if (map.channels.size() == 1 && map.texts.empty()) map.channels[0].name = channel_of(from);
-  return convert_quantity(map, from, *arguments.to, view_for(map, arguments.map, arguments.camera),
+  return convert_quantity(map, from, *arguments.to,
+                          view_for(map, arguments.map, arguments.camera, console),
                           rig_of(arguments));
 }
 
@@ -120,13 +121,13 @@ DepthMap stored(DepthMap map, const ConvertArguments& arguments, MapFormat forma
                       keeps_scale ? map.png_scale : encoding.scale);
 }
 
-int run_convert(const ConvertArguments& arguments) {
+int run_convert(const ConvertArguments& arguments, const Console& console) {
   if (ends_with_ply(arguments.output)) {
-    return write_points(read_map_argument(arguments.map), arguments);
+    return write_points(read_map_argument(arguments.map), arguments, console);
   }
   const MapFormat format = arguments.storage.format_of(arguments.output);
   const DepthMap map =
-      stored(converted(read_map_argument(arguments.map), arguments), arguments, format);
+      stored(converted(read_map_argument(arguments.map), arguments, console), arguments, format);
   OutputFile output(arguments.output);
   output.write(
       [&](const auto& path) { write_map(map, path, format, arguments.storage.write_options(0)); });
@@ -167,7 +168,7 @@ void add_convert(Command& program) {
   command.option("--frame", "NAME", into(arguments->frame, parse_frame),
                  "Of the point cloud: world (default) or camera");
   arguments->storage.add_to(command);
-  command.runs([arguments](const Console&) { return run_convert(*arguments); });
+  command.runs([arguments](const Console& console) { return run_convert(*arguments, console); });
 }
 
 }  // namespace fathom::app

@@ -39,9 +39,15 @@ int run_info(const InfoArguments& arguments, const Console& console) {
   const text::InputFile input(file);
   const FileKind kind = arguments.scene.mesh_format ? FileKind::mesh : kind_of(input.text());
   const AnswerForm form = arguments.json ? AnswerForm::json : AnswerForm::text;
-  print(kind == FileKind::camera ? info_of_cameras(read_cameras(input.text(), file), file, form)
-        : kind == FileKind::map  ? info_of_map(read_map_argument(input.bytes(), file), file, form)
-                                 : info_of_meshes(arguments, input, kind, form, console));
+  if (kind == FileKind::camera) {
+    Warnings warnings;
+    const std::vector<Camera> cameras = read_cameras(input.text(), file, warnings);
+    console.warn(warnings);
+    print(info_of_cameras(cameras, file, form));
+    return done;
+  }
+  print(kind == FileKind::map ? info_of_map(read_map_argument(input.bytes(), file), file, form)
+                              : info_of_meshes(arguments, input, kind, form, console));
   return done;
 }
 

@@ -21,9 +21,11 @@ std::optional<Camera> camera_of(const DepthMap& map, const std::string& file) {
 }
 
 /// The one camera of a file, of the size of the map.
-Camera camera_for(const DepthMap& map, const std::string& file) {
+Camera camera_for(const DepthMap& map, const std::string& file, const Console& console) {
   note_input(file);
-  const std::vector<Camera> cameras = read_cameras(file);
+  Warnings warnings;
+  const std::vector<Camera> cameras = read_cameras(file, warnings);
+  console.warn(warnings);
   if (cameras.size() != 1) {
     throw UsageError(fmt::format("--camera: a path of {} cameras; a map has one", cameras.size()));
   }
@@ -49,8 +51,9 @@ MapView view_of(const Camera& camera) {
   return view;
 }
 
-MapView view_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file) {
-  if (!camera_file.empty()) return view_of(camera_for(map, camera_file));
+MapView view_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file,
+                 const Console& console) {
+  if (!camera_file.empty()) return view_of(camera_for(map, camera_file, console));
   const std::optional<Camera> camera = camera_of(map, map_file);
   if (!camera) throw InputError(map_file + ": carries no camera; expected --camera FILE");
   return view_of(*camera);

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "apps/shell/console.h"
 #include "fathom/camera/camera.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/depth_map.h"
@@ -12,8 +13,10 @@ namespace fathom::app {
 MapView view_of(const Camera& camera);
 
 /// The view of a map: that of the camera file where one is named, else of the camera that the map
-/// carries in `fathom.camera`. `map_file` is named in messages.
+/// carries in `fathom.camera`. `map_file` is named in messages; warnings of the file go to the
+/// console.
 /// Fails    InputError where there is no camera, or none for this map; UsageError for a path.
-MapView view_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file);
+MapView view_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file,
+                 const Console& console);
 
 }  // namespace fathom::app

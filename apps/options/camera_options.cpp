@@ -37,13 +37,14 @@ void CameraOptions::add_to(Command& command) {
   for (Option& range : add_range_options(command, lens_)) range.excludes(camera);
 }
 
-std::vector<Camera> CameraOptions::get(const Scene& scene) const {
-  if (from_file()) return read_camera_file(file_);
+std::vector<Camera> CameraOptions::get(const Scene& scene, const Console& console) const {
+  if (from_file()) return read_camera_file(file_, console);
   return {framing_camera(scene, view_, lens_)};
 }
 
-Camera CameraOptions::get_one(const Scene& scene, const char* command) const {
-  std::vector<Camera> cameras = get(scene);
+Camera CameraOptions::get_one(const Scene& scene, const char* command,
+                              const Console& console) const {
+  std::vector<Camera> cameras = get(scene, console);
   if (cameras.size() != 1) {
     throw UsageError(fmt::format("--camera: a path of {} cameras; {} takes a single one",
                                  cameras.size(), command));
@@ -51,9 +52,11 @@ Camera CameraOptions::get_one(const Scene& scene, const char* command) const {
   return cameras.front();
 }
 
-std::vector<Camera> read_camera_file(const std::string& file) {
+std::vector<Camera> read_camera_file(const std::string& file, const Console& console) {
   note_input(file);
-  std::vector<Camera> cameras = read_cameras(file);
+  Warnings warnings;
+  std::vector<Camera> cameras = read_cameras(file, warnings);
+  console.warn(warnings);
   if (cameras.empty()) throw InputError(file + ": an empty list; expected at least one camera");
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (const auto fault = find_fault(cameras[i])) {

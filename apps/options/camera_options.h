@@ -5,6 +5,7 @@
 
 #include "apps/options/lens_options.h"
 #include "apps/shell/command.h"
+#include "apps/shell/console.h"
 #include "fathom/camera/camera.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/scene/scene.h"
@@ -18,10 +19,12 @@ class CameraOptions {
   void add_to(Command& command);
   /// Whether the cameras come from a file.
   [[nodiscard]] bool from_file() const { return !file_.empty(); }
+  /// Warnings of the file go to the console.
   /// Fails with InputError where the file holds no camera, or the scene no triangle to frame.
-  [[nodiscard]] std::vector<Camera> get(const Scene& scene) const;
+  [[nodiscard]] std::vector<Camera> get(const Scene& scene, const Console& console) const;
   /// For a command that takes no path of cameras. Fails with UsageError where there is one.
-  [[nodiscard]] Camera get_one(const Scene& scene, const char* command) const;
+  [[nodiscard]] Camera get_one(const Scene& scene, const char* command,
+                               const Console& console) const;
 
  private:
   std::string file_;
@@ -29,7 +32,7 @@ class CameraOptions {
   Lens lens_;
 };
 
-/// The cameras of a file, each without fault. Fails with InputError.
-std::vector<Camera> read_camera_file(const std::string& file);
+/// The cameras of a file, each without fault; its warnings go to the console. Fails with InputError.
+std::vector<Camera> read_camera_file(const std::string& file, const Console& console);
 
 }  // namespace fathom::app

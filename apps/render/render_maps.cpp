@@ -108,7 +108,7 @@ int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Con
   const auto place = arguments.stream ? RenderInput::Place::files : RenderInput::Place::memory;
   RenderInput scene(arguments.scene, place, console);
   const double seconds_reading = stopwatch.lap();
-  const std::vector<Camera> cameras = arguments.camera.get(scene.outline());
+  const std::vector<Camera> cameras = arguments.camera.get(scene.outline(), console);
   scene.place(arguments.motion);
   check_cameras(cameras, plan, arguments.output);
   RenderOutputs outputs(arguments, cameras.size());
@@ -137,7 +137,7 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
   RenderOptions options = plan.rendering;
   const ThreadLimit limit(options.threads);
   Scene scene = arguments.scene.read(console, {.hash = true});
-  const std::vector<Camera> cameras = arguments.camera.get(scene);
+  const std::vector<Camera> cameras = arguments.camera.get(scene, console);
   scene = arguments.motion.placed(std::move(scene));
   for (const Camera& camera : cameras) {
     require_size(MapFormat::exr, camera.width, camera.height, arguments.output);

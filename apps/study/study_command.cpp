@@ -45,8 +45,8 @@ std::string list_of_studies() {
 }
 
 /// The only camera of the file.
-Camera read_camera(const std::string& file) {
-  const std::vector<Camera> cameras = read_camera_file(file);
+Camera read_camera(const std::string& file, const Console& console) {
+  const std::vector<Camera> cameras = read_camera_file(file, console);
   if (cameras.size() != 1) {
     throw InputError(
         fmt::format("{}: {} cameras; a study takes a single one", file, cameras.size()));
@@ -68,7 +68,7 @@ studies::SceneView read_view(const StudyArguments& arguments, const Console& con
   }
   view.camera = arguments.camera.empty()
                     ? frame_scene(view.scene, {}, {.width = 640, .height = 360})
-                    : read_camera(arguments.camera);
+                    : read_camera(arguments.camera, console);
   return view;
 }
 

@@ -85,7 +85,7 @@ int run_coplanar(const CoplanarArguments& arguments, const Console& console) {
   options.cull = arguments.cull;
   options.threads = arguments.scene.threads;
   const Scene scene = arguments.scene.read(console);
-  const Camera camera = arguments.camera.get_one(scene, "coplanar");
+  const Camera camera = arguments.camera.get_one(scene, "coplanar", console);
   std::vector<CoplanarPair> pairs;
   {
     Progress progress(console, "comparing");

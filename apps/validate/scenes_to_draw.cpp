@@ -25,7 +25,7 @@ ValidationScene named_by_files(const ValidateArguments& arguments, const Console
     const auto [width, height] = arguments.size;
     camera = frame_scene(scene, {}, {.width = width, .height = height});
   } else {
-    camera = read_camera(arguments.camera);
+    camera = read_camera(arguments.camera, console);
   }
   camera = validation::with_clip_planes(scene, camera);
   return {std::filesystem::path(arguments.scenes.front()).stem(), std::move(scene), camera};

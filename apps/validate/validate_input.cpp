@@ -7,10 +7,12 @@
 
 namespace fathom::app {
 
-Camera read_camera(const std::string& file) {
+Camera read_camera(const std::string& file, const Console& console) {
   if (file.empty()) throw UsageError("--camera FILE is missing");
   note_input(file);
-  const std::vector<Camera> cameras = read_cameras(file);
+  Warnings warnings;
+  const std::vector<Camera> cameras = read_cameras(file, warnings);
+  console.warn(warnings);
   if (cameras.size() != 1) {
     throw UsageError(file + ": is a camera path; expected a single camera");
   }

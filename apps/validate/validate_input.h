@@ -11,9 +11,9 @@
 /// What a map is compared with, as files: read, and kept from being an output's place.
 namespace fathom::app {
 
-/// The single camera of --camera.
+/// The single camera of --camera; warnings go to the console.
 /// Fails    UsageError where the file is not given or holds a camera path; InputError.
-Camera read_camera(const std::string& file);
+Camera read_camera(const std::string& file, const Console& console);
 
 /// The scene of SCENE…; warnings go to the console.
 /// Fails    UsageError where there is none; InputError.

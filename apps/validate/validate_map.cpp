@@ -90,7 +90,7 @@ void judge_other_size(const ValidateArguments& arguments, const Camera& camera, 
 
 ValidationCase judge_map(const ValidateArguments& arguments, const Console& console) {
   ValidationCase made{.renderer = "map", .variant = arguments.model, .version = arguments.map};
-  const Camera camera = read_camera(arguments.camera);
+  const Camera camera = read_camera(arguments.camera, console);
   // What is wrong with it is said before the files are read.
   if (arguments.model != any_model) made.model = model_for(arguments.model, camera);
   made.other = read_other_map(arguments);

@@ -137,7 +137,8 @@ TEST_F(HostileGltf, AnOverflowingTransformIsAnUnusableInput) {
 }
 
 TEST_F(HostileGltf, AnOverflowingTransformIsRenderedWhereACameraIsGiven) {
-  folder.write("camera.json", R"({"width":8,"height":6,"fx":4,"fy":4,"cx":4,"cy":3,
+  folder.write("camera.json",
+               R"({"width":8,"height":6,"fx":4,"fy":4,"cx":4,"cy":3,"pixel_centre":0.5,
                 "world_to_camera":[[1,0,0,0],[0,1,0,0],[0,0,1,0]]})");
   const Outcome outcome = run_on(overflowing(), {"render", "a.gltf", "--camera", "camera.json",
                                                  "-o", "a.exr", "--verify", "all"});

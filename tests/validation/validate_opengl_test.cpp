@@ -42,7 +42,7 @@ TEST(ValidateOpenGl, SoftpipesStepsOf16BitsAreFound) {
   folder.write("camera.json",
                R"({"width": 16, "height": 2, "projection": "perspective", "fx": 16, "fy": 16,
                    "cx": 8, "cy": 1, "world_to_camera": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]],
-                   "near": 1, "far": 10})");
+                   "near": 1, "far": 10, "pixel_centre": 0.5})");
   const Outcome outcome =
       run_fathom({"validate", "--against", "opengl@softpipe,opengl", "sheet.obj", "--camera",
                   "camera.json", "--variants", "unorm16,unorm24", "--out", "report"},

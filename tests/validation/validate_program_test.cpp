@@ -29,8 +29,9 @@ class ValidateProgram : public testing::Test {
   }
 
   void render(const std::string& camera, double cx, const std::string& map) {
-    nlohmann::json json{{"width", 40}, {"height", 30}, {"fx", 50},  {"fy", 50},
-                        {"cx", cx},    {"cy", 15},     {"near", 1}, {"far", 10}};
+    nlohmann::json json{{"width", 40}, {"height", 30}, {"fx", 50},
+                        {"fy", 50},    {"cx", cx},     {"cy", 15},
+                        {"near", 1},   {"far", 10},    {"pixel_centre", 0.5}};
     json["world_to_camera"] = {{0.8, 0.0, -0.6, 0.1}, {0.2, -0.9, 0.3, 0}, {0.6, 0.3, 0.7, 4}};
     folder.write(camera, json.dump());
     const Outcome outcome =
@@ -342,7 +343,7 @@ TEST_F(ValidateProgram, RefusesVariantsThatItDoesNotUnderstand) {
 TEST_F(ValidateProgram, AFolderForTemporaryFilesIsNoCommand) {
   folder.write("rotation.json",
                R"({"width": 40, "height": 30, "fx": 50, "fy": 50, "cx": 20, "cy": 15, "near": 1,
- "far": 10, "world_to_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,4]]})");
+ "far": 10, "pixel_centre": 0.5, "world_to_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,4]]})");
   const std::string quoted = folder / "x'; touch hacked; '";
   std::filesystem::create_directory(quoted);
   folder.write("blender", "#!/bin/sh\necho \"Error: $*\"\ntest \"$1\" = --version\n");

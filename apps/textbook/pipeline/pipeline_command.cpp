@@ -52,7 +52,7 @@ int run_trace(const TraceArguments& arguments, const Console& console) {
   if (stages.shading == pipeline::Shading::points || stages.shading == pipeline::Shading::wireframe)
     throw UsageError("--shading: points and wireframe draw no triangle that could be traced");
   const Scene scene = arguments.scene.read(console, {.attributes = true});
-  const Camera camera = arguments.camera.get_one(scene, "trace");
+  const Camera camera = arguments.camera.get_one(scene, "trace", console);
   const auto& pixel = arguments.pixel;
   if (pixel && (pixel->x >= camera.width || pixel->y >= camera.height)) {
     throw UsageError(fmt::format("--pixel: {},{} is outside the image of {}x{} pixels", pixel->x,

@@ -77,7 +77,7 @@ int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const 
   if (plan.stages.texture != "checker") note_input(plan.stages.texture);
   Scene scene = arguments.scene.read(
       console, {.hash = true, .attributes = plan.with_picture, .primitives = true});
-  const std::vector<Camera> cameras = arguments.camera.get(scene);
+  const std::vector<Camera> cameras = arguments.camera.get(scene, console);
   Drawn drawn = drawn_from(std::move(scene), plan, arguments);
   const double time = plan.shutter ? plan.shutter->close : arguments.motion.time_or_start();
   RenderOutputs outputs(arguments, cameras.size());
