@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "apps/render/depth_buffer_channels.h"
 #include "apps/render/map_verification.h"
 #include "apps/render/render_input.h"
@@ -18,6 +21,7 @@
 #include "fathom/image/deep_map.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
+#include "fathom/scene/view_warnings.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::app {
@@ -34,6 +38,21 @@ void warn_of(const RenderStatistics& statistics, const Console& console) {
                                  : "are degenerate or seen edge on and cover nothing"));
   }
 }
+
+/// What is probably not meant about the cameras, each kind of it once.
+class CameraWarnings {
+ public:
+  /// Of a camera whose map shows the scene in so many pixels.
+  void note(const Scene& scene, const Camera& camera, std::uint64_t shown_pixels) {
+    std::vector<ViewWarning> warnings = warnings_of_camera(camera);
+    std::ranges::move(warnings_of_view(scene, camera, shown_pixels), std::back_inserter(warnings));
+    of_cameras_.push_back(std::move(warnings));
+  }
+  void tell(const Console& console) const { console.warn(told_once(of_cameras_)); }
+
+ private:
+  std::vector<std::vector<ViewWarning>> of_cameras_;
+};
 
 /// Refuses cameras that the file, the memory or the depth format has no room for.
 void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
@@ -116,6 +135,7 @@ int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Con
 
   std::vector<MapReport> reports;
   bool all_agree = true;
+  CameraWarnings warnings;
   {
     Progress progress(console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -124,12 +144,19 @@ int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Con
       MapReport& report = reports.back();
       report.seconds.read = seconds_reading;
       if (i == 0) warn_of(report.statistics, console);
+      warnings.note(scene.outline(), cameras[i], report.statistics.pixels_with_surface);
       all_agree = all_agree && (!report.verification || report.verification->agrees());
     }
   }
+  warnings.tell(console);
   outputs.write_statistics(as_json(reports));
   outputs.commit();
   return all_agree ? done : answer_is_no;
+}
+
+std::uint64_t shown_pixels(const DeepMap& map) {
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(map.counts, [](std::uint32_t samples) { return samples > 0; }));
 }
 
 int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
@@ -145,6 +172,7 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
   }
   RenderOutputs outputs(arguments, cameras.size());
   outputs.write_cameras(to_json(cameras) + "\n");
+  CameraWarnings warnings;
   {
     Progress progress(console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -153,8 +181,10 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
       arguments.motion.describe(map.description, arguments.motion.time_or_start());
       outputs.map(i).write(
           [&](const auto& path) { write_deep_map(map, path, plan.compression, options.threads); });
+      warnings.note(scene, cameras[i], shown_pixels(map));
     }
   }
+  warnings.tell(console);
   outputs.commit();
   return done;
 }

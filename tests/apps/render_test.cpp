@@ -351,5 +351,86 @@ TEST_F(Rendering, InfoDescribesMeshCameraAndMap) {
   EXPECT_THAT(answer({"info", "map.exr"}), HasSubstr("a map of 8x6 pixels"));
 }
 
+std::string turned_away() {
+  return camera_with("world_to_camera", "[[1,0,0,0],[0,-1,0,0],[0,0,-1,0]]");
+}
+
+TEST_F(Rendering, ACameraThatSeesNothingIsWarnedOf) {
+  folder_.write("away.json", turned_away());
+  const std::vector<std::string> render{"render", "square.obj", "--camera", "away.json", "-o"};
+  const auto warned = [&](const std::string& map, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = render;
+    arguments.push_back(map);
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = fathom(arguments);
+    EXPECT_EQ(outcome.status, 0);
+    return outcome.err;
+  };
+  const std::string expected =
+      "fathom: warning: nothing of the scene is in front of the camera: its middle lies at "
+      "(0, 0, -2) in the camera's frame (x right, y down, z forward); with OpenGL's axes (y up, z "
+      "backward) the scene would be seen: negate the second and third rows of world_to_camera\n";
+  EXPECT_EQ(warned("a.exr", {}), expected);
+  EXPECT_EQ(warned("b.exr", {"--deep"}), expected);
+  EXPECT_EQ(warned("c.exr", {"--engine", "reference"}), expected);
+  EXPECT_EQ(warned("d.exr", {"--channels", "A"}), expected);
+  EXPECT_EQ(warned("e.exr", {"--quiet"}), "");
+}
+
+TEST_F(Rendering, AStreamedSceneThatIsNotSeenIsWarnedOf) {
+  folder_.write("away.json", turned_away());
+  answer({"info", "square.obj"});
+  run_python(R"(
+import struct
+open('square.stl', 'wb').write(bytes(80) + struct.pack('<I', 1) + struct.pack(
+    '<12fH', 0, 0, 1, -1, -1, 2, 1, -1, 2, 1, 1, 2, 0))
+)");
+  const Outcome outcome =
+      fathom({"render", "square.stl", "--stream", "--camera", "away.json", "-o", "a.exr"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("nothing of the scene is in front of the camera: its middle "
+                                     "lies at (0, 0, -2)"));
+}
+
+TEST_F(Rendering, APathIsWarnedOfOnce) {
+  folder_.write("path.json", "[" + square_camera + "," + turned_away() + "," +
+                                 camera_with("cx", "7") + "," + turned_away() + "]");
+  const Outcome outcome =
+      fathom({"render", "square.obj", "--camera", "path.json", "-o", "{index}.exr"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.err,
+              ::testing::MatchesRegex(
+                  "fathom: warning: camera 1: nothing of the scene [^\n]*"
+                  "\\(likewise 2 of 4 cameras\\)\n"
+                  "fathom: warning: camera 2: the principal point \\(7, 3\\) [^\n]*\n"));
+}
+
+TEST_F(Rendering, ACameraFileWithoutPixelCentreIsWarnedOf) {
+  std::string silent = square_camera;
+  const std::string said = R"("pixel_centre": 0.5,)";
+  silent.replace(silent.find(said), said.size(), "");
+  folder_.write("silent.json", silent);
+  folder_.write("path.json", "[" + silent + "," + silent + "]");
+  const std::string expected =
+      "fathom: warning: FILE: does not say \"pixel_centre\", so that 0.5 is taken; write 0.5 "
+      "(COLMAP, OpenGL), or 0 if cx and cy are from OpenCV\n";
+  const auto of = [&](const std::string& file) {
+    return std::string(expected).replace(expected.find("FILE"), 4, file);
+  };
+  EXPECT_EQ(fathom({"render", "square.obj", "--camera", "silent.json", "-o", "a.exr"}).err,
+            of("silent.json"));
+  EXPECT_EQ(fathom({"render", "square.obj", "--camera", "path.json", "-o", "{index}.exr"}).err,
+            of("path.json"));
+  EXPECT_EQ(fathom({"info", "silent.json"}).err, of("silent.json"));
+  EXPECT_EQ(fathom({"convert", "a.exr", "--camera", "silent.json", "-o", "a.ply"}).err,
+            of("silent.json"));
+  EXPECT_EQ(fathom({"probe", "square.obj", "--camera", "silent.json", "--pixel", "3,3"}).err,
+            of("silent.json"));
+  // What the program writes says it.
+  EXPECT_EQ(fathom({"convert", "a.exr", "-o", "b.ply"}).err, "");
+  answer({"camera", "look-at", "--eye", "0,0,-5", "-o", "made.json"});
+  EXPECT_EQ(fathom({"info", "made.json"}).err, "");
+}
+
 }  // namespace
 }  // namespace fathom::test

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fathom/camera/pose.h"
+#include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/view_warnings.h"
+
+namespace fathom {
+using namespace camera;
+
+namespace {
+
+using Kind = ViewWarning::Kind;
+
+/// RᵀR of the 3×3 part.
+Matrix3 gram_matrix(const Matrix34& pose) {
+  Matrix3 G{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t j = 0; j < 3; ++j) G[i][k] += pose[j][i] * pose[j][k];
+  return G;
+}
+
+/// The largest entry of |G/square − I|.
+double distance_from_identity(const Matrix3& G, double square) {
+  double distance = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      distance = std::max(distance, std::abs(G[i][k] / square - (i == k ? 1 : 0)));
+  return distance;
+}
+
+void add_warnings_of_rotation(const Camera& camera, std::vector<ViewWarning>& warnings) {
+  const bool lens_mirrors = (camera.fx < 0) != (camera.fy < 0);
+  if (!lens_mirrors && determinant_of_rotation(camera).sign() == Sign::negative) {
+    warnings.push_back(
+        {Kind::mirrored,
+         "world_to_camera mirrors: the determinant of its 3×3 part is negative; negate one row, or "
+         "check which axes it is meant for (x right, y down, z forward)"});
+  }
+  const Matrix3 G = gram_matrix(camera.world_to_camera);
+  if (distance_from_identity(G, 1) <= rotation_tolerance) return;
+  const double square = (G[0][0] + G[1][1] + G[2][2]) / 3;
+  if (distance_from_identity(G, square) <= rotation_tolerance) {
+    const bool perspective = camera.projection == Projection::perspective;
+    warnings.push_back(
+        {Kind::scaled,
+         fmt::format("world_to_camera scales by {:.6g}: depths are so many times those of the "
+                     "scene; divide its 12 numbers by it{}",
+                     std::sqrt(square),
+                     perspective ? " for the same picture in scene units"
+                                 : ", and multiply fx, fy and skew, for the same picture in scene "
+                                   "units")});
+  } else {
+    warnings.push_back(
+        {Kind::not_a_rotation,
+         fmt::format("the 3×3 part R of world_to_camera is no rotation: an entry of RᵀR is {:.2g} "
+                     "away from the identity's; check its numbers, or write them with more digits",
+                     distance_from_identity(G, 1))});
+  }
+}
+
+/// Whether x is no farther from the middle than a part of the size.
+bool in_middle(double x, double size, double part) {
+  return std::abs(x - size / 2) <= part * size;
+}
+
+void add_warning_of_principal_point(const Camera& camera, std::vector<ViewWarning>& warnings) {
+  if (camera.projection != Projection::perspective) return;
+  const auto [x, y] = principal_point(camera);
+  if (in_middle(x, camera.width, 0.25) && in_middle(y, camera.height, 0.25)) return;
+  const bool are_fractions = camera.cx > 0 && camera.cx <= 1 && camera.cy > 0 && camera.cy <= 1;
+  const bool are_swapped =
+      in_middle(y, camera.width, 0.0625) && in_middle(x, camera.height, 0.0625);
+  warnings.push_back(
+      {Kind::principal_point,
+       fmt::format("the principal point ({:.6g}, {:.6g}) lies far from the middle of the {}x{} "
+                   "image; {}",
+                   x, y, camera.width, camera.height,
+                   are_fractions ? "cx and cy look like fractions of the image, expected pixels"
+                   : are_swapped
+                       ? "cx and cy look swapped, or width and height"
+                       : "check that cx and cy are meant for this width and height (right if the "
+                         "image is cut out of a larger one)")});
+}
+
+}  // namespace
+
+std::vector<ViewWarning> warnings_of_camera(const Camera& camera) {
+  const StandardArithmetic standard;
+  std::vector<ViewWarning> warnings;
+  add_warnings_of_rotation(camera, warnings);
+  add_warning_of_principal_point(camera, warnings);
+  return warnings;
+}
+
+}  // namespace fathom

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "fathom/camera/camera.h"
+#include "fathom/camera/pose.h"
+#include "fathom/scene/scene.h"
+
+/// What a camera sees of the corners of a scene, in binary64: good for a warning, not for a
+/// decision about a pixel. Only for .cpp files of this room.
+namespace fathom::scene {
+
+using Vector = std::array<double, 3>;
+
+/// An affine map of a point.
+Vector applied(const camera::Matrix34& map, const Vector& X);
+
+/// An object's transform, each entry rounded.
+camera::Matrix34 rounded_placement(const Object& object);
+
+/// What a camera sees of points.
+struct Sight {
+  std::uint64_t points = 0, in_front = 0, in_image = 0;
+  /// The box of all points in the world.
+  Vector lower, upper;
+  double least_depth, greatest_depth;
+  /// The box of the images of those in front.
+  std::array<double, 2> first, last;
+
+  Sight();
+  [[nodiscard]] Vector middle() const;
+};
+
+/// A camera with a pose of its own, of a scene that is made `scale` times as large about the
+/// world's origin.
+class ApproximateCamera {
+ public:
+  ApproximateCamera(const Camera& camera, const camera::Matrix34& pose, double scale = 1);
+
+  [[nodiscard]] Vector camera_point(const Vector& X) const;
+  /// Of a camera point in front; pixels.
+  [[nodiscard]] std::array<double, 2> image_point(const Vector& p) const;
+  /// How far from the middle of the image a point is seen: 1 at its sides; infinite behind.
+  [[nodiscard]] double distance_from_middle(const Vector& X) const;
+  /// Of every `step`-th triangle. A mesh of two vertices is the outline of one that stays in its
+  /// file: the corners of its box count.
+  [[nodiscard]] Sight sight_of(const Scene& scene, std::size_t step = 1) const;
+
+ private:
+  void look_at(const Vector& X, Sight& sight) const;
+
+  const Camera& camera_;
+  camera::Matrix34 pose_;
+  PrincipalPoint principal_;
+  double scale_;
+};
+
+}  // namespace fathom::scene

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fathom/camera/camera.h"
+#include "fathom/scene/scene.h"
+#include "fathom/text/warnings.h"
+
+/// What is probably not meant in the way that a camera looks at a scene: mistakes that give a map
+/// of the right size with the wrong thing in it, or with nothing. Nothing here changes a map; a
+/// camera that is warned of is as valid as any other.
+///
+/// Exact    nothing: all is judged in binary64, by the thresholds below.
+namespace fathom {
+
+/// Entries of RᵀR may be so far from those of the identity: what float32 (10⁻⁶) and six printed
+/// decimals (2·10⁻⁶) cause is well below.
+inline constexpr double rotation_tolerance = 1e-5;
+/// The least number of turns of an object's surface around an eye that is inside: of a closed one
+/// it is exactly 1.
+inline constexpr double closed_winding = 0.95;
+/// A map that shows no more pixels than these shows a speck.
+inline constexpr std::uint64_t most_pixels_of_a_speck = 4;
+
+struct ViewWarning {
+  enum class Kind {
+    mirrored,
+    scaled,
+    not_a_rotation,
+    principal_point,
+    units,
+    behind,
+    outside,
+    out_of_range,
+    too_small,
+    nothing_shown,
+    inside_solid
+  };
+  Kind kind;
+  /// One line, without the name of a file.
+  std::string text;
+};
+
+/// Of the camera alone: a 3×3 part of world_to_camera that is no rotation, but scaled, mirrored
+/// (unless fx or fy mirrors it back) or skewed; a principal point of a perspective camera outside
+/// of the middle half of the image.
+/// Cost     none to speak of.
+/// Fails    never; of a camera with a fault (find_fault) anything may be said.
+std::vector<ViewWarning> warnings_of_camera(const Camera& camera);
+
+/// Of a camera that looks at a scene, given how many pixels of its map show it:
+/// - none: what there is to see lies behind the camera, outside the image or the range of depth, or
+///   between pixel centres; and which other reading of the matrix would show it, if one does;
+/// - a speck: the scene is a thousand times too small (metres beside poses in millimetres);
+/// - every pixel: the eye is inside a closed object whose triangles face outwards, or the object
+///   is a thousand times too large (millimetres beside poses in metres).
+/// `scene` may be the outline of a scene that stays in its files (outline_of).
+/// Cost     none where only a part of the image shows the scene; else some passes over its
+///          triangles.
+/// Fails    InputError where the scene or the camera has a fault (find_fault).
+std::vector<ViewWarning> warnings_of_view(const Scene& scene, const Camera& camera,
+                                          std::uint64_t shown_pixels);
+
+/// The warnings of the cameras of a path, each kind once: the first text, and for how many cameras
+/// it holds.
+Warnings told_once(std::span<const std::vector<ViewWarning>> of_cameras);
+
+}  // namespace fathom
