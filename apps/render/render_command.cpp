@@ -21,7 +21,10 @@ void add_render(Command& program, const Render& by_exact_engine, const Render& b
       "stored.exr\n"
       "  fathom render spot.obj --engine pipeline --shading phong --antialias msaa:4 --image "
       "spot.png "
-      "-o spot.exr");
+      "-o spot.exr\n"
+      "\ndocs/camera-files.md and docs/scene-files.md have the keys of camera and scene files, and "
+      "what "
+      "is warned of.");
   arguments->add_to(command);
   command.runs([arguments, by_exact_engine, by_pipeline](const Console& console) {
     return arguments->engine == EngineName::pipeline ? by_pipeline(*arguments, console)

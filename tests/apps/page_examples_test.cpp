@@ -1,5 +1,7 @@
 // The examples of docs/scan.md, of docs/clipping.md and of `fathom scan --help`, run as a reader would.
 
+#include "page_examples.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,42 +15,9 @@
 namespace fathom::test {
 namespace {
 
-/// A command line of a shell and what the page says that it prints, without line breaks.
-struct Example {
-  std::string command, printed;
-};
-
-std::string without_indent(const std::string& line) {
-  const std::size_t begin = line.find_first_not_of(' ');
-  return begin == std::string::npos ? "" : line.substr(begin);
-}
-
 std::string without_line_ends(std::string text) {
   std::erase(text, '\n');
   return text;
-}
-
-/// Of a fenced block: each line that begins with "$ ", and the lines that follow it.
-std::vector<Example> examples_of(std::istream& page) {
-  std::vector<Example> examples;
-  bool fenced = false, of_example = false;
-  for (std::string line; std::getline(page, line);) {
-    if (line.starts_with("```")) {
-      fenced = !fenced;
-      of_example = false;
-    } else if (fenced && line.starts_with("$ ")) {
-      examples.push_back({line.substr(2), ""});
-      of_example = true;
-    } else if (of_example) {
-      examples.back().printed += without_indent(line);
-    }
-  }
-  return examples;
-}
-
-Outcome run_in_shell(const std::string& command, const std::filesystem::path& folder) {
-  const std::string programs = std::filesystem::path(program_path()).parent_path();
-  return run({"/bin/bash", "-c", "PATH=$0:$PATH; " + command, programs}, {.folder = folder});
 }
 
 /// Runs the examples of a page in one folder, since some read what others wrote. Every algorithm

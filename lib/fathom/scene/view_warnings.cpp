@@ -72,6 +72,7 @@ struct Reading {
   const char* advice;
 };
 
+/// The likeliest first.
 std::vector<Reading> other_readings(const Matrix34& pose) {
   std::vector<Reading> readings;
   readings.push_back({with_axes_of_opengl(pose),
@@ -97,10 +98,11 @@ std::string advice_for(const Scene& scene, const Camera& camera) {
     const ApproximateCamera other(camera, pose);
     const Sight sight = other.sight_of(scene, step_of_guess(scene));
     if (2 * sight.in_image < sight.points) continue;
-    // Of readings that show all of it, the one that looks straight at it.
+    // Of readings that show all of it, the one that looks straight at it, and, where that is no
+    // difference, the likelier one.
     const double seen = static_cast<double>(sight.in_image) / static_cast<double>(sight.points) +
                         1 / (1 + other.distance_from_middle(sight.middle()));
-    if (seen <= best) continue;
+    if (seen <= best + 0.05) continue;
     best = seen;
     advice = how;
   }
