@@ -170,7 +170,14 @@ TEST(ViewWarnings, AMapThatShowsAPartOfTheSceneIsNotLookedInto) {
   const Camera camera = looking({0, 0, 10});
   EXPECT_THAT(warnings_of_view(scene, camera, most_pixels_of_a_speck + 1), IsEmpty());
   EXPECT_THAT(warnings_of_view(scene, camera, all_of(camera) - 1), IsEmpty());
-  EXPECT_THROW((void)warnings_of_view(scene, camera, 0), InputError);
+  for (const std::uint64_t shown : {std::uint64_t{0}, std::uint64_t{1}, all_of(camera)}) {
+    EXPECT_THAT(message_of<InputError>([&] { (void)warnings_of_view(scene, camera, shown); }),
+                HasSubstr("triangle 0: a corner is beyond"));
+  }
+  scene.meshes[0].triangles.clear();
+  Camera faulty = camera;
+  faulty.fx = 0;
+  EXPECT_THROW((void)warnings_of_view(scene, faulty, 0), InputError);
 }
 
 TEST(ViewWarnings, BehindTheCameraSaysWhereTheSceneLies) {
@@ -256,7 +263,7 @@ TEST(ViewWarnings, AnEyeInsideAClosedObject) {
   const auto of = [&](Mesh mesh) {
     return warnings_of_view(scene_of(std::move(mesh)), camera, all_of(camera));
   };
-  EXPECT_THAT(text_of(of(cube(1)), Kind::inside_solid), HasSubstr("inside of object cube"));
+  EXPECT_THAT(text_of(of(cube(1)), Kind::inside_solid), HasSubstr("inside object cube"));
   // A room.
   EXPECT_THAT(of(turned_inside_out(cube(1))), IsEmpty());
   // Outside, in front of a wall that fills the image.

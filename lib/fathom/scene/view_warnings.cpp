@@ -9,6 +9,7 @@
 
 #include "fathom/camera/pose.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/scene/sight.h"
 #include "fathom/scene/winding.h"
@@ -192,29 +193,48 @@ const Object* object_around_eye(const Scene& scene, const Camera& camera) {
   return nullptr;
 }
 
-/// What is wrong where the eye is inside of something.
+/// What is wrong where the eye is inside of something. Of meshes that were not looked at yet.
+/// Fails    ElementFault.
 std::optional<ViewWarning> warning_of_inside(const Scene& scene, const Camera& camera) {
   const Object* const object = object_around_eye(scene, camera);
   if (object == nullptr) return std::nullopt;
+  require_valid(scene);
   if (auto units = warning_of_units(scene, camera, 1 / thousand)) return units;
   return ViewWarning{
       Kind::inside_solid,
-      fmt::format("the camera is inside of {}, which is closed and faces outwards: only back faces "
-                  "are seen; check the translation of world_to_camera and the units",
+      fmt::format("the camera is inside {}, whose surface is closed and faces outwards: only back "
+                  "faces are seen; check the translation of world_to_camera and the units",
                   object->name.empty() ? "an object" : "object " + object->name)};
 }
 
-/// The map is empty.
-std::vector<ViewWarning> warnings_of_empty_map(const Scene& scene, const Camera& camera) {
+/// The map is without background: a look at every triangle, which may take a twentieth of the time
+/// in which they are rendered, is all that is done to find that nothing is wrong.
+std::optional<ViewWarning> warning_of_full_map(const Scene& scene, const Camera& camera) {
+  require_valid_but_elements(scene);
+  try {
+    return warning_of_inside(scene, camera);
+  } catch (const ElementFault&) {
+    require_valid(scene);
+    throw;
+  }
+}
+
+std::optional<ViewWarning> warning_of_empty_map(const Scene& scene, const Camera& camera) {
   const ApproximateCamera approximate(camera, camera.world_to_camera);
   const Sight sight = approximate.sight_of(scene);
-  if (sight.points == 0) return {};
+  if (sight.points == 0) return std::nullopt;
   for (const double scale : {thousand, 1 / thousand})
-    if (auto units = warning_of_units(scene, camera, scale)) return {*units};
+    if (auto units = warning_of_units(scene, camera, scale)) return units;
   if (sight.in_image > 0)
-    if (auto inside = warning_of_inside(scene, camera)) return {*inside};
-  const auto warning = warning_of_nothing(scene, camera, approximate, sight);
-  return warning ? std::vector{*warning} : std::vector<ViewWarning>{};
+    if (auto inside = warning_of_inside(scene, camera)) return inside;
+  return warning_of_nothing(scene, camera, approximate, sight);
+}
+
+std::optional<ViewWarning> warning_of_speck(const Scene& scene, const Camera& camera,
+                                            std::uint64_t shown_pixels) {
+  require_valid(scene);
+  return shown_pixels == 0 ? warning_of_empty_map(scene, camera)
+                           : warning_of_units(scene, camera, thousand);
 }
 
 }  // namespace
@@ -226,11 +246,9 @@ std::vector<ViewWarning> warnings_of_view(const Scene& scene, const Camera& came
   const bool is_speck = shown_pixels <= most_pixels_of_a_speck;
   if (!is_full && !is_speck) return {};
   require_valid(camera);
-  require_valid(scene);
-  if (shown_pixels == 0) return warnings_of_empty_map(scene, camera);
   std::optional<ViewWarning> warning;
-  if (is_full) warning = warning_of_inside(scene, camera);
-  if (!warning && is_speck) warning = warning_of_units(scene, camera, thousand);
+  if (is_full) warning = warning_of_full_map(scene, camera);
+  if (!warning && is_speck) warning = warning_of_speck(scene, camera, shown_pixels);
   return warning ? std::vector{*warning} : std::vector<ViewWarning>{};
 }
 

@@ -1,9 +1,14 @@
 #include "fathom/scene/winding.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
+#include <span>
 
+#include "fathom/scene/element_checks.h"
 #include "fathom/scene/sight.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom::scene {
 namespace {
@@ -34,6 +39,19 @@ int passes(const Vector& p, const Vector& q) {
   return p_is_low ? 1 : -1;
 }
 
+int crossings_of(const Mesh& mesh, std::span<const CornerIndices> triangles, const Vector& eye) {
+  if (!all_below(triangles, mesh.vertices.size())) throw ElementFault();
+  int sum = 0;
+  const std::span<const MeshPoint> vertices(mesh.vertices);
+  for (const auto& [i, j, k] : triangles) {
+    const Vector a = from(eye, vertices[i]), b = from(eye, vertices[j]), c = from(eye, vertices[k]);
+    const int turn = passes(a, b) + passes(b, c) + passes(c, a);
+    // The triangle lies ahead on the ray if its plane turns the same way around eye and ray.
+    if (turn != 0 && turn * volume(a, b, c) > 0) sum += turn;
+  }
+  return sum;
+}
+
 }  // namespace
 
 double winding_number(const Mesh& mesh, const Vector& eye) {
@@ -50,14 +68,14 @@ double winding_number(const Mesh& mesh, const Vector& eye) {
 }
 
 int crossings_along_x(const Mesh& mesh, const Vector& eye) {
-  int sum = 0;
-  for (const auto& [i, j, k] : mesh.triangles) {
-    const Vector a = from(eye, mesh.vertices[i]), b = from(eye, mesh.vertices[j]),
-                 c = from(eye, mesh.vertices[k]);
-    const int turn = passes(a, b) + passes(b, c) + passes(c, a);
-    // The triangle lies ahead on the ray if its plane turns the same way around eye and ray.
-    if (turn != 0 && turn * volume(a, b, c) > 0) sum += turn;
-  }
+  constexpr std::size_t part = 1U << 15;
+  const std::span<const CornerIndices> all(mesh.triangles);
+  const std::size_t parts = (all.size() + part - 1) / part;
+  std::atomic<int> sum = 0;
+  in_parallel(parts, [&](std::size_t i) {
+    const std::size_t first = i * part;
+    sum += crossings_of(mesh, all.subspan(first, std::min(part, all.size() - first)), eye);
+  });
   return sum;
 }
 

@@ -16,6 +16,7 @@ double winding_number(const Mesh& mesh, const std::array<double, 3>& eye);
 
 /// How many more triangles the ray from `eye` along +x leaves through than it enters by: the winding
 /// number of a closed surface, as that of one ray, which is far cheaper.
+/// Fails    ElementFault where a triangle has a corner beyond the vertices.
 int crossings_along_x(const Mesh& mesh, const std::array<double, 3>& eye);
 
 }  // namespace fathom::scene
