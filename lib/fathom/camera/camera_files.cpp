@@ -63,7 +63,7 @@ void expect_either(const JsonValue& value, const char* one, const char* other) {
   }
 }
 
-void read_K(const JsonValue& value, Camera& camera) {
+void read_intrinsic_matrix(const JsonValue& value, Camera& camera) {
   const std::vector<JsonValue> rows = value.elements(3);
   const std::vector<double> u = rows[0].numbers(3), v = rows[1].numbers(3), w = rows[2].numbers(3);
   if (v[0] != 0) rows[1].fail("expected 0 in the first place of K's second row");
@@ -77,9 +77,9 @@ void read_number(const JsonValue& value, const char* key, double& number) {
 }
 
 /// fx, fy, cx, cy and skew, or all of them as the matrix K.
-void read_intrinsics_or_K(const JsonValue& value, Camera& camera) {
+void read_intrinsics_or_matrix(const JsonValue& value, Camera& camera) {
   for (const char* number : {"fx", "fy", "cx", "cy", "skew"}) expect_either(value, "K", number);
-  if (const auto K = value.find("K")) return read_K(*K, camera);
+  if (const auto K = value.find("K")) return read_intrinsic_matrix(*K, camera);
   camera.fx = value.at("fx").number();
   camera.fy = value.at("fy").number();
   camera.cx = value.at("cx").number();
@@ -108,7 +108,7 @@ Camera read_camera(const JsonValue& value) {
   camera.height = static_cast<std::uint32_t>(value.at("height").integer(1, largest_size));
   if (const auto projection = value.find("projection"))
     camera.projection = read_projection(*projection);
-  read_intrinsics_or_K(value, camera);
+  read_intrinsics_or_matrix(value, camera);
   expect_either(value, "pixel_centre", "pixel_center");
   read_number(value, "pixel_centre", camera.pixel_centre);
   read_number(value, "pixel_center", camera.pixel_centre);
@@ -139,6 +139,7 @@ std::vector<Camera> read_cameras(std::string_view text, const std::string& name,
   const std::vector<JsonValue> values = root.is_list() ? root.elements() : std::vector{root};
   if (values.empty()) root.fail("the list of cameras is empty");
   std::vector<Camera> cameras;
+  cameras.reserve(values.size());
   for (const JsonValue& value : values) cameras.push_back(read_camera(value));
   if (!std::ranges::all_of(values, says_pixel_centre)) {
     warnings.push_back(name +

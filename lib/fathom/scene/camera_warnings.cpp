@@ -15,12 +15,20 @@ namespace {
 
 using Kind = ViewWarning::Kind;
 
-/// RᵀR of the 3×3 part.
-Matrix3 gram_matrix(const Matrix34& pose) {
+/// The largest magnitude in the 3×3 part.
+double largest_entry(const Matrix34& pose) {
+  double largest = 0;
+  for (const auto& row : pose)
+    for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, std::abs(row[k]));
+  return largest;
+}
+
+/// RᵀR of the 3×3 part, divided by `unit` first so that nothing overflows.
+Matrix3 gram_matrix(const Matrix34& pose, double unit) {
   Matrix3 G{};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t j = 0; j < 3; ++j) G[i][k] += pose[j][i] * pose[j][k];
+      for (std::size_t j = 0; j < 3; ++j) G[i][k] += pose[j][i] / unit * (pose[j][k] / unit);
   return G;
 }
 
@@ -41,8 +49,10 @@ void add_warnings_of_rotation(const Camera& camera, std::vector<ViewWarning>& wa
          "world_to_camera mirrors: the determinant of its 3×3 part is negative; negate one row, or "
          "check which axes it is meant for (x right, y down, z forward)"});
   }
-  const Matrix3 G = gram_matrix(camera.world_to_camera);
-  if (distance_from_identity(G, 1) <= rotation_tolerance) return;
+  const double unit = largest_entry(camera.world_to_camera);
+  const Matrix3 G = gram_matrix(camera.world_to_camera, unit);
+  const double distance = distance_from_identity(G, 1 / unit / unit);
+  if (distance <= rotation_tolerance) return;
   const double square = (G[0][0] + G[1][1] + G[2][2]) / 3;
   if (distance_from_identity(G, square) <= rotation_tolerance) {
     const bool perspective = camera.projection == Projection::perspective;
@@ -50,7 +60,7 @@ void add_warnings_of_rotation(const Camera& camera, std::vector<ViewWarning>& wa
         {Kind::scaled,
          fmt::format("world_to_camera scales by {:.6g}: depths are so many times those of the "
                      "scene; divide its 12 numbers by it{}",
-                     std::sqrt(square),
+                     unit * std::sqrt(square),
                      perspective ? " for the same picture in scene units"
                                  : ", and multiply fx, fy and skew, for the same picture in scene "
                                    "units")});
@@ -59,7 +69,7 @@ void add_warnings_of_rotation(const Camera& camera, std::vector<ViewWarning>& wa
         {Kind::not_a_rotation,
          fmt::format("the 3×3 part R of world_to_camera is no rotation: an entry of RᵀR is {:.2g} "
                      "away from the identity's; check its numbers, or write them with more digits",
-                     distance_from_identity(G, 1))});
+                     distance)});
   }
 }
 
