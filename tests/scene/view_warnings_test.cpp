@@ -147,6 +147,13 @@ TEST(CameraWarnings, NumbersOfAnySizeAreJudged) {
   }
 }
 
+TEST(CameraWarnings, NothingIsSaidOfACameraWithAFault) {
+  const Camera camera = looking({1, 2, 3});
+  for (const double entry :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 0.0})
+    EXPECT_THAT(warnings_of_camera(changed(camera, [&](double) { return entry; })), IsEmpty());
+}
+
 TEST(CameraWarnings, APrincipalPointFarFromTheMiddle) {
   Camera camera = looking({1, 2, 3});
   for (const double cx : {160.0, 320.0, 480.0}) {

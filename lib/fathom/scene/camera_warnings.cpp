@@ -102,6 +102,7 @@ void add_warning_of_principal_point(const Camera& camera, std::vector<ViewWarnin
 std::vector<ViewWarning> warnings_of_camera(const Camera& camera) {
   const StandardArithmetic standard;
   std::vector<ViewWarning> warnings;
+  if (find_fault(camera)) return warnings;
   add_warnings_of_rotation(camera, warnings);
   add_warning_of_principal_point(camera, warnings);
   return warnings;

@@ -48,7 +48,7 @@ struct ViewWarning {
 /// (unless fx or fy mirrors it back) or skewed; a principal point of a perspective camera outside
 /// of the middle half of the image.
 /// Cost     none to speak of.
-/// Fails    never; of a camera with a fault (find_fault) anything may be said.
+/// Fails    never; nothing is said of a camera with a fault (find_fault).
 std::vector<ViewWarning> warnings_of_camera(const Camera& camera);
 
 /// Of a camera that looks at a scene, given how many pixels of its map show it:
