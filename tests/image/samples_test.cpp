@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <new>
 
 namespace fathom {
@@ -42,6 +43,21 @@ TEST(Samples, CopiesAreTheirOwn) {
   }
   EXPECT_EQ((Samples<float>{1, 2, 3}), (Samples<float>(std::vector<float>{1, 2, 3})));
   EXPECT_FALSE((Samples<float>{1, 2, 3}) == (Samples<float>{1, 2}));
+}
+
+TEST(Samples, LentMemoryIsWrittenAndLeftToItsOwner) {
+  std::array<float, 3> memory{7, 8, 9};
+  {
+    auto lent = Samples<float>::lent(memory.data(), memory.size());
+    EXPECT_EQ(lent, (Samples<float>{7, 8, 9}));
+    lent[1] = 5;
+    const Samples<float> copy = lent;
+    EXPECT_NE(copy.data(), memory.data());
+    auto moved = std::move(lent);
+    EXPECT_EQ(moved.data(), memory.data());
+    moved = Samples<float>{1};
+  }
+  EXPECT_EQ(memory, (std::array<float, 3>{7, 5, 9}));
 }
 
 TEST(Samples, MoreThanThereIsIsRefused) {

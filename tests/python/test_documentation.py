@@ -15,7 +15,7 @@ import pytest
 
 import fathom
 
-modules = ["_render", "camera", "clipping", "depth_formats", "maps", "questions", "scene"]
+modules = ["_render", "camera", "clipping", "depth_formats", "maps", "questions", "scene", "validation"]
 
 
 @pytest.mark.parametrize("name", ["fathom", *(f"fathom.{name}" for name in modules)])

@@ -169,6 +169,41 @@ def test_background(triangle, K, background):
     assert found["id"][0, 0] == fathom.NO_SURFACE == 2**32 - 1
 
 
+def test_out_is_written_to_and_returned(spot):
+    cameras = fathom.Camera.orbit_scene(spot, 20, size=(48, 32))
+    names = ("Z", "id", "N", "A")
+    for camera in (cameras[3], cameras[:4], cameras):
+        expected = spot.render(camera, channels=names)
+        out = {name: np.full_like(values, 77) for name, values in expected.items()}
+        found = spot.render(camera, channels=names, out=out)
+        for name in names:
+            assert found[name] is out[name] and found[name].tobytes() == expected[name].tobytes()
+    again = spot.render(cameras[3], channels=names, out=spot.render(cameras[2], channels=names))
+    assert again.camera == cameras[3] and again["Z"].tobytes() == spot.render(cameras[3])["Z"].tobytes()
+
+
+@pytest.mark.parametrize("out, error, words", [
+    ([], TypeError, "out: expected a dict of arrays by the names of channels, found list"),
+    ({}, ValueError, "out: it has no array for channel Z"),
+    ({"Z": [1, 2]}, TypeError, "out: channel Z: expected an array of float32, found list"),
+    ({"Z": np.zeros((48, 64))}, TypeError, "out: channel Z: expected an array of float32, found float64"),
+    ({"Z": np.zeros((48, 64), ">f4")}, TypeError, "found >f4"),
+    ({"Z": np.zeros((64, 48), np.float32)}, ValueError, "out: channel Z: expected shape 48×64, found 64×48"),
+    ({"Z": np.zeros((64, 48), np.float32).T}, ValueError, "out: channel Z: expected an array in C order"),
+    ({"Z": np.broadcast_to(np.zeros((), np.float32), (48, 64))}, ValueError, "C order"),
+])
+def test_out_that_does_not_fit(triangle, K, out, error, words):
+    with pytest.raises(error, match=words):
+        fathom.render(*triangle, K, identity, size, pixel_centre=0.5, out=out)
+
+
+def test_out_that_is_read_only(triangle, K):
+    depths = np.zeros((48, 64), np.float32)
+    depths.flags.writeable = False
+    with pytest.raises(ValueError, match="out: channel Z: the array is read-only"):
+        fathom.render(*triangle, K, identity, size, pixel_centre=0.5, out={"Z": depths})
+
+
 def test_depths_without_a_code_are_an_output_error(triangle, K):
     with pytest.raises(fathom.OutputError, match="65535") as raised:
         fathom.render(*triangle, K, identity, size, pixel_centre=0.5, dtype=np.uint16, scale=20000)

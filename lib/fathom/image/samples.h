@@ -20,7 +20,8 @@ namespace fathom {
 void* allocate_zeros(std::size_t bytes);
 void free_zeros(void* memory, std::size_t bytes) noexcept;
 
-/// A fixed number of values, 0 until written. It cannot grow or shrink.
+/// A fixed number of values, 0 until written. It cannot grow or shrink. They are its own, or lie in
+/// memory of someone else, who lends it (lent) and does not free it before; copies are their own.
 template <class T>
 class Samples {
   static_assert(std::is_arithmetic_v<T>);
@@ -35,6 +36,14 @@ class Samples {
   explicit Samples(std::size_t count)
       : data_(static_cast<T*>(allocate_zeros(bytes_of(count)))), size_(count) {}
   Samples(std::size_t count, T value) : Samples(count) { std::fill(begin(), end(), value); }
+  /// Holds whatever the memory holds.
+  static Samples lent(T* memory, std::size_t count) {
+    Samples samples;
+    samples.data_ = memory;
+    samples.size_ = count;
+    samples.is_lent_ = true;
+    return samples;
+  }
   template <std::forward_iterator Iterator>
   Samples(Iterator first, Iterator last)
       : Samples(static_cast<std::size_t>(std::distance(first, last))) {
@@ -46,13 +55,18 @@ class Samples {
 
   Samples(const Samples& other) : Samples(other.begin(), other.end()) {}
   Samples(Samples&& other) noexcept
-      : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+      : data_(std::exchange(other.data_, nullptr)),
+        size_(std::exchange(other.size_, 0)),
+        is_lent_(std::exchange(other.is_lent_, false)) {}
   Samples& operator=(Samples other) noexcept {
     std::swap(data_, other.data_);
     std::swap(size_, other.size_);
+    std::swap(is_lent_, other.is_lent_);
     return *this;
   }
-  ~Samples() { free_zeros(data_, size_ * sizeof(T)); }
+  ~Samples() {
+    if (!is_lent_) free_zeros(data_, size_ * sizeof(T));
+  }
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
@@ -83,6 +97,7 @@ class Samples {
 
   T* data_ = nullptr;
   std::size_t size_ = 0;
+  bool is_lent_ = false;
 };
 
 }  // namespace fathom

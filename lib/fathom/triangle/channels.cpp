@@ -14,10 +14,18 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
+/// Room for the values of a channel. Where the caller lends it, it is not 0.
 template <class T>
-ImageChannel filled(const std::string& name, std::size_t pixels, T background) {
-  Samples<T> values(pixels);
-  if (background != T{0}) {  // NaN too
+Samples<T> room_for(const std::string& name, std::size_t pixels, const RenderOptions& options) {
+  void* const lent = options.memory ? options.memory(name) : nullptr;
+  return lent ? Samples<T>::lent(static_cast<T*>(lent), pixels) : Samples<T>(pixels);
+}
+
+template <class T>
+ImageChannel filled(const std::string& name, std::size_t pixels, T background,
+                    const RenderOptions& options) {
+  Samples<T> values = room_for<T>(name, pixels, options);
+  if (options.memory || background != T{0}) {  // NaN too
     // A huge page is zeroed by whichever thread touches it first, while others wait for it.
     constexpr std::size_t part = (std::size_t{1} << 21) / sizeof(T);
     parallel_for(std::size_t{0}, (pixels + part - 1) / part, [&](std::size_t i) {
@@ -30,18 +38,21 @@ ImageChannel filled(const std::string& name, std::size_t pixels, T background) {
 
 /// A channel that shows no surface; its kind decides which value says so.
 ImageChannel background_of(const std::string& name, const ChannelDescription& d, std::size_t pixels,
-                           DepthEncoding::Type encoding) {
-  if (d.type == ChannelType::identifier) return filled<std::uint32_t>(name, pixels, no_surface);
+                           const RenderOptions& options) {
+  const DepthEncoding::Type encoding = options.depth_encoding.type;
+  if (d.type == ChannelType::identifier) {
+    return filled<std::uint32_t>(name, pixels, no_surface, options);
+  }
   if (d.type == ChannelType::encoded && encoding == DepthEncoding::Type::scaled_unorm16) {
-    return filled<std::uint16_t>(name, pixels, 0);
+    return filled<std::uint16_t>(name, pixels, 0, options);
   }
   const float value = d.kind == ChannelKind::depth      ? infinity
                       : d.kind == ChannelKind::position ? nan
                                                         : 0;
   if (d.type == ChannelType::encoded && encoding == DepthEncoding::Type::binary64) {
-    return filled<double>(name, pixels, value);
+    return filled<double>(name, pixels, value, options);
   }
-  return filled<float>(name, pixels, value);
+  return filled<float>(name, pixels, value, options);
 }
 
 /// Stores a non-negative quantity x, or √x where `root`, in the channel's type.
@@ -96,12 +107,11 @@ DepthMap make_map(const Camera& camera, const RenderOptions& options, bool fill_
     if (std::find(seen.begin(), seen.end(), channel) != seen.end()) continue;
     seen.push_back(channel);
     if (channel == Channel::Z && !fill_depth) {
-      map.channels.push_back({"Z", Samples<float>(pixels)});
+      map.channels.push_back({"Z", room_for<float>("Z", pixels, options)});
       continue;
     }
     for (const std::string& name : part_names(channel)) {
-      map.channels.push_back(
-          background_of(name, description_of(channel), pixels, options.depth_encoding.type));
+      map.channels.push_back(background_of(name, description_of(channel), pixels, options));
     }
   }
   if (options.depth_encoding.type == DepthEncoding::Type::scaled_unorm16) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -80,6 +81,9 @@ struct RenderOptions {
   Cull cull = Cull::none;
   DepthEncoding depth_encoding;
   FastSwitches fast;
+  /// If set, asked for the memory of each channel of the map, by its name: width × height values of
+  /// its type, which outlive the map, and of which all are written. nullptr: memory of its own.
+  std::function<void*(const std::string& channel)> memory;
   /// Threads to use; 0: all.
   int threads = 0;
   /// Called now and then, from any thread but never from two at once, with the fraction done, in

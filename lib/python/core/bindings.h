@@ -13,5 +13,6 @@ void bind_render(pybind11::module_& core);
 void bind_questions(pybind11::module_& core);
 void bind_depth_formats(pybind11::module_& core);
 void bind_clipping(pybind11::module_& core);
+void bind_validation(pybind11::module_& core);
 
 }  // namespace fathom::python

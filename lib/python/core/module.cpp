@@ -12,4 +12,5 @@ PYBIND11_MODULE(_core, core) {
   bind_questions(core);
   bind_depth_formats(core);
   bind_clipping(core);
+  bind_validation(core);
 }

@@ -2,8 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include <algorithm>
-#include <cstring>
+#include <cstddef>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -44,86 +43,55 @@ RenderOptions make_options(const std::vector<std::string>& channels, const std::
   return options;
 }
 
-/// Element k of each of `count` groups of `parts` values is value k of part `part`.
-void interleave(const float* values, std::size_t count, std::size_t part, std::size_t parts,
-                float* target) {
-  for (std::size_t i = 0; i < count; ++i) target[i * parts + part] = values[i];
-}
-
-/// What one channel is in Python: an array with a last axis for its parts, if it has several.
+/// Where the values of one channel of all maps go: an array of Python's, of the channel's type, with
+/// the number of the camera first, if there are several, and its parts last, if it has several.
 struct Target {
-  std::vector<std::string> names;  // of the channels in the map
-  std::variant<Samples<float>, Samples<double>, Samples<std::uint16_t>, Samples<std::uint32_t>>
-      values;
+  Target(const Channel channel, py::array& array)
+      : names(part_names(channel)),
+        data(static_cast<std::byte*>(array.mutable_data())),
+        bytes_of_value(static_cast<std::size_t>(array.itemsize())) {}
+
+  /// Where the values of a map begin. For a channel of one part they are written there at once.
+  [[nodiscard]] std::byte* of_map(std::size_t number, std::size_t pixels) const {
+    return data + number * pixels * names.size() * bytes_of_value;
+  }
+
+  std::vector<std::string> names;  // of the channels of a map
+  std::byte* data;
+  std::size_t bytes_of_value;
 };
 
-template <class Result, class Source>
-auto samples_like(const Source& source, std::size_t count) -> Result {
-  return std::visit(
-      [&](const auto& values) -> Result { return std::decay_t<decltype(values)>(count); }, source);
-}
-
-/// Room for `maps` of a channel, of the type that it has in `map`.
-Target make_target(const DepthMap& map, Channel channel, std::size_t maps) {
-  Target target{part_names(channel), {}};
-  const std::size_t pixels = std::size_t{map.width} * map.height;
-  target.values = samples_like<decltype(target.values)>(map.find(target.names.front())->values,
-                                                        pixels * target.names.size() * maps);
-  return target;
-}
-
-void copy_into(Target& target, const DepthMap& map, std::size_t number) {
+/// Channels of several parts, which maps have apart and arrays have together. They are binary32.
+void interleave(const Target& target, const DepthMap& map, std::size_t number) {
   const std::size_t parts = target.names.size();
-  const std::size_t pixels = std::size_t{map.width} * map.height;
-  for (std::size_t part = 0; part < parts; ++part) {
-    std::visit(
-        [&](auto& values) {
-          using T = typename std::decay_t<decltype(values)>::value_type;
-          const T* const source = map.values<T>(target.names[part])->data();
-          T* const place = values.data() + number * pixels * parts;
-          if (parts == 1) {
-            std::memcpy(place, source, pixels * sizeof(T));
-          } else if constexpr (std::is_same_v<T, float>) {
-            interleave(source, pixels, part, parts, place);
-          }
-        },
-        target.values);
-  }
-}
-
-py::array as_array(Target&& target, Shape shape) {
-  if (target.names.size() > 1) shape.push_back(static_cast<py::ssize_t>(target.names.size()));
-  return std::visit([&](auto& values) { return array_of(std::move(values), shape); },
-                    target.values);
-}
-
-/// One map, and its channels: a channel of one part is not copied.
-std::pair<SharedMap, py::dict> render_one(const SharedScene& shared, const Camera& camera,
-                                          const RenderOptions& asked) {
-  const std::shared_ptr<const Scene> scene = shared.scene;
-  std::vector<Target> targets;
-  auto map = run([&](const auto& progress) {
-    RenderOptions options = asked;
-    options.progress = progress;
-    auto rendered = std::make_shared<DepthMap>(render(*scene, camera, options));
-    for (const Channel channel : options.channels) {
-      const auto names = part_names(channel);
-      if (names.size() == 1) {
-        targets.push_back({names, std::move(rendered->find(names.front())->values)});
-      } else {
-        targets.push_back(make_target(*rendered, channel, 1));
-        copy_into(targets.back(), *rendered, 0);
-      }
+  const std::size_t width = map.width;
+  auto* const place = reinterpret_cast<float*>(target.of_map(number, width * map.height));
+  parallel_for(std::uint32_t{0}, map.height, [&](std::uint32_t row) {
+    for (std::size_t part = 0; part < parts; ++part) {
+      const float* const source = map.values<float>(target.names[part])->data() + row * width;
+      float* const values = place + row * width * parts + part;
+      for (std::size_t x = 0; x < width; ++x) values[x * parts] = source[x];
     }
-    rendered->channels.clear();
-    return rendered;
   });
-  py::dict arrays;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    arrays[py::str(std::string(description_of(asked.channels[i]).name))] =
-        as_array(std::move(targets[i]), {camera.height, camera.width});
-  }
-  return {std::move(map), std::move(arrays)};
+}
+
+/// Renders one map into its place in the arrays. What is returned has no channels.
+DepthMap render_into(const Scene& scene, const Camera& camera, const RenderOptions& asked,
+                     const std::vector<Target>& targets, std::size_t number) {
+  const std::size_t pixels = std::size_t{camera.width} * camera.height;
+  RenderOptions options = asked;
+  options.memory = [&](const std::string& name) -> void* {
+    for (const Target& target : targets)
+      if (target.names.size() == 1 && target.names[0] == name) return target.of_map(number, pixels);
+    return nullptr;
+  };
+  DepthMap map = render(scene, camera, options);
+  with_threads(options.threads, [&] {
+    for (const Target& target : targets)
+      if (target.names.size() > 1) interleave(target, map, number);
+  });
+  map.channels.clear();
+  return map;
 }
 
 /// Whether each thread had better render maps of its own than all of them a map together: so they
@@ -133,50 +101,55 @@ bool one_thread_each(const Scene& scene, std::size_t cameras, int threads) {
   return threads != 1 && cameras >= 16 && triangle_count(scene) <= most_triangles;
 }
 
-/// Many maps of one size, as arrays with the number of the camera in front.
-py::dict render_stack(const SharedScene& shared, const std::vector<Camera>& cameras,
-                      const RenderOptions& asked) {
-  const std::shared_ptr<const Scene> scene = shared.scene;
-  std::vector<Target> targets;
-  run([&](const auto& progress) {
-    const bool each = one_thread_each(*scene, cameras.size(), asked.threads);
-    RenderOptions options = asked;
-    if (each) options.threads = 1;
-    const auto render_into = [&](std::size_t number) {
-      const DepthMap map = render(*scene, cameras[number], options);
-      for (Target& target : targets) copy_into(target, map, number);
-    };
-    // The first one says what the others are like.
-    {
-      RenderOptions first = asked;
-      first.progress = progress;
-      const DepthMap map = render(*scene, cameras.front(), first);
-      for (const Channel channel : options.channels) {
-        targets.push_back(make_target(map, channel, cameras.size()));
-        copy_into(targets.back(), map, 0);
-      }
-    }
-    if (each) {
-      Progress done(progress, cameras.size());
-      with_threads(asked.threads, [&] {
-        parallel_for(std::size_t{1}, cameras.size(), [&](std::size_t number) {
-          render_into(number);
-          done.part_done();
-        });
-      });
-    } else {
-      options.progress = progress;
-      for (std::size_t number = 1; number < cameras.size(); ++number) render_into(number);
-    }
-  });
-  py::dict arrays;
-  const Camera& camera = cameras.front();
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    arrays[py::str(std::string(description_of(asked.channels[i]).name))] =
-        as_array(std::move(targets[i]),
-                 {static_cast<py::ssize_t>(cameras.size()), camera.height, camera.width});
+void render_all(const Scene& scene, const std::vector<Camera>& cameras,
+                const RenderOptions& options, const std::vector<Target>& targets) {
+  if (!one_thread_each(scene, cameras.size(), options.threads)) {
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+      render_into(scene, cameras[i], options, targets, i);
+    return;
   }
-  return arrays;
+  RenderOptions alone = options;
+  alone.threads = 1;
+  alone.progress = nullptr;
+  Progress done(options.progress, cameras.size());
+  with_threads(options.threads, [&] {
+    parallel_for(std::size_t{0}, cameras.size(), [&](std::size_t i) {
+      render_into(scene, cameras[i], alone, targets, i);
+      done.part_done();
+    });
+  });
+}
+
+/// Python has made an array of the right type, shape and order for each channel that is asked for,
+/// in the order of these.
+std::vector<Target> targets_of(const RenderOptions& options, std::vector<py::array>& arrays) {
+  std::vector<Target> targets;
+  targets.reserve(arrays.size());
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+    targets.emplace_back(options.channels.at(i), arrays[i]);
+  return targets;
+}
+
+SharedMap render_one(const SharedScene& shared, const Camera& camera, const RenderOptions& asked,
+                     std::vector<py::array> arrays) {
+  const std::shared_ptr<const Scene> scene = shared.scene;
+  const std::vector<Target> targets = targets_of(asked, arrays);
+  return run([&](const auto& progress) {
+    RenderOptions options = asked;
+    options.progress = progress;
+    return std::make_shared<DepthMap>(render_into(*scene, camera, options, targets, 0));
+  });
+}
+
+void render_stack(const SharedScene& shared, const std::vector<Camera>& cameras,
+                  const RenderOptions& asked, std::vector<py::array> arrays) {
+  const std::shared_ptr<const Scene> scene = shared.scene;
+  const std::vector<Target> targets = targets_of(asked, arrays);
+  run([&](const auto& progress) {
+    RenderOptions options = asked;
+    options.progress = progress;
+    render_all(*scene, cameras, options, targets);
+  });
 }
 
 /// Refuses what would end the process. As the machine's lack of memory does, it says MemoryError.

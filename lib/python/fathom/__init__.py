@@ -16,6 +16,7 @@ from .depth_formats import DepthFormat
 from .maps import NO_SURFACE, Map, compare, read_map
 from .questions import probe, render_deep, verify, visible
 from .scene import Scene
+from .validation import Validation, validate
 
 __all__ = [
     "NO_SURFACE",
@@ -27,6 +28,7 @@ __all__ = [
     "OutputError",
     "Scene",
     "UsageError",
+    "Validation",
     "clip",
     "compare",
     "probe",
@@ -34,6 +36,7 @@ __all__ = [
     "read_map",
     "render",
     "render_deep",
+    "validate",
     "verify",
     "visible",
     "write_cameras",

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal, Union, cast
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, Union, cast
 
 import numpy as np
 
 from . import _core
-from ._arguments import as_count, as_number, camera_handle, one_of, scene_handle
+from ._arguments import as_count, as_number, camera_handle, in_words, one_of, scene_handle
 from .camera import Camera
 from .maps import Map
 
@@ -23,6 +23,7 @@ Background = Union[float, Literal["inf", "nan"]]
 
 most_threads = 1024
 depth_channels = ("Z", "distance")
+identifiers = ("id", "face", "object")
 
 
 def render_cameras(
@@ -35,6 +36,7 @@ def render_cameras(
     background: Background,
     engine: str,
     threads: int,
+    out: Mapping[str, npt.NDArray[Any]] | None = None,
 ) -> Map:
     names = channel_names(channels)
     stored = stored_type(dtype)
@@ -47,34 +49,60 @@ def render_cameras(
         as_count("threads", threads, 0, most_threads),
     )
     nothing = background_value(background, stored)
-    if isinstance(camera, Camera):
-        require_room([camera], names, stored)
-        result = _render_one(scene, camera, options)
-    else:
-        cameras = list_of_cameras(camera)
-        require_room(cameras, names, stored)
-        result = _render_stack(scene, cameras, options)
+    single = isinstance(camera, Camera)
+    cameras = [camera] if isinstance(camera, Camera) else list_of_cameras(camera)
+    require_room(cameras, names, stored)
+    width, height = cameras[0].size
+    arrays = room_for(names, stored, (height, width) if single else (len(cameras), height, width), out)
+    handle = scene_handle(scene)
+    handles = [camera_handle(each) for each in cameras]
+    try:
+        if single:
+            description = _core.render_one(handle, handles[0], options, list(arrays.values()))
+            result = Map(arrays, cameras[0], description)
+        else:
+            _core.render_stack(handle, handles, options, list(arrays.values()))
+            result = Map(arrays)
+    except _core.InputError:
+        scene._check()
+        raise
     if nothing is not None:
         set_background(result, nothing)
     return result
 
 
-def _render_one(scene: Scene, camera: Camera, options: _core.RenderOptions) -> Map:
-    try:
-        description, arrays = _core.render_one(scene_handle(scene), camera_handle(camera), options)
-    except _core.InputError:
-        scene._check()
-        raise
-    return Map(arrays, camera, description)
+def room_for(
+    names: list[str], stored: str, shape: tuple[int, ...], out: Mapping[str, npt.NDArray[Any]] | None
+) -> dict[str, npt.NDArray[Any]]:
+    """An array for each channel: the caller's, or a new one."""
+    known = _core.channels()
+    arrays: dict[str, npt.NDArray[Any]] = {}
+    for name in names:
+        parts = known[name][0]
+        kind = np.dtype(stored if name in depth_channels else "uint32" if name in identifiers else "float32")
+        whole = (*shape, len(parts)) if parts else shape
+        arrays[name] = np.empty(whole, kind) if out is None else checked_out(out, name, whole, kind)
+    return arrays
 
 
-def _render_stack(scene: Scene, cameras: list[Camera], options: _core.RenderOptions) -> Map:
-    try:
-        arrays = _core.render_stack(scene_handle(scene), [camera_handle(each) for each in cameras], options)
-    except _core.InputError:
-        scene._check()
-        raise
-    return Map(arrays)
+def checked_out(
+    out: Mapping[str, npt.NDArray[Any]], name: str, shape: tuple[int, ...], kind: np.dtype[Any]
+) -> npt.NDArray[Any]:
+    if not isinstance(out, Mapping):
+        raise TypeError(f"out: expected a dict of arrays by the names of channels, found {type(out).__name__}")
+    if name not in out:
+        raise ValueError(f"out: it has no array for channel {name}")
+    array = out[name]
+    if not isinstance(array, np.ndarray) or array.dtype != kind:
+        found = array.dtype if isinstance(array, np.ndarray) else type(array).__name__
+        raise TypeError(f"out: channel {name}: expected an array of {kind}, found {found}")
+    if array.shape != shape:
+        raise ValueError(f"out: channel {name}: expected shape {in_words(shape)}, found {in_words(array.shape)}")
+    if not array.flags.c_contiguous or not array.flags.aligned:
+        raise ValueError(f"out: channel {name}: expected an array in C order")
+    if not array.flags.writeable:
+        raise ValueError(f"out: channel {name}: the array is read-only")
+    return array
 
 
 def list_of_cameras(cameras: Sequence[Camera]) -> list[Camera]:
@@ -168,6 +196,7 @@ def render(
     scale: float = 1000,
     background: Background = math.inf,
     threads: int = 0,
+    out: Mapping[str, npt.NDArray[Any]] | None = None,
 ) -> Map:
     """Renders the exact depth map of a mesh: every value is the exact number, rounded once.
 
@@ -187,6 +216,8 @@ def render(
     background    what Z and distance have where there is no surface (and where a depth is beyond the greatest number
                   of the type): inf, nan, 0 or any other number
     threads       to work in; 0: all. Results never depend on it.
+    out           arrays to write to, by channel, such as an earlier call has returned: saves the time in which the
+                  system provides memory. They must fit, and are what is returned.
 
     Returns a dict: H×W arrays by the names of channels, H×W×3 for N and P, H×W×2 for bary; with n cameras, n of each,
     n×H×W(×3). Arrays of vertices and faces that fit (see Scene.add_mesh()) are not copied. Other Python threads run
@@ -208,7 +239,7 @@ def render(
     scene = Scene()
     scene.add_mesh(vertices, faces)
     cameras = cameras_of(K, T, size, pixel_centre, near, far)
-    return render_cameras(scene, cameras, channels, cull, dtype, scale, background, "fast", threads)
+    return render_cameras(scene, cameras, channels, cull, dtype, scale, background, "fast", threads, out)
 
 
 def cameras_of(

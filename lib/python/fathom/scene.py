@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 from . import _core
@@ -152,10 +152,11 @@ class Scene:
         background: Background = float("inf"),
         engine: str = "fast",
         threads: int = 0,
+        out: Mapping[str, npt.NDArray[Any]] | None = None,
     ) -> Map:
         """Renders the scene as a camera sees it, or as many of one image size do: see fathom.render(), whose other
         arguments these are. One camera gives arrays of H×W, a sequence of n cameras arrays of n×H×W."""
-        return render_cameras(self, camera, channels, cull, dtype, scale, background, engine, threads)
+        return render_cameras(self, camera, channels, cull, dtype, scale, background, engine, threads, out)
 
     def _check(self) -> None:
         """Raises an exception that names the argument at fault, if one is."""

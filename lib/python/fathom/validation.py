@@ -1,0 +1,111 @@
+"""Why another renderer's map differs from the exact one, pixel by pixel."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core
+from ._arguments import camera_handle, scene_handle
+from .maps import Map, as_map
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from .camera import Camera
+    from .scene import Scene
+
+#: The names of the classes, by the numbers that arrays of classes hold.
+CLASSES: tuple[str, ...] = tuple(_core.class_names)
+
+_unexplained = CLASSES.index("unexplained")
+
+
+class Validation:
+    """What was found out about a map.
+
+    model     the name of the model that it was judged by
+    classes   H×W uint8: for each pixel, the number of its class in CLASSES
+    findings  what is wrong: each has kind, text, pixels, estimates (name, value, deviation, unit), alternatives and
+              evidence
+    notes     conventions that were recognised, in which nothing is wrong
+    cause     one line that says what is wrong; empty where nothing is
+    least, greatest  H×W: between which depths the model allows the visible surface; NaN where there is none
+    """
+
+    def __init__(self, found: dict[str, Any]) -> None:
+        self.model: str = found["model"]
+        self.cause: str = found["cause"]
+        self.classes: npt.NDArray[np.uint8] = found["classes"]
+        self.least: npt.NDArray[np.float32] = found["least"]
+        self.greatest: npt.NDArray[np.float32] = found["greatest"]
+        self.findings: list[_core.Finding] = found["findings"]
+        self.notes: list[_core.Finding] = found["notes"]
+
+    @property
+    def is_good(self) -> bool:
+        """Whether every pixel is explained and nothing is wrong."""
+        return not self.cause
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Pixels of each class that there is."""
+        numbers = np.bincount(self.classes.ravel(), minlength=len(CLASSES))
+        return {name: int(count) for name, count in zip(CLASSES, numbers) if count}
+
+    @property
+    def unexplained(self) -> int:
+        return int((self.classes == _unexplained).sum())
+
+    def report(self) -> str:
+        """All of it in words, for people."""
+        lines = [f"model: {self.model}", self.cause or "every pixel is explained"]
+        lines += [f"{count:>10} pixels {name}" for name, count in self.counts.items()]
+        for title, found in (("wrong", self.findings), ("noted", self.notes)):
+            for each in found:
+                lines.append(f"{title}: {each!r}")
+                lines += [f"    {line}" for line in each.evidence]
+        return "\n".join(lines) + "\n"
+
+    def __repr__(self) -> str:
+        return f"Validation({self.cause or 'every pixel is explained'})"
+
+
+def validate(
+    map: Map | npt.ArrayLike,
+    scene: Scene,
+    camera: Camera,
+    model: str = "auto",
+    *,
+    channel: str = "",
+) -> Validation:
+    """Judges a map that another renderer has drawn of a scene, with this camera.
+
+    map      a Map, or an H×W array of planar depths in scene units; how it marks the background is found out
+    camera   near and far as the renderer had them, where it has a depth buffer
+    model    what the renderer computes with, such as "gl-unorm24", "vtk-float32", "float32-ray": `fathom validate
+             --help` lists them; "auto" for the one that fits best
+    channel  of a Map of several
+
+    A pixel has a class only where the bounds of the model prove it. See docs/validation.md.
+
+    >>> import fathom
+    >>> scene = fathom.Scene()
+    >>> _ = scene.add_mesh([(-4, -4, 3), (4, -4, 5), (0, 4, 4)], [(0, 1, 2)])
+    >>> camera = fathom.Camera(64, 48, 40, 40, 32, 24, pixel_centre=0.5)
+    >>> depths = scene.render(camera)["Z"]
+    >>> validate(depths, scene, camera, "float32-ray").is_good
+    True
+    >>> validate(depths[:, ::-1].copy(), scene, camera, "float32-ray").findings[0].kind
+    'mirrored'
+    """
+    handles = scene_handle(scene), camera_handle(camera)
+    theirs = as_map("map", map)._handle()
+    if (theirs.width, theirs.height) != camera.size:
+        raise ValueError(
+            f"map: it has {theirs.width}×{theirs.height} pixels, the camera {camera.width}×{camera.height}"
+        )
+    if not isinstance(model, str):
+        raise TypeError(f"model: expected a name, found {model!r}")
+    return Validation(_core.validate(theirs, channel, *handles, model))

@@ -1,0 +1,127 @@
+"""fathom.validate(), assert_depth(), and the fixture of pytest's."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import fathom
+from fathom.testing import assert_depth
+from fathom.validation import CLASSES
+
+
+@pytest.fixture(scope="module")
+def camera(spot):
+    return fathom.Camera.frame(spot, size=(80, 60), near=1, far=10)
+
+
+@pytest.fixture(scope="module")
+def depths(spot, camera):
+    return spot.render(camera)["Z"]
+
+
+def test_the_truth_is_equal_everywhere(spot, camera, depths):
+    found = fathom.validate(depths, spot, camera, "float32-ray")
+    assert found.is_good and found.counts == {CLASSES[0]: 80 * 60} and found.unexplained == 0
+    assert found.classes.shape == (60, 80) and found.model == "float32-ray" and found.findings == []
+    seen = np.isfinite(depths)
+    assert (found.least[seen] <= depths[seen]).all() and (depths[seen] <= found.greatest[seen]).all()
+    assert fathom.validate(depths, spot, camera).is_good
+
+
+def stored(depths, camera, **format):
+    """As a depth buffer would have it, decoded again."""
+    codes = fathom.DepthFormat("standard", "unorm24", near=camera.near, far=camera.far)
+    seen = np.isfinite(depths)
+    result = depths.copy()
+    result[seen] = codes.decode(codes.encode(depths[seen]))
+    return result
+
+
+@pytest.mark.parametrize("spoil, kind", [
+    (lambda d: np.roll(d, 1, axis=1), "shift"),
+    (lambda d: d[:, ::-1].copy(), "mirrored"),
+    (lambda d: d[::-1].copy(), "flip"),
+    (lambda d: d * np.float32(1000), "unit|scale"),
+])
+def test_faults_are_named(spot, camera, depths, spoil, kind):
+    found = fathom.validate(spoil(depths), spot, camera, "float32-ray")
+    import re
+
+    assert not found.is_good and re.search(kind, found.findings[0].kind), found.findings
+    assert found.findings[0].kind in found.cause and "\n" not in found.cause
+    assert found.findings[0].pixels > 100
+
+
+def test_quantities_are_estimated(spot, camera, depths):
+    moved = fathom.Camera.from_json(camera.to_json().replace(f'"cx": {camera.cx:g}', f'"cx": {camera.cx + 0.25:g}'))
+    assert moved != camera
+    found = fathom.validate(spot.render(moved)["Z"], spot, camera, "float32-ray")
+    assert found.findings[0].kind == "shift"
+    assert np.isclose(found.findings[0].estimates[0].value, 0.25, atol=1e-3)
+
+
+def test_a_single_wrong_pixel_is_found(spot, camera, depths):
+    y, x = np.argwhere(np.isfinite(depths))[500]
+    wrong = depths.copy()
+    wrong[y, x] += 1
+    with pytest.raises(AssertionError, match=rf"\({x}, {y}\)"):
+        assert_depth(wrong, spot, camera, "float32-ray")
+    assert assert_depth(depths, spot, camera, "float32-ray").is_good
+
+
+def test_reports_are_kept(spot, camera, depths, tmp_path):
+    with pytest.raises(AssertionError, match="report in"):
+        assert_depth(depths[::-1].copy(), spot, camera, "float32-ray", report=tmp_path / "a/b")
+    folder = tmp_path / "a/b"
+    assert np.load(folder / "classes.npy").shape == (60, 80)
+    assert fathom.Camera.read(folder / "camera.json") == camera
+    assert np.array_equal(fathom.read_map(folder / "map.exr")["Z"], depths[::-1])
+    assert "flip" in (folder / "report.txt").read_text()
+
+
+def test_the_fixture(tmp_path):
+    (tmp_path / "conftest.py").write_text('pytest_plugins = ["fathom.testing"]\n')
+    (tmp_path / "test_mine.py").write_text('''
+import fathom
+
+def setup():
+    scene = fathom.Scene()
+    scene.add_mesh([(-4, -4, 3), (4, -4, 5), (0, 4, 4)], [(0, 1, 2)])
+    camera = fathom.Camera(64, 48, 40, 40, 32, 24, pixel_centre=0.5)
+    return scene, camera, scene.render(camera)["Z"]
+
+def test_right(assert_depth):
+    scene, camera, depths = setup()
+    assert_depth(depths, scene, camera, model="float32-ray")
+
+def test_mirrored(assert_depth):
+    scene, camera, depths = setup()
+    assert_depth(depths[:, ::-1].copy(), scene, camera, model="float32-ray")
+''')
+    told = subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"], cwd=tmp_path,
+                          capture_output=True, text=True).stdout
+    assert "1 failed, 1 passed" in told and "AssertionError: mirrored: the image is mirrored" in told, told
+    assert (tmp_path / "fathom-reports/test_mirrored/report.txt").exists()
+    assert not (tmp_path / "fathom-reports/test_right").exists()
+
+
+@pytest.mark.parametrize("change, error, words", [
+    ({"model": "gl-unorm25"}, ValueError, "gl-unorm25"),
+    ({"model": 5}, TypeError, "model: expected a name"),
+    ({"map": np.zeros((3, 3), np.float32)}, ValueError, "map: it has 3×3 pixels, the camera 80×60"),
+    ({"map": np.zeros((60, 80), np.uint8)}, TypeError, "expected float32"),
+    ({"channel": "Y"}, ValueError, "Y"),
+    ({"scene": None}, TypeError, "scene: expected a Scene"),
+    ({"camera": None}, TypeError, "camera: expected a Camera"),
+])
+def test_wrong_arguments(spot, camera, depths, change, error, words):
+    arguments = {"map": depths, "scene": spot, "camera": camera, "model": "float32-ray", **change}
+    with pytest.raises(error, match=words):
+        fathom.validate(**arguments)
+
+
+def test_models_that_need_near_and_far(spot, depths):
+    with pytest.raises(fathom.UsageError, match="near and far"):
+        fathom.validate(depths, spot, fathom.Camera.frame(spot, size=(80, 60)), "gl-unorm24")
