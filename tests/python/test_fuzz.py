@@ -7,11 +7,13 @@ import os
 
 import hypothesis
 import numpy as np
+import pytest
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import fathom
 
+pytestmark = pytest.mark.filterwarnings("ignore::fathom.ViewWarning")
 calls = int(os.environ.get("FATHOM_FUZZ_CALLS", "150"))
 fuzz = hypothesis.settings(max_examples=calls, deadline=None, database=None,
                            suppress_health_check=list(hypothesis.HealthCheck))

@@ -101,6 +101,8 @@ def test_memory_is_given_back(triangle, K):
         with open("/proc/self/statm") as file:
             return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
+    K = K + np.array([(0, 0, 400), (0, 0, 300), (0, 0, 0)])
+
     def work():
         for _ in range(40):
             fathom.render(*triangle, K, np.eye(4), (1000, 700), pixel_centre=0.5, channels=("Z", "N", "id"))

@@ -98,7 +98,9 @@ void bind_importing(py::module_& core) {
            });
   core.def("camera_from_opengl", &camera_from_opengl);
   core.def("cameras_from_json", [](const std::string& text, const std::string& name) {
-    return read_cameras(std::string_view(text), name);
+    Warnings warnings;
+    auto cameras = read_cameras(std::string_view(text), name, warnings);
+    return std::pair(std::move(cameras), std::move(warnings));
   });
   core.def("cameras_to_json", [](const std::vector<Camera>& cameras) { return to_json(cameras); });
   core.def("camera_to_json", [](const Camera& camera) { return to_json(camera); });

@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <array>
 #include <cstddef>
 
 #include "arrays.h"
@@ -9,6 +10,7 @@
 #include "fathom/image/depth_map.h"
 #include "fathom/memory/available_memory.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/scene/view_warnings.h"
 #include "fathom/threads/threads.h"
 #include "maps.h"
 #include "running.h"
@@ -75,8 +77,23 @@ void interleave(const Target& target, const DepthMap& map, std::size_t number) {
   });
 }
 
-/// Renders one map into its place in the arrays. What is returned has no channels.
-DepthMap render_into(const Scene& scene, const Camera& camera, const RenderOptions& asked,
+/// A map without its channels, and what is probably not meant in its view.
+struct Rendered {
+  DepthMap map;
+  std::vector<ViewWarning> warnings;
+};
+
+/// What is probably not meant, of a view whose map shows the scene in so many pixels.
+std::vector<ViewWarning> warnings_of(const Scene& scene, const Camera& camera,
+                                     std::uint64_t shown_pixels) {
+  std::vector<ViewWarning> warnings = warnings_of_camera(camera);
+  for (ViewWarning& each : warnings_of_view(scene, camera, shown_pixels))
+    warnings.push_back(std::move(each));
+  return warnings;
+}
+
+/// Renders one map into its place in the arrays.
+Rendered render_into(const Scene& scene, const Camera& camera, const RenderOptions& asked,
                      const std::vector<Target>& targets, std::size_t number) {
   const std::size_t pixels = std::size_t{camera.width} * camera.height;
   RenderOptions options = asked;
@@ -85,13 +102,15 @@ DepthMap render_into(const Scene& scene, const Camera& camera, const RenderOptio
       if (target.names.size() == 1 && target.names[0] == name) return target.of_map(number, pixels);
     return nullptr;
   };
+  RenderStatistics statistics;
+  options.statistics = &statistics;
   DepthMap map = render(scene, camera, options);
   with_threads(options.threads, [&] {
     for (const Target& target : targets)
       if (target.names.size() > 1) interleave(target, map, number);
   });
   map.channels.clear();
-  return map;
+  return {std::move(map), warnings_of(scene, camera, statistics.pixels_with_surface)};
 }
 
 /// Whether each thread had better render maps of its own than all of them a map together: so they
@@ -101,12 +120,13 @@ bool one_thread_each(const Scene& scene, std::size_t cameras, int threads) {
   return threads != 1 && cameras >= 16 && triangle_count(scene) <= most_triangles;
 }
 
-void render_all(const Scene& scene, const std::vector<Camera>& cameras,
-                const RenderOptions& options, const std::vector<Target>& targets) {
+Warnings render_all(const Scene& scene, const std::vector<Camera>& cameras,
+                    const RenderOptions& options, const std::vector<Target>& targets) {
+  std::vector<std::vector<ViewWarning>> warnings(cameras.size());
   if (!one_thread_each(scene, cameras.size(), options.threads)) {
     for (std::size_t i = 0; i < cameras.size(); ++i)
-      render_into(scene, cameras[i], options, targets, i);
-    return;
+      warnings[i] = render_into(scene, cameras[i], options, targets, i).warnings;
+    return told_once(warnings);
   }
   RenderOptions alone = options;
   alone.threads = 1;
@@ -114,10 +134,11 @@ void render_all(const Scene& scene, const std::vector<Camera>& cameras,
   Progress done(options.progress, cameras.size());
   with_threads(options.threads, [&] {
     parallel_for(std::size_t{0}, cameras.size(), [&](std::size_t i) {
-      render_into(scene, cameras[i], alone, targets, i);
+      warnings[i] = render_into(scene, cameras[i], alone, targets, i).warnings;
       done.part_done();
     });
   });
+  return told_once(warnings);
 }
 
 /// Python has made an array of the right type, shape and order for each channel that is asked for,
@@ -130,25 +151,28 @@ std::vector<Target> targets_of(const RenderOptions& options, std::vector<py::arr
   return targets;
 }
 
-SharedMap render_one(const SharedScene& shared, const Camera& camera, const RenderOptions& asked,
-                     std::vector<py::array> arrays) {
+std::pair<SharedMap, Warnings> render_one(const SharedScene& shared, const Camera& camera,
+                                          const RenderOptions& asked,
+                                          std::vector<py::array> arrays) {
   const std::shared_ptr<const Scene> scene = shared.scene;
   const std::vector<Target> targets = targets_of(asked, arrays);
   return run([&](const auto& progress) {
     RenderOptions options = asked;
     options.progress = progress;
-    return std::make_shared<DepthMap>(render_into(*scene, camera, options, targets, 0));
+    Rendered rendered = render_into(*scene, camera, options, targets, 0);
+    const std::array warnings{std::move(rendered.warnings)};
+    return std::pair(std::make_shared<DepthMap>(std::move(rendered.map)), told_once(warnings));
   });
 }
 
-void render_stack(const SharedScene& shared, const std::vector<Camera>& cameras,
-                  const RenderOptions& asked, std::vector<py::array> arrays) {
+Warnings render_stack(const SharedScene& shared, const std::vector<Camera>& cameras,
+                      const RenderOptions& asked, std::vector<py::array> arrays) {
   const std::shared_ptr<const Scene> scene = shared.scene;
   const std::vector<Target> targets = targets_of(asked, arrays);
-  run([&](const auto& progress) {
+  return run([&](const auto& progress) {
     RenderOptions options = asked;
     options.progress = progress;
-    render_all(*scene, cameras, options, targets);
+    return render_all(*scene, cameras, options, targets);
   });
 }
 

@@ -10,7 +10,7 @@
 
 from ._core import Error, InputError, OutputError, UsageError
 from ._render import render
-from .camera import Camera, read_cameras, write_cameras
+from .camera import Camera, ViewWarning, read_cameras, write_cameras
 from .clipping import clip
 from .depth_formats import DepthFormat
 from .maps import NO_SURFACE, Map, compare, read_map
@@ -29,6 +29,7 @@ __all__ = [
     "Scene",
     "UsageError",
     "Validation",
+    "ViewWarning",
     "clip",
     "compare",
     "probe",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Union, cast
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from . import _core
 from ._arguments import as_count, as_number, camera_handle, in_words, one_of, scene_handle
-from .camera import Camera
+from .camera import Camera, ViewWarning
 from .maps import Map
 
 if TYPE_CHECKING:
@@ -58,16 +59,18 @@ def render_cameras(
     handles = [camera_handle(each) for each in cameras]
     try:
         if single:
-            description = _core.render_one(handle, handles[0], options, list(arrays.values()))
+            description, notes = _core.render_one(handle, handles[0], options, list(arrays.values()))
             result = Map(arrays, cameras[0], description)
         else:
-            _core.render_stack(handle, handles, options, list(arrays.values()))
+            notes = _core.render_stack(handle, handles, options, list(arrays.values()))
             result = Map(arrays)
     except _core.InputError:
         scene._check()
         raise
     if nothing is not None:
         set_background(result, nothing)
+    for note in notes:
+        warnings.warn(note, ViewWarning, stacklevel=3)
     return result
 
 
@@ -222,6 +225,9 @@ def render(
     Returns a dict: H×W arrays by the names of channels, H×W×3 for N and P, H×W×2 for bary; with n cameras, n of each,
     n×H×W(×3). Arrays of vertices and faces that fit (see Scene.add_mesh()) are not copied. Other Python threads run
     meanwhile, and Ctrl-C ends it.
+
+    Warns (ViewWarning) of what is probably not meant: nothing in front of the camera, a matrix from camera to world, one
+    that is no rotation, a principal point far from the middle, an eye inside a solid, metres beside millimetres.
 
     Raises TypeError, ValueError or IndexError, which name the argument; MemoryError; OutputError where a depth has no
     code.

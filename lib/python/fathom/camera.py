@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import warnings
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Union
 
@@ -33,6 +34,11 @@ Projection = Literal["perspective", "orthographic"]
 Up = Literal["y", "z"]
 
 projections = ("perspective", "orthographic")
+
+
+class ViewWarning(UserWarning):
+    """What is probably not meant in the way that a camera looks at a scene. `warnings.simplefilter("error",
+    fathom.ViewWarning)` makes it an exception; "ignore" silences it."""
 
 
 class Camera:
@@ -254,12 +260,10 @@ class Camera:
     @classmethod
     def from_nerf(cls, file: Path, size: Size | None = None) -> dict[str, Camera]:
         """The cameras of a transforms.json, by their file_path. `size` is for files without w and h."""
-        import warnings
-
         width, height = (0, 0) if size is None else as_size(size)
         cameras, notes = _core.import_nerf(os.fspath(file), width, height)
         for note in notes:
-            warnings.warn(note, stacklevel=2)
+            warnings.warn(note, ViewWarning, stacklevel=2)
         return {name: cls._of(camera) for name, camera in cameras}
 
     @classmethod
@@ -424,7 +428,12 @@ def _only(cameras: Sequence[Camera]) -> Camera:
 
 def cameras_from_json(text: str, name: str = "camera") -> list[Camera]:
     """The cameras of a camera file's text; `name` begins messages."""
-    return [Camera._of(each) for each in _core.cameras_from_json(text, name)]
+    if not isinstance(text, str):
+        raise TypeError(f"text: expected a string, found {text!r}")
+    cameras, notes = _core.cameras_from_json(text, name)
+    for note in notes:
+        warnings.warn(note, ViewWarning, stacklevel=3)
+    return [Camera._of(each) for each in cameras]
 
 
 def read_cameras(file: Path) -> list[Camera]:
