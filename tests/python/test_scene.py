@@ -77,6 +77,19 @@ def test_a_scene_keeps_its_arrays(triangle, K):
     assert kept() is None, "and lets go of them"
 
 
+def test_a_scene_that_is_in_use_is_not_changed(triangle, spot):
+    scene = fathom.Scene.read(spot.objects[0].source)
+    shown = scene.vertices()
+    before = shown.copy()
+    for _ in range(1000):  # in a moment: nothing is copied
+        scene.add_instance(0)
+    scene.add_mesh(*triangle)
+    assert np.array_equal(shown, before) and scene.mesh_count == 2 and len(scene.objects) == 1002
+    del shown
+    scene.add_instance(1)
+    assert scene.vertices(1).base is not None and np.array_equal(scene.vertices(1), triangle[0])
+
+
 def test_what_scenes_refuse(triangle):
     scene = fathom.Scene()
     with pytest.raises(ValueError, match="mesh: the scene has no mesh yet"):

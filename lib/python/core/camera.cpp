@@ -75,12 +75,14 @@ void bind_making(py::module_& core) {
       "orbit",
       py::overload_cast<const View&, std::uint32_t, const Vector3&, double, const Lens&>(&orbit));
   core.def("frame_scene", [](const SharedScene& shared, const View& view, const Lens& lens) {
-    return run([&](const auto&) { return frame_scene(*shared.scene, view, lens); });
+    const std::shared_ptr<const Scene> scene = shared.scene;
+    return run([&](const auto&) { return frame_scene(*scene, view, lens); });
   });
-  core.def("orbit_scene", [](const SharedScene& shared, const View& first, std::uint32_t count,
-                             const Lens& lens) {
-    return run([&](const auto&) { return orbit_scene(first, count, *shared.scene, lens); });
-  });
+  core.def("orbit_scene",
+           [](const SharedScene& shared, const View& first, std::uint32_t count, const Lens& lens) {
+             const std::shared_ptr<const Scene> scene = shared.scene;
+             return run([&](const auto&) { return orbit_scene(first, count, *scene, lens); });
+           });
 }
 
 void bind_importing(py::module_& core) {

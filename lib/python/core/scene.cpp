@@ -56,18 +56,24 @@ WorldFromMesh exact(const Rows& rows) {
   return transform;
 }
 
+/// The scene itself where nobody else has it: no call is at work with it, and no array shows its
+/// numbers. Else a copy, which takes its place.
+Scene& changeable(SharedScene& shared) {
+  if (shared.scene.use_count() > 1) shared.scene = std::make_shared<Scene>(*shared.scene);
+  return *shared.scene;
+}
+
 std::size_t add_mesh(SharedScene& shared, const ContiguousArray<double>& vertices,
                      const ContiguousArray<std::uint32_t>& faces) {
-  auto scene = std::make_shared<Scene>(*shared.scene);
-  scene->meshes.push_back(mesh_of(vertices, faces));
-  shared.scene = scene;
-  return scene->meshes.size() - 1;
+  Scene& scene = changeable(shared);
+  scene.meshes.push_back(mesh_of(vertices, faces));
+  return scene.meshes.size() - 1;
 }
 
 void add_object(SharedScene& shared, std::size_t mesh, const std::optional<Rows>& pose,
                 const std::string& name) {
-  auto scene = std::make_shared<Scene>(*shared.scene);
-  if (scene->sources.empty()) scene->sources.push_back({"(arrays)", "", ""});
+  Scene& scene = changeable(shared);
+  if (scene.sources.empty()) scene.sources.push_back({"(arrays)", "", ""});
   Object object;
   object.mesh = mesh;
   object.name = name;
@@ -75,8 +81,7 @@ void add_object(SharedScene& shared, std::size_t mesh, const std::optional<Rows>
     object.world_from_mesh = exact(*pose);
     object.placed_as_is = false;
   }
-  scene->objects.push_back(std::move(object));
-  shared.scene = scene;
+  scene.objects.push_back(std::move(object));
 }
 
 std::pair<SharedScene, Warnings> read(const std::vector<std::filesystem::path>& files,
@@ -87,9 +92,8 @@ std::pair<SharedScene, Warnings> read(const std::vector<std::filesystem::path>& 
     options.formats_program = [&] { return std::filesystem::path(formats_program); };
   }
   Warnings warnings;
-  auto scene = run([&](const auto&) {
-    return std::make_shared<const Scene>(read_scene(files, options, warnings));
-  });
+  auto scene = run(
+      [&](const auto&) { return std::make_shared<Scene>(read_scene(files, options, warnings)); });
   return {SharedScene{std::move(scene)}, std::move(warnings)};
 }
 
@@ -107,7 +111,8 @@ py::array view_of(const std::shared_ptr<const Scene>& scene, const MeshArray<Row
 using Corner = std::array<double, 3>;
 
 std::optional<std::pair<Corner, Corner>> bounds(const SharedScene& shared) {
-  const auto box = run([&](const auto&) { return world_bounds(*shared.scene); });
+  const std::shared_ptr<const Scene> scene = shared.scene;
+  const auto box = run([&](const auto&) { return world_bounds(*scene); });
   if (!box) return std::nullopt;
   return std::pair(box->lower, box->upper);
 }
@@ -138,6 +143,8 @@ void bind_scene(py::module_& core) {
       .def("bounds", &bounds)
       .def_property_readonly("mesh_count",
                              [](const SharedScene& shared) { return shared.scene->meshes.size(); })
+      .def_property_readonly("object_count",
+                             [](const SharedScene& shared) { return shared.scene->objects.size(); })
       .def_property_readonly(
           "triangle_count", [](const SharedScene& shared) { return triangle_count(*shared.scene); })
       .def("vertices",

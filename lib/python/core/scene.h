@@ -6,10 +6,10 @@
 
 namespace fathom::python {
 
-/// The scene behind Python's Scene. Adding to it makes another one, so that a call of another
-/// thread goes on with what it was given.
+/// The scene behind Python's Scene. What uses it has a pointer of its own meanwhile: a scene that is
+/// in use is not changed, but copied (scene.cpp).
 struct SharedScene {
-  std::shared_ptr<const Scene> scene = std::make_shared<const Scene>();
+  std::shared_ptr<Scene> scene = std::make_shared<Scene>();
 };
 
 }  // namespace fathom::python

@@ -104,7 +104,7 @@ class Scene:
         """Places a mesh once more. `pose` is as in add_mesh(). Returns the number of the object."""
         number = as_count("mesh", mesh, 0, self.mesh_count - 1) if self.mesh_count else _no_mesh()
         placed = None if pose is None else pose_of("pose", pose)
-        objects = len(self.objects)
+        objects = self._handle.object_count
         self._handle.add_object(number, placed, _text("name", name) or f"object {objects}")
         return objects
 
@@ -164,7 +164,7 @@ class Scene:
             check_elements(self.vertices(mesh), self.faces(mesh))
 
     def __repr__(self) -> str:
-        return f"Scene({len(self.objects)} objects, {self.mesh_count} meshes, {self.triangle_count} triangles)"
+        return f"Scene({self._handle.object_count} objects, {self.mesh_count} meshes, {self.triangle_count} triangles)"
 
 
 def _text(name: str, value: Any) -> str:

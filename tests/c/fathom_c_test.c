@@ -1,0 +1,168 @@
+/* The C interface, as a program in C uses it. */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fathom.h"
+
+static int failures = 0;
+
+#define CHECK(condition)                                                                   \
+  do {                                                                                     \
+    if (!(condition)) {                                                                    \
+      fprintf(stderr, "%s:%d: %s (%s)\n", __FILE__, __LINE__, #condition, fathom_error()); \
+      ++failures;                                                                          \
+    }                                                                                      \
+  } while (0)
+
+/* A triangle in the plane z = 4 + x/2, and a camera at the origin. */
+static const double vertices[] = {-2, -2, 3, 2, -2, 5, 0, 2, 4};
+static const uint32_t triangles[] = {0, 1, 2};
+static const fathom_camera camera = {
+    64, 48, 0, 40, 40, 32, 24, 0, 0.5, {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, 0, INFINITY};
+
+static fathom_scene* make_scene(const double* pose, int lent) {
+  fathom_scene* scene = NULL;
+  CHECK(fathom_scene_new(&scene) == FATHOM_OK);
+  CHECK(fathom_scene_add(scene, vertices, 3, triangles, 1, pose, "sheet", lent) == FATHOM_OK);
+  return scene;
+}
+
+static void every_depth_is_that_of_the_plane(int lent) {
+  fathom_scene* scene = make_scene(NULL, lent);
+  fathom_map* map = NULL;
+  int seen = 0;
+  uint32_t x, y;
+  CHECK(fathom_render(scene, &camera, "Z,id,N", NULL, &map) == FATHOM_OK);
+  CHECK(fathom_map_width(map) == 64 && fathom_map_height(map) == 48);
+  const float* const depths = fathom_map_float32(map, "Z");
+  const uint32_t* const ids = fathom_map_uint32(map, "id");
+  for (y = 0; y < 48; ++y) {
+    for (x = 0; x < 64; ++x) {
+      const float depth = depths[y * 64 + x];
+      CHECK((ids[y * 64 + x] == 0) == (depth < INFINITY));
+      if (depth == INFINITY) continue;
+      ++seen;
+      /* X = z·a, so that z = 4 / (1 − a/2): a quotient of small integers, which binary64 rounds once */
+      CHECK(depth == (float)(320.0 / (80.0 - (x + 0.5 - 32))));
+    }
+  }
+  CHECK(seen > 500);
+  CHECK(fathom_map_float64(map, "Z") == NULL && fathom_map_float32(map, "id") == NULL);
+  CHECK(fathom_map_float32(map, "N.Z") != NULL && fathom_map_uint16(map, "Z") == NULL);
+  CHECK(strcmp(fathom_map_channel(map, 0), "Z") == 0 && fathom_map_channel(map, 5) == NULL);
+  CHECK(strstr(fathom_map_text(map, "fathom.camera"), "pixel_centre") != NULL);
+  CHECK(fathom_map_text(map, "nothing") == NULL);
+  fathom_map_free(map);
+  fathom_scene_free(scene);
+}
+
+static void poses_place_exactly(void) {
+  const double pose[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 2};
+  fathom_scene* scene = make_scene(pose, 0);
+  double lower[3], upper[3];
+  CHECK(fathom_scene_bounds(scene, lower, upper) == FATHOM_OK);
+  CHECK(lower[2] == 5 && upper[2] == 7 && fathom_scene_triangle_count(scene) == 1);
+  fathom_scene_free(scene);
+}
+
+static void files_keep_every_bit(const char* mesh, const char* folder) {
+  fathom_scene* scene = NULL;
+  fathom_camera view;
+  fathom_map *map = NULL, *again = NULL;
+  fathom_options options = {FATHOM_CULL_BACK, 0, 1, NULL, NULL};
+  uint64_t differing = 7;
+  char file[4096];
+  CHECK(fathom_scene_read(&mesh, 1, &scene) == FATHOM_OK);
+  CHECK(fathom_camera_frame(scene, 35, 25, 80, 60, 40, &view) == FATHOM_OK);
+  CHECK(fathom_camera_check(&view) == FATHOM_OK);
+  CHECK(fathom_render(scene, &view, "Z,A", &options, &map) == FATHOM_OK);
+  CHECK(fathom_verify(map, scene, &view, &options, 300, &differing) == FATHOM_OK && differing == 0);
+  snprintf(file, sizeof file, "%s/c.exr", folder);
+  CHECK(fathom_map_write(map, file, NULL) == FATHOM_OK);
+  CHECK(fathom_map_read(file, &again) == FATHOM_OK);
+  CHECK(memcmp(fathom_map_float32(map, "Z"), fathom_map_float32(again, "Z"),
+               80 * 60 * sizeof(float)) == 0);
+  snprintf(file, sizeof file, "%s/c.npy", folder);
+  CHECK(fathom_map_write(map, file, "A") == FATHOM_OK);
+  CHECK(fathom_map_write(map, file, NULL) == FATHOM_USAGE);
+  snprintf(file, sizeof file, "%s/c.jpg", folder);
+  CHECK(fathom_map_write(map, file, NULL) == FATHOM_USAGE);
+  snprintf(file, sizeof file, "%s/none/c.exr", folder);
+  CHECK(fathom_map_write(map, file, NULL) == FATHOM_OUTPUT);
+  fathom_map_free(map);
+  fathom_map_free(again);
+  fathom_scene_free(scene);
+}
+
+static int stop(double done, void* data) {
+  ++*(int*)data;
+  return done >= 0;
+}
+
+static void progress_can_stop_it(void) {
+  fathom_scene* scene = make_scene(NULL, 1);
+  int calls = 0;
+  fathom_map* map = NULL;
+  fathom_options options = {FATHOM_CULL_NONE, 1, 0, stop, NULL};
+  options.data = &calls;
+  CHECK(fathom_render(scene, &camera, "Z", &options, &map) == FATHOM_STOPPED && map == NULL &&
+        calls > 0);
+  options.progress = NULL;
+  CHECK(fathom_render(scene, &camera, "Z", &options, &map) == FATHOM_OK);
+  CHECK(fathom_map_float64(map, "Z") != NULL);
+  fathom_map_free(map);
+  fathom_scene_free(scene);
+}
+
+static void failures_say_why(void) {
+  fathom_scene* scene = make_scene(NULL, 0);
+  fathom_scene* other = NULL;
+  fathom_map* map = NULL;
+  fathom_camera bad = camera;
+  const double here[] = {0, 0, 0}, nan_vertex[] = {NAN, 0, 0, 1, 0, 0, 0, 1, 0};
+  const uint32_t beyond[] = {0, 1, 3};
+  const char* none = "none.obj";
+  bad.fx = 0;
+  CHECK(fathom_camera_check(&bad) == FATHOM_INPUT && strstr(fathom_error(), "fx") != NULL);
+  CHECK(fathom_render(scene, &bad, "Z", NULL, &map) == FATHOM_INPUT && map == NULL);
+  CHECK(fathom_render(scene, &camera, "Z,Y", NULL, &map) == FATHOM_USAGE &&
+        strstr(fathom_error(), "'Y'") != NULL);
+  CHECK(fathom_render(scene, &camera, "", NULL, &map) == FATHOM_USAGE);
+  CHECK(fathom_render(NULL, &camera, "Z", NULL, &map) == FATHOM_USAGE);
+  CHECK(fathom_render(scene, NULL, "Z", NULL, &map) == FATHOM_USAGE);
+  CHECK(fathom_render(scene, &camera, NULL, NULL, &map) == FATHOM_USAGE);
+  CHECK(fathom_camera_look_at(here, here, here, 4, 4, 40, &bad) == FATHOM_USAGE);
+  CHECK(fathom_scene_read(&none, 1, &other) == FATHOM_INPUT && other == NULL);
+  CHECK(strstr(fathom_error(), "none.obj") != NULL && strchr(fathom_error(), '\n') == NULL);
+  CHECK(fathom_map_read("none.exr", &map) == FATHOM_INPUT && map == NULL);
+  CHECK(fathom_scene_add(scene, nan_vertex, 3, triangles, 1, NULL, NULL, 0) == FATHOM_OK);
+  CHECK(fathom_render(scene, &camera, "Z", NULL, &map) == FATHOM_INPUT &&
+        strstr(fathom_error(), "finite") != NULL);
+  fathom_scene_free(scene);
+  scene = make_scene(NULL, 0);
+  CHECK(fathom_scene_add(scene, vertices, 3, beyond, 1, NULL, NULL, 1) == FATHOM_OK);
+  CHECK(fathom_render(scene, &camera, "Z", NULL, &map) == FATHOM_INPUT && map == NULL);
+  CHECK(fathom_scene_add(scene, NULL, 3, beyond, 1, NULL, NULL, 1) == FATHOM_USAGE);
+  fathom_scene_free(scene);
+  fathom_scene_free(NULL);
+  fathom_map_free(NULL);
+}
+
+int main(int count, char** arguments) {
+  if (count != 3) {
+    fprintf(stderr, "usage: fathom_c_test MESH FOLDER\n");
+    return 2;
+  }
+  CHECK(strcmp(fathom_error(), "") == 0 && strlen(fathom_version()) >= 5);
+  every_depth_is_that_of_the_plane(0);
+  every_depth_is_that_of_the_plane(1);
+  poses_place_exactly();
+  files_keep_every_bit(arguments[1], arguments[2]);
+  progress_can_stop_it();
+  failures_say_why();
+  if (failures == 0) puts("all is well");
+  return failures == 0 ? 0 : 1;
+}
