@@ -1,19 +1,16 @@
 """Examples in docstrings run; every public name has a docstring; types are complete; importing is quick."""
 
-import contextlib
 import doctest
 import importlib
 import inspect
-import io
-import os
 import pathlib
-import re
 import subprocess
 import sys
 
 import pytest
 
 import fathom
+from pages import run_page
 
 modules = ["_render", "camera", "clipping", "depth_formats", "maps", "questions", "scene", "validation"]
 
@@ -24,26 +21,12 @@ def test_examples(name):
     assert results.failed == 0 and results.attempted > 0
 
 
-source = pathlib.Path(os.environ["FATHOM_SOURCE"])
-
-
 @pytest.mark.parametrize("page", ["lib/python/README.md", "docs/python.md"])
-def test_snippets_of_pages_print_what_the_page_shows(page, tmp_path, monkeypatch):
-    """Blocks of a page are run in order, as one program; a block that follows "prints" is what the last one prints."""
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "data").symlink_to(source / "data")
-    names = {"__name__": "page"}
-    blocks = re.findall(r"(prints\n\n)?```(\w*)\n(.*?)```", (source / page).read_text(), re.S)
-    told, shown = "", 0
-    for prints, language, text in blocks:
-        if language == "python":
-            with contextlib.redirect_stdout(io.StringIO()) as output:
-                exec(compile(text, page, "exec"), names)
-            told = output.getvalue()
-        elif prints:
-            shown += 1
-            assert text == told
-    assert shown > 0
+def test_snippets_of_pages_print_what_the_page_shows(page):
+    pairs = run_page(page)
+    assert pairs
+    for shown, told in pairs:
+        assert shown == told
 
 
 def public_members():
