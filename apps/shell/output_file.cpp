@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/shell/folder.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/standard_streams.h"
@@ -25,9 +26,14 @@ namespace fs = std::filesystem;
   throw OutputError(target.string() + ": " + why);
 }
 
-[[noreturn]] void fail_to_stage(const fs::path& target, const fs::path& place, int error) {
-  const fs::path folder = folder_of(place);
+/// `folder` is where it was to be staged.
+[[noreturn]] void fail_to_stage(const fs::path& target, const fs::path& place,
+                                const fs::path& folder, int error) {
   if (error == ENOENT && folder == ".") fail(target, "the working directory is gone");
+  if (folder != folder_of(place)) {
+    fail(target, "cannot make the folder " + folder_of(place).string() + " in " + folder.string() +
+                     ": " + std::generic_category().message(error));
+  }
   if (error == ENOENT) fail(target, "there is no directory " + folder.string());
   if (error == EMFILE) {
     fail(target, "too many outputs at once; 'ulimit -n' raises how many files may be open");
@@ -88,12 +94,14 @@ void OutputFile::find_place(bool exists, mode_t mode) {
   }
 }
 
+/// A folder that does not exist is made when the output takes its place: until then the output waits
+/// above it.
 void OutputFile::stage() {
+  const fs::path folder = nearest_existing(folder_of(place_));
   try {
-    staged_.emplace(place_.empty() ? StagedFile::nowhere()
-                                   : StagedFile::in_folder(folder_of(place_)));
+    staged_.emplace(place_.empty() ? StagedFile::nowhere() : StagedFile::in_folder(folder));
   } catch (const std::system_error& error) {
-    fail_to_stage(target_, place_, error.code().value());
+    fail_to_stage(target_, place_, folder, error.code().value());
   }
 }
 
@@ -181,6 +189,15 @@ void OutputFile::take_place(bool is_last) {
   }
 }
 
+void OutputFile::make_folder_in(NewFolders& folders) const {
+  try {
+    folders.make(folder_of(place_));
+  } catch (const std::system_error& error) {
+    fail(target_,
+         "cannot make the folder " + folder_of(place_).string() + ": " + error.code().message());
+  }
+}
+
 /// All of them, or none.
 void OutputFile::take_places(const std::vector<OutputFile*>& outputs) {
   std::size_t placed = 0;
@@ -210,7 +227,12 @@ void OutputFile::commit_together(const std::vector<OutputFile*>& outputs) {
   for (OutputFile* output : outputs) {
     if (output->place_.empty()) output->write_through();
   }
+  // Folders come last, too: nothing that has failed before leaves one.
+  NewFolders new_folders;
+  for (const OutputFile* output : to_place) output->make_folder_in(new_folders);
+  for (const fs::path& folder : new_folders.made()) folders.insert(folder_of(folder));
   take_places(to_place);
+  new_folders.keep();
   for (const fs::path& folder : folders) sync_folder(folder);
 }
 

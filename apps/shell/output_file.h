@@ -13,6 +13,8 @@
 
 namespace fathom::app {
 
+class NewFolders;
+
 /// One output of a command. It is written beside its place, without a name or under a temporary one
 /// (staged_file.h), and put there by commit(); until then an older file of that name is untouched,
 /// and what is not committed leaves nothing behind, however the program ends.
@@ -20,6 +22,8 @@ namespace fathom::app {
 ///   an ordinary or a new file   is replaced at once; an existing file's permissions are kept, a
 ///                               new one has those that open(2) gives. Its bytes are on the disk
 ///                               before its name is
+///   a folder that is missing    is made when the outputs take their places, with those above it; a
+///                               command that fails leaves none
 ///   a symbolic link             is followed: the file it names is replaced, the link stays
 ///   anything else that exists   (a device, a pipe, /dev/stdout) is written through, never replaced
 ///
@@ -58,6 +62,7 @@ class OutputFile {
   void sync(int (*sync_one)(int)) const;
   static void sync_all(const std::vector<OutputFile*>& placed);
   void write_through();
+  void make_folder_in(NewFolders& folders) const;
   void take_place(bool is_last);
   static void take_places(const std::vector<OutputFile*>& outputs);
 

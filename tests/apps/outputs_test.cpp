@@ -210,8 +210,41 @@ TEST_F(Outputs, BeyondTheLimitOfFileSizes) {
   EXPECT_EQ(folder_.read("map.npy"), "older");
 }
 
-TEST_F(Outputs, MissingDirectory) {
-  expect_failure("nowhere/map.exr", "no directory nowhere");
+TEST_F(Outputs, MissingFoldersAreMade) {
+  const Outcome outcome = render_to("new/folder/./map.exr");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_GT(fs::file_size(folder_ / "new/folder/map.exr"), 0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "new"), {}), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "new/folder"), {}), 1);
+}
+
+TEST_F(Outputs, SeveralOutputsMayShareANewFolder) {
+  const Outcome outcome = run_fathom({"render", "square.obj", "--save-camera", "new/a/camera.json",
+                                      "--stats", "new/b/statistics.json", "-o", "new/a/map.exr"},
+                                     {.folder = folder_.path()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* name : {"new/a/camera.json", "new/b/statistics.json", "new/a/map.exr"}) {
+    EXPECT_TRUE(fs::exists(folder_ / name)) << name;
+  }
+}
+
+TEST_F(Outputs, ACommandThatFailsMakesNoFolder) {
+  expect_failure("new/folder/map.exr", "", {.file_size = 100});
+  EXPECT_NE(
+      run_fathom({"render", "no.obj", "-o", "new/map.exr"}, {.folder = folder_.path()}).status, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "new"));
+}
+
+TEST_F(Outputs, AFolderThatCannotBeMade) {
+  fs::create_directory(folder_ / "locked");
+  ::chmod((folder_ / "locked").c_str(), 0555);
+  ::chmod(folder_.path().c_str(), 0755);
+  expect_failure("locked/new/map.exr",
+                 "cannot make the folder locked/new in locked: Permission denied",
+                 {.as_nobody = true});
+  fs::create_symlink("nowhere", folder_ / "link");
+  expect_failure("link/map.exr", "");
 }
 
 TEST_F(Outputs, DirectoryAsOutput) {
@@ -246,10 +279,10 @@ TEST_F(Outputs, OneThatFailsTakesTheOthersAlong) {
   folder_.write("map.exr", "older");
   const auto before = folder_.names();
   const Outcome outcome = run_fathom({"render", "square.obj", "-o", "map.exr", "--save-camera",
-                                      "new.json", "--stats", "nowhere/stats.json"},
+                                      "new.json", "--stats", "square.obj/stats.json"},
                                      {.folder = folder_.path()});
   EXPECT_EQ(outcome.status, 4);
-  EXPECT_THAT(outcome.err, StartsWith("fathom: error: nowhere/stats.json: "));
+  EXPECT_THAT(outcome.err, StartsWith("fathom: error: square.obj/stats.json: "));
   EXPECT_EQ(folder_.read("map.exr"), "older");
   EXPECT_EQ(folder_.names(), before);
 }
