@@ -9,7 +9,8 @@
 namespace fathom::app {
 
 FileKind kind_of(std::string_view content) {
-  for (const std::string_view magic : {"\x76\x2f\x31\x01", "\x89PNG", "\x93NUMPY", "Pf", "PF"}) {
+  for (const std::string_view magic :
+       {"\x76\x2f\x31\x01", "\x89PNG", "\x93NUMPY", "PK\x03\x04", "Pf", "PF"}) {
     if (content.starts_with(magic)) return FileKind::map;
   }
   const std::string_view text = text::TextCursor::without_mark(content);

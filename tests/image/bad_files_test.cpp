@@ -55,7 +55,8 @@ std::vector<Bytes> one_of_each() {
           small_exr(Compression::piz),
           encode_png(codes, codes.channels[0], "a.png"),
           encode_pfm(floats, floats.channels[0], "a.pfm"),
-          encode_npy(floats, floats.channels[0], "a.npy")};
+          encode_npy(floats, {&floats.channels[0]}, "a.npy"),
+          encode_npz(full_map(6, 20), "a.npz")};
 }
 
 TEST(BadFiles, AreRefusedWhereverTheyAreCutOff) {
@@ -196,8 +197,9 @@ TEST(BadFiles, OfOtherKindsAreNamed) {
     append(bytes, text);
     return refusal_of(bytes);
   };
-  EXPECT_EQ(refusal(""), "map: not a map: expected an OpenEXR, PFM, PNG or NPY file");
-  EXPECT_EQ(refusal("P5\n3 3\n255\n"), "map: not a map: expected an OpenEXR, PFM, PNG or NPY file");
+  EXPECT_EQ(refusal(""), "map: not a map: expected an OpenEXR, PFM, PNG, NPY or NPZ file");
+  EXPECT_EQ(refusal("P5\n3 3\n255\n"),
+            "map: not a map: expected an OpenEXR, PFM, PNG, NPY or NPZ file");
   EXPECT_THAT(refusal("Pf\n0 3\n-1\n"), HasSubstr("a width and height of at least 1"));
   EXPECT_THAT(refusal("Pf\n-3 3\n-1\n"), HasSubstr("a width from 1"));
   EXPECT_THAT(refusal("Pf\n1 1\nnan\nabcd"), HasSubstr("a finite scale"));

@@ -87,10 +87,15 @@ TEST(Quantities, DisparityIsMiddleburys) {
   const DepthMap map = map_of(3, 1, "Z", std::vector<double>{10, INFINITY, 2.5});
   const DepthMap d =
       convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::disparity, view, rig);
-  EXPECT_THAT(*d.values<double>("disparity"), ElementsAre(1, INFINITY, 16));
+  EXPECT_THAT(*d.values<double>("disparity"), ElementsAre(1, 0, 16));
+  EXPECT_EQ(d.texts.at("fathom.background"), "0");
   const DepthMap back =
       convert_quantity(d, DepthQuantity::disparity, DepthQuantity::planar_depth, view, rig);
   EXPECT_THAT(*back.values<double>("Z"), ElementsAre(10, INFINITY, 2.5));
+  EXPECT_EQ(back.texts.count("fathom.background"), 0u);
+  const DepthMap unknown = convert_quantity(map, DepthQuantity::planar_depth,
+                                            DepthQuantity::disparity, view, rig, INFINITY);
+  EXPECT_THAT(*unknown.values<double>("disparity"), ElementsAre(1, INFINITY, 16));
   const DepthMap behind = map_of(2, 1, "disparity", std::vector<float>{-4, -4.5f});
   try {
     convert_quantity(behind, DepthQuantity::disparity, DepthQuantity::planar_depth, view, rig);

@@ -127,7 +127,7 @@ TEST(Pfm, IsReadInBothByteOrdersAndWithThreeChannels) {
 TEST(Npy, KeepsEveryBitOfEveryType) {
   const auto check = [](const decltype(ImageChannel::values)& values) {
     const DepthMap map = map_of(13, 7, "Z", values);
-    const DepthMap back = decode_map(encode_npy(map, map.channels[0], "a.npy"), "a.npy");
+    const DepthMap back = decode_map(encode_npy(map, {&map.channels[0]}, "a.npy"), "a.npy");
     EXPECT_EQ(back.width, 13u);
     EXPECT_EQ(back.height, 7u);
     EXPECT_EQ(back.channels.at(0).values.index(), values.index());
@@ -141,7 +141,7 @@ TEST(Npy, KeepsEveryBitOfEveryType) {
 
 TEST(Npy, HeaderIsThatOfTheFormat) {
   const DepthMap map = map_of(640, 480, "Z", std::vector<float>(640 * 480));
-  const Bytes bytes = encode_npy(map, map.channels[0], "a.npy");
+  const Bytes bytes = encode_npy(map, {&map.channels[0]}, "a.npy");
   const std::string header(reinterpret_cast<const char*>(bytes.data()), 128);
   EXPECT_EQ(header.substr(0, 10), std::string("\x93NUMPY\x01\x00\x76\x00", 10));
   EXPECT_EQ(header.substr(10, 63),

@@ -46,7 +46,7 @@ OtherMap other_map(const DepthMap& map, const std::string& name) {
                      "the map holds integers and does not say how many are a unit of depth");
   }
   OtherMap other{.width = map.width, .height = map.height};
-  const std::vector<std::uint8_t> seen = surface_mask(map, channel, detect_background(channel));
+  const std::vector<std::uint8_t> seen = surface_mask(map, channel, background_of(map, channel));
   const double scale = map.png_scale.value_or(1);
   if (is_code) other.code_scale = scale;
   std::visit(

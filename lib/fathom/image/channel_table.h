@@ -15,7 +15,8 @@ enum class Channel { Z, A, Zlow, distance, id, face, object, N, P, bary };
 
 /// What a channel's values mean, which decides what value says "no surface".
 enum class ChannelKind {
-  depth,       ///< Z, distance, disparity, Zdecoded: background +∞, of codes 0
+  depth,       ///< Z, distance, disparity, Zdecoded: background +∞ (of codes and
+               ///< disparities 0), or what the map says (background.h)
   identifier,  ///< id, face, object and every other 32-bit integer: background no_surface
   direction,   ///< N.X, N.Y, N.Z: background 0 in all three
   position,    ///< P.*, bary.*: background NaN

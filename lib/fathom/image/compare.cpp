@@ -38,10 +38,11 @@ double steps_binary64(double a, double b) {
   return static_cast<double>(distance);
 }
 
-BackgroundRule rule_for(const ImageChannel& channel, const std::optional<double>& given) {
+BackgroundRule rule_for(const DepthMap& map, const ImageChannel& channel,
+                        const std::optional<double>& given) {
   if (kind_of(channel) != ChannelKind::depth) return {};
-  if (!given) return detect_background(channel);
-  return {std::isfinite(*given) ? given : std::nullopt, ""};
+  if (!given) return background_of(map, channel);
+  return {.value = std::isfinite(*given) ? given : std::nullopt};
 }
 
 /// The only depth channel of a map, whatever its name.
@@ -188,8 +189,8 @@ ChannelPair image::make_pair(const DepthMap& truth, const ImageChannel& a, const
                    b,
                    truth.png_scale,
                    other.png_scale,
-                   rule_for(a, options.truth_background),
-                   rule_for(b, options.other_background),
+                   rule_for(truth, a, options.truth_background),
+                   rule_for(other, b, options.other_background),
                    {},
                    {},
                    truth.width};

@@ -85,8 +85,8 @@ struct CompareOptions {
   std::string channel;
   /// Its name in the other map, if that differs.
   std::string other_channel;
-  /// The value that means background in depth channels (NaN and infinities always do); if empty, it
-  /// is detected (surface.h) and noted.
+  /// The value that means background in depth channels (NaN and infinities do as well); if empty, it
+  /// is what the map says (background.h), or else detected (surface.h) and noted.
   std::optional<double> truth_background, other_background;
 };
 

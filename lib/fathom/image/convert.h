@@ -48,15 +48,20 @@ struct StereoRig {
 };
 
 /// Returns a map with one channel: `to`, computed from the map's channel `from`, of the same type,
-/// with the map's texts. Background is +∞ in all three (Middlebury's "unknown" for disparity); a
-/// depth of +∞ (overflow) stays +∞, and NaN becomes background.
+/// with the map's texts. What shows no surface (surface_mask()) becomes `background`; so does what has
+/// no number: NaN, and a depth of +∞, which overflowed. Without `background`, that is 0 for
+/// disparity, as most data sets have it; for the others what the map says (background.h), or +∞. With
+/// +∞, a disparity is Middlebury's "unknown" there.
 ///   ray distance   Z·√(1 + x'² + y'²) with x', y' as in point_at() (Z itself if orthographic)
 /// Fails    UsageError if the channel `from` is missing or holds codes, or if disparity is asked
-///          for without a rig, with baseline ≤ 0, or with an orthographic view; InputError if the
-///          map or the view has a fault, and, naming the pixel, if a disparity plus doffs is
-///          negative (no point has it).
+///          for without a rig, with baseline ≤ 0, or with an orthographic view, or for a background
+///          that is none (with_background); InputError if the map or the view has a fault, and,
+///          naming the pixel, if a disparity plus doffs is negative (no point has it); OutputError,
+///          naming the pixel, if a surface has the value of the background: with doffs or in binary32,
+///          a disparity can be 0.
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
-                          const MapView& view, const std::optional<StereoRig>& rig = std::nullopt);
+                          const MapView& view, const std::optional<StereoRig>& rig = std::nullopt,
+                          std::optional<double> background = std::nullopt);
 
 /// Returns a map with only `channel` (empty: Z, or else the only channel), stored as `type`.
 ///   to binary32           rounded to nearest even; from codes, code / scale

@@ -1,7 +1,9 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/image/background.h"
 #include "fathom/image/convert.h"
+#include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
@@ -39,13 +41,13 @@ struct Converter {
     return std::abs(view.fx) * rig.baseline / (value + rig.doffs);
   }
 
+  /// +∞ where there is no number for it: of an overflowed depth, or a NaN.
   [[nodiscard]] double operator()(double value, double i, double j) const {
     if (from == to) return value;
     if (!std::isfinite(value)) return infinity;
     const double z = planar(value, i, j);
     if (to == DepthQuantity::planar_depth) return z;
     if (to == DepthQuantity::ray_distance) return z * stretch_at(view, i, j);
-    // Disparity 0 would be infinitely far away; what is not finite is "unknown".
     return std::isfinite(z) ? std::abs(view.fx) * rig.baseline / z - rig.doffs : infinity;
   }
 };
@@ -57,15 +59,27 @@ StereoRig checked(const MapView& view, const std::optional<StereoRig>& rig) {
   return *rig;
 }
 
+/// Background, and what has no number, is +∞.
 template <class T>
-Samples<T> converted(const Samples<T>& values, std::size_t width, const Converter& convert) {
+Samples<T> converted(const Samples<T>& values, const std::vector<std::uint8_t>& surface,
+                     std::size_t width, const Converter& convert) {
   Samples<T> result(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::size_t column = k % width, row = k / width;
-    result[k] = static_cast<T>(convert(static_cast<double>(values[k]), static_cast<double>(column),
-                                       static_cast<double>(row)));
+    result[k] =
+        surface[k] == 0
+            ? static_cast<T>(infinity)
+            : static_cast<T>(convert(static_cast<double>(values[k]), static_cast<double>(column),
+                                     static_cast<double>(row)));
   }
   return result;
+}
+
+/// The background of the result where none is asked for.
+double usual_background(const DepthMap& map, DepthQuantity from, DepthQuantity to) {
+  if (to == DepthQuantity::disparity) return 0;
+  if (from == DepthQuantity::disparity) return infinity;
+  return declared_background(map).value_or(infinity);
 }
 
 }  // namespace
@@ -83,7 +97,8 @@ std::string channel_of(DepthQuantity quantity) {
 }
 
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
-                          const MapView& view, const std::optional<StereoRig>& rig) {
+                          const MapView& view, const std::optional<StereoRig>& rig,
+                          std::optional<double> background) {
   const StandardArithmetic standard;
   require_valid(map);
   require_valid(view);
@@ -94,16 +109,19 @@ DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity
   if (from == DepthQuantity::disparity || to == DepthQuantity::disparity)
     convert.rig = checked(view, rig);
 
+  const std::vector<std::uint8_t> surface = surface_mask(map, *source);
   DepthMap result = map;
   result.channels.clear();
   result.png_scale.reset();
+  result.texts.erase(background_text);
   if (const auto* floats = std::get_if<Samples<float>>(&source->values))
-    result.channels.push_back({channel_of(to), converted(*floats, map.width, convert)});
+    result.channels.push_back({channel_of(to), converted(*floats, surface, map.width, convert)});
   else if (const auto* doubles = std::get_if<Samples<double>>(&source->values))
-    result.channels.push_back({channel_of(to), converted(*doubles, map.width, convert)});
+    result.channels.push_back({channel_of(to), converted(*doubles, surface, map.width, convert)});
   else
     throw UsageError("channel '" + name + "' holds codes: decode them first");
-  return result;
+  const double value = background.value_or(usual_background(map, from, to));
+  return value == infinity ? result : with_background(std::move(result), value);
 }
 
 }  // namespace fathom

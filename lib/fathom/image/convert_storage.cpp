@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/image/background.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
@@ -81,6 +82,9 @@ DepthMap with_storage(const DepthMap& map, const std::string& asked, StoredType 
   DepthMap result = map;
   result.channels.clear();
   result.png_scale.reset();
+  // That of codes is 0, and +∞ where they become depths.
+  const bool from_codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
+  if (from_codes || type == StoredType::scaled_unorm16) result.texts.erase(background_text);
   switch (type) {
     case StoredType::binary32:
       result.channels.push_back({channel.name, as_floating_point<float>(map, channel)});

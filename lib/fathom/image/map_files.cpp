@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cstring>
 
+#include "fathom/image/background.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/files/map_codecs.h"
+#include "fathom/image/files/npy_array.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_text.h"
@@ -26,6 +29,17 @@ const ImageChannel& channel_to_write(const DepthMap& map, const std::string& ask
   return map.channels.front();
 }
 
+/// As channel_to_write(), or those that are together the one that is asked for, or all there are.
+std::vector<const ImageChannel*> channels_to_write(const DepthMap& map, const std::string& asked) {
+  if (map.find(asked) == nullptr) {
+    const std::string& first = map.channels.front().name;
+    std::vector<const ImageChannel*> parts =
+        parts_of(map, asked.empty() ? first.substr(0, first.rfind('.')) : asked);
+    if (!parts.empty() && (!asked.empty() || parts.size() == map.channels.size())) return parts;
+  }
+  return {&channel_to_write(map, asked)};
+}
+
 bool starts_with(ByteView bytes, std::string_view magic) {
   return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
 }
@@ -41,6 +55,7 @@ std::optional<MapFormat> map_format_of(const std::filesystem::path& path) {
   if (suffix == ".pfm") return MapFormat::pfm;
   if (suffix == ".png") return MapFormat::png;
   if (suffix == ".npy") return MapFormat::npy;
+  if (suffix == ".npz") return MapFormat::npz;
   return std::nullopt;
 }
 
@@ -68,16 +83,33 @@ void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat
     case MapFormat::png:
       return write_file(path, encode_png(map, one(), name));
     case MapFormat::npy:
-      return write_file(path, encode_npy(map, one(), name));
+      return write_file(path, encode_npy(map, channels_to_write(map, options.channel), name));
+    case MapFormat::npz:
+      return write_file(path, encode_npz(map, name));
   }
 }
 
-DepthMap image::decode_map(ByteView bytes, const std::string& name, const MapMemory& memory) {
+namespace {
+
+DepthMap decode_as_stored(ByteView bytes, const std::string& name, const MapMemory& memory) {
   if (starts_with(bytes, "\x76\x2f\x31\x01")) return decode_exr(bytes, name, memory);
   if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return decode_png(bytes, name, memory);
   if (starts_with(bytes, "\x93NUMPY")) return decode_npy(bytes, name);
+  if (starts_with(bytes, "PK\x03\x04")) return decode_npz(bytes, name, memory);
   if (starts_with(bytes, "Pf") || starts_with(bytes, "PF")) return decode_pfm(bytes, name);
-  throw InputError(name + ": not a map: expected an OpenEXR, PFM, PNG or NPY file");
+  throw InputError(name + ": not a map: expected an OpenEXR, PFM, PNG, NPY or NPZ file");
+}
+
+}  // namespace
+
+DepthMap image::decode_map(ByteView bytes, const std::string& name, const MapMemory& memory) {
+  DepthMap map = with_own_channel_names(decode_as_stored(bytes, name, memory));
+  try {
+    (void)declared_background(map);
+  } catch (const InputError& error) {
+    throw InputError(name + ": " + error.what());
+  }
+  return map;
 }
 
 DepthMap read_map(const std::filesystem::path& path, const MapMemory& memory) {

@@ -11,7 +11,13 @@
 
 namespace fathom {
 
-enum class MapFormat { exr, pfm, png, npy };
+enum class MapFormat { exr, pfm, png, npy, npz };
+
+/// Whether files of the format hold all channels of a map and all of its texts; the others hold one
+/// channel.
+constexpr bool holds_all_channels(MapFormat format) {
+  return format == MapFormat::exr || format == MapFormat::npz;
+}
 
 /// The format that a path's suffix names (in any case); nullopt if none.
 std::optional<MapFormat> map_format_of(const std::filesystem::path& path);
@@ -28,7 +34,8 @@ struct WriteOptions {
   Compression compression = Compression::zip;
   /// Threads to compress with; 0: all.
   int threads = 0;
-  /// The channel to write as PFM, PNG or NPY; if empty, the map's only channel.
+  /// The channel to write as PFM, PNG or NPY; if empty, the map's only channel. As NPY also a
+  /// channel of several parts, "N" for N.X, N.Y and N.Z.
   std::string channel;
 };
 
@@ -37,7 +44,10 @@ struct WriteOptions {
 ///   PFM   one binary32 channel, bottom row first, little endian, scale −1.
 ///   PNG   one channel of 16-bit codes, big endian as always in PNG, with the scale as text chunk
 ///         `fathom:scale`, attributes as text chunks; or identifiers up to 65534.
-///   NPY   one channel, C order, shape (height, width), version 1.0.
+///   NPY   one channel, C order, shape (height, width), version 1.0; one of several parts, of one
+///         type, has shape (height, width, parts).
+///   NPZ   every channel as such an array, in a ZIP archive without compression, of less than 4 GiB;
+///         the texts and the names of objects as a JSON object in an array `fathom` that is a text.
 /// Fails    OutputError: "PATH: why" (disk full, not writable), or if the format cannot hold what
 ///          the map has; InputError where the map has a fault (find_fault); UsageError if the
 ///          channel is missing or ambiguous, or the number of threads is out of range.
@@ -55,7 +65,10 @@ struct MapMemory {
       MemoryAllowance{std::uint64_t{1} << 29, "such a small file may unpack to", ""};
 };
 
-/// Reads a map back, recognising its format by content. Also EXR files of other programs: HALF
+/// Reads a map back, recognising its format by content. Channels have their own names, whatever
+/// with_channel_names() has called them. Parts of an array of pixels with several are called as those
+/// of the channel of its name, or NAME.0, NAME.1, …; an NPY has no names: "Z", "id" (32-bit integers)
+/// or "vector". Also EXR files of other programs: HALF
 /// channels are widened to binary32; a layered name is kept in full. Nothing is allocated for a
 /// size that the file cannot fill, or that takes more than `memory`. "-" is standard input.
 /// Fails    InputError: "PATH: what is wrong and what was expected".

@@ -6,6 +6,8 @@
 #include <limits>
 #include <string_view>
 
+#include "fathom/image/background.h"
+
 namespace fathom {
 namespace {
 
@@ -23,7 +25,18 @@ NameTail tail_of(std::string_view name) {
 }
 
 template <class T>
+std::vector<std::uint8_t> mask_of_all_but(const Samples<T>& values, double background) {
+  const auto stored = static_cast<T>(background);
+  std::vector<std::uint8_t> mask(values.size());
+  std::transform(values.begin(), values.end(), mask.begin(), [stored](T value) {
+    return !(value == stored || (value != value && stored != stored));
+  });
+  return mask;
+}
+
+template <class T>
 std::vector<std::uint8_t> mask_of_numbers(const Samples<T>& values, const BackgroundRule& rule) {
+  if (rule.only && rule.value) return mask_of_all_but(values, *rule.value);
   // A rule of 0 covers values below 0 as well: no depth is negative.
   std::vector<std::uint8_t> mask(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -102,7 +115,7 @@ BackgroundRule detect_background(const ImageChannel& channel) {
   if (std::holds_alternative<Samples<std::uint16_t>>(channel.values)) return {0.0, ""};
   std::uint64_t count = 0;
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
-  std::uint64_t at_greatest = 0, not_positive = 0;
+  std::uint64_t at_greatest = 0, not_positive = 0, zeros = 0;
   std::visit(
       [&](const auto& values) {
         for (const auto stored : values) {
@@ -116,6 +129,7 @@ BackgroundRule detect_background(const ImageChannel& channel) {
           least = std::min(least, value);
           at_greatest += value == greatest;
           not_positive += value <= 0;
+          zeros += value == 0;
         }
       },
       channel.values);
@@ -128,8 +142,19 @@ BackgroundRule detect_background(const ImageChannel& channel) {
   if (greatest == 65504) return {65504.0, note("65504", at_greatest)};
   if (greatest == static_cast<double>(std::numeric_limits<float>::max()))
     return {greatest, note("the greatest binary32", at_greatest)};
+  if (tail_of(channel.name).last == "disparity") {
+    if (zeros > 0) return {0.0, note("0", zeros), true};
+    return {};
+  }
   if (not_positive > 0) return {0.0, note(least < 0 ? "0 or below" : "0", not_positive)};
   return {};
+}
+
+BackgroundRule background_of(const DepthMap& map, const ImageChannel& channel) {
+  const bool codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
+  const std::optional<double> declared = codes ? std::nullopt : declared_background(map);
+  if (!declared) return detect_background(channel);
+  return {.value = declared, .only = true};
 }
 
 std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& channel,
@@ -144,7 +169,7 @@ std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& 
   switch (kind_of(channel)) {
     case ChannelKind::identifier:
     case ChannelKind::depth:
-      return depth_mask(channel, rule ? *rule : detect_background(channel));
+      return depth_mask(channel, rule ? *rule : background_of(map, channel));
     case ChannelKind::direction:
       return group_mask(map, channel, false);
     case ChannelKind::position:
@@ -154,7 +179,7 @@ std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& 
   }
   const ImageChannel* depth = map.find("Z");
   if (depth && kind_of(*depth) == ChannelKind::depth)
-    return depth_mask(*depth, rule ? *rule : detect_background(*depth));
+    return depth_mask(*depth, rule ? *rule : background_of(map, *depth));
   return everywhere;
 }
 

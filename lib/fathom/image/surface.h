@@ -18,19 +18,27 @@ ChannelKind kind_of(const ImageChannel& channel);
 /// The value that means "no surface" in a depth channel of another program: 1e10 (Blender), 0
 /// (most 16-bit and simulator maps), NaN (ROS), …
 struct BackgroundRule {
-  /// Values that are not finite are always background; a finite value given here is, too.
+  /// Values that are not finite are background, and a finite value given here is, too; with 0, so
+  /// are values below it.
   std::optional<double> value;
   /// How it was found, for the user: one line, or empty if nothing was guessed.
-  std::string note;
+  std::string note = {};
+  /// Nothing but `value`, which may be NaN, is background: a map that names its background
+  /// (background.h) has it there alone, and what is infinite is a depth that overflowed.
+  bool only = false;
 };
 
 /// Guesses the rule for a depth channel. The first of these that applies:
 ///   codes (16 bits): 0;
 ///   any value that is not finite: those are the background, and no finite value is;
 ///   the greatest value is 1e10, 65504 or the greatest binary32 number: that value;
-///   any value is 0 or below: 0 (and values below 0);
+///   any value is 0 or below: 0 (and values below 0, but not of disparities, which may be negative);
 ///   otherwise there is no background.
 BackgroundRule detect_background(const ImageChannel& channel);
+
+/// The rule for a depth channel of a map: what the map says (background.h), or else the guess.
+/// Fails    InputError if what it says is no number.
+BackgroundRule background_of(const DepthMap& map, const ImageChannel& channel);
 
 /// The values of `id`, `object` or `face`, the first that the map has.
 const Samples<std::uint32_t>* identifiers_of(const DepthMap& map);
@@ -38,9 +46,9 @@ const Samples<std::uint32_t>* identifiers_of(const DepthMap& map);
 /// One byte per pixel: 1 where `channel` of `map` shows a surface.
 /// `A` shows something at every pixel. If the map has an identifier channel, that decides (unless
 /// `by_identifiers` is false), which distinguishes a depth that overflowed to +∞ from background.
-/// Otherwise the channel's own background decides (the rule for depths, given or detected); a
+/// Otherwise the channel's own background decides (the rule for depths: given, or background_of()); a
 /// channel without one follows the map's `Z`, if there is one; else every pixel counts.
-/// Fails    InputError if the map has a fault (find_fault).
+/// Fails    InputError if the map has a fault (find_fault), or names a background that is none.
 std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& channel,
                                        const std::optional<BackgroundRule>& rule = std::nullopt,
                                        bool by_identifiers = true);

@@ -23,8 +23,13 @@ DepthMap decode_pfm(text::ByteView bytes, const std::string& name);
 text::Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::string& name);
 DepthMap decode_png(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 
-text::Bytes encode_npy(const DepthMap& map, const ImageChannel& channel, const std::string& name);
+/// One channel, or several of one type as the parts of a pixel.
+text::Bytes encode_npy(const DepthMap& map, const std::vector<const ImageChannel*>& channels,
+                       const std::string& name);
 DepthMap decode_npy(text::ByteView bytes, const std::string& name);
+
+text::Bytes encode_npz(const DepthMap& map, const std::string& name);
+DepthMap decode_npz(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 
 /// Recognises the format by the first bytes and decodes.
 DepthMap decode_map(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});

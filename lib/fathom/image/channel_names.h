@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fathom/image/depth_map.h"
+
+/// Channels under the names that other programs look for: OpenCV, for one, shows of an EXR only
+/// channels R, G, B and Y.
+namespace fathom {
+
+/// A channel of a map, and what it is called in the file: {"Z", "Y"}.
+struct ChannelName {
+  std::string channel, in_file;
+};
+
+/// The text of a map whose channels have other names: "Z=Y,distance=D".
+inline constexpr const char* channel_names_text = "fathom.channel-names";
+
+/// The map with these channels called otherwise, and the text by which read_map() gives them their
+/// own names back. Files of PFM and NPY name no channel.
+/// Fails    UsageError if there is no such channel, it is named twice, a name is empty or holds one
+///          of ",=" or NUL, or two channels would be called the same; InputError if the map has a
+///          fault.
+DepthMap with_channel_names(DepthMap map, const std::vector<ChannelName>& names);
+
+/// The map with the names that its channels had before with_channel_names(), and without that text.
+/// A text that says nothing of the kind is left as it is: it is another program's.
+DepthMap with_own_channel_names(DepthMap map);
+
+}  // namespace fathom
