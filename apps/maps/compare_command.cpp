@@ -24,16 +24,19 @@ struct CompareArguments {
   std::string truth, other;
   CompareOptions options;
   std::string json, heatmap;
+  bool metrics = false, disparity_metrics = false;
 };
 
 double parse_tolerance(const std::string& text) {
-  const double ulp = parse_number(text);
-  if (ulp < 0) throw UsageError("'" + text + "' is negative");
-  return ulp;
+  const double tolerance = parse_number(text);
+  if (tolerance < 0) throw UsageError("'" + text + "' is negative");
+  return tolerance;
 }
 
 int run_compare(const CompareArguments& arguments) {
-  const CompareOptions& options = arguments.options;
+  CompareOptions options = arguments.options;
+  if (arguments.metrics) options.metrics = Metrics::by_channel;
+  if (arguments.disparity_metrics) options.metrics = Metrics::of_disparity;
   note_input(arguments.truth);
   note_input(arguments.other);
   TextOutput json(arguments.json);
@@ -41,7 +44,7 @@ int run_compare(const CompareArguments& arguments) {
   if (!arguments.heatmap.empty()) heatmap.emplace(arguments.heatmap);
   const DepthMap truth = read_map_argument(arguments.truth);
   const DepthMap other = read_map_argument(arguments.other);
-  const Comparison comparison{arguments.truth, arguments.other, options.tolerance_ulp,
+  const Comparison comparison{arguments.truth, arguments.other, options,
                               compare_maps(truth, other, options)};
 
   std::vector<OutputFile*> outputs;
@@ -67,11 +70,24 @@ void add_compare(Command& program) {
       program.command("compare", "Compare two maps pixel by pixel; exit status 1 if they differ",
                       "  fathom compare spot.exr other.exr\n"
                       "  fathom compare spot.exr other.pfm --tolerance-ulp 2 --json report.json\n"
-                      "  fathom compare spot.exr blender.exr --heatmap differences.png");
+                      "  fathom compare spot.exr blender.exr --heatmap differences.png\n"
+                      "  fathom compare truth.exr network.npy --metrics --absolute 0.001 --json -\n"
+                      "  fathom compare disp0.pfm mine.pfm --disparity-metrics");
   command.argument("TRUTH", arguments->truth, "The map that is right").required();
   command.argument("OTHER", arguments->other, "The map to check").required();
   command.option("--tolerance-ulp", "N", into(options.tolerance_ulp, parse_tolerance),
                  "Accept differences of up to N units in the last place (default 0)");
+  command.option("--absolute", "D", into(options.tolerance_absolute, parse_tolerance),
+                 "Accept absolute differences of up to D, in the unit of the channel, as well");
+  command.option("--relative", "R", into(options.tolerance_relative, parse_tolerance),
+                 "Accept relative differences of up to R as well");
+  command.flag(
+      "--metrics", arguments->metrics,
+      "Add the figures of benchmarks, over the pixels where both show a surface: AbsRel, "
+      "SqRel, RMSE, RMSE log, MAE and the shares below 1.25, 1.25^2 and 1.25^3; of a channel "
+      "'disparity' EPE, RMSE and the shares off by more than 0.5, 1 and 2 pixels");
+  command.flag("--disparity-metrics", arguments->disparity_metrics,
+               "Those of disparities, whatever the channel is called (PFM does not say)");
   command.option("--json", "FILE", arguments->json,
                  "Write the figures to this file (- is standard output, without the text)");
   command.option("--heatmap", "PNG", into(arguments->heatmap, parse_png_name),

@@ -26,6 +26,18 @@ Json to_json(const DifferenceSummary& s) {
           {"worst", to_json(s.worst)}};
 }
 
+Json to_json(const DepthMetrics& m) {
+  return {{"pixels", m.pixels},  {"left_out", m.left_out}, {"abs_rel", m.abs_rel},
+          {"sq_rel", m.sq_rel},  {"rmse", m.rmse},         {"rmse_log", m.rmse_log},
+          {"mae", m.mae},        {"delta_1", m.delta_1},   {"delta_2", m.delta_2},
+          {"delta_3", m.delta_3}};
+}
+
+Json to_json(const DisparityMetrics& m) {
+  return {{"pixels", m.pixels},   {"left_out", m.left_out}, {"epe", m.epe},    {"rmse", m.rmse},
+          {"bad_0_5", m.bad_0_5}, {"bad_1", m.bad_1},       {"bad_2", m.bad_2}};
+}
+
 Json to_json(const ChannelComparison& c) {
   Json json{{"channel", c.truth_channel},
             {"other_channel", c.other_channel},
@@ -47,6 +59,8 @@ Json to_json(const ChannelComparison& c) {
     json["relative"] = to_json(c.relative);
     json["ulp"] = to_json(c.ulp);
   }
+  if (c.depth_metrics) json["metrics"] = to_json(*c.depth_metrics);
+  if (c.disparity_metrics) json["disparity_metrics"] = to_json(*c.disparity_metrics);
   json["within_tolerance"] = c.within_tolerance();
   json["notes"] = c.notes;
   return json;
@@ -60,7 +74,9 @@ std::string as_json(const Comparison& comparison) {
   for (const ChannelComparison& channel : maps.channels) channels.push_back(to_json(channel));
   const Json answer{{"truth", comparison.truth},
                     {"other", comparison.other},
-                    {"tolerance_ulp", comparison.tolerance_ulp},
+                    {"tolerance_ulp", comparison.options.tolerance_ulp},
+                    {"tolerance_absolute", comparison.options.tolerance_absolute},
+                    {"tolerance_relative", comparison.options.tolerance_relative},
                     {"within_tolerance", maps.within_tolerance()},
                     {"channels", channels},
                     {"only_in_truth", maps.only_in_truth},

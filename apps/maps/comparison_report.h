@@ -9,7 +9,7 @@ namespace fathom::app {
 /// What was compared with what.
 struct Comparison {
   std::string truth, other;  ///< the names of the files
-  double tolerance_ulp = 0;
+  CompareOptions options;
   MapComparison maps;
 };
 

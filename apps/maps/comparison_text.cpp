@@ -2,6 +2,7 @@
 
 #include "apps/maps/comparison_report.h"
 #include "apps/shell/values.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {
@@ -14,6 +15,39 @@ std::string to_text(const std::optional<PixelPosition>& pixel, const char* what)
 std::string figures_line(const char* name, const DifferenceSummary& s) {
   return fmt::format("  {:<9} {:>13.6g} {:>13.6g} {:>13.6g} {:>13.6g} {:>13.6g} {:>13.6g}\n", name,
                      s.max, s.mean, s.p50, s.p90, s.p99, s.p99_9);
+}
+
+std::string pixels_line(std::uint64_t pixels, std::uint64_t left_out) {
+  return fmt::format("  metrics   over {}{}\n", text::counted(pixels, "pixel"),
+                     left_out == 0 ? "" : fmt::format(", {} left out", left_out));
+}
+
+std::string to_text(const DepthMetrics& m) {
+  return pixels_line(m.pixels, m.left_out) +
+         fmt::format("    AbsRel {:.6g}, SqRel {:.6g}, RMSE {:.6g}, RMSE log {:.6g}, MAE {:.6g}\n",
+                     m.abs_rel, m.sq_rel, m.rmse, m.rmse_log, m.mae) +
+         fmt::format("    below 1.25: {:.6g} %, 1.25^2: {:.6g} %, 1.25^3: {:.6g} %\n",
+                     100 * m.delta_1, 100 * m.delta_2, 100 * m.delta_3);
+}
+
+std::string to_text(const DisparityMetrics& m) {
+  return pixels_line(m.pixels, m.left_out) +
+         fmt::format("    EPE {:.6g}, RMSE {:.6g}\n", m.epe, m.rmse) +
+         fmt::format("    off by more than 0.5: {:.6g} %, 1: {:.6g} %, 2: {:.6g} %\n",
+                     100 * m.bad_0_5, 100 * m.bad_1, 100 * m.bad_2);
+}
+
+/// "2 ulp, 0.001 absolute or 1e-06 relative", those that are not 0.
+std::string to_text(const CompareOptions& options) {
+  std::vector<std::string> tolerances;
+  if (options.tolerance_ulp > 0 ||
+      (options.tolerance_absolute == 0 && options.tolerance_relative == 0))
+    tolerances.push_back(fmt::format("{} ulp", options.tolerance_ulp));
+  if (options.tolerance_absolute > 0)
+    tolerances.push_back(fmt::format("{} absolute", options.tolerance_absolute));
+  if (options.tolerance_relative > 0)
+    tolerances.push_back(fmt::format("{} relative", options.tolerance_relative));
+  return joined(tolerances, " or ");
 }
 
 std::string to_text(const ChannelComparison& c) {
@@ -42,6 +76,8 @@ std::string to_text(const ChannelComparison& c) {
                           to_text(c.first_mismatch, "first"));
     }
   }
+  if (c.depth_metrics) text += to_text(*c.depth_metrics);
+  if (c.disparity_metrics) text += to_text(*c.disparity_metrics);
   for (const std::string& note : c.notes) text += "  note: " + text::printable(note) + "\n";
   return text;
 }
@@ -61,9 +97,9 @@ std::string as_text(const Comparison& comparison) {
         fmt::format("only in the other: {}\n", text::printable(joined(maps.only_in_other, ", ")));
   }
   for (const std::string& note : maps.notes) text += "note: " + text::printable(note) + "\n";
-  return text + fmt::format("the maps {} within {} ulp\n",
+  return text + fmt::format("the maps {} within {}\n",
                             maps.within_tolerance() ? "agree" : "do not agree",
-                            comparison.tolerance_ulp);
+                            to_text(comparison.options));
 }
 
 }  // namespace fathom::app

@@ -43,6 +43,68 @@ TEST(Compare, CountsCoverageAndFindsTheFirstDisagreement) {
   EXPECT_THAT(c.notes, IsEmpty());
 }
 
+TEST(Compare, AnyOfTheTolerancesIsEnough) {
+  // 0.5 and 1/8 apart, and 2^20 ulp; 1 and 1/4.
+  const std::vector<float> truth{4, 4}, other{4.5f, 5};
+  const auto beyond = [&](const CompareOptions& options) {
+    return compared(truth, other, options).beyond_tolerance;
+  };
+  EXPECT_EQ(beyond({}), 2u);
+  EXPECT_EQ(beyond({.tolerance_absolute = 0.5}), 1u);
+  EXPECT_EQ(beyond({.tolerance_absolute = std::nextafter(0.5, 0)}), 2u);
+  EXPECT_EQ(beyond({.tolerance_relative = 0.2}), 0u);
+  EXPECT_EQ(beyond({.tolerance_relative = std::nextafter(0.2, 0)}), 1u);
+  EXPECT_EQ(beyond({.tolerance_ulp = 1e9}), 0u);
+  EXPECT_EQ(beyond({.tolerance_absolute = 0.5, .tolerance_relative = 0.2}), 0u);
+  EXPECT_EQ(compared({4}, {nan_value}, {.tolerance_absolute = INFINITY}).both, 0u);
+  for (const double wrong : {-1.0, std::nan("")}) {
+    EXPECT_THROW(beyond({.tolerance_absolute = wrong}), UsageError);
+    EXPECT_THROW(beyond({.tolerance_relative = wrong}), UsageError);
+  }
+}
+
+TEST(Compare, MetricsOfDepths) {
+  const auto c = compared({4, 2, inf, 8, 1}, {5, 2, 3, inf, 4}, {.metrics = Metrics::by_channel});
+  ASSERT_TRUE(c.depth_metrics);
+  EXPECT_FALSE(c.disparity_metrics);
+  const DepthMetrics& m = *c.depth_metrics;
+  EXPECT_EQ(m.pixels, 3u);
+  EXPECT_EQ(m.left_out, 0u);
+  EXPECT_EQ(m.mae, 4.0 / 3);
+  EXPECT_EQ(m.abs_rel, (0.25 + 3) / 3);
+  EXPECT_EQ(m.sq_rel, (0.25 + 9) / 3);
+  EXPECT_EQ(m.rmse, std::sqrt(10.0 / 3));
+  EXPECT_DOUBLE_EQ(m.rmse_log,
+                   std::sqrt((std::pow(std::log(1.25), 2) + std::pow(std::log(4), 2)) / 3));
+  // 1.25 is not below 1.25.
+  EXPECT_EQ(m.delta_1, 1.0 / 3);
+  EXPECT_EQ(m.delta_2, 2.0 / 3);
+  EXPECT_EQ(m.delta_3, 2.0 / 3);
+  EXPECT_FALSE(compared({1}, {1}).depth_metrics);
+  EXPECT_EQ(compared({inf}, {inf}, {.metrics = Metrics::by_channel}).depth_metrics->rmse, 0);
+  // What is not above 0 has no logarithm; a background that is given lets it be a surface.
+  const auto left =
+      compared({1, -1}, {1, 2}, {.metrics = Metrics::by_channel, .truth_background = 7.0});
+  EXPECT_EQ(left.depth_metrics->pixels, 1u);
+  EXPECT_EQ(left.depth_metrics->left_out, 1u);
+}
+
+TEST(Compare, MetricsOfDisparities) {
+  const DepthMap truth = map_of(5, 1, "disparity", std::vector<float>{1, 2, 3, 4, inf});
+  const DepthMap other = map_of(5, 1, "disparity", std::vector<float>{1, 2.5f, 2, 7, 1});
+  const auto c = compare_maps(truth, other, {.metrics = Metrics::by_channel}).channels.at(0);
+  ASSERT_TRUE(c.disparity_metrics);
+  EXPECT_FALSE(c.depth_metrics);
+  EXPECT_EQ(c.disparity_metrics->pixels, 4u);
+  EXPECT_EQ(c.disparity_metrics->epe, 4.5 / 4);
+  EXPECT_EQ(c.disparity_metrics->rmse, std::sqrt(10.25 / 4));
+  EXPECT_EQ(c.disparity_metrics->bad_0_5, 0.5);
+  EXPECT_EQ(c.disparity_metrics->bad_1, 0.25);
+  EXPECT_EQ(c.disparity_metrics->bad_2, 0.25);
+  const auto of_z = compared({1, 2}, {1, 3}, {.metrics = Metrics::of_disparity});
+  EXPECT_EQ(of_z.disparity_metrics->epe, 0.5);
+}
+
 TEST(Compare, MeasuresInAllThreeTerms) {
   const float next = std::nextafterf(8, 9);  // 2^-20 above 8
   const auto c = compared({8, 4, 1}, {next, 5, 1});

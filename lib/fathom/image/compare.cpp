@@ -84,6 +84,16 @@ Measure measure(const Reading& a, const Reading& b, std::size_t k) {
   return m;
 }
 
+bool is_beyond(const Measure& m, const CompareOptions& options) {
+  return !m.commensurable ||
+         (m.ulp > options.tolerance_ulp && m.absolute > options.tolerance_absolute &&
+          m.relative > options.tolerance_relative);
+}
+
+void require_tolerance(const char* setting, double tolerance) {
+  if (!(tolerance >= 0)) throw UsageError(Setting{setting}, "expected a number of 0 or more");
+}
+
 /// Differences of one kind at all compared pixels, and where the largest is.
 struct Differences {
   std::vector<double> values;
@@ -129,6 +139,26 @@ void add_notes(ChannelComparison& result, const ChannelPair& pair) {
         "the channels are stored in different types: ulp differences count binary32 numbers");
 }
 
+template <class Errors>
+auto errors_of(const ChannelPair& pair) {
+  const Reading a(pair.truth, pair.truth_scale), b(pair.other, pair.other_scale);
+  Errors errors;
+  for (std::size_t k = 0; k < pair.truth_mask.size(); ++k)
+    if (pair.truth_mask[k] != 0 && pair.other_mask[k] != 0) errors.add(a.value(k), b.value(k));
+  return errors.result();
+}
+
+void add_metrics(ChannelComparison& result, const ChannelPair& pair, Metrics metrics) {
+  if (metrics == Metrics::none || kind_of(pair.truth) != ChannelKind::depth) return;
+  const std::string& name = pair.truth.name;
+  const bool disparity =
+      metrics == Metrics::of_disparity || name.substr(name.rfind('.') + 1) == "disparity";
+  if (disparity)
+    result.disparity_metrics = errors_of<DisparityErrors>(pair);
+  else
+    result.depth_metrics = errors_of<DepthErrors>(pair);
+}
+
 ChannelComparison compare_channel(const ChannelPair& pair, const CompareOptions& options) {
   ChannelComparison result;
   result.truth_channel = pair.truth.name;
@@ -160,7 +190,7 @@ ChannelComparison compare_channel(const ChannelPair& pair, const CompareOptions&
     const Measure m = measure(a, b, k);
     result.bit_equal += m.bit_equal;
     result.incommensurable += !m.commensurable;
-    result.beyond_tolerance += !m.commensurable || m.ulp > options.tolerance_ulp;
+    result.beyond_tolerance += is_beyond(m, options);
     if (!m.commensurable) {
       mark(result.first_mismatch, k);
       continue;
@@ -170,6 +200,7 @@ ChannelComparison compare_channel(const ChannelPair& pair, const CompareOptions&
     relative.add(m.relative, k);
     ulp.add(m.ulp, k);
   }
+  add_metrics(result, pair, options.metrics);
   result.absolute = absolute.summary(pair.width);
   result.relative = relative.summary(pair.width);
   result.ulp = ulp.summary(pair.width);
@@ -213,9 +244,9 @@ PairedNames image::paired_channels(const DepthMap& truth, const DepthMap& other,
                                    const CompareOptions& options) {
   require_valid(truth);
   require_valid(other);
-  if (!(options.tolerance_ulp >= 0)) {
-    throw UsageError(Setting{"tolerance_ulp"}, "expected a number of 0 or more");
-  }
+  require_tolerance("tolerance_ulp", options.tolerance_ulp);
+  require_tolerance("tolerance_absolute", options.tolerance_absolute);
+  require_tolerance("tolerance_relative", options.tolerance_relative);
   if (truth.width != other.width || truth.height != other.height)
     throw InputError("the maps differ in size: " + std::to_string(truth.width) + "×" +
                      std::to_string(truth.height) + " and " + std::to_string(other.width) + "×" +

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fathom/image/depth_map.h"
+#include "fathom/image/error_metrics.h"
 #include "fathom/image/rgb_image.h"
 
 /// How two maps of the same view differ.
@@ -54,11 +55,14 @@ struct ChannelComparison {
   std::uint64_t different_identifiers = 0;
   /// The first pixel, row by row, with different identifiers or incommensurable values.
   std::optional<PixelPosition> first_mismatch;
-  /// `both` pixels farther apart than the tolerance: above CompareOptions::tolerance_ulp,
-  /// incommensurable, or with different identifiers.
+  /// `both` pixels farther apart than every tolerance of CompareOptions, incommensurable, or with
+  /// different identifiers.
   std::uint64_t beyond_tolerance = 0;
 
   DifferenceSummary absolute, relative, ulp;
+  /// Where CompareOptions::metrics asks for them, of channels of depth: either of the two.
+  std::optional<DepthMetrics> depth_metrics;
+  std::optional<DisparityMetrics> disparity_metrics;
   /// What the reader should know, a line each: a background that was guessed, types that differ, …
   std::vector<std::string> notes;
 
@@ -78,8 +82,20 @@ struct MapComparison {
   [[nodiscard]] bool within_tolerance() const;
 };
 
+/// Which figures of benchmarks are computed of channels of depth (error_metrics.h).
+enum class Metrics {
+  none,
+  by_channel,  ///< DisparityMetrics of channels that are called `disparity`, DepthMetrics of others
+  of_disparity  ///< DisparityMetrics of all: PFM does not say what it holds
+};
+
 struct CompareOptions {
+  /// Two numbers agree where one of these allows it: so many ulps, an absolute difference in the unit
+  /// of the channel, a relative one (ChannelComparison says what is measured).
   double tolerance_ulp = 0;
+  double tolerance_absolute = 0;
+  double tolerance_relative = 0;
+  Metrics metrics = Metrics::none;
   /// Compare this channel only; empty: all that both have. If they have no name in common, a depth
   /// channel of each is compared (`ViewLayer.Depth.Z`), with a note.
   std::string channel;
