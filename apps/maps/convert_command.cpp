@@ -60,6 +60,9 @@ int write_points(const DepthMap& map, const ConvertArguments& arguments, const C
   if (arguments.storage.compression || arguments.storage.png_scale) {
     throw UsageError("--compression and --png-scale do not go with a point cloud");
   }
+  if (arguments.storage.background || !arguments.storage.channel_names.empty()) {
+    throw UsageError("--background and --channel-name do not go with a point cloud");
+  }
   const PointCloudOptions options{
       .frame = arguments.frame,
       .binary64 = arguments.storage.dtype != StorageOptions::Float::binary32};
@@ -80,12 +83,31 @@ DepthMap converted(DepthMap map, const ConvertArguments& arguments, const Consol
   if (map.channels.size() == 1 && map.texts.empty()) map.channels[0].name = channel_of(from);
   return convert_quantity(map, from, *arguments.to,
                           view_for(map, arguments.map, arguments.camera, console),
-                          rig_of(arguments));
+                          rig_of(arguments), arguments.storage.background);
 }
 
 /// The map with this channel only.
 DepthMap only(DepthMap map, const ImageChannel& channel) {
   map.channels = std::vector<ImageChannel>{channel};
+  return map;
+}
+
+/// The map with those channels only that are the parts of one: N.X, N.Y and N.Z.
+DepthMap only_parts(DepthMap map, const std::string& name) {
+  std::erase_if(map.channels,
+                [&](const ImageChannel& channel) { return !channel.name.starts_with(name + "."); });
+  return map;
+}
+
+/// Every channel, those of depth as wide as they are asked to be.
+DepthMap all_stored(DepthMap map, const StorageOptions& storage) {
+  if (!storage.dtype) return map;
+  const bool wide = *storage.dtype == StorageOptions::Float::binary64;
+  for (ImageChannel& channel : map.channels) {
+    if (kind_of(channel) != ChannelKind::depth) continue;
+    const auto type = wide ? StoredType::binary64 : StoredType::binary32;
+    channel = std::move(with_storage(map, channel.name, type).channels.front());
+  }
   return map;
 }
 
@@ -99,8 +121,13 @@ const ImageChannel* chosen_channel(const DepthMap& map, const std::string& name)
 /// The map in the type that the format asks for; an EXR keeps all channels as they are.
 DepthMap stored(DepthMap map, const ConvertArguments& arguments, MapFormat format) {
   const bool codes = map.png_scale.has_value();
-  if (format == MapFormat::exr && arguments.channel.empty() && !codes && map.channels.size() > 1) {
-    return map;
+  if (holds_all_channels(format) && arguments.channel.empty() && !codes &&
+      map.channels.size() > 1) {
+    return all_stored(std::move(map), arguments.storage);
+  }
+  if (map.find(arguments.channel) == nullptr) {
+    DepthMap parts = only_parts(map, arguments.channel);
+    if (!parts.channels.empty()) return parts;
   }
   const ImageChannel* channel = chosen_channel(map, arguments.channel);
   // Identifiers, normals and so on are not depths: they keep their type.
@@ -126,8 +153,9 @@ int run_convert(const ConvertArguments& arguments, const Console& console) {
     return write_points(read_map_argument(arguments.map), arguments, console);
   }
   const MapFormat format = arguments.storage.format_of(arguments.output);
-  const DepthMap map =
-      stored(converted(read_map_argument(arguments.map), arguments, console), arguments, format);
+  const DepthMap map = arguments.storage.dressed(
+      stored(converted(read_map_argument(arguments.map), arguments, console), arguments, format),
+      arguments.output);
   OutputFile output(arguments.output);
   output.write(
       [&](const auto& path) { write_map(map, path, format, arguments.storage.write_options(0)); });
@@ -144,14 +172,16 @@ void add_convert(Command& program) {
       "  fathom convert spot.exr -o spot.npy --dtype float32\n"
       "  fathom convert spot.exr --to distance -o distance.pfm\n"
       "  fathom convert spot.exr --to disparity --baseline 0.2 -o disparity.pfm\n"
+      "  fathom convert spot.exr --background 0 --channel-name Z=Y -o for-opencv.exr\n"
+      "  fathom convert spot.exr -o spot.npz                     # every channel, for numpy\n"
       "  fathom convert spot.exr -o points.ply\n"
       "\nConversions start from the stored values, which are rounded already; 'fathom render "
       "--channels\ndistance' gives the exact ray distance, and render to .png or .npy rounds "
       "once.");
-  command.argument("MAP", arguments->map, "The map: EXR, PFM, PNG or NPY").required();
+  command.argument("MAP", arguments->map, "The map: EXR, PFM, PNG, NPY or NPZ").required();
   command
       .option("-o,--output", "FILE", arguments->output,
-              "A map (.exr, .pfm, .png, .npy) or a point cloud (.ply)")
+              "A map (.exr, .pfm, .png, .npy, .npz) or a point cloud (.ply)")
       .required();
   command.option("--channel", "NAME", arguments->channel,
                  "The channel to convert (default Z, or the only one)");
@@ -168,6 +198,9 @@ void add_convert(Command& program) {
   command.option("--frame", "NAME", into(arguments->frame, parse_frame),
                  "Of the point cloud: world (default) or camera");
   arguments->storage.add_to(command);
+  command.option("--background", "D", into(arguments->storage.background, parse_background),
+                 "What depths are where no surface is: 0, nan, inf or a number that no surface has "
+                 "(default: as in MAP; of disparities 0, where inf is Middlebury's unknown)");
   command.runs([arguments](const Console& console) { return run_convert(*arguments, console); });
 }
 

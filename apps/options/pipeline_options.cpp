@@ -80,9 +80,6 @@ void PipelineArguments::add_triangle_options(Command& command) {
 }
 
 void PipelineArguments::add_picture_options(Command& command) {
-  declared_.push_back(command.option("--background", "R,G,B",
-                                     into(stages_.background, parse_colour),
-                                     "R,G,B from 0 to 1 (default 0,0,0)"));
   declared_.push_back(command.option(
       "--line", "NAME", into(stages_.wire_line, parse_line),
       "Of wireframes and of lines in files: explicit, dda, bresenham (default), midpoint or "

@@ -21,6 +21,9 @@ class PipelineArguments {
   /// Those that change what becomes of one triangle by itself.
   void add_to_trace(Command& command, const std::string& heading);
 
+  /// Of the picture; the command has an option for it.
+  void set_background(const pipeline::Colour& colour) { stages_.background = colour; }
+
   /// The stages as they were asked for; the depth format is still the default.
   [[nodiscard]] pipeline::PipelineOptions options(Cull cull) const;
 

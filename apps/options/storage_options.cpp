@@ -1,7 +1,11 @@
 #include "apps/options/storage_options.h"
 
+#include <limits>
+
+#include "apps/shell/about_option.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
+#include "fathom/image/background.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -24,7 +28,30 @@ StorageOptions::Float parse_dtype(const std::string& text) {
                                                   {"float64", StorageOptions::Float::binary64}});
 }
 
+/// "Z=Y,distance=D"
+std::vector<ChannelName> parse_channel_names(const std::string& text) {
+  std::vector<ChannelName> names;
+  for (const std::string& part : parse_list(text)) {
+    const std::size_t middle = part.find('=');
+    if (middle == std::string::npos) {
+      throw UsageError("'" + part + "' is not a channel and its name, as Z=Y is");
+    }
+    names.push_back({part.substr(0, middle), part.substr(middle + 1)});
+  }
+  return names;
+}
+
 }  // namespace
+
+double parse_background(const std::string& text) {
+  if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (text == "inf" || text == "+inf") return std::numeric_limits<double>::infinity();
+  try {
+    return parse_number(text);
+  } catch (const UsageError&) {
+    throw UsageError("'" + text + "' is not 0, nan, inf or a number");
+  }
+}
 
 void StorageOptions::add_to(Command& command) {
   command.option("--compression", "NAME", into(compression, parse_compression),
@@ -32,14 +59,18 @@ void StorageOptions::add_to(Command& command) {
   command.option("--png-scale", "N", into(png_scale, parse_scale),
                  "Codes per unit of a PNG (default 1000)");
   command.option("--dtype", "NAME", into(dtype, parse_dtype),
-                 "Of an NPY: float32 (default) or float64");
+                 "Of an NPY or NPZ: float32 (default) or float64");
+  command.option(
+      "--channel-name", "NAME=AS", into(channel_names, parse_channel_names),
+      "Call channels otherwise in an EXR or NPZ: Z=Y for OpenCV; Z=Y,distance=D for two. "
+      "fathom reads them by their own names");
 }
 
 MapFormat StorageOptions::format_of(const std::string& target) const {
   std::optional<MapFormat> format = map_format_of(target);
   if (!format && is_written_through(target)) format = MapFormat::exr;
   if (!format) {
-    throw UsageError(target + ": the suffix of a map is one of .exr, .pfm, .png and .npy");
+    throw UsageError(target + ": the suffix of a map is one of .exr, .pfm, .png, .npy and .npz");
   }
   if (compression && *format != MapFormat::exr) {
     throw UsageError("--compression is for .exr, not for " + target);
@@ -47,8 +78,14 @@ MapFormat StorageOptions::format_of(const std::string& target) const {
   if (png_scale && *format != MapFormat::png) {
     throw UsageError("--png-scale is for .png, not for " + target);
   }
-  if (dtype && *format != MapFormat::npy) {
-    throw UsageError("--dtype is for .npy, not for " + target);
+  if (dtype && *format != MapFormat::npy && *format != MapFormat::npz) {
+    throw UsageError("--dtype is for .npy and .npz, not for " + target);
+  }
+  if (!channel_names.empty() && !holds_all_channels(*format)) {
+    throw UsageError("--channel-name is for .exr and .npz: no channel has a name in " + target);
+  }
+  if (background && *background != 0 && *format == MapFormat::png) {
+    throw UsageError("--background: it is always 0 in a .png, which " + target + " is");
   }
   return *format;
 }
@@ -61,6 +98,20 @@ DepthEncoding StorageOptions::encoding_for(MapFormat format) const {
   }
   if (dtype == Float::binary64) encoding.type = DepthEncoding::Type::binary64;
   return encoding;
+}
+
+DepthMap StorageOptions::dressed(DepthMap map, const std::string& target) const {
+  if (background && !map.png_scale) {
+    try {
+      map = about_option("--background",
+                         [&] { return with_background(std::move(map), *background); });
+    } catch (const OutputError& error) {
+      throw OutputError(target + ": " + error.what());
+    }
+  }
+  if (channel_names.empty()) return map;
+  return about_option("--channel-name",
+                      [&] { return with_channel_names(std::move(map), channel_names); });
 }
 
 WriteOptions StorageOptions::write_options(int threads) const {

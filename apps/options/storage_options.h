@@ -2,20 +2,25 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/shell/command.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/map_files.h"
 #include "fathom/triangle/options.h"
 
 namespace fathom::app {
 
-/// How a map is stored: `--compression --png-scale --dtype`, each only where the format has it.
+/// How a map is stored: `--compression --png-scale --dtype --channel-name`, each only where the format
+/// has it, and `--background`, which the command declares.
 struct StorageOptions {
   enum class Float { binary32, binary64 };
 
   std::optional<Compression> compression;  ///< of an EXR
   std::optional<double> png_scale;         ///< codes per unit of a PNG
-  std::optional<Float> dtype;              ///< of an NPY
+  std::optional<Float> dtype;              ///< of an NPY or NPZ
+  std::optional<double> background;        ///< of depth channels
+  std::vector<ChannelName> channel_names;  ///< of an EXR or NPZ
 
   void add_to(Command& command);
   /// The format that the suffix of `target` names; that of a device or a pipe is EXR. Fails with
@@ -23,6 +28,12 @@ struct StorageOptions {
   [[nodiscard]] MapFormat format_of(const std::string& target) const;
   [[nodiscard]] DepthEncoding encoding_for(MapFormat format) const;
   [[nodiscard]] WriteOptions write_options(int threads) const;
+  /// The map with the background and the names that were asked for, to be written as `target`. Fails
+  /// with OutputError, naming the target, or UsageError, naming the option.
+  [[nodiscard]] DepthMap dressed(DepthMap map, const std::string& target) const;
 };
+
+/// "0", "nan", "inf" or a number. Fails with UsageError.
+double parse_background(const std::string& text);
 
 }  // namespace fathom::app

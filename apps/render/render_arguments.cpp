@@ -4,6 +4,7 @@
 
 #include "apps/options/channel_list.h"
 #include "apps/options/cull_option.h"
+#include "apps/options/pipeline_words.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/numeric/errors.h"
@@ -26,7 +27,9 @@ std::uint64_t parse_pixels(const std::string& text) {
 void add_outputs(Command& command, RenderArguments& arguments) {
   command
       .option("-o,--output", "FILE", arguments.output,
-              "The map; its suffix decides the format: .exr, .pfm, .png (16 bit) or .npy")
+              "The map; its suffix decides the format: .exr, .pfm, .png (16 bit), .npy or .npz; a "
+              "folder that is "
+              "missing is made")
       .required();
   arguments.camera.add_to(command);
   command.option("--save-camera", "FILE", arguments.save_camera,
@@ -35,8 +38,8 @@ void add_outputs(Command& command, RenderArguments& arguments) {
 
 void add_contents(Command& command, RenderArguments& arguments) {
   command.option("--channels", "LIST", into(arguments.channels, parse_channels),
-                 "Of Z, A, Zlow, distance, id, face, object, N, P, bary (default Z,A in EXR; Z in "
-                 "other formats, with --stream and with --engine pipeline)");
+                 "Of Z, A, Zlow, distance, id, face, object, N, P, bary (default Z,A in EXR and "
+                 "NPZ; Z in other formats, with --stream and with --engine pipeline)");
   command.flag(
       "--deep", arguments.deep,
       "Write a deep EXR: for each pixel the visible fragments, sorted, with their depths "
@@ -74,6 +77,7 @@ void RenderArguments::add_to(Command& command) {
   add_outputs(command, *this);
   add_contents(command, *this);
   storage.add_to(command);
+  add_background(command);
   depth_buffer.add_to(command);
   add_checks(command, *this);
   const std::string heading = "With --engine pipeline";
@@ -91,7 +95,31 @@ void RenderArguments::add_to(Command& command) {
   of_pipeline_.insert(of_pipeline_.end(), pipeline.declared().begin(), pipeline.declared().end());
 }
 
+/// A single value is that of the map, a colour that of the pipeline's picture.
+void RenderArguments::add_background(Command& command) {
+  command.option(
+      "--background", "D|R,G,B",
+      [this](const std::string& text) {
+        picture_background_.reset();
+        storage.background.reset();
+        if (text.find(',') == std::string::npos) {
+          storage.background = parse_background(text);
+        } else {
+          picture_background_ = parse_colour(text);
+          pipeline.set_background(*picture_background_);
+        }
+      },
+      "What depth channels hold where no surface is: inf (default), 0, nan or a number that no "
+      "surface has (codes of a PNG: 0). R,G,B, from 0 to 1, is the background of --image (default "
+      "0,0,0)");
+}
+
 void RenderArguments::refuse_pipeline_options() const {
+  if (picture_background_) {
+    throw UsageError(
+        "--background R,G,B is for --engine pipeline; 0, nan, inf or a number is for "
+        "depths");
+  }
   for (const Option& option : of_pipeline_) {
     if (option.is_given()) throw UsageError(option.name() + " is for --engine pipeline");
   }

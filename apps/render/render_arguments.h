@@ -44,7 +44,10 @@ struct RenderArguments {
   void refuse_pipeline_options() const;
 
  private:
+  void add_background(Command& command);
+
   std::vector<Option> of_pipeline_;
+  std::optional<pipeline::Colour> picture_background_;
 };
 
 }  // namespace fathom::app

@@ -13,6 +13,7 @@ void add_render(Command& program, const Render& by_exact_engine, const Render& b
       "  fathom render spot.obj --view 90,0 --size 640x480 --save-camera side.json -o side.pfm\n"
       "  fathom render spot.obj -o spot.png --png-scale 1000      # 16 bits: 1000 codes per scene "
       "unit\n"
+      "  fathom render spot.obj --channels Z,id,N --background 0 -o maps/spot.npz\n"
       "  fathom render city.stl --stream --size 16384x16384 -o city.exr\n"
       "  fathom render scan.ply --engine fast --verify 1000 -o scan.exr\n"
       "  fathom render room.json --deep -o room.deep.exr\n"

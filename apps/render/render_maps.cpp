@@ -116,6 +116,7 @@ MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOp
   }
   report.seconds.verify = stopwatch.lap();
   if (plan.depth_buffer) drop_helpers(map, *plan.depth_buffer);
+  map = plan.storage.dressed(std::move(map), name);
   output.write([&](const auto& path) { write_map(map, path, plan.format, plan.writing); });
   report.seconds.write = stopwatch.lap();
   return report;

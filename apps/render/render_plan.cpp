@@ -21,7 +21,7 @@ bool contains(const std::vector<Channel>& channels, Channel channel) {
 /// written, or triangles do not stay in memory for it.
 std::vector<Channel> channels_of(const RenderArguments& a, MapFormat format) {
   if (a.channels) return *a.channels;
-  if (format == MapFormat::exr && !a.stream) return {Channel::Z, Channel::A};
+  if (holds_all_channels(format) && !a.stream) return {Channel::Z, Channel::A};
   return {Channel::Z};
 }
 
@@ -50,13 +50,16 @@ void check_single_channel(const RenderArguments& a, MapFormat format,
                           const std::vector<Channel>& channels) {
   if (format == MapFormat::exr) return;
   if (a.cryptomatte) throw UsageError("--cryptomatte is for .exr, not for " + a.output);
-  if (a.samples) throw UsageError(a.output + " holds one channel; --samples needs an .exr");
+  if (holds_all_channels(format)) return;
+  if (a.samples) throw UsageError(a.output + " holds one channel; --samples needs an .exr or .npz");
   if (a.depth_buffer.storage) {
-    throw UsageError(a.output + " holds one channel; --depth-format needs an .exr");
+    throw UsageError(a.output + " holds one channel; --depth-format needs an .exr or .npz");
   }
+  // The parts of one are an array of pixels with several.
+  if (format == MapFormat::npy && channels.size() == 1) return;
   if (count_parts(channels) != 1) {
-    throw UsageError(fmt::format("{} holds one channel, not '{}'; .exr holds them all", a.output,
-                                 text_of(channels)));
+    throw UsageError(fmt::format("{} holds one channel, not '{}'; .exr and .npz hold them all",
+                                 a.output, text_of(channels)));
   }
   const Channel only = channels.front();
   if (format == MapFormat::png && (only == Channel::A || only == Channel::Zlow)) {
@@ -87,11 +90,13 @@ void check_deep(const RenderArguments& a) {
     throw UsageError("--deep is for .exr, not for " + a.output);
   }
   if (a.stream) throw UsageError("--deep is not for --stream");
-  const char* other = a.channels               ? "--channels"
-                      : a.cryptomatte          ? "--cryptomatte"
-                      : a.samples              ? "--samples"
-                      : a.depth_buffer.storage ? "--depth-format"
-                                               : nullptr;
+  const char* other = a.channels                         ? "--channels"
+                      : a.storage.background             ? "--background"
+                      : !a.storage.channel_names.empty() ? "--channel-name"
+                      : a.cryptomatte                    ? "--cryptomatte"
+                      : a.samples                        ? "--samples"
+                      : a.depth_buffer.storage           ? "--depth-format"
+                                                         : nullptr;
   if (other != nullptr) {
     throw UsageError(fmt::format(
         "--deep has channels of its own, A, Z, ZBack, area and id: {} goes into another map",
@@ -115,6 +120,7 @@ MapPlan plan_maps(const RenderArguments& a) {
   if (plan.depth_buffer && plan.depth_buffer->drops_id) channels.push_back(Channel::id);
 
   plan.writing = a.storage.write_options(a.scene.threads);
+  plan.storage = a.storage;
   plan.rendering = rendering_of(a);
   plan.rendering.channels = channels;
   plan.rendering.depth_encoding = a.storage.encoding_for(plan.format);

@@ -25,6 +25,7 @@ struct DepthBufferPlan {
 struct MapPlan {
   MapFormat format = MapFormat::exr;
   WriteOptions writing;
+  StorageOptions storage;
   RenderOptions rendering;
   bool cryptomatte = false;
   std::optional<SamplePattern> samples;

@@ -27,7 +27,7 @@ void ValidateArguments::add_to(Command& command) {
                  "Seconds after which a renderer is ended (default 300)");
   command.option("--render", "NAME", render, "Only draw, with this renderer");
   command.option("-o", "MAP", output, "Where --render puts its map");
-  command.option("--map", "MAP", map, "The map of another renderer (EXR, PFM, PNG, NPY)");
+  command.option("--map", "MAP", map, "The map of another renderer (EXR, PFM, PNG, NPY, NPZ)");
   command.option("--channel", "NAME", channel, "Its channel of depths (default: detected)");
   command.option("--png-scale", "N", into(png_scale, parse_scale),
                  "Codes per unit of a map of integers that does not say it itself");

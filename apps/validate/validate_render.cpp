@@ -35,7 +35,7 @@ int validate_render(const ValidateArguments& arguments, const Console& console) 
   if (arguments.output.empty()) throw UsageError("-o MAP is missing: where the map goes");
   const auto format = map_format_of(arguments.output);
   if (!format)
-    throw UsageError("-o: '" + arguments.output + "' does not end in .exr, .pfm or .npy");
+    throw UsageError("-o: '" + arguments.output + "' does not end in .exr, .pfm, .npy or .npz");
   if (arguments.scenes.empty()) throw UsageError("SCENE is missing: what is rendered");
   const SceneToMake scene = scenes_of(arguments, console).front();
   const Peer peer = peer_to_render(arguments);
@@ -46,7 +46,7 @@ int validate_render(const ValidateArguments& arguments, const Console& console) 
   map.texts["fathom.camera"] = to_json(scene.make().camera);
   map.texts["fathom.engine"] = drawing.drawn->version;
   output.write([&](const std::filesystem::path& path) {
-    write_map(map, path, *format, {.channel = *format == MapFormat::exr ? "" : "Z"});
+    write_map(map, path, *format, {.channel = holds_all_channels(*format) ? "" : "Z"});
   });
   output.commit();
   return done;

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "fathom/image/background.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/map_files.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"
@@ -51,7 +53,7 @@ DepthMap codes_of_sample() {
   return map;
 }
 
-/// map.exr, map.png, map.npy and map.pfm of the sample.
+/// map.exr, map.png, map.npy, map.npz and map.pfm of the sample, and for-opencv.exr.
 void write_all(const Folder& folder) {
   const DepthMap map = sample();
   WriteOptions options;
@@ -59,6 +61,11 @@ void write_all(const Folder& folder) {
   write_map(map, folder / "map.exr", MapFormat::exr);
   write_map(map, folder / "map.pfm", MapFormat::pfm, options);
   write_map(map, folder / "map.npy", MapFormat::npy, options);
+  write_map(map, folder / "map.npz", MapFormat::npz);
+  DepthMap depth = map;
+  depth.channels.resize(1);
+  write_map(with_channel_names(with_background(depth, 0), {{"Z", "Y"}}), folder / "for-opencv.exr",
+            MapFormat::exr);
   write_map(codes_of_sample(), folder / "map.png", MapFormat::png);
 }
 
@@ -190,13 +197,15 @@ std::string contents_of(const std::string& path) {
   return text.str();
 }
 
-/// All code of the page in one language, in order.
-std::string code_in(const std::string& page, const std::string& language) {
+/// All code of the page in one language, in order; but what uses `without`, if that is a word.
+std::string code_in(const std::string& page, const std::string& language,
+                    const std::string& without = "") {
   std::string code;
   const std::string begin = "```" + language + "\n";
   for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
     at += begin.size();
-    code += page.substr(at, page.find("```", at) - at);
+    const std::string block = page.substr(at, page.find("```", at) - at);
+    if (without.empty() || block.find(without) == std::string::npos) code += block;
   }
   return code;
 }
@@ -205,7 +214,10 @@ TEST(ReadingMaps, PythonOfThePageRuns) {
   const Folder folder;
   write_all(folder);
   const std::string page = contents_of(test::source_dir() / "docs/reading-maps.md");
-  std::ofstream(folder / "page.py") << code_in(page, "python");
+  // `tests` of scripts/install-dependencies has OpenCV; elsewhere there may be none.
+  const bool has_opencv = run("/usr/bin/python3 -c 'import cv2'").status == 0;
+  if (!has_opencv) std::cout << "without OpenCV's part: install python3-opencv\n";
+  std::ofstream(folder / "page.py") << code_in(page, "python", has_opencv ? "" : "cv2");
   const Outcome outcome = in_folder(folder, "/usr/bin/python3 page.py");
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   // The mean of the points by hand: pixel centres (i − 1.5)/2 and (j − 1)/2 times Z = 1.5 + k/2.
@@ -231,9 +243,13 @@ TEST(ReadingMaps, PythonOfThePageRuns) {
   EXPECT_NEAR(y, mean_y, 1e-7);
   EXPECT_NEAR(z, mean_z, 1e-7);
   std::getline(lines, line);
-  for (int k = 0; k < 3; ++k) {
+  if (has_opencv) {
     std::getline(lines, line);
-    EXPECT_EQ(line, "nearest 1.5");
+    EXPECT_EQ(line, "OpenCV (3, 4) nearest 1.5");
+  }
+  for (int k = 0; k < 4; ++k) {
+    std::getline(lines, line);
+    EXPECT_EQ(line, k == 1 ? "nearest 1.5 width 4" : "nearest 1.5");
   }
 }
 

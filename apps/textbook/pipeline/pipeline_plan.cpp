@@ -21,10 +21,9 @@ void check_possible(const RenderArguments& a, MapFormat format) {
   }
   if (format == MapFormat::png) {
     throw UsageError(
-        "the pipeline writes its map as .exr, .pfm or .npy; --image is for the picture");
+        "the pipeline writes its map as .exr, .pfm, .npy or .npz; --image is for the picture");
   }
-  if (format == MapFormat::npy &&
-      a.storage.encoding_for(format).type != DepthEncoding::Type::binary32) {
+  if (a.storage.encoding_for(format).type != DepthEncoding::Type::binary32) {
     throw UsageError("--dtype: the pipeline's depths are float32");
   }
 }
@@ -67,18 +66,19 @@ PipelinePlan plan_pipeline(const RenderArguments& a) {
   plan.format = a.storage.format_of(a.output);
   check_possible(a, plan.format);
   plan.channels = a.channels.value_or(std::vector{Channel::Z});
-  if (plan.format != MapFormat::exr && plan.channels.size() != 1) {
+  if (!holds_all_channels(plan.format) && plan.channels.size() != 1) {
     throw UsageError(a.output + " holds one channel, not '" + text_of(plan.channels) +
-                     "'; .exr holds them all");
+                     "'; .exr and .npz hold them all");
   }
   require_pipeline_channels(plan.channels);
   plan.writing = a.storage.write_options(a.scene.threads);
+  plan.storage = a.storage;
   plan.stages = stages_of(a);
   plan.with_picture = !a.image.empty();
   if (a.depth_buffer.storage && plan.stages.hidden_surface == pipeline::HiddenSurface::painter) {
     throw UsageError("--depth-format: the painter's algorithm has no depth buffer");
   }
-  plan.with_depth_buffer = a.depth_buffer.storage && plan.format == MapFormat::exr;
+  plan.with_depth_buffer = a.depth_buffer.storage && holds_all_channels(plan.format);
   if (plan.with_depth_buffer && plan.stages.depth_range[0] == plan.stages.depth_range[1]) {
     throw UsageError(
         "--depth-range: near and far have the same window depth, of which --depth-format cannot "

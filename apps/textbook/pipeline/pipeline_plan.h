@@ -12,6 +12,7 @@ namespace fathom::app {
 struct PipelinePlan {
   MapFormat format = MapFormat::exr;
   WriteOptions writing;
+  StorageOptions storage;
   std::vector<Channel> channels;
   pipeline::PipelineOptions stages;
   bool with_picture = false;
