@@ -82,7 +82,7 @@ std::vector<Usage> wrong_usages() {
       {"TwoChannelsInPfm",
        {"render", "square.obj", "-o", "map.pfm", "--channels", "Z,id"},
        "one channel"},
-      {"NormalsInNpy", {"render", "square.obj", "-o", "map.npy", "--channels", "N"}, "one channel"},
+      {"NormalsInPfm", {"render", "square.obj", "-o", "map.pfm", "--channels", "N"}, "one channel"},
       {"SizeNoNumber", render({"--size", "big"}), "--size"},
       {"SizeZero", render({"--size", "0x10"}), "--size"},
       {"FovStraight", render({"--fov", "180"}), "--fov"},
