@@ -153,7 +153,10 @@ int run_convert(const ConvertArguments& arguments, const Console& console) {
     return write_points(read_map_argument(arguments.map), arguments, console);
   }
   const MapFormat format = arguments.storage.format_of(arguments.output);
-  const DepthMap map = arguments.storage.dressed(
+  StorageOptions dress = arguments.storage;
+  // A conversion has made the background already, from what it knew of the map that it was.
+  if (arguments.to) dress.background.reset();
+  const DepthMap map = dress.dressed(
       stored(converted(read_map_argument(arguments.map), arguments, console), arguments, format),
       arguments.output);
   OutputFile output(arguments.output);

@@ -100,11 +100,12 @@ DepthEncoding StorageOptions::encoding_for(MapFormat format) const {
   return encoding;
 }
 
-DepthMap StorageOptions::dressed(DepthMap map, const std::string& target) const {
+DepthMap StorageOptions::dressed(DepthMap map, const std::string& target,
+                                 std::optional<double> now) const {
   if (background && !map.png_scale) {
     try {
       map = about_option("--background",
-                         [&] { return with_background(std::move(map), *background); });
+                         [&] { return with_background(std::move(map), *background, now); });
     } catch (const OutputError& error) {
       throw OutputError(target + ": " + error.what());
     }

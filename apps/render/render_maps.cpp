@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include "apps/render/depth_buffer_channels.h"
 #include "apps/render/map_verification.h"
@@ -116,7 +117,7 @@ MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOp
   }
   report.seconds.verify = stopwatch.lap();
   if (plan.depth_buffer) drop_helpers(map, *plan.depth_buffer);
-  map = plan.storage.dressed(std::move(map), name);
+  map = plan.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity());
   output.write([&](const auto& path) { write_map(map, path, plan.format, plan.writing); });
   report.seconds.write = stopwatch.lap();
   return report;

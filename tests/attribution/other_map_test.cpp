@@ -54,6 +54,14 @@ TEST(OtherMaps, HoldTheChannelThatIsNamed) {
       "the one that holds them");
 }
 
+TEST(OtherMaps, SayWhatTheirBackgroundIs) {
+  DepthMap map{.width = 3, .height = 1};
+  map.channels.push_back({"Z", Samples<float>{1.5F, 7, 8}});
+  EXPECT_EQ(other_map(map).depths, (std::vector<double>{1.5, 7, 8}));
+  map.texts["fathom.background"] = "7";
+  EXPECT_EQ(other_map(map).depths, (std::vector<double>{1.5, infinity, 8}));
+}
+
 TEST(OtherMaps, OfIntegersNeedAScale) {
   DepthMap codes{.width = 2, .height = 1};
   codes.channels.push_back({"Z", Samples<std::uint16_t>{1500, 0}});

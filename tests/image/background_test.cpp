@@ -90,6 +90,17 @@ std::string refusal_of(const DepthMap& map, double value) {
   return "";
 }
 
+TEST(Background, ThatIsKnownIsNotGuessed) {
+  // A depth that has underflowed, and no background in the picture: 0 would be taken for it.
+  const DepthMap map = map_of(2, 1, "Z", std::vector<float>{0, 3});
+  EXPECT_THAT(*with_background(map, -1).values<float>("Z"), ElementsAre(-1, 3));
+  EXPECT_THAT(*with_background(map, -1, INFINITY).values<float>("Z"), ElementsAre(0, 3));
+  EXPECT_THROW(with_background(map, 0, INFINITY), OutputError);
+  DepthMap says = map;
+  says.texts["fathom.background"] = "inf";
+  EXPECT_THAT(surface_mask(says, says.channels[0]), ElementsAre(1, 1));
+}
+
 TEST(Background, NoSurfaceMayHaveIt) {
   const DepthMap map = map_of(2, 2, "Z", std::vector<float>{1, inf, 0.1f, 3});
   EXPECT_THAT(refusal_of(map, 0.1), HasSubstr("pixel (0, 1): a surface has the value 0.1"));
@@ -102,7 +113,7 @@ TEST(Background, NoSurfaceMayHaveIt) {
 }
 
 TEST(Background, IsRefusedWhereItIsNoNumber) {
-  for (const char* text : {"", "zero", "1 ", "inf", "-inf", "1e999", "nan(3)"}) {
+  for (const char* text : {"", "zero", "1 ", "infinity", "-inf", "1e999", "nan(3)"}) {
     DepthMap map = with_overflow();
     map.texts["fathom.background"] = text;
     EXPECT_THROW(declared_background(map), InputError) << text;

@@ -33,6 +33,7 @@ TEST(ChannelNames, AreThoseOfTheFileAndReadBackAsTheirOwn) {
   write_map(map, folder / "map.npz", MapFormat::npz);
   for (const char* name : {"map.exr", "map.npz"}) {
     const DepthMap back = read_map(folder / name);
+    ASSERT_NE(back.values<float>("Z"), nullptr) << name;
     EXPECT_THAT(*back.values<float>("Z"), ElementsAre(1, 2)) << name;
     EXPECT_EQ(back.texts.count("fathom.channel-names"), 0u);
   }

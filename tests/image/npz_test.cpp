@@ -54,6 +54,12 @@ TEST(Npz, KeepsEveryBitAndText) {
   for (const auto& [name, text] : map.texts) EXPECT_EQ(back.texts.at(name), text);
 }
 
+TEST(Npz, BeyondFourGibibytesIsRefusedBeforeAnyWork) {
+  EXPECT_NO_THROW(require_size(MapFormat::npz, 32768, 32767, "a.npz"));
+  EXPECT_THROW(require_size(MapFormat::npz, 32768, 32768, "a.npz"), OutputError);
+  EXPECT_NO_THROW(require_size(MapFormat::exr, 32768, 32768, "a.exr"));
+}
+
 TEST(Npz, CodesKeepTheirScale) {
   DepthMap map = map_of(2, 1, "Z", std::vector<std::uint16_t>{0, 65535});
   map.png_scale = 0.1;

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <variant>
@@ -97,7 +98,8 @@ int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const 
     arguments.motion.describe(rendering.map, time);
     if (plan.with_depth_buffer) add_depth_buffer(rendering);
     used.push_back(rendering.camera);
-    rendering.map = plan.storage.dressed(std::move(rendering.map), outputs.map_name(i));
+    rendering.map = plan.storage.dressed(std::move(rendering.map), outputs.map_name(i),
+                                         std::numeric_limits<double>::infinity());
     outputs.map(i).write(
         [&](const auto& path) { write_map(rendering.map, path, plan.format, plan.writing); });
     if (plan.with_picture) {

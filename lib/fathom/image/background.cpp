@@ -47,6 +47,7 @@ std::optional<double> declared_background(const DepthMap& map) {
   if (found == map.texts.end()) return std::nullopt;
   const std::string& text = found->second;
   if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (text == "inf") return unbounded;
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !(std::abs(value) < unbounded)) {
@@ -56,10 +57,12 @@ std::optional<double> declared_background(const DepthMap& map) {
   return value;
 }
 
-DepthMap with_background(DepthMap map, double value) {
+DepthMap with_background(DepthMap map, double value, std::optional<double> now) {
   const StandardArithmetic standard;
   require_valid(map);
   if (value == -unbounded) throw UsageError("the background is 0, nan, inf or a number, not -inf");
+  std::optional<BackgroundRule> rule;
+  if (now) rule = BackgroundRule{.value = now, .only = true};
   // Of the map as it was: a channel may follow another.
   std::vector<std::vector<std::uint8_t>> surfaces(map.channels.size());
   for (std::size_t c = 0; c < map.channels.size(); ++c) {
@@ -68,7 +71,7 @@ DepthMap with_background(DepthMap map, double value) {
     if (std::holds_alternative<Samples<std::uint16_t>>(channel.values)) {
       throw UsageError("the background of 16-bit codes is 0");
     }
-    surfaces[c] = surface_mask(map, channel);
+    surfaces[c] = surface_mask(map, channel, rule);
   }
   for (std::size_t c = 0; c < map.channels.size(); ++c) {
     if (surfaces[c].empty()) continue;

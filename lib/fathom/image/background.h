@@ -12,13 +12,14 @@ namespace fathom {
 /// the shortest decimal text of a number. EXR and NPZ hold it, PFM and NPY have no place for it.
 inline constexpr const char* background_text = "fathom.background";
 
-/// What a map says of its own background.
-/// Fails    InputError if the text is neither a number nor "nan".
+/// What a map says of its own background; +∞ is taken too.
+/// Fails    InputError if the text is neither a number nor "nan" nor "inf".
 std::optional<double> declared_background(const DepthMap& map);
 
 /// The map with `value` wherever a depth channel (Z, distance, disparity, Zdecoded, …) shows no
 /// surface, and the text that says so (none for +∞). Where there is no surface is as surface_mask()
-/// tells it: by identifiers, where the map has them, else by the background that it had.
+/// tells it: by identifiers, where the map has them, else by the background that it has: `now`, and
+/// that alone, where it is given (of a map that was rendered, +∞), else what background_of() finds.
 ///   +∞, NaN     any surface keeps its bits; an overflowed depth is +∞ as well, so that with +∞ only
 ///               an identifier channel tells it from background, and with NaN it is told in any case
 ///   finite      likewise, but no surface may have this value
@@ -26,6 +27,6 @@ std::optional<double> declared_background(const DepthMap& map);
 /// Fails    UsageError if `value` is −∞, or does not fit the type, or the map has codes (their
 ///          background is 0); OutputError, naming the pixel, if a surface has that value; InputError
 ///          if the map has a fault.
-DepthMap with_background(DepthMap map, double value);
+DepthMap with_background(DepthMap map, double value, std::optional<double> now = std::nullopt);
 
 }  // namespace fathom

@@ -67,6 +67,10 @@ void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
   if (format == MapFormat::png && std::max(width, height) > 0x7FFFFFFF) {
     throw OutputError(name + ": PNG holds fewer than 2^31 pixels a side");
   }
+  // Of 4 bytes each, at least.
+  if (format == MapFormat::npz && std::uint64_t{width} * height >= (std::uint64_t{1} << 30)) {
+    throw OutputError(name + ": an NPZ holds less than 4 GiB; .exr holds more");
+  }
 }
 
 void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat format,

@@ -23,7 +23,8 @@ constexpr bool holds_all_channels(MapFormat format) {
 std::optional<MapFormat> map_format_of(const std::filesystem::path& path);
 
 /// Refuses images with more pixels on a side than the format holds, before any work is done.
-/// Fails    OutputError "NAME: EXR holds fewer than 2^30 pixels a side".
+/// Fails    OutputError "NAME: EXR holds fewer than 2^30 pixels a side", "NAME: an NPZ holds less than
+///          4 GiB".
 void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
                   const std::string& name);
 

@@ -315,6 +315,7 @@ Bytes npy_of_channels(const ImageSize& size, const std::vector<const ImageChanne
         using Values = std::decay_t<decltype(first)>;
         using Value = typename Values::value_type;
         std::vector<const Values*> parts;
+        parts.reserve(channels.size());
         for (const ImageChannel* channel : channels)
           parts.push_back(&std::get<Values>(channel->values));
         std::string shape = std::to_string(size.height) + ", " + std::to_string(size.width);
