@@ -84,7 +84,7 @@ TEST(Compare, MetricsOfDepths) {
   EXPECT_EQ(compared({inf}, {inf}, {.metrics = Metrics::by_channel}).depth_metrics->rmse, 0);
   // What is not above 0 has no logarithm; a background that is given lets it be a surface.
   const auto left =
-      compared({1, -1}, {1, 2}, {.metrics = Metrics::by_channel, .truth_background = 7.0});
+      compared({1, -1}, {1, 2}, {.truth_background = 7.0, .metrics = Metrics::by_channel});
   EXPECT_EQ(left.depth_metrics->pixels, 1u);
   EXPECT_EQ(left.depth_metrics->left_out, 1u);
 }

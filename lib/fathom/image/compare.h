@@ -90,12 +90,9 @@ enum class Metrics {
 };
 
 struct CompareOptions {
-  /// Two numbers agree where one of these allows it: so many ulps, an absolute difference in the unit
-  /// of the channel, a relative one (ChannelComparison says what is measured).
+  /// Two numbers agree where one of the three tolerances allows it: so many ulps, an absolute
+  /// difference in the unit of the channel, a relative one (ChannelComparison says what is measured).
   double tolerance_ulp = 0;
-  double tolerance_absolute = 0;
-  double tolerance_relative = 0;
-  Metrics metrics = Metrics::none;
   /// Compare this channel only; empty: all that both have. If they have no name in common, a depth
   /// channel of each is compared (`ViewLayer.Depth.Z`), with a note.
   std::string channel;
@@ -104,6 +101,9 @@ struct CompareOptions {
   /// The value that means background in depth channels (NaN and infinities do as well); if empty, it
   /// is what the map says (background.h), or else detected (surface.h) and noted.
   std::optional<double> truth_background, other_background;
+  double tolerance_absolute = 0;
+  double tolerance_relative = 0;
+  Metrics metrics = Metrics::none;
 };
 
 /// Compares the channels of two maps, pixel by pixel.
