@@ -23,6 +23,8 @@
 extern "C" {
 #endif
 
+/* NOLINTBEGIN(readability-identifier-naming): C has no namespaces, but prefixes. */
+
 /* The values are the program's exit statuses. */
 typedef enum {
   FATHOM_OK = 0,
@@ -151,6 +153,8 @@ FATHOM_API const char* fathom_map_text(const fathom_map* map, const char* name);
 FATHOM_API fathom_status fathom_verify(const fathom_map* map, const fathom_scene* scene,
                                        const fathom_camera* camera, const fathom_options* options,
                                        uint64_t pixels, uint64_t* differing);
+
+/* NOLINTEND(readability-identifier-naming) */
 
 #ifdef __cplusplus
 }

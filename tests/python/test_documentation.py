@@ -21,7 +21,7 @@ def test_examples(name):
     assert results.failed == 0 and results.attempted > 0
 
 
-@pytest.mark.parametrize("page", ["lib/python/README.md", "docs/python.md"])
+@pytest.mark.parametrize("page", ["README.md", "lib/python/README.md", "docs/python.md"])
 def test_snippets_of_pages_print_what_the_page_shows(page):
     pairs = run_page(page)
     assert pairs

@@ -26,10 +26,10 @@ class MeshArray {
   MeshArray(std::initializer_list<T> elements) : own_(elements) {}
 
   /// Reads the elements where they are: they stay there unchanged while `keeper` is held.
-  static MeshArray of_lent(std::span<const T> elements, std::shared_ptr<const void> keeper) {
+  static MeshArray of_lent(std::span<const T> elements, const std::shared_ptr<const void>& keeper) {
     MeshArray array;
     array.lent_ = elements;
-    array.keeper_ = std::move(keeper);
+    array.keeper_ = keeper;
     array.is_lent_ = true;
     return array;
   }

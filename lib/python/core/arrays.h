@@ -20,7 +20,7 @@ pybind11::array array_of(Samples<T>&& samples, Shape shape) {
   T* const data = kept->data();
   const pybind11::capsule owner(kept.get(),
                                 [](void* memory) { delete static_cast<Samples<T>*>(memory); });
-  kept.release();
+  static_cast<void>(kept.release());
   return pybind11::array_t<T>(std::move(shape), data, owner);
 }
 
@@ -31,7 +31,7 @@ pybind11::array array_of(std::vector<T>&& values) {
   const auto size = static_cast<pybind11::ssize_t>(kept->size());
   const pybind11::capsule owner(kept.get(),
                                 [](void* memory) { delete static_cast<std::vector<T>*>(memory); });
-  kept.release();
+  static_cast<void>(kept.release());
   return pybind11::array_t<T>(Shape{size}, data, owner);
 }
 

@@ -21,6 +21,7 @@ PyObject* make_error(py::module_& core, const char* name, const char* doc, const
   return type;
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 has it so
 void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
