@@ -39,6 +39,72 @@ def test_other_programs_read_what_is_written(map, tmp_path):
     assert told == ["True", float(map["Z"][30, 40]).hex()]
 
 
+def test_npz_keeps_everything_and_numpy_reads_it(map, camera, tmp_path):
+    import json
+
+    map.write(tmp_path / "map.npz")
+    again = fathom.read_map(tmp_path / "map.npz")
+    assert again.camera == camera
+    with np.load(tmp_path / "map.npz") as file:
+        assert json.loads(file["fathom"].item())
+        for name, values in map.items():
+            assert again[name].tobytes() == values.tobytes() and np.array_equal(file[name], values, equal_nan=True)
+
+
+def test_vectors_in_npy(map, tmp_path):
+    map.write(tmp_path / "n.npy", channel="N")
+    assert np.array_equal(np.load(tmp_path / "n.npy"), map["N"])
+
+
+def test_opencv_reads_a_channel_called_y(map, tmp_path):
+    fathom.Map({"Z": map["Z"]}).write(tmp_path / "y.exr", names={"Z": "Y"})
+    code = ("import os; os.environ['OPENCV_IO_ENABLE_OPENEXR'] = '1'; import cv2, sys;"
+            "cv2.imread(sys.argv[1], cv2.IMREAD_UNCHANGED).tofile(sys.argv[2])")
+    subprocess.run(["/usr/bin/python3", "-c", code, tmp_path / "y.exr", tmp_path / "raw"], check=True)
+    assert (tmp_path / "raw").read_bytes() == map["Z"].tobytes()
+    assert np.array_equal(fathom.read_map(tmp_path / "y.exr")["Z"], map["Z"])
+    with pytest.raises(TypeError, match="names: expected names"):
+        map.write(tmp_path / "y.exr", names={"Z": 5})
+
+
+@pytest.mark.parametrize("value", [0, np.nan, -1.5])
+def test_files_and_masks_know_the_background(spot, camera, map, value, tmp_path):
+    other = spot.render(camera, channels=("Z", "distance"), background=value)
+    assert np.array_equal(other.mask(), map.mask()) and np.array_equal(other.points(), fathom.Map({"Z": map["Z"]}, camera).points())
+    other.write(tmp_path / "map.exr")
+    again = fathom.read_map(tmp_path / "map.exr")
+    assert np.array_equal(again.background, value, equal_nan=True) and np.array_equal(again.mask(), map.mask())
+    compared = fathom.compare(map, again, channel="Z").channels[0]
+    assert compared.within_tolerance and compared.both == map.mask().sum()
+    assert np.array_equal(again.to_distance()["distance"][map.mask()], map.to_distance()["distance"][map.mask()])
+    with pytest.raises(ValueError, match="expected a background of inf"):
+        fathom.verify(again, spot)
+
+
+def test_a_background_that_a_surface_has(spot, camera, map):
+    depth = float(map["Z"][map.mask()][7])
+    with pytest.raises(fathom.OutputError, match="background: a surface has the value"):
+        spot.render(camera, background=depth)
+
+
+def test_metrics(map):
+    seen = map.mask()
+    truth = map["Z"].astype(float)[seen]
+    other = map["Z"].copy()
+    other[seen] *= np.random.default_rng(2).uniform(0.7, 1.4, seen.sum()).astype(np.float32)
+    d = other.astype(float)[seen]
+    found = fathom.compare(map, other, channel="Z", metrics=True).channels[0].depth_metrics
+    ratio = np.maximum(d / truth, truth / d)
+    assert found.pixels == seen.sum() and np.isclose(found.abs_rel, (abs(d - truth) / truth).mean(), rtol=1e-12)
+    assert np.isclose(found.rmse, np.sqrt(((d - truth) ** 2).mean()), rtol=1e-12) and found.delta_1 == (ratio < 1.25).mean()
+    found = fathom.compare(truth.reshape(1, -1), d.reshape(1, -1), metrics="disparity").channels[0].disparity_metrics
+    assert found.bad_1 == (abs(d - truth) > 1).mean() and np.isclose(found.epe, abs(d - truth).mean(), rtol=1e-12)
+    assert fathom.compare(map, other, channel="Z", tolerance_relative=0.5).within_tolerance
+    assert not fathom.compare(map, other, channel="Z", tolerance_absolute=0.5).within_tolerance
+    with pytest.raises(ValueError, match="metrics: expected"):
+        fathom.compare(map, other, metrics="all")
+
+
 @pytest.mark.parametrize("suffix", ["pfm", "npy"])
 def test_single_channels(map, tmp_path, suffix):
     file = tmp_path / f"map.{suffix}"
@@ -93,6 +159,8 @@ def test_quantities(map, camera):
     assert np.allclose(only.to_depth()["Z"][seen], map["Z"][seen], rtol=2e-7)
     disparity = map.to_disparity(0.1, doffs=2)["disparity"]
     assert np.allclose(disparity[seen], camera.fx * 0.1 / map["Z"][seen].astype(float) - 2, rtol=1e-6)
+    assert (disparity[~seen] == 0).all()
+    assert np.isposinf(map.to_disparity(0.1, background=np.inf)["disparity"][~seen]).all()
     with pytest.raises(ValueError, match="camera: the map carries none: give one"):
         fathom.Map({"Z": map["Z"]}).to_distance()
     assert np.array_equal(fathom.Map({"Z": map["Z"]}).to_distance(camera)["distance"], distance)

@@ -3,9 +3,15 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
+#include <string_view>
+#include <utility>
+
 #include "arrays.h"
 #include "bindings.h"
 #include "fathom/camera/camera.h"
+#include "fathom/image/background.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/compare.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
@@ -63,27 +69,36 @@ SharedMap read(const std::filesystem::path& path) {
   return run([&](const auto&) { return std::make_shared<DepthMap>(read_map(path)); });
 }
 
-void write(const DepthMap& map, const std::filesystem::path& path, const std::string& channel,
-           const std::string& compression, int threads) {
+Compression compression_named(const std::string& name) {
+  constexpr std::pair<std::string_view, Compression> names[] = {{"none", Compression::none},
+                                                                {"rle", Compression::rle},
+                                                                {"zips", Compression::zips},
+                                                                {"zip", Compression::zip},
+                                                                {"piz", Compression::piz}};
+  for (const auto& [known, compression] : names)
+    if (name == known) return compression;
+  throw UsageError("compression: expected none, rle, zips, zip or piz, found " + name);
+}
+
+void write(const SharedMap& map, const std::filesystem::path& path, const std::string& channel,
+           const std::string& compression, int threads,
+           const std::vector<std::pair<std::string, std::string>>& names) {
   const auto format = map_format_of(path);
   if (!format) {
-    throw UsageError(path.string() + ": expected a name that ends in .exr, .pfm, .png or .npy");
+    throw UsageError(path.string() +
+                     ": expected a name that ends in .exr, .npz, .npy, .pfm or .png");
   }
   WriteOptions options;
   options.channel = channel;
   options.threads = threads;
-  const std::pair<const char*, Compression> names[] = {{"none", Compression::none},
-                                                       {"rle", Compression::rle},
-                                                       {"zips", Compression::zips},
-                                                       {"zip", Compression::zip},
-                                                       {"piz", Compression::piz}};
-  const auto* const found = std::find_if(std::begin(names), std::end(names), [&](const auto& each) {
-    return compression == each.first;
+  options.compression = compression_named(compression);
+  std::vector<ChannelName> others;
+  others.reserve(names.size());
+  for (const auto& [own, in_file] : names) others.push_back({own, in_file});
+  run([&](const auto&) {
+    if (others.empty()) return write_map(*map, path, *format, options);
+    write_map(with_channel_names(*map, others), path, *format, options);
   });
-  if (found == std::end(names))
-    throw UsageError("compression: expected none, rle, zips, zip or piz");
-  options.compression = found->second;
-  run([&](const auto&) { write_map(map, path, *format, options); });
 }
 
 MapView view_of(const Camera& camera) {
@@ -106,13 +121,15 @@ DepthQuantity quantity_named(const std::string& name) {
   throw UsageError("expected Z, distance or disparity, found " + name);
 }
 
-SharedMap convert(const DepthMap& map, const std::string& from, const std::string& to,
-                  const Camera& camera, std::optional<double> baseline, double doffs) {
+SharedMap convert(const SharedMap& map, const std::string& from, const std::string& to,
+                  const Camera& camera, std::optional<double> baseline, double doffs,
+                  std::optional<double> background) {
   std::optional<StereoRig> rig;
   if (baseline) rig = StereoRig{*baseline, doffs};
   const DepthQuantity source = quantity_named(from), target = quantity_named(to);
   return run([&](const auto&) {
-    return std::make_shared<DepthMap>(convert_quantity(map, source, target, view_of(camera), rig));
+    return std::make_shared<DepthMap>(
+        convert_quantity(*map, source, target, view_of(camera), rig, background));
   });
 }
 
@@ -132,6 +149,28 @@ void write_points(const DepthMap& map, const Camera& camera, const std::filesyst
   options.frame = in_camera_frame ? PointFrame::camera : PointFrame::world;
   options.binary64 = binary64;
   run([&](const auto&) { write_point_cloud(map, view_of(camera), path, options); });
+}
+
+void bind_metrics(py::module_& core) {
+  py::class_<DepthMetrics>(core, "DepthMetrics")
+      .def_readonly("pixels", &DepthMetrics::pixels)
+      .def_readonly("left_out", &DepthMetrics::left_out)
+      .def_readonly("abs_rel", &DepthMetrics::abs_rel)
+      .def_readonly("sq_rel", &DepthMetrics::sq_rel)
+      .def_readonly("rmse", &DepthMetrics::rmse)
+      .def_readonly("rmse_log", &DepthMetrics::rmse_log)
+      .def_readonly("mae", &DepthMetrics::mae)
+      .def_readonly("delta_1", &DepthMetrics::delta_1)
+      .def_readonly("delta_2", &DepthMetrics::delta_2)
+      .def_readonly("delta_3", &DepthMetrics::delta_3);
+  py::class_<DisparityMetrics>(core, "DisparityMetrics")
+      .def_readonly("pixels", &DisparityMetrics::pixels)
+      .def_readonly("left_out", &DisparityMetrics::left_out)
+      .def_readonly("epe", &DisparityMetrics::epe)
+      .def_readonly("rmse", &DisparityMetrics::rmse)
+      .def_readonly("bad_0_5", &DisparityMetrics::bad_0_5)
+      .def_readonly("bad_1", &DisparityMetrics::bad_1)
+      .def_readonly("bad_2", &DisparityMetrics::bad_2);
 }
 
 void bind_comparison(py::module_& core) {
@@ -162,6 +201,8 @@ void bind_comparison(py::module_& core) {
       .def_readonly("relative", &ChannelComparison::relative)
       .def_readonly("ulp", &ChannelComparison::ulp)
       .def_readonly("notes", &ChannelComparison::notes)
+      .def_readonly("depth_metrics", &ChannelComparison::depth_metrics)
+      .def_readonly("disparity_metrics", &ChannelComparison::disparity_metrics)
       .def_property_readonly("within_tolerance", &ChannelComparison::within_tolerance);
   py::class_<MapComparison>(core, "MapComparison")
       .def_readonly("channels", &MapComparison::channels)
@@ -170,11 +211,20 @@ void bind_comparison(py::module_& core) {
       .def_readonly("notes", &MapComparison::notes)
       .def_property_readonly("within_tolerance", &MapComparison::within_tolerance);
   core.def("compare_maps",
-           [](const SharedMap& truth, const SharedMap& other, double tolerance_ulp,
-              const std::string& channel, const std::string& other_channel,
-              std::optional<double> truth_background, std::optional<double> other_background) {
-             const CompareOptions options{tolerance_ulp, channel, other_channel, truth_background,
-                                          other_background};
+           [](const SharedMap& truth, const SharedMap& other, const std::string& channel,
+              const std::string& other_channel, const std::array<double, 3>& tolerances,
+              const std::array<std::optional<double>, 2>& backgrounds, const std::string& metrics) {
+             CompareOptions options;
+             options.channel = channel;
+             options.other_channel = other_channel;
+             options.tolerance_ulp = tolerances[0];
+             options.tolerance_absolute = tolerances[1];
+             options.tolerance_relative = tolerances[2];
+             options.truth_background = backgrounds[0];
+             options.other_background = backgrounds[1];
+             options.metrics = metrics == "channel"     ? Metrics::by_channel
+                               : metrics == "disparity" ? Metrics::of_disparity
+                                                        : Metrics::none;
              return run([&](const auto&) { return compare_maps(*truth, *other, options); });
            });
 }
@@ -192,13 +242,8 @@ void bind_maps(py::module_& core) {
       .def("take_channels", &take_channels)
       .def("with_channels", &with_channels);
   core.def("read_map", &read);
-  core.def("write_map", [](const SharedMap& map, const std::filesystem::path& path,
-                           const std::string& channel, const std::string& compression,
-                           int threads) { write(*map, path, channel, compression, threads); });
-  core.def("convert_quantity",
-           [](const SharedMap& map, const std::string& from, const std::string& to,
-              const Camera& camera, std::optional<double> baseline,
-              double doffs) { return convert(*map, from, to, camera, baseline, doffs); });
+  core.def("write_map", &write);
+  core.def("convert_quantity", &convert);
   core.def("with_storage",
            [](const SharedMap& map, const std::string& channel, const std::string& type,
               std::optional<double> scale) { return store(*map, channel, type, scale); });
@@ -206,7 +251,9 @@ void bind_maps(py::module_& core) {
            [](const SharedMap& map, const Camera& camera, const std::filesystem::path& path,
               bool in_camera_frame,
               bool binary64) { write_points(*map, camera, path, in_camera_frame, binary64); });
+  bind_metrics(core);
   bind_comparison(core);
+  core.attr("background_text") = background_text;
 }
 
 }  // namespace fathom::python

@@ -11,6 +11,7 @@ Rows = tuple[tuple[float, ...], ...]
 Named = list[tuple[str, Camera]]
 
 no_surface: int
+background_text: str
 mappings: list[str]
 storages: list[str]
 class_names: list[str]
@@ -100,9 +101,17 @@ class Map:
     def with_channels(self, height: int, width: int, channels: list[tuple[str, npt.NDArray[Any]]]) -> Map: ...
 
 def read_map(file: str) -> Map: ...
-def write_map(map: Map, file: str, channel: str, compression: str, threads: int) -> None: ...
+def write_map(
+    map: Map, file: str, channel: str, compression: str, threads: int, names: list[tuple[str, str]]
+) -> None: ...
 def convert_quantity(
-    map: Map, source: str, to: str, camera: Camera, baseline: float | None, doffs: float
+    map: Map,
+    source: str,
+    to: str,
+    camera: Camera,
+    baseline: float | None,
+    doffs: float,
+    background: float | None,
 ) -> Map: ...
 def with_storage(map: Map, channel: str, type: str, scale: float | None) -> Map: ...
 def write_point_cloud(map: Map, camera: Camera, file: str, in_camera_frame: bool, binary64: bool) -> None: ...
@@ -115,6 +124,27 @@ class DifferenceSummary:
     p99: float
     p99_9: float
     worst: tuple[int, int]
+
+class DepthMetrics:
+    pixels: int
+    left_out: int
+    abs_rel: float
+    sq_rel: float
+    rmse: float
+    rmse_log: float
+    mae: float
+    delta_1: float
+    delta_2: float
+    delta_3: float
+
+class DisparityMetrics:
+    pixels: int
+    left_out: int
+    epe: float
+    rmse: float
+    bad_0_5: float
+    bad_1: float
+    bad_2: float
 
 class ChannelComparison:
     truth_channel: str
@@ -133,6 +163,8 @@ class ChannelComparison:
     relative: DifferenceSummary
     ulp: DifferenceSummary
     notes: list[str]
+    depth_metrics: DepthMetrics | None
+    disparity_metrics: DisparityMetrics | None
     within_tolerance: bool
 
 class MapComparison:
@@ -145,11 +177,11 @@ class MapComparison:
 def compare_maps(
     truth: Map,
     other: Map,
-    tolerance_ulp: float,
     channel: str,
     other_channel: str,
-    truth_background: float | None,
-    other_background: float | None,
+    tolerances: tuple[float, float, float],
+    backgrounds: tuple[float | None, float | None],
+    metrics: str,
 ) -> MapComparison: ...
 
 class RenderOptions:

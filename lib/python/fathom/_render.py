@@ -68,7 +68,7 @@ def render_cameras(
         scene._check()
         raise
     if nothing is not None:
-        set_background(result, nothing)
+        result._set_background(nothing)
     for note in notes:
         warnings.warn(note, ViewWarning, stacklevel=3)
     return result
@@ -161,13 +161,6 @@ def background_value(background: Background, stored: str) -> float | None:
             raise ValueError("background: codes of uint16 have 0 where there is no surface, and nothing else")
         return None
     return None if value == math.inf else value
-
-
-def set_background(arrays: Map, value: float) -> None:
-    for name in depth_channels:
-        if name in arrays:
-            depths = arrays[name]
-            depths[np.isposinf(depths)] = value
 
 
 def require_room(cameras: list[Camera], names: list[str], stored: str) -> None:

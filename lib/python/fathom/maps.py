@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from . import _core
+from ._core import OutputError
 from ._arguments import camera_handle, as_array, as_count, as_number, one_of
 from .camera import Camera, cameras_from_json
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import numpy.typing as npt
 
     from ._arguments import Numbers
@@ -36,6 +39,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
     metadata  the texts of its file: fathom.camera, fathom.sources with their SHA-256, …
     objects   the names of the objects that channel `object` numbers
     scale     for uint16 codes: codes per scene unit
+    background  what depth channels have where there is no surface
     """
 
     def __init__(
@@ -50,7 +54,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
     @classmethod
     def read(cls, file: Path) -> Map:
-        """Reads EXR (also of other programs), PFM, 16-bit PNG or NPY, which is told by its content."""
+        """Reads EXR (also of other programs), NPZ, NPY, PFM or 16-bit PNG, which is told by its content."""
         return cls._of(_core.read_map(os.fspath(file)))
 
     @classmethod
@@ -58,14 +62,29 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         planes = description.take_channels()
         return cls(_grouped(planes), _camera_of(description), description)
 
-    def write(self, file: Path, *, channel: str | None = None, compression: str = "zip", threads: int = 0) -> None:
+    def write(
+        self,
+        file: Path,
+        *,
+        channel: str | None = None,
+        names: Mapping[str, str] | None = None,
+        compression: str = "zip",
+        threads: int = 0,
+    ) -> None:
         """Writes the map in the format that the file's suffix names.
 
-        .exr  all channels, with camera and metadata
-        .pfm, .npy, .png  one channel, `channel` where the map has several; .png holds uint16 codes and identifiers
+        .exr, .npz        all channels, with camera and metadata
+        .npy, .pfm, .png  one channel, `channel` where the map has several: .npy also N, P and bary, .png codes of
+                          uint16 and identifiers
+
+        names  what channels are called in an EXR: {"Z": "Y"} is for cv2.imread(), which shows R, G, B and Y alone
         """
+        others = list((names or {}).items())
+        for pair in others:
+            if not all(isinstance(name, str) for name in pair):
+                raise TypeError(f"names: expected names by the names of channels, found {names!r}")
         _core.write_map(self._handle(), os.fspath(file), channel or "", compression,
-                        as_count("threads", threads, 0, 1024))
+                        as_count("threads", threads, 0, 1024), others)
 
     @property
     def metadata(self) -> dict[str, str]:
@@ -76,20 +95,44 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         return list(self._description.object_names)
 
     @property
+    def background(self) -> float:
+        """What depth channels have where there is no surface; 0 of codes."""
+        if self.scale is not None:
+            return 0.0
+        return float(self._description.texts.get(_core.background_text, "inf"))
+
+    def _set_background(self, value: float) -> None:
+        """Of a map in which +inf alone stands for it; it says so in its metadata, as the program's maps do."""
+        for name in ("Z", "distance"):
+            if name in self:
+                depths = self[name]
+                if np.isfinite(value) and (depths == depths.dtype.type(value)).any():
+                    raise OutputError(f"background: a surface has the value {value:g} in channel {name}: choose another")
+                depths[np.isposinf(depths)] = value
+        self._description.texts = {**self._description.texts, _core.background_text: repr(value)}
+
+    @property
     def scale(self) -> float | None:
         return self._description.png_scale
 
     def mask(self) -> npt.NDArray[np.bool_]:
-        """True where there is a surface: by id, face or object where the map has one, else where Z or distance is a
-        finite number (a positive one of codes)."""
+        """True where there is a surface: by id, face or object where the map has one, else where Z, distance or
+        disparity is not the background."""
         for name in ("id", "face", "object"):
             if name in self:
                 return np.asarray(self._channel(name) != NO_SURFACE)
-        for name in ("Z", "distance"):
+        for name in quantities:
             if name in self:
-                depths = self._channel(name)
-                return np.asarray(depths != 0 if depths.dtype == np.uint16 else np.isfinite(depths))
-        raise ValueError("mask: the map has none of id, face, object, Z and distance")
+                return self._shown(self._channel(name))
+        raise ValueError("mask: the map has none of id, face, object, Z, distance and disparity")
+
+    def _shown(self, depths: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
+        if depths.dtype == np.uint16:
+            return np.asarray(depths != 0)
+        value = self.background
+        if np.isinf(value):
+            return np.asarray(np.isfinite(depths))
+        return np.asarray(~np.isnan(depths) if np.isnan(value) else depths != depths.dtype.type(value))
 
     def _channel(self, name: str) -> npt.NDArray[Any]:
         array = as_array(f"map: channel {name}", self[name])
@@ -124,16 +167,21 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         """Planar depths, of ray distances."""
         return self._converted("Z", camera, None, 0)
 
-    def to_disparity(self, baseline: float, *, doffs: float = 0, camera: Camera | None = None) -> Map:
-        """Disparities in pixels of a rectified stereo pair, |fx|·baseline/Z − doffs. The baseline is in scene
-        units."""
-        return self._converted("disparity", camera, as_number("baseline", baseline), as_number("doffs", doffs))
+    def to_disparity(
+        self, baseline: float, *, doffs: float = 0, camera: Camera | None = None, background: float = 0
+    ) -> Map:
+        """Disparities in pixels of a rectified stereo pair, |fx|·baseline/Z − doffs. The baseline is in scene units.
+        `background` is theirs: 0, or inf for Middlebury's "unknown"."""
+        return self._converted("disparity", camera, as_number("baseline", baseline), as_number("doffs", doffs),
+                               as_number("background", background))
 
-    def _converted(self, to: str, camera: Camera | None, baseline: float | None, doffs: float) -> Map:
+    def _converted(self, to: str, camera: Camera | None, baseline: float | None, doffs: float,
+                   background: float | None = None) -> Map:
         source = next((name for name in quantities if name in self), None)
         if source is None:
             raise ValueError("map: it has none of Z, distance and disparity")
-        return Map._of(_core.convert_quantity(self._handle(), source, to, camera_handle(self._camera(camera)), baseline, doffs))
+        handle = camera_handle(self._camera(camera))
+        return Map._of(_core.convert_quantity(self._handle(), source, to, handle, baseline, doffs, background))
 
     def stored_as(self, dtype: npt.DTypeLike, *, channel: str = "", scale: float | None = None) -> Map:
         """The map with one depth channel alone, stored as float32, float64 or uint16 codes of round(scale · depth)."""
@@ -158,8 +206,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
                              f"{stored.shape}")
         z = stored.astype(np.float64)
         if stored.dtype == np.uint16:
-            z = np.where(z == 0, np.inf, z) / (self.scale or 1)
-        rows, columns = np.nonzero(np.isfinite(z))
+            z = z / (self.scale or 1)
+        rows, columns = np.nonzero(depths._shown(stored) & np.isfinite(z))
         return _points(view, rows, columns, z[rows, columns], frame)
 
     def write_points(self, file: Path, camera: Camera | None = None, *, frame: str = "world",
@@ -247,14 +295,23 @@ def compare(
     truth: Map | npt.ArrayLike,
     other: Map | npt.ArrayLike,
     *,
-    tolerance_ulp: float = 0,
     channel: str = "",
     other_channel: str = "",
+    tolerance_ulp: float = 0,
+    tolerance_absolute: float = 0,
+    tolerance_relative: float = 0,
+    metrics: bool | str = False,
     truth_background: float | None = None,
     other_background: float | None = None,
 ) -> _core.MapComparison:
     """How two maps of one view differ, channel by channel: which pixels show a surface in one only, and the absolute,
     relative and ulp differences of the others. Arrays are taken for Z.
+
+    tolerance_…  two numbers agree where one of the three allows it
+    metrics      True: each depth channel has depth_metrics (abs_rel, sq_rel, rmse, rmse_log, mae, delta_1 to delta_3),
+                 each of disparities disparity_metrics (epe, rmse, bad_0_5, bad_1, bad_2); "disparity": all of them are
+                 disparities
+    …_background the value that stands for "no surface"; else it is what the map says, or found out and noted
 
     >>> truth = np.array([[1, 2], [3, np.inf]], np.float32)
     >>> found = compare(truth, np.array([[1, 2], [3.5, np.inf]], np.float32))
@@ -265,12 +322,18 @@ def compare(
     def value(name: str, background: float | None) -> float | None:
         return None if background is None else as_number(name, background)
 
+    if isinstance(metrics, bool):
+        metrics = "channel" if metrics else "none"
     return _core.compare_maps(
         as_map("truth", truth)._handle(),
         as_map("other", other)._handle(),
-        as_number("tolerance_ulp", tolerance_ulp),
         channel,
         other_channel,
-        value("truth_background", truth_background),
-        value("other_background", other_background),
+        (
+            as_number("tolerance_ulp", tolerance_ulp),
+            as_number("tolerance_absolute", tolerance_absolute),
+            as_number("tolerance_relative", tolerance_relative),
+        ),
+        (value("truth_background", truth_background), value("other_background", other_background)),
+        one_of("metrics", metrics, ("none", "channel", "disparity")),
     )

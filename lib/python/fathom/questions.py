@@ -149,6 +149,8 @@ def verify(map: Map, scene: Scene, camera: Camera | None = None, *, pixels: int 
     for bit. Which pixels, is always the same for an image size. The map's background must be inf."""
     if not isinstance(map, Map):
         raise TypeError(f"map: expected a Map, found {map!r}")
+    if not map.scale and not np.isposinf(map.background):
+        raise ValueError(f"map: expected a background of inf, as it was rendered with, found {map.background:g}")
     view = map._camera(camera)
     channels = [name for name in map if name in _core.channels()]
     if len(channels) < len(map):
