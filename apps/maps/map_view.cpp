@@ -38,19 +38,6 @@ Camera camera_for(const DepthMap& map, const std::string& file, const Console& c
 
 }  // namespace
 
-MapView view_of(const Camera& camera) {
-  MapView view;
-  view.orthographic = camera.projection == Projection::orthographic;
-  view.fx = camera.fx;
-  view.fy = camera.fy;
-  view.cx = camera.cx;
-  view.cy = camera.cy;
-  view.skew = camera.skew;
-  view.pixel_centre = camera.pixel_centre;
-  view.world_to_camera = camera.world_to_camera;
-  return view;
-}
-
 MapView view_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file,
                  const Console& console) {
   if (!camera_file.empty()) return view_of(camera_for(map, camera_file, console));

@@ -6,11 +6,9 @@
 #include "fathom/camera/camera.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/map_description.h"
 
 namespace fathom::app {
-
-/// What conversions need to know of a camera.
-MapView view_of(const Camera& camera);
 
 /// The view of a map: that of the camera file where one is named, else of the camera that the map
 /// carries in `fathom.camera`. `map_file` is named in messages; warnings of the file go to the

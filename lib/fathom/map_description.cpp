@@ -75,4 +75,17 @@ void describe_map(const Scene& scene, const Camera& camera, std::string_view eng
   map.texts["fathom.engine"] = engine;
 }
 
+MapView view_of(const Camera& camera) {
+  MapView view;
+  view.orthographic = camera.projection == Projection::orthographic;
+  view.fx = camera.fx;
+  view.fy = camera.fy;
+  view.cx = camera.cx;
+  view.cy = camera.cy;
+  view.skew = camera.skew;
+  view.pixel_centre = camera.pixel_centre;
+  view.world_to_camera = camera.world_to_camera;
+  return view;
+}
+
 }  // namespace fathom

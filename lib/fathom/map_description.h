@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "fathom/camera/camera.h"
+#include "fathom/image/convert.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/scene.h"
 
@@ -12,5 +13,8 @@ namespace fathom {
 /// SHA-256 as JSON, the names of the objects, the engine; and the camera in OpenEXR's words.
 /// Exact    the camera to 17 digits; OpenEXR's matrices are rounded, for other programs' eyes only.
 void describe_map(const Scene& scene, const Camera& camera, std::string_view engine, DepthMap& map);
+
+/// What conversions of maps need to know of a camera.
+MapView view_of(const Camera& camera);
 
 }  // namespace fathom

@@ -9,14 +9,13 @@
 
 #include "arrays.h"
 #include "bindings.h"
-#include "fathom/camera/camera.h"
 #include "fathom/image/background.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/compare.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/point_cloud.h"
-#include "fathom/image/preview.h"
+#include "fathom/map_description.h"
 #include "fathom/numeric/errors.h"
 #include "running.h"
 
@@ -99,19 +98,6 @@ void write(const SharedMap& map, const std::filesystem::path& path, const std::s
     if (others.empty()) return write_map(*map, path, *format, options);
     write_map(with_channel_names(*map, others), path, *format, options);
   });
-}
-
-MapView view_of(const Camera& camera) {
-  MapView view;
-  view.orthographic = camera.projection == Projection::orthographic;
-  view.fx = camera.fx;
-  view.fy = camera.fy;
-  view.cx = camera.cx;
-  view.cy = camera.cy;
-  view.skew = camera.skew;
-  view.pixel_centre = camera.pixel_centre;
-  view.world_to_camera = camera.world_to_camera;
-  return view;
 }
 
 DepthQuantity quantity_named(const std::string& name) {

@@ -32,8 +32,8 @@ quantities = ("Z", "distance", "disparity")
 
 class Map(dict[str, "npt.NDArray[Any]"]):
     """The channels of a depth map, H×W arrays by name (H×W×3 for N and P, H×W×2 for bary), and what the map carries
-    so that it can be computed again. Maps of several cameras have the number of the camera as their first axis, and
-    carry nothing: map[i] … of them are what arrays[i] are.
+    so that it can be computed again. Arrays of several cameras have the number of the camera as their first axis; such a
+    Map knows no camera and cannot be written as a whole.
 
     camera    the Camera that it shows; None where that is not known
     metadata  the texts of its file: fathom.camera, fathom.sources with their SHA-256, …
