@@ -22,7 +22,10 @@ def run_program():
     """Runs the program; a failure is a failure of the test."""
 
     def run(*arguments):
-        subprocess.run([os.environ["FATHOM_PROGRAM"], *map(str, arguments)], check=True, capture_output=True)
+        # It has a sanitizer of its own, if this process was given one.
+        environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+        subprocess.run([os.environ["FATHOM_PROGRAM"], *map(str, arguments)], check=True, capture_output=True,
+                       env=environment)
 
     return run
 
