@@ -157,6 +157,8 @@ def test_options(triangle, K):
     codes = render(dtype=np.uint16, scale=1000)
     assert codes.scale == 1000
     assert np.array_equal(codes["Z"], np.where(np.isfinite(wide), np.rint(np.where(np.isfinite(wide), wide, 0) * 1000), 0))
+    stack = fathom.render(*triangle, K, np.stack([identity] * 2), size, pixel_centre=0.5, dtype=np.uint16, scale=1000)
+    assert stack.scale == 1000 and np.array_equal(stack["Z"][1], codes["Z"])
     for threads in (1, 2, 7):
         assert np.array_equal(render(threads=threads)["Z"], whole)
 

@@ -146,10 +146,11 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"PartsBesidePeers", parts({"--peers", "none"}), 2, "--peers"},
         Refused{"PartsWithChannels", parts({"--channels", "Z"}), 2, "--channels"},
         Refused{"PartsOfNoMesh", {"bench", "--parts", "--scene", "missing.obj"}, 3, "missing.obj"},
-        Refused{"PartsToNoFolder", parts({"--json", "no/t.json"}), 4, "no/t.json"},
+        Refused{"PartsToNoFolder", parts({"--json", "/dev/null/t.json"}), 4, "/dev/null/t.json"},
         Refused{"MissingMesh", small({"--scene", "missing.obj", "--json", "t.json"}), 3,
                 "missing.obj"},
-        Refused{"NoFolder", small({"--scene", "sphere-8", "--json", "no/t.json"}), 4, "no/t.json"}),
+        Refused{"NoFolder", small({"--scene", "sphere-8", "--json", "/dev/null/t.json"}), 4,
+                "/dev/null/t.json"}),
     [](const auto& refused) { return refused.param.name; });
 
 }  // namespace

@@ -175,7 +175,7 @@ TEST_F(ValidateProgram, WritesJunitWithTheReportOrNeither) {
   EXPECT_EQ(printed.status, 0);
   EXPECT_THAT(printed.out, testing::StartsWith("<?xml"));
   EXPECT_THAT(printed.out, testing::EndsWith("</testsuites>\n"));
-  EXPECT_EQ(validate("map.exr", {"--junit", "none/junit.xml", "--out", "other"}).status, 4);
+  EXPECT_EQ(validate("map.exr", {"--junit", "map.exr/junit.xml", "--out", "other"}).status, 4);
   EXPECT_FALSE(std::filesystem::exists(folder / "other/report.json"));
 }
 

@@ -64,6 +64,8 @@ def render_cameras(
         else:
             notes = _core.render_stack(handle, handles, options, list(arrays.values()))
             result = Map(arrays)
+            if stored == "uint16":
+                result._description.png_scale = as_number("scale", scale)
     except _core.InputError:
         scene._check()
         raise
