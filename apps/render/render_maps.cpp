@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 
 #include "apps/render/depth_buffer_channels.h"
@@ -45,9 +44,7 @@ class CameraWarnings {
  public:
   /// Of a camera whose map shows the scene in so many pixels.
   void note(const Scene& scene, const Camera& camera, std::uint64_t shown_pixels) {
-    std::vector<ViewWarning> warnings = warnings_of_camera(camera);
-    std::ranges::move(warnings_of_view(scene, camera, shown_pixels), std::back_inserter(warnings));
-    of_cameras_.push_back(std::move(warnings));
+    of_cameras_.push_back(view_warnings(scene, camera, shown_pixels));
   }
   void tell(const Console& console) const { console.warn(told_once(of_cameras_)); }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "fathom/camera/pose.h"
@@ -250,6 +251,13 @@ std::vector<ViewWarning> warnings_of_view(const Scene& scene, const Camera& came
   if (is_full) warning = warning_of_full_map(scene, camera);
   if (!warning && is_speck) warning = warning_of_speck(scene, camera, shown_pixels);
   return warning ? std::vector{*warning} : std::vector<ViewWarning>{};
+}
+
+std::vector<ViewWarning> view_warnings(const Scene& scene, const Camera& camera,
+                                       std::uint64_t shown_pixels) {
+  std::vector<ViewWarning> warnings = warnings_of_camera(camera);
+  std::ranges::move(warnings_of_view(scene, camera, shown_pixels), std::back_inserter(warnings));
+  return warnings;
 }
 
 Warnings told_once(std::span<const std::vector<ViewWarning>> of_cameras) {

@@ -64,6 +64,10 @@ std::vector<ViewWarning> warnings_of_camera(const Camera& camera);
 std::vector<ViewWarning> warnings_of_view(const Scene& scene, const Camera& camera,
                                           std::uint64_t shown_pixels);
 
+/// Both.
+std::vector<ViewWarning> view_warnings(const Scene& scene, const Camera& camera,
+                                       std::uint64_t shown_pixels);
+
 /// The warnings of the cameras of a path, each kind once: the first text, and for how many cameras
 /// it holds.
 Warnings told_once(std::span<const std::vector<ViewWarning>> of_cameras);

@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 
+#include <functional>
 #include <limits>
 
 #include "arrays.h"
@@ -20,6 +21,16 @@ namespace {
 
 Cull cull_named(const std::string& name) {
   return name == "back" ? Cull::back : name == "front" ? Cull::front : Cull::none;
+}
+
+/// What counts of the options where areas are asked for.
+RenderOptions options_of(const std::string& cull, int threads,
+                         const std::function<void(double)>& progress) {
+  RenderOptions options;
+  options.cull = cull_named(cull);
+  options.threads = threads;
+  options.progress = progress;
+  return options;
 }
 
 py::list probe_pixel(const SharedScene& shared, const Camera& camera, std::uint32_t x,
@@ -55,11 +66,7 @@ py::tuple visible(const SharedScene& shared, const Camera& camera, const std::st
                   int threads) {
   const std::shared_ptr<const Scene> scene = shared.scene;
   const VisibleAreas areas = run([&](const auto& progress) {
-    RenderOptions options;
-    options.cull = cull_named(cull);
-    options.threads = threads;
-    options.progress = progress;
-    return visible_areas(*scene, camera, options);
+    return visible_areas(*scene, camera, options_of(cull, threads, progress));
   });
   return py::make_tuple(columns(areas.triangles), columns(areas.objects));
 }
@@ -69,11 +76,7 @@ py::dict deep(const SharedScene& shared, const Camera& camera, const std::string
               int threads) {
   const std::shared_ptr<const Scene> scene = shared.scene;
   const DeepMap map = run([&](const auto& progress) {
-    RenderOptions options;
-    options.cull = cull_named(cull);
-    options.threads = threads;
-    options.progress = progress;
-    return render_deep(*scene, camera, options);
+    return render_deep(*scene, camera, options_of(cull, threads, progress));
   });
   const std::size_t count = map.samples.size();
   Samples<float> front(count), back(count), area(count), alpha(count);

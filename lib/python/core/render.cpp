@@ -45,6 +45,13 @@ RenderOptions make_options(const std::vector<std::string>& channels, const std::
   return options;
 }
 
+/// The type of NumPy's that a channel has; "" where it is the one that is asked for.
+const char* name_of(ChannelType type) {
+  return type == ChannelType::identifier ? "uint32"
+         : type == ChannelType::binary32 ? "float32"
+                                         : "";
+}
+
 /// Where the values of one channel of all maps go: an array of Python's, of the channel's type, with
 /// the number of the camera first, if there are several, and its parts last, if it has several.
 struct Target {
@@ -83,15 +90,6 @@ struct Rendered {
   std::vector<ViewWarning> warnings;
 };
 
-/// What is probably not meant, of a view whose map shows the scene in so many pixels.
-std::vector<ViewWarning> warnings_of(const Scene& scene, const Camera& camera,
-                                     std::uint64_t shown_pixels) {
-  std::vector<ViewWarning> warnings = warnings_of_camera(camera);
-  for (ViewWarning& each : warnings_of_view(scene, camera, shown_pixels))
-    warnings.push_back(std::move(each));
-  return warnings;
-}
-
 /// Renders one map into its place in the arrays.
 Rendered render_into(const Scene& scene, const Camera& camera, const RenderOptions& asked,
                      const std::vector<Target>& targets, std::size_t number) {
@@ -110,7 +108,7 @@ Rendered render_into(const Scene& scene, const Camera& camera, const RenderOptio
       if (target.names.size() > 1) interleave(target, map, number);
   });
   map.channels.clear();
-  return {std::move(map), warnings_of(scene, camera, statistics.pixels_with_surface)};
+  return {std::move(map), view_warnings(scene, camera, statistics.pixels_with_surface)};
 }
 
 /// Whether each thread had better render maps of its own than all of them a map together: so they
@@ -197,7 +195,7 @@ void bind_render(py::module_& core) {
     py::dict channels;
     for (const ChannelDescription& each : channel_table)
       channels[py::str(std::string(each.name))] =
-          py::make_tuple(std::string(each.parts), std::string(each.meaning));
+          py::make_tuple(std::string(each.parts), name_of(each.type));
     return channels;
   });
   core.attr("no_surface") = no_surface;

@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from ._arguments import as_count, as_number, camera_handle, in_words, one_of, scene_handle
 from .camera import Camera, ViewWarning
-from .maps import Map
+from .maps import Map, rendered
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -23,8 +23,6 @@ Cull = Literal["none", "back", "front"]
 Background = Union[float, Literal["inf", "nan"]]
 
 most_threads = 1024
-depth_channels = ("Z", "distance")
-identifiers = ("id", "face", "object")
 
 
 def render_cameras(
@@ -80,11 +78,10 @@ def room_for(
     names: list[str], stored: str, shape: tuple[int, ...], out: Mapping[str, npt.NDArray[Any]] | None
 ) -> dict[str, npt.NDArray[Any]]:
     """An array for each channel: the caller's, or a new one."""
-    known = _core.channels()
     arrays: dict[str, npt.NDArray[Any]] = {}
     for name in names:
-        parts = known[name][0]
-        kind = np.dtype(stored if name in depth_channels else "uint32" if name in identifiers else "float32")
+        parts, own = rendered[name]
+        kind = np.dtype(own or stored)
         whole = (*shape, len(parts)) if parts else shape
         arrays[name] = np.empty(whole, kind) if out is None else checked_out(out, name, whole, kind)
     return arrays
@@ -134,10 +131,9 @@ def in_pixels(camera: Camera) -> str:
 def channel_names(channels: Sequence[str]) -> list[str]:
     if isinstance(channels, str):
         raise TypeError(f"channels: expected a sequence of names such as ({channels!r},), found a string")
-    known = _core.channels()
     names: list[str] = []
     for name in channels:
-        one_of("channels", name, known)
+        one_of("channels", name, rendered)
         if name not in names:
             names.append(name)
     if not names:
@@ -170,9 +166,8 @@ def require_room(cameras: list[Camera], names: list[str], stored: str) -> None:
     pixels = float(cameras[0].width) * cameras[0].height
     if pixels > 2.0**44:
         raise ValueError(f"size: an image of {in_pixels(cameras[0])} has more than 2^44 pixels")
-    known = _core.channels()
     bytes_of_pixel = sum(
-        (8 if stored == "float64" and name in depth_channels else 4) * max(1, len(known[name][0])) for name in names
+        np.dtype(own or stored).itemsize * max(1, len(parts)) for parts, own in (rendered[name] for name in names)
     )
     needed = pixels * len(cameras) * bytes_of_pixel
     if needed > 2.0**28:  # to ask what there is takes longer than a small map

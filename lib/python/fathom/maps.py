@@ -24,8 +24,10 @@ Path = Union[str, "os.PathLike[str]"]
 #: What id, face and object have where there is no surface.
 NO_SURFACE = _core.no_surface
 
-#: The channels that are one array with a last axis: N is N.X, N.Y, N.Z in files.
-parts_of = {name: parts for name, (parts, _) in _core.channels().items() if parts}
+#: The channels that fathom renders: the letters of their parts, and their type, or "" for the one that is asked for.
+rendered = _core.channels()
+#: Those that are one array with a last axis: N is N.X, N.Y, N.Z in files.
+parts_of = {name: parts for name, (parts, _) in rendered.items() if parts}
 
 quantities = ("Z", "distance", "disparity")
 

@@ -10,7 +10,7 @@ import numpy as np
 from . import _core
 from ._arguments import as_count, camera_handle, one_of, scene_handle
 from ._render import Cull, stored_type
-from .maps import Map
+from .maps import Map, rendered
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -152,7 +152,7 @@ def verify(map: Map, scene: Scene, camera: Camera | None = None, *, pixels: int 
     if not map.scale and not np.isposinf(map.background):
         raise ValueError(f"map: expected a background of inf, as it was rendered with, found {map.background:g}")
     view = map._camera(camera)
-    channels = [name for name in map if name in _core.channels()]
+    channels = [name for name in map if name in rendered]
     if len(channels) < len(map):
         raise ValueError(f"map: expected channels that fathom renders, found {', '.join(set(map) - set(channels))}")
     depths = next((map[name] for name in ("Z", "distance") if name in map), None)
