@@ -9,12 +9,11 @@
 #include "apps/shell/about_option.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/stopwatch.h"
-#include "apps/validate/judge_brought.h"
-#include "apps/validate/other_scene.h"
 #include "apps/validate/scenes_to_draw.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/attribution/attribute_and_name.h"
 #include "fathom/attribution/model/named_models.h"
+#include "fathom/attribution/other_scene.h"
 #include "fathom/numeric/errors.h"
 #include "validation/faults/fault_study.h"
 #include "validation/peers/drawing.h"
@@ -79,9 +78,11 @@ void judge_by_model(const std::string& model, ValidationCase& c) {
   const Peer peer = validation::peer_named(validation::renderer_named(c.renderer), c.variant);
   const std::string name = model == matching ? validation::matching_model(peer).value() : model;
   c.variant += " as " + name;
-  c.other = validation::as_brought(c.other);
-  judge_brought(name, c);
-  name_other_scene(c);
+  std::optional<attribution::RendererModel> named;
+  if (name != any_model) named = attribution::model_for(name, c.truth->camera);
+  auto judged = attribution::judge(c.truth, validation::as_brought(c.other), named);
+  attribution::name_other_scene(judged);
+  set_judgement(c, std::move(judged));
 }
 
 /// By all that is known of how it was drawn, or by --model.

@@ -11,6 +11,11 @@
 
 namespace fathom::app {
 
+/// Values of --model that name none: the one that fits best, and, of a renderer that draws here, the
+/// one that is of its variant.
+inline constexpr const char* any_model = "auto";
+inline constexpr const char* matching = "matching";
+
 /// The arguments of `fathom validate`.
 struct ValidateArguments {
   std::vector<std::string> scenes;

@@ -61,6 +61,36 @@ def test_quantities_are_estimated(spot, camera, depths):
     assert np.isclose(found.findings[0].estimates[0].value, 0.25, atol=1e-3)
 
 
+def test_maps_of_another_size_are_judged_as_what_explains_them(spot, camera, depths):
+    def found(map):
+        return fathom.validate(map, spot, camera, "float32-ray")
+
+    cropped = found(depths[:, 2:].copy())
+    assert cropped.findings[0].kind == "size" and "2 columns missing at the left" in cropped.cause
+    assert cropped.camera.size == (78, 60) and cropped.camera.cx == camera.cx - 2
+    assert cropped.classes.shape == (60, 78) and cropped.unexplained == 0
+
+    exchanged = found(depths.T.copy())
+    assert exchanged.findings[0].kind == "axes" and exchanged.camera == camera and exchanged.unexplained == 0
+
+    larger = fathom.Camera.frame(spot, size=(160, 120), near=1, far=10)
+    doubled = found(spot.render(larger)["Z"])
+    assert doubled.findings[0].kind == "size" and doubled.camera.size == (160, 120)
+    assert doubled.classes.shape == (120, 160) and doubled.unexplained == 0
+
+
+def test_a_map_of_another_scene_is_called_so(camera, depths):
+    scene = fathom.Scene()
+    scene.add_mesh([(-4, -4, 3), (4, -4, 5), (0, 4, 4)], [(0, 1, 2)])
+    assert fathom.validate(depths, scene, camera, "float32-ray").findings[0].kind == "other-scene"
+
+
+def test_a_report_of_another_size_is_kept(spot, camera, depths, tmp_path):
+    with pytest.raises(AssertionError, match="2 columns missing"):
+        assert_depth(depths[:, 2:].copy(), spot, camera, "float32-ray", report=tmp_path)
+    assert np.load(tmp_path / "classes.npy").shape == fathom.read_map(tmp_path / "map.exr")["Z"].shape == (60, 78)
+
+
 def test_a_single_wrong_pixel_is_found(spot, camera, depths):
     y, x = np.argwhere(np.isfinite(depths))[500]
     wrong = depths.copy()
@@ -109,7 +139,7 @@ def test_mirrored(assert_depth):
 @pytest.mark.parametrize("change, error, words", [
     ({"model": "gl-unorm25"}, ValueError, "gl-unorm25"),
     ({"model": 5}, TypeError, "model: expected a name"),
-    ({"map": np.zeros((3, 3), np.float32)}, ValueError, "map: it has 3×3 pixels, the camera 80×60"),
+    ({"map": np.ones((3, 7), np.float32)}, ValueError, "map: has 7x3 pixels, the camera 80x60; expected the camera"),
     ({"map": np.zeros((60, 80), np.uint8)}, TypeError, "expected float32"),
     ({"channel": "Y"}, ValueError, "Y"),
     ({"scene": None}, TypeError, "scene: expected a Scene"),

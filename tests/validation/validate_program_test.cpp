@@ -221,8 +221,8 @@ TEST_F(ValidateProgram, SaysWhatToGiveForMapsThatDoNotFit) {
   unclipped.erase("far");
   folder.write("unclipped.json", unclipped.dump());
   expect(validate_with("unclipped.json", "cube.obj"), 2,
-         "--model gl-unorm24: the camera file has no near and far, between which its depths are "
-         "stored; expected those of the renderer in it");
+         "--model: gl-unorm24 stores depths between near and far, and the camera has not both; "
+         "expected those of the renderer");
 
   const std::string pixels(4 * 3 * 40 * 30, '\0');
   folder.write("rgb.pfm", "PF\n40 30\n-1\n" + pixels);

@@ -3,8 +3,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "fathom/attribution/attribution.h"
+#include "fathom/attribution/judgement.h"
 
 namespace fathom::validation {
 
@@ -31,5 +33,12 @@ struct ValidationCase {
            attribution.findings.empty();
   }
 };
+
+inline void set_judgement(ValidationCase& made, attribution::Judgement judgement) {
+  made.model = std::move(judgement.model);
+  made.truth = std::move(judgement.truth);
+  made.other = std::move(judgement.other);
+  made.attribution = std::move(judgement.attribution);
+}
 
 }  // namespace fathom::validation

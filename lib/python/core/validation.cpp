@@ -2,12 +2,9 @@
 
 #include "arrays.h"
 #include "bindings.h"
-#include "fathom/attribution/attribute_and_name.h"
-#include "fathom/attribution/background.h"
 #include "fathom/attribution/cause.h"
+#include "fathom/attribution/judgement.h"
 #include "fathom/attribution/model/named_models.h"
-#include "fathom/attribution/model_choice.h"
-#include "fathom/numeric/errors.h"
 #include "maps.h"
 #include "running.h"
 #include "scene.h"
@@ -19,72 +16,29 @@ namespace {
 
 using namespace attribution;
 
-struct Judgement {
-  std::string model;
-  Attribution found;
-  std::vector<Finding> notes;
-  /// "" where nothing is wrong.
-  std::string cause;
-};
-
-RendererModel model_for(const std::string& name, const Camera& camera) {
-  RendererModel model = model_named(name);
-  if (has_clip_planes_for(model, camera)) return model;
-  throw UsageError("model " + name +
-                   ": the camera has no near and far, between which its depths are stored");
-}
-
-void require_known_triangles(const OtherMap& other, const Scene& scene) {
-  const std::uint64_t count = triangle_count(scene);
-  for (const std::uint32_t triangle : other.triangles) {
-    if (triangle == no_surface || triangle < count) continue;
-    throw InputError("map: it shows triangle " + std::to_string(triangle) + ", but the scene has " +
-                     std::to_string(count));
-  }
-}
-
-Judgement judge(const DepthMap& map, const std::string& channel, const Scene& scene,
-                const Camera& camera, const std::string& model) {
-  std::optional<RendererModel> named;
-  if (model != "auto") named = model_for(model, camera);
-  OtherMap other = other_map(map, channel);
-  require_known_triangles(other, scene);
-  const Truth truth = make_truth(scene, camera);
-  other = known_background(truth, other).map;
-  Judgement judgement;
-  if (named) {
-    judgement = {model, attribute_and_name(truth, other, *named), {}, ""};
-  } else {
-    ModelTrial chosen = chosen_model(truth, other).chosen;
-    judgement = {chosen.model.name, std::move(chosen.attribution), {}, ""};
-  }
-  judgement.notes = judgement.found.notes;
-  judgement.cause = cause_of(truth, other, judgement.found);
-  return judgement;
-}
-
-template <class T>
-py::array image_of(const std::vector<T>& values, const Camera& camera) {
-  return array_of(Samples<T>(values), {camera.height, camera.width});
-}
-
 py::dict validate(const SharedMap& map, const std::string& channel, const SharedScene& shared,
                   const Camera& camera, const std::string& model) {
   const std::shared_ptr<const Scene> scene = shared.scene;
-  const Judgement judgement =
-      run([&](const auto&) { return judge(*map, channel, *scene, camera, model); });
-  const Attribution& found = judgement.found;
+  const Judgement judged = run([&](const auto&) {
+    std::optional<RendererModel> named;
+    if (model != "auto") named = model_for(model, camera);
+    return judge_map("map", other_map(*map, channel), *scene, camera, named);
+  });
+  const Camera& seen_by = judged.truth->camera;
+  const Shape shape{seen_by.height, seen_by.width};
+  const Attribution& found = judged.attribution;
   Samples<std::uint8_t> classes(found.classes.size());
   for (std::size_t i = 0; i < classes.size(); ++i)
     classes[i] = static_cast<std::uint8_t>(found.classes[i]);
   py::dict result;
-  result["model"] = judgement.model;
-  result["cause"] = judgement.cause;
-  result["classes"] = array_of(std::move(classes), {camera.height, camera.width});
-  result["least"] = image_of(found.least, camera);
-  result["greatest"] = image_of(found.greatest, camera);
+  result["model"] = judged.model.name;
+  result["cause"] = cause_of(*judged.truth, judged.other, found);
+  result["camera"] = seen_by;
+  result["classes"] = array_of(std::move(classes), shape);
+  result["least"] = array_of(Samples(found.least), shape);
+  result["greatest"] = array_of(Samples(found.greatest), shape);
   result["findings"] = found.findings;
-  result["notes"] = judgement.notes;
+  result["notes"] = found.notes;
   return result;
 }
 

@@ -58,7 +58,8 @@ def keep_report(folder: Path, map: Any, camera: Camera, found: Validation) -> Pa
     for name, plane in as_map("map", map).items():
         planes[name] = plane.astype(np.float32) if plane.dtype == np.float64 else plane
     try:
-        Map(planes, camera).write(folder / "map.exr")
+        same_size = found.camera.size == camera.size
+        Map(planes, camera if same_size else None).write(folder / "map.exr")
     except OSError as error:
         (folder / "map.txt").write_text(f"no map.exr: {error}\n", encoding="utf-8")
     return folder

@@ -8,12 +8,12 @@ import numpy as np
 
 from . import _core
 from ._arguments import camera_handle, scene_handle
+from .camera import Camera
 from .maps import Map, as_map
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from .camera import Camera
     from .scene import Scene
 
 #: The names of the classes, by the numbers that arrays of classes hold.
@@ -26,6 +26,7 @@ class Validation:
     """What was found out about a map.
 
     model     the name of the model that it was judged by
+    camera    the Camera that sees it: the one that was given, unless the map has another size
     classes   H×W uint8: for each pixel, the number of its class in CLASSES
     findings  what is wrong: each has kind, text, pixels, estimates (name, value, deviation, unit), alternatives and
               evidence
@@ -36,6 +37,7 @@ class Validation:
 
     def __init__(self, found: dict[str, Any]) -> None:
         self.model: str = found["model"]
+        self.camera: Camera = Camera._of(found["camera"])
         self.cause: str = found["cause"]
         self.classes: npt.NDArray[np.uint8] = found["classes"]
         self.least: npt.NDArray[np.float32] = found["least"]
@@ -82,7 +84,9 @@ def validate(
 ) -> Validation:
     """Judges a map that another renderer has drawn of a scene, with this camera.
 
-    map      a Map, or an H×W array of planar depths in scene units; how it marks the background is found out
+    map      a Map, or an H×W array of planar depths in scene units; how it marks the background is found out. A map
+             of another size than the camera's is judged as what explains it: rows and columns exchanged, up to eight
+             of them missing or added, the whole view larger or smaller
     camera   near and far as the renderer had them, where it has a depth buffer
     model    what the renderer computes with, such as "gl-unorm24", "vtk-float32", "float32-ray": `fathom validate
              --help` lists them; "auto" for the one that fits best
@@ -102,10 +106,6 @@ def validate(
     """
     handles = scene_handle(scene), camera_handle(camera)
     theirs = as_map("map", map)._handle()
-    if (theirs.width, theirs.height) != camera.size:
-        raise ValueError(
-            f"map: it has {theirs.width}×{theirs.height} pixels, the camera {camera.width}×{camera.height}"
-        )
     if not isinstance(model, str):
         raise TypeError(f"model: expected a name, found {model!r}")
     return Validation(_core.validate(theirs, channel, *handles, model))

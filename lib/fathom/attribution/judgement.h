@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "fathom/attribution/attribution.h"
+#include "fathom/attribution/model/renderer_model.h"
+#include "fathom/attribution/other_map.h"
+#include "fathom/attribution/truth.h"
+
+/// A map that someone brings, of which nothing is known but the scene and the camera that it is said
+/// to show and perhaps the kind of its renderer.
+namespace fathom::attribution {
+
+/// What is found in such a map.
+struct Judgement {
+  /// The one that it was judged by.
+  RendererModel model;
+  /// Of the camera that sees the map: the one that was given unless the map has another size.
+  std::shared_ptr<const Truth> truth;
+  /// As it was compared: its background told from surfaces, of the size that the camera has.
+  OtherMap other;
+  Attribution attribution;
+};
+
+/// The model of a name, for maps that this camera has seen.
+/// Fails    UsageError (setting `model`) where there is no such model, or where it needs near and
+///          far and the camera has not both.
+RendererModel model_for(const std::string& name, const Camera& camera);
+
+/// Judges by a model, or, without one, by the model that fits best, which is noted.
+/// Needs    a map of the size of the truth's camera.
+Judgement judge(std::shared_ptr<const Truth> truth, const OtherMap& other,
+                const std::optional<RendererModel>& model);
+
+/// Judges a map of a scene. One of another size than the camera's is judged as the reading of it
+/// that explains most (other_size.h), and a map that fits its scene nowhere is said to be of another
+/// one (other_scene.h).
+/// Fails    InputError that begins with `name`, the map's: it shows triangles that the scene has
+///          not, or no reading of its size explains half of it.
+Judgement judge_map(const std::string& name, const OtherMap& other, const Scene& scene,
+                    const Camera& camera, const std::optional<RendererModel>& model);
+
+}  // namespace fathom::attribution
