@@ -5,8 +5,10 @@
 
 Spheres at 1920×1080. fathom and VTK are called with arrays and give an array, each time from nothing: VTK builds its
 data, draws and reads its depth buffer back. The C++ call and Embree (building its hierarchy, then tracing) are as
-`scripts/fathom bench` drives them, with the same mesh and camera. Rounds take turns; medians are told. Then 1,000
-cameras of 640×480, in one call and in a call for each. VTK draws in a window of Xvfb.
+`scripts/fathom bench` drives them, with the same mesh and camera. Rounds take turns, and each renderer draws for a
+while before it is timed, as the program has it; medians are told. Then 1,000 cameras of 640×480, in one call and in a
+call for each, every time in a process of its own, so that both have to be given their memory. VTK draws in a window of
+Xvfb.
 """
 
 import argparse
@@ -115,6 +117,14 @@ def milliseconds(call):
     return (time.perf_counter() - start) * 1e3, result
 
 
+def timed(call, frames, warm_up=0.3):
+    """Milliseconds of each frame, after some that are not counted: threads have to find their processors."""
+    end = time.perf_counter() + warm_up
+    while time.perf_counter() < end:
+        call()
+    return [milliseconds(call)[0] for _ in range(frames)]
+
+
 def program_times(mesh, renderers):
     """Medians of `fathom bench`, by renderer."""
     told = subprocess.run([*program, "bench", "--scene", mesh, "--size", f"{size[0]}x{size[1]}",
@@ -140,11 +150,9 @@ def compare(name, triangles, rounds, folder):
     kept = ours()
     times = {"python": [], "python, out=": [], "VTK": [], "C++": [], "Embree": []}
     for _ in range(rounds):
-        for _ in range(5):
-            times["python"].append(milliseconds(ours)[0])
-            times["python, out="].append(milliseconds(lambda: ours(kept))[0])
-        for _ in range(3):
-            times["VTK"].append(milliseconds(lambda: vtk(vertices, faces))[0])
+        times["python"] += timed(ours, 9)
+        times["python, out="] += timed(lambda: ours(kept), 9)
+        times["VTK"] += timed(lambda: vtk(vertices, faces), 3)
         told = program_times(mesh, "embree")
         times["C++"].append(told["fast"])
         times["Embree"].append(told["embree"] + told["embree-build"])
@@ -154,18 +162,28 @@ def compare(name, triangles, rounds, folder):
           + " |", flush=True)
 
 
-def compare_stacks(cameras_count, rounds):
-    scene = fathom.Scene.read(root / "data/meshes/spot.obj")
-    cameras = fathom.Camera.orbit_scene(scene, cameras_count, size=(640, 480))
-    ratios = {"new array": [], "out=": []}
-    out = scene.render(cameras)
+stack_program = """
+import sys, time, fathom
+scene = fathom.Scene.read(sys.argv[1])
+cameras = fathom.Camera.orbit_scene(scene, int(sys.argv[2]), size=(640, 480))
+scene.render(cameras[:20]), [scene.render(camera) for camera in cameras[:20]]
+start = time.perf_counter()
+maps = scene.render(cameras) if sys.argv[3] == "one call" else [scene.render(camera) for camera in cameras]
+print(time.perf_counter() - start)
+"""
+
+
+def compare_stacks(count, rounds):
+    times = {"one call": [], "a call each": []}
     for _ in range(rounds):
-        single = milliseconds(lambda: [scene.render(camera) for camera in cameras])[0]
-        ratios["out="].append(milliseconds(lambda: scene.render(cameras, out=out))[0] / single)
-        ratios["new array"].append(milliseconds(lambda: scene.render(cameras))[0] / single)
-    for name, values in ratios.items():
-        print(f"{cameras_count} cameras of 640×480 in one call ({name}): {statistics.median(values):.2f} of the time of "
-              f"{cameras_count} calls whose maps are kept (median of {rounds}; {min(values):.2f} to {max(values):.2f})")
+        for how, seconds in times.items():
+            seconds.append(float(subprocess.run(
+                [sys.executable, "-c", stack_program, root / "data/meshes/spot.obj", str(count), how],
+                check=True, capture_output=True, text=True).stdout))
+    ratios = [one / each for one, each in zip(*times.values())]
+    print(f"{count} cameras of 640×480: {statistics.median(times['one call']):.2f} s in one call, "
+          f"{statistics.median(ratios):.2f} of the time of {count} calls whose maps are kept "
+          f"(median of {rounds}; {min(ratios):.2f} to {max(ratios):.2f})")
 
 
 def import_times(rounds):

@@ -35,6 +35,12 @@ pybind11::array array_of(std::vector<T>&& values) {
   return pybind11::array_t<T>(Shape{size}, data, owner);
 }
 
+/// An array in small pages of memory, whatever it holds. Large arrays of NumPy's ask the system for
+/// huge pages, which it may have to make room for first: for a stack of maps that took anything
+/// from a tenth to four times the time of rendering, and small pages, which the threads that render
+/// share, take about half of it always.
+pybind11::array array_in_small_pages(const Shape& shape, const pybind11::dtype& type);
+
 /// What Python's code has made sure of: C order, and this type of elements.
 template <class T>
 using ContiguousArray = pybind11::array_t<T, pybind11::array::c_style>;

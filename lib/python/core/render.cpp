@@ -191,6 +191,7 @@ void bind_render(py::module_& core) {
   core.def("render_one", &render_one);
   core.def("render_stack", &render_stack);
   core.def("require_bytes", &require_bytes);
+  core.def("array_in_small_pages", &array_in_small_pages);
   core.def("channels", [] {
     py::dict channels;
     for (const ChannelDescription& each : channel_table)

@@ -83,7 +83,12 @@ def room_for(
         parts, own = rendered[name]
         kind = np.dtype(own or stored)
         whole = (*shape, len(parts)) if parts else shape
-        arrays[name] = np.empty(whole, kind) if out is None else checked_out(out, name, whole, kind)
+        if out is not None:
+            arrays[name] = checked_out(out, name, whole, kind)
+        elif len(shape) == 3:
+            arrays[name] = _core.array_in_small_pages(whole, kind)
+        else:
+            arrays[name] = np.empty(whole, kind)
     return arrays
 
 
