@@ -1,4 +1,4 @@
-"""Has CMake build the extension module; all else stands in pyproject.toml."""
+"""Has CMake build the extension modules; all else stands in pyproject.toml."""
 
 import os
 import pathlib
@@ -45,4 +45,5 @@ class BuildByCMake(build_ext):
         return getattr(sys, "_base_executable", None) or sys.executable
 
 
-setup(version=version, ext_modules=[Extension("fathom._core", [])], cmdclass={"build_ext": BuildByCMake})
+setup(version=version, ext_modules=[Extension("fathom._core", []), Extension("fathom._studies", [])],
+      cmdclass={"build_ext": BuildByCMake})

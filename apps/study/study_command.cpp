@@ -33,7 +33,7 @@ struct StudyArguments {
   ReadLimits limits;
   /// All but the scene, which is read when everything else is in order.
   studies::StudyOptions options;
-  bool list = false;
+  bool list = false, no_plots = false;
 };
 
 std::string list_of_studies() {
@@ -116,6 +116,7 @@ int run_study(const StudyArguments& arguments, const Console& console) {
   }
   const Study& study = study_of(arguments);
   studies::StudyOptions options = arguments.options;
+  options.plots = !arguments.no_plots;
   if (!arguments.scene.empty()) options.scene = read_view(arguments, console);
   const std::vector<StudyFile> files = run_with_progress(study, options, console);
   make_folder(arguments.out);
@@ -154,6 +155,8 @@ void add_study(Command& program) {
                  "Number of depths (default: the study's)");
   command.option("--separation", "D", into(options.separation, parse_number),
                  "Separation of the two surfaces along the view, for z-fighting");
+  command.flag("--no-plots", arguments->no_plots,
+               "Tables, figures and pictures alone: gnuplot is not needed");
   command.flag("--list", arguments->list, "List the studies");
   command.runs([arguments](const Console& console) { return run_study(*arguments, console); });
 }

@@ -13,6 +13,7 @@
 namespace fathom::test {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -113,6 +114,19 @@ TEST_F(StudyTest, WithoutGnuplotItSaysSoBeforeTheWork) {
   EXPECT_EQ(outcome.status, 4);
   EXPECT_THAT(outcome.err, HasSubstr("gnuplot-nox"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+TEST_F(StudyTest, WithoutPlotsItNeedsNoGnuplot) {
+  RunOptions options;
+  options.folder = folder.path();
+  const Outcome outcome = run({"/usr/bin/env", "PATH=/nowhere", program_path(), "study",
+                               "depth-resolution", "--samples", "3", "--no-plots", "--out", "out"},
+                              options);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(content_of(folder.path() / "out/index.html"), HasSubstr("<table"));
+  for (const auto& file : std::filesystem::directory_iterator(folder.path() / "out")) {
+    EXPECT_THAT(file.path().extension().string(), AnyOf(".csv", ".json", ".html"));
+  }
 }
 
 TEST_F(StudyTest, AFileInTheWayIsAnErrorOfWriting) {

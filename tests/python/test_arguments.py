@@ -33,7 +33,7 @@ cases = [
     ({"faces": faces.astype(float)}, TypeError, "faces: expected integers, found float64"),
     ({"faces": [(0, 1, 3)]}, IndexError, "faces: row 0 has vertex 3, but there are 3 vertices"),
     ({"faces": np.array([(0, 1, -1)])}, IndexError, "faces: row 0 has vertex -1"),
-    ({"faces": np.array([(0, 1, -1)], np.int32)}, IndexError, "faces: row 0 has vertex -1|4294967295"),
+    ({"faces": np.array([(0, 1, -1)], np.int32)}, IndexError, "faces: row 0 has vertex -1, but"),
     ({"faces": np.array([(0, 1, 3)], np.uint32)}, IndexError, "faces: row 0 has vertex 3"),
     ({"faces": np.array([(0, 1, 2**40)])}, IndexError, "faces: row 0 has vertex 1099511627776"),
     ({"faces": np.zeros((0, 3), int)}, ValueError, "faces: a mesh needs at least one triangle"),

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import fathom
+from conftest import source as fathom_source
 
 
 @pytest.fixture(scope="module")
@@ -55,6 +56,49 @@ def test_deep_maps_are_ragged_arrays(spot, camera):
     y, x = np.argwhere(deep.counts > 2)[0]
     depths = deep.Z[deep.at(int(x), int(y))]
     assert len(depths) == deep.counts[y, x] and (np.diff(depths) >= 0).all()
+
+
+def test_deep_maps_are_written_as_the_program_writes_them(spot, camera, run_program, tmp_path):
+    camera.write(tmp_path / "camera.json")
+    run_program("render", fathom_source / "data/meshes/spot.obj", "--camera", tmp_path / "camera.json", "--deep", "-o",
+                tmp_path / "theirs.exr")
+    deep = fathom.render_deep(spot, camera)
+    deep.write(tmp_path / "new/folder/ours.exr")
+    assert (tmp_path / "new/folder/ours.exr").read_bytes() == (tmp_path / "theirs.exr").read_bytes()
+    assert fathom.Camera.from_json(deep.metadata["fathom.camera"]) == camera == deep.camera
+
+
+def test_deep_maps_that_do_not_fit_together_are_refused(spot, camera, tmp_path):
+    def change(name, value):
+        deep = fathom.render_deep(spot, camera)
+        setattr(deep, name, value(getattr(deep, name)))
+        deep.write(tmp_path / "never.exr")
+
+    for name in ("ZBack", "area", "A", "id"):
+        with pytest.raises(ValueError, match=f"{name}: expected an array of"):
+            change(name, lambda column: column[:-1])
+        with pytest.raises(ValueError, match=f"{name}: expected an array of"):
+            change(name, lambda column: column.astype(np.float64))
+    with pytest.raises(ValueError, match="offsets: expected numbers that rise"):
+        change("offsets", lambda offsets: offsets[::-1].copy())
+    with pytest.raises(ValueError, match="offsets: expected numbers that rise"):
+        change("offsets", lambda offsets: offsets + np.uint64(1))
+    with pytest.raises(ValueError, match="zips, rle or none"):
+        fathom.render_deep(spot, camera).write(tmp_path / "never.exr", compression="piz")
+    assert not (tmp_path / "never.exr").exists()
+
+
+def test_cryptomatte_is_what_the_program_writes(spot, camera, run_program, tmp_path):
+    camera.write(tmp_path / "camera.json")
+    run_program("render", fathom_source / "data/meshes/spot.obj", "--camera", tmp_path / "camera.json",
+                "--cryptomatte", "-o", tmp_path / "theirs.exr")
+    map = spot.render(camera, channels=("Z", "A"))
+    map.add_cryptomatte(spot)
+    map.write(tmp_path / "ours.exr")
+    assert (tmp_path / "ours.exr").read_bytes() == (tmp_path / "theirs.exr").read_bytes()
+    # One object: what it covers is the coverage.
+    assert np.array_equal(map["CryptoObject00.G"], map["A"]) and not map["CryptoObject01.G"].any()
+    assert sum("spot" in text for name, text in map.metadata.items() if name.endswith("/manifest")) == 1
 
 
 def test_verify(spot, camera):

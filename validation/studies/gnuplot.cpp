@@ -47,8 +47,8 @@ std::string first_line(const std::string& text) {
 
 }  // namespace
 
-void require_gnuplot() {
-  run("--version");
+void require_gnuplot(const StudyOptions& options) {
+  if (options.plots) run("--version");
 }
 
 std::string png_bytes(const RgbImage& image) {

@@ -68,7 +68,8 @@ std::vector<StudyFile> draw(const Plot& plot);
 std::vector<StudyFile> draw(const BarChart& chart);
 std::vector<StudyFile> draw(const HeatMap& map);
 
-/// Fails with OutputError where gnuplot is missing: to be called before the work.
-void require_gnuplot();
+/// Fails with OutputError where plots are to be drawn and gnuplot is missing: to be called before the
+/// work.
+void require_gnuplot(const StudyOptions& options);
 
 }  // namespace fathom::studies

@@ -4,8 +4,8 @@
 
 namespace fathom::studies {
 
-Results::Results(const std::string& study, std::string_view page)
-    : summary_{{"study", Cell(study)}}, page_(page) {}
+Results::Results(const std::string& study, std::string_view page, const StudyOptions& options)
+    : summary_{{"study", Cell(study)}}, page_(page), plots_(options.plots) {}
 
 void Results::figure(const std::string& key, const Cell& value, const char* page_format) {
   summary_.emplace_back(key, value);
@@ -17,24 +17,28 @@ void Results::quote(const std::string& name, const Cell& value, const char* page
 }
 
 void Results::table(const Table& table, const Places& places) {
-  if (!places.csv.empty()) files_.push_back({places.csv + ".csv", csv_of(table)});
+  if (!places.csv.empty()) {
+    files_.push_back({places.csv + ".csv", csv_of(table), std::make_shared<const Table>(table)});
+  }
   if (!places.json.empty()) summary_.emplace_back(places.json, table);
   if (!places.page.empty()) page_.add_table(places.page, table);
 }
 
 void Results::plot(const Plot& plot) {
-  drawn_plot(plot.name, draw(plot));
+  this->plot(plot.name, [&] { return draw(plot); });
 }
 
 void Results::plot(const BarChart& chart) {
-  drawn_plot(chart.name, draw(chart));
+  this->plot(chart.name, [&] { return draw(chart); });
 }
 
 void Results::plot(const HeatMap& map) {
-  drawn_plot(map.name, draw(map));
+  this->plot(map.name, [&] { return draw(map); });
 }
 
-void Results::drawn_plot(const std::string& name, std::vector<StudyFile> files) {
+void Results::plot(const std::string& name, const std::function<std::vector<StudyFile>()>& draw) {
+  std::vector<StudyFile> files;
+  if (plots_) files = draw();
   page_.add_plot(name, !files.empty());
   std::move(files.begin(), files.end(), std::back_inserter(files_));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +18,8 @@ namespace fathom::studies {
 /// pictures, and the page that shows them.
 class Results {
  public:
-  /// `page` is the study's Markdown: see page.h.
-  Results(const std::string& study, std::string_view page);
+  /// `page` is the study's Markdown: see page.h. The options say whether plots are drawn.
+  Results(const std::string& study, std::string_view page, const StudyOptions& options);
 
   /// A figure of summary.json, which the page may quote as {{key}}, formatted as text_of() does.
   void figure(const std::string& key, const Cell& value, const char* page_format = "g");
@@ -32,7 +33,7 @@ class Results {
   };
   void table(const Table& table, const Places& places);
 
-  /// Drawn, unless it has nothing to draw.
+  /// Drawn, unless it has nothing to draw or no plots are wanted.
   void plot(const Plot& plot);
   void plot(const BarChart& chart);
   void plot(const HeatMap& map);
@@ -43,8 +44,8 @@ class Results {
   void file(StudyFile file);
   /// {{text:name}} of the page.
   void text(const std::string& name, const std::string& text);
-  /// Plots that are drawn already: NAME.gp, NAME.png, NAME.svg.
-  void drawn_plot(const std::string& name, std::vector<StudyFile> files);
+  /// Anything else that draw() makes NAME.gp, NAME.png and NAME.svg of.
+  void plot(const std::string& name, const std::function<std::vector<StudyFile>()>& draw);
 
   /// All files, summary.json and index.html among them.
   [[nodiscard]] std::vector<StudyFile> files() const;
@@ -53,6 +54,7 @@ class Results {
   std::vector<StudyFile> files_;
   Summary summary_;
   Page page_;
+  bool plots_;
 };
 
 }  // namespace fathom::studies

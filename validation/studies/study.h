@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,10 +13,14 @@
 /// Studies of depth precision: each computes figures, draws them, and explains what is seen.
 namespace fathom::studies {
 
-/// A file that a study makes: CSV, JSON, HTML, PNG or SVG.
+class Table;
+
+/// A file that a study makes: CSV, JSON, HTML, PNG or SVG. CSV has the table that it was made of,
+/// whose numbers are not rounded.
 struct StudyFile {
   std::string name;
   std::string content;
+  std::shared_ptr<const Table> table;
 };
 
 /// A scene and how it is seen.
@@ -33,10 +38,13 @@ struct StudyOptions {
   /// Of two surfaces, along the view.
   std::optional<double> separation;
   std::optional<std::uint32_t> samples;
+  /// Whether plots are drawn: gnuplot takes most of the time of the quicker studies.
+  bool plots = true;
 };
 
 /// A study. `run` calls `tick` with the share of the work that is done, from 0 to 1.
-/// Fails    UsageError for options that mean nothing; OutputError where plots cannot be drawn.
+/// Fails    UsageError for options that mean nothing; OutputError where plots are to be drawn and
+///          cannot be.
 struct Study {
   const char* name;
   const char* description;

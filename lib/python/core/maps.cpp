@@ -22,6 +22,18 @@
 namespace py = pybind11;
 
 namespace fathom::python {
+
+Compression compression_named(const std::string& name) {
+  constexpr std::pair<std::string_view, Compression> names[] = {{"none", Compression::none},
+                                                                {"rle", Compression::rle},
+                                                                {"zips", Compression::zips},
+                                                                {"zip", Compression::zip},
+                                                                {"piz", Compression::piz}};
+  for (const auto& [known, compression] : names)
+    if (name == known) return compression;
+  throw UsageError("compression: expected none, rle, zips, zip or piz, found " + name);
+}
+
 namespace {
 
 /// The channels as arrays of height × width, each of which owns its memory; the map keeps none.
@@ -66,17 +78,6 @@ SharedMap with_channels(const DepthMap& map, std::uint32_t height, std::uint32_t
 
 SharedMap read(const std::filesystem::path& path) {
   return run([&](const auto&) { return std::make_shared<DepthMap>(read_map(path)); });
-}
-
-Compression compression_named(const std::string& name) {
-  constexpr std::pair<std::string_view, Compression> names[] = {{"none", Compression::none},
-                                                                {"rle", Compression::rle},
-                                                                {"zips", Compression::zips},
-                                                                {"zip", Compression::zip},
-                                                                {"piz", Compression::piz}};
-  for (const auto& [known, compression] : names)
-    if (name == known) return compression;
-  throw UsageError("compression: expected none, rle, zips, zip or piz, found " + name);
 }
 
 void write(const SharedMap& map, const std::filesystem::path& path, const std::string& channel,

@@ -13,12 +13,27 @@
 #include "fathom/scene/view_warnings.h"
 #include "fathom/threads/threads.h"
 #include "maps.h"
+#include "render_options.h"
 #include "running.h"
 #include "scene.h"
 
 namespace py = pybind11;
 
 namespace fathom::python {
+
+Cull cull_named(const std::string& name) {
+  return name == "back" ? Cull::back : name == "front" ? Cull::front : Cull::none;
+}
+
+RenderOptions options_of(const std::string& cull, int threads,
+                         const std::function<void(double)>& progress) {
+  RenderOptions options;
+  options.cull = cull_named(cull);
+  options.threads = threads;
+  options.progress = progress;
+  return options;
+}
+
 namespace {
 
 /// Options as Python's code has them, with names that it has checked.
@@ -34,7 +49,7 @@ RenderOptions make_options(const std::vector<std::string>& channels, const std::
     }
     options.channels.push_back(*channel);
   }
-  options.cull = cull == "back" ? Cull::back : cull == "front" ? Cull::front : Cull::none;
+  options.cull = cull_named(cull);
   options.depth_encoding.type = type == "float64"  ? StoredType::binary64
                                 : type == "uint16" ? StoredType::scaled_unorm16
                                                    : StoredType::binary32;

@@ -12,15 +12,17 @@ from ._core import Error, InputError, OutputError, UsageError
 from ._render import render
 from .camera import Camera, ViewWarning, read_cameras, write_cameras
 from .clipping import clip
+from .deep import DeepMap, render_deep
 from .depth_formats import DepthFormat
 from .maps import NO_SURFACE, Map, compare, read_map
-from .questions import probe, render_deep, verify, visible
+from .questions import probe, verify, visible
 from .scene import Scene
 from .validation import Validation, validate
 
 __all__ = [
     "NO_SURFACE",
     "Camera",
+    "DeepMap",
     "DepthFormat",
     "Error",
     "InputError",

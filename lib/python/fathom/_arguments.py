@@ -60,10 +60,11 @@ def _first_not_finite(numbers: Numbers) -> str:
 
 def as_number(name: str, value: Any) -> float:
     try:
-        number = float(value)
+        if not isinstance(value, (str, bytes, bytearray)):
+            return float(value)
     except (TypeError, ValueError, OverflowError):
-        raise TypeError(f"{name}: expected a number, found {value!r}") from None
-    return number
+        pass
+    raise TypeError(f"{name}: expected a number, found {value!r}")
 
 
 def as_count(name: str, value: Any, least: int, most: int) -> int:
@@ -143,8 +144,12 @@ def check_corners(faces: npt.NDArray[Any], vertex_count: int) -> None:
     bad = np.argwhere((faces < 0) | (faces >= vertex_count))
     if len(bad):
         row, column = (int(i) for i in bad[0])
+        vertex = int(faces[row, column])
+        # An array of int32 is taken as one of uint32: what is beyond 2^31 was negative, since no mesh has so many.
+        if faces.dtype == np.uint32 and vertex >= 2**31:
+            vertex -= 2**32
         raise IndexError(
-            f"faces: row {row} has vertex {int(faces[row, column])}, but there are {vertex_count} vertices, "
+            f"faces: row {row} has vertex {vertex}, but there are {vertex_count} vertices, "
             "numbered from 0"
         )
 

@@ -202,7 +202,20 @@ def probe(scene: Scene, camera: Camera, x: int, y: int, cull: str) -> list[tuple
 def visible(
     scene: Scene, camera: Camera, cull: str, threads: int
 ) -> tuple[tuple[Floats, Floats, Floats], tuple[Floats, Floats, Floats]]: ...
-def deep(scene: Scene, camera: Camera, cull: str, threads: int) -> dict[str, npt.NDArray[Any]]: ...
+def deep(scene: Scene, camera: Camera, cull: str, threads: int) -> tuple[dict[str, npt.NDArray[Any]], Map]: ...
+def write_deep(
+    description: Map,
+    Z: npt.NDArray[np.float32],
+    ZBack: npt.NDArray[np.float32],
+    area: npt.NDArray[np.float32],
+    A: npt.NDArray[np.float32],
+    id: npt.NDArray[np.uint32],
+    counts: npt.NDArray[np.uint32],
+    file: str,
+    compression: str,
+    threads: int,
+) -> None: ...
+def cryptomatte(scene: Scene, camera: Camera, cull: str, threads: int) -> Map: ...
 def verify(
     map: Map, scene: Scene, camera: Camera, options: RenderOptions, count: int
 ) -> tuple[int, int, tuple[int, int, str, str, str] | None]: ...

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 Cull = Literal["none", "back", "front"]
+culls = ("none", "back", "front")
 Background = Union[float, Literal["inf", "nan"]]
 
 most_threads = 1024
@@ -41,7 +42,7 @@ def render_cameras(
     stored = stored_type(dtype)
     options = _core.RenderOptions(
         names,
-        one_of("cull", cull, ("none", "back", "front")),
+        one_of("cull", cull, culls),
         stored,
         as_number("scale", scale),
         one_of("engine", engine, ("fast", "reference")),

@@ -6,7 +6,7 @@ import math
 import os
 import warnings
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Literal, Union
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -23,13 +23,13 @@ from ._arguments import (
     pose_of,
     scene_handle,
 )
+from ._files import Path, make_folder_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from .scene import Scene
 
-Path = Union[str, "os.PathLike[str]"]
 Projection = Literal["perspective", "orthographic"]
 Up = Literal["y", "z"]
 
@@ -443,7 +443,8 @@ def read_cameras(file: Path) -> list[Camera]:
 
 
 def write_cameras(file: Path, cameras: Iterable[Camera]) -> None:
-    """Writes a camera file. A single camera is an object, several are a list."""
+    """Writes a camera file. A single camera is an object, several are a list. A folder that is missing is made."""
     text = _core.cameras_to_json([camera_handle(camera) for camera in cameras])
+    make_folder_of(file)
     with open(file, "w", encoding="utf-8") as stream:
         stream.write(text + "\n")

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _core
 from ._core import OutputError
-from ._arguments import camera_handle, as_array, as_count, as_number, one_of
+from ._arguments import as_array, as_count, as_number, camera_handle, one_of, scene_handle
+from ._files import Path, make_folder_of
 from .camera import Camera, cameras_from_json
 
 if TYPE_CHECKING:
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from ._arguments import Numbers
-
-Path = Union[str, "os.PathLike[str]"]
+    from .scene import Scene
 
 #: What id, face and object have where there is no surface.
 NO_SURFACE = _core.no_surface
@@ -73,7 +73,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         compression: str = "zip",
         threads: int = 0,
     ) -> None:
-        """Writes the map in the format that the file's suffix names.
+        """Writes the map in the format that the file's suffix names. A folder that is missing is made.
 
         .exr, .npz        all channels, with camera and metadata
         .npy, .pfm, .png  one channel, `channel` where the map has several: .npy also N, P and bary, .png codes of
@@ -85,7 +85,9 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         for pair in others:
             if not all(isinstance(name, str) for name in pair):
                 raise TypeError(f"names: expected names by the names of channels, found {names!r}")
-        _core.write_map(self._handle(), os.fspath(file), channel or "", compression,
+        handle = self._handle()
+        make_folder_of(file)
+        _core.write_map(handle, os.fspath(file), channel or "", compression,
                         as_count("threads", threads, 0, 1024), others)
 
     @property
@@ -217,8 +219,19 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         """Writes the points as PLY, with normals and identifiers where the map has these."""
         name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64"))
         in_camera = one_of("frame", frame, ("world", "camera")) == "camera"
-        _core.write_point_cloud(self._handle(), camera_handle(self._camera(camera)), os.fspath(file), in_camera,
+        handle, view = self._handle(), camera_handle(self._camera(camera))
+        make_folder_of(file)
+        _core.write_point_cloud(handle, view, os.fspath(file), in_camera,
                                 name == "float64")
+
+    def add_cryptomatte(self, scene: Scene, camera: Camera | None = None, *, cull: str = "none", threads: int = 0) -> None:
+        """Adds Cryptomatte's channels by object, CryptoObject00.R and so on, with exact coverage, each rounded once to
+        float32, and the manifest among the metadata. What compositing programs read is the EXR of it."""
+        view = self._camera(camera)
+        matte = _core.cryptomatte(scene_handle(scene), camera_handle(view), one_of("cull", cull, ("none", "back", "front")),
+                                  as_count("threads", threads, 0, 1024))
+        self.update(matte.take_channels())
+        self._description.texts = {**self._description.texts, **matte.texts}
 
     def __repr__(self) -> str:
         channels = ", ".join(f"{name}: {array.dtype} {array.shape}" for name, array in self.items())

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core
 from ._arguments import as_count, camera_handle, one_of, scene_handle
-from ._render import Cull, stored_type
+from ._render import Cull, culls, most_threads, stored_type
 from .maps import Map, rendered
 
 if TYPE_CHECKING:
@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from .camera import Camera
     from .scene import Scene
-
-culls = ("none", "back", "front")
 
 
 class CoveringTriangle(NamedTuple):
@@ -87,45 +85,8 @@ class VisibleAreas(NamedTuple):
 def visible(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: int = 0) -> VisibleAreas:
     """The exact visible area of every triangle and every object, in pixels of the image, whatever its size."""
     triangles, objects = _core.visible(scene_handle(scene), camera_handle(camera), one_of("cull", cull, culls),
-                                       as_count("threads", threads, 0, 1024))
+                                       as_count("threads", threads, 0, most_threads))
     return VisibleAreas(Areas(*triangles), Areas(*objects))
-
-
-class DeepMap:
-    """The visible fragments of every pixel, as arrays of one element per fragment: those of a pixel follow each
-    other, nearest first, and pixels row by row.
-
-    Z, ZBack  planar depth of a fragment's nearest and of its farthest visible point
-    area      the fraction of the pixel where it is visible; A: over what the ones before it leave
-    id        of its triangle
-    offsets   H·W + 1 numbers: the fragments of pixel (x, y) are offsets[y·W + x] to offsets[y·W + x + 1]
-    """
-
-    def __init__(self, arrays: dict[str, npt.NDArray[Any]], camera: Camera) -> None:
-        self.Z = arrays["Z"]
-        self.ZBack = arrays["ZBack"]
-        self.area = arrays["area"]
-        self.A = arrays["A"]
-        self.id = arrays["id"]
-        self.offsets = arrays["offsets"]
-        self.camera = camera
-
-    @property
-    def counts(self) -> npt.NDArray[np.int64]:
-        """H×W: how many fragments each pixel has."""
-        return np.diff(self.offsets.astype(np.int64)).reshape(self.camera.height, self.camera.width)
-
-    def at(self, x: int, y: int) -> slice:
-        """Where the fragments of a pixel are: deep.Z[deep.at(3, 5)]."""
-        pixel = as_count("y", y, 0, self.camera.height - 1) * self.camera.width
-        pixel += as_count("x", x, 0, self.camera.width - 1)
-        return slice(int(self.offsets[pixel]), int(self.offsets[pixel + 1]))
-
-
-def render_deep(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: int = 0) -> DeepMap:
-    """The visible fragments of every pixel, with their exact areas, each rounded once to float32."""
-    return DeepMap(_core.deep(scene_handle(scene), camera_handle(camera), one_of("cull", cull, culls),
-                              as_count("threads", threads, 0, 1024)), camera)
 
 
 class Disagreement(NamedTuple):
@@ -158,7 +119,7 @@ def verify(map: Map, scene: Scene, camera: Camera | None = None, *, pixels: int 
     depths = next((map[name] for name in ("Z", "distance") if name in map), None)
     stored = "float32" if depths is None else stored_type(depths.dtype)
     options = _core.RenderOptions(channels, one_of("cull", cull, culls), stored, map.scale or 1000, "fast",
-                                  as_count("threads", threads, 0, 1024))
+                                  as_count("threads", threads, 0, most_threads))
     verified, differing, first = _core.verify(map._handle(), scene_handle(scene), camera_handle(view), options,
                                               as_count("pixels", pixels, 1, 2**63))
     return Verification(verified, differing, None if first is None else Disagreement(*first))

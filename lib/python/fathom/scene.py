@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
 from ._arguments import as_count, check_elements, faces_of, pose_of, vertices_of
+from ._files import Path
 from ._render import Background, Cull, render_cameras
 
 if TYPE_CHECKING:
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
 
     from .camera import Camera
     from .maps import Map
-
-Path = Union[str, "os.PathLike[str]"]
 
 
 class Object(NamedTuple):

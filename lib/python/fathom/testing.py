@@ -6,13 +6,13 @@ installed by pip have it without that.
 
 from __future__ import annotations
 
-import os
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable, Union
+from typing import TYPE_CHECKING, Any, Callable
 
 import numpy as np
 
+from ._files import Path as FilePath
 from .maps import Map, as_map
 from .validation import Validation, validate
 
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from .camera import Camera
     from .scene import Scene
 
-Folder = Union[str, "os.PathLike[str]"]
-
 
 def assert_depth(
     map: Map | npt.ArrayLike,
@@ -34,7 +32,7 @@ def assert_depth(
     model: str = "auto",
     *,
     channel: str = "",
-    report: Folder | None = None,
+    report: FilePath | None = None,
 ) -> Validation:
     """Fails with an AssertionError, which says what is wrong with a map in one line, unless every pixel of it is
     explained by the model and nothing is wrong with it on the whole. The arguments are those of fathom.validate().

@@ -243,7 +243,7 @@ std::vector<StudyFile> study_antialiasing(const StudyOptions& options,
     throw UsageError("the study antialiasing has no --separation and no --samples");
   }
   const SceneView view = scene_or_wheel(options);
-  require_gnuplot();
+  require_gnuplot(options);
   const DepthMap exact = exact_coverage(view);
   const CoverageBySamples coverage =
       measure_coverage_by_samples(view, exact, [&](double share) { tick(share / 2); });
@@ -251,7 +251,7 @@ std::vector<StudyFile> study_antialiasing(const StudyOptions& options,
       measure_antialiasing([&](double share) { tick(0.5 + share / 4); });
   const TemporalStudy temporal = measure_temporal([&](double share) { tick(0.75 + share / 4); });
 
-  Results results("antialiasing", page_texts::antialiasing);
+  Results results("antialiasing", page_texts::antialiasing, options);
   results.figure("scene", view.name);
   add(results, coverage);
   results.picture(picture("coverage", exact, {.channel = "A", .colours = ColourMap::grey}));

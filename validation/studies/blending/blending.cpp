@@ -53,7 +53,7 @@ std::vector<StudyFile> study_blending(const StudyOptions& options,
                                       const std::function<void(double)>& tick) {
   if (options.near || options.far || options.separation || options.samples)
     throw UsageError("the study blending takes no options");
-  require_gnuplot();
+  require_gnuplot(options);
   std::vector<GlassScene> scenes;
   for (const char* name : glass_scenes) scenes.push_back(glass_scene(name));
   std::vector<BlendedCase> cases;
@@ -63,7 +63,7 @@ std::vector<StudyFile> study_blending(const StudyOptions& options,
     tick(static_cast<double>(cases.size()) / 31);
   }
 
-  Results results("blending", page_texts::blending);
+  Results results("blending", page_texts::blending, options);
   results.table(cases_table(cases), {.csv = "cases", .json = "cases", .page = "cases"});
   results.plot(error_chart(cases, scenes));
   for (const GlassScene& scene : scenes)

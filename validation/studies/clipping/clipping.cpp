@@ -121,20 +121,21 @@ std::vector<StudyFile> study_clipping(const StudyOptions& options,
     throw UsageError("the study clipping has no depths: --near and --far mean nothing to it");
   const std::size_t polygons = options.samples.value_or(100);
   if (polygons > 100000) throw UsageError("--samples is not from 2 to 100000");
-  require_gnuplot();
+  require_gnuplot(options);
   const std::vector<ClippedShape> shapes = clipped_shapes();
   const std::vector<RandomPolygons> random = clip_random(polygons, tick);
 
   const std::vector<BesideCgal> beside_cgal = clip_beside_cgal(tick);
 
-  Results results("clipping", page_texts::clipping);
+  Results results("clipping", page_texts::clipping, options);
   results.figure("polygons", polygons);
   results.table(shapes_table(shapes), {.csv = "shapes", .json = "shapes", .page = "shapes"});
   results.table(random_table(random), {.csv = "random", .json = "random"});
   results.figure("answers_unlike_cgal", different_answers(beside_cgal));
   results.table(beside_cgal_table(beside_cgal), {.csv = "cgal", .json = "cgal", .page = "cgal"});
   results.plot(beside_cgal_plot(beside_cgal));
-  for (const ClippedShape& shape : shapes) results.drawn_plot("shape-" + shape.name, draw(shape));
+  for (const ClippedShape& shape : shapes)
+    results.plot("shape-" + shape.name, [&] { return draw(shape); });
   results.plot(bridges_plot(random));
   tick(1);
   return results.files();

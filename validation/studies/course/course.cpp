@@ -305,7 +305,7 @@ std::vector<StudyFile> study_course(const StudyOptions& options,
                                     const std::function<void(double)>& tick) {
   if (options.near || options.far || options.separation || options.samples)
     throw UsageError("the study course takes no options");
-  Results results("course", page_texts::course);
+  Results results("course", page_texts::course, options);
   exercises_1_and_2(results);
   quadrangles(results);
   tick(0.1);

@@ -143,13 +143,13 @@ std::vector<StudyFile> study_depth_resolution(const StudyOptions& options,
     throw UsageError("near and far of this study lie between 1e-300 and 1e300");
   }
   const std::vector<double> depths = logarithmic_samples(near, far, options.samples.value_or(121));
-  require_gnuplot();
+  require_gnuplot(options);
   const std::vector<FormatSteps> all =
       measure_formats(near, far, depths, [&](double share) { tick(0.8 * share); });
   const std::vector<BestMapping> best = best_mappings(all);
   const std::vector<MovedStep> moved = move_near_and_far(near, far);
 
-  Results results("depth-resolution", page_texts::depth_resolution);
+  Results results("depth-resolution", page_texts::depth_resolution, options);
   results.figure("near", near);
   results.figure("far", far);
   results.figure("samples", depths.size());

@@ -59,7 +59,7 @@ std::vector<StudyFile> study_hidden_surface(const StudyOptions& options,
                                             const std::function<void(double)>& tick) {
   if (options.near || options.far || options.separation || options.samples)
     throw UsageError("the study hidden-surface takes no options");
-  require_gnuplot();
+  require_gnuplot(options);
   const std::vector<HiddenSurfaceCase> scenes = compare_hidden_surfaces();
   tick(0.5);
   std::vector<HiddenSurfaceCost> costs;
@@ -68,7 +68,7 @@ std::vector<StudyFile> study_hidden_surface(const StudyOptions& options,
     tick(0.5 + 0.1 * static_cast<double>(costs.size()));
   }
 
-  Results results("hidden-surface", page_texts::hidden_surface);
+  Results results("hidden-surface", page_texts::hidden_surface, options);
   results.table(scenes_table(scenes), {.csv = "scenes", .json = "scenes", .page = "scenes"});
   results.table(costs_table(costs), {.page = "costs"});
   for (const HiddenSurfaceCase& scene : scenes) {

@@ -158,7 +158,7 @@ std::vector<StudyFile> study_indistinguishable(const StudyOptions& options,
   const std::uint32_t samples = options.samples.value_or(10001);
   require_binary32_range(near, far);
   const std::vector<double> linear = depths_of(Spacing::linear, near, far, samples);
-  require_gnuplot();
+  require_gnuplot(options);
   const View view = default_view(near);
   const std::vector<LostOrder> rows =
       lose_order(near, far, samples, view, [&](double share) { tick(0.9 * share); });
@@ -167,7 +167,7 @@ std::vector<StudyFile> study_indistinguishable(const StudyOptions& options,
     controls.push_back({spacing, count_vertex_order(view, depths_of(spacing, near, far, samples))});
   }
 
-  Results results("indistinguishable", page_texts::indistinguishable);
+  Results results("indistinguishable", page_texts::indistinguishable, options);
   results.figure("near", near);
   results.figure("far", far);
   results.figure("samples", samples);

@@ -68,10 +68,10 @@ std::vector<StudyFile> study_lines(const StudyOptions& options,
     throw UsageError("the study lines has no depths: --near, --far and --separation mean nothing");
   const std::uint32_t slopes = options.samples.value_or(40);
   if (slopes == 0) throw UsageError("--samples: expected at least one slope");
-  require_gnuplot();
+  require_gnuplot(options);
   const std::vector<LineDrift> drifts = measure_drifts(slopes, tick);
 
-  Results results("lines", page_texts::lines);
+  Results results("lines", page_texts::lines, options);
   results.figure("slopes", slopes);
   results.table(drift_table(drifts), {.csv = "drift", .json = "drift", .page = "drift"});
   results.table(costs_table(line_costs()), {.json = "cost", .page = "costs"});

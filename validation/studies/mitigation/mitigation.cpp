@@ -89,7 +89,7 @@ std::vector<StudyFile> study_mitigation(const StudyOptions& options,
   SceneView view = options.scene ? *options.scene : panels_with_decals();
   view.camera = with_range(view, options);
   require_meaningful(uncured_format(view.camera));
-  require_gnuplot();
+  require_gnuplot(options);
   const DepthMap visible = visible_map(view);
   if (!std::isfinite(nearest_depth(visible))) {
     throw UsageError("the camera sees nothing of the scene");
@@ -101,7 +101,7 @@ std::vector<StudyFile> study_mitigation(const StudyOptions& options,
   const std::vector<OffsetCount> offsets = polygon_offsets(view);
   tick(0.9);
 
-  Results results("mitigation", page_texts::mitigation);
+  Results results("mitigation", page_texts::mitigation, options);
   results.figure("scene", view.name);
   results.figure("near", view.camera.near);
   results.figure("far", view.camera.far);

@@ -103,10 +103,10 @@ std::vector<StudyFile> study_subpixel(const StudyOptions& options,
     throw UsageError("the study subpixel has no --separation and no --samples");
   }
   const SceneView view = scene_or_wheel(options);
-  require_gnuplot();
+  require_gnuplot(options);
   const std::vector<Row> rows = compare_all(view, tick);
 
-  Results results("subpixel", page_texts::subpixel);
+  Results results("subpixel", page_texts::subpixel, options);
   results.figure("scene", view.name);
   results.table(table_of(rows), {.csv = "subpixel", .json = "bits", .page = "rows"});
   results.plot(coverage_plot(rows));

@@ -136,7 +136,7 @@ std::vector<StudyFile> study_scene_fights(const StudyOptions& options,
   SceneView view = *options.scene;
   view.camera = with_range(view, options);
   require_meaningful(format_of(view.camera, Mapping::standard, Storage::unorm16));
-  require_gnuplot();
+  require_gnuplot(options);
   const DepthMap visible = visible_map(view);
   const std::vector<SceneFights> fights =
       measure_all(view, visible, [&](double share) { tick(0.6 * share); });
@@ -147,7 +147,7 @@ std::vector<StudyFile> study_scene_fights(const StudyOptions& options,
   }
   tick(0.9);
 
-  Results results("z-fighting", page_texts::scene_fights);
+  Results results("z-fighting", page_texts::scene_fights, options);
   results.figure("scene", view.name);
   results.figure("near", view.camera.near);
   results.figure("far", view.camera.far);

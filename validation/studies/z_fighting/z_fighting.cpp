@@ -168,7 +168,7 @@ std::vector<StudyFile> study_z_fighting(const StudyOptions& options,
                                         const std::function<void(double)>& tick) {
   if (options.scene) return study_scene_fights(options, tick);
   const SurfacePair surfaces = surfaces_of(options);
-  require_gnuplot();
+  require_gnuplot(options);
   const auto& [near, far, separation, samples] = surfaces;
   const std::vector<double> distances = logarithmic_samples(2 * near, far / 2, 25);
   const std::vector<FightByDistance> fights =
@@ -176,7 +176,7 @@ std::vector<StudyFile> study_z_fighting(const StudyOptions& options,
   const std::vector<FightByAngle> by_angle =
       fights_by_angle({near, far, separation, samples, {distances[8], distances[20]}});
 
-  Results results("z-fighting", page_texts::z_fighting);
+  Results results("z-fighting", page_texts::z_fighting, options);
   results.figure("near", near);
   results.figure("far", far);
   results.figure("separation", separation);

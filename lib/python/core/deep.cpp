@@ -1,0 +1,101 @@
+// What each pixel shows of every surface: deep maps, and Cryptomatte.
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <memory>
+#include <utility>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "fathom/image/deep_map.h"
+#include "fathom/render.h"
+#include "maps.h"
+#include "render_options.h"
+#include "running.h"
+#include "scene.h"
+
+namespace py = pybind11;
+
+namespace fathom::python {
+namespace {
+
+/// A deep map without its samples, which are arrays of Python's.
+using DeepDescription = DepthMap;
+
+/// Samples by column, where those of each pixel begin, and the rest of the map.
+py::tuple deep(const SharedScene& shared, const Camera& camera, const std::string& cull,
+               int threads) {
+  const std::shared_ptr<const Scene> scene = shared.scene;
+  DeepMap map = run([&](const auto& progress) {
+    return render_deep(*scene, camera, options_of(cull, threads, progress));
+  });
+  const std::size_t count = map.samples.size();
+  Samples<float> front(count), back(count), area(count), alpha(count);
+  Samples<std::uint32_t> id(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    front[i] = map.samples[i].Z;
+    back[i] = map.samples[i].ZBack;
+    area[i] = map.samples[i].area;
+    alpha[i] = map.samples[i].A;
+    id[i] = map.samples[i].id;
+  }
+  Samples<std::uint64_t> offsets(map.counts.size() + 1);
+  for (std::size_t i = 0; i < map.counts.size(); ++i) offsets[i + 1] = offsets[i] + map.counts[i];
+  const Shape shape{static_cast<py::ssize_t>(count)};
+  py::dict result;
+  result["Z"] = array_of(std::move(front), shape);
+  result["ZBack"] = array_of(std::move(back), shape);
+  result["area"] = array_of(std::move(area), shape);
+  result["A"] = array_of(std::move(alpha), shape);
+  result["id"] = array_of(std::move(id), shape);
+  const auto offset_count = static_cast<py::ssize_t>(offsets.size());
+  result["offsets"] = array_of(std::move(offsets), {offset_count});
+  return py::make_tuple(result, std::make_shared<DepthMap>(std::move(map.description)));
+}
+
+/// Python has made sure that the arrays fit each other.
+DeepMap deep_map_of(const DeepDescription& description, const ContiguousArray<float>& Z,
+                    const ContiguousArray<float>& ZBack, const ContiguousArray<float>& area,
+                    const ContiguousArray<float>& A, const ContiguousArray<std::uint32_t>& id,
+                    const ContiguousArray<std::uint32_t>& counts) {
+  DeepMap map;
+  map.description = description;
+  map.counts.assign(counts.data(), counts.data() + counts.size());
+  map.samples.resize(static_cast<std::size_t>(Z.size()));
+  for (std::size_t i = 0; i < map.samples.size(); ++i)
+    map.samples[i] = {Z.data()[i], ZBack.data()[i], id.data()[i], area.data()[i], A.data()[i]};
+  return map;
+}
+
+/// The channels and texts of the layer, in a map that has nothing else.
+SharedMap cryptomatte(const SharedScene& shared, const Camera& camera, const std::string& cull,
+                      int threads) {
+  const std::shared_ptr<const Scene> scene = shared.scene;
+  auto map = std::make_shared<DepthMap>();
+  map->width = camera.width;
+  map->height = camera.height;
+  run([&](const auto& progress) {
+    add_cryptomatte(*map, *scene, camera, options_of(cull, threads, progress));
+  });
+  return map;
+}
+
+}  // namespace
+
+void bind_deep(py::module_& core) {
+  core.def("deep", &deep);
+  core.def("write_deep",
+           [](const SharedMap& description, const ContiguousArray<float>& Z,
+              const ContiguousArray<float>& ZBack, const ContiguousArray<float>& area,
+              const ContiguousArray<float>& A, const ContiguousArray<std::uint32_t>& id,
+              const ContiguousArray<std::uint32_t>& counts, const std::filesystem::path& path,
+              const std::string& compression, int threads) {
+             const DeepMap map = deep_map_of(*description, Z, ZBack, area, A, id, counts);
+             const Compression stored = compression_named(compression);
+             run([&](const auto&) { write_deep_map(map, path, stored, threads); });
+           });
+  core.def("cryptomatte", &cryptomatte);
+}
+
+}  // namespace fathom::python

@@ -1,0 +1,140 @@
+"""Studies of depth precision, as tables: what `fathom study` writes as CSV, plots and pages."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ._arguments import as_count, as_number, camera_handle, scene_handle
+from ._core import UsageError
+from ._files import Path, make_folder
+from .camera import Camera
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from .scene import Scene
+
+
+class Description(NamedTuple):
+    """What a study is about, and whether it can be made of a scene."""
+
+    description: str
+    takes_scene: bool
+
+
+def names() -> dict[str, Description]:
+    """The studies that there are. docs/studies.md has their options and defaults.
+
+    >>> names()["depth-resolution"]
+    Description(description='The step of every depth format against depth, near and far', takes_scene=False)
+    """
+    from . import _studies
+
+    return {name: Description(about, takes_scene) for name, about, takes_scene in _studies.names_of_studies()}
+
+
+class Study:
+    """The results of a study.
+
+    name     as `fathom study --list` has it
+    tables   structured arrays by name, one element a row: counts are int64, other numbers float64 (NaN where a cell is
+             empty), answers bool, all else text. The CSV files of the same name hold their numbers with fewer digits
+    summary  the figures of summary.json
+    files    the contents of all files by name, index.html and pictures among them
+    """
+
+    def __init__(
+        self, name: str, files: dict[str, bytes], tables: dict[str, list[tuple[str, list[Any]]]]
+    ) -> None:
+        self.name = name
+        self.files = files
+        self.summary: dict[str, Any] = json.loads(files["summary.json"])
+        self.tables: dict[str, npt.NDArray[Any]] = {
+            file.removesuffix(".csv"): _table(columns) for file, columns in tables.items()
+        }
+
+    def write(self, folder: Path) -> None:
+        """Writes the files to a folder, which is made if it is missing."""
+        make_folder(folder)
+        for name, content in self.files.items():
+            with open(os.path.join(folder, name), "wb") as file:
+                file.write(content)
+
+    def __repr__(self) -> str:
+        return f"Study({self.name}: {', '.join(f'{name} {len(table)}' for name, table in self.tables.items())})"
+
+
+def run(
+    name: str,
+    scene: Scene | None = None,
+    camera: Camera | None = None,
+    *,
+    near: float | None = None,
+    far: float | None = None,
+    separation: float | None = None,
+    samples: int | None = None,
+    plots: bool = False,
+) -> Study:
+    """Runs a study and returns its tables.
+
+    name        one of names()
+    scene       what to study, for those that take a scene; without it each has its own
+    camera      sees the scene; without it, one that frames it in 640×360 pixels
+    near, far, separation, samples
+                in scene units; None for the study's defaults
+    plots       whether gnuplot draws plots, which are then among the files
+
+    Raises UsageError for what means nothing to the study. Ctrl-C ends it.
+
+    >>> steps = run("depth-resolution", near=0.1, far=1000, samples=3).tables["steps"]
+    >>> at_far = steps[(steps["storage"] == "unorm24") & (steps["depth"] == 1000)]
+    >>> {str(row["mapping"]): float(f"{row['step']:.3g}") for row in at_far if row["mapping"] in ("standard", "linear")}
+    {'standard': 0.596, 'linear': 5.96e-05}
+    """
+    from . import _studies
+
+    if not isinstance(name, str):
+        raise TypeError(f"name: expected the name of a study, found {name!r}")
+    if scene is None and camera is not None:
+        raise ValueError("camera: it belongs to a scene: give one")
+    view = None
+    if scene is not None:
+        scene_handle(scene)
+        view = camera_handle(camera if camera is not None else Camera.frame(scene, size=(640, 360)))
+    depths = tuple(
+        None if value is None else as_number(what, value)
+        for what, value in (("near", near), ("far", far), ("separation", separation))
+    )
+    count = None if samples is None else as_count("samples", samples, 2, 2**32 - 1)
+    handle = None if scene is None else scene_handle(scene)
+    try:
+        return Study(name, *_studies.run_study(name, handle, view, depths, count, bool(plots)))
+    except UsageError as error:
+        # The program's options are the arguments here.
+        raise UsageError(re.sub(r"--(near|far|separation|samples|scene|camera)\b", r"\1", str(error))) from None
+
+
+def _table(columns: Sequence[tuple[str, Sequence[Any]]]) -> npt.NDArray[Any]:
+    arrays = [(name, _array(cells)) for name, cells in columns]
+    table = np.empty(len(arrays[0][1]), [(name, array.dtype) for name, array in arrays])
+    for name, array in arrays:
+        table[name] = array
+    return table
+
+
+def _array(cells: Sequence[Any]) -> npt.NDArray[Any]:
+    kinds = {type(cell) for cell in cells}
+    if kinds == {int}:
+        return np.array(cells, np.int64)
+    if kinds == {bool}:
+        return np.array(cells, np.bool_)
+    if str in kinds:
+        return np.array([cell if isinstance(cell, str) else "" if cell != cell else str(cell) for cell in cells], str)
+    return np.array(cells, np.float64)
