@@ -89,6 +89,24 @@ def test_a_stack_of_cameras_gives_a_stack_of_maps(spot):
                 assert values.tobytes() == stack[name][i].tobytes()
 
 
+def test_each_map_of_a_stack_knows_its_camera(spot, tmp_path):
+    cameras = fathom.Camera.orbit_scene(spot, 3, size=(48, 32))
+    stack = spot.render(cameras, channels=("Z", "N"), background=0)
+    assert stack.cameras == cameras and stack.camera is None
+    for i, camera in enumerate(cameras):
+        one, single = stack.view(i), spot.render(camera, channels=("Z", "N"), background=0)
+        assert one.cameras == [camera] and one.metadata == single.metadata and one.background == 0
+        assert np.shares_memory(one["Z"], stack["Z"]) and one["N"].shape == (32, 48, 3)
+        one.write(tmp_path / "one.exr"), single.write(tmp_path / "single.exr")
+        assert (tmp_path / "one.exr").read_bytes() == (tmp_path / "single.exr").read_bytes()
+    with pytest.raises(ValueError, match=r"it is a stack of 3 maps: take one by view\(i\)"):
+        stack.write(tmp_path / "stack.exr")
+    with pytest.raises(ValueError, match="i: expected 0 to 2, found 3"):
+        stack.view(3)
+    with pytest.raises(ValueError, match="view: the map is no stack"):
+        stack.view(0).view(0)
+
+
 def test_stacks_of_matrices(triangle, K):
     poses = np.stack([np.eye(4), np.eye(4)])
     poses[1, 0, 3] = 0.5

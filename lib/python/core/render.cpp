@@ -133,13 +133,13 @@ bool one_thread_each(const Scene& scene, std::size_t cameras, int threads) {
   return threads != 1 && cameras >= 16 && triangle_count(scene) <= most_triangles;
 }
 
-Warnings render_all(const Scene& scene, const std::vector<Camera>& cameras,
-                    const RenderOptions& options, const std::vector<Target>& targets) {
-  std::vector<std::vector<ViewWarning>> warnings(cameras.size());
+std::vector<Rendered> render_all(const Scene& scene, const std::vector<Camera>& cameras,
+                                 const RenderOptions& options, const std::vector<Target>& targets) {
+  std::vector<Rendered> rendered(cameras.size());
   if (!one_thread_each(scene, cameras.size(), options.threads)) {
     for (std::size_t i = 0; i < cameras.size(); ++i)
-      warnings[i] = render_into(scene, cameras[i], options, targets, i).warnings;
-    return told_once(warnings);
+      rendered[i] = render_into(scene, cameras[i], options, targets, i);
+    return rendered;
   }
   RenderOptions alone = options;
   alone.threads = 1;
@@ -147,11 +147,11 @@ Warnings render_all(const Scene& scene, const std::vector<Camera>& cameras,
   Progress done(options.progress, cameras.size());
   with_threads(options.threads, [&] {
     parallel_for(std::size_t{0}, cameras.size(), [&](std::size_t i) {
-      warnings[i] = render_into(scene, cameras[i], alone, targets, i).warnings;
+      rendered[i] = render_into(scene, cameras[i], alone, targets, i);
       done.part_done();
     });
   });
-  return told_once(warnings);
+  return rendered;
 }
 
 /// Python has made an array of the right type, shape and order for each channel that is asked for,
@@ -178,14 +178,22 @@ std::pair<SharedMap, Warnings> render_one(const SharedScene& shared, const Camer
   });
 }
 
-Warnings render_stack(const SharedScene& shared, const std::vector<Camera>& cameras,
-                      const RenderOptions& asked, std::vector<py::array> arrays) {
+std::pair<std::vector<SharedMap>, Warnings> render_stack(const SharedScene& shared,
+                                                         const std::vector<Camera>& cameras,
+                                                         const RenderOptions& asked,
+                                                         std::vector<py::array> arrays) {
   const std::shared_ptr<const Scene> scene = shared.scene;
   const std::vector<Target> targets = targets_of(asked, arrays);
   return run([&](const auto& progress) {
     RenderOptions options = asked;
     options.progress = progress;
-    return render_all(*scene, cameras, options, targets);
+    std::vector<SharedMap> maps;
+    std::vector<std::vector<ViewWarning>> warnings;
+    for (Rendered& each : render_all(*scene, cameras, options, targets)) {
+      maps.push_back(std::make_shared<DepthMap>(std::move(each.map)));
+      warnings.push_back(std::move(each.warnings));
+    }
+    return std::pair(std::move(maps), told_once(warnings));
   });
 }
 

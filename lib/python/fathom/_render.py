@@ -61,10 +61,9 @@ def render_cameras(
             description, notes = _core.render_one(handle, handles[0], options, list(arrays.values()))
             result = Map(arrays, cameras[0], description)
         else:
-            notes = _core.render_stack(handle, handles, options, list(arrays.values()))
-            result = Map(arrays)
-            if stored == "uint16":
-                result._description.png_scale = as_number("scale", scale)
+            descriptions, notes = _core.render_stack(handle, handles, options, list(arrays.values()))
+            result = Map(arrays, _views=list(zip(cameras, descriptions)))
+            result._description.png_scale = descriptions[0].png_scale
     except _core.InputError:
         scene._check()
         raise

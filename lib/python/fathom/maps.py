@@ -34,10 +34,11 @@ quantities = ("Z", "distance", "disparity")
 
 class Map(dict[str, "npt.NDArray[Any]"]):
     """The channels of a depth map, H×W arrays by name (H×W×3 for N and P, H×W×2 for bary), and what the map carries
-    so that it can be computed again. Arrays of several cameras have the number of the camera as their first axis; such a
-    Map knows no camera and cannot be written as a whole.
+    so that it can be computed again. A stack, rendered with several cameras, has the number of the camera as the first
+    axis of its arrays: its view(i) is the map of camera i.
 
-    camera    the Camera that it shows; None where that is not known
+    camera    the Camera that it shows; None where that is not known, and of a stack
+    cameras   of a stack: all of them; else the one that it shows, if it is known
     metadata  the texts of its file: fathom.camera, fathom.sources with their SHA-256, …
     objects   the names of the objects that channel `object` numbers
     scale     for uint16 codes: codes per scene unit
@@ -49,9 +50,11 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         channels: dict[str, npt.NDArray[Any]] | None = None,
         camera: Camera | None = None,
         _description: _core.Map | None = None,
+        _views: list[tuple[Camera, _core.Map]] | None = None,
     ) -> None:
         super().__init__(channels or {})
         self.camera = camera
+        self._views = _views
         self._description = _core.Map() if _description is None else _description
 
     @classmethod
@@ -91,6 +94,19 @@ class Map(dict[str, "npt.NDArray[Any]"]):
                         as_count("threads", threads, 0, 1024), others)
 
     @property
+    def cameras(self) -> list[Camera]:
+        if self._views is not None:
+            return [camera for camera, _ in self._views]
+        return [] if self.camera is None else [self.camera]
+
+    def view(self, i: int) -> Map:
+        """Map i of a stack, with its camera and metadata. Its arrays are parts of the stack's: nothing is copied."""
+        if self._views is None:
+            raise ValueError("view: the map is no stack")
+        camera, description = self._views[as_count("i", i, 0, len(self._views) - 1)]
+        return Map({name: array[i] for name, array in self.items()}, camera, description)
+
+    @property
     def metadata(self) -> dict[str, str]:
         return dict(self._description.texts)
 
@@ -113,7 +129,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
                 if np.isfinite(value) and (depths == depths.dtype.type(value)).any():
                     raise OutputError(f"background: a surface has the value {value:g} in channel {name}: choose another")
                 depths[np.isposinf(depths)] = value
-        self._description.texts = {**self._description.texts, _core.background_text: repr(value)}
+        for description in [self._description, *(each for _, each in self._views or [])]:
+            description.texts = {**description.texts, _core.background_text: repr(value)}
 
     @property
     def scale(self) -> float | None:
@@ -145,6 +162,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         return array
 
     def _handle(self) -> _core.Map:
+        if self._views is not None:
+            raise ValueError(f"map: it is a stack of {len(self._views)} maps: take one by view(i)")
         planes = _planes(self)
         if not planes:
             raise ValueError("map: it has no channels")
