@@ -92,7 +92,7 @@ def test_a_stack_of_cameras_gives_a_stack_of_maps(spot):
 def test_each_map_of_a_stack_knows_its_camera(spot, tmp_path):
     cameras = fathom.Camera.orbit_scene(spot, 3, size=(48, 32))
     stack = spot.render(cameras, channels=("Z", "N"), background=0)
-    assert stack.cameras == cameras and stack.camera is None
+    assert stack.cameras == cameras and stack.camera is None and stack.background == 0
     for i, camera in enumerate(cameras):
         one, single = stack.view(i), spot.render(camera, channels=("Z", "N"), background=0)
         assert one.cameras == [camera] and one.metadata == single.metadata and one.background == 0

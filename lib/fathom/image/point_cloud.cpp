@@ -134,6 +134,18 @@ std::string header_of(std::size_t points, const PointCloudOptions& options, bool
 
 }  // namespace
 
+std::vector<std::array<double, 3>> points_of(const DepthMap& map, const MapView& view,
+                                             PointFrame frame) {
+  const StandardArithmetic standard;
+  require_valid(map);
+  require_valid(view);
+  const Points points(map, view, frame);
+  std::vector<Vector> all;
+  for (std::size_t k = 0; k < std::size_t{map.width} * map.height; ++k)
+    if (const std::optional<Vector> p = points.point(k)) all.push_back(*p);
+  return all;
+}
+
 void write_point_cloud(const DepthMap& map, const MapView& view, const std::filesystem::path& path,
                        const PointCloudOptions& options) {
   const StandardArithmetic standard;

@@ -4,6 +4,8 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <limits>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -130,12 +132,48 @@ SharedMap store(const DepthMap& map, const std::string& channel, const std::stri
   });
 }
 
+PointFrame frame_named(const std::string& name) {
+  return name == "camera" ? PointFrame::camera : PointFrame::world;
+}
+
 void write_points(const DepthMap& map, const Camera& camera, const std::filesystem::path& path,
-                  bool in_camera_frame, bool binary64) {
+                  const std::string& frame, bool binary64) {
   PointCloudOptions options;
-  options.frame = in_camera_frame ? PointFrame::camera : PointFrame::world;
+  options.frame = frame_named(frame);
   options.binary64 = binary64;
   run([&](const auto&) { write_point_cloud(map, view_of(camera), path, options); });
+}
+
+/// N×3.
+py::array points(const SharedMap& map, const Camera& camera, const std::string& frame) {
+  const auto found =
+      run([&](const auto&) { return points_of(*map, view_of(camera), frame_named(frame)); });
+  Samples<double> flat(3 * found.size());
+  for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = found[i / 3][i % 3];
+  return array_of(std::move(flat), {static_cast<py::ssize_t>(found.size()), 3});
+}
+
+template <class T>
+bool lend_if_of(DepthMap& map, const std::string& name, py::array& array) {
+  if (!py::isinstance<ContiguousArray<T>>(array)) return false;
+  map.channels.push_back({name, Samples<T>::lent(static_cast<T*>(array.mutable_data()),
+                                                 static_cast<std::size_t>(array.size()))});
+  return true;
+}
+
+/// Changes the arrays of a map that was rendered, and returns its texts.
+std::map<std::string, std::string> set_background(
+    const DepthMap& description, std::uint32_t height, std::uint32_t width,
+    std::vector<std::pair<std::string, py::array>> channels, double value) {
+  DepthMap map = description;
+  map.height = height;
+  map.width = width;
+  for (auto& [name, array] : channels) {
+    if (!lend_if_of<float>(map, name, array) && !lend_if_of<double>(map, name, array))
+      lend_if_of<std::uint32_t>(map, name, array);
+  }
+  constexpr double rendered = std::numeric_limits<double>::infinity();
+  return run([&](const auto&) { return with_background(std::move(map), value, rendered).texts; });
 }
 
 void bind_metrics(py::module_& core) {
@@ -234,10 +272,12 @@ void bind_maps(py::module_& core) {
   core.def("with_storage",
            [](const SharedMap& map, const std::string& channel, const std::string& type,
               std::optional<double> scale) { return store(*map, channel, type, scale); });
+  core.def("points", &points);
+  core.def("set_background", &set_background);
   core.def("write_point_cloud",
            [](const SharedMap& map, const Camera& camera, const std::filesystem::path& path,
-              bool in_camera_frame,
-              bool binary64) { write_points(*map, camera, path, in_camera_frame, binary64); });
+              const std::string& frame,
+              bool binary64) { write_points(*map, camera, path, frame, binary64); });
   bind_metrics(core);
   bind_comparison(core);
   core.attr("background_text") = background_text;

@@ -122,15 +122,17 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         return float(self._description.texts.get(_core.background_text, "inf"))
 
     def _set_background(self, value: float) -> None:
-        """Of a map in which +inf alone stands for it; it says so in its metadata, as the program's maps do."""
-        for name in ("Z", "distance"):
-            if name in self:
-                depths = self[name]
-                if np.isfinite(value) and (depths == depths.dtype.type(value)).any():
-                    raise OutputError(f"background: a surface has the value {value:g} in channel {name}: choose another")
-                depths[np.isposinf(depths)] = value
-        for description in [self._description, *(each for _, each in self._views or [])]:
-            description.texts = {**description.texts, _core.background_text: repr(value)}
+        """Of a map, or of each of a stack, just rendered; it says so in its metadata, as the program's maps do."""
+        if self._views is not None:
+            for i in range(len(self._views)):
+                self.view(i)._set_background(value)
+            self._description.texts = dict(self._views[0][1].texts)
+            return
+        # Channels of several parts have no depths, and tell nothing of surfaces.
+        planes = [(name, array) for name, array in self.items() if array.ndim == 2]
+        if planes:
+            height, width = planes[0][1].shape
+            self._description.texts = _core.set_background(self._description, height, width, planes, value)
 
     @property
     def scale(self) -> float | None:
@@ -216,31 +218,19 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         """N×3 float64 points, one for each pixel with a surface at a finite depth, row by row, in scene units, of Z
         (or distance) and the camera; or those of channel P, which are exact numbers rounded once, for the world."""
         one_of("frame", frame, ("world", "camera"))
-        if frame == "world" and "P" in self:
-            positions = self._channel("P")
-            if positions.ndim != 3:
-                raise ValueError(f"map: channel P: expected shape H×W×3, found {positions.shape}")
-            return np.array(positions[np.isfinite(positions).all(axis=-1)], np.float64)
-        view = self._camera(camera)
-        depths = self if "Z" in self else self.to_depth(view)
-        stored = depths._channel("Z")
-        if stored.shape != (view.height, view.width):
-            raise ValueError(f"map: channel Z: expected the shape of the camera, {(view.height, view.width)}, found "
-                             f"{stored.shape}")
-        z = stored.astype(np.float64)
-        if stored.dtype == np.uint16:
-            z = z / (self.scale or 1)
-        rows, columns = np.nonzero(depths._shown(stored) & np.isfinite(z))
-        return _points(view, rows, columns, z[rows, columns], frame)
+        # Positions in the world need no camera.
+        needs_camera = frame == "camera" or "P" not in self
+        view = self._camera(camera) if needs_camera else Camera(1, 1, 1, 1, 0, 0, pixel_centre=0.5)
+        return _core.points(self._handle(), camera_handle(view), frame)
 
     def write_points(self, file: Path, camera: Camera | None = None, *, frame: str = "world",
                      dtype: npt.DTypeLike = "float64") -> None:
         """Writes the points as PLY, with normals and identifiers where the map has these."""
         name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64"))
-        in_camera = one_of("frame", frame, ("world", "camera")) == "camera"
+        one_of("frame", frame, ("world", "camera"))
         handle, view = self._handle(), camera_handle(self._camera(camera))
         make_folder_of(file)
-        _core.write_point_cloud(handle, view, os.fspath(file), in_camera,
+        _core.write_point_cloud(handle, view, os.fspath(file), frame,
                                 name == "float64")
 
     def add_cryptomatte(self, scene: Scene, camera: Camera | None = None, *, cull: str = "none", threads: int = 0) -> None:
@@ -255,20 +245,6 @@ class Map(dict[str, "npt.NDArray[Any]"]):
     def __repr__(self) -> str:
         channels = ", ".join(f"{name}: {array.dtype} {array.shape}" for name, array in self.items())
         return f"Map({channels})"
-
-
-def _points(view: Camera, rows: npt.NDArray[Any], columns: npt.NDArray[Any], z: Numbers,
-            frame: str) -> Numbers:
-    offset = 0.5 - view.pixel_centre
-    y = (rows + 0.5 - (view.cy + offset)) / view.fy
-    x = (columns + 0.5 - (view.cx + offset) - view.skew * y) / view.fx
-    reach = z if view.projection == "perspective" else np.ones_like(z)
-    points: Numbers = np.stack([x * reach, y * reach, z], axis=-1)
-    if frame == "camera":
-        return points
-    pose = view.camera_to_world
-    world: Numbers = points @ pose[:3, :3].T + pose[:3, 3]
-    return world
 
 
 def _camera_of(description: _core.Map) -> Camera | None:
