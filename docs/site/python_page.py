@@ -1,0 +1,48 @@
+"""The reference of the Python module: a directive for each public name, which Sphinx fills from the docstrings."""
+
+import ast
+import pathlib
+
+package = pathlib.Path(__file__).resolve().parent.parent.parent / "lib/python/fathom"
+
+GROUPS = {
+    "Rendering": ["render"],
+    "Scenes": ["Scene", "scene.Object", "scene.Origin"],
+    "Cameras": ["Camera", "read_cameras", "write_cameras", "ViewWarning"],
+    "Maps": ["Map", "read_map", "compare", "NO_SURFACE"],
+    "Questions": ["probe", "questions.CoveringTriangle", "visible", "questions.VisibleAreas", "questions.Areas",
+                  "render_deep", "questions.DeepMap", "verify", "questions.Verification", "questions.Disagreement"],
+    "Depth formats": ["DepthFormat"],
+    "Validation": ["validate", "Validation", "testing.assert_depth"],
+    "Clipping": ["clip", "clipping.Polygon"],
+    "Errors": ["Error", "InputError", "UsageError", "OutputError"],
+}
+
+
+def public_names():
+    """fathom.__all__, read without the module."""
+    tree = ast.parse((package / "__init__.py").read_text(encoding="utf-8"))
+    return next(ast.literal_eval(node.value) for node in tree.body
+                if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") == "__all__")
+
+
+def directive(name):
+    word = name.rpartition(".")[2]
+    if word == "NO_SURFACE":
+        return ".. autodata:: fathom.NO_SURFACE\n"
+    if not word[0].isupper():
+        return f".. autofunction:: fathom.{name}\n"
+    if word.endswith(("Error", "Warning")):
+        return f".. autoexception:: fathom.{name}\n   :show-inheritance:\n"
+    return f".. autoclass:: fathom.{name}\n   :members:\n   :undoc-members:\n"
+
+
+def text():
+    listed = {name for names in GROUPS.values() for name in names}
+    groups = {**GROUPS, "Others": [name for name in public_names() if name not in listed]}
+    parts = []
+    for title, names in groups.items():
+        if names:
+            body = "\n".join([".. py:currentmodule:: fathom\n", *map(directive, names)])
+            parts.append(f"## {title}\n\n```{{eval-rst}}\n{body}```\n")
+    return "\n".join(parts)
