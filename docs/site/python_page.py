@@ -11,9 +11,10 @@ GROUPS = {
     "Cameras": ["Camera", "read_cameras", "write_cameras", "ViewWarning"],
     "Maps": ["Map", "read_map", "compare", "NO_SURFACE"],
     "Questions": ["probe", "questions.CoveringTriangle", "visible", "questions.VisibleAreas", "questions.Areas",
-                  "render_deep", "questions.DeepMap", "verify", "questions.Verification", "questions.Disagreement"],
+                  "render_deep", "DeepMap", "verify", "questions.Verification", "questions.Disagreement"],
     "Depth formats": ["DepthFormat"],
     "Validation": ["validate", "Validation", "testing.assert_depth"],
+    "Studies": ["studies.run", "studies.names", "studies.Study", "studies.Description"],
     "Clipping": ["clip", "clipping.Polygon"],
     "Errors": ["Error", "InputError", "UsageError", "OutputError"],
 }

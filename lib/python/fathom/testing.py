@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Callable
 
 import numpy as np
 
-from ._files import Path as FilePath
+from . import _files
 from .maps import Map, as_map
 from .validation import Validation, validate
 
@@ -32,7 +32,7 @@ def assert_depth(
     model: str = "auto",
     *,
     channel: str = "",
-    report: FilePath | None = None,
+    report: _files.Path | None = None,
 ) -> Validation:
     """Fails with an AssertionError, which says what is wrong with a map in one line, unless every pixel of it is
     explained by the model and nothing is wrong with it on the whole. The arguments are those of fathom.validate().
