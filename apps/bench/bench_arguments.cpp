@@ -6,6 +6,7 @@
 
 #include "apps/options/channel_list.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/unknown_name.h"
 #include "validation/bench/parts/ideas.h"
 
 namespace fathom::app {
@@ -21,7 +22,7 @@ Peers parse_peers(const std::string& list) {
     } else if (name == "reference") {
       peers.reference = true;
     } else if (name != "none") {
-      throw UsageError("'" + name + "' is not one of vtk, embree, reference and none");
+      refuse_word(name, {"vtk", "embree", "reference", "none"});
     }
   }
   if ((peers.vtk || peers.embree) && !bench::peers_are_built()) {
@@ -37,9 +38,13 @@ std::vector<std::string> parse_scenes(const std::string& list) {
   for (const std::string& name : names) {
     const bool is_file = name.find_first_of("./") != std::string::npos;
     if (!bench::is_made_scene(name) && !is_file) {
-      throw UsageError(
+      std::vector<std::string> names = bench::default_scene_names();
+      const std::string list = joined(names, ", ");
+      names.emplace_back("room-outside");
+      throw UnknownName(
           fmt::format("there is no scene '{}'; there are {}, room-outside, sphere-N and mesh files",
-                      name, joined(bench::default_scene_names(), ", ")));
+                      name, list),
+          name, names);
     }
   }
   return names;

@@ -36,8 +36,7 @@ void add_look_at(Command& camera) {
       .required();
   command.option("--target", "X,Y,Z", into(arguments->target, parse_vector),
                  "X,Y,Z of the point it looks at (default 0,0,0)");
-  command.option("--up", "X,Y,Z", into(arguments->up, parse_vector),
-                 "X,Y,Z: upwards in the image (default 0,1,0)");
+  add_up_option(command, arguments->up);
   add_lens_options(command, arguments->lens);
   command.option("-o,--output", "FILE", arguments->output,
                  "Camera file (default: standard output)");

@@ -56,7 +56,7 @@ void add_orbit(Command& camera) {
       "  fathom render data/meshes/spot.obj --camera path.json -o 'maps/{index:04}.exr'\n"
       "  fathom camera orbit --views 36 --centre 0,0,1 --distance 4 --view 0,30 --up z");
   command.arguments("SCENE", arguments->scene.files, "Meshes and scene files to frame");
-  arguments->scene.limits.add_to(command);
+  arguments->scene.add_reading_to(command);
   command.option("--views", "N", into(arguments->views, parse_positive), "Number of cameras")
       .required();
   add_view_options(command, arguments->first);

@@ -29,11 +29,9 @@ struct ConvertArguments {
 };
 
 DepthQuantity parse_quantity(const std::string& text) {
-  if (text == "Z") return DepthQuantity::planar_depth;
-  if (text == "distance") return DepthQuantity::ray_distance;
-  if (text == "disparity") return DepthQuantity::disparity;
-  throw UsageError("'" + text +
-                   "' is not one of Z (planar depth), distance (along the ray) and disparity");
+  return parse_word<DepthQuantity>(text, {{"Z", DepthQuantity::planar_depth},
+                                          {"distance", DepthQuantity::ray_distance},
+                                          {"disparity", DepthQuantity::disparity}});
 }
 
 PointFrame parse_frame(const std::string& text) {
@@ -191,7 +189,7 @@ void add_convert(Command& program) {
   command.option("--to", "NAME", into(arguments->to, parse_quantity),
                  "Z (planar depth), distance (along the ray) or disparity");
   command.option("--from", "NAME", into(arguments->from, parse_quantity),
-                 "What the map holds (default Z)");
+                 "What the map holds: Z (default), distance or disparity");
   command.option("--camera", "FILE", arguments->camera,
                  "Camera file, where the map does not carry its camera");
   command.option("--baseline", "B", into(arguments->baseline, parse_number),

@@ -21,7 +21,7 @@ struct PreviewArguments {
 
 ColourMap parse_colour_map(const std::string& text) {
   if (const std::optional<ColourMap> colours = colour_map_named(text)) return *colours;
-  throw UsageError("'" + text + "' is not one of viridis, magma, turbo and grey");
+  refuse_word(text, {"viridis", "magma", "turbo", "grey"});
 }
 
 int run_preview(const PreviewArguments& arguments) {

@@ -32,9 +32,7 @@ void CameraOptions::add_to(Command& command) {
   const Option camera = command.option(
       "--camera", "FILE", file_, "Camera file (JSON); without it, a camera that frames the scene");
   for (Option& framing : add_view_options(command, view_)) framing.excludes(camera);
-  add_size_option(command, lens_).excludes(camera);
-  add_fov_option(command, lens_).excludes(camera);
-  for (Option& range : add_range_options(command, lens_)) range.excludes(camera);
+  for (Option& part : add_lens_options(command, lens_)) part.excludes(camera);
 }
 
 std::vector<Camera> CameraOptions::get(const Scene& scene, const Console& console) const {

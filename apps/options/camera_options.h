@@ -13,7 +13,7 @@
 namespace fathom::app {
 
 /// `--camera FILE`, or the camera that frames the scene with
-/// `--view --up --size --fov --near --far`.
+/// `--view --up --size --fov --focal --orthographic --near --far`.
 class CameraOptions {
  public:
   void add_to(Command& command);

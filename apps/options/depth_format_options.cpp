@@ -6,18 +6,6 @@
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
-namespace {
-
-/// A number or "inf".
-double parse_far(const std::string& text) {
-  if (text == "inf" || text == "infinity" || text == "+inf") {
-    return std::numeric_limits<double>::infinity();
-  }
-  return parse_number(text);
-}
-
-}  // namespace
-
 void DepthFormatOptions::add_to(Command& command) {
   command.option("--mapping", "NAME", into(mapping, mapping_named),
                  "standard (default), reversed, infinite, reversed-infinite, opengl, linear, w, "
@@ -25,7 +13,7 @@ void DepthFormatOptions::add_to(Command& command) {
   command.option("--storage", "NAME", into(storage, storage_named),
                  "unorm16, unorm24, unorm32, float16, float32 (default) or float64");
   command.option("--near", "D", into(near, parse_number), "Least depth").required();
-  command.option("--far", "D", into(far, parse_far),
+  command.option("--far", "D", into(far, parse_number_or_infinity),
                  "Greatest depth; inf, the default of infinite and reversed-infinite");
   command.option("--c", "C", into(c, parse_number), "The constant C of log (default 1)");
 }

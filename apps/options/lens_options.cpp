@@ -12,11 +12,25 @@ double parse_angle(const std::string& text) {
   throw UsageError("'" + text + "' is not an angle between 0 and 180 degrees");
 }
 
-UpAxis parse_up(const std::string& text) {
-  return parse_word<UpAxis>(text, {{"y", UpAxis::y}, {"z", UpAxis::z}});
+Vector3 parse_up(const std::string& text) {
+  if (text.find(',') != std::string::npos) return parse_vector(text);
+  return parse_word<Vector3>(text,
+                             {{"x", {1, 0, 0}},
+                              {"y", {0, 1, 0}},
+                              {"z", {0, 0, 1}},
+                              {"-x", {-1, 0, 0}},
+                              {"-y", {0, -1, 0}},
+                              {"-z", {0, 0, -1}}},
+                             "a direction X,Y,Z");
 }
 
 }  // namespace
+
+Option add_up_option(Command& command, Vector3& up) {
+  return command.option("--up", "DIRECTION", into(up, parse_up),
+                        "The direction of the world that points up: x, y (default), z, -x, -y, -z "
+                        "or X,Y,Z");
+}
 
 std::array<Option, 2> add_view_options(Command& command, View& view) {
   const Option direction = command.option(
@@ -26,14 +40,13 @@ std::array<Option, 2> add_view_options(Command& command, View& view) {
         view.azimuth = azimuth;
         view.elevation = elevation;
       },
-      "AZIMUTH,ELEVATION of the eye in degrees (default 35,25); azimuth 90 is the +x side, "
-      "elevation 90 is above");
-  return {direction, command.option("--up", "NAME", into(view.up, parse_up),
-                                    "The axis that points up: y (default) or z")};
+      "AZIMUTH,ELEVATION of the eye in degrees (default 35,25): at azimuth 0 the image's right is "
+      "+x (+y where x or -x is up), azimuth 90 is on that side; elevation 90 is above");
+  return {direction, add_up_option(command, view.up)};
 }
 
-Option add_size_option(Command& command, Lens& lens) {
-  return command.option(
+std::vector<Option> add_lens_options(Command& command, Lens& lens) {
+  const Option size = command.option(
       "--size", "WxH",
       [&lens](const std::string& text) {
         const auto [width, height] = parse_size(text);
@@ -41,23 +54,8 @@ Option add_size_option(Command& command, Lens& lens) {
         lens.height = height;
       },
       "WIDTHxHEIGHT in pixels (default 1280x720)");
-}
-
-Option add_fov_option(Command& command, Lens& lens) {
-  return command.option("--fov", "DEG", into(lens.vertical_fov, parse_angle),
-                        "Vertical field of view in degrees (default 40)");
-}
-
-std::array<Option, 2> add_range_options(Command& command, Lens& lens) {
-  return {command.option("--near", "D", into(lens.near, parse_number),
-                         "Nearest depth that counts (default 0)"),
-          command.option("--far", "D", into(lens.far, parse_number),
-                         "Farthest depth that counts (default: infinity)")};
-}
-
-void add_lens_options(Command& command, Lens& lens) {
-  add_size_option(command, lens);
-  Option angle = add_fov_option(command, lens);
+  Option angle = command.option("--fov", "DEG", into(lens.vertical_fov, parse_angle),
+                                "Vertical field of view in degrees (default 40)");
   Option length = command.option("--focal", "PIXELS", into(lens.focal, parse_number),
                                  "fx = fy in pixels, in place of --fov");
   const Option parallel = command.option(
@@ -69,7 +67,11 @@ void add_lens_options(Command& command, Lens& lens) {
       "Parallel projection; scene units that the height spans");
   angle.excludes(length).excludes(parallel);
   length.excludes(parallel);
-  add_range_options(command, lens);
+  const Option near = command.option("--near", "D", into(lens.near, parse_number),
+                                     "Nearest depth that counts (default 0)");
+  const Option far = command.option("--far", "D", into(lens.far, parse_number_or_infinity),
+                                    "Farthest depth that counts (default inf)");
+  return {size, angle, length, parallel, near, far};
 }
 
 }  // namespace fathom::app

@@ -64,7 +64,8 @@ void PipelineArguments::add_triangle_options(Command& command) {
       command.option("--specular-model", "NAME", into(highlight_, parse_specular_model),
                      "blinn (default: the halfway vector) or phong (mirrored light)"));
   declared_.push_back(
-      command.option("--texture", "NAME", stages_.texture, "checker, or a PNG file"));
+      command.option("--texture", "PNG", stages_.texture, "checker, or a PNG file"));
+  command.offer(declared_.back(), {"checker"});
   declared_.push_back(
       command.option("--filter", "NAME", into(filter_, parse_filter),
                      "Of the texture: nearest, bilinear, trilinear (default) or anisotropic"));

@@ -87,9 +87,9 @@ SpecularModel parse_specular_model(const std::string& text) {
 }
 
 LightSource parse_light(const std::string& text) {
-  if (text == "shoulder") return {};
-  if (text == "headlight") return {.towards = {0, 0, -1}};
-  return {.towards = parse_vector(text), .in_world = true};
+  if (text.find(',') != std::string::npos) return {.towards = parse_vector(text), .in_world = true};
+  return parse_word<LightSource>(text, {{"shoulder", {}}, {"headlight", {.towards = {0, 0, -1}}}},
+                                 "a direction X,Y,Z");
 }
 
 Material parse_material(const std::string& text) {

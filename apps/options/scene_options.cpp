@@ -34,6 +34,10 @@ void SceneOptions::add_to(Command& command) {
           "Meshes (OBJ, PLY, STL, OFF, glTF/GLB; FBX, COLLADA, 3DS, 3MF and others by assimp) "
           "and scene files (JSON); - is standard input")
       .required();
+  add_reading_to(command);
+}
+
+void SceneOptions::add_reading_to(Command& command) {
   command.option("--mesh-format", "NAME", into(mesh_format, parse_mesh_format),
                  "Format of the meshes: obj, ply, stl, off, gltf or glb (default: by content)");
   command.option("--threads", "N", into(threads, parse_threads), "Threads to use (default 0: all)");

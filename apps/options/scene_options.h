@@ -22,6 +22,8 @@ struct SceneOptions {
   ReadLimits limits;
 
   void add_to(Command& command);
+  /// All but the files.
+  void add_reading_to(Command& command);
 
   /// What else a reader may keep of a scene.
   struct Extras {

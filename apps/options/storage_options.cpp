@@ -44,13 +44,10 @@ std::vector<ChannelName> parse_channel_names(const std::string& text) {
 }  // namespace
 
 double parse_background(const std::string& text) {
-  if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
-  if (text == "inf" || text == "+inf") return std::numeric_limits<double>::infinity();
-  try {
-    return parse_number(text);
-  } catch (const UsageError&) {
-    throw UsageError("'" + text + "' is not 0, nan, inf or a number");
-  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (text == "+inf") return infinity;
+  return parse_number_or(
+      text, {{"0", 0}, {"nan", std::numeric_limits<double>::quiet_NaN()}, {"inf", infinity}});
 }
 
 void StorageOptions::add_to(Command& command) {

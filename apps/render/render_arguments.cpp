@@ -20,8 +20,9 @@ EngineName parse_engine(const std::string& text) {
 
 /// "1000" or "all", the greatest number.
 std::uint64_t parse_pixels(const std::string& text) {
-  if (text == "all") return std::numeric_limits<std::uint64_t>::max();
-  return parse_positive(text);
+  constexpr auto all = std::numeric_limits<std::uint64_t>::max();
+  if (text.find_first_not_of("0123456789") == std::string::npos) return parse_positive(text);
+  return parse_word<std::uint64_t>(text, {{"all", all}}, "a number of pixels from 1 on");
 }
 
 void add_outputs(Command& command, RenderArguments& arguments) {

@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "apps/shell/exit_status.h"
+#include "apps/shell/help_command.h"
+#include "apps/shell/help_page.h"
+#include "apps/shell/misspelling.h"
 #include "apps/shell/standard_streams.h"
-#include "apps/shell/unknown_command.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -15,7 +17,7 @@ constexpr const char* examples =
     "  fathom render data/meshes/spot.obj -o spot.exr\n"
     "  fathom preview spot.exr -o spot.png\n"
     "  fathom probe data/meshes/spot.obj --pixel 640,360\n"
-    "\n'fathom COMMAND --help' explains a command.";
+    "\n'fathom COMMAND --help' or 'fathom help COMMAND' explains a command.";
 
 constexpr const char* companion_heading =
     "Programs of their own, which 'scripts/fathom COMMAND' builds when they are first asked for";
@@ -33,16 +35,12 @@ std::string names_above(const CLI::App& command) {
   return parent == nullptr ? "" : names_above(*parent) + parent->get_name() + " ";
 }
 
+/// What is misspelt is named before what is missing.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = chosen_command(app);
-  return std::string(error.what()) + "; see '" + names_above(command) + command.get_name() +
-         " --help'";
-}
-
-std::string help_of(const CLI::App& command) {
-  std::string above = names_above(command);
-  if (!above.empty()) above.pop_back();
-  return command.help(above);
+  const std::string unexpected = unexpected_argument(app);
+  return (unexpected.empty() ? error.what() : unexpected) + "; see '" + names_above(command) +
+         command.get_name() + " --help'";
 }
 
 /// Where the arguments name a command that this program does not have itself, starts the program
@@ -58,8 +56,7 @@ void start_other_program(const CLI::App& app, const std::vector<std::string>& ar
     start_companion(companion->program, arguments);
     throw UsageError(not_built("'" + *name + "'", companion->program, *name));
   }
-  std::vector<std::string> existing;
-  for (const CLI::App* command : app.get_subcommands({})) existing.push_back(command->get_name());
+  const std::vector<std::string> existing = commands_below(app);
   const bool is_own = companion == companions.end() &&
                       std::find(existing.begin(), existing.end(), *name) != existing.end();
   if (is_own) return;
@@ -71,14 +68,6 @@ void start_other_program(const CLI::App& app, const std::vector<std::string>& ar
                        : not_built("'" + *name + "'", companion->program, *name));
 }
 
-/// `help COMMAND`, as many programs have it, is `COMMAND --help`.
-std::vector<std::string> with_help_as_option(std::vector<std::string> arguments) {
-  if (arguments.empty() || arguments[0] != "help") return arguments;
-  arguments.erase(arguments.begin());
-  arguments.emplace_back("--help");
-  return arguments;
-}
-
 }  // namespace
 
 int run_arguments(const std::vector<std::string>& given, const std::vector<AddCommand>& commands,
@@ -87,19 +76,25 @@ int run_arguments(const std::vector<std::string>& given, const std::vector<AddCo
   Console console;
   Command program(app, console, examples);
   program.requires_command();
-  app.get_formatter()->column_width(34);
   for (const AddCommand& add : commands) add(program);
+  if (!companions.empty()) add_help(program, app, companions);
   for (const Companion& companion : companions) {
     app.add_subcommand(companion.command, companion.description)->group(companion_heading);
   }
 
   const std::vector<std::string> asked = with_help_as_option(given);
   start_other_program(app, asked, companions);
+  if (const auto help = asked_help(app, program, asked)) {
+    print(*help);
+    return done;
+  }
+  if (const std::string message = missing_dash(app, asked); !message.empty())
+    throw UsageError(message);
   std::vector<std::string> last_first(asked.rbegin(), asked.rend());
   try {
     app.parse(std::move(last_first));
   } catch (const CLI::CallForHelp&) {
-    print(help_of(chosen_command(app)));
+    print(help_page(text_of(chosen_command(app)), help_width()));
     return done;
   } catch (const CLI::CallForVersion& version) {
     print(std::string(version.what()) + "\n");

@@ -1,17 +1,37 @@
 #include "apps/shell/command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "apps/shell/about_option.h"
 #include "apps/shell/max_memory.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
+#include "fathom/numeric/unknown_name.h"
 
 namespace fathom::app {
 namespace {
 
 constexpr const char* version_line = "fathom " FATHOM_VERSION;
+
+/// A text that no option takes for a word that it knows.
+const std::string no_word = "\x01";
+
+using Take = std::function<void(const std::vector<std::string>&)>;
+
+/// The error with which a parser refuses a text as none of the words that it knows.
+std::optional<UnknownName> refusal_of(const Take& take, const std::string& text) {
+  try {
+    take({text});
+  } catch (const UnknownName& error) {
+    return error;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
 
 /// An empty value is mostly a variable of a script that is not set: it would pass for the default.
 std::string complaint_of_nothing(const std::string& value) {
@@ -48,14 +68,14 @@ Command::Command(CLI::App& app, Console& console, const std::string& examples)
   app.set_help_flag("-h,--help", "Show this help with an example");
   app.set_version_flag("--version", version_line, "Show the version");
   app.add_flag("--quiet", console.quiet, "No warnings and no progress");
-  app.footer("Examples:\n" + examples);
+  app.footer(examples);
 }
 
 Command::~Command() = default;
 
 Command& Command::command(const std::string& name, const std::string& description,
                           const std::string& examples) {
-  CLI::App& app = *app_.add_subcommand(name, description);
+  CLI::App& app = *app_.add_subcommand(name, description)->group(command_heading);
   Command& below = *commands_.emplace_back(std::make_unique<Command>(app, console_, examples));
   below.option(
       "--max-memory", "SIZE", [](const std::string& text) { set_max_memory(parse_bytes(text)); },
@@ -70,7 +90,7 @@ void Command::requires_command() {
 Option Command::taken_by(CLI::Option& option,
                          std::function<void(const std::vector<std::string>&)> take) {
   option.check(complaint_of_nothing);
-  taken_.push_back({&option, std::move(take)});
+  taken_.push_back({&option, std::move(take), {}});
   return Option(option);
 }
 
@@ -101,9 +121,19 @@ Option Command::argument(const std::string& name, std::string& value, const std:
   return option(name, "", value, help);
 }
 
+Option Command::argument(const std::string& name, TakeText take, const std::string& help) {
+  return option(name, "", std::move(take), help);
+}
+
 Option Command::arguments(const std::string& name, std::vector<std::string>& values,
                           const std::string& help) {
   return option_with_values(name, "", values, help);
+}
+
+void Command::offer(const Option& option, std::vector<std::string> words) {
+  const auto taken = std::ranges::find_if(
+      taken_, [&](const Taken& each) { return each.option->get_name() == option.name(); });
+  taken->offered = std::move(words);
 }
 
 int Command::run_named(const Console& console) const {
@@ -116,6 +146,30 @@ int Command::run_named(const Console& console) const {
     if (below->app_.parsed()) return below->run_named(console);
   }
   return run_(console);
+}
+
+CompletedOption Command::completed(const OptionText& option) const {
+  const auto taken = std::ranges::find_if(
+      taken_, [&](const Taken& each) { return each.option->get_name() == name_of(option); });
+  if (taken == taken_.end()) return app::completed(option, {}, false);
+  if (!taken->offered.empty()) return app::completed(option, taken->offered, false);
+  const std::optional<UnknownName> refusal = refusal_of(taken->take, no_word);
+  if (!refusal) return app::completed(option, {}, false);
+  // Of a list, the part behind a word is refused by itself.
+  const std::optional<UnknownName> of_list =
+      refusal_of(taken->take, refusal->names().front() + "," + no_word);
+  return app::completed(option, refusal->names(), of_list && of_list->name() == no_word);
+}
+
+CompletionTable Command::completion_table() const {
+  const CommandText text = text_of(app_);
+  CompletionTable table{{text.path, text.summary, {}}};
+  for (const OptionText& option : text.options) table[0].options.push_back(completed(option));
+  for (const auto& below : commands_) {
+    CompletionTable more = below->completion_table();
+    table.insert(table.end(), more.begin(), more.end());
+  }
+  return table;
 }
 
 }  // namespace fathom::app

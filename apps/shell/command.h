@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/shell/command_text.h"
+#include "apps/shell/completion_table.h"
 #include "apps/shell/console.h"
 
 namespace CLI {
@@ -72,8 +74,13 @@ class Command {
   Option flag(const std::string& name, bool& value, const std::string& help);
   /// What is given without a name before it.
   Option argument(const std::string& name, std::string& value, const std::string& help);
+  Option argument(const std::string& name, TakeText take, const std::string& help);
   Option arguments(const std::string& name, std::vector<std::string>& values,
                    const std::string& help);
+
+  /// Words that completion offers for an option that takes other texts too, which its parser does
+  /// not refuse.
+  void offer(const Option& option, std::vector<std::string> words);
 
   /// It prints what it finds: where that cannot be, it fails before any work.
   void answers_on_standard_output() { answers_on_standard_output_ = true; }
@@ -82,12 +89,19 @@ class Command {
   /// Writes what was given to its places, then runs the command below that was named, or itself.
   int run_named(const Console& console) const;
 
+  /// What completion knows of this command and of all below it. Which words an option takes is
+  /// learnt from its parser: it is given a text that is none, and refuses it with an UnknownName
+  /// (fathom/numeric/unknown_name.h). What the options write to is worthless afterwards.
+  [[nodiscard]] CompletionTable completion_table() const;
+
  private:
+  [[nodiscard]] CompletedOption completed(const OptionText& option) const;
   Option taken_by(CLI::Option& option, std::function<void(const std::vector<std::string>&)> take);
 
   struct Taken {
     CLI::Option* option;
     std::function<void(const std::vector<std::string>&)> take;
+    std::vector<std::string> offered;
   };
   CLI::App& app_;
   Console& console_;

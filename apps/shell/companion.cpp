@@ -1,6 +1,9 @@
 #include "apps/shell/companion.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -28,6 +31,58 @@ void start_companion(const std::string& program, const std::vector<std::string>&
   list.push_back(nullptr);
   ::execv(path.c_str(), list.data());
   throw UsageError(fmt::format("{}: {}", path, std::strerror(errno)));
+}
+
+namespace {
+
+/// All that can be read from a file descriptor, which is closed.
+std::string drained(int descriptor) {
+  std::string text;
+  char buffer[4096];
+  for (;;) {
+    const ssize_t count = ::read(descriptor, buffer, sizeof buffer);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    text.append(buffer, static_cast<std::size_t>(count));
+  }
+  ::close(descriptor);
+  return text;
+}
+
+bool ends_well(pid_t process) {
+  int status = -1;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace
+
+std::optional<std::string> answer_of(const Companion& companion,
+                                     const std::vector<std::string>& arguments) {
+  const std::string path = companion_path(companion.program);
+  std::vector<std::string> words{path};
+  if (companion.takes_name()) words.push_back(companion.command);
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> list;
+  for (std::string& word : words) list.push_back(word.data());
+  list.push_back(nullptr);
+
+  std::error_code error;
+  int pipe[2];
+  if (path.empty() || !std::filesystem::exists(path, error) || ::pipe2(pipe, O_CLOEXEC) != 0)
+    return std::nullopt;
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, pipe[1], STDOUT_FILENO);
+  pid_t process = -1;
+  const bool started =
+      ::posix_spawn(&process, path.c_str(), &actions, nullptr, list.data(), environ) == 0;
+  ::posix_spawn_file_actions_destroy(&actions);
+  ::close(pipe[1]);
+  std::string answer = drained(pipe[0]);
+  if (!started || !ends_well(process)) return std::nullopt;
+  return answer;
 }
 
 std::string not_built(const std::string& what, const std::string& program, const std::string& how) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,11 @@ std::filesystem::path companion_path(const std::string& program);
 /// where there is no such program.
 /// Fails    UsageError where it is there but cannot be started.
 void start_companion(const std::string& program, const std::vector<std::string>& arguments);
+
+/// What the companion with this command answers on standard output to the command's name, where it
+/// takes that, and these arguments. Nothing where it is not built or fails; it says why itself.
+std::optional<std::string> answer_of(const Companion& companion,
+                                     const std::vector<std::string>& arguments);
 
 /// The message where a companion does not lie beside this program: `what` needs it ("'clip'"), and
 /// scripts/fathom builds it where it is given `how` ("clip").

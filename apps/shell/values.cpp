@@ -4,9 +4,11 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <system_error>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/unknown_name.h"
 
 namespace fathom::app {
 namespace {
@@ -48,6 +50,18 @@ double parse_number(const std::string& text) {
   double value = 0;
   if (!read_whole(text, value) || !std::isfinite(value)) refuse(text, "a finite number");
   return value;
+}
+
+double parse_number_or(const std::string& text, Words<double> words) {
+  double value = 0;
+  if (read_whole(text, value) && std::isfinite(value)) return value;
+  return parse_word<double>(text, words, "a number");
+}
+
+double parse_number_or_infinity(const std::string& text) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (text == "infinity" || text == "+inf") return infinity;
+  return parse_number_or(text, {{"inf", infinity}});
 }
 
 double parse_scale(const std::string& text) {
@@ -122,10 +136,20 @@ std::string joined(const std::vector<std::string>& names, std::string_view last)
   return text;
 }
 
-void refuse_word(const std::string& text, const std::vector<std::string>& words) {
-  throw UsageError(words.size() == 2
-                       ? fmt::format("'{}' is neither {}", text, joined(words, " nor "))
-                       : fmt::format("'{}' is not one of {}", text, joined(words)));
+void refuse_word(const std::string& text, const std::vector<std::string>& words,
+                 const std::string& other) {
+  std::string message = fmt::format("'{}' is not one of {}", text, joined(words));
+  if (words.size() == 2) message = fmt::format("'{}' is neither {}", text, joined(words, " nor "));
+  if (!other.empty())
+    message = fmt::format("'{}' is not {} or {}", text, joined(words, ", "), other);
+  throw UnknownName(message, text, words);
+}
+
+std::vector<std::string> parse_names(const std::string& list,
+                                     const std::function<void(const std::string&)>& check) {
+  std::vector<std::string> names = parse_list(list);
+  for (const std::string& name : names) check(name);
+  return names;
 }
 
 }  // namespace fathom::app

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -16,6 +17,11 @@ namespace fathom::app {
 
 /// A finite number.
 double parse_number(const std::string& text);
+/// A finite number, or one of some words that stand for numbers.
+double parse_number_or(const std::string& text,
+                       std::initializer_list<std::pair<const char*, double>> words);
+/// A finite number or "inf".
+double parse_number_or_infinity(const std::string& text);
 /// A finite number above 0.
 double parse_scale(const std::string& text);
 /// A whole number in [−10⁹, 10⁹].
@@ -45,24 +51,31 @@ std::array<double, 3> parse_vector(const std::string& text);
 /// The parts of a text between commas.
 std::vector<std::string> parse_list(const std::string& text);
 
+/// The names of a list, each of which has passed a check.
+std::vector<std::string> parse_names(const std::string& list,
+                                     const std::function<void(const std::string&)>& check);
+
 /// "a, b and c"
 std::string joined(const std::vector<std::string>& names, std::string_view last = " and ");
 
-[[noreturn]] void refuse_word(const std::string& text, const std::vector<std::string>& words);
+/// Fails    UnknownName: "'text' is not one of …", with a suggestion. `other` is what else it could
+///          have been: "a number".
+[[noreturn]] void refuse_word(const std::string& text, const std::vector<std::string>& words,
+                              const std::string& other = "");
 
 /// Words, and what each of them means.
 template <class Value>
 using Words = std::initializer_list<std::pair<const char*, Value>>;
 
-/// One of some words.
+/// One of some words. What the caller takes beside them it has looked for before; `other` names it.
 template <class Value>
-Value parse_word(const std::string& text, Words<Value> words) {
+Value parse_word(const std::string& text, Words<Value> words, const std::string& other = "") {
   std::vector<std::string> names;
   for (const auto& [name, value] : words) {
     if (text == name) return value;
     names.emplace_back(name);
   }
-  refuse_word(text, names);
+  refuse_word(text, names, other);
 }
 
 }  // namespace fathom::app

@@ -124,6 +124,10 @@ int run_study(const StudyArguments& arguments, const Console& console) {
   return done;
 }
 
+std::string parse_study(const std::string& text) {
+  return std::string(studies::study_named(text).name);
+}
+
 std::uint32_t parse_samples(const std::string& text) {
   return parse_count_from(2, text);
 }
@@ -137,7 +141,7 @@ void add_study(Command& program) {
       "  fathom study depth-resolution --near 0.1 --far 1000 --out resolution\n"
       "  fathom study indistinguishable --out reed\n"
       "  fathom study mitigation --scene data/meshes/spot.obj --near 0.001 --out cures");
-  command.argument("NAME", arguments->name, "Its name; --list shows them");
+  command.argument("NAME", into(arguments->name, parse_study), "Its name; --list shows them");
   command.option("--out", "DIR", arguments->out,
                  "Folder for CSV, PNG, SVG, summary.json, index.html");
   command.option_with_values(

@@ -44,10 +44,6 @@ std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Con
   const std::vector<std::string> names =
       arguments.scene_names.empty() ? validation::scene_names() : parse_list(arguments.scene_names);
   for (const std::string& name : names) {
-    if (!validation::is_scene_name(name)) {
-      throw UsageError(fmt::format("--scene: there is no scene '{}'; there are {}", name,
-                                   fmt::join(validation::scene_names(), ", ")));
-    }
     scenes.push_back({name, [name, w = width, h = height] {
                         return validation::make_validation_scene(name, w, h);
                       }});

@@ -1,13 +1,62 @@
 #include "apps/validate/validate_arguments.h"
 
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
+#include "apps/validate/judge_brought.h"
+#include "fathom/attribution/model/named_models.h"
+#include "fathom/numeric/unknown_name.h"
+#include "validation/scenes/validation_scenes.h"
+#include "validation/variants/peer.h"
+
 namespace fathom::app {
+
+namespace {
+
+/// Stores a list of names, each of which has passed a check.
+TakeText names_into(std::string& list, void (*check)(const std::string&)) {
+  return [&list, check](const std::string& text) {
+    parse_names(text, check);
+    list = text;
+  };
+}
+
+void expect_renderer(const std::string& name) {
+  validation::renderer_named(name);
+}
+
+void expect_scene(const std::string& name) {
+  if (validation::is_scene_name(name)) return;
+  throw UnknownName(fmt::format("there is no scene '{}'; there are {}", name,
+                                fmt::join(validation::scene_names(), ", ")),
+                    name, validation::scene_names());
+}
+
+std::string parse_model(const std::string& text) {
+  if (text == any_model || text == matching) return text;
+  std::vector<std::string> names{any_model, matching};
+  for (const attribution::RendererModel& model : attribution::named_models()) {
+    if (model.name == text) return text;
+    names.push_back(model.name);
+  }
+  throw UnknownName("there is no model '" + text + "'; there are " + attribution::model_names() +
+                        "; auto; matching",
+                    text, names);
+}
+
+std::string parse_renderer(const std::string& text) {
+  validation::renderer_named(text);
+  return text;
+}
+
+}  // namespace
 
 void ValidateArguments::add_to(Command& command) {
   command.arguments("SCENE", scenes, "Meshes and scene files");
   command.option(
-      "--against", "NAME", against,
+      "--against", "NAME", names_into(against, expect_renderer),
       "Renderers that draw the scenes: vtk, opengl, embree, blender; vtk and opengl also "
       "with a driver: opengl@softpipe, vtk@llvmpipe");
   command.flag("--colour", colour,
@@ -16,7 +65,7 @@ void ValidateArguments::add_to(Command& command) {
       "--faults", faults,
       "Make the maps of the renderers wrong in every way of the catalogue, and see what is "
       "found");
-  command.option("--scene", "NAME", scene_names,
+  command.option("--scene", "NAME", names_into(scene_names, expect_scene),
                  "Scenes of ours instead of SCENE (default: all, see below)");
   command.option("--variants", "NAME", variants,
                  "Only these variants of the renderers: unorm24, robust, … (default: all)");
@@ -25,15 +74,15 @@ void ValidateArguments::add_to(Command& command) {
                  "Image size without --camera (default 320x240)");
   command.option("--time-limit", "SECONDS", into(seconds, parse_positive),
                  "Seconds after which a renderer is ended (default 300)");
-  command.option("--render", "NAME", render, "Only draw, with this renderer");
-  command.option("-o", "MAP", output, "Where --render puts its map");
+  command.option("--render", "NAME", into(render, parse_renderer), "Only draw, with this renderer");
+  command.option("-o,--output", "MAP", output, "Where --render puts its map");
   command.option("--map", "MAP", map, "The map of another renderer (EXR, PFM, PNG, NPY, NPZ)");
   command.option("--channel", "NAME", channel, "Its channel of depths (default: detected)");
   command.option("--png-scale", "N", into(png_scale, parse_scale),
                  "Codes per unit of a map of integers that does not say it itself");
-  command.option("--camera", "FILE", camera, "Camera file");
+  command.option("--camera", "FILE", camera, "Camera file (JSON)");
   command.option(
-      "--model", "NAME", model,
+      "--model", "NAME", into(model, parse_model),
       "What is assumed of the renderer; auto: what fits best. With --against, their maps are "
       "judged as maps that someone brings, in binary32; matching: each by the model of "
       "its variant");

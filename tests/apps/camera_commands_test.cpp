@@ -68,6 +68,45 @@ assert (camera['near'], camera['far']) == (0.1, 50)
 )");
 }
 
+TEST_F(CameraCommands, UpIsAWordOrADirectionEverywhere) {
+  folder_.write("square.obj", square_obj);
+  const std::vector<std::pair<std::string, std::array<double, 3>>> ups{
+      {"x", {1, 0, 0}},   {"y", {0, 1, 0}},   {"z", {0, 0, 1}},          {"-x", {-1, 0, 0}},
+      {"-y", {0, -1, 0}}, {"-z", {0, 0, -1}}, {"1,-2,0.5", {1, -2, 0.5}}};
+  for (const auto& [text, up] : ups) {
+    SCOPED_TRACE(text);
+    fathom({"camera", "look-at", "--eye", "3,1,2", "--up", text, "-o", "look.json"});
+    fathom(
+        {"camera", "orbit", "--views", "1", "--distance", "2", "--up", text, "-o", "orbit.json"});
+    fathom({"render", "square.obj", "--size", "8x8", "--up=" + text, "--save-camera", "frame.json",
+            "-o", "map.exr"});
+    for (const char* file : {"look.json", "orbit.json", "frame.json"}) {
+      auto camera = nlohmann::json::parse(folder_.read(file));
+      if (camera.is_array()) camera = camera[0];
+      const auto& pose = camera["world_to_camera"];
+      double right = 0, down = 0;  // of the image, along what is up in the world
+      for (int k = 0; k < 3; ++k) {
+        right += pose[0][k].get<double>() * up[k];
+        down += pose[1][k].get<double>() * up[k];
+      }
+      EXPECT_NEAR(right, 0, 1e-15) << file;
+      EXPECT_LT(down, -0.1) << file;
+    }
+  }
+}
+
+TEST_F(CameraCommands, FramingTakesTheWholeLens) {
+  folder_.write("square.obj", square_obj);
+  fathom({"render", "square.obj", "--size", "64x48", "--orthographic", "4", "--far", "inf",
+          "--save-camera", "flat.json", "-o", "map.exr"});
+  const auto flat = nlohmann::json::parse(folder_.read("flat.json"));
+  EXPECT_EQ(flat["projection"], "orthographic");
+  EXPECT_EQ(flat["fy"], 12);  // 48 pixels for 4 units
+  fathom({"render", "square.obj", "--size", "64x48", "--focal", "77", "--save-camera", "long.json",
+          "-o", "map.exr"});
+  EXPECT_EQ(nlohmann::json::parse(folder_.read("long.json"))["fx"], 77);
+}
+
 TEST_F(CameraCommands, LookAtWithParallelProjectionGoesToStandardOutput) {
   const Outcome outcome = run_fathom(
       {"camera", "look-at", "--eye", "0,0,5", "--orthographic", "2", "--size", "300x200"});

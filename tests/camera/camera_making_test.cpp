@@ -15,6 +15,9 @@ namespace {
 
 using testing::HasSubstr;
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Vector3 y_up{0, 1, 0}, z_up{0, 0, 1};
+constexpr std::array<Vector3, 6> directions_of_axes{
+    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
 
 double rounded(const Dyadic& x) {
   return round_to_binary64(Ratio(x));
@@ -140,20 +143,49 @@ void expect_near(const Vector3& a, const Vector3& b) {
 
 TEST(LookFrom, AzimuthAndElevationAreAsDocumented) {
   const double h = std::sqrt(0.5);
-  expect_near(eye_of(look_from({0, 0, UpAxis::y}, {0, 0, 0}, 2)), {0, 0, 2});
-  expect_near(eye_of(look_from({90, 0, UpAxis::y}, {0, 0, 0}, 2)), {2, 0, 0});
-  expect_near(eye_of(look_from({180, 0, UpAxis::y}, {1, 2, 3}, 2)), {1, 2, 1});
-  expect_near(eye_of(look_from({0, 45, UpAxis::y}, {0, 0, 0}, 2)), {0, 2 * h, 2 * h});
-  expect_near(eye_of(look_from({45, 0, UpAxis::y}, {0, 0, 0}, 2)), {2 * h, 0, 2 * h});
-  expect_near(eye_of(look_from({0, 0, UpAxis::z}, {0, 0, 0}, 2)), {0, -2, 0});
-  expect_near(eye_of(look_from({90, 0, UpAxis::z}, {0, 0, 0}, 2)), {2, 0, 0});
-  expect_near(eye_of(look_from({0, 45, UpAxis::z}, {0, 0, 0}, 2)), {0, -2 * h, 2 * h});
-  expect_near(eye_of(look_from({0, 90, UpAxis::y}, {0, 0, 0}, 2)), {0, 2, 0});
-  expect_near(eye_of(look_from({0, -90, UpAxis::z}, {0, 0, 0}, 2)), {0, 0, -2});
+  expect_near(eye_of(look_from({0, 0, y_up}, {0, 0, 0}, 2)), {0, 0, 2});
+  expect_near(eye_of(look_from({90, 0, y_up}, {0, 0, 0}, 2)), {2, 0, 0});
+  expect_near(eye_of(look_from({180, 0, y_up}, {1, 2, 3}, 2)), {1, 2, 1});
+  expect_near(eye_of(look_from({0, 45, y_up}, {0, 0, 0}, 2)), {0, 2 * h, 2 * h});
+  expect_near(eye_of(look_from({45, 0, y_up}, {0, 0, 0}, 2)), {2 * h, 0, 2 * h});
+  expect_near(eye_of(look_from({0, 0, z_up}, {0, 0, 0}, 2)), {0, -2, 0});
+  expect_near(eye_of(look_from({90, 0, z_up}, {0, 0, 0}, 2)), {2, 0, 0});
+  expect_near(eye_of(look_from({0, 45, z_up}, {0, 0, 0}, 2)), {0, -2 * h, 2 * h});
+  expect_near(eye_of(look_from({0, 90, y_up}, {0, 0, 0}, 2)), {0, 2, 0});
+  expect_near(eye_of(look_from({0, -90, z_up}, {0, 0, 0}, 2)), {0, 0, -2});
+}
+
+TEST(LookFrom, AnyDirectionMayPointUp) {
+  struct Expected {
+    Vector3 up, at_0, at_90, above;  // where the eye is, at a distance of 2
+  };
+  const double h = std::sqrt(0.5);
+  for (const auto& [up, at_0, at_90, above] :
+       std::vector<Expected>{{{0, 5, 0}, {0, 0, 2}, {2, 0, 0}, {0, 2, 0}},
+                             {{0, -1, 0}, {0, 0, -2}, {2, 0, 0}, {0, -2, 0}},
+                             {{0, 0, 1e-300}, {0, -2, 0}, {2, 0, 0}, {0, 0, 2}},
+                             {{0, 0, -3}, {0, 2, 0}, {2, 0, 0}, {0, 0, -2}},
+                             {{1, 0, 0}, {0, 0, -2}, {0, 2, 0}, {2, 0, 0}},
+                             {{-1, 0, 0}, {0, 0, 2}, {0, 2, 0}, {-2, 0, 0}},
+                             {{0, 1, 1}, {0, -2 * h, 2 * h}, {2, 0, 0}, {0, 2 * h, 2 * h}},
+                             {{3, 4, 0}, {0, 0, 2}, {1.6, -1.2, 0}, {1.2, 1.6, 0}}}) {
+    SCOPED_TRACE(::testing::PrintToString(up));
+    expect_near(eye_of(look_from({0, 0, up}, {}, 2)), at_0);
+    expect_near(eye_of(look_from({90, 0, up}, {}, 2)), at_90);
+    expect_near(eye_of(look_from({17, 90, up}, {}, 2)), above);
+  }
+}
+
+TEST(LookFrom, NeedsADirectionThatPointsUp) {
+  const auto refusal = [](const Vector3& up) {
+    return message_of<UsageError>([&] { look_from({0, 0, up}, {}, 1); });
+  };
+  EXPECT_EQ(refusal({0, 0, 0}), "the up direction is zero");
+  EXPECT_EQ(refusal({0, infinity, 0}), "the up direction is not finite");
 }
 
 TEST(LookFrom, RightAngledViewsAreExact) {
-  for (const auto up : {UpAxis::y, UpAxis::z})
+  for (const Vector3& up : directions_of_axes)
     for (int azimuth = -720; azimuth <= 720; azimuth += 90)
       for (const double elevation : {-90.0, 0.0, 90.0}) {
         const Camera camera = look_from({static_cast<double>(azimuth), elevation, up}, {}, 1);
@@ -165,12 +197,13 @@ TEST(LookFrom, RightAngledViewsAreExact) {
 }
 
 TEST(LookFrom, AgreesWithLookAt) {
-  for (const auto up : {UpAxis::y, UpAxis::z})
+  std::vector<Vector3> ups(directions_of_axes.begin(), directions_of_axes.end());
+  ups.insert(ups.end(), {{1, 2, 3}, {-0.7, 0.1, 0}, {1, 1e-8, 0}, {1e300, -1e300, 1e-300}});
+  for (const Vector3& up : ups)
     for (double azimuth = -170; azimuth < 190; azimuth += 17)
       for (double elevation = -85; elevation < 90; elevation += 17) {
         const Camera camera = look_from({azimuth, elevation, up}, {1, 2, 3}, 4);
-        const Vector3 axis = up == UpAxis::y ? Vector3{0, 1, 0} : Vector3{0, 0, 1};
-        const Camera other = look_at(eye_of(camera), {1, 2, 3}, axis);
+        const Camera other = look_at(eye_of(camera), {1, 2, 3}, up);
         for (int i = 0; i < 3; ++i)
           for (int k = 0; k < 4; ++k)
             // The eye above is known to 1e-15·10; the direction to it divides that by 4, and by
@@ -180,10 +213,10 @@ TEST(LookFrom, AgreesWithLookAt) {
 }
 
 TEST(Orbit, StepsAroundTheCentre) {
-  const auto path = orbit({10, 20, UpAxis::z}, 4, Vector3{1, 2, 3}, 5);
+  const auto path = orbit({10, 20, z_up}, 4, Vector3{1, 2, 3}, 5);
   ASSERT_EQ(path.size(), 4U);
   for (int i = 0; i < 4; ++i) {
-    const Camera expected = look_from({10 + 90.0 * i, 20, UpAxis::z}, {1, 2, 3}, 5);
+    const Camera expected = look_from({10 + 90.0 * i, 20, z_up}, {1, 2, 3}, 5);
     EXPECT_EQ(path[i].world_to_camera, expected.world_to_camera);
   }
   EXPECT_THAT(message_of<UsageError>([] { orbit({}, 0, Vector3{}, 1); }), HasSubstr("from 1 to"));

@@ -63,6 +63,27 @@ def test_look_at_has_the_target_in_the_middle_and_up_upwards():
     assert flat.projection == "orthographic" and flat.fy == 24
 
 
+def test_up_is_a_word_or_a_vector_everywhere(spot):
+    words = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1), "-x": (-2, 0, 0), "-y": (0, -3, 0), "-z": (0, 0, -1e-9)}
+    make = [lambda up: fathom.Camera.look_at((3, 1, 2), up=up),
+            lambda up: fathom.Camera.orbit(1, distance=2, up=up)[0],
+            lambda up: fathom.Camera.frame(spot, up=up),
+            lambda up: fathom.Camera.orbit_scene(spot, 3, up=up)[2]]
+    for camera_with in make:
+        for word, vector in words.items():
+            camera = camera_with(word)
+            assert camera.to_json() == camera_with(vector).to_json()
+            down = camera.world_to_camera[1, :3]
+            assert np.dot(down, vector) < 0  # up in the world is up in the image
+        up = np.array((0.3, -0.5, 2))
+        right, down = camera_with(up).world_to_camera[:2, :3]
+        assert abs(np.dot(right, up)) < 1e-15 and np.dot(down, up) < 0
+        with pytest.raises(ValueError, match="up: expected 'x', 'y', 'z', '-x', '-y', '-z', found 'w'"):
+            camera_with("w")
+        with pytest.raises(ValueError, match="up"):
+            camera_with((0, 0, 0))
+
+
 def test_orbit_and_frame(spot):
     cameras = fathom.Camera.orbit(8, distance=2, centre=(1, 2, 3), up="z", elevation=0, azimuth=0)
     eyes = np.array([camera.camera_to_world[:3, 3] for camera in cameras])

@@ -18,6 +18,7 @@ namespace {
 
 using ::testing::HasSubstr;
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Vector3 y_up{0, 1, 0}, z_up{0, 0, 1};
 
 /// Whether a point projects into the part of the image that a margin of a twentieth leaves. Exact.
 bool inside_margin(const Camera& camera, const MeshPoint& p) {
@@ -74,7 +75,7 @@ TEST(Frame, SeesAllOfEveryScene) {
     SCOPED_TRACE(name);
     const Scene scene = testing::scene_of_points(vertices);
     for (const auto projection : {Projection::perspective, Projection::orthographic})
-      for (const auto up : {UpAxis::y, UpAxis::z})
+      for (const Vector3& up : {y_up, z_up, Vector3{-1, 0, 0}, Vector3{0.3, -1e-5, 0.7}})
         for (const double azimuth : {0.0, 35.0, 90.0, 250.0})
           for (const double elevation : {-90.0, -30.0, 0.0, 25.0, 90.0})
             for (const double fov : {1.0, 40.0, 150.0}) {
@@ -110,7 +111,7 @@ TEST(Frame, AnOrbitSeesAllFromEverywhere) {
     SCOPED_TRACE(name);
     const auto bounds = world_bounds(testing::scene_of_points(vertices));
     ASSERT_TRUE(bounds);
-    const auto path = orbit({0, 20, UpAxis::z}, 7, *bounds);
+    const auto path = orbit({0, 20, z_up}, 7, *bounds);
     ASSERT_EQ(path.size(), 7U);
     for (const Camera& camera : path) expect_sees_all(camera, vertices);
   }
@@ -141,11 +142,11 @@ TEST(Frame, RefusesWhatCannotBe) {
               }),
               HasSubstr("not finite"));
   EXPECT_THAT(message_of<UsageError>([&] {
-                frame({{}, {1, 1, 1}}, {0, 91, UpAxis::y});
+                frame({{}, {1, 1, 1}}, {0, 91, y_up});
               }),
               HasSubstr("elevation"));
   EXPECT_THAT(message_of<UsageError>([&] {
-                frame({{}, {1, 1, 1}}, {infinity, 1, UpAxis::y});
+                frame({{}, {1, 1, 1}}, {infinity, 1, y_up});
               }),
               HasSubstr("azimuth"));
 }

@@ -1,6 +1,7 @@
 #include "validation/studies/study.h"
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/unknown_name.h"
 #include "validation/studies/antialiasing/antialiasing.h"
 #include "validation/studies/blending/blending.h"
 #include "validation/studies/clipping/clipping.h"
@@ -45,12 +46,14 @@ const std::vector<Study>& all_studies() {
 }
 
 const Study& study_named(const std::string& name) {
-  std::string names;
+  std::string list;
+  std::vector<std::string> names;
   for (const Study& study : all_studies()) {
     if (study.name == name) return study;
-    names += (names.empty() ? "" : ", ") + std::string(study.name);
+    list += (list.empty() ? "" : ", ") + std::string(study.name);
+    names.emplace_back(study.name);
   }
-  throw UsageError("there is no study '" + name + "'; there are " + names);
+  throw UnknownName("there is no study '" + name + "'; there are " + list, name, names);
 }
 
 }  // namespace fathom::studies

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/unknown_name.h"
 
 namespace fathom::validation {
 namespace {
@@ -50,7 +51,10 @@ Renderer plain_renderer_named(std::string_view name) {
   for (const Renderer renderer : all_renderers) {
     if (name_of(renderer) == name) return renderer;
   }
-  throw UsageError(fmt::format("'{}' is not one of vtk, opengl, embree and blender", name));
+  std::vector<std::string> names;
+  for (const Renderer renderer : all_renderers) names.push_back(name_of(renderer));
+  throw UnknownName(fmt::format("'{}' is not one of vtk, opengl, embree and blender", name),
+                    std::string(name), names);
 }
 
 std::string variant_names(Renderer renderer) {
@@ -120,7 +124,8 @@ DrivenRenderer renderer_named(std::string_view name) {
                                  name, name_of(renderer)));
   }
   if (const auto driver = driver_named(name.substr(at + 1))) return {renderer, *driver};
-  throw UsageError(fmt::format("'{}': the driver is not one of {}", name, driver_names()));
+  throw UnknownName(fmt::format("'{}': the driver is not one of {}", name, driver_names()),
+                    std::string(name.substr(at + 1)), {"llvmpipe", "softpipe"});
 }
 
 DrivenRenderer renderer_of(const Peer& peer) {
@@ -169,8 +174,9 @@ std::vector<Peer> with_variants(std::span<const Peer> peers,
   }
   for (const std::string& wanted : variants) {
     if (contains(existing, wanted)) continue;
-    throw UsageError(fmt::format("none of the renderers has a variant '{}'; there are {}", wanted,
-                                 fmt::join(existing, ", ")));
+    throw UnknownName(fmt::format("none of the renderers has a variant '{}'; there are {}", wanted,
+                                  fmt::join(existing, ", ")),
+                      wanted, existing);
   }
   return chosen;
 }

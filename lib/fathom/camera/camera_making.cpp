@@ -6,6 +6,7 @@
 
 #include "fathom/camera/camera_making_internal.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
@@ -38,6 +39,36 @@ SineCosine sine_and_cosine(double degrees) {
     default:
       return {-c, s};
   }
+}
+
+ExactVector3 exactly(const Vector3& v) {
+  return {v[0], v[1], v[2]};
+}
+
+/// The frame in which a direction is told by azimuth and elevation: rows right (of the image at
+/// azimuth 0), up, and back, towards the eye. Orthonormal up to one rounding of each entry; exact
+/// where `up` is along an axis.
+Matrix3 frame_of(const Vector3& up) {
+  expect_finite(up, "the up direction");
+  const bool along_x = up[1] == 0 && up[2] == 0;
+  expect(!along_x || up[0] != 0, "the up direction is zero");
+  const ExactVector3 upwards = exactly(up);
+  const ExactVector3 back = cross(exactly(along_x ? Vector3{0, 1, 0} : Vector3{1, 0, 0}), upwards);
+  return {unit_vector(cross(upwards, back)), unit_vector(upwards), unit_vector(back)};
+}
+
+/// a·b, rounded once. A single product needs no exact number, and keeps the sign of its zero.
+double product_rounded_once(const Vector3& a, const Vector3& b) {
+  Dyadic sum;
+  double last = 0;
+  int count = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (b[k] == 0) continue;
+    last = a[k] * b[k];
+    sum = sum + Dyadic(a[k]) * Dyadic(b[k]);
+    ++count;
+  }
+  return count == 1 ? last : round_to_binary64(Ratio(sum));
 }
 
 }  // namespace
@@ -82,13 +113,14 @@ Matrix3 rotation_of(const View& view) {
          "the elevation must be between -90 and 90 degrees");
   const auto [sa, ca] = sine_and_cosine(view.azimuth);
   const auto [se, ce] = sine_and_cosine(view.elevation);
-  // With y up the eye is at (ce·sa, se, ce·ca) from what it looks at.
-  const Matrix3 y_up{{{ca, 0, -sa}, {se * sa, -ce, se * ca}, {-ce * sa, -se, -ce * ca}}};
-  if (view.up == UpAxis::y) return y_up;
-  // z up: (x, y, z) of the frame above is (x, −z, y) here, so x' = x, y' = −z, z' = y.
-  Matrix3 z_up;
-  for (int i = 0; i < 3; ++i) z_up[i] = {y_up[i][0], -y_up[i][2], y_up[i][1]};
-  return z_up;
+  // In the frame of `up` the eye is at (ce·sa, se, ce·ca) from what it looks at.
+  const Matrix3 turn{{{ca, 0, -sa}, {se * sa, -ce, se * ca}, {-ce * sa, -se, -ce * ca}}};
+  const Matrix3 frame = frame_of(view.up);
+  Matrix3 R;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      R[i][k] = product_rounded_once(turn[i], {frame[0][k], frame[1][k], frame[2][k]});
+  return R;
 }
 
 void expect_count(std::uint32_t count) {
@@ -104,14 +136,6 @@ View turned(View view, std::uint32_t step, std::uint32_t count) {
 }  // namespace camera
 
 using namespace camera;
-
-namespace {
-
-ExactVector3 exactly(const Vector3& v) {
-  return {v[0], v[1], v[2]};
-}
-
-}  // namespace
 
 Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up, const Lens& lens) {
   const StandardArithmetic standard;

@@ -40,29 +40,30 @@ using Vector3 = std::array<double, 3>;
 ///          tested exactly), if a number is not finite, or if the lens is not valid.
 Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up, const Lens& lens = {});
 
-/// The axis of the world that points up.
-enum class UpAxis { y, z };
-
 /// The direction in which an eye lies, as seen from what it looks at; in degrees.
 ///
 /// elevation  angle above the horizontal plane, −90 (from below) to 90 (from above).
-/// azimuth    angle around the up axis, counter-clockwise as seen from above. At 0 the image's
-///            right is +x: the eye is on the +z side (y up) or on the −y side (z up); at 90 it is
-///            on the +x side.
+/// azimuth    angle around the up direction, counter-clockwise as seen from above. At 0 the image's
+///            right is +x without its part along `up`, or +y where `up` is along x: the eye is on
+///            the +z side (y up), the −y side (z up) or the −z side (x up). At 90 it is on the side
+///            that was right.
+/// up         the direction of the world that points up, of any length but 0.
 struct View {
   double azimuth = 35;
   double elevation = 25;
-  UpAxis up = UpAxis::y;
+  Vector3 up{0, 1, 0};
 };
 
 /// The camera at `distance` (scene units) from the world point `centre` in the direction of `view`,
 /// looking at `centre`. The eye may be straight above or below; the azimuth then says how the image
 /// is turned.
 ///
-/// Exact    sines and cosines are the C library's (exact at multiples of 90°); t = (0, 0, distance)
-///          − R·centre is computed exactly from the rounded R and rounded once.
-/// Fails    UsageError if distance ≤ 0, elevation is outside [−90, 90], a number is not finite, or
-///          the lens is not valid.
+/// Exact    sines and cosines are the C library's (exact at multiples of 90°). Where `up` is along
+///          an axis, R has them and their products, each rounded once, with no error more; elsewhere
+///          the frame of `up` is rounded as look_at() does, and R, the product, once more.
+///          t = (0, 0, distance) − R·centre is computed exactly from the rounded R and rounded once.
+/// Fails    UsageError if distance ≤ 0, elevation is outside [−90, 90], `up` is zero, a number is
+///          not finite, or the lens is not valid.
 Camera look_from(const View& view, const Vector3& centre, double distance, const Lens& lens = {});
 
 /// A camera path of `count` views around `centre`, the first at `first`, the others at azimuths

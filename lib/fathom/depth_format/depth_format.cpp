@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/unknown_name.h"
 
 namespace fathom {
 namespace {
@@ -26,8 +27,9 @@ std::size_t index_of(const std::string_view (&names)[N], std::string_view name, 
   for (std::size_t i = 0; i < N; ++i) {
     if (names[i] == name) return i;
   }
-  throw UsageError("there is no " + std::string(what) + " '" + std::string(name) + "'; there are " +
-                   list(names));
+  throw UnknownName(
+      "there is no " + std::string(what) + " '" + std::string(name) + "'; there are " + list(names),
+      std::string(name), {std::begin(names), std::end(names)});
 }
 
 std::string text_of(double x) {

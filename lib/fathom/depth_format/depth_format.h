@@ -46,7 +46,8 @@ struct DepthFormat {
 /// Fails    UsageError, naming the value and the combinations that exist.
 void require_meaningful(const DepthFormat& format);
 
-/// The names used in the specification. Fails with UsageError, naming those that exist.
+/// The names used in the specification. Fails with UnknownName, which names those that
+/// exist.
 std::string_view name_of(Mapping mapping);
 std::string_view name_of(Storage storage);
 Mapping mapping_named(std::string_view name);

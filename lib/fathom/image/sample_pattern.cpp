@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/unknown_name.h"
 
 namespace fathom {
 namespace {
@@ -117,9 +118,13 @@ SamplePattern sample_pattern(const std::string& name) {
       return pattern;
     }
   }
-  throw UsageError("there is no sample pattern '" + name +
-                   "'; there are 1, 2, 4, 8, 16, rotated-grid, regular:N, jittered:N and "
-                   "jittered:N:SEED, with N one of 1, 2, 4, 8 and 16");
+  throw UnknownName(
+      "there is no sample pattern '" + name +
+          "'; there are 1, 2, 4, 8, 16, rotated-grid, regular:N, jittered:N and "
+          "jittered:N:SEED, with N one of 1, 2, 4, 8 and 16",
+      name,
+      {"1", "2", "4", "8", "16", "rotated-grid", "regular:2", "regular:4", "regular:8",
+       "regular:16", "jittered:2", "jittered:4", "jittered:8", "jittered:16"});
 }
 
 }  // namespace fathom

@@ -56,8 +56,8 @@ Lens make_lens(std::uint32_t width, std::uint32_t height, bool orthographic,
   return lens;
 }
 
-View make_view(double azimuth, double elevation, bool z_up) {
-  return {azimuth, elevation, z_up ? UpAxis::z : UpAxis::y};
+View make_view(double azimuth, double elevation, const Vector3& up) {
+  return {azimuth, elevation, up};
 }
 
 Named named(const std::vector<ImportedCamera>& imported) {

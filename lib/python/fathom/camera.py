@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 Projection = Literal["perspective", "orthographic"]
-Up = Literal["y", "z"]
+Up = Union[Literal["x", "y", "z", "-x", "-y", "-z"], "npt.ArrayLike"]
 
 projections = ("perspective", "orthographic")
 
@@ -154,7 +154,7 @@ class Camera:
         cls,
         eye: npt.ArrayLike,
         target: npt.ArrayLike = (0, 0, 0),
-        up: npt.ArrayLike = (0, 1, 0),
+        up: Up = "y",
         *,
         size: Size = (1280, 720),
         fov: float | None = None,
@@ -174,7 +174,7 @@ class Camera:
         array([ 0.,  0., -1.,  3.])
         """
         lens = _lens(size, fov, focal, extent, projection, near, far)
-        return cls._of(_core.look_at(_point("eye", eye), _point("target", target), _point("up", up), lens))
+        return cls._of(_core.look_at(_point("eye", eye), _point("target", target), _up(up), lens))
 
     @classmethod
     def orbit(
@@ -195,7 +195,8 @@ class Camera:
         far: float = math.inf,
     ) -> list[Camera]:
         """`count` cameras around `centre` at `distance`, in steps of 360°/count from `azimuth` on, all of them at
-        `elevation` degrees above the horizon. `up` is the axis of the world that points up.
+        `elevation` degrees above the horizon. `up` is what points up in the world: "x", "y", "z", "-x", "-y", "-z" or a
+        vector of any length; at azimuth 0 the image's right is +x without its part along `up` (+y where up is along x).
 
         >>> len(Camera.orbit(12, distance=3))
         12
@@ -415,9 +416,15 @@ def _lens(size: Size, fov: float | None, focal: float | None, extent: float | No
     )
 
 
-def _view(azimuth: float, elevation: float, up: str) -> _core.View:
-    return _core.View(as_number("azimuth", azimuth), as_number("elevation", elevation),
-                      one_of("up", up, ("y", "z")) == "z")
+def _view(azimuth: float, elevation: float, up: Up) -> _core.View:
+    return _core.View(as_number("azimuth", azimuth), as_number("elevation", elevation), _up(up))
+
+
+def _up(up: Up) -> list[float]:
+    if not isinstance(up, str):
+        return _point("up", up)
+    word = one_of("up", up, ("x", "y", "z", "-x", "-y", "-z"))
+    return [(-1.0 if word[0] == "-" else 1.0) * (axis == word[-1]) for axis in "xyz"]
 
 
 def _only(cameras: Sequence[Camera]) -> Camera:

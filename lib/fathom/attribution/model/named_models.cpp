@@ -5,6 +5,7 @@
 #include "fathom/camera/clip_planes.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/unknown_name.h"
 
 namespace fathom::attribution {
 namespace {
@@ -75,7 +76,9 @@ RendererModel model_named(const std::string& name) {
   for (const RendererModel& model : named_models()) {
     if (model.name == name) return model;
   }
-  throw UsageError("there is no model '" + name + "'; there are " + model_names());
+  std::vector<std::string> names;
+  for (const RendererModel& model : named_models()) names.push_back(model.name);
+  throw UnknownName("there is no model '" + name + "'; there are " + model_names(), name, names);
 }
 
 }  // namespace fathom::attribution

@@ -21,7 +21,7 @@ bool has_clip_planes_for(const RendererModel& model, const Camera& camera);
 /// Whether it is a model of OpenGL as VTK uses it.
 bool is_of_vtk(const RendererModel& model);
 
-/// Fails    UsageError where there is no such model, naming those that there are.
+/// Fails    UnknownName where there is no such model, naming those that there are.
 RendererModel model_named(const std::string& name);
 
 }  // namespace fathom::attribution

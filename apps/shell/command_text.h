@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace fathom::app {
+
+/// What commands stand below in lists of them, unless they are programs of their own.
+inline constexpr const char* command_heading = "Commands";
+
+/// What users are told of an option. Help, man pages and completion are all made of this.
+struct OptionText {
+  std::vector<std::string> names;     ///< "-o", "--output"; of an argument "SCENE"
+  std::string value;                  ///< "FILE"; empty for flags and arguments
+  std::string help;                   ///< one line
+  std::string heading;                ///< what it stands below: "Options"
+  std::vector<std::string> excluded;  ///< "--view": what is not given together with it
+  bool is_argument = false;           ///< given without a name
+  bool is_required = false;
+  bool takes_several = false;
+};
+
+/// What users are told of a command, in the order in which it was declared.
+struct CommandText {
+  struct Below {
+    std::string heading;  ///< "Commands"
+    std::string name;     ///< "orbit"
+    std::string summary;
+  };
+
+  std::vector<std::string> path;  ///< "fathom", "camera", "orbit"
+  std::string summary;            ///< one line
+  std::vector<OptionText> options;
+  std::vector<Below> commands;
+  std::string examples;  ///< lines that are kept as they are
+  std::string notes;     ///< paragraphs, with empty lines between them
+
+  /// "fathom camera orbit"
+  [[nodiscard]] std::string name() const;
+  /// "fathom camera orbit [OPTIONS] [SCENE...]"
+  [[nodiscard]] std::string synopsis() const;
+};
+
+CommandText text_of(const CLI::App& command);
+
+/// The name that messages and lists have for an option: the long one where there is one.
+const std::string& name_of(const OptionText& option);
+
+/// What is said of it: its help, and how it goes together with other options.
+std::string meaning_of(const OptionText& option);
+
+}  // namespace fathom::app

@@ -1,0 +1,164 @@
+#include "apps/shell/help_command.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "apps/shell/command_text.h"
+#include "apps/shell/completion_scripts.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/folder.h"
+#include "apps/shell/help_page.h"
+#include "apps/shell/man_page.h"
+#include "apps/shell/misspelling.h"
+#include "apps/shell/standard_streams.h"
+#include "apps/shell/text_output.h"
+#include "apps/shell/values.h"
+#include "fathom/numeric/unknown_name.h"
+
+namespace fathom::app {
+namespace {
+
+constexpr const char* version_of_pages = "Fathom " FATHOM_VERSION;
+const std::string form_option = "--help=";
+
+using Script = std::string (*)(const CompletionTable&);
+
+Script parse_shell(const std::string& text) {
+  return parse_word<Script>(
+      text, {{"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}});
+}
+
+/// The command that all words name, each below the one before.
+const CLI::App& command_of(const CLI::App& program, const std::vector<std::string>& arguments) {
+  const CLI::App* command = &program;
+  for (const std::string& name : arguments) {
+    if (name.starts_with('-')) continue;
+    const std::vector<std::string> existing = commands_below(*command);
+    if (std::ranges::count(existing, name) == 0) {
+      throw UsageError(existing.empty()
+                           ? "'" + command->get_name() + "' has no command '" + name + "' below it"
+                           : unknown_command(name, existing));
+    }
+    command = command->get_subcommand(name);
+  }
+  return *command;
+}
+
+/// All commands of the program and, as far as they are built, of its companions.
+CompletionTable whole_table(const Command& program, const std::vector<Companion>& companions) {
+  CompletionTable table = program.completion_table();
+  for (const Companion& companion : companions) {
+    const auto lines = answer_of(companion, {form_option + "completion"});
+    CompletionTable more = lines ? table_from_lines(*lines) : CompletionTable();
+    if (more.empty()) more = {{{"fathom", companion.command}, companion.description, {}}};
+    table.insert(table.end(), more.begin(), more.end());
+  }
+  return table;
+}
+
+/// A command of this program, or one of a companion, as a page. Nothing where that is not built.
+std::optional<std::string> page_of(const std::vector<std::string>& path, const CLI::App& app,
+                                   const std::vector<Companion>& companions) {
+  const std::vector<std::string> names(path.begin() + 1, path.end());
+  const auto companion = std::ranges::find_if(companions, [&](const Companion& each) {
+    return !names.empty() && each.command == names[0];
+  });
+  if (companion == companions.end())
+    return man_page(text_of(command_of(app, names)), version_of_pages);
+  std::vector<std::string> arguments(names.begin() + 1, names.end());
+  arguments.push_back(form_option + "man");
+  return answer_of(*companion, arguments);
+}
+
+void write_pages(const std::string& folder, const CompletionTable& table, const CLI::App& app,
+                 const std::vector<Companion>& companions) {
+  make_folder(folder);
+  for (const CompletedCommand& command : table) {
+    const auto page = page_of(command.path, app, companions);
+    if (page) write_text(std::filesystem::path(folder) / (man_name(command.path) + ".1"), *page);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> with_help_as_option(std::vector<std::string> arguments) {
+  if (arguments.empty() || arguments[0] != "help") return arguments;
+  std::vector<std::string> asked;
+  std::string form = form_option + "text";
+  for (std::size_t i = 1; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    if (!argument.starts_with('-')) {
+      asked.push_back(argument);
+    } else if (argument == "--man") {
+      form = form_option + "man";
+    } else if (argument.starts_with("--out")) {
+      return arguments;
+    } else if (argument != "--quiet") {
+      return {"help", argument};  // about `help` itself, or wrong
+    }
+  }
+  asked.push_back(form);
+  return asked;
+}
+
+std::optional<std::string> asked_help(const CLI::App& program, const Command& commands,
+                                      const std::vector<std::string>& arguments) {
+  const auto form = std::ranges::find_if(
+      arguments, [](const std::string& text) { return text.starts_with(form_option); });
+  if (form == arguments.end()) return std::nullopt;
+  const CLI::App& command = command_of(program, {arguments.begin(), form});
+  const std::string name = form->substr(form_option.size());
+  if (name == "man") return man_page(text_of(command), version_of_pages);
+  if (name == "text") return help_page(text_of(command), help_width());
+  if (name != "completion")
+    throw UnknownName("--help: there is no form '" + name + "'", name,
+                      {"text", "man", "completion"});
+  const std::vector<std::string> path = text_of(command).path;
+  CompletionTable table;
+  for (const CompletedCommand& each : commands.completion_table()) {
+    if (each.path.size() >= path.size() && std::equal(path.begin(), path.end(), each.path.begin()))
+      table.push_back(each);
+  }
+  return to_lines(table);
+}
+
+void add_help(Command& program, const CLI::App& app, const std::vector<Companion>& companions) {
+  struct HelpArguments {
+    std::vector<std::string> names;
+    bool man = false;
+    std::string folder;
+  };
+  const auto help = std::make_shared<HelpArguments>();
+  Command& command = program.command("help", "Explain a command, or show its manual page",
+                                     "  fathom help camera look-at\n"
+                                     "  fathom help --man render | man -l -\n"
+                                     "  fathom help --man --out ~/.local/share/man/man1");
+  command.arguments("COMMAND", help->names, "The command, with those above it before it");
+  command.flag("--man", help->man, "As a manual page (roff), which man -l shows");
+  command.option("--out", "DIR", help->folder,
+                 "With --man: write the pages of all commands that are built to this folder");
+  command.runs([help, &program, &app, companions](const Console&) -> int {
+    if (!help->man || !help->names.empty())
+      throw UsageError("--out goes with --man, and without a COMMAND");
+    const std::string folder = help->folder;  // which the table overwrites
+    write_pages(folder, whole_table(program, companions), app, companions);
+    return done;
+  });
+
+  const auto script = std::make_shared<Script>(nullptr);
+  Command& completion = program.command(
+      "completion", "Print what makes a shell complete commands, options and their values",
+      "  source <(fathom completion bash)      # in ~/.bashrc\n"
+      "  source <(fathom completion zsh)       # in ~/.zshrc, after compinit\n"
+      "  fathom completion fish | source       # in ~/.config/fish/config.fish");
+  completion.argument("SHELL", into(*script, parse_shell), "bash, zsh or fish").required();
+  completion.answers_on_standard_output();
+  completion.runs([script, &program, companions](const Console&) {
+    print((*script)(whole_table(program, companions)));
+    return done;
+  });
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/shell/command.h"
+#include "apps/shell/companion.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace fathom::app {
+
+/// `fathom help [--man] COMMAND…` asks the program that has the command by an argument that every
+/// program understands: --help=text, --help=man, or --help=completion, to which it answers with its
+/// completion_table(). Returns the arguments in that form: "COMMAND… --help=man". Others are
+/// returned as they are, and so are those of `help --man --out DIR`; of others of `help`, such as
+/// `help --help`, the first option that is none of these remains.
+std::vector<std::string> with_help_as_option(std::vector<std::string> arguments);
+
+/// What is printed where one of the arguments is --help=FORM; nothing where none is.
+/// Fails    UsageError where there is no such command or form.
+std::optional<std::string> asked_help(const CLI::App& program, const Command& commands,
+                                      const std::vector<std::string>& arguments);
+
+/// Declares `help`, which all but for --out is carried out before arguments are read, and
+/// `completion`.
+void add_help(Command& program, const CLI::App& app, const std::vector<Companion>& companions);
+
+}  // namespace fathom::app

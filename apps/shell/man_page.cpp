@@ -1,0 +1,174 @@
+#include "apps/shell/man_page.h"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <string_view>
+
+#include "apps/shell/values.h"
+#include "apps/shell/wrapped.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+std::time_t date_of_pages() {
+  const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
+  if (epoch == nullptr) return std::time(nullptr);
+  try {
+    return static_cast<std::time_t>(parse_count(epoch));
+  } catch (const UsageError& error) {
+    throw UsageError(std::string("SOURCE_DATE_EPOCH: ") + error.what());
+  }
+}
+
+/// A text as roff: what it gives a meaning to is escaped, and a hyphen stays one that can be copied.
+std::string roff(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool begins_line = out.empty() || out.back() == '\n';
+    if (begins_line && (c == '.' || c == '\'')) out += "\\&";
+    switch (c) {
+      case '\\':
+        out += "\\e";
+        break;
+      case '-':
+        out += "\\-";
+        break;
+      case '\'':
+        out += "\\(aq";
+        break;
+      case '`':
+        out += "\\(ga";
+        break;
+      case '^':
+        out += "\\(ha";
+        break;
+      case '~':
+        out += "\\(ti";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+/// A paragraph in lines that editors and patches like.
+std::string roff_lines(const std::string& text) {
+  std::string out;
+  for (const std::string& line : wrapped(text, 60)) out += roff(line) + "\n";
+  return out;
+}
+
+std::string bold(const std::string& text) {
+  return "\\fB" + roff(text) + "\\fR";
+}
+
+std::string italic(const std::string& text) {
+  return "\\fI" + roff(text) + "\\fR";
+}
+
+std::string in_capitals(std::string text) {
+  std::ranges::transform(text, text.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  return text;
+}
+
+std::string roff_section(const std::string& heading) {
+  return ".SH \"" + roff(in_capitals(heading)) + "\"\n";
+}
+
+std::string roff_entry(const std::string& tag, const std::string& meaning) {
+  return ".TP\n" + tag + "\n" + roff_lines(meaning);
+}
+
+std::string tag_of(const OptionText& option) {
+  if (option.is_argument) return italic(option.names[0]) + (option.takes_several ? "..." : "");
+  std::string tag;
+  for (const std::string& name : option.names) tag += (tag.empty() ? "" : ", ") + bold(name);
+  if (!option.value.empty()) tag += " " + italic(option.value);
+  return option.takes_several ? tag + "..." : tag;
+}
+
+/// Entries below the headings of the help, each of which is a section.
+std::string roff_sections(const CommandText& command) {
+  std::vector<std::string> headings;
+  const auto note = [&](const std::string& heading) {
+    if (std::ranges::count(headings, heading) == 0) headings.push_back(heading);
+  };
+  for (const OptionText& option : command.options) note(option.heading);
+  for (const CommandText::Below& below : command.commands) note(below.heading);
+  std::string text;
+  for (const std::string& heading : headings) {
+    text += roff_section(heading);
+    for (const OptionText& option : command.options) {
+      if (option.heading == heading) text += roff_entry(tag_of(option), meaning_of(option));
+    }
+    for (const CommandText::Below& below : command.commands) {
+      if (below.heading == heading) text += roff_entry(bold(below.name), below.summary);
+    }
+  }
+  return text;
+}
+
+/// Paragraphs: an empty line becomes .PP.
+std::string roff_paragraphs(const std::string& notes) {
+  std::string text;
+  std::size_t begin = 0;
+  while (begin < notes.size()) {
+    const std::size_t end = std::min(notes.find("\n\n", begin), notes.size());
+    if (begin > 0) text += ".PP\n";
+    text += roff_lines(notes.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  return text;
+}
+
+/// The pages of the command above it and of those below it.
+std::string see_also(const CommandText& command) {
+  std::vector<std::string> names;
+  if (command.path.size() > 1)
+    names.push_back(man_name({command.path.begin(), command.path.end() - 1}));
+  for (const CommandText::Below& below : command.commands) {
+    std::vector<std::string> path = command.path;
+    path.push_back(below.name);
+    names.push_back(man_name(path));
+  }
+  std::ranges::sort(names);
+  std::string text;
+  for (const std::string& name : names)
+    text += ".BR " + roff(name) + " (1)" + (&name == &names.back() ? "\n" : ",\n");
+  return text.empty() ? text : roff_section("See also") + text;
+}
+
+}  // namespace
+
+std::string man_name(const std::vector<std::string>& path) {
+  return fmt::format("{}", fmt::join(path, "-"));
+}
+
+std::string man_page(const CommandText& command, const std::string& version) {
+  const std::string name = man_name(command.path);
+  std::string text =
+      fmt::format(".TH {} 1 {:%Y-%m-%d} \"{}\" \"User commands\"\n", roff(in_capitals(name)),
+                  fmt::gmtime(date_of_pages()), roff(version));
+  // No hyphens are put into words, nor spaces between them: options and numbers are to be copied.
+  text += ".nh\n.ad l\n";
+  text += roff_section("Name") + roff_lines(name + " - " + command.summary);
+  const std::string synopsis = command.synopsis();
+  text += roff_section("Synopsis") + bold(command.name()) +
+          roff(synopsis.substr(command.name().size())) + "\n";
+  text += roff_sections(command);
+  if (!command.examples.empty())
+    text += roff_section("Examples") + ".nf\n" + roff(command.examples) + "\n.fi\n";
+  if (!command.notes.empty()) text += roff_section("Notes") + roff_paragraphs(command.notes);
+  return text + see_also(command);
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/shell/command_text.h"
+
+namespace fathom::app {
+
+/// "fathom-camera-orbit", under which `man` finds the page of a command.
+std::string man_name(const std::vector<std::string>& path);
+
+/// The page of a command in section 1, in roff. It is dated by SOURCE_DATE_EPOCH (seconds since
+/// 1970) where that is set, as packages that are built twice want it, and by today elsewhere.
+std::string man_page(const CommandText& command, const std::string& version);
+
+}  // namespace fathom::app

@@ -1,0 +1,109 @@
+#include "apps/shell/misspelling.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <optional>
+
+#include "apps/shell/values.h"
+#include "fathom/numeric/unknown_name.h"
+
+namespace fathom::app {
+namespace {
+
+/// The names of a command's options, with their dashes.
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+/// "--size" of "--size=640x480".
+std::string without_value(const std::string& argument) {
+  return argument.substr(0, argument.find('='));
+}
+
+/// Suggestions are looked for without the dashes, of which every option has as many.
+std::string suggested_option(const std::string& name, const CLI::App& command) {
+  const std::size_t dashes = name.starts_with("--") ? 2 : 1;
+  std::vector<std::string> bare;
+  for (const std::string& each : option_names(command)) {
+    if ((each.starts_with("--") ? 2U : 1U) == dashes) bare.push_back(each.substr(dashes));
+  }
+  std::string text;
+  for (const std::string& each : nearest_names(name.substr(dashes), bare))
+    text += (text.empty() ? ": did you mean '" : " or '") + name.substr(0, dashes) + each + "'";
+  return text.empty() ? text : text + "?";
+}
+
+std::string unexpected_of(const CLI::App& command) {
+  const std::vector<std::string> rest = command.remaining();
+  const auto option = std::ranges::find_if(
+      rest, [](const std::string& text) { return text.size() > 1 && text.starts_with('-'); });
+  if (option != rest.end() && *option != "--") {
+    const std::string name = without_value(*option);
+    return fmt::format("there is no option '{}'{}", name, suggested_option(name, command));
+  }
+  if (rest.empty()) return "";
+  const std::vector<std::string> existing = commands_below(command);
+  if (!existing.empty()) return unknown_command(rest[0], existing);
+  return fmt::format("unexpected argument '{}'", rest[0]);
+}
+
+}  // namespace
+
+std::vector<std::string> commands_below(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(below->get_name());
+  return names;
+}
+
+std::string unknown_command(const std::string& name, const std::vector<std::string>& existing) {
+  std::string near;
+  for (const std::string& each : nearest_names(name, existing))
+    near += (near.empty() ? ": did you mean '" : " or '") + each + "'";
+  if (!near.empty()) near += "?";
+  return fmt::format("there is no command '{}'{}; the commands are {}", name, near,
+                     joined(existing));
+}
+
+std::string unexpected_argument(const CLI::App& program) {
+  const CLI::App* command = &program;
+  for (;;) {
+    const std::string message = unexpected_of(*command);
+    if (!message.empty()) return message;
+    if (command->get_subcommands().empty()) return "";
+    command = command->get_subcommands().front();
+  }
+}
+
+std::string missing_dash(const CLI::App& program, const std::vector<std::string>& arguments) {
+  const std::vector<std::string> names = option_names(command_named(program, arguments));
+  for (const std::string& argument : arguments) {
+    if (argument == "--") break;
+    const std::string name = without_value(argument);
+    if (name.size() < 3 || !name.starts_with('-') || name.starts_with("--")) continue;
+    if (std::ranges::count(names, "-" + name) > 0)
+      return fmt::format("there is no option '{}': did you mean '-{}'?", name, name);
+  }
+  return "";
+}
+
+const CLI::App& command_named(const CLI::App& program, const std::vector<std::string>& arguments) {
+  const CLI::App* command = &program;
+  for (const std::string& argument : arguments) {
+    for (const CLI::App* below : command->get_subcommands([](const CLI::App*) { return true; })) {
+      if (below->get_name() != argument) continue;
+      command = below;
+      break;
+    }
+  }
+  return *command;
+}
+
+}  // namespace fathom::app

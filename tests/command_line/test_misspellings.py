@@ -1,0 +1,128 @@
+"""Every option, command and named value, with a letter missing, doubled or exchanged with the next: the error, one line,
+asks whether the right one was meant, wherever it is the only one that lies so near."""
+
+import random
+from concurrent.futures import ThreadPoolExecutor
+
+from fathom_help import all_commands, answer, run
+
+
+def distance(a: str, b: str) -> int:
+    """Letters to insert, remove, replace or exchange with their neighbour, at least; each is touched once."""
+    if not a or not b:
+        return len(a) + len(b)
+    ways = [distance_of(a[1:], b) + 1, distance_of(a, b[1:]) + 1, distance_of(a[1:], b[1:]) + (a[0] != b[0])]
+    if len(a) > 1 and len(b) > 1 and (a[0], a[1]) == (b[1], b[0]):
+        ways.append(distance_of(a[2:], b[2:]) + 1)
+    return min(ways)
+
+
+known: dict[tuple[str, str], int] = {}
+
+
+def distance_of(a: str, b: str) -> int:
+    if (a, b) not in known:
+        known[a, b] = distance(a, b)
+    return known[a, b]
+
+
+def mistakes(word: str, others: list[str], chance: random.Random) -> list[str]:
+    """One of each kind, of those that are nearer to the word than to any other."""
+    made = []
+    for kind in ("missing", "doubled", "exchanged"):
+        at = chance.randrange(len(word) - (kind == "exchanged"))
+        wrong = {"missing": word[:at] + word[at + 1:],
+                 "doubled": word[:at] + word[at] + word[at:],
+                 "exchanged": word[:at] + word[at:at + 2][::-1] + word[at + 2:]}[kind]
+        if wrong != word and all(distance_of(wrong, other) > 1 for other in others if other != word):
+            made.append(wrong)
+    return made
+
+
+def expect_questions(cases: list[tuple[list[str], str]], least: int) -> None:
+    assert len(cases) >= least
+    with ThreadPoolExecutor() as pool:
+        outcomes = list(pool.map(lambda case: run(*case[0]), cases))
+    for (arguments, right), outcome in zip(cases, outcomes):
+        assert outcome.returncode == 2 and outcome.stdout == "", arguments
+        assert outcome.stderr.startswith("fathom: error: ") and outcome.stderr.count("\n") == 1, arguments
+        assert f"did you mean '{right}'?" in outcome.stderr, (arguments, outcome.stderr)
+
+
+def test_of_options():
+    chance, cases = random.Random(1), []
+    for command in all_commands():
+        options = [name[2:] for name in command.long_options()]
+        for option in options:
+            if len(option) > 1:
+                cases += [([*command.path, "--" + wrong], "--" + option) for wrong in mistakes(option, options, chance)]
+    expect_questions(cases, 600)
+
+
+def test_of_options_with_a_value_or_one_dash():
+    expect_questions([(["render", "a.obj", "--chanels=Z", "-o", "a.exr"], "--channels"),
+                      (["render", "a.obj", "--chanels", "Z", "-o", "a.exr"], "--channels"),
+                      (["render", "a.obj", "-output", "a.exr"], "--output"),
+                      (["render", "a.obj", "-O", "a.exr"], "-o"),
+                      (["render", "a.obj", "--Output", "a.exr"], "--output"),
+                      (["--quite", "render", "a.obj", "-o", "a.exr"], "--quiet")], 6)
+
+
+def test_of_commands():
+    chance, cases = random.Random(2), []
+    for command in all_commands():
+        names = list(command.commands)
+        for name in names:
+            for wrong in mistakes(name, names, chance):
+                cases += [([*command.path, wrong], name), (["help", *command.path, wrong], name)]
+    expect_questions(cases, 100)
+
+
+def enumerated() -> list[tuple[tuple[str, ...], str, list[str]]]:
+    """The words that options take, as the program tells completion: command, option, words."""
+    found = []
+    for command in all_commands():
+        if not command.path:
+            continue
+        for line in answer(*command.path, "--help=completion").split("\n"):
+            fields = line.split("\t")
+            if fields[0] == "command":
+                here = tuple(fields[1].split()[1:])
+            elif fields[0] == "option" and here == command.path and fields[4]:
+                found.append((command.path, fields[1].split()[-1], fields[4].split()))
+    return found
+
+
+# Something valid for what a command cannot do without, by the name of its value.
+values = {"FILE": "a.exr", "D": "1", "N": "1", "X,Y": "0,0", "X,Y,Z": "1,2,3", "SCENE...": "a.obj", "MAP": "a.exr",
+          "INPUT": "a.json", "TRUTH": "a.exr", "OTHER": "b.exr", "SHELL": "bash", "PNG": "a.png"}
+of_commands = {("clip", "--algorithm"): "plane", ("scan", "--algorithm"): "dda", ("preview", "--output"): "a.png"}
+
+
+def needed_by(path: tuple[str, ...], but: str) -> list[str]:
+    command = next(each for each in all_commands() if each.path == path)
+    words = [] if but in command.arguments else [values[name] for name in command.arguments if name in values]
+    for names, (value, meaning) in command.options.items():
+        if "; required" in meaning and but not in names:
+            words += [names[-1], of_commands.get((path[0], names[-1])) or values[value]]
+    return words
+
+
+def test_of_values():
+    chance, cases = random.Random(3), []
+    options = enumerated()
+    assert {"--channels", "--engine", "--mapping", "--algorithm", "--up", "--colormap", "NAME"} <= {
+        name for _, name, _ in options}
+    for path, option, words in options:
+        if option == "--texture":
+            continue  # any other text is the name of a file
+        for word in words:
+            if len(word) < 2 or word.isdigit() or ":" in word or word.startswith("-"):
+                continue
+            for wrong in mistakes(word, words, chance):
+                # A letter that is left over of a short word is no misspelling but another text.
+                if len(wrong) < 2 or wrong in (name + ":" for name in words):
+                    continue
+                given = [wrong] if not option.startswith("-") else [option, wrong]
+                cases.append(([*path, *given, *needed_by(path, option)], word))
+    expect_questions(cases, 300)
