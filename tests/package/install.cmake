@@ -4,6 +4,16 @@ include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 file(REMOVE_RECURSE "${WORK}")
 run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/prefix")
 
+# What the program tells of itself is where man and the shells look for it.
+foreach(file man/man1/fathom.1 man/man1/fathom-camera-look-at.1 man/man1/fathom-pipeline-trace.1
+             bash-completion/completions/fathom zsh/vendor-completions/_fathom
+             fish/vendor_completions.d/fathom.fish)
+  file(GLOB found "${WORK}/prefix/share/${file}" "${WORK}/prefix/share/${file}.gz")
+  if(NOT found)
+    message(FATAL_ERROR "share/${file} is not installed")
+  endif()
+endforeach()
+
 file(READ "${SOURCE}/README.md" readme)
 string(REGEX MATCH "```cpp\n([^`]*)```" found "${readme}")
 if(NOT found)
