@@ -31,6 +31,27 @@ std::vector<std::vector<std::string>> words_of(std::string_view text, TextCursor
 
 using Lines = std::vector<std::vector<std::string>>;
 
+/// What is left of the first line behind its first word.
+std::string rest_of(std::string_view text, TextCursor::Syntax syntax) {
+  TextCursor cursor(text, file, syntax);
+  cursor.word();
+  const std::string rest(cursor.rest_of_line());
+  EXPECT_EQ(rest, std::string(cursor.rest_of_line()));  // it stays
+  return rest;
+}
+
+TEST(TextCursor, WhatIsLeftOfALineIsAsItStandsThere) {
+  EXPECT_EQ(rest_of("a  b # c \nd", full), "  b # c ");
+  EXPECT_EQ(rest_of("a b\r\nd", full), " b\r");
+  EXPECT_EQ(rest_of("a b\rd", full), " b");
+  EXPECT_EQ(rest_of("a b\\\nc\\\r\nd\ne", full), " b\\\nc\\\r\nd");
+  EXPECT_EQ(rest_of("a b\\\nc", plain), " b\\");
+  EXPECT_EQ(rest_of("a b #c\\\nd", full), " b #c\\");
+  EXPECT_EQ(rest_of("a", full), "");
+  EXPECT_EQ(rest_of("a\n", full), "");
+  EXPECT_EQ(rest_of("a b\\", full), " b\\");
+}
+
 TEST(TextCursor, LinesEndAsTheTextHasIt) {
   const Lines expected{{"1", "a", "b"}, {"3", "c"}};
   EXPECT_EQ(words_of("a b\n\n c", plain), expected);

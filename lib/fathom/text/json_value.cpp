@@ -157,6 +157,10 @@ bool JsonValue::is_number() const {
   return value_->is_number();
 }
 
+bool JsonValue::is_string() const {
+  return value_->is_string();
+}
+
 double JsonValue::number() const {
   if (!value_->is_number()) fail_type("a number");
   return value_->get<double>();

@@ -51,6 +51,7 @@ class JsonValue {
   [[nodiscard]] bool is_list() const;
   [[nodiscard]] bool is_object() const;
   [[nodiscard]] bool is_number() const;
+  [[nodiscard]] bool is_string() const;
 
  private:
   [[noreturn]] void fail_type(const char* expected) const;

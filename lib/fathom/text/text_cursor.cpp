@@ -39,6 +39,18 @@ DecimalResult<Real> windows_number(std::string_view word) {
 
 }  // namespace
 
+std::string_view TextCursor::rest_of_line() const {
+  const char* line = at_;
+  while (true) {
+    const auto left = static_cast<std::size_t>(end_ - line);
+    const void* found = left > 0 ? std::memchr(line, line_end_, left) : nullptr;
+    const char* line_end = found ? static_cast<const char*>(found) : end_;
+    if (!found || !syntax_.continuation || !joins(line, line_end))
+      return {at_, static_cast<std::size_t>(line_end - at_)};
+    line = line_end + 1;
+  }
+}
+
 template <class Real>
 DecimalResult<Real> TextCursor::reread() const {
   const char* end = at_;
