@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Scene scene;
   Warnings warnings;
   ReadOptions options;
-  options.attributes = options.primitives = size % 2 == 0;
+  options.attributes = options.primitives = options.segments = size % 2 == 0;
   options.hash = false;
   try {
     GltfAsset asset = read_gltf(std::as_bytes(std::span(data, size)), "input", options, warnings);

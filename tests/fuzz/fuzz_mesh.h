@@ -35,6 +35,14 @@ inline void check(const Mesh& mesh) {
   };
   require_indices(mesh.texture_triangles, mesh.texture_coordinates.size());
   require_indices(mesh.normal_triangles, mesh.normals.size());
+  for (const TriangleSegments& segments : mesh.segments) {
+    require(mesh.segments_by(segments.by) == &segments);
+    require(segments.numbers.size() == 1 || segments.numbers.size() == mesh.triangles.size());
+    const std::size_t end =
+        segments.by == Segmentation::label ? unsegmented : segments.names.size();
+    for (const std::uint32_t number : segments.numbers)
+      require(number == unsegmented || number < end);
+  }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     require(mesh.face_of(static_cast<std::uint32_t>(t)) < mesh.face_count);
 }
@@ -45,10 +53,13 @@ int one_input(const Read& read) {
   for (const bool all : {false, true}) {
     try {
       Warnings warnings;
-      check(read(
-          ReadOptions{
-              .format = {}, .threads = 1, .attributes = all, .primitives = all, .hash = false},
-          warnings));
+      check(read(ReadOptions{.format = {},
+                             .threads = 1,
+                             .attributes = all,
+                             .primitives = all,
+                             .segments = all,
+                             .hash = false},
+                 warnings));
     } catch (const InputError&) {
     }
   }

@@ -6,6 +6,7 @@
 
 #include "fathom/geometry/frames.h"
 #include "fathom/mesh/mesh_array.h"
+#include "fathom/mesh/segmentation.h"
 
 namespace fathom {
 
@@ -16,7 +17,7 @@ using CornerIndices = std::array<std::uint32_t, 3>;
 
 /// A list of triangles numbered from 0 in file order, degenerate ones included (specification,
 /// section 3). Readers check that every coordinate is finite and every index in range, so engines
-/// need not. Not in it: a transform (see Object), topology, materials.
+/// need not. Not in it: a transform (see Object), topology, what materials look like.
 struct Mesh {
   /// One point per vertex, in the file's own frame and unit.
   MeshArray<MeshPoint> vertices;
@@ -43,12 +44,22 @@ struct Mesh {
   MeshArray<CornerIndices> texture_triangles;
   MeshArray<CornerIndices> normal_triangles;
 
+  /// At most one for each Segmentation, where the file has them and they were asked for
+  /// (ReadOptions::segments).
+  std::vector<TriangleSegments> segments;
+
   /// Whether there is nothing to draw.
   [[nodiscard]] bool is_empty() const {
     return triangles.empty() && lines.empty() && points.empty();
   }
   [[nodiscard]] std::uint32_t face_of(std::uint32_t triangle) const {
     return face_of_triangle.empty() ? triangle : face_of_triangle[triangle];
+  }
+  /// nullptr if there are none.
+  [[nodiscard]] const TriangleSegments* segments_by(Segmentation by) const {
+    for (const TriangleSegments& each : segments)
+      if (each.by == by) return &each;
+    return nullptr;
   }
 };
 

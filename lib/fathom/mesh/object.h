@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "fathom/geometry/frames.h"
+#include "fathom/mesh/segmentation.h"
 
 namespace fathom {
 
@@ -21,6 +23,8 @@ struct Object {
   std::uint64_t first_face = 0;
   /// Index into Scene::sources of the file that the mesh comes from.
   std::size_t source = 0;
+  /// What comes before the segments of its mesh; null: nothing. Instances share it.
+  std::shared_ptr<const ObjectSegments> segments = nullptr;
 };
 
 /// How much memory the numbers of a transform take, in bytes: they grow with every transform that it

@@ -12,7 +12,7 @@ namespace fathom::mesh_files {
 /// file. A budget is one: free_bytes, and `factor` times the bytes of the files. It is asked before
 /// memory is taken, so that a file that exceeds it costs no more than its budget.
 ///
-/// The least factor that every file can do with whose bytes are used once is near 35: an instance
+/// The least factor that every file can do with whose bytes are used once is near 37: an instance
 /// of EXT_mesh_gpu_instancing is 12 bytes, and an Object with a transform and a name of its own.
 /// (A glTF vertex of 4 bytes becomes 24, the index of a strip of one byte a triangle of 12.) The
 /// default is nearly twice that, and free_bytes are enough for 2,800,000 vertices or 150,000

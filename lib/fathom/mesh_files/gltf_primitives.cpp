@@ -90,6 +90,7 @@ Mesh GltfPrimitives::read(const JsonValue& description) {
                  [&](const JsonValue& primitive) { read_primitive(primitive, mesh); });
   mesh.face_count = mesh.triangles.size();
   settle_attributes(mesh);
+  if (materials_) settle_materials(mesh);
   return mesh;
 }
 
@@ -119,6 +120,36 @@ void GltfPrimitives::settle_attributes(Mesh& mesh) {
   settle([](const Run& run) { return run.has_texture; }, mesh.texture_coordinates,
          mesh.texture_triangles);
   settle([](const Run& run) { return run.has_normals; }, mesh.normals, mesh.normal_triangles);
+}
+
+/// Materials are numbered by name: two of one name are one.
+void GltfPrimitives::settle_materials(Mesh& mesh) {
+  TriangleSegments segments{Segmentation::material, {}, {}};
+  std::map<std::string, std::uint32_t> numbers;
+  std::vector<std::uint32_t> of_runs;
+  for (const Run& run : runs_) {
+    std::uint32_t number = unsegmented;
+    if (run.material) {
+      const std::string name = materials_->name(*run.material);
+      const auto [known, is_new] =
+          numbers.try_emplace(name, static_cast<std::uint32_t>(numbers.size()));
+      number = known->second;
+      if (is_new) {
+        accessors_.budget().take(2, sizeof(std::string) + name.size());
+        segments.names.push_back(name);
+      }
+    }
+    of_runs.push_back(number);
+  }
+  if (segments.names.empty()) return;
+  segments.numbers = compact_segments(of_runs);
+  if (segments.numbers.size() > 1) {
+    segments.numbers.clear();
+    make_room(segments.numbers, mesh.triangles.size());
+    for (std::size_t i = 0; i < runs_.size(); ++i)
+      segments.numbers.resize(runs_[i].end, of_runs[i]);
+  }
+  mesh.segments.push_back(std::move(segments));
 }
 
 void GltfPrimitives::read_primitive(const JsonValue& primitive, Mesh& mesh) {
@@ -175,8 +206,13 @@ void GltfPrimitives::add_triangles(std::uint64_t code, std::size_t corners,
     const auto [a, b, c] = corners_of(mode, i);
     mesh.triangles.push_back({vertex(a), vertex(b), vertex(c)});
   }
-  if (count > 0)
-    runs_.push_back({mesh.triangles.size(), vertices.has_texture, vertices.has_normals});
+  if (count > 0) {
+    runs_.push_back({mesh.triangles.size(), vertices.has_texture, vertices.has_normals, {}});
+    if (materials_) {
+      runs_.back().material = materials_->of(primitive);
+      if (!runs_.back().material && primitive.find("material")) ++missing_materials_;
+    }
+  }
 }
 
 const GltfPrimitives::Vertices& GltfPrimitives::vertices_of(const GltfPrimitiveAccessors& accessors,
@@ -280,6 +316,9 @@ void GltfPrimitives::report(const std::string& file, Warnings& warnings) const {
        "primitives have no positions; they are skipped");
   warn(leftover_corners_, "index is left over after the last whole primitive",
        "indices are left over after the last whole primitive");
+  warn(missing_materials_,
+       "primitive has a material that is not in the file; it counts as having none",
+       "primitives have materials that are not in the file; they count as having none");
   warn(unusable_attributes_,
        "list of normals, texture coordinates or colours is of the wrong type or length, or not "
        "finite; it is left out",

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fathom/mesh/mesh.h"
+#include "fathom/mesh_files/gltf_materials.h"
 #include "fathom/mesh_files/gltf_primitive_accessors.h"
 #include "fathom/text/warnings.h"
 
@@ -17,9 +19,13 @@ namespace fathom::mesh_files {
 
 class GltfPrimitives {
  public:
-  /// `accessors` must outlive this.
-  GltfPrimitives(GltfAccessors& accessors, bool attributes, bool lines_and_points)
-      : accessors_(accessors), attributes_(attributes), lines_and_points_(lines_and_points) {}
+  /// `accessors` and `materials` must outlive this; `materials` is null where they are not wanted.
+  GltfPrimitives(GltfAccessors& accessors, const GltfMaterials* materials, bool attributes,
+                 bool lines_and_points)
+      : accessors_(accessors),
+        materials_(materials),
+        attributes_(attributes),
+        lines_and_points_(lines_and_points) {}
 
   /// All primitives of a glTF mesh in order. Primitives of the same accessors share their vertices.
   Mesh read(const text::JsonValue& mesh);
@@ -56,12 +62,14 @@ class GltfPrimitives {
   void read_indices(const text::JsonValue& primitive, const GltfAccessor& indices,
                     const Vertices& vertices);
   void settle_attributes(Mesh& mesh);
+  void settle_materials(Mesh& mesh);
   /// Makes room for `more` elements, if the budget allows it. Many primitives are appended to one
   /// list: it at least doubles when it grows, so that this takes linear time.
   template <class List>
   void make_room(List& list, std::uint64_t more);
 
   GltfAccessors& accessors_;
+  const GltfMaterials* materials_;
   bool attributes_, lines_and_points_;
 
   // For the mesh that is being read: vertices by the accessors of their attributes.
@@ -70,6 +78,8 @@ class GltfPrimitives {
   struct Run {
     std::size_t end = 0;
     bool has_texture = false, has_normals = false;
+    /// The number of the material, if it has one.
+    std::optional<std::size_t> material;
   };
   std::vector<Run> runs_;
   // For the primitive that is being read.
@@ -77,7 +87,7 @@ class GltfPrimitives {
 
   bool quantized_positions_ = false;
   std::uint64_t not_triangles_ = 0, without_positions_ = 0, leftover_corners_ = 0;
-  std::uint64_t unusable_attributes_ = 0;
+  std::uint64_t unusable_attributes_ = 0, missing_materials_ = 0;
 };
 
 }  // namespace fathom::mesh_files

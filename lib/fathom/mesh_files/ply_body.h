@@ -19,7 +19,8 @@ enum PlySlot : int {
   slot_normal = 3,
   slot_texture = 6,
   slot_colour = 8,
-  slot_count = 12
+  slot_label = 12,
+  slot_count = 13
 };
 
 /// The values of a vertex that were asked for, each in the slot of its kind.
@@ -29,8 +30,8 @@ using PlyVertex = std::array<double, slot_count>;
 /// vertices and faces to a sink:
 ///   begin_vertices(element, has, rows)      has(slot): whether the element has that value
 ///   vertex(values)
-///   begin_faces(element, indices, most, rows)   `most` faces of three corners fit into the file
-///   face(ring, rows)                        after its row
+///   begin_faces(element, columns, most, rows)   `most` faces of three corners fit into the file
+///   face(face, rows)                        after its row
 ///   begin_strips(element, indices)
 ///   strip_corner(strip, row, rows)          before a corner of a strip is read
 ///   strip_triangle(triangle)                a face of its own
@@ -39,10 +40,12 @@ using PlyVertex = std::array<double, slot_count>;
 template <class Rows, class Sink>
 class PlyBody {
  public:
-  PlyBody(Rows rows, const PlyHeader& header, const std::string& file, bool attributes, Sink& sink)
+  PlyBody(Rows rows, const PlyHeader& header, const std::string& file, bool attributes,
+          const PlyLabels& labels, Sink& sink)
       : header_(header),
         file_(file),
         attributes_(attributes),
+        labels_(labels),
         sink_(sink),
         reader_(std::move(rows), vertices_of(header, file)) {}
 
@@ -78,6 +81,12 @@ class PlyBody {
                          (short_strips_ == 1
                               ? " triangle strip of fewer than three corners is skipped"
                               : " triangle strips of fewer than three corners are skipped"));
+    if (unusable_labels_ > 0)
+      warnings.push_back(
+          file_ + ": " +
+          text::counted(unusable_labels_, "label is no number", "labels are no numbers") +
+          " from 0 to 4294967293: what has " + (unusable_labels_ == 1 ? "it" : "them") +
+          " counts as not labelled");
   }
 
   static constexpr int skipped = -1;
@@ -115,6 +124,7 @@ class PlyBody {
     };
     if (!assign(slot_x, {"x"}) || !assign(slot_x + 1, {"y"}) || !assign(slot_x + 2, {"z"}))
       fail_lacks_coordinates(file_);
+    if (labels_.in_vertex) plan[*labels_.in_vertex] = slot_label;
     if (!attributes_) return plan;
     assign(slot_normal, {"nx"}), assign(slot_normal + 1, {"ny"}), assign(slot_normal + 2, {"nz"});
     assign(slot_texture, {"s", "u", "texture_u"}),
@@ -141,6 +151,10 @@ class PlyBody {
 
   void read_value(const PlyProperty& property, int slot, PlyVertex& row) {
     if (slot == skipped) return reader_.skip(property);
+    if (slot == slot_label) {
+      row[slot] = usable(rows().label(property.type));
+      return;
+    }
     if (slot < slot_normal) {
       static constexpr const char* names[] = {"coordinate x", "coordinate y", "coordinate z"};
       row[slot] = rows().finite(property.type, names[slot]);
@@ -158,16 +172,24 @@ class PlyBody {
   }
 
   void read_faces(const PlyElement& element) {
-    const std::size_t indices = indices_of(element);
-    const std::uint64_t least = Rows::least_triangle_size(element, element.properties[indices]);
-    sink_.begin_faces(element, indices, std::min(element.count, rows().rest() / least), rows());
+    const PlyFaceColumns columns{indices_of(element), labels_.in_face};
+    const std::uint64_t least =
+        Rows::least_triangle_size(element, element.properties[columns.indices]);
+    sink_.begin_faces(element, columns, std::min(element.count, rows().rest() / least), rows());
     for (std::uint64_t i = 0; i < element.count; ++i) {
       rows().begin_row(element, i);
-      reader_.read_face(element, indices, ring_);
-      rows().expect_face(ring_.size());
+      reader_.read_face(element, columns, face_);
+      rows().expect_face(face_.ring.size());
       rows().end_row();
-      sink_.face(ring_, rows());
+      if (columns.label) usable(face_.label);
+      sink_.face(face_, rows());
     }
+  }
+
+  /// A label as it is, counted where it is none.
+  std::uint32_t usable(std::uint32_t label) {
+    if (label == unsegmented) ++unusable_labels_;
+    return label;
   }
 
   /// The place of the list of corners among the properties.
@@ -259,10 +281,11 @@ class PlyBody {
   const PlyHeader& header_;
   const std::string& file_;
   bool attributes_;
+  PlyLabels labels_;
   Sink& sink_;
   PlyRowReader<Rows> reader_;
-  std::vector<std::uint32_t> ring_;
-  std::uint64_t short_strips_ = 0;
+  PlyFace face_;
+  std::uint64_t short_strips_ = 0, unusable_labels_ = 0;
 };
 
 }  // namespace fathom::mesh_files

@@ -14,6 +14,7 @@
 
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh_files/ply_header.h"
+#include "fathom/mesh_files/ply_labels.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_window.h"
 
@@ -75,6 +76,8 @@ class BinaryRows {
         return take<std::uint32_t>();
     }
   }
+  /// A label, `unsegmented` where it is none.
+  std::uint32_t label(PlyType type) { return label_from(integer(type, "")); }
   void skip(PlyType type, std::uint64_t count = 1) {
     if (count > rest() / size_of(type)) fail_end();
     bytes_.skip(count * size_of(type));
@@ -113,7 +116,21 @@ struct PlyStrip {
   std::array<std::uint32_t, 2> last{};
 };
 
-/// What faces consist of: lists of indices of vertices, and properties that nobody asked for.
+/// The properties of a face that are read: their places among those of its element.
+struct PlyFaceColumns {
+  std::size_t indices = 0;
+  std::optional<std::size_t> label = std::nullopt;
+};
+
+/// A face as it is read.
+struct PlyFace {
+  /// The vertices of its corners.
+  std::vector<std::uint32_t> ring;
+  std::uint32_t label = unsegmented;
+};
+
+/// What faces consist of: lists of indices of vertices, labels, and properties that nobody asked
+/// for.
 template <class Rows>
 class PlyRowReader {
  public:
@@ -122,11 +139,13 @@ class PlyRowReader {
 
   [[nodiscard]] Rows& rows() { return rows_; }
 
-  /// One row of element face, whose property `indices` is the list of its corners.
-  void read_face(const PlyElement& element, std::size_t indices, std::vector<std::uint32_t>& ring) {
+  /// One row of element face.
+  void read_face(const PlyElement& element, const PlyFaceColumns& columns, PlyFace& face) {
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
-      if (k == indices) {
-        read_ring(element.properties[k], ring);
+      if (k == columns.indices) {
+        read_ring(element.properties[k], face.ring);
+      } else if (k == columns.label) {
+        face.label = rows_.label(element.properties[k].type);
       } else {
         skip(element.properties[k]);
       }

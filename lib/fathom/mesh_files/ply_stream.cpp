@@ -23,10 +23,11 @@ struct Scan {
   bool big_endian = false;
   std::optional<PlyVertexLayout> layout;
   /// Used if vertices have list properties.
-  std::vector<MeshPoint> list;
+  PlyVertexList list;
+  PlyLabels labels;
 
   PlyElement face_element;
-  std::size_t indices = 0;
+  PlyFaceColumns columns;
   FaceIndex faces;
   std::uint64_t skipped = 0;
 
@@ -46,21 +47,27 @@ class ScanSink {
   template <class Has, class Rows>
   void begin_vertices(const PlyElement& element, const Has&, const Rows& rows) {
     lists_ = element.has_lists();
-    if (!lists_) scan_.layout = layout_of_vertices(element, rows.position(), scan_.big_endian);
+    if (lists_) return;
+    scan_.layout =
+        layout_of_vertices(element, rows.position(), scan_.big_endian, scan_.labels.in_vertex);
   }
   void vertex(const PlyVertex& row) {
-    if (lists_) scan_.list.push_back({row[0], row[1], row[2]});
+    if (!lists_) return;
+    scan_.list.points.push_back({row[0], row[1], row[2]});
+    if (scan_.labels.in_vertex)
+      scan_.list.labels.push_back(static_cast<std::uint32_t>(row[slot_label]));
   }
 
   template <class Rows>
-  void begin_faces(const PlyElement& element, std::size_t indices, std::uint64_t,
+  void begin_faces(const PlyElement& element, const PlyFaceColumns& columns, std::uint64_t,
                    const Rows& rows) {
     scan_.face_element = element;
-    scan_.indices = indices;
+    scan_.columns = columns;
     scan_.faces.begin(rows.position());
   }
   template <class Rows>
-  void face(const std::vector<std::uint32_t>& ring, const Rows& rows) {
+  void face(const PlyFace& face, const Rows& rows) {
+    const std::vector<std::uint32_t>& ring = face.ring;
     scan_.faces.add(ring.size(), rows.position());
     expect_numbers();
     if (ring.size() < 3) {
@@ -158,10 +165,10 @@ class PlyStream : public TriangleStream {
     Mesh& mesh = chunk.mesh;
     mesh.triangles.reserve(count);
     ChunkVertices vertices(*vertices_, mesh.vertices);
-    walk(first, count, Reading::many, [&](std::uint32_t face, const CornerIndices& t) {
+    walk(first, count, Reading::many, [&](Origin from, const CornerIndices& t) {
       mesh.triangles.push_back(
           {vertices.number_of(t[0]), vertices.number_of(t[1]), vertices.number_of(t[2])});
-      if (!scan_.faces.triangles_only()) mesh.face_of_triangle.push_back(face);
+      if (!scan_.faces.triangles_only()) mesh.face_of_triangle.push_back(from.face);
     });
     file_->expect_unchanged();
     return chunk;
@@ -169,8 +176,8 @@ class PlyStream : public TriangleStream {
 
   [[nodiscard]] Triangle triangle(std::uint32_t number) const override {
     Triangle result;
-    walk(number, 1, Reading::one, [&](std::uint32_t face, const CornerIndices& t) {
-      result = {{(*vertices_)[t[0]], (*vertices_)[t[1]], (*vertices_)[t[2]]}, face};
+    walk(number, 1, Reading::one, [&](Origin from, const CornerIndices& t) {
+      result = {{(*vertices_)[t[0]], (*vertices_)[t[1]], (*vertices_)[t[2]]}, from.face};
     });
     return result;
   }
@@ -179,7 +186,24 @@ class PlyStream : public TriangleStream {
     return scan_.faces.triangles_only() ? number : triangle(number).face;
   }
 
+  [[nodiscard]] std::uint32_t label_of(std::uint32_t number) const override {
+    std::uint32_t label = unsegmented;
+    if (!scan_.labels.in_face && !vertices_->have_labels()) return label;
+    walk(number, 1, Reading::one, [&](Origin from, const CornerIndices& t) {
+      label = from.label;
+      if (vertices_->have_labels())
+        label =
+            common_label(vertices_->label(t[0]), vertices_->label(t[1]), vertices_->label(t[2]));
+    });
+    return label;
+  }
+
  private:
+  /// The face that a triangle comes from, and the face's label.
+  struct Origin {
+    std::uint32_t face = 0, label = unsegmented;
+  };
+
   void find_bounds() {
     for (std::size_t i = 0; i < scan_.used.size(); ++i) {
       if (!scan_.used[i]) continue;
@@ -199,8 +223,8 @@ class PlyStream : public TriangleStream {
     std::uint64_t odd = 0;
     std::vector<CornerIndices> cut;
     walk_faces(0, scan_.faces.end().triangle, window_size,
-               [&](std::uint64_t, std::uint64_t, const std::vector<std::uint32_t>& ring) {
-                 if (cut_face(ring, cut) == Triangulation::fallback_fan) ++odd;
+               [&](std::uint64_t, std::uint64_t, const PlyFace& face) {
+                 if (cut_face(face.ring, cut) == Triangulation::fallback_fan) ++odd;
                });
     return odd;
   }
@@ -222,7 +246,7 @@ class PlyStream : public TriangleStream {
 
   enum class Reading { one, many };
 
-  /// Calls visit(face, corners) for `count` triangles from `first` on, corners being numbers of
+  /// Calls visit(origin, corners) for `count` triangles from `first` on, corners being numbers of
   /// vertices: those of the faces and those of the strips, in the order of the file.
   template <class Visit>
   void walk(std::uint32_t first, std::uint32_t count, Reading reading, const Visit& visit) const {
@@ -231,14 +255,14 @@ class PlyStream : public TriangleStream {
     const auto walk_strips_from = [&](std::uint64_t triangle, std::uint64_t face) {
       walk_strips(part_of(first, end, triangle, strips), reading,
                   [&](std::uint64_t t, const CornerIndices& corners) {
-                    visit(static_cast<std::uint32_t>(face + t), corners);
+                    visit({.face = static_cast<std::uint32_t>(face + t)}, corners);
                   });
     };
     if (scan_.strips_first) walk_strips_from(0, 0);
     const std::uint64_t before = scan_.strips_first ? strips : 0;
     walk_cut_faces(part_of(first, end, before, faces.triangle), reading,
-                   [&](std::uint64_t face, const CornerIndices& corners) {
-                     visit(static_cast<std::uint32_t>(before + face), corners);
+                   [&](std::uint64_t face, std::uint32_t label, const CornerIndices& corners) {
+                     visit({static_cast<std::uint32_t>(before + face), label}, corners);
                    });
     if (!scan_.strips_first) walk_strips_from(faces.triangle, faces.face);
   }
@@ -260,20 +284,20 @@ class PlyStream : public TriangleStream {
     if (part.empty()) return;
     const std::size_t window = reading == Reading::one ? scan_.faces.reach() : window_size;
     std::vector<CornerIndices> cut;
-    walk_faces(
-        part.first, part.end, window,
-        [&](std::uint64_t triangle, std::uint64_t face, const std::vector<std::uint32_t>& ring) {
-          if (triangle + triangles_of(ring.size()) <= part.first) return;
-          cut_face(ring, cut);
-          for (const auto& [a, b, c] : cut) {
-            if (triangle >= part.first && triangle < part.end)
-              visit(face, {ring[a], ring[b], ring[c]});
-            ++triangle;
-          }
-        });
+    walk_faces(part.first, part.end, window,
+               [&](std::uint64_t triangle, std::uint64_t number, const PlyFace& face) {
+                 const std::vector<std::uint32_t>& ring = face.ring;
+                 if (triangle + triangles_of(ring.size()) <= part.first) return;
+                 cut_face(ring, cut);
+                 for (const auto& [a, b, c] : cut) {
+                   if (triangle >= part.first && triangle < part.end)
+                     visit(number, face.label, {ring[a], ring[b], ring[c]});
+                   ++triangle;
+                 }
+               });
   }
 
-  /// Calls visit(first triangle, face, ring) for the faces that triangles [first, end) come from,
+  /// Calls visit(first triangle, number, face) for the faces that triangles [first, end) come from,
   /// and for some before them.
   template <class Visit>
   void walk_faces(std::uint64_t first, std::uint64_t end, std::size_t window,
@@ -291,11 +315,11 @@ class PlyStream : public TriangleStream {
                  const Visit& visit) const {
     FacePlace here = scan_.faces.before(first);
     auto reader = reader_at<big_endian>(here.offset, scan_.faces.end().offset, window);
-    std::vector<std::uint32_t> ring;
+    PlyFace face;
     while (here.triangle < end) {
-      reader.read_face(scan_.face_element, scan_.indices, ring);
-      visit(here.triangle, here.face, ring);
-      here.triangle += triangles_of(ring.size());
+      reader.read_face(scan_.face_element, scan_.columns, face);
+      visit(here.triangle, here.face, face);
+      here.triangle += triangles_of(face.ring.size());
       ++here.face;
     }
   }
@@ -354,14 +378,17 @@ void scan_file(const RandomAccessFile& file, const PlyHeader& header, Scan& scan
   scan.big_endian = big_endian;
   ScanSink sink(scan, file);
   Rows rows(ByteWindow(file, header.size, file.size(), window_size), file.name());
-  PlyBody<Rows, ScanSink>(std::move(rows), header, file.name(), false, sink).read(warnings);
+  PlyBody<Rows, ScanSink>(std::move(rows), header, file.name(), false, scan.labels, sink)
+      .read(warnings);
 }
 
 }  // namespace
 
 std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<RandomAccessFile> file,
-                                                const PlyHeader& header, Warnings& warnings) {
+                                                const PlyHeader& header, bool segments,
+                                                Warnings& warnings) {
   Scan scan;
+  if (segments) scan.labels = find_ply_labels(header, file->name(), warnings);
   if (header.encoding == PlyHeader::Encoding::big_endian) {
     scan_file<true>(*file, header, scan, warnings);
   } else {

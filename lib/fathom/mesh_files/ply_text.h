@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "fathom/mesh_files/ply_header.h"
+#include "fathom/mesh_files/ply_labels.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/text_cursor.h"
 
@@ -77,6 +78,15 @@ class PlyTextRows {
                    " does not fit the type of its property, expected " + std::to_string(least) +
                    " to " + std::to_string(greatest));
     return value;
+  }
+  /// A label, `unsegmented` where the word is none: a mesh can do without.
+  std::uint32_t label(PlyType) {
+    go_to_word("a value");
+    const std::string_view word = cursor_.word();
+    const char* const last = word.data() + word.size();
+    std::int64_t number = 0;
+    return text::TextCursor::parse_integer(word.data(), last, number) == last ? label_from(number)
+                                                                              : unsegmented;
   }
   void skip(PlyType) {
     go_to_word("a value");

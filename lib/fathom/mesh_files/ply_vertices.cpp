@@ -7,6 +7,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "fathom/mesh_files/ply_labels.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::mesh_files {
@@ -46,11 +47,16 @@ double value_at(const char* at, PlyType type, bool big_endian) {
 
 }  // namespace
 
-PlyVertexLayout layout_of_vertices(const PlyElement& element, std::uint64_t offset,
-                                   bool big_endian) {
+PlyVertexLayout layout_of_vertices(const PlyElement& element, std::uint64_t offset, bool big_endian,
+                                   std::optional<std::size_t> label) {
   PlyVertexLayout layout{.offset = offset, .count = element.count, .big_endian = big_endian};
   static constexpr const char* names[] = {"x", "y", "z"};
-  for (const PlyProperty& property : element.properties) {
+  for (std::size_t k = 0; k < element.properties.size(); ++k) {
+    const PlyProperty& property = element.properties[k];
+    if (k == label) {
+      layout.label_place = layout.row_size;
+      layout.label_type = property.type;
+    }
     for (std::size_t i = 0; i < 3; ++i) {
       if (property.name != names[i]) continue;
       layout.places[i] = layout.row_size;
@@ -74,7 +80,7 @@ PlyVertices::PlyVertices(const RandomAccessFile& file, const PlyVertexLayout& la
 }
 
 MeshPoint PlyVertices::operator[](std::uint32_t vertex) const {
-  if (!rows_) return list_[vertex];
+  if (!rows_) return list_.points[vertex];
   const char* row = rows_ + layout_.row_size * vertex;
   const auto coordinate = [&](std::size_t i) {
     return value_at(row + layout_.places[i], layout_.types[i], layout_.big_endian);
@@ -85,6 +91,14 @@ MeshPoint PlyVertices::operator[](std::uint32_t vertex) const {
                      " is not finite any more: the file has been written to since it was opened");
   }
   return point;
+}
+
+std::uint32_t PlyVertices::label(std::uint32_t vertex) const {
+  if (!rows_) return list_.labels[vertex];
+  // Integers of 32 bits are binary64 numbers.
+  const char* at = rows_ + layout_.row_size * vertex + layout_.label_place;
+  return label_from(
+      static_cast<std::int64_t>(value_at(at, *layout_.label_type, layout_.big_endian)));
 }
 
 }  // namespace fathom::mesh_files

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,21 @@ struct PlyVertexLayout {
   /// Positions of x, y and z within a row.
   std::array<std::size_t, 3> places{};
   std::array<PlyType, 3> types{};
+  /// The position of the label within a row, and its type, if it has one.
+  std::size_t label_place = 0;
+  std::optional<PlyType> label_type = std::nullopt;
 };
 
-/// The layout of an element without lists that has x, y and z.
-PlyVertexLayout layout_of_vertices(const PlyElement& element, std::uint64_t offset,
-                                   bool big_endian);
+/// The layout of an element without lists that has x, y and z, whose property `label`, if it is one,
+/// is a label.
+PlyVertexLayout layout_of_vertices(const PlyElement& element, std::uint64_t offset, bool big_endian,
+                                   std::optional<std::size_t> label);
+
+/// Vertices in memory, with their labels, if they have any.
+struct PlyVertexList {
+  std::vector<MeshPoint> points;
+  std::vector<std::uint32_t> labels;
+};
 
 /// The vertices of a PLY file by number: mapped, so that they take addresses but no memory that the
 /// system could not take back; or, if their rows differ in length, a list.
@@ -35,16 +46,21 @@ class PlyVertices {
  public:
   /// Fails    InputError if the block cannot be mapped, for instance for lack of addresses.
   PlyVertices(const text::RandomAccessFile& file, const PlyVertexLayout& layout);
-  explicit PlyVertices(std::vector<MeshPoint> list) : list_(std::move(list)) {}
+  explicit PlyVertices(PlyVertexList list) : list_(std::move(list)) {}
   PlyVertices(const PlyVertices&) = delete;
   PlyVertices& operator=(const PlyVertices&) = delete;
 
   /// Fails    InputError if the vertex is not finite, which it was when the file was checked.
   [[nodiscard]] MeshPoint operator[](std::uint32_t vertex) const;
+  /// Whether they have labels; the label of one, `unsegmented` where it is none.
+  [[nodiscard]] bool have_labels() const {
+    return rows_ ? layout_.label_type.has_value() : !list_.labels.empty();
+  }
+  [[nodiscard]] std::uint32_t label(std::uint32_t vertex) const;
 
  private:
   PlyVertexLayout layout_;
-  std::vector<MeshPoint> list_;
+  PlyVertexList list_;
   std::string name_;
   text::MappedFile mapped_;
   const char* rows_ = nullptr;

@@ -1,5 +1,6 @@
 #include "fathom/mesh_files/read_gltf.h"
 
+#include <memory>
 #include <string>
 #include <unordered_map>
 
@@ -7,6 +8,7 @@
 #include "fathom/mesh_files/gltf_buffers.h"
 #include "fathom/mesh_files/gltf_extensions.h"
 #include "fathom/mesh_files/gltf_instances.h"
+#include "fathom/mesh_files/gltf_materials.h"
 #include "fathom/mesh_files/gltf_primitives.h"
 #include "fathom/mesh_files/gltf_references.h"
 #include "fathom/mesh_files/gltf_transform.h"
@@ -34,7 +36,10 @@ class GltfReader {
              std::string file, Warnings& warnings)
       : root_(root),
         accessors_(accessors),
-        primitives_(accessors, options.attributes, options.primitives),
+        materials_(root),
+        primitives_(accessors, options.segments ? &materials_ : nullptr, options.attributes,
+                    options.primitives),
+        segments_(options.segments),
         file_(std::move(file)),
         warnings_(warnings),
         nodes_(root.find("nodes")),
@@ -116,33 +121,53 @@ class GltfReader {
       reference.fail("there is no mesh " + std::to_string(index));
     const JsonValue mesh = meshes_->element(index);
     const auto [known, is_new] = read_meshes_.try_emplace(index, asset_.meshes.size());
-    if (is_new) asset_.meshes.push_back(primitives_.read(mesh));
+    if (is_new) {
+      asset_.meshes.push_back(primitives_.read(mesh));
+      if (segments_) name_group(mesh, index, asset_.meshes.back());
+    }
     const std::string name = name_of(node, node_index, mesh);
+    const auto part = segments_ ? part_named(name) : nullptr;
     if (const auto instances = GltfInstances::of(node, accessors_))
-      place_instances(node, known->second, *instances, world_from_node, name);
+      place_instances(node, known->second, *instances, world_from_node, name, part);
     else
-      add_object(node, known->second, world_from_node, name);
+      add_object(node, known->second, world_from_node, name, part);
     skins_ += node.find("skin") ? 1 : 0;
     morphs_ += mesh.find("weights") || node.find("weights") ? 1 : 0;
   }
 
+  /// All triangles of a mesh are one group, which has its name.
+  void name_group(const JsonValue& description, std::uint64_t index, Mesh& mesh) {
+    std::string name = name_or_number(description, "mesh", index);
+    accessors_.budget().take(2, sizeof(std::string) + name.size());
+    mesh.segments.push_back({Segmentation::group, {0}, {std::move(name)}});
+  }
+
+  /// All triangles of a node are one part, its instances included.
+  std::shared_ptr<const ObjectSegments> part_named(const std::string& name) {
+    accessors_.budget().take(2, sizeof(ObjectSegments) + name.size());
+    return std::make_shared<const ObjectSegments>(
+        ObjectSegments{{{Segmentation::part, name}}, std::nullopt});
+  }
+
   void place_instances(const JsonValue& node, std::size_t mesh, const GltfInstances& instances,
-                       const WorldFromMesh& world_from_node, const std::string& name) {
+                       const WorldFromMesh& world_from_node, const std::string& name,
+                       const std::shared_ptr<const ObjectSegments>& part) {
     accessors_.budget().take(instances.count(), sizeof(GltfPlacement));
     std::uint64_t number = 0;
     for (const GltfPlacement& placement : instances.placements()) {
       add_object(node, mesh, compose(world_from_node, transform_of(placement)),
-                 name + "[" + std::to_string(number++) + "]");
+                 name + "[" + std::to_string(number++) + "]", part);
     }
   }
 
   void add_object(const JsonValue& node, std::size_t mesh, const WorldFromMesh& world_from_mesh,
-                  const std::string& name) {
+                  const std::string& name, const std::shared_ptr<const ObjectSegments>& part) {
     Object object;
     object.mesh = mesh;
     object.world_from_mesh = world_from_mesh;
     object.placed_as_is = world_from_mesh.rows == WorldFromMesh().rows;
     object.name = name;
+    object.segments = part;
     object.first_face = next_face_;
     // Many nodes may have the name of one mesh, and its triangles.
     accessors_.budget().take_object(bytes_of(object), asset_.meshes[mesh].triangles.size());
@@ -159,7 +184,10 @@ class GltfReader {
 
   JsonValue root_;
   GltfAccessors& accessors_;
+  GltfMaterials materials_;
   GltfPrimitives primitives_;
+  /// Whether nodes and meshes are asked for by name.
+  bool segments_;
   std::string file_;
   Warnings& warnings_;
   GltfAsset asset_;

@@ -13,8 +13,8 @@
 /// for messages. All fail with InputError: "FILE: line N: …" (text) or "FILE: byte N: …" (binary).
 namespace fathom::mesh_files {
 
-/// Wavefront OBJ: v, vt, vn and f lines; o, g, s, usemtl, mtllib and the like are ignored, other
-/// keywords are ignored with a warning. Indices count from 1, negative ones backwards from the last
+/// Wavefront OBJ: v, vt, vn and f lines, and, if asked for, o, g and usemtl (obj_segments.h has how
+/// names are read); s, mtllib and the like are ignored, other keywords are ignored with a warning. Indices count from 1, negative ones backwards from the last
 /// one read; positive ones may point forward. `v x y z w` is the point (x/w, y/w, z/w), with a
 /// warning unless w is 1. `v x y z r g b [a]` has a colour; vertices without one are white. Where
 /// no vertex has a z it is 0, with a warning. A corner whose texture coordinate or normal is not in

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh_files/obj_segments.h"
 #include "fathom/mesh_files/occurrences.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/numeric/errors.h"
@@ -25,7 +26,7 @@ namespace {
 constexpr TextCursor::Syntax obj_syntax{.comments = true, .continuation = true};
 constexpr std::size_t chunk_size = std::size_t{1} << 20;
 
-enum class Statement { vertex, texture, normal, face, line, point, ignored, unknown };
+enum class Statement { vertex, texture, normal, face, line, point, segment, ignored, unknown };
 
 /// Nearly all keywords are one letter long: they are told apart first, without comparing strings.
 Statement statement_named(char keyword) {
@@ -36,6 +37,7 @@ Statement statement_named(char keyword) {
       return Statement::face;
     case 'o':
     case 'g':
+      return Statement::segment;
     case 's':
       return Statement::ignored;
     case 'l':
@@ -51,7 +53,8 @@ Statement statement_named(std::string_view keyword) {
   if (keyword.size() == 1) return statement_named(keyword[0]);
   if (keyword == "vt") return Statement::texture;
   if (keyword == "vn") return Statement::normal;
-  for (const std::string_view known : {"usemtl", "mtllib", "usemap", "maplib", "mg", "lod", "bevel",
+  if (keyword == "usemtl") return Statement::segment;
+  for (const std::string_view known : {"mtllib", "usemap", "maplib", "mg", "lod", "bevel",
                                        "c_interp", "d_interp", "shadow_obj", "trace_obj"})
     if (keyword == known) return Statement::ignored;
   return Statement::unknown;
@@ -131,7 +134,10 @@ std::uint64_t count_words(TextCursor& cursor) {
   return words;
 }
 
-ObjCounts count_statements(std::string_view text, const std::string& file, char line_end) {
+/// Counts what a piece of the file has, and keeps the lines that name segments, where these are
+/// wanted.
+ObjCounts count_statements(std::string_view text, const std::string& file, char line_end,
+                           ObjSegmentLines* segments) {
   ObjCounts counts;
   // Different unknown keywords beyond this number are lumped together.
   constexpr std::size_t most_keywords = 8;
@@ -156,6 +162,10 @@ ObjCounts count_statements(std::string_view text, const std::string& file, char 
         break;
       case Statement::face:
         count_face(cursor, counts);
+        break;
+      case Statement::segment:
+        if (segments)
+          segments->add({obj_segmentation(keyword), cursor.rest_of_line(), counts.triangles});
         break;
       case Statement::ignored:
         break;
@@ -439,6 +449,20 @@ void make_room(const ObjCounts& total, const ReadOptions& options, const std::st
   if (!total.face_normals) mesh.normals.clear();
 }
 
+/// By materials, groups and parts, where the file has any.
+std::vector<TriangleSegments> segments_of(const std::vector<ObjSegmentLines>& pieces,
+                                          const std::vector<ObjCounts>& before) {
+  std::vector<TriangleSegments> result;
+  for (const Segmentation by : {Segmentation::material, Segmentation::group, Segmentation::part}) {
+    ObjSegments segments(by);
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      segments.add(pieces[i].lines(), before[i].triangles);
+    TriangleSegments all = segments.finish(before.back().triangles);
+    if (!all.names.empty()) result.push_back(std::move(all));
+  }
+  return result;
+}
+
 void warn(const ObjCounts& total, const ObjOddities& odd, const ReadOptions& options,
           const std::string& file, Warnings& warnings) {
   if (total.in_the_plane())
@@ -483,8 +507,10 @@ Mesh read_obj(std::string_view bytes, const std::string& file, const ReadOptions
 
   // before[i] counts what comes before piece i.
   std::vector<ObjCounts> before(chunks.size() + 1);
+  std::vector<ObjSegmentLines> segments(options.segments ? chunks.size() : 0);
   for_each_chunk(chunks.size(), options.threads, [&](std::size_t i) {
-    before[i + 1] = count_statements(chunks[i], file, line_end);
+    before[i + 1] =
+        count_statements(chunks[i], file, line_end, options.segments ? &segments[i] : nullptr);
   });
   for (std::size_t i = 1; i < before.size(); ++i) {
     ObjCounts sum = before[i - 1];
@@ -497,6 +523,7 @@ Mesh read_obj(std::string_view bytes, const std::string& file, const ReadOptions
     throw InputError(file + ": holds neither vertices nor faces, expected an OBJ file");
   Mesh mesh;
   make_room(total, options, file, mesh);
+  mesh.segments = segments_of(segments, before);
   std::vector<ObjOddities> odd(chunks.size());
   for_each_chunk(chunks.size(), options.threads, [&](std::size_t i) {
     odd[i] = ObjChunk(chunks[i], file, line_end, before[i], total, mesh).read();

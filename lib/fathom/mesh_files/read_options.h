@@ -21,6 +21,9 @@ struct ReadOptions {
   bool attributes = false;
   /// Keep lines and points: OBJ's l and p, PLY's edges, glTF's modes 0 to 3.
   bool primitives = false;
+  /// Keep what triangles are called: OBJ's usemtl, g and o; the materials, meshes and nodes of glTF;
+  /// a PLY's labels. At most 4 bytes for each triangle and segmentation, beside the names.
+  bool segments = false;
   /// Compute Source::sha256.
   bool hash = true;
   /// Files that are named by other files (a scene file's meshes, a glTF asset's buffers) must lie in

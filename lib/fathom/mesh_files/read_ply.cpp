@@ -24,6 +24,8 @@ class MeshSink {
     if (normals_) mesh_.normals.reserve(element.count);
     if (textures_) mesh_.texture_coordinates.reserve(element.count);
     if (colours_) mesh_.colours.reserve(element.count);
+    vertices_have_labels_ = has(slot_label);
+    if (vertices_have_labels_) vertex_labels_.reserve(element.count);
   }
 
   void vertex(const PlyVertex& row) {
@@ -31,16 +33,24 @@ class MeshSink {
     if (normals_) mesh_.normals.push_back({row[3], row[4], row[5]});
     if (textures_) mesh_.texture_coordinates.push_back({row[6], row[7]});
     if (colours_) push_colour(row);
+    if (vertices_have_labels_)
+      vertex_labels_.push_back(static_cast<std::uint32_t>(row[slot_label]));
   }
 
   template <class Rows>
-  void begin_faces(const PlyElement&, std::size_t, std::uint64_t most, const Rows&) {
+  void begin_faces(const PlyElement&, const PlyFaceColumns& columns, std::uint64_t most,
+                   const Rows&) {
     mesh_.triangles.reserve(most);
+    faces_have_labels_ = columns.label.has_value();
+    if (faces_have_labels_) labels_.reserve(most);
   }
 
   template <class Rows>
-  void face(std::span<const std::uint32_t> ring, const Rows&) {
-    faces_.add(ring);
+  void face(const PlyFace& face, const Rows&) {
+    // Strips before the faces have none.
+    if (faces_have_labels_) labels_.resize(mesh_.triangles.size(), unsegmented);
+    faces_.add(face.ring);
+    if (faces_have_labels_) labels_.resize(mesh_.triangles.size(), face.label);
   }
 
   void begin_strips(const PlyElement&, std::size_t) {}
@@ -53,10 +63,21 @@ class MeshSink {
 
   Mesh finish(const std::string& file, Warnings& warnings) {
     cut_polygons(mesh_, faces_.skipped(), file, warnings);
+    if (faces_have_labels_) labels_.resize(mesh_.triangles.size(), unsegmented);
+    // Of the triangles into which a face is cut, each has its own corners.
+    if (vertices_have_labels_) take_labels_of_corners();
+    if (!labels_.empty())
+      mesh_.segments.push_back({Segmentation::label, compact_segments(std::move(labels_)), {}});
     return std::move(mesh_);
   }
 
  private:
+  void take_labels_of_corners() {
+    labels_.reserve(mesh_.triangles.size());
+    for (const auto& [a, b, c] : std::as_const(mesh_.triangles))
+      labels_.push_back(common_label(vertex_labels_[a], vertex_labels_[b], vertex_labels_[c]));
+  }
+
   void push_colour(const PlyVertex& row) {
     std::array<float, 4> colour{};
     for (std::size_t i = 0; i < 4; ++i) colour[i] = static_cast<float>(row[slot_colour + i]);
@@ -67,14 +88,19 @@ class MeshSink {
   FaceCollector faces_;
   bool primitives_;
   bool normals_ = false, textures_ = false, colours_ = false;
+  bool faces_have_labels_ = false, vertices_have_labels_ = false;
+  /// Of the vertices, and of the triangles, where they have any.
+  std::vector<std::uint32_t> vertex_labels_, labels_;
 };
 
 template <class Rows>
 Mesh read_body(std::string_view text, const PlyHeader& header, const std::string& file,
                const ReadOptions& options, Warnings& warnings) {
   MeshSink sink(file, options.primitives);
+  const PlyLabels labels = options.segments ? find_ply_labels(header, file, warnings) : PlyLabels();
   Rows rows(text.substr(header.size), file, header);
-  PlyBody<Rows, MeshSink>(std::move(rows), header, file, options.attributes, sink).read(warnings);
+  PlyBody<Rows, MeshSink>(std::move(rows), header, file, options.attributes, labels, sink)
+      .read(warnings);
   return sink.finish(file, warnings);
 }
 

@@ -12,8 +12,9 @@ namespace fathom::mesh_files {
 std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<text::RandomAccessFile> file,
                                                 Warnings& warnings);
 
-/// `header` is that of the file, and binary.
+/// `header` is that of the file, and binary. Labels are found where `segments` are wanted.
 std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<text::RandomAccessFile> file,
-                                                const PlyHeader& header, Warnings& warnings);
+                                                const PlyHeader& header, bool segments,
+                                                Warnings& warnings);
 
 }  // namespace fathom::mesh_files

@@ -38,7 +38,7 @@ FileFormat kind_of(const RandomAccessFile& file, const std::filesystem::path& pa
 }
 
 std::unique_ptr<TriangleStream> open(std::unique_ptr<RandomAccessFile> file, FileFormat kind,
-                                     Warnings& warnings) {
+                                     bool segments, Warnings& warnings) {
   const std::string name = file->name();
   if (kind == FileFormat::stl) {
     if (!is_binary_stl(beginning_of(*file, 512), file->size())) fail_format(name);
@@ -48,7 +48,7 @@ std::unique_ptr<TriangleStream> open(std::unique_ptr<RandomAccessFile> file, Fil
   const PlyHeader header =
       read_ply_header({reinterpret_cast<const char*>(head.data()), head.size()}, name, warnings);
   if (header.encoding == PlyHeader::Encoding::ascii) fail_format(name);
-  return open_ply_stream(std::move(file), header, warnings);
+  return open_ply_stream(std::move(file), header, segments, warnings);
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
     hash = std::async(std::launch::async | std::launch::deferred,
                       [&path] { return sha256(RandomAccessFile(path)); });
   }
-  std::unique_ptr<TriangleStream> stream = open(std::move(file), kind, warnings);
+  std::unique_ptr<TriangleStream> stream = open(std::move(file), kind, options.segments, warnings);
   stream->source.path = path.string();
   if (hash.valid()) stream->source.sha256 = hash.get();
   return stream;

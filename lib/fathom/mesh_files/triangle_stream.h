@@ -61,11 +61,17 @@ class TriangleStream {
   /// Only the face that a triangle comes from.
   [[nodiscard]] virtual std::uint32_t face_of(std::uint32_t number) const = 0;
 
+  /// The label that a triangle carries (Segmentation::label), or `unsegmented`; in such time, too.
+  [[nodiscard]] virtual std::uint32_t label_of(std::uint32_t /*number*/) const {
+    return unsegmented;
+  }
+
   /// The file and, if it was asked for, its hash.
   Source source;
 };
 
-/// Opens and checks a binary STL or PLY file. Of the options, only `format` and `hash` matter.
+/// Opens and checks a binary STL or PLY file. Of the options, only `format`, `hash` and `segments`
+/// matter.
 /// Fails    InputError, as read_scene() does, and if the file is of another format or a pipe.
 std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path& path,
                                                      const ReadOptions& options,

@@ -3,6 +3,7 @@
 #include <future>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "fathom/mesh/mesh_faces.h"
@@ -188,6 +189,7 @@ class SceneReader {
                                     scene_.objects.end());
     }
     place(placed, first, placements.budget);
+    if (options_.segments) name_segments(placed, first, placements.budget);
     if (!is_default(placed.draw)) {
       scene_.draw_states.resize(first);
       scene_.draw_states.resize(scene_.objects.size(), placed.draw);
@@ -206,6 +208,24 @@ class SceneReader {
         object.placed_as_is = false;
       }
       budget.take_object(bytes_of(object), triangles_of(object));
+    }
+  }
+
+  /// Gives the objects from `first` on the material and the label that the scene file gives them.
+  void name_segments(const PlacedFile& placed, std::size_t first, ExpansionBudget& budget) {
+    if (!placed.material && !placed.label) return;
+    std::shared_ptr<const ObjectSegments> before, after;
+    for (std::size_t i = first; i < scene_.objects.size(); ++i) {
+      Object& object = scene_.objects[i];
+      if (i == first || object.segments != before) {  // instances share theirs
+        before = object.segments;
+        ObjectSegments segments = before ? *before : ObjectSegments();
+        if (placed.material) segments.names[Segmentation::material] = *placed.material;
+        if (placed.label) segments.label = placed.label;
+        budget.take(1, sizeof(ObjectSegments) + placed.material.value_or("").size());
+        after = std::make_shared<const ObjectSegments>(std::move(segments));
+      }
+      object.segments = after;
     }
   }
 

@@ -121,10 +121,52 @@ Fault find_fault_of_attributes(const Mesh& mesh) {
   return fault;
 }
 
+const char* name_of(Segmentation by) {
+  switch (by) {
+    case Segmentation::material:
+      return "materials";
+    case Segmentation::group:
+      return "groups";
+    case Segmentation::part:
+      return "parts";
+    case Segmentation::label:
+      break;
+  }
+  return "labels";
+}
+
+/// A number for each of so many triangles, or one for all.
+Fault find_fault_of_segments(const TriangleSegments& segments, std::size_t triangles) {
+  const char* const name = name_of(segments.by);
+  const bool are_labels = segments.by == Segmentation::label;
+  if (are_labels && !segments.names.empty()) return "labels are numbers, they have no names";
+  if (segments.numbers.size() != 1)
+    if (auto fault = find_wrong_size(segments.numbers.size(), triangles, name, "triangles"))
+      return fault;
+  const std::uint64_t end = are_labels ? unsegmented : segments.names.size();
+  const auto are_below = [end](std::span<const std::uint32_t> numbers) {
+    return std::ranges::all_of(
+        numbers, [&](std::uint32_t number) { return number < end || number == unsegmented; });
+  };
+  const std::string what = are_labels ? ": the label is above " + std::to_string(unsegmented)
+                                      : ": its number is beyond the " + count_of(end, name);
+  return find_bad(std::span<const std::uint32_t>(segments.numbers), "triangle", what, are_below);
+}
+
+Fault find_fault_of_segments(const Mesh& mesh) {
+  for (const TriangleSegments& segments : mesh.segments) {
+    if (mesh.segments_by(segments.by) != &segments)
+      return std::string(name_of(segments.by)) + " are there twice";
+    if (auto fault = find_fault_of_segments(segments, mesh.triangles.size())) return fault;
+  }
+  return std::nullopt;
+}
+
 Fault find_fault_but_elements(const Mesh& mesh) {
   Fault fault = find_too_many(mesh.vertices.size(), "vertices");
   if (!fault) fault = find_too_many(mesh.triangles.size(), "triangles");
   if (!fault) fault = find_fault_of_faces(mesh);
+  if (!fault) fault = find_fault_of_segments(mesh);
   if (!fault) fault = find_fault_of_attributes(mesh);
   return fault;
 }
@@ -175,6 +217,8 @@ Fault find_fault_of_placements(const AnyScene& scene) {
     if (object.placed_as_is && object.world_from_mesh.rows != identity.rows)
       return in("object", i, "is placed as it is, but its transform is not the identity");
     if (auto fault = find_fault(object.world_from_mesh)) return in("object", i, *fault);
+    if (object.segments && object.segments->label.value_or(0) > unsegmented)
+      return in("object", i, "the label is above " + std::to_string(unsegmented));
     if (!last_faces.contains(object.mesh))
       last_faces[object.mesh] = last_face(mesh_of(scene, object));
     if (object.first_face > mesh::most_elements ||

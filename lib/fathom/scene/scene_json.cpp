@@ -32,7 +32,7 @@ std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesy
   const std::filesystem::path folder = folder_of_input(path);
   std::vector<PlacedFile> result;
   for (const JsonValue& mesh : root.at("meshes").elements()) {
-    mesh.expect_only({"file", "transform", "name", "draw"});
+    mesh.expect_only({"file", "transform", "name", "draw", "material", "label"});
     PlacedFile placed;
     const std::string& file = mesh.at("file").string();
     if (file.empty() || file == "-") mesh.at("file").fail("expected the path of a mesh file");
@@ -42,6 +42,9 @@ std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesy
     if (const auto transform = mesh.find("transform"))
       placed.transform = read_transform(*transform);
     if (const auto draw = mesh.find("draw")) placed.draw = read_draw_state(*draw);
+    if (const auto material = mesh.find("material")) placed.material = material->string();
+    if (const auto label = mesh.find("label"))
+      placed.label = static_cast<std::uint32_t>(label->integer(0, unsegmented - 1));
     result.push_back(std::move(placed));
   }
   return result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,10 +26,13 @@ struct PlacedFile {
   std::optional<std::string> name;
   std::optional<WorldFromMesh> transform;
   DrawState draw;
+  /// Of all its triangles, whatever the file says of them.
+  std::optional<std::string> material;
+  std::optional<std::uint32_t> label;
 };
 
-/// Reads a scene file: {"meshes": [{"file", "transform", "name", "draw"}]}, the last three optional;
-/// draw_state_json.h has "draw".
+/// Reads a scene file: {"meshes": [{"file", "transform", "name", "draw", "material", "label"}]}, all
+/// but the first optional; draw_state_json.h has "draw".
 /// Fails    InputError, naming the key; unknown keys are errors.
 std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesystem::path& path);
 

@@ -86,6 +86,10 @@ TriangleSource::Triangle TriangleSource::triangle(std::uint32_t number) const {
   return result;
 }
 
+std::uint32_t TriangleSource::label(const TriangleOrigin& origin) const {
+  return streamed_ ? stream(origin.object).label_of(origin.triangle) : unsegmented;
+}
+
 std::array<WorldPoint, 3> TriangleSource::world_corners(std::uint32_t number) const {
   const Triangle mesh_triangle = triangle(number);
   const Object& object = objects()[mesh_triangle.origin.object];

@@ -40,6 +40,9 @@ class TriangleSource {
     std::array<MeshPoint, 3> corners;
   };
   [[nodiscard]] Triangle triangle(std::uint32_t number) const;
+  /// The label that a triangle of a StreamedScene carries in its file, or `unsegmented`.
+  /// (SceneSegments has those of any scene.)
+  [[nodiscard]] std::uint32_t label(const TriangleOrigin& origin) const;
   /// The corners in the world, exactly.
   [[nodiscard]] std::array<WorldPoint, 3> world_corners(std::uint32_t number) const;
 
