@@ -27,6 +27,7 @@ std::string info_of_meshes(const InfoArguments& arguments, const text::InputFile
                            FileKind kind, AnswerForm form, const Console& console) {
   ReadOptions options = arguments.scene.read_options();
   options.hash = true;
+  options.segments = true;
   Warnings warnings;
   const Scene scene = read_scene(input.bytes(), arguments.file, options, warnings);
   console.warn(warnings);

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/maps/info.h"
+#include "apps/maps/name_lists.h"
 #include "apps/shell/json_answer.h"
 #include "apps/shell/values.h"
 #include "fathom/image/surface.h"
@@ -19,6 +21,8 @@ using Json = nlohmann::ordered_json;
 struct ChannelSummary {
   std::string type;
   std::uint64_t surface = 0, infinite = 0, nan = 0, finite = 0;
+  /// Where a surface is visible that has no segment; of channels that show segments.
+  std::optional<std::uint64_t> without;
   double least = 0, greatest = 0;
   double scale = 1;
 
@@ -54,12 +58,19 @@ ChannelSummary summarise(const DepthMap& map, const ImageChannel& channel) {
   const std::vector<std::uint8_t> surface = surface_mask(map, channel);
   const bool codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
   if (codes && map.png_scale) summary.scale = *map.png_scale;
+  if (shows_segments(channel.name) &&
+      std::holds_alternative<Samples<std::uint32_t>>(channel.values))
+    summary.without = 0;
   std::visit(
       [&](const auto& values) {
         summary.type = type_name(typename std::decay_t<decltype(values)>::value_type{});
         for (std::size_t i = 0; i < values.size(); ++i) {
           if (surface[i] == 0) continue;
           ++summary.surface;
+          if (summary.without && values[i] == no_segment) {
+            ++*summary.without;
+            continue;
+          }
           summary.add(static_cast<double>(values[i]) / summary.scale);
         }
       },
@@ -101,6 +112,7 @@ Json describe(const DepthMap& map, const std::string& file) {
                {"max", summary.finite > 0 ? Json(summary.greatest) : Json(nullptr)},
                {"infinite", summary.infinite},
                {"nan", summary.nan}};
+    if (summary.without) entry["none"] = *summary.without;
     text::append_member(channels, channel.name, std::move(entry));
   }
   Json answer{{"file", file},
@@ -110,6 +122,7 @@ Json describe(const DepthMap& map, const std::string& file) {
               {"channels", std::move(channels)}};
   if (map.png_scale) answer["png_scale"] = *map.png_scale;
   if (!map.object_names.empty()) answer["objects"] = map.object_names;
+  for (const auto& [channel, names] : map.tables) answer[channel + "s"] = names;
   Json attributes = Json::object();
   for (const auto& [name, value] : map.texts) {
     text::append_member(attributes, name, as_json(value));
@@ -129,14 +142,14 @@ std::string describe_as_text(const DepthMap& map, const std::string& file) {
     text += fmt::format("{:>24} {:>24}", figure(s, s.least), figure(s, s.greatest));
     if (s.infinite > 0) text += fmt::format("  {} infinite", s.infinite);
     if (s.nan > 0) text += fmt::format("  {} NaN", s.nan);
+    if (s.without.value_or(0) > 0) text += fmt::format("  {} without one", *s.without);
     text += "\n";
   }
   if (map.png_scale)
     text += fmt::format("  scale      {} {} per unit\n", *map.png_scale,
                         *map.png_scale == 1 ? "code" : "codes");
-  if (!map.object_names.empty()) {
-    text += fmt::format("  objects    {}\n", text::printable(joined(map.object_names, ", ")));
-  }
+  text += name_line("objects", map.object_names);
+  for (const auto& [channel, names] : map.tables) text += name_line(channel + "s", names);
   for (const auto& [name, value] : map.texts) {
     text += fmt::format("  {}: {}\n", text::printable(name), indented(value));
   }

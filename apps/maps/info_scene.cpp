@@ -1,13 +1,18 @@
 #include <fmt/core.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "apps/maps/info.h"
+#include "apps/maps/name_lists.h"
 #include "apps/shell/json_answer.h"
 #include "fathom/scene/bounds.h"
+#include "fathom/scene/scene_segments.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
+#include "fathom/triangle/segment_channels.h"
 
 namespace fathom::app {
 namespace {
@@ -41,6 +46,48 @@ SceneTotals totals_of(const Scene& scene) {
   return totals;
 }
 
+constexpr std::array named_segmentations{Segmentation::material, Segmentation::group,
+                                         Segmentation::part};
+
+/// "materials"
+std::string plural_of(Segmentation by) {
+  return std::string(description_of(channel_of(by)).name) + "s";
+}
+
+/// The labels that triangles of the scene carry.
+std::set<std::uint32_t> labels_of(const Scene& scene) {
+  std::set<std::uint32_t> labels;
+  for (const Object& object : scene.objects) {
+    const TriangleSegments* const of_mesh =
+        scene.meshes[object.mesh].segments_by(Segmentation::label);
+    if (object.segments && object.segments->label) {
+      labels.insert(*object.segments->label);
+    } else if (of_mesh) {
+      labels.insert(of_mesh->numbers.begin(), of_mesh->numbers.end());
+    }
+  }
+  labels.erase(unsegmented);
+  return labels;
+}
+
+/// What triangles are called, where they are called anything.
+void describe_segments(const Scene& scene, Json& answer) {
+  const SceneSegments segments(scene, {named_segmentations.begin(), named_segmentations.end()});
+  for (const Segmentation by : named_segmentations)
+    if (!segments.names(by).empty()) answer[plural_of(by)] = segments.names(by);
+  if (const auto labels = labels_of(scene); !labels.empty()) answer["labels"] = labels;
+}
+
+std::string describe_segments_as_text(const Scene& scene) {
+  const SceneSegments segments(scene, {named_segmentations.begin(), named_segmentations.end()});
+  std::string text;
+  for (const Segmentation by : named_segmentations)
+    text += name_line(plural_of(by), segments.names(by));
+  std::vector<std::string> numbers;
+  for (const std::uint32_t label : labels_of(scene)) numbers.push_back(std::to_string(label));
+  return text + name_line("labels", numbers);
+}
+
 const char* name_of(FileKind kind) {
   return kind == FileKind::scene ? "scene" : "mesh";
 }
@@ -59,6 +106,7 @@ Json describe(const Scene& scene, FileKind kind, const std::string& file) {
                        {"bounds", to_json(bounds_of(scene, object))}});
   }
   answer["objects"] = std::move(objects);
+  describe_segments(scene, answer);
   Json sources = Json::array();
   for (const Source& source : scene.sources) {
     sources.push_back({{"path", source.path}, {"sha256", source.sha256}});
@@ -87,6 +135,7 @@ std::string describe_as_text(const Scene& scene, FileKind kind, const std::strin
                           to_text(bounds_of(scene, object)));
     }
   }
+  text += describe_segments_as_text(scene);
   for (const Source& source : scene.sources) {
     text +=
         fmt::format("  source     {} (SHA-256 {}){}\n", text::printable(source.path), source.sha256,

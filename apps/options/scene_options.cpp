@@ -58,6 +58,7 @@ Scene SceneOptions::read(const Console& console, const Extras& extras) const {
   options.hash = extras.hash;
   options.attributes = extras.attributes;
   options.primitives = extras.primitives;
+  options.segments = extras.segments;
   Warnings warnings;
   Scene scene = read_scene({files.begin(), files.end()}, options, warnings);
   console.warn(warnings);

@@ -30,6 +30,7 @@ struct SceneOptions {
     bool hash = false;        ///< SHA-256 of the sources
     bool attributes = false;  ///< colours, normals and texture coordinates
     bool primitives = false;  ///< lines and points
+    bool segments = false;    ///< materials, groups, parts and labels
   };
   /// Reads the scene and passes on the reader's warnings.
   [[nodiscard]] Scene read(const Console& console, const Extras& extras) const;

@@ -1,5 +1,6 @@
 #include "apps/render/render_arguments.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "apps/options/channel_list.h"
@@ -25,6 +26,21 @@ std::uint64_t parse_pixels(const std::string& text) {
   return parse_word<std::uint64_t>(text, {{"all", all}}, "a number of pixels from 1 on");
 }
 
+/// "material" or "object,material"
+std::vector<MatteKind> parse_mattes(const std::string& list) {
+  std::vector<MatteKind> kinds;
+  for (const std::string& name : parse_list(list)) {
+    const auto kind = parse_word<MatteKind>(name, {{"object", std::nullopt},
+                                                   {"material", Segmentation::material},
+                                                   {"group", Segmentation::group},
+                                                   {"part", Segmentation::part}});
+    if (std::ranges::find(kinds, kind) != kinds.end())
+      throw UsageError("'" + name + "' is there twice");
+    kinds.push_back(kind);
+  }
+  return kinds;
+}
+
 void add_outputs(Command& command, RenderArguments& arguments) {
   command
       .option("-o,--output", "FILE", arguments.output,
@@ -39,8 +55,9 @@ void add_outputs(Command& command, RenderArguments& arguments) {
 
 void add_contents(Command& command, RenderArguments& arguments) {
   command.option("--channels", "LIST", into(arguments.channels, parse_channels),
-                 "Of Z, A, Zlow, distance, id, face, object, N, P, bary (default Z,A in EXR and "
-                 "NPZ; Z in other formats, with --stream and with --engine pipeline)");
+                 "Of Z, A, Zlow, distance, id, face, object, material, group, part, label, N, P, "
+                 "bary (default Z,A in EXR and NPZ; Z in other formats, with --stream and with "
+                 "--engine pipeline)");
   command.flag(
       "--deep", arguments.deep,
       "Write a deep EXR: for each pixel the visible fragments, sorted, with their depths "
@@ -48,6 +65,8 @@ void add_contents(Command& command, RenderArguments& arguments) {
       "none");
   command.flag("--cryptomatte", arguments.cryptomatte,
                "Add Cryptomatte channels by object with exact coverage to the EXR");
+  command.option("--cryptomatte-by", "LIST", into(arguments.mattes_by, parse_mattes),
+                 "The same by each of object, material, group, part");
   command.option("--engine", "NAME", into(arguments.engine, parse_engine),
                  "fast (default), reference: the same map bit for bit, slowly; or pipeline: what a "
                  "graphics pipeline computes");
@@ -124,6 +143,11 @@ void RenderArguments::refuse_pipeline_options() const {
   for (const Option& option : of_pipeline_) {
     if (option.is_given()) throw UsageError(option.name() + " is for --engine pipeline");
   }
+}
+
+std::vector<MatteKind> RenderArguments::mattes() const {
+  if (!mattes_by.empty() || !cryptomatte) return mattes_by;
+  return {std::nullopt};
 }
 
 }  // namespace fathom::app

@@ -18,6 +18,9 @@ namespace fathom::app {
 
 enum class EngineName { fast, reference, pipeline };
 
+/// What Cryptomatte goes by: objects, or segments.
+using MatteKind = std::optional<Segmentation>;
+
 /// The arguments of `fathom render`, each by itself as it was given: what they mean together is
 /// decided where a plan is made of them.
 struct RenderArguments {
@@ -35,6 +38,7 @@ struct RenderArguments {
   std::optional<SamplePattern> samples;
   std::optional<std::uint64_t> verified_pixels;
   bool stream = false, deep = false, cryptomatte = false;
+  std::vector<MatteKind> mattes_by;
   /// Names of files; empty: not asked for. "-" is standard output for the second line.
   std::string output, image;
   std::string save_camera, statistics;
@@ -42,6 +46,8 @@ struct RenderArguments {
   void add_to(Command& command);
   /// For the exact engines. Fails with UsageError where an option of the pipeline is given.
   void refuse_pipeline_options() const;
+  /// The layers of Cryptomatte that are asked for.
+  [[nodiscard]] std::vector<MatteKind> mattes() const;
 
  private:
   void add_background(Command& command);

@@ -10,14 +10,15 @@
 namespace fathom::app {
 namespace {
 
-StreamedScene stream(const SceneOptions& options, const Console& console) {
+StreamedScene stream(const SceneOptions& options, bool segments, const Console& console) {
   const std::vector<std::string>& files = options.files;
   if (std::count(files.begin(), files.end(), "-") > 0) {
     throw UsageError("--stream: '-', standard input, cannot be read in parts; expected files");
   }
   Warnings warnings;
-  StreamedScene scene =
-      stream_scene({files.begin(), files.end()}, options.read_options(), warnings);
+  ReadOptions reading = options.read_options();
+  reading.segments = segments;
+  StreamedScene scene = stream_scene({files.begin(), files.end()}, reading, warnings);
   console.warn(warnings);
   for (const std::string& file : files) note_input(file);
   return scene;
@@ -25,12 +26,13 @@ StreamedScene stream(const SceneOptions& options, const Console& console) {
 
 }  // namespace
 
-RenderInput::RenderInput(const SceneOptions& options, Place place, const Console& console) {
+RenderInput::RenderInput(const SceneOptions& options, Place place, bool segments,
+                         const Console& console) {
   if (place == Place::files) {
-    streamed_ = stream(options, console);
+    streamed_ = stream(options, segments, console);
     scene_ = outline_of(*streamed_);
   } else {
-    scene_ = options.read(console, {.hash = true});
+    scene_ = options.read(console, {.hash = true, .segments = segments});
   }
 }
 

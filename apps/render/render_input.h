@@ -16,7 +16,8 @@ class RenderInput {
  public:
   enum class Place { memory, files };
 
-  RenderInput(const SceneOptions& options, Place place, const Console& console);
+  /// With materials, groups, parts and labels, where `segments` are wanted.
+  RenderInput(const SceneOptions& options, Place place, bool segments, const Console& console);
 
   /// The scene; of one that stays in its files its bounds, objects and sources: what cameras are
   /// made from.

@@ -21,8 +21,10 @@
 #include "fathom/image/deep_map.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
+#include "fathom/scene/scene_segments.h"
 #include "fathom/scene/view_warnings.h"
 #include "fathom/text/counted.h"
+#include "fathom/triangle/segment_channels.h"
 
 namespace fathom::app {
 namespace {
@@ -39,6 +41,20 @@ void warn_of(const RenderStatistics& statistics, const Console& console) {
   }
 }
 
+/// Of channels that will show nothing but that there is none.
+void warn_of_missing_segments(const TriangleSource& triangles, const std::vector<Channel>& channels,
+                              const Console& console) {
+  const std::vector<Segmentation> wanted = segmentations_of(channels);
+  if (wanted.empty()) return;
+  const SceneSegments segments(triangles, wanted);
+  for (const Segmentation by : wanted) {
+    if (!segments.is_empty(by)) continue;
+    const std::string_view name = description_of(channel_of(by)).name;
+    console.warn(fmt::format("no triangle of the scene has a {}: channel {} is {} at all surfaces",
+                             name, name, no_segment));
+  }
+}
+
 /// What is probably not meant about the cameras, each kind of it once.
 class CameraWarnings {
  public:
@@ -51,6 +67,13 @@ class CameraWarnings {
  private:
   std::vector<std::vector<ViewWarning>> of_cameras_;
 };
+
+/// Whether the map shows what triangles are called.
+bool needs_segments(const MapPlan& plan) {
+  const auto is_segmentation = [](const MatteKind& by) { return by.has_value(); };
+  return !segmentations_of(plan.rendering.channels).empty() ||
+         std::ranges::any_of(plan.mattes, is_segmentation);
+}
 
 /// Refuses cameras that the file, the memory or the depth format has no room for.
 void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
@@ -78,7 +101,9 @@ DepthMap render_named(const std::string& name, const RenderInput& scene, const C
 DepthMap render_map(const std::string& name, const MapPlan& plan, const RenderInput& scene,
                     const Camera& camera, const RenderOptions& options) {
   DepthMap map = render_named(name, scene, camera, options);
-  if (plan.cryptomatte) add_cryptomatte(map, scene.outline(), camera, options);
+  for (const MatteKind& by : plan.mattes) {
+    add_cryptomatte(map, scene.outline(), camera, options, by);
+  }
   if (plan.samples) {
     add_sampled_coverage(map, scene.triangles(), camera, *plan.samples, options);
     map.texts["fathom.samples"] = plan.samples->name;
@@ -124,10 +149,11 @@ int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Con
   const ThreadLimit limit(plan.rendering.threads);
   Stopwatch stopwatch;
   const auto place = arguments.stream ? RenderInput::Place::files : RenderInput::Place::memory;
-  RenderInput scene(arguments.scene, place, console);
+  RenderInput scene(arguments.scene, place, needs_segments(plan), console);
   const double seconds_reading = stopwatch.lap();
   const std::vector<Camera> cameras = arguments.camera.get(scene.outline(), console);
   scene.place(arguments.motion);
+  warn_of_missing_segments(scene.triangles(), plan.rendering.channels, console);
   check_cameras(cameras, plan, arguments.output);
   RenderOutputs outputs(arguments, cameras.size());
   outputs.write_cameras(to_json(cameras) + "\n");

@@ -42,14 +42,14 @@ void check_stream(const RenderArguments& a, const std::vector<Channel>& channels
   if (contains(channels, Channel::A)) {
     throw UsageError("--stream does not keep the triangles that channel A needs: leave out A");
   }
-  if (a.cryptomatte) throw UsageError("--cryptomatte is not for --stream");
+  if (!a.mattes().empty()) throw UsageError("--cryptomatte is not for --stream");
 }
 
 /// Refuses what a file with a single channel cannot hold.
 void check_single_channel(const RenderArguments& a, MapFormat format,
                           const std::vector<Channel>& channels) {
   if (format == MapFormat::exr) return;
-  if (a.cryptomatte) throw UsageError("--cryptomatte is for .exr, not for " + a.output);
+  if (!a.mattes().empty()) throw UsageError("--cryptomatte is for .exr, not for " + a.output);
   if (holds_all_channels(format)) return;
   if (a.samples) throw UsageError(a.output + " holds one channel; --samples needs an .exr or .npz");
   if (a.depth_buffer.storage) {
@@ -93,7 +93,7 @@ void check_deep(const RenderArguments& a) {
   const char* other = a.channels                         ? "--channels"
                       : a.storage.background             ? "--background"
                       : !a.storage.channel_names.empty() ? "--channel-name"
-                      : a.cryptomatte                    ? "--cryptomatte"
+                      : !a.mattes().empty()              ? "--cryptomatte"
                       : a.samples                        ? "--samples"
                       : a.depth_buffer.storage           ? "--depth-format"
                                                          : nullptr;
@@ -124,7 +124,7 @@ MapPlan plan_maps(const RenderArguments& a) {
   plan.rendering = rendering_of(a);
   plan.rendering.channels = channels;
   plan.rendering.depth_encoding = a.storage.encoding_for(plan.format);
-  plan.cryptomatte = a.cryptomatte;
+  plan.mattes = a.mattes();
   plan.samples = a.samples;
   plan.verified_pixels = a.verified_pixels;
   return plan;

@@ -27,7 +27,7 @@ struct MapPlan {
   WriteOptions writing;
   StorageOptions storage;
   RenderOptions rendering;
-  bool cryptomatte = false;
+  std::vector<MatteKind> mattes;
   std::optional<SamplePattern> samples;
   std::optional<DepthBufferPlan> depth_buffer;
   std::optional<std::uint64_t> verified_pixels;

@@ -27,7 +27,7 @@ struct ProbeArguments {
 
 int run_probe(const ProbeArguments& arguments, const Console& console) {
   const auto [x, y] = arguments.pixel;
-  const Scene scene = arguments.scene.read(console);
+  const Scene scene = arguments.scene.read(console, {.segments = true});
   const Camera camera = arguments.camera.get_one(scene, "probe", console);
   if (x >= camera.width || y >= camera.height) {
     throw UsageError(fmt::format("--pixel: {},{} is outside the image of {}x{} pixels", x, y,

@@ -7,7 +7,9 @@
 
 #include "apps/shell/json_answer.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/scene/scene_segments.h"
 #include "fathom/text/printable.h"
+#include "fathom/triangle/segment_channels.h"
 
 namespace fathom::app {
 namespace {
@@ -71,7 +73,31 @@ std::array<MeshPoint, 3> corners_of(const Scene& scene, const CoveringTriangle& 
   return {mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]};
 }
 
-Json to_json(const Probe& probe, std::size_t i) {
+/// The segments of a scene, and the words for them.
+class NamedSegments {
+ public:
+  explicit NamedSegments(const Scene& scene)
+      : segments_(scene, {all_segmentations.begin(), all_segmentations.end()}) {}
+
+  static std::string_view kind(Segmentation by) { return description_of(channel_of(by)).name; }
+  /// Its name or, of a label, its number; null where the triangle has none.
+  [[nodiscard]] Json value(Segmentation by, const TriangleOrigin& origin) const {
+    const std::uint32_t number = segments_.number(by, origin);
+    if (number == unsegmented) return nullptr;
+    return by == Segmentation::label ? Json(number) : Json(segments_.names(by)[number]);
+  }
+  /// "steel", or "7" of a label.
+  [[nodiscard]] std::string text(Segmentation by, const TriangleOrigin& origin) const {
+    const std::uint32_t number = segments_.number(by, origin);
+    if (by == Segmentation::label) return std::to_string(number);
+    return text::printable(segments_.names(by)[number]);
+  }
+
+ private:
+  SceneSegments segments_;
+};
+
+Json to_json(const Probe& probe, const NamedSegments& segments, std::size_t i) {
   const CoveringTriangle& triangle = probe.triangles[i];
   Json corners = Json::array();
   for (const MeshPoint& p : corners_of(probe.scene, triangle)) corners.push_back({p.x, p.y, p.z});
@@ -82,22 +108,36 @@ Json to_json(const Probe& probe, std::size_t i) {
         {"left_or_top", triangle.left_or_top[edge]}};
   }
   const float stored = round_to_binary32(triangle.depth);
-  return {{"number", triangle.number},
-          {"file", file_of(probe.scene, triangle)},
-          {"object", triangle.origin.object},
-          {"object_name", probe.scene.objects[triangle.origin.object].name},
-          {"face", triangle.origin.face},
-          {"corners", corners},
-          {"front_facing", triangle.front_facing},
-          {"edges", edges},
-          {"depth",
-           {{"exact", to_fraction(triangle.depth)},
-            {"decimal", to_decimal(triangle.depth, 40)},
-            {"binary32", stored},
-            {"binary32_hex", fmt::format("{:a}", stored)}}},
-          {"counts", triangle.counts},
-          {"visible", i == 0 && triangle.counts},
-          {"rule", rule(probe, i)}};
+  Json answer{{"number", triangle.number},
+              {"file", file_of(probe.scene, triangle)},
+              {"object", triangle.origin.object},
+              {"object_name", probe.scene.objects[triangle.origin.object].name},
+              {"face", triangle.origin.face}};
+  for (const Segmentation by : all_segmentations)
+    answer[std::string(NamedSegments::kind(by))] = segments.value(by, triangle.origin);
+  answer.update(Json{{"corners", corners},
+                     {"front_facing", triangle.front_facing},
+                     {"edges", edges},
+                     {"depth",
+                      {{"exact", to_fraction(triangle.depth)},
+                       {"decimal", to_decimal(triangle.depth, 40)},
+                       {"binary32", stored},
+                       {"binary32_hex", fmt::format("{:a}", stored)}}},
+                     {"counts", triangle.counts},
+                     {"visible", i == 0 && triangle.counts},
+                     {"rule", rule(probe, i)}});
+  return answer;
+}
+
+/// A line for what the triangle is called, if anything.
+std::string segments_text(const NamedSegments& segments, const TriangleOrigin& origin) {
+  std::string text;
+  for (const Segmentation by : all_segmentations) {
+    if (segments.value(by, origin).is_null()) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "  " : ", ", NamedSegments::kind(by),
+                        segments.text(by, origin));
+  }
+  return text.empty() ? text : text + "\n";
 }
 
 }  // namespace
@@ -110,11 +150,13 @@ std::string as_text(const Probe& probe) {
       : probe.triangles.size() == 1 ? "one triangle"
                                     : fmt::format("each of {} triangles", probe.triangles.size()),
       probe.triangles.size() > 1 ? ", nearest first" : "");
+  const NamedSegments segments(probe.scene);
   for (std::size_t i = 0; i < probe.triangles.size(); ++i) {
     const CoveringTriangle& triangle = probe.triangles[i];
     text += fmt::format("\ntriangle {}: face {} of {}, {}-facing\n", triangle.number,
                         triangle.origin.face, text::printable(file_of(probe.scene, triangle)),
                         triangle.front_facing ? "front" : "back");
+    text += segments_text(segments, triangle.origin);
     const auto corners = corners_of(probe.scene, triangle);
     for (int corner = 0; corner < 3; ++corner) {
       text += fmt::format("  {}       ({}, {}, {})\n", "ABC"[corner], corners[corner].x,
@@ -132,7 +174,9 @@ std::string as_text(const Probe& probe) {
 
 std::string as_json(const Probe& probe) {
   Json triangles = Json::array();
-  for (std::size_t i = 0; i < probe.triangles.size(); ++i) triangles.push_back(to_json(probe, i));
+  const NamedSegments segments(probe.scene);
+  for (std::size_t i = 0; i < probe.triangles.size(); ++i)
+    triangles.push_back(to_json(probe, segments, i));
   const Json answer{{"pixel", {probe.x, probe.y}},
                     {"sample", {probe.x + 0.5, probe.y + 0.5}},
                     {"width", probe.camera.width},

@@ -116,8 +116,10 @@ typedef struct {
   void* data;
 } fathom_options;
 
-/* What no identifier is: id, face and object where nothing is seen. */
+/* What no identifier is: id, face, object, material, group, part and label where nothing is seen. */
 #define FATHOM_NO_SURFACE UINT32_C(0xFFFFFFFF)
+/* material, group, part and label where what is seen has none. */
+#define FATHOM_NO_SEGMENT UINT32_C(0xFFFFFFFE)
 
 /* Renders the exact map: every value is the exact number, rounded once.
  *
@@ -145,6 +147,9 @@ FATHOM_API const float* fathom_map_float32(const fathom_map* map, const char* ch
 FATHOM_API const double* fathom_map_float64(const fathom_map* map, const char* channel);
 FATHOM_API const uint32_t* fathom_map_uint32(const fathom_map* map, const char* channel);
 FATHOM_API const uint16_t* fathom_map_uint16(const fathom_map* map, const char* channel);
+/* What a number in channel "object", "material", "group" or "part" stands for, as long as the map is not freed; NULL
+ * where it has no name. */
+FATHOM_API const char* fathom_map_name(const fathom_map* map, const char* channel, uint32_t number);
 /* What the map carries: "fathom.camera", "fathom.sources", …; NULL where it has no such text. */
 FATHOM_API const char* fathom_map_text(const fathom_map* map, const char* name);
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -211,7 +212,9 @@ fathom_status fathom_scene_read(const char* const* files, size_t count, fathom_s
     }
     Warnings warnings;
     auto read = std::make_unique<fathom_scene>();
-    read->scene = read_scene(paths, {}, warnings);
+    ReadOptions options;
+    options.segments = true;
+    read->scene = read_scene(paths, options, warnings);
     *scene = read.release();
   });
 }
@@ -360,6 +363,15 @@ const uint32_t* fathom_map_uint32(const fathom_map* map, const char* channel) {
 
 const uint16_t* fathom_map_uint16(const fathom_map* map, const char* channel) {
   return values_of<std::uint16_t>(map, channel);
+}
+
+const char* fathom_map_name(const fathom_map* map, const char* channel, uint32_t number) {
+  if (!map || !channel) return nullptr;
+  const auto found = map->map.tables.find(channel);
+  const bool of_objects = std::string_view(channel) == "object";
+  if (!of_objects && found == map->map.tables.end()) return nullptr;
+  const std::vector<std::string>& names = of_objects ? map->map.object_names : found->second;
+  return number < names.size() ? names[number].c_str() : nullptr;
 }
 
 const char* fathom_map_text(const fathom_map* map, const char* name) {

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "fathom/camera/camera_files.h"
+#include "fathom/scene/scene_segments.h"
 #include "fathom/text/json_text.h"
+#include "fathom/triangle/segment_channels.h"
 
 namespace fathom {
 using namespace text;
@@ -62,6 +64,18 @@ std::string sources_as_json(const std::vector<Source>& sources) {
   return joined_in('[', list, ']');
 }
 
+/// The names that the numbers of its channels stand for.
+void add_tables(const Scene& scene, DepthMap& map) {
+  std::vector<Segmentation> wanted;
+  for (const Segmentation by : all_segmentations)
+    if (map.find(std::string(description_of(channel_of(by)).name))) wanted.push_back(by);
+  if (wanted.empty()) return;
+  const SceneSegments segments(scene, wanted);
+  for (const Segmentation by : wanted)
+    if (!segments.names(by).empty())
+      map.tables[std::string(description_of(channel_of(by)).name)] = segments.names(by);
+}
+
 }  // namespace
 
 void describe_map(const Scene& scene, const Camera& camera, std::string_view engine,
@@ -70,6 +84,7 @@ void describe_map(const Scene& scene, const Camera& camera, std::string_view eng
   map.world_to_ndc = exr_ndc_from_world(camera);
   describe_screen_window(camera, map);
   for (const Object& object : scene.objects) map.object_names.push_back(object.name);
+  add_tables(scene, map);
   map.texts["fathom.camera"] = to_json(camera);
   map.texts["fathom.sources"] = sources_as_json(scene.sources);
   map.texts["fathom.engine"] = engine;

@@ -1,5 +1,7 @@
 #include "fathom/render.h"
 
+#include <atomic>
+
 #include "fathom/area/deep_pixels.h"
 #include "fathom/fast/render_fast.h"
 #include "fathom/map_description.h"
@@ -7,8 +9,10 @@
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/reference.h"
 #include "fathom/scene/scene_fault.h"
+#include "fathom/scene/scene_segments.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/map_of_camera.h"
+#include "fathom/triangle/segment_channels.h"
 
 namespace fathom {
 using namespace area;
@@ -22,6 +26,51 @@ void describe(const Scene& scene, const Camera& camera, const RenderOptions& opt
   if (options.cull != Cull::none) {
     map.texts["fathom.cull"] = options.cull == Cull::back ? "back" : "front";
   }
+}
+
+std::vector<std::uint32_t> ids_of(const std::vector<std::string>& names) {
+  std::vector<std::uint32_t> ids;
+  ids.reserve(names.size());
+  for (const std::string& name : names) ids.push_back(cryptomatte_id(name));
+  return ids;
+}
+
+Mattes mattes_by_object(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  std::vector<std::string> names;
+  for (const Object& object : scene.objects) names.push_back(object.name);
+  const std::vector<std::uint32_t> ids = ids_of(names);
+  const TriangleSource triangles(scene);
+  Mattes mattes = mattes_in_pixels(triangles, camera, options, [&](std::uint32_t number) {
+    return ids[triangles.origin(number).object];
+  });
+  mattes.layer = "CryptoObject";
+  mattes.names = std::move(names);
+  return mattes;
+}
+
+std::string layer_of(Segmentation by) {
+  std::string name(description_of(channel_of(by)).name);
+  name[0] = static_cast<char>(name[0] - 'a' + 'A');
+  return "Crypto" + name;
+}
+
+/// Triangles that belong to no segment have the empty name, which is listed where one is visible.
+Mattes mattes_by_segment(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                         Segmentation by) {
+  const TriangleSource triangles(scene);
+  const SceneSegments segments(triangles, {by});
+  const std::vector<std::uint32_t> ids = ids_of(segments.names(by));
+  std::atomic<bool> some_without_name = false;
+  Mattes mattes = mattes_in_pixels(triangles, camera, options, [&](std::uint32_t number) {
+    const std::uint32_t segment = segments.number(by, triangles.origin(number));
+    if (segment != unsegmented) return ids[segment];
+    some_without_name = true;
+    return cryptomatte_id("");
+  });
+  mattes.layer = layer_of(by);
+  mattes.names = segments.names(by);
+  if (some_without_name) mattes.names.emplace_back();
+  return mattes;
 }
 
 }  // namespace
@@ -56,21 +105,15 @@ DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOption
 }
 
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
-                     const RenderOptions& options) {
+                     const RenderOptions& options, std::optional<Segmentation> by) {
   const StandardArithmetic standard;
+  if (by == Segmentation::label) throw UsageError("labels have no names, which Cryptomatte needs");
   require_thread_count(options.threads);
   // A map that is yet to get its channels is of the size that its areas are computed for.
   if (!map.channels.empty()) require_map_of(camera, map);
   require_renderable(scene, camera);
-  std::vector<std::uint32_t> ids;
-  for (const Object& object : scene.objects) ids.push_back(cryptomatte_id(object.name));
-  const TriangleSource triangles(scene);
-  Mattes mattes = mattes_in_pixels(triangles, camera, options, [&](std::uint32_t number) {
-    return ids[triangles.origin(number).object];
-  });
-  mattes.layer = "CryptoObject";
-  for (const Object& object : scene.objects) mattes.names.push_back(object.name);
-  add_mattes(map, mattes);
+  add_mattes(map, by ? mattes_by_segment(scene, camera, options, *by)
+                     : mattes_by_object(scene, camera, options));
 }
 
 }  // namespace fathom

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
+
 #include "fathom/camera/camera.h"
 #include "fathom/fast/stream.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/mesh/segmentation.h"
 #include "fathom/scene/scene.h"
 #include "fathom/scene/streamed_scene.h"
 #include "fathom/triangle/options.h"
@@ -31,11 +34,13 @@ DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOp
 DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
 
 /// Adds Cryptomatte channels by object, CryptoObject00.R and so on, with the exact visible area of
-/// each object in each pixel rounded once. Objects of the same name are one. The map is one of this
-/// scene and camera; of the options culling, threads and progress count.
-/// Fails    InputError and UsageError as render(); InputError also if the map has a fault or is not
-///          of the camera's size.
+/// each object in each pixel rounded once; or by material, group or part, as CryptoMaterial00.R and
+/// so on. What has the same name is one; triangles without a name have the empty one. The map is one
+/// of this scene and camera; of the options culling, threads and progress count.
+/// Fails    InputError and UsageError as render(); UsageError for labels, which have no names;
+///          InputError also if the map has a fault or is not of the camera's size.
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
-                     const RenderOptions& options = {});
+                     const RenderOptions& options = {},
+                     std::optional<Segmentation> by = std::nullopt);
 
 }  // namespace fathom

@@ -10,7 +10,9 @@
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/geometry/vertex_transform.h"
 #include "fathom/pipeline/render_pipeline.h"
+#include "fathom/scene/scene_segments.h"
 #include "fathom/scene/triangle_source.h"
+#include "fathom/triangle/segment_channels.h"
 
 namespace fathom {
 namespace {
@@ -26,24 +28,39 @@ std::vector<std::uint64_t> ends_of_lines(const Scene& scene, std::uint64_t trian
   return ends;
 }
 
+/// What a channel has of a triangle.
+std::uint32_t number_of(const TriangleOrigin& origin, Channel channel,
+                        const SceneSegments& segments) {
+  if (channel == Channel::face) return origin.face;
+  const auto by = segmentation_of(channel);
+  return by ? segments.number(*by, origin) : origin.object;
+}
+
+/// The same of a line or a point, which is of no face.
+std::uint32_t number_of_line(std::size_t object, Channel channel, const SceneSegments& segments) {
+  if (channel == Channel::face) return no_surface;
+  const auto by = segmentation_of(channel);
+  return by ? segments.number_of_object(*by, object) : static_cast<std::uint32_t>(object);
+}
+
 /// A channel of the pipeline's map.
 ImageChannel channel_of(const Scene& scene, const pipeline::PipelineFrame& frame, Channel channel) {
   if (channel == Channel::Z) return {"Z", frame.depth};
   if (channel == Channel::id) return {"id", frame.id};
   Samples<std::uint32_t> values(frame.id.size(), no_surface);
   const TriangleSource triangles(scene);
+  const SceneSegments segments(triangles, segmentations_of({channel}));
   const std::vector<std::uint64_t> ends = ends_of_lines(scene, triangles.count());
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (frame.id[i] == no_surface) continue;
     if (frame.id[i] >= triangles.count()) {
       const auto object = std::ranges::upper_bound(ends, frame.id[i]) - ends.begin();
-      if (channel == Channel::object) values[i] = static_cast<std::uint32_t>(object);
-      continue;
+      values[i] = number_of_line(static_cast<std::size_t>(object), channel, segments);
+    } else {
+      values[i] = number_of(triangles.origin(frame.id[i]), channel, segments);
     }
-    const TriangleOrigin origin = triangles.origin(frame.id[i]);
-    values[i] = channel == Channel::face ? origin.face : origin.object;
   }
-  return {channel == Channel::face ? "face" : "object", values};
+  return {std::string(description_of(channel).name), std::move(values)};
 }
 
 /// Inverts the depth range and the format.
@@ -140,9 +157,9 @@ void add_depth_buffer(DepthMap& map, const PipelineDepthBuffer& buffer) {
 
 void require_pipeline_channels(const std::vector<Channel>& channels) {
   for (const Channel channel : channels) {
-    if (channel != Channel::Z && channel != Channel::id && channel != Channel::face &&
-        channel != Channel::object) {
-      throw UsageError(Setting{"channels"}, "the pipeline gives Z, id, face and object");
+    if (channel != Channel::Z && description_of(channel).kind != ChannelKind::identifier) {
+      throw UsageError(Setting{"channels"},
+                       "the pipeline gives Z, id, face, object, material, group, part and label");
     }
   }
 }

@@ -152,6 +152,10 @@ TEST_F(Names, WithinFilesReachNoTerminal) {
   folder_.write("key.json", R"({"meshes": [], "\u001b[2J\u009b\u202e\ny": 1})");
   folder_.write("camera-key.json", camera_with("\u202e\u009bkey", "1"));
   folder_.write("word.obj", "v 1 2 3\nsurf\x1b[2J\xc2\x9b\xe2\x80\xae 1\nv a\x1b[2J\xc2\x9b 1 2\n");
+  const std::string name = "a\x1b[2J\r\xc2\x9b\xe2\x80\xae\b\xff";
+  std::string segments = square_obj;
+  segments.insert(0, "usemtl " + name + "\ng " + name + "\no " + name + "\n");
+  folder_.write("segments.obj", segments);
   const std::vector<std::vector<std::string>> commands{
       {"render", "scene.json", "--camera", "camera.json", "--channels", "Z,object", "--cryptomatte",
        "-o", "map.exr"},
@@ -166,7 +170,16 @@ TEST_F(Names, WithinFilesReachNoTerminal) {
       {"coplanar", "scene.json", "scene.json", "--camera", "camera.json", "--json"},
       {"info", "key.json"},
       {"info", "camera-key.json"},
-      {"info", "word.obj"}};
+      {"info", "word.obj"},
+      {"info", "segments.obj"},
+      {"info", "segments.obj", "--json"},
+      {"render", "segments.obj", "--camera", "camera.json", "--channels",
+       "Z,material,group,part,label", "--cryptomatte-by", "material", "-o", "segments.exr"},
+      {"info", "segments.exr"},
+      {"info", "segments.exr", "--json"},
+      {"probe", "segments.obj", "--camera", "camera.json", "--pixel", "3,3"},
+      {"probe", "segments.obj", "--camera", "camera.json", "--pixel", "3,3", "--json"},
+      {"preview", "segments.exr", "--channel", "material", "-o", "segments.png"}};
   for (const auto& command : commands) {
     const Outcome outcome = fathom(command);
     expect_harmless(outcome.out);

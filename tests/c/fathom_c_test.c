@@ -151,6 +151,42 @@ static void failures_say_why(void) {
   fathom_map_free(NULL);
 }
 
+/* A triangle of a material, and one of none. */
+static void numbers_have_names(const char* folder) {
+  char path[4096];
+  const char* mesh = path;
+  fathom_scene* scene = NULL;
+  fathom_map* map = NULL;
+  size_t i, named = 0, unnamed = 0;
+  snprintf(path, sizeof path, "%s/fathom_c_names.obj", folder);
+  FILE* const file = fopen(path, "w");
+  CHECK(file != NULL);
+  fputs(
+      "v -2 -2 4\nv 2 -2 4\nv 0 2 4\nv 9 9 9\nf 1 2 3\nv -2 -2 3\nv 0 -2 3\nv -1 2 3\n"
+      "o lid\nusemtl dark oak\nf 5 6 7\n",
+      file);
+  fclose(file);
+  CHECK(fathom_scene_read(&mesh, 1, &scene) == FATHOM_OK);
+  CHECK(fathom_render(scene, &camera, "material,part,object,id", NULL, &map) == FATHOM_OK);
+  const uint32_t* const ids = fathom_map_uint32(map, "id");
+  const uint32_t* const materials = fathom_map_uint32(map, "material");
+  for (i = 0; i < 64 * 48; ++i) {
+    const uint32_t truth = ids[i] == 1 ? 0 : ids[i] == 0 ? FATHOM_NO_SEGMENT : FATHOM_NO_SURFACE;
+    CHECK(materials[i] == truth);
+    named += ids[i] == 1;
+    unnamed += ids[i] == 0;
+  }
+  CHECK(named > 50 && unnamed > 50);
+  CHECK(strcmp(fathom_map_name(map, "material", 0), "dark oak") == 0);
+  CHECK(strcmp(fathom_map_name(map, "part", 0), "lid") == 0);
+  CHECK(strcmp(fathom_map_name(map, "object", 0), "fathom_c_names") == 0);
+  CHECK(fathom_map_name(map, "material", 1) == NULL && fathom_map_name(map, "id", 0) == NULL);
+  CHECK(fathom_map_name(NULL, "material", 0) == NULL && fathom_map_name(map, NULL, 0) == NULL);
+  fathom_map_free(map);
+  fathom_scene_free(scene);
+  remove(path);
+}
+
 int main(int count, char** arguments) {
   if (count != 3) {
     fprintf(stderr, "usage: fathom_c_test MESH FOLDER\n");
@@ -161,6 +197,7 @@ int main(int count, char** arguments) {
   every_depth_is_that_of_the_plane(1);
   poses_place_exactly();
   files_keep_every_bit(arguments[1], arguments[2]);
+  numbers_have_names(arguments[2]);
   progress_can_stop_it();
   failures_say_why();
   if (failures == 0) puts("all is well");

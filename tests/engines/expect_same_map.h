@@ -10,8 +10,9 @@
 namespace fathom::testing {
 
 inline const std::vector<Channel> every_channel{
-    Channel::Z,    Channel::A,      Channel::Zlow, Channel::distance, Channel::id,
-    Channel::face, Channel::object, Channel::N,    Channel::P,        Channel::bary};
+    Channel::Z,     Channel::A,      Channel::Zlow,     Channel::distance, Channel::id,
+    Channel::face,  Channel::object, Channel::material, Channel::group,    Channel::part,
+    Channel::label, Channel::N,      Channel::P,        Channel::bary};
 inline const std::vector<Channel> quick_channels{Channel::Z, Channel::A, Channel::id, Channel::face,
                                                  Channel::object};
 

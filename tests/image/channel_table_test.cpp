@@ -19,7 +19,7 @@ TEST(ChannelTable, NamesLeadToChannelsAndBack) {
       EXPECT_TRUE(names.insert(name).second) << name;
     }
   }
-  EXPECT_EQ(names.size(), 10U - 3 + 3 + 3 + 2);
+  EXPECT_EQ(names.size(), 14U - 3 + 3 + 3 + 2);
   EXPECT_EQ(channel_named("z"), std::nullopt);
   EXPECT_EQ(channel_named("N.X"), std::nullopt);
   EXPECT_EQ(channel_named(""), std::nullopt);
@@ -29,7 +29,15 @@ TEST(ChannelTable, PartsAndWordsForPeople) {
   EXPECT_THAT(part_names(Channel::Z), ElementsAre("Z"));
   EXPECT_THAT(part_names(Channel::N), ElementsAre("N.X", "N.Y", "N.Z"));
   EXPECT_THAT(part_names(Channel::bary), ElementsAre("bary.U", "bary.V"));
-  EXPECT_EQ(channel_names(), "Z, A, Zlow, distance, id, face, object, N, P and bary");
+  EXPECT_EQ(channel_names(),
+            "Z, A, Zlow, distance, id, face, object, material, group, part, label, N, P and bary");
+}
+
+TEST(ChannelTable, IdentifiersThatShowSegments) {
+  std::vector<std::string_view> names;
+  for (const ChannelDescription& d : channel_table)
+    if (shows_segments(d.name)) names.push_back(d.name);
+  EXPECT_THAT(names, ElementsAre("material", "group", "part", "label"));
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ TEST(Exr, KeepsWhatTheMapCarries) {
   const DepthMap map = full_map(4, 3);
   const DepthMap back = decode_map(encode_exr(map, Compression::zip, 1, "a.exr"), "a.exr");
   EXPECT_EQ(back.object_names, map.object_names);
+  EXPECT_EQ(back.tables, map.tables);
   EXPECT_EQ(back.world_to_camera, map.world_to_camera);
   EXPECT_EQ(back.world_to_ndc, map.world_to_ndc);
   EXPECT_EQ(back.pixel_aspect_ratio, 1.5);
@@ -196,6 +197,7 @@ TEST(Png, KeepsEveryCodeScaleAndText) {
   map.png_scale = 1000.1;
   map.texts = {{"fathom.camera", "{\"a\": \"é\"}"}, {"fathom.engine", "reference"}};
   map.object_names = {"spot", "é"};
+  map.tables = {{"material", {"oak", std::string("a\0b", 3), "é"}}};
   const DepthMap back = decode_map(encode_png(map, map.channels[0], "a.png"), "a.png");
   ASSERT_NE(back.values<std::uint16_t>("distance"), nullptr);
   EXPECT_EQ(bits_of(back.channels[0]), bits_of(map.channels[0]));
@@ -203,6 +205,7 @@ TEST(Png, KeepsEveryCodeScaleAndText) {
   EXPECT_EQ(back.texts.at("fathom.camera"), map.texts.at("fathom.camera"));
   EXPECT_EQ(back.texts.at("fathom.engine"), "reference");
   EXPECT_EQ(back.object_names, map.object_names);
+  EXPECT_EQ(back.tables, map.tables);
 }
 
 TEST(Png, HoldsIdentifiersThatFit) {
@@ -213,6 +216,18 @@ TEST(Png, HoldsIdentifiersThatFit) {
   std::get<Samples<std::uint32_t>>(map.channels[0].values)[3] = 65535;
   EXPECT_EQ(message_of<OutputError>([&] { encode_png(map, map.channels[0], "a.png"); }),
             "a.png: identifier 65535 does not fit a 16-bit PNG: expected at most 65534");
+}
+
+/// 65534 says that a visible surface has no material, and so no material has this number.
+TEST(Png, HoldsSegmentsThatFit) {
+  DepthMap map =
+      map_of(2, 2, "label", std::vector<std::uint32_t>{0, 65533, no_segment, no_surface});
+  const DepthMap back = decode_map(encode_png(map, map.channels[0], "a.png"), "a.png");
+  ASSERT_NE(back.values<std::uint32_t>("label"), nullptr);
+  EXPECT_EQ(bits_of(back.channels[0]), bits_of(map.channels[0]));
+  std::get<Samples<std::uint32_t>>(map.channels[0].values)[0] = 65534;
+  EXPECT_EQ(message_of<OutputError>([&] { encode_png(map, map.channels[0], "a.png"); }),
+            "a.png: identifier 65534 does not fit a 16-bit PNG: expected at most 65533");
 }
 
 TEST(WriteMap, ChoosesTheChannel) {

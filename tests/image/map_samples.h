@@ -106,6 +106,7 @@ inline DepthMap full_map(std::uint32_t width, std::uint32_t height) {
   map.channels.push_back({"object", random_bits<std::uint32_t>(count, 3)});
   map.channels.push_back({"id", random_bits<std::uint32_t>(count, 4)});
   map.object_names = {"spot", "wall \"é\"", ""};
+  map.tables = {{"material", {"oak", std::string("a\0b", 3), "ひ"}}, {"part", {"lid"}}};
   map.texts = {{"fathom.camera", "{\"width\": 3}"}, {"fathom.engine", "reference"}};
   map.world_to_camera = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0, 0, 0, 1};
   map.world_to_ndc = {0.5, 0, 0.5, 0, 0, 0.25, 0.5, 0, 0, 0, 1, 0, 0, 0, 1, 0};

@@ -51,6 +51,7 @@ TEST(Npz, KeepsEveryBitAndText) {
     EXPECT_EQ(bits_of(*back.find(channel.name)), bits_of(channel)) << channel.name;
   }
   EXPECT_EQ(back.object_names, map.object_names);
+  EXPECT_EQ(back.tables, map.tables);
   for (const auto& [name, text] : map.texts) EXPECT_EQ(back.texts.at(name), text);
 }
 

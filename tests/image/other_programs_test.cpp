@@ -26,18 +26,21 @@ constexpr float inf = std::numeric_limits<float>::infinity();
 /// 4×3: depths 1.5, 2, 2.5, … and one background pixel.
 DepthMap sample() {
   std::vector<float> z(12);
-  std::vector<std::uint32_t> id(12), object(12);
+  std::vector<std::uint32_t> id(12), object(12), material(12);
   for (std::size_t k = 0; k < 12; ++k) {
     z[k] = 1.5f + 0.5f * static_cast<float>(k);
     id[k] = 4000000000u + static_cast<std::uint32_t>(k);
     object[k] = k % 2;
+    material[k] = k % 4 == 3 ? no_segment : k % 4 == 0;
   }
   z[11] = inf;
-  id[11] = object[11] = no_surface;
+  id[11] = object[11] = material[11] = no_surface;
   DepthMap map = map_of(4, 3, "Z", z);
   map.channels.push_back({"id", id});
   map.channels.push_back({"object", object});
+  map.channels.push_back({"material", material});
   map.object_names = {"spot", "ground"};
+  map.tables["material"] = {"oak", "steel"};
   map.texts["fathom.camera"] =
       R"({"width": 4, "height": 3, "fx": 2.0, "fy": 2.0, "cx": 2.0, "cy": 1.5})";
   map.world_to_camera = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0, 0, 0, 1};
@@ -86,8 +89,9 @@ TEST(OpenImageIO, ReadsExrInEveryCompression) {
     write_map(sample(), folder / "map.exr", MapFormat::exr, options);
     const Outcome info = in_folder(folder, "oiiotool --info -v --stats map.exr");
     EXPECT_EQ(info.status, 0) << info.output;
-    EXPECT_THAT(info.output, HasSubstr("4 x    3, 3 channel, float/uint/uint openexr"));
-    EXPECT_THAT(info.output, HasSubstr("channel list: Z (float), id (uint), object (uint)"));
+    EXPECT_THAT(info.output, HasSubstr("4 x    3, 4 channel, float/uint/uint/uint openexr"));
+    EXPECT_THAT(info.output,
+                HasSubstr("channel list: Z (float), id (uint), material (uint), object (uint)"));
     EXPECT_THAT(info.output, HasSubstr("compression: \"" + name + "\""));
     EXPECT_THAT(info.output, HasSubstr("Stats Min: 1.500000"));
     EXPECT_THAT(info.output, HasSubstr("Stats Max: 6.500000"));
@@ -127,12 +131,34 @@ TEST(OpenExr, HeaderAndManifestAreWellFormed) {
   const Imf::InputFile file((folder / "map.exr").c_str());
   ASSERT_TRUE(Imf::hasIDManifest(file.header()));
   const Imf::IDManifest manifest(Imf::idManifest(file.header()));
-  ASSERT_EQ(manifest.size(), 1u);
+  ASSERT_EQ(manifest.size(), 2u);
   EXPECT_EQ(manifest[0].getChannels(), std::set<std::string>{"object"});
   EXPECT_EQ(manifest[0].getEncodingScheme(), "id");
   ASSERT_EQ(manifest[0].size(), 2u);
   EXPECT_EQ(manifest[0].find(0).text(), std::vector<std::string>{"spot"});
   EXPECT_EQ(manifest[0].find(1).text(), std::vector<std::string>{"ground"});
+  EXPECT_EQ(manifest[1].getChannels(), std::set<std::string>{"material"});
+  EXPECT_EQ(manifest[1].find(0).text(), std::vector<std::string>{"oak"});
+}
+
+TEST(OpenExr, ManifestNamesTheNumbersOfEveryChannelThatHasNames) {
+  const Folder folder;
+  DepthMap map = map_of(2, 1, "material", std::vector<std::uint32_t>{1, no_segment});
+  map.channels.push_back({"object", Samples<std::uint32_t>{0, 1}});
+  map.channels.push_back({"label", Samples<std::uint32_t>{7, 8}});
+  map.object_names = {"spot", "ground"};
+  map.tables = {{"material", {"oak", "steel"}}, {"part", {"lid"}}};
+  write_map(map, folder / "map.exr", MapFormat::exr);
+  const Imf::InputFile file((folder / "map.exr").c_str());
+  const Imf::IDManifest manifest(Imf::idManifest(file.header()));
+  // Of channels that are there, whether they are listed so or not.
+  ASSERT_EQ(manifest.size(), 2u);
+  EXPECT_EQ(manifest[0].getChannels(), std::set<std::string>{"material"});
+  EXPECT_EQ(manifest[0].find(1).text(), std::vector<std::string>{"steel"});
+  EXPECT_EQ(manifest[1].getChannels(), std::set<std::string>{"object"});
+  EXPECT_EQ(manifest[1].find(1).text(), std::vector<std::string>{"ground"});
+  const Outcome header = in_folder(folder, "exrheader map.exr");
+  EXPECT_THAT(header.output, HasSubstr("fathom.materials (type string): \"[\"oak\",\"steel\"]\""));
 }
 
 TEST(NumPy, ReadsEveryTypeOfNpy) {
@@ -243,6 +269,10 @@ TEST(ReadingMaps, PythonOfThePageRuns) {
   EXPECT_NEAR(y, mean_y, 1e-7);
   EXPECT_NEAR(z, mean_z, 1e-7);
   std::getline(lines, line);
+  std::getline(lines, line);
+  EXPECT_EQ(line, "oak is seen at 6 pixels");
+  std::getline(lines, line);
+  EXPECT_EQ(line, "steel is seen at 3 pixels");
   if (has_opencv) {
     std::getline(lines, line);
     EXPECT_EQ(line, "OpenCV (3, 4) nearest 1.5");

@@ -83,6 +83,20 @@ TEST(Preview, IdentifiersHaveColoursOfTheirOwn) {
   EXPECT_EQ(block(image, 3), neutral);
 }
 
+/// What is visible and has no material is neither background nor a material; a triangle of that
+/// number is one like others.
+TEST(Preview, SurfacesWithoutASegmentAreGrey) {
+  DepthMap map =
+      map_of(5, 1, "material", std::vector<std::uint32_t>{0, 1, no_segment, no_surface, 0});
+  map.tables["material"] = {"oak", "steel"};
+  const RgbImage image = draw_preview(map);
+  EXPECT_EQ(block(image, 2), (Rgb{96, 96, 96}));
+  EXPECT_EQ(block(image, 3), neutral);
+  EXPECT_NE(block(image, 0), block(image, 1));
+  map.channels[0].name = "id";
+  EXPECT_NE(block(draw_preview(map), 2), (Rgb{96, 96, 96}));
+}
+
 TEST(Preview, NormalsAreRgb) {
   DepthMap map = map_of(5, 1, "N.X", std::vector<float>{1, 0, 0, 0, -1});
   map.channels.push_back({"N.Y", std::vector<float>{0, 1, 0, 0, 0}});

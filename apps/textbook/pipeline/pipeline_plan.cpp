@@ -13,7 +13,7 @@ void check_possible(const RenderArguments& a, MapFormat format) {
   if (a.verified_pixels) {
     throw UsageError("--verify is for exact engines; fathom compare shows how two maps differ");
   }
-  if (a.deep || a.cryptomatte) {
+  if (a.deep || !a.mattes().empty()) {
     throw UsageError("--deep and --cryptomatte are for exact engines, not for pipeline");
   }
   if (a.samples || a.depth_buffer.against_exact) {

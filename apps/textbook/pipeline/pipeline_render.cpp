@@ -18,6 +18,7 @@
 #include "fathom/pipeline/geometry/window_transform.h"
 #include "fathom/render_by_pipeline.h"
 #include "fathom/text/counted.h"
+#include "fathom/triangle/segment_channels.h"
 
 namespace fathom::app {
 namespace {
@@ -76,8 +77,11 @@ PipelineRendering rendering_of(Drawn& drawn, const Camera& camera, const Pipelin
 
 int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const Console& console) {
   if (plan.stages.texture != "checker") note_input(plan.stages.texture);
-  Scene scene = arguments.scene.read(
-      console, {.hash = true, .attributes = plan.with_picture, .primitives = true});
+  Scene scene =
+      arguments.scene.read(console, {.hash = true,
+                                     .attributes = plan.with_picture,
+                                     .primitives = true,
+                                     .segments = !segmentations_of(plan.channels).empty()});
   const std::vector<Camera> cameras = arguments.camera.get(scene, console);
   Drawn drawn = drawn_from(std::move(scene), plan, arguments);
   const double time = plan.shutter ? plan.shutter->close : arguments.motion.time_or_start();

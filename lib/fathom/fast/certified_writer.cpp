@@ -71,14 +71,13 @@ void CertifiedWriter::write_origins(const VisibleRow& row) const {
       values_.id[surface.pixel] = surface.triangle;
     });
   }
-  if (!values_.face && !values_.object) return;
+  if (!values_.wants_origins()) return;
   std::uint32_t last = no_surface;
-  TriangleOrigin origin;
+  OriginNumbers numbers;
   for_each_bit(row.surface, [&](std::size_t k) {
     const VisibleSurface surface = row.at(k);
-    if (surface.triangle != last) origin = frame_.rays.triangles().origin(last = surface.triangle);
-    if (values_.face) values_.face[surface.pixel] = origin.face;
-    if (values_.object) values_.object[surface.pixel] = origin.object;
+    if (surface.triangle != last) numbers = exact_.numbers_of(last = surface.triangle);
+    values_.write(surface.pixel, numbers);
   });
 }
 

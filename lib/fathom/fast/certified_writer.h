@@ -50,7 +50,7 @@ class CertifiedWriter {
   /// The samples of a row at which channels are still to be written.
   struct Open;
 
-  /// id, face and object.
+  /// id, face, object and what a segmentation has.
   void write_origins(const VisibleRow& row) const;
   /// The normal is the same at all pixels of a triangle.
   void write_normals(const VisibleRow& row, triangle::Referee& referee,

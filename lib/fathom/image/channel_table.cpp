@@ -31,6 +31,10 @@ std::vector<std::string> part_names(Channel channel) {
   return names;
 }
 
+bool shows_segments(std::string_view channel) {
+  return channel == "material" || channel == "group" || channel == "part" || channel == "label";
+}
+
 std::string channel_names() {
   std::string names;
   for (std::size_t i = 0; i < channel_table.size(); ++i) {

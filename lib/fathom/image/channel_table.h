@@ -11,13 +11,28 @@
 /// each is called, holds and means.
 namespace fathom {
 
-enum class Channel { Z, A, Zlow, distance, id, face, object, N, P, bary };
+enum class Channel {
+  Z,
+  A,
+  Zlow,
+  distance,
+  id,
+  face,
+  object,
+  material,
+  group,
+  part,
+  label,
+  N,
+  P,
+  bary
+};
 
 /// What a channel's values mean, which decides what value says "no surface".
 enum class ChannelKind {
   depth,       ///< Z, distance, disparity, Zdecoded: background +∞ (of codes and
                ///< disparities 0), or what the map says (background.h)
-  identifier,  ///< id, face, object and every other 32-bit integer: background no_surface
+  identifier,  ///< id, face, object, material and every other 32-bit integer: background no_surface
   direction,   ///< N.X, N.Y, N.Z: background 0 in all three
   position,    ///< P.*, bary.*: background NaN
   quantity     ///< everything else (A, Zlow, other programs' channels): 0, which is a value too
@@ -46,7 +61,7 @@ struct ChannelDescription {
 };
 
 /// In the order of Channel.
-inline constexpr std::array<ChannelDescription, 10> channel_table{{
+inline constexpr auto channel_table = std::to_array<ChannelDescription>({
     {Channel::Z, "Z", "", ChannelType::encoded, ChannelKind::depth, "planar depth"},
     {Channel::A, "A", "", ChannelType::binary32, ChannelKind::quantity, "coverage"},
     {Channel::Zlow, "Zlow", "", ChannelType::binary32, ChannelKind::quantity,
@@ -55,11 +70,16 @@ inline constexpr std::array<ChannelDescription, 10> channel_table{{
     {Channel::id, "id", "", ChannelType::identifier, ChannelKind::identifier, "triangle"},
     {Channel::face, "face", "", ChannelType::identifier, ChannelKind::identifier, "face"},
     {Channel::object, "object", "", ChannelType::identifier, ChannelKind::identifier, "object"},
+    {Channel::material, "material", "", ChannelType::identifier, ChannelKind::identifier,
+     "material"},
+    {Channel::group, "group", "", ChannelType::identifier, ChannelKind::identifier, "group"},
+    {Channel::part, "part", "", ChannelType::identifier, ChannelKind::identifier, "part"},
+    {Channel::label, "label", "", ChannelType::identifier, ChannelKind::identifier, "label"},
     {Channel::N, "N", "XYZ", ChannelType::binary32, ChannelKind::direction, "normal in the world"},
     {Channel::P, "P", "XYZ", ChannelType::binary32, ChannelKind::position, "position in the world"},
     {Channel::bary, "bary", "UV", ChannelType::binary32, ChannelKind::position,
      "barycentric weights of B and C"},
-}};
+});
 
 inline const ChannelDescription& description_of(Channel channel) {
   return channel_table[static_cast<std::size_t>(channel)];
@@ -70,6 +90,10 @@ std::optional<Channel> channel_named(std::string_view name);
 
 /// The names of its parts, "N.X", "N.Y" and "N.Z"; for a single channel, its own name.
 std::vector<std::string> part_names(Channel channel);
+
+/// Whether a channel has no_segment where a surface is visible that has none: those of materials,
+/// groups, parts and labels.
+bool shows_segments(std::string_view channel);
 
 /// "Z, A, Zlow, … and bary"
 std::string channel_names();

@@ -12,8 +12,10 @@
 
 namespace fathom {
 
-/// Background of `id`, `face` and `object`.
+/// Background of `id`, `face`, `object` and all other identifiers.
 inline constexpr std::uint32_t no_surface = 0xFFFFFFFF;
+/// What `material`, `group`, `part` and `label` have where a surface is visible that has none.
+inline constexpr std::uint32_t no_segment = 0xFFFFFFFE;
 
 /// One channel: width × height values, row by row from the top, each row from the left.
 /// binary32 is what EXR and PFM hold; binary64 is only for `Z` and `distance` in NPY; 16 bits only
@@ -37,8 +39,10 @@ struct DepthMap {
 
   /// Names of the objects that channel `object` numbers.
   std::vector<std::string> object_names;
+  /// What the numbers in other channels stand for: tables["material"][n] is the name of material n.
+  std::map<std::string, std::vector<std::string>> tables;
   /// Attributes as they are in the file: `fathom.camera`, `fathom.sources`, `fathom.engine`, …
-  /// (`fathom.objects` is made from object_names).
+  /// (`fathom.objects` is made from object_names, `fathom.materials` and the like from tables).
   std::map<std::string, std::string> texts;
   /// EXR's standard camera matrices for column vectors, row by row (the file holds them for row
   /// vectors, in binary32): world to camera with x right, y up, z forward; world to NDC with

@@ -129,15 +129,4 @@ DepthMap read_map(std::span<const std::byte> bytes, const std::string& name,
   return decode_map(bytes, name, memory);
 }
 
-std::string image::object_names_as_json(const std::vector<std::string>& names) {
-  std::vector<std::string> strings;
-  strings.reserve(names.size());
-  for (const std::string& name : names) strings.push_back(json_string(name));
-  return joined_in('[', strings, ']');
-}
-
-std::vector<std::string> image::object_names_from_json(const std::string& text) {
-  return strings_of_json(text).value_or(std::vector<std::string>());
-}
-
 }  // namespace fathom

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "fathom/image/compare_internal.h"
+#include "fathom/image/files/name_tables.h"
 #include "fathom/image/pictures/legend.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
@@ -17,7 +18,7 @@ using namespace image;
 namespace {
 
 constexpr Rgb plus_infinity_colour{230, 25, 120}, minus_infinity_colour{120, 40, 200},
-    nan_colour{255, 120, 0};
+    nan_colour{255, 120, 0}, none_colour{96, 96, 96};
 
 /// A neutral colour that is not in the colour map.
 Rgb background_colour(ColourMap colours) {
@@ -53,7 +54,7 @@ class Specials {
     shade = colour;
   }
   void add_to(Sheet& sheet, std::uint64_t pixels) const {
-    for (const char* what : {"no surface", "+∞", "−∞", "not a number"})
+    for (const char* what : {"no surface", "none", "+∞", "−∞", "not a number"})
       if (const auto found = counts_.find(what); found != counts_.end())
         sheet.entries.push_back(
             {found->second.second, what + percentage(found->second.first, pixels)});
@@ -135,23 +136,31 @@ void draw_numbers(Sheet& sheet, const DepthMap& map, const ImageChannel& channel
 void draw_identifiers(Sheet& sheet, const DepthMap& map, const ImageChannel& channel,
                       const PreviewOptions& options) {
   const auto& ids = std::get<Samples<std::uint32_t>>(channel.values);
+  const std::vector<std::string>* names = names_of_channel(map, channel.name);
+  const bool segments = shows_segments(channel.name);
+  const auto is_plain = [&](std::uint32_t id) {
+    return id != no_surface && !(segments && id == no_segment);
+  };
   Specials specials;
   for (std::size_t k = 0; k < ids.size(); ++k) {
+    Rgb& pixel = sheet.picture.pixels[k];
+    if (is_plain(ids[k])) {
+      pixel = colour_of_identifier(ids[k]);
+      continue;
+    }
     const bool none = ids[k] == no_surface;
-    const Rgb background = background_colour(options.colours);
-    if (none) specials.count("no surface", background);
-    sheet.picture.pixels[k] = none ? background : colour_of_identifier(ids[k]);
+    pixel = none ? background_colour(options.colours) : none_colour;
+    specials.count(none ? "no surface" : "none", pixel);
   }
   std::vector<std::uint32_t> distinct(ids.begin(), ids.end());
   std::sort(distinct.begin(), distinct.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  if (!distinct.empty() && distinct.back() == no_surface) distinct.pop_back();
+  while (!distinct.empty() && !is_plain(distinct.back())) distinct.pop_back();
   constexpr std::size_t most_listed = 12;
   for (std::size_t k = 0; k < std::min(distinct.size(), most_listed); ++k) {
     const std::uint32_t id = distinct[k];
     std::string text = std::to_string(id);
-    if (channel.name == "object" && id < map.object_names.size())
-      text += "  " + map.object_names[id];
+    if (names && id < names->size()) text += "  " + (*names)[id];
     sheet.entries.push_back({colour_of_identifier(id), text});
   }
   if (distinct.size() > most_listed)

@@ -7,12 +7,15 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/threads/threads.h"
+#include "fathom/triangle/segment_channels.h"
 
 namespace fathom::triangle {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+static_assert(no_segment == unsegmented, "what a map has is what a scene says");
 
 /// Room for the values of a channel. Where the caller lends it, it is not 0.
 template <class T>
@@ -87,6 +90,26 @@ EncodedValues encoded_values_of(DepthMap& map, const std::string& name) {
           values_of<std::uint16_t>(map, name)};
 }
 
+std::array<std::uint32_t*, all_segmentations.size()> segment_values_of(DepthMap& map) {
+  std::array<std::uint32_t*, all_segmentations.size()> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = values_of<std::uint32_t>(
+        map, std::string(description_of(channel_of(all_segmentations[i])).name));
+  }
+  return values;
+}
+
+/// The segments that a map shows; null if it shows none.
+std::shared_ptr<const SceneSegments> segments_for(const ChannelValues& values,
+                                                  const TriangleSource& triangles) {
+  std::vector<Segmentation> wanted;
+  for (std::size_t i = 0; i < all_segmentations.size(); ++i) {
+    if (values.segments[i]) wanted.push_back(all_segmentations[i]);
+  }
+  if (wanted.empty()) return nullptr;
+  return std::make_shared<const SceneSegments>(triangles, wanted);
+}
+
 }  // namespace
 
 void fail(const EncodingFault& fault, const DepthMap& map) {
@@ -138,11 +161,25 @@ ChannelValues::ChannelValues(DepthMap& map)
       id(values_of<std::uint32_t>(map, "id")),
       face(values_of<std::uint32_t>(map, "face")),
       object(values_of<std::uint32_t>(map, "object")),
+      segments(segment_values_of(map)),
       normal{values_of<float>(map, "N.X"), values_of<float>(map, "N.Y"),
              values_of<float>(map, "N.Z")},
       position{values_of<float>(map, "P.X"), values_of<float>(map, "P.Y"),
                values_of<float>(map, "P.Z")},
       barycentric{values_of<float>(map, "bary.U"), values_of<float>(map, "bary.V")} {}
+
+bool ChannelValues::wants_origins() const {
+  return face || object ||
+         std::any_of(segments.begin(), segments.end(), [](const auto* values) { return values; });
+}
+
+void ChannelValues::write(std::size_t pixel, const OriginNumbers& numbers) const {
+  if (face) face[pixel] = numbers.face;
+  if (object) object[pixel] = numbers.object;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (segments[i]) segments[i][pixel] = numbers.segments[i];
+  }
+}
 
 ChannelWriter::ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                              const RenderOptions& options)
@@ -151,7 +188,9 @@ ChannelWriter::ChannelWriter(DepthMap& map, const TriangleSource& triangles, con
       encoding_(options.depth_encoding),
       handedness_(Dyadic(camera.fx).sign() * Dyadic(camera.fy).sign() *
                   determinant_of_rotation(camera).sign()),
-      values_(map) {}
+      values_(map) {
+  segments_ = segments_for(values_, triangles_);
+}
 
 std::optional<EncodingFault> ChannelWriter::write(std::size_t pixel, const ProjectedTriangle& t,
                                                   const ImagePoint& s) {
@@ -213,10 +252,16 @@ void ChannelWriter::write_low_part(std::size_t pixel, const Ratio& depth) {
 
 void ChannelWriter::write_origin(std::size_t pixel, std::uint32_t number) {
   if (values_.id) values_.id[pixel] = number;
-  if (!values_.face && !values_.object) return;
-  const TriangleOrigin origin = triangles_.origin(number);
-  if (values_.face) values_.face[pixel] = origin.face;
-  if (values_.object) values_.object[pixel] = origin.object;
+  if (values_.wants_origins()) values_.write(pixel, numbers_of(number));
+}
+
+OriginNumbers ChannelWriter::numbers_of(std::uint32_t triangle) const {
+  const TriangleOrigin origin = triangles_.origin(triangle);
+  OriginNumbers numbers{.face = origin.face, .object = origin.object};
+  for (std::size_t i = 0; segments_ && i < all_segmentations.size(); ++i) {
+    if (values_.segments[i]) numbers.segments[i] = segments_->number(all_segmentations[i], origin);
+  }
+  return numbers;
 }
 
 // n / |n| with n = ±(B − A) × (C − A): each component is ±√(nᵢ² / n·n).

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "fathom/image/depth_map.h"
+#include "fathom/scene/scene_segments.h"
 #include "fathom/scene/triangle_source.h"
 #include "fathom/triangle/options.h"
 #include "fathom/triangle/projected_triangle.h"
@@ -36,15 +38,27 @@ struct EncodedValues {
   [[nodiscard]] bool wanted() const { return binary32 || binary64 || codes; }
 };
 
+/// What the channels that tell where a triangle comes from have of it, where they were asked for.
+struct OriginNumbers {
+  std::uint32_t face = 0, object = 0;
+  /// In the order of Segmentation.
+  std::array<std::uint32_t, all_segmentations.size()> segments{};
+};
+
 /// Where the values of a map's channels are kept; null where a channel was not asked for.
 struct ChannelValues {
   explicit ChannelValues(DepthMap& map);
+
+  /// Whether a channel of OriginNumbers was asked for.
+  [[nodiscard]] bool wants_origins() const;
+  void write(std::size_t pixel, const OriginNumbers& numbers) const;
 
   EncodedValues depth, distance;
   /// Not filled by ChannelWriter: A is not a value of a single surface.
   float* coverage = nullptr;
   float* low = nullptr;
   std::uint32_t *id = nullptr, *face = nullptr, *object = nullptr;
+  std::array<std::uint32_t*, all_segmentations.size()> segments{};
   std::array<float*, 3> normal{};
   std::array<float*, 3> position{};
   std::array<float*, 2> barycentric{};
@@ -63,6 +77,7 @@ class ChannelWriter {
   /// For writing one channel, or one component: it must have been asked for.
   [[nodiscard]] const ChannelValues& values() const { return values_; }
   [[nodiscard]] double scale() const { return encoding_.scale; }
+  [[nodiscard]] OriginNumbers numbers_of(std::uint32_t triangle) const;
   std::optional<EncodingFault> write_depth(std::size_t pixel, const ProjectedTriangle& triangle,
                                            const ImagePoint& s);
   std::optional<EncodingFault> write_distance(std::size_t pixel, const ProjectedTriangle& triangle,
@@ -80,6 +95,8 @@ class ChannelWriter {
   void write_origin(std::size_t pixel, std::uint32_t number);
 
   TriangleSource triangles_;
+  /// Null where no channel shows segments.
+  std::shared_ptr<const SceneSegments> segments_;
   bool perspective_;
   DepthEncoding encoding_;
   /// sign(fx·fy·det R)

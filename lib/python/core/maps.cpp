@@ -263,6 +263,7 @@ void bind_maps(py::module_& core) {
       .def_readonly("height", &DepthMap::height)
       .def_readwrite("texts", &DepthMap::texts)
       .def_readwrite("object_names", &DepthMap::object_names)
+      .def_readwrite("tables", &DepthMap::tables)
       .def_readwrite("png_scale", &DepthMap::png_scale)
       .def("take_channels", &take_channels)
       .def("with_channels", &with_channels);

@@ -223,6 +223,7 @@ void bind_render(py::module_& core) {
     return channels;
   });
   core.attr("no_surface") = no_surface;
+  core.attr("no_segment") = no_segment;
 }
 
 }  // namespace fathom::python

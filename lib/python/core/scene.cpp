@@ -5,14 +5,18 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "arrays.h"
 #include "bindings.h"
+#include "fathom/numeric/errors.h"
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/read_scene.h"
+#include "fathom/scene/scene_segments.h"
+#include "fathom/triangle/segment_channels.h"
 #include "running.h"
 
 namespace py = pybind11;
@@ -70,6 +74,28 @@ std::size_t add_mesh(SharedScene& shared, const ContiguousArray<double>& vertice
   return scene.meshes.size() - 1;
 }
 
+Segmentation segmentation_named(const std::string& channel) {
+  for (const Segmentation by : all_segmentations)
+    if (description_of(channel_of(by)).name == channel) return by;
+  throw UsageError("there are no segments '" + channel + "'");
+}
+
+/// The segments of a mesh that add_mesh() has added: a number for each triangle, or one for all.
+void set_segments(SharedScene& shared, std::size_t mesh, const std::string& channel,
+                  const ContiguousArray<std::uint32_t>& numbers,
+                  const std::vector<std::string>& names) {
+  const std::span<const std::uint32_t> all(numbers.data(),
+                                           static_cast<std::size_t>(numbers.size()));
+  changeable(shared).meshes.at(mesh).segments.push_back(
+      {segmentation_named(channel), compact_segments({all.begin(), all.end()}), names});
+}
+
+/// names[n] is what segment n of the whole scene is called.
+std::vector<std::string> names_of(const SharedScene& shared, const std::string& channel) {
+  const Segmentation by = segmentation_named(channel);
+  return SceneSegments(*shared.scene, {by}).names(by);
+}
+
 void add_object(SharedScene& shared, std::size_t mesh, const std::optional<Rows>& pose,
                 const std::string& name) {
   Scene& scene = changeable(shared);
@@ -88,6 +114,7 @@ std::pair<SharedScene, Warnings> read(const std::vector<std::filesystem::path>& 
                                       const std::string& formats_program, int threads) {
   ReadOptions options;
   options.threads = threads;
+  options.segments = true;
   if (!formats_program.empty()) {
     options.formats_program = [&] { return std::filesystem::path(formats_program); };
   }
@@ -137,6 +164,8 @@ void bind_scene(py::module_& core) {
   py::class_<SharedScene>(core, "Scene")
       .def(py::init<>())
       .def("add_mesh", &add_mesh)
+      .def("set_segments", &set_segments)
+      .def("names", &names_of)
       .def("add_object", &add_object)
       .def("objects", &objects)
       .def("origin", &origin)

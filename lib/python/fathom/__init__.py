@@ -14,12 +14,13 @@ from .camera import Camera, ViewWarning, read_cameras, write_cameras
 from .clipping import clip
 from .deep import DeepMap, render_deep
 from .depth_formats import DepthFormat
-from .maps import NO_SURFACE, Map, compare, read_map
+from .maps import NO_SEGMENT, NO_SURFACE, Map, compare, read_map
 from .questions import probe, verify, visible
 from .scene import Scene
 from .validation import Validation, validate
 
 __all__ = [
+    "NO_SEGMENT",
     "NO_SURFACE",
     "Camera",
     "DeepMap",

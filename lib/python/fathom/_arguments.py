@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Union, cast
 
 import numpy as np
 
@@ -152,6 +152,33 @@ def check_corners(faces: npt.NDArray[Any], vertex_count: int) -> None:
             f"faces: row {row} has vertex {vertex}, but there are {vertex_count} vertices, "
             "numbered from 0"
         )
+
+
+def labels_of(value: object, face_count: int) -> npt.NDArray[np.uint32]:
+    """A label for each face, or one for all; negative ones are none."""
+    array = as_array("labels", value)
+    if array.dtype.kind not in "iub":
+        raise TypeError(f"labels: expected integers, found {array.dtype}")
+    if array.shape not in ((), (face_count,)):
+        raise ValueError(f"labels: expected one integer for each of {face_count} faces, found {in_words(array.shape)}")
+    if array.size and int(array.max()) >= _core.no_segment:
+        raise ValueError(f"labels: {int(array.max())} is more than {_core.no_segment - 1}")
+    numbers = np.where(array < 0, _core.no_segment, array) if array.dtype.kind == "i" else array
+    return np.ascontiguousarray(np.atleast_1d(numbers), dtype=np.uint32)
+
+
+def names_of(argument: str, value: object, face_count: int) -> tuple[npt.NDArray[np.uint32], list[str]]:
+    """The number of each face's name, or of the one of all, and the names by these numbers."""
+    given = [value] if isinstance(value, str) else list(cast("Sequence[object]", value))
+    if not isinstance(value, str) and len(given) != face_count:
+        raise ValueError(f"{argument}: expected one name for each of {face_count} faces, found {len(given)}")
+    numbers: dict[str, int] = {}
+    of_faces = np.empty(len(given), np.uint32)
+    for place, name in enumerate(given):
+        if name is not None and not isinstance(name, str):
+            raise TypeError(f"{argument}: expected strings, found {name!r}")
+        of_faces[place] = numbers.setdefault(str(name), len(numbers)) if name else _core.no_segment
+    return of_faces, list(numbers)
 
 
 def check_elements(vertices: Numbers, faces: npt.NDArray[Any]) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from ._arguments import as_count, as_number, camera_handle, in_words, one_of, scene_handle
 from .camera import Camera, ViewWarning
-from .maps import Map, rendered
+from .maps import Map, rendered, segment_channels
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -64,6 +64,7 @@ def render_cameras(
             descriptions, notes = _core.render_stack(handle, handles, options, list(arrays.values()))
             result = Map(arrays, _views=list(zip(cameras, descriptions)))
             result._description.png_scale = descriptions[0].png_scale
+            result._description.tables = descriptions[0].tables
     except _core.InputError:
         scene._check()
         raise
@@ -208,8 +209,9 @@ def render(
     pixel_centre  the image coordinate of the first pixel's centre, as K counts: 0.5 (COLMAP, OpenGL) or 0 (OpenCV,
                   BOP). There is no default: half a pixel is the error that is made most often.
     channels      what to render: Z (planar depth), A (coverage), Zlow (exact depth minus Z), distance (along the ray),
-                  id, face, object (numbers of what is visible; NO_SURFACE where nothing is), N (normal) and P
-                  (position), both in the world, bary (weights of a triangle's second and third corner)
+                  id, face, object (numbers of what is visible; NO_SURFACE where nothing is), material, group, part
+                  and label (of a Scene; NO_SEGMENT where what is visible has none), N (normal) and P (position), both
+                  in the world, bary (weights of a triangle's second and third corner)
     near, far     the range of planar depth that counts, in scene units
     cull          "back" or "front" leaves out triangles that face so
     dtype         of Z and distance: float32, float64, or uint16 for codes round(scale · depth), 0 for no surface

@@ -21,8 +21,12 @@ if TYPE_CHECKING:
     from ._arguments import Numbers
     from .scene import Scene
 
-#: What id, face and object have where there is no surface.
+#: What id, face, object, material, group, part and label have where there is no surface.
 NO_SURFACE = _core.no_surface
+#: What material, group, part and label have where a surface is visible that has none.
+NO_SEGMENT = _core.no_segment
+#: The channels that have it.
+segment_channels = ("material", "group", "part", "label")
 
 #: The channels that fathom renders: the letters of their parts, and their type, or "" for the one that is asked for.
 rendered = _core.channels()
@@ -41,6 +45,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
     cameras   of a stack: all of them; else the one that it shows, if it is known
     metadata  the texts of its file: fathom.camera, fathom.sources with their SHA-256, …
     objects   the names of the objects that channel `object` numbers
+    tables    what numbers stand for, by channel: {"object": {0: "spot"}, "material": {0: "steel", 1: "oak"}}
     scale     for uint16 codes: codes per scene unit
     background  what depth channels have where there is no surface
     """
@@ -115,6 +120,13 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         return list(self._description.object_names)
 
     @property
+    def tables(self) -> dict[str, dict[int, str]]:
+        """What the numbers of channels stand for, where they have names: tables["material"][n] is the name of material
+        n. What is visible and has none is NO_SEGMENT in the channel. Labels are numbers without names."""
+        named = {"object": self._description.object_names, **self._description.tables}
+        return {channel: dict(enumerate(names)) for channel, names in named.items() if names}
+
+    @property
     def background(self) -> float:
         """What depth channels have where there is no surface; 0 of codes."""
         if self.scale is not None:
@@ -140,13 +152,16 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
     def mask(self) -> npt.NDArray[np.bool_]:
         """True where there is a surface: by id, face or object where the map has one, else where Z, distance or
-        disparity is not the background."""
+        disparity is not the background, else by material, group, part or label."""
         for name in ("id", "face", "object"):
             if name in self:
                 return np.asarray(self._channel(name) != NO_SURFACE)
         for name in quantities:
             if name in self:
                 return self._shown(self._channel(name))
+        for name in segment_channels:
+            if name in self:
+                return np.asarray(self._channel(name) != NO_SURFACE)
         raise ValueError("mask: the map has none of id, face, object, Z, distance and disparity")
 
     def _shown(self, depths: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:

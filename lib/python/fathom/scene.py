@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
-from ._arguments import as_count, check_elements, faces_of, pose_of, vertices_of
+from ._arguments import as_count, check_elements, faces_of, labels_of, names_of, pose_of, vertices_of
 from ._files import Path
 from ._render import Background, Cull, render_cameras
 
@@ -81,6 +81,8 @@ class Scene:
         *,
         pose: npt.ArrayLike | None = None,
         name: str = "",
+        labels: npt.ArrayLike | None = None,
+        materials: str | Sequence[str | None] | None = None,
     ) -> int:
         """Adds a mesh, and an object that places it. Returns the number of the mesh, for add_instance().
 
@@ -88,6 +90,10 @@ class Scene:
         faces     M×3 triangles; integers of any type, numbers of vertices from 0
         pose      4×4 or 3×4, mesh to world; the identity where it is left out
         name      of the object; "mesh 0", "mesh 1", … where it is left out
+        labels    an integer for each face, or one for all: what channel `label` has where the face is visible. A
+                  negative one is none
+        materials a name for each face, or one for all, numbered in channel `material` by first appearance in the
+                  scene; None and "" are none
 
         Arrays in C order, of float64 and of int32 or uint32, are not copied: what is changed in them later is changed
         in the scene, and must not be while something is rendered.
@@ -95,7 +101,13 @@ class Scene:
         placed = None if pose is None else pose_of("pose", pose)
         numbers = vertices_of(vertices)
         corners = faces_of(faces, len(numbers))
+        of_labels = None if labels is None else labels_of(labels, len(corners))
+        of_materials = None if materials is None else names_of("materials", materials, len(corners))
         mesh = self._handle.add_mesh(numbers, corners)
+        if of_labels is not None:
+            self._handle.set_segments(mesh, "label", of_labels, [])
+        if of_materials is not None:
+            self._handle.set_segments(mesh, "material", *of_materials)
         self._handle.add_object(mesh, placed, _text("name", name) or f"mesh {mesh}")
         return mesh
 
@@ -120,6 +132,12 @@ class Scene:
     def objects(self) -> list[Object]:
         """In the order of their numbers."""
         return [Object(*each) for each in self._handle.objects()]
+
+    @property
+    def tables(self) -> dict[str, dict[int, str]]:
+        """What the numbers in channels `material`, `group` and `part` stand for, as Map.tables has it."""
+        found = {channel: self._handle.names(channel) for channel in ("material", "group", "part")}
+        return {channel: dict(enumerate(names)) for channel, names in found.items() if names}
 
     @property
     def bounds(self) -> tuple[tuple[float, ...], tuple[float, ...]] | None:

@@ -7,15 +7,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <string_view>
 
 #include "fathom/image/files/exr_id_manifest.h"
 #include "fathom/image/files/map_codecs.h"
+#include "fathom/image/files/name_tables.h"
 
 namespace fathom::image {
 namespace {
-
-constexpr const char* objects_attribute = "fathom.objects";
 
 /// Attributes of the format itself: texts with these names are not ours.
 constexpr std::array<std::string_view, 17> reserved{"channels",
@@ -72,9 +73,18 @@ void set_window(Imf::Header& header, const DepthMap& map) {
   header.screenWindowWidth() = width;
 }
 
-void set_object_names(Imf::Header& header, const DepthMap& map) {
-  header.insert(objects_attribute, Imf::StringAttribute(object_names_as_json(map.object_names)));
-  if (map.find("object")) header.insert("idManifest", id_manifest("object", map.object_names));
+/// The names of the map's numbers: in our words, and of the channels that it has, in EXR's.
+void set_names(Imf::Header& header, const DepthMap& map) {
+  for (const auto& [name, text] : name_tables(map)) {
+    if (text.size() > std::numeric_limits<int>::max())
+      throw std::length_error(name + " takes more than 2 GiB");
+    header.insert(name, Imf::StringAttribute(text));
+  }
+  std::vector<NamedChannel> named;
+  for (const ImageChannel& channel : map.channels)
+    if (const auto* names = names_of_channel(map, channel.name))
+      named.push_back({channel.name, *names});
+  if (!named.empty()) header.insert("idManifest", id_manifest(named));
 }
 
 }  // namespace
@@ -103,14 +113,13 @@ std::uint32_t rows_of_a_chunk(Compression compression) {
 void set_attributes(Imf::Header& header, const DepthMap& map) {
   set_window(header, map);
   for (const auto& [name, text] : map.texts)
-    if (!is_reserved(name) && name != objects_attribute)
-      header.insert(name, Imf::StringAttribute(text));
+    if (!is_reserved(name) && !is_name_table(name)) header.insert(name, Imf::StringAttribute(text));
   header.insert("software", Imf::StringAttribute("Fathom " FATHOM_VERSION));
   if (map.world_to_camera && fits_binary32(*map.world_to_camera))
     Imf::addWorldToCamera(header, for_row_vectors(*map.world_to_camera));
   if (map.world_to_ndc && fits_binary32(*map.world_to_ndc))
     Imf::addWorldToNDC(header, for_row_vectors(*map.world_to_ndc));
-  if (!map.object_names.empty()) set_object_names(header, map);
+  set_names(header, map);
 }
 
 void get_attributes(const Imf::Header& header, DepthMap& map) {
@@ -120,8 +129,8 @@ void get_attributes(const Imf::Header& header, DepthMap& map) {
   for (auto entry = header.begin(); entry != header.end(); ++entry) {
     const std::string name = entry.name();
     if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&entry.attribute())) {
-      if (name == objects_attribute)
-        map.object_names = object_names_from_json(text->value());
+      if (is_name_table(name))
+        take_name_table(name, text->value(), map);
       else if (!is_reserved(name))
         map.texts[name] = text->value();
     } else if (const auto* m = dynamic_cast<const Imf::M44fAttribute*>(&entry.attribute())) {

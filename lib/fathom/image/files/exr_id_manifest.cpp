@@ -14,14 +14,16 @@
 namespace fathom::image {
 namespace {
 
-std::vector<char> serialized(const std::string& channel, const std::vector<std::string>& names) {
+std::vector<char> serialized(const std::vector<NamedChannel>& channels) {
   Imf::IDManifest manifest;
-  Imf::IDManifest::ChannelGroupManifest& group = manifest.add(channel);
-  group.setLifetime(Imf::IDManifest::LIFETIME_FRAME);
-  group.setHashScheme(Imf::IDManifest::NOTHASHED);
-  group.setEncodingScheme(Imf::IDManifest::ID_SCHEME);
-  group.setComponent("name");
-  for (std::size_t n = 0; n < names.size(); ++n) group.insert(n, names[n]);
+  for (const auto& [channel, names] : channels) {
+    Imf::IDManifest::ChannelGroupManifest& group = manifest.add(channel);
+    group.setLifetime(Imf::IDManifest::LIFETIME_FRAME);
+    group.setHashScheme(Imf::IDManifest::NOTHASHED);
+    group.setEncodingScheme(Imf::IDManifest::ID_SCHEME);
+    group.setComponent("name");
+    for (std::size_t n = 0; n < names.size(); ++n) group.insert(n, names[n]);
+  }
   std::vector<char> bytes;
   manifest.serialize(bytes);
   return bytes;
@@ -30,9 +32,8 @@ std::vector<char> serialized(const std::string& channel, const std::vector<std::
 }  // namespace
 
 /// The size as it was, in eight bytes, little endian; then zlib's stream.
-Imf::OpaqueAttribute id_manifest(const std::string& channel,
-                                 const std::vector<std::string>& names) {
-  const std::vector<char> plain = serialized(channel, names);
+Imf::OpaqueAttribute id_manifest(const std::vector<NamedChannel>& channels) {
+  const std::vector<char> plain = serialized(channels);
   uLongf size = ::compressBound(plain.size());
   text::Bytes value(sizeof(std::uint64_t) + size);
   store(value.data(), std::uint64_t{plain.size()}, std::endian::little);

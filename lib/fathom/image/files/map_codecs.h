@@ -43,8 +43,4 @@ std::vector<std::size_t> check_exr_claims(text::ByteView bytes, const std::strin
 /// not to depend on the last detail.
 inline constexpr std::uint64_t greatest_deflate_ratio = 2064;
 
-/// A JSON list of names, and back (empty if the text is not such a list).
-std::string object_names_as_json(const std::vector<std::string>& names);
-std::vector<std::string> object_names_from_json(const std::string& text);
-
 }  // namespace fathom::image

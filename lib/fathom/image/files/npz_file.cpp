@@ -4,6 +4,7 @@
 #include <set>
 
 #include "fathom/image/files/map_codecs.h"
+#include "fathom/image/files/name_tables.h"
 #include "fathom/image/files/npy_array.h"
 #include "fathom/image/files/zip_archive.h"
 #include "fathom/numeric/errors.h"
@@ -20,7 +21,6 @@ using namespace text;
 namespace {
 
 constexpr const char* texts_array = "fathom";
-constexpr const char* objects_text = "fathom.objects";
 constexpr const char* scale_text = "fathom:scale";
 constexpr std::string_view suffix = ".npy";
 
@@ -31,7 +31,7 @@ std::string scale_as_text(double value) {
 
 std::string texts_as_json(const DepthMap& map) {
   std::map<std::string, std::string> texts = map.texts;
-  if (!map.object_names.empty()) texts[objects_text] = object_names_as_json(map.object_names);
+  for (auto& [key, text] : name_tables(map)) texts[key] = text;
   if (map.png_scale) texts[scale_text] = scale_as_text(*map.png_scale);
   texts["software"] = "Fathom " FATHOM_VERSION;
   std::vector<std::string> members;
@@ -44,8 +44,8 @@ std::string texts_as_json(const DepthMap& map) {
 void take_texts(const std::string& json, DepthMap& map, const std::string& name) {
   const JsonDocument document(json, name);
   for (const auto& [key, value] : document.root().members()) {
-    if (key == objects_text) {
-      map.object_names = object_names_from_json(value.string());
+    if (is_name_table(key)) {
+      take_name_table(key, value.string(), map);
     } else if (key == scale_text) {
       const std::string& text = value.string();
       double scale = 0;

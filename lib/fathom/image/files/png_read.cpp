@@ -4,10 +4,13 @@
 #include <csetjmp>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <new>
 
+#include "fathom/image/channel_table.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/map_memory.h"
+#include "fathom/image/files/name_tables.h"
 #include "fathom/image/files/png_stream.h"
 #include "fathom/image/png_chunks.h"
 #include "fathom/numeric/errors.h"
@@ -100,12 +103,26 @@ std::optional<std::string> take_text(DepthMap& map, const std::string& key) {
   return text;
 }
 
+/// Takes the lists of names among the texts.
+void take_name_tables(DepthMap& map) {
+  for (auto text = map.texts.begin(); text != map.texts.end();) {
+    const bool is_table = is_name_table(text->first);
+    if (is_table) take_name_table(text->first, text->second, map);
+    text = is_table ? map.texts.erase(text) : std::next(text);
+  }
+}
+
 /// Codes, or identifiers if the file says so (png_write.cpp).
 ImageChannel channel_from(Samples<std::uint16_t> codes, DepthMap& map) {
   const std::string channel = take_text(map, "fathom:channel").value_or("Z");
   if (take_text(map, "fathom:type") != "identifier") return {channel, std::move(codes)};
   Samples<std::uint32_t> ids(codes.size());
-  for (std::size_t k = 0; k < codes.size(); ++k) ids[k] = codes[k] == 65535 ? no_surface : codes[k];
+  const bool segments = shows_segments(channel);
+  for (std::size_t k = 0; k < codes.size(); ++k) {
+    ids[k] = codes[k];
+    if (codes[k] == 65535) ids[k] = no_surface;
+    if (codes[k] == 65534 && segments) ids[k] = no_segment;
+  }
   return {channel, std::move(ids)};
 }
 
@@ -155,8 +172,7 @@ DepthMap decode_png(ByteView bytes, const std::string& name, const MapMemory& me
                        "': expected a positive number");
     map.png_scale = scale;
   }
-  if (const auto text = take_text(map, "fathom.objects"))
-    map.object_names = object_names_from_json(*text);
+  take_name_tables(map);
   map.channels.push_back(channel_from(std::move(codes), map));
   return map;
 }

@@ -4,7 +4,9 @@
 #include <new>
 #include <utility>
 
+#include "fathom/image/channel_table.h"
 #include "fathom/image/files/map_codecs.h"
+#include "fathom/image/files/name_tables.h"
 #include "fathom/image/files/png_stream.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/numeric/errors.h"
@@ -97,14 +99,21 @@ Bytes encode(Picture& picture, const std::string& name) {
   return std::move(writing.bytes);
 }
 
-std::vector<std::uint16_t> identifiers_as_codes(const Samples<std::uint32_t>& ids,
+std::vector<std::uint16_t> identifiers_as_codes(const Samples<std::uint32_t>& ids, bool segments,
                                                 const std::string& name) {
+  const std::uint32_t most = segments ? 65533 : 65534;
   std::vector<std::uint16_t> codes(ids.size());
   for (std::size_t k = 0; k < ids.size(); ++k) {
-    if (ids[k] > 65534 && ids[k] != no_surface)
+    if (ids[k] == no_surface) {
+      codes[k] = 65535;
+    } else if (segments && ids[k] == no_segment) {
+      codes[k] = 65534;
+    } else if (ids[k] <= most) {
+      codes[k] = static_cast<std::uint16_t>(ids[k]);
+    } else {
       throw OutputError(name + ": identifier " + std::to_string(ids[k]) +
-                        " does not fit a 16-bit PNG: expected at most 65534");
-    codes[k] = ids[k] == no_surface ? std::uint16_t{65535} : static_cast<std::uint16_t>(ids[k]);
+                        " does not fit a 16-bit PNG: expected at most " + std::to_string(most));
+    }
   }
   return codes;
 }
@@ -121,8 +130,7 @@ void add_texts(Picture& picture, const DepthMap& map, const ImageChannel& channe
     picture.texts.emplace_back("fathom:type", "identifier");
   else if (map.png_scale)
     picture.texts.emplace_back("fathom:scale", to_shortest(*map.png_scale));
-  if (!map.object_names.empty())
-    picture.texts.emplace_back("fathom.objects", object_names_as_json(map.object_names));
+  for (const auto& [key, text] : name_tables(map)) picture.texts.emplace_back(key, text);
   for (const auto& [key, text] : map.texts) {
     if (key == "Software" || key == "software" || key.starts_with("fathom:")) continue;
     if (key.empty() || key.size() > 79 || !is_plain(key) || key.find('\n') != std::string::npos)
@@ -139,7 +147,7 @@ void add_texts(Picture& picture, const DepthMap& map, const ImageChannel& channe
 Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::string& name) {
   std::vector<std::uint16_t> codes;
   if (const auto* ids = std::get_if<Samples<std::uint32_t>>(&channel.values))
-    codes = identifiers_as_codes(*ids, name);
+    codes = identifiers_as_codes(*ids, shows_segments(channel.name), name);
   else if (const auto* stored = std::get_if<Samples<std::uint16_t>>(&channel.values))
     codes.assign(stored->begin(), stored->end());
   else

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "fathom/image/channel_table.h"
+#include "fathom/mesh/segmentation.h"
+
+/// Which channels show how a scene is divided into segments.
+namespace fathom {
+
+/// In the order of Segmentation.
+inline constexpr std::array segment_channels{Channel::material, Channel::group, Channel::part,
+                                             Channel::label};
+
+inline Channel channel_of(Segmentation by) {
+  return segment_channels[static_cast<std::size_t>(by)];
+}
+
+/// What a channel shows; nullopt of those that show no segments.
+inline std::optional<Segmentation> segmentation_of(Channel channel) {
+  for (const Segmentation by : all_segmentations)
+    if (channel_of(by) == channel) return by;
+  return std::nullopt;
+}
+
+/// Those that are needed for these channels: a scene must have been read with
+/// ReadOptions::segments where there is one.
+inline std::vector<Segmentation> segmentations_of(const std::vector<Channel>& channels) {
+  std::vector<Segmentation> result;
+  for (const Channel channel : channels)
+    if (const auto by = segmentation_of(channel)) result.push_back(*by);
+  return result;
+}
+
+}  // namespace fathom
