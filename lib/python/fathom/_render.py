@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from ._arguments import as_count, as_number, camera_handle, in_words, one_of, scene_handle
 from .camera import Camera, ViewWarning
-from .maps import Map, rendered, segment_channels
+from .maps import Map, rendered
 
 if TYPE_CHECKING:
     import numpy.typing as npt
