@@ -7,6 +7,7 @@
 
 #include "fathom/depth_format/depth_bias.h"
 #include "fathom/depth_format/depth_format.h"
+#include "fathom/mesh/normal_source.h"
 
 /// The choices that a pipeline leaves open.
 namespace fathom::pipeline {
@@ -28,9 +29,7 @@ enum class Shading { none, points, wireframe, flat, gouraud, phong };
 /// Of highlights: by the vector halfway between light and eye ([Bli77]), or by the mirrored light
 /// ([Pho75]).
 enum class SpecularModel { blinn, phong };
-/// Where normals come from: the file, or `vertex` where it has none; sums over the triangles at a
-/// vertex; or over those at all vertices of the mesh that lie at one place.
-enum class NormalSource { file, vertex, place };
+using fathom::NormalSource;
 enum class TextureFilter { nearest, bilinear, trilinear, anisotropic };
 enum class HiddenSurface { z_buffer, painter };
 enum class WireLine { explicit_equation, dda, bresenham, midpoint, diamond_exit };

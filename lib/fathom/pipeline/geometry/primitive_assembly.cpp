@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
+
+#include "fathom/mesh/vertex_normals.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -17,23 +17,10 @@ Vector area_vector(const MeshPoint& a, const MeshPoint& b, const MeshPoint& c) {
   return Vector(b.x - a.x, b.y - a.y, b.z - a.z).cross(Vector(c.x - a.x, c.y - a.y, c.z - a.z));
 }
 
-/// For each vertex the first one that its normal is shared with, itself if none comes before it.
-std::vector<std::uint32_t> sharing_vertices(const Mesh& mesh, NormalSource source) {
-  std::vector<std::uint32_t> first(mesh.vertices.size());
-  std::iota(first.begin(), first.end(), 0U);
-  if (source != NormalSource::place) return first;
-  std::map<std::array<double, 3>, std::uint32_t> at_place;
-  for (std::uint32_t& v : first) {
-    const MeshPoint& p = mesh.vertices[v];
-    v = at_place.try_emplace({p.x, p.y, p.z}, v).first->second;
-  }
-  return first;
-}
-
 std::vector<std::array<double, 3>> smooth_normals(const Mesh& mesh, FrontFace front_face,
                                                   NormalSource shared) {
   const double side = front_face == FrontFace::counter_clockwise ? 1 : -1;
-  const std::vector<std::uint32_t> first = sharing_vertices(mesh, shared);
+  const std::vector<std::uint32_t> first = mesh::sharing_vertices(mesh, shared);
   std::vector<Vector> sums(mesh.vertices.size(), Vector::Zero());
   for (const CornerIndices& t : mesh.triangles) {
     const Vector n = area_vector(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
@@ -53,14 +40,6 @@ std::vector<std::array<double, 3>> smooth_normals(const Mesh& mesh, FrontFace fr
 std::uint32_t index_of(const MeshArray<CornerIndices>& own, const Mesh& mesh, std::size_t t,
                        std::size_t corner) {
   return own.empty() ? mesh.triangles[t][corner] : own[t][corner];
-}
-
-bool lacks_normals(const Mesh& mesh) {
-  const auto lacks = [](const CornerIndices& t) {
-    return std::find(t.begin(), t.end(), no_index) != t.end();
-  };
-  return mesh.normals.empty() ||
-         std::any_of(mesh.normal_triangles.begin(), mesh.normal_triangles.end(), lacks);
 }
 
 /// A vertex with its colour, without a normal and texture coordinates.
@@ -106,7 +85,7 @@ std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t 
                                               NormalSource normals) {
   const Mesh& mesh = scene.meshes[scene.objects[object].mesh];
   const bool of_file = normals == NormalSource::file;
-  const auto smooth = !of_file || lacks_normals(mesh) ? smooth_normals(mesh, front_face, normals)
+  const auto smooth = mesh::needs_sums(mesh, normals) ? smooth_normals(mesh, front_face, normals)
                                                       : std::vector<std::array<double, 3>>();
   std::vector<InputTriangle> triangles(mesh.triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -116,8 +95,7 @@ std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t 
       InputVertex& corner = triangles[t].corners[k];
       const std::uint32_t v = mesh.triangles[t][k];
       corner = vertex_at(mesh, v);
-      const auto n = index_of(mesh.normal_triangles, mesh, t, k);
-      if (of_file && n < mesh.normals.size()) {
+      if (const auto n = mesh::normal_index(mesh, t, k); of_file && n != no_index) {
         corner.normal = mesh.normals[n];
       } else if (!smooth.empty()) {
         corner.normal = smooth[v];

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fathom/mesh/mesh.h"
+#include "fathom/mesh/normal_source.h"
+
+/// Which normals belong to which corners: whoever adds them up, exactly or rounded, asks here.
+namespace fathom::mesh {
+
+/// The index into the normals of the file of a corner; no_index where it has none of its own.
+std::uint32_t normal_index(const Mesh& mesh, std::size_t triangle, std::size_t corner);
+
+/// Whether the normals of some corners are sums over triangles.
+bool needs_sums(const Mesh& mesh, NormalSource source);
+
+/// For each vertex the first one that its normal is shared with, itself if none comes before it.
+std::vector<std::uint32_t> sharing_vertices(const Mesh& mesh, NormalSource source);
+
+/// The triangles over which the normals of a mesh's vertices are summed up.
+/// Cost     12 bytes for each triangle and 12 for each vertex.
+class SharedTriangles {
+ public:
+  /// Nothing is shared: for meshes that need no sums.
+  SharedTriangles() = default;
+  /// Fails    InputError where a triangle has a corner beyond the vertices.
+  SharedTriangles(const Mesh& mesh, NormalSource source);
+
+  /// The vertex that stands for all those that share a normal with this one.
+  [[nodiscard]] std::uint32_t shared(std::uint32_t vertex) const { return first_[vertex]; }
+  /// The triangles of the sum of such a vertex, in the order of their numbers; twice where two
+  /// corners of a triangle share it.
+  [[nodiscard]] std::span<const std::uint32_t> at(std::uint32_t shared) const {
+    return std::span(triangles_).subspan(starts_[shared], starts_[shared + 1] - starts_[shared]);
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<std::size_t> starts_;
+  std::vector<std::uint32_t> triangles_;
+};
+
+}  // namespace fathom::mesh
