@@ -51,8 +51,8 @@ void PipelineArguments::add_triangle_options(Command& command) {
       "(default), gouraud or phong"));
   declared_.push_back(command.option(
       "--normals", "NAME", into(stages_.normals_from, parse_normal_source),
-      "Normals: file (default; where it has none, as vertex), or sums over the triangles at each "
-      "vertex or, so that no seam shows where vertices coincide, at each place"));
+      "Normals, also of channel Ns: file (default; where it has none, as vertex), or sums over the "
+      "triangles at each vertex or, so that no seam shows where vertices coincide, at each place"));
   declared_.push_back(command.option(
       "--light", "WHERE", into(stages_.light, parse_light),
       "Where it comes from: X,Y,Z, a direction in the world; headlight, from the camera; or "

@@ -27,6 +27,9 @@ class PipelineArguments {
   /// The stages as they were asked for; the depth format is still the default.
   [[nodiscard]] pipeline::PipelineOptions options(Cull cull) const;
 
+  /// What --normals says, which is for channel Ns of the exact engines as well.
+  [[nodiscard]] NormalSource normals() const { return stages_.normals_from; }
+
   /// All that add_to() declared.
   [[nodiscard]] const std::vector<Option>& declared() const { return declared_; }
 

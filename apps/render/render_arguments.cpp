@@ -56,8 +56,8 @@ void add_outputs(Command& command, RenderArguments& arguments) {
 void add_contents(Command& command, RenderArguments& arguments) {
   command.option("--channels", "LIST", into(arguments.channels, parse_channels),
                  "Of Z, A, Zlow, distance, id, face, object, material, group, part, label, N, P, "
-                 "bary (default Z,A in EXR and NPZ; Z in other formats, with --stream and with "
-                 "--engine pipeline)");
+                 "bary, Nc, Ns (default Z,A in EXR and NPZ; Z in other formats, with --stream and "
+                 "with --engine pipeline)");
   command.flag(
       "--deep", arguments.deep,
       "Write a deep EXR: for each pixel the visible fragments, sorted, with their depths "
@@ -141,7 +141,13 @@ void RenderArguments::refuse_pipeline_options() const {
         "depths");
   }
   for (const Option& option : of_pipeline_) {
-    if (option.is_given()) throw UsageError(option.name() + " is for --engine pipeline");
+    if (!option.is_given()) continue;
+    if (option.name() != "--normals") {
+      throw UsageError(option.name() + " is for --engine pipeline");
+    }
+    if (!channels || std::ranges::count(*channels, Channel::Ns) == 0) {
+      throw UsageError("--normals is for channel Ns and for --engine pipeline");
+    }
   }
 }
 

@@ -26,13 +26,14 @@ StreamedScene stream(const SceneOptions& options, bool segments, const Console& 
 
 }  // namespace
 
-RenderInput::RenderInput(const SceneOptions& options, Place place, bool segments,
+RenderInput::RenderInput(const SceneOptions& options, Place place, const Kept& kept,
                          const Console& console) {
   if (place == Place::files) {
     streamed_ = stream(options, segments, console);
     scene_ = outline_of(*streamed_);
   } else {
-    scene_ = options.read(console, {.hash = true, .segments = segments});
+    scene_ = options.read(console,
+                          {.hash = true, .attributes = kept.normals, .segments = kept.segments});
   }
 }
 

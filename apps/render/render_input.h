@@ -16,8 +16,14 @@ class RenderInput {
  public:
   enum class Place { memory, files };
 
-  /// With materials, groups, parts and labels, where `segments` are wanted.
-  RenderInput(const SceneOptions& options, Place place, bool segments, const Console& console);
+  /// What channels need of the files beside positions.
+  struct Kept {
+    /// Materials, groups, parts and labels.
+    bool segments = false;
+    bool normals = false;
+  };
+
+  RenderInput(const SceneOptions& options, Place place, const Kept& kept, const Console& console);
 
   /// The scene; of one that stays in its files its bounds, objects and sources: what cameras are
   /// made from.

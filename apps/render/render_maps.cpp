@@ -149,7 +149,8 @@ int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Con
   const ThreadLimit limit(plan.rendering.threads);
   Stopwatch stopwatch;
   const auto place = arguments.stream ? RenderInput::Place::files : RenderInput::Place::memory;
-  RenderInput scene(arguments.scene, place, needs_segments(plan), console);
+  RenderInput scene(arguments.scene, place,
+                    {.segments = needs_segments(plan), .normals = plan.needs_normals()}, console);
   const double seconds_reading = stopwatch.lap();
   const std::vector<Camera> cameras = arguments.camera.get(scene.outline(), console);
   scene.place(arguments.motion);

@@ -29,6 +29,7 @@ RenderOptions rendering_of(const RenderArguments& a) {
   RenderOptions options;
   options.engine = a.engine == EngineName::reference ? Engine::reference : Engine::fast;
   options.cull = a.cull;
+  options.normals = a.pipeline.normals();
   options.threads = a.scene.threads;
   return options;
 }
@@ -41,6 +42,9 @@ void check_stream(const RenderArguments& a, const std::vector<Channel>& channels
   }
   if (contains(channels, Channel::A)) {
     throw UsageError("--stream does not keep the triangles that channel A needs: leave out A");
+  }
+  if (contains(channels, Channel::Ns)) {
+    throw UsageError("--stream does not keep the normals that channel Ns needs: leave out Ns");
   }
   if (!a.mattes().empty()) throw UsageError("--cryptomatte is not for --stream");
 }
@@ -108,6 +112,10 @@ void check_deep(const RenderArguments& a) {
 }
 
 }  // namespace
+
+bool MapPlan::needs_normals() const {
+  return rendering.normals == NormalSource::file && contains(rendering.channels, Channel::Ns);
+}
 
 MapPlan plan_maps(const RenderArguments& a) {
   a.refuse_pipeline_options();

@@ -31,6 +31,9 @@ struct MapPlan {
   std::optional<SamplePattern> samples;
   std::optional<DepthBufferPlan> depth_buffer;
   std::optional<std::uint64_t> verified_pixels;
+
+  /// Whether the normals of files are interpolated.
+  [[nodiscard]] bool needs_normals() const;
 };
 
 /// How deep maps are made.

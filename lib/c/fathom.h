@@ -139,7 +139,8 @@ FATHOM_API void fathom_map_free(fathom_map* map);
 
 FATHOM_API uint32_t fathom_map_width(const fathom_map* map);
 FATHOM_API uint32_t fathom_map_height(const fathom_map* map);
-/* The name of channel 0, 1, …; NULL beyond the last. N has the channels N.X, N.Y and N.Z. */
+/* The name of channel 0, 1, …; NULL beyond the last. N has the channels N.X, N.Y and N.Z; so have Nc and
+ * Ns. */
 FATHOM_API const char* fathom_map_channel(const fathom_map* map, size_t number);
 /* width × height values, row by row from the top, as long as the map is not freed; NULL where there is no channel of
  * this name and type. */

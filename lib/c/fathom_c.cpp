@@ -214,6 +214,7 @@ fathom_status fathom_scene_read(const char* const* files, size_t count, fathom_s
     auto read = std::make_unique<fathom_scene>();
     ReadOptions options;
     options.segments = true;
+    options.attributes = true;  // normals, for channel Ns
     read->scene = read_scene(paths, options, warnings);
     *scene = read.release();
   });

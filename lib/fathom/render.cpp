@@ -26,6 +26,9 @@ void describe(const Scene& scene, const Camera& camera, const RenderOptions& opt
   if (options.cull != Cull::none) {
     map.texts["fathom.cull"] = options.cull == Cull::back ? "back" : "front";
   }
+  if (options.normals != NormalSource::file && map.find("Ns.X")) {
+    map.texts["fathom.normals"] = name_of(options.normals);
+  }
 }
 
 std::vector<std::uint32_t> ids_of(const std::vector<std::string>& names) {

@@ -167,6 +167,29 @@ TEST_F(WrittenMaps, NamesOfChannelsThatCannotBe) {
   expect_refused(render({"--channel-name", "Z=Y", "-o", "m.pfm"}), 2, "is for .exr and .npz");
 }
 
+/// A square with a normal of its own at each corner, which nothing but channel Ns looks at.
+TEST_F(WrittenMaps, ShadingNormalsAreThoseOfTheFile) {
+  folder_.write("normals.obj",
+                "v -1 -1 2\nv 1 -1 2\nv 1 1 2\nv -1 1 2\nvn 3 0 -4\n"
+                "f 1//1 2//1 3//1 4//1\n");
+  const auto rendered = [&](std::vector<std::string> more) {
+    std::vector<std::string> command{"render", "normals.obj", "--camera", "camera.json"};
+    command.insert(command.end(), more.begin(), more.end());
+    return fathom(command);
+  };
+  expect_done(rendered({"--channels", "Ns,Nc", "-o", "file.npz"}));
+  EXPECT_EQ(rendered({"--channels", "Ns,Nc", "-o", "again.npz", "--verify", "all"}).status, 0);
+  expect_done(rendered({"--channels", "Ns", "--normals", "vertex", "-o", "vertex.npz"}));
+  python_says(R"(
+f, v = np.load('file.npz'), np.load('vertex.npz')
+assert (f['Ns'][inside] == np.float32([0.6, 0, -0.8])).all() and (f['Ns'][~inside] == 0).all()
+assert (f['Nc'][inside] == [0, 0, -1]).all()
+assert (abs(v['Ns'][inside]) == [0, 0, 1]).all()
+assert 'fathom.normals' not in json.loads(f['fathom'].item())
+assert json.loads(v['fathom'].item())['fathom.normals'] == 'vertex'
+)");
+}
+
 TEST_F(WrittenMaps, NumPyLoadsAllChannelsOfAnNpz) {
   expect_done(render({"--channels", "Z,A,id,N,P,bary", "--dtype", "float64", "-o", "map.npz"}));
   expect_done(render({"--channels", "Z,A,id,N,P,bary", "-o", "map.exr"}));

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 #include <span>
 
@@ -17,6 +18,7 @@
 #include "tests/engines/only_target.h"
 #include "tests/inputs/adversarial_scenes.h"
 #include "tests/inputs/floating_point_modes.h"
+#include "tests/inputs/odd_normals.h"
 #include "tests/oracle/against_oracle.h"
 #include "tests/oracle/mpfr_rounding.h"
 
@@ -57,6 +59,8 @@ Combination combination(std::mt19937_64& random) {
   if (options.depth_encoding.type != DepthEncoding::Type::binary32) {
     std::erase(options.channels, Channel::Zlow);
   }
+  constexpr std::array sources{NormalSource::file, NormalSource::vertex, NormalSource::place};
+  options.normals = sources[below(3)];
   options.threads = static_cast<int>(1 + below(3));
   if (below(4) == 0) options.fast.hierarchy = false;
   c.mode = testing::any_mode(random);
@@ -156,11 +160,12 @@ class Adversaries : public ::testing::TestWithParam<Family> {};
 TEST_P(Adversaries, AreRenderedExactly) {
   int seen = 0;
   testing::for_each_adversary(900, [&](std::uint64_t seed) {
-    const Case c = testing::adversarial_case(GetParam(), seed);
+    Case c = testing::adversarial_case(GetParam(), seed);
     std::mt19937_64 random(seed ^ 0x9E3779B97F4A7C15);
+    if (seed % 2 == 1) testing::add_odd_normals(c.scene.meshes[0], random);
     const Combination how = combination(random);
     expect_same(c, how);
-    if (seed % 8 == 0) seen += expect_as_rays(c);
+    if (seed % 8 < 2) seen += expect_as_rays(c);
     if (seed % 32 == 0) expect_areas(c, how);
   });
   const std::uint64_t count = testing::number_of_adversaries();

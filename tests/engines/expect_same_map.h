@@ -10,9 +10,16 @@
 namespace fathom::testing {
 
 inline const std::vector<Channel> every_channel{
-    Channel::Z,     Channel::A,      Channel::Zlow,     Channel::distance, Channel::id,
-    Channel::face,  Channel::object, Channel::material, Channel::group,    Channel::part,
-    Channel::label, Channel::N,      Channel::P,        Channel::bary};
+    Channel::Z,     Channel::A,    Channel::Zlow,   Channel::distance,
+    Channel::id,    Channel::face, Channel::object, Channel::material,
+    Channel::group, Channel::part, Channel::label,  Channel::N,
+    Channel::P,     Channel::bary, Channel::Nc,     Channel::Ns};
+/// All that a scene that stays in its files can have.
+inline const std::vector<Channel> streamed_channels = [] {
+  std::vector<Channel> channels = every_channel;
+  std::erase(channels, Channel::Ns);
+  return channels;
+}();
 inline const std::vector<Channel> quick_channels{Channel::Z, Channel::A, Channel::id, Channel::face,
                                                  Channel::object};
 

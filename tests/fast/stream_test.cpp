@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 using testing::Both;
 using testing::CaseMaker;
 using testing::effort;
-using testing::every_channel;
+using testing::streamed_channels;
 using testing::expect_same_map;
 using testing::Kind;
 using testing::ply_of;
@@ -67,7 +67,7 @@ TEST(FastStream, MeshesInEveryChannel) {
                      data / "meshes" / "cube-big-endian.ply"});
     EXPECT_EQ(both.warnings, both.stream_warnings);
     RenderOptions options;
-    options.channels = every_channel;
+    options.channels = streamed_channels;
     options.cull = files == 2 ? Cull::back : Cull::none;
     for (const Camera& camera : cameras_for(both.scene)) {
       expect_same_render(both, camera, options, {});
@@ -103,7 +103,7 @@ TEST(FastStream, RandomScenes) {
       const testing::Case c = maker.make();
       const Both both({folder.write(std::to_string(cases) + ".ply", ply_of(c.scene.meshes.at(0)))});
       RenderOptions options;
-      options.channels = every_channel;
+      options.channels = streamed_channels;
       options.cull = i % 5 == 0 ? Cull::back : Cull::none;
       expect_same_render(both, c.camera, options, {.triangles_at_once = 1U + i % 3});
       if (::testing::Test::HasFailure()) return;
@@ -192,7 +192,7 @@ TEST(FastStream, VerifiedFromTheFilesToo) {
                    folder.write("spot.ply", ply_of(scene.meshes.at(0)))});
   const Camera camera = cameras_for(both.scene).at(0);
   RenderOptions options;
-  options.channels = every_channel;
+  options.channels = streamed_channels;
   DepthMap map = render_streamed(both.streamed, camera, options);
   PixelChoice chosen(map.width * std::size_t{map.height}, false);
   for (std::size_t i = 0; i < chosen.size(); i += 7 * testing::effort) chosen[i] = true;

@@ -19,7 +19,7 @@ TEST(ChannelTable, NamesLeadToChannelsAndBack) {
       EXPECT_TRUE(names.insert(name).second) << name;
     }
   }
-  EXPECT_EQ(names.size(), 14U - 3 + 3 + 3 + 2);
+  EXPECT_EQ(names.size(), 16U - 5 + 4 * 3 + 2);
   EXPECT_EQ(channel_named("z"), std::nullopt);
   EXPECT_EQ(channel_named("N.X"), std::nullopt);
   EXPECT_EQ(channel_named(""), std::nullopt);
@@ -30,7 +30,8 @@ TEST(ChannelTable, PartsAndWordsForPeople) {
   EXPECT_THAT(part_names(Channel::N), ElementsAre("N.X", "N.Y", "N.Z"));
   EXPECT_THAT(part_names(Channel::bary), ElementsAre("bary.U", "bary.V"));
   EXPECT_EQ(channel_names(),
-            "Z, A, Zlow, distance, id, face, object, material, group, part, label, N, P and bary");
+            "Z, A, Zlow, distance, id, face, object, material, group, part, label, N, P, bary, Nc "
+            "and Ns");
 }
 
 TEST(ChannelTable, IdentifiersThatShowSegments) {

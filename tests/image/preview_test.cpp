@@ -98,15 +98,19 @@ TEST(Preview, SurfacesWithoutASegmentAreGrey) {
 }
 
 TEST(Preview, NormalsAreRgb) {
-  DepthMap map = map_of(5, 1, "N.X", std::vector<float>{1, 0, 0, 0, -1});
-  map.channels.push_back({"N.Y", std::vector<float>{0, 1, 0, 0, 0}});
-  map.channels.push_back({"N.Z", std::vector<float>{0, 0, 1, 0, 0}});
-  PreviewOptions options;
-  options.channel = "N";
-  const RgbImage image = draw_preview(map, options);
-  EXPECT_EQ(block(image, 0), (Rgb{255, 128, 128}));
-  EXPECT_EQ(block(image, 4), (Rgb{0, 128, 128}));
-  EXPECT_EQ(block(image, 3), neutral);
+  for (const std::string name : {"N", "Nc", "Ns"}) {
+    DepthMap map = map_of(5, 1, name + ".X", std::vector<float>{1, 0, 0, 0, -1});
+    map.channels.push_back({name + ".Y", std::vector<float>{0, 1, 0, 0, 0}});
+    map.channels.push_back({name + ".Z", std::vector<float>{0, 0, 1, 0, 0}});
+    PreviewOptions options;
+    options.channel = name;
+    const RgbImage image = draw_preview(map, options);
+    EXPECT_EQ(block(image, 0), (Rgb{255, 128, 128}));
+    EXPECT_EQ(block(image, 4), (Rgb{0, 128, 128}));
+    EXPECT_EQ(block(image, 3), neutral);
+    options.channel = name == "N" ? "Ns" : "N";
+    EXPECT_THROW(draw_preview(map, options), UsageError);
+  }
 }
 
 /// Relative luminance of sRGB (IEC 61966-2-1).

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/oracle/mpfr_rounding.h"
+#include "tests/oracle/smooth_normals.h"
 
 namespace fathom::testing {
 namespace {
@@ -74,8 +75,51 @@ void expect_bits(float ours, float expected, const char* channel) {
       << channel << ": " << std::hexfloat << ours << ", expected " << expected;
 }
 
-void expect_hit(const DepthMap& map, std::size_t pixel, const oracle::Hit& hit,
-                const Scene& scene) {
+oracle::SmoothMesh smooth_mesh(const Mesh& mesh, NormalSource source) {
+  oracle::SmoothMesh smooth;
+  smooth.by_place = source == NormalSource::place;
+  for (const MeshPoint& p : mesh.vertices) smooth.vertices.push_back({Q(p.x), Q(p.y), Q(p.z)});
+  for (const CornerIndices& t : mesh.triangles) smooth.triangles.push_back(t);
+  if (source != NormalSource::file || mesh.normals.empty()) return smooth;
+  const auto& indices = mesh.normal_triangles.empty() ? mesh.triangles : mesh.normal_triangles;
+  for (const CornerIndices& t : indices) {
+    auto& corners = smooth.normals.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (t[k] == no_index) continue;
+      const auto& [x, y, z] = mesh.normals[t[k]];
+      corners[k] = oracle::Vector{Q(x), Q(y), Q(z)};
+    }
+  }
+  return smooth;
+}
+
+oracle::Vector smooth_normal(const Scene& scene, const oracle::Hit& hit, NormalSource source) {
+  const TriangleOrigin origin = origin_of(scene, hit.triangle);
+  const Object& object = scene.objects[origin.object];
+  oracle::Linear placement;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k)
+      placement[i][k] = rational(object.world_from_mesh.rows[i][k]);
+  }
+  return oracle::smooth_normal(smooth_mesh(scene.meshes[object.mesh], source), placement,
+                               origin.triangle, hit.weight_b, hit.weight_c);
+}
+
+/// A vector scaled to unit length, in the channels of these parts; 0 where it is 0.
+void expect_direction(const DepthMap& map, std::size_t pixel, const std::string& name,
+                      const oracle::Vector& n) {
+  Q length = 0;
+  for (const Q& x : n) length += x * x;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string part = name + "." + "XYZ"[i];
+    const float magnitude = sgn(length) == 0 ? 0 : nearest_root(n[i] * n[i] / length);
+    expect_bits((*map.values<float>(part))[pixel], sgn(n[i]) < 0 ? -magnitude : magnitude,
+                part.c_str());
+  }
+}
+
+void expect_hit(const DepthMap& map, std::size_t pixel, const oracle::Hit& hit, const Scene& scene,
+                NormalSource normals) {
   const auto value = [&](const char* name) { return (*map.values<float>(name))[pixel]; };
   EXPECT_EQ((*map.values<std::uint32_t>("id"))[pixel], hit.triangle);
   const TriangleOrigin origin = origin_of(scene, hit.triangle);
@@ -87,14 +131,11 @@ void expect_hit(const DepthMap& map, std::size_t pixel, const oracle::Hit& hit,
   expect_bits(value("distance"), nearest_root(hit.squared_distance), "distance");
   expect_bits(value("bary.U"), nearest_float(hit.weight_b), "bary.U");
   expect_bits(value("bary.V"), nearest_float(hit.weight_c), "bary.V");
-  const char* axes[] = {"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z"};
-  Q length = 0;
-  for (const Q& n : hit.normal) length += n * n;
-  for (int i = 0; i < 3; ++i) {
-    expect_bits(value(axes[i]), nearest_float(hit.position[i]), axes[i]);
-    const float magnitude = nearest_root(hit.normal[i] * hit.normal[i] / length);
-    expect_bits(value(axes[3 + i]), sgn(hit.normal[i]) < 0 ? -magnitude : magnitude, axes[3 + i]);
-  }
+  const char* axes[] = {"P.X", "P.Y", "P.Z"};
+  for (int i = 0; i < 3; ++i) expect_bits(value(axes[i]), nearest_float(hit.position[i]), axes[i]);
+  expect_direction(map, pixel, "N", hit.normal);
+  expect_direction(map, pixel, "Nc", hit.camera_normal);
+  expect_direction(map, pixel, "Ns", smooth_normal(scene, hit, normals));
 }
 
 void expect_background(const DepthMap& map, std::size_t pixel) {
@@ -102,7 +143,10 @@ void expect_background(const DepthMap& map, std::size_t pixel) {
   for (const char* name : {"Z", "distance"}) {
     EXPECT_EQ(value(name), std::numeric_limits<float>::infinity()) << name;
   }
-  for (const char* name : {"Zlow", "N.X", "N.Y", "N.Z"}) EXPECT_EQ(value(name), 0.0F) << name;
+  for (const char* name :
+       {"Zlow", "N.X", "N.Y", "N.Z", "Nc.X", "Nc.Y", "Nc.Z", "Ns.X", "Ns.Y", "Ns.Z"}) {
+    EXPECT_EQ(value(name), 0.0F) << name;
+  }
   for (const char* name : {"P.X", "P.Y", "P.Z", "bary.U", "bary.V"}) {
     EXPECT_TRUE(std::isnan(value(name))) << name;
   }
@@ -130,28 +174,29 @@ oracle::RayCaster cast_at(const Scene& scene, const Camera& camera) {
 }
 
 std::vector<Channel> all_channels() {
-  return {Channel::Z,      Channel::Zlow, Channel::distance, Channel::id,  Channel::face,
-          Channel::object, Channel::N,    Channel::P,        Channel::bary};
+  return {Channel::Z, Channel::Zlow, Channel::distance, Channel::id, Channel::face, Channel::object,
+          Channel::N, Channel::P,    Channel::bary,     Channel::Nc, Channel::Ns};
 }
 
 void expect_pixel(const DepthMap& map, int x, int y, const std::optional<oracle::Hit>& hit,
-                  const Scene& scene) {
+                  const Scene& scene, NormalSource normals) {
   SCOPED_TRACE("pixel " + std::to_string(x) + ", " + std::to_string(y));
   const std::size_t pixel = static_cast<std::size_t>(y) * map.width + static_cast<std::size_t>(x);
   if (hit) {
-    expect_hit(map, pixel, *hit, scene);
+    expect_hit(map, pixel, *hit, scene, normals);
   } else {
     expect_background(map, pixel);
   }
 }
 
-int expect_as_rays(const DepthMap& map, const Scene& scene, const Camera& camera) {
+int expect_as_rays(const DepthMap& map, const Scene& scene, const Camera& camera,
+                   NormalSource normals) {
   const oracle::RayCaster rays = cast_at(scene, camera);
   int seen = 0;
   for (int y = 0; y < static_cast<int>(camera.height); ++y) {
     for (int x = 0; x < static_cast<int>(camera.width); ++x) {
       const auto hit = rays.cast(x, y);
-      expect_pixel(map, x, y, hit, scene);
+      expect_pixel(map, x, y, hit, scene, normals);
       seen += hit.has_value();
     }
   }

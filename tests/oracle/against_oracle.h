@@ -26,10 +26,12 @@ oracle::Q rational(const Ratio& x);
 std::vector<Channel> all_channels();
 
 /// Holds every channel at a pixel to what the ray met, its value rounded by MPFR.
+/// `normals` are those of Ns.
 void expect_pixel(const DepthMap& map, int x, int y, const std::optional<oracle::Hit>& hit,
-                  const Scene& scene);
+                  const Scene& scene, NormalSource normals = NormalSource::file);
 
 /// expect_pixel() of all pixels of a map with all_channels(). Returns how many show a surface.
-int expect_as_rays(const DepthMap& map, const Scene& scene, const Camera& camera);
+int expect_as_rays(const DepthMap& map, const Scene& scene, const Camera& camera,
+                   NormalSource normals = NormalSource::file);
 
 }  // namespace fathom::testing

@@ -29,6 +29,16 @@ Cramer solve(const Vector& o, const Vector& d, const Triangle& triangle) {
           det(d, minus_e1, minus_e2)};
 }
 
+/// The normal of a triangle that is turned against a direction.
+Vector normal_against(const Vector& direction, const Triangle& triangle) {
+  const auto& [A, B, C] = triangle;
+  const Vector e1 = minus(B, A), e2 = minus(C, A);
+  const Vector n = {e1[1] * e2[2] - e1[2] * e2[1], e1[2] * e2[0] - e1[0] * e2[2],
+                    e1[0] * e2[1] - e1[1] * e2[0]};
+  if (sgn(dot(n, direction)) > 0) return {-n[0], -n[1], -n[2]};
+  return n;
+}
+
 /// The sign of a value whose rational part is `at`, moved by an infinitesimal step to the right
 /// and a smaller one down; the value is affine in (u, v).
 int sign_after_step(const Q& at, const Q& one_right, const Q& one_down) {
@@ -129,15 +139,11 @@ std::optional<Hit> RayCaster::cast(int x, int y) const {
   for (int i = 0; i < 3; ++i) p[i] = origin[i] + nearest->depth * direction[i];
   nearest->squared_distance = camera_.perspective ? dot(p, p) : Q(nearest->depth * nearest->depth);
   nearest->position = to_world(p);
-  const auto& [A, B, C] = world_[nearest->triangle];
-  const Vector e1 = minus(B, A), e2 = minus(C, A);
-  Vector n = {e1[1] * e2[2] - e1[2] * e2[1], e1[2] * e2[0] - e1[0] * e2[2],
-              e1[0] * e2[1] - e1[1] * e2[0]};
   // The ray comes from a point of smaller depth.
   const Vector along =
       minus(to_world({p[0] + direction[0], p[1] + direction[1], p[2] + 1}), nearest->position);
-  if (sgn(dot(n, along)) > 0) n = {-n[0], -n[1], -n[2]};
-  nearest->normal = n;
+  nearest->normal = normal_against(along, world_[nearest->triangle]);
+  nearest->camera_normal = normal_against(direction, in_camera_[nearest->triangle]);
   return nearest;
 }
 

@@ -25,10 +25,11 @@ struct RayCamera {
 
 struct Hit {
   std::uint32_t triangle = 0;
-  Q depth;             // z in the camera frame
-  Q squared_distance;  // of the ray distance
-  Vector position;     // in the world
-  Vector normal;       // in the world, any length, towards the camera
+  Q depth;               // z in the camera frame
+  Q squared_distance;    // of the ray distance
+  Vector position;       // in the world
+  Vector normal;         // in the world, any length, towards the camera
+  Vector camera_normal;  // in the camera frame, likewise
   Q weight_b, weight_c;
 };
 

@@ -54,10 +54,10 @@ def test_maps_are_those_of_the_program(spot, run_program, tmp_path):
     camera = fathom.Camera.frame(spot, size=(160, 90))
     camera.write(tmp_path / "camera.json")
     run_program("render", _spot(), "--camera", tmp_path / "camera.json",
-                "--channels", "Z,A,id,N,P,bary,distance,Zlow,face,object", "-o", tmp_path / "map.exr")
+                "--channels", "Z,A,id,N,P,bary,distance,Zlow,face,object,Nc,Ns", "-o", tmp_path / "map.exr")
     expected = fathom.read_map(tmp_path / "map.exr")
     found = spot.render(camera, channels=list(expected))
-    assert set(found) == {"Z", "A", "id", "N", "P", "bary", "distance", "Zlow", "face", "object"}
+    assert set(found) == {"Z", "A", "id", "N", "P", "bary", "distance", "Zlow", "face", "object", "Nc", "Ns"}
     assert found["N"].shape == (90, 160, 3) and found["bary"].shape == (90, 160, 2)
     for name, values in expected.items():
         assert values.dtype == found[name].dtype
@@ -69,6 +69,23 @@ def _spot():
     from conftest import source
 
     return source / "data/meshes/spot.obj"
+
+
+def test_shading_normals_are_of_the_file_or_of_the_triangles(tmp_path):
+    square = "v -1 -1 2\nv 1 -1 2\nv 1 1 2\nv -1 1 2\nvn 3 0 -4\nf 1//1 4//1 3//1 2//1\n"
+    (tmp_path / "square.obj").write_text(square)
+    scene = fathom.Scene.read(tmp_path / "square.obj")
+    camera = fathom.Camera.from_opencv([[4, 0, 2], [0, 4, 2], [0, 0, 1]], identity, (4, 4), pixel_centre=0.5)
+    maps = {source: scene.render(camera, channels=("Nc", "Ns"), normals=source) for source in ("file", "vertex", "place")}
+    assert maps["file"]["Ns"].shape == (4, 4, 3)
+    assert (maps["file"]["Ns"] == np.float32([0.6, 0, -0.8])).all()
+    for source in ("vertex", "place"):
+        assert (maps[source]["Ns"] == [0, 0, -1]).all() and (maps[source]["Nc"] == [0, 0, -1]).all()
+        assert maps[source].metadata["fathom.normals"] == source
+        assert fathom.verify(maps[source], scene, pixels=16).differing == 0
+    assert fathom.verify(maps["file"], scene, pixels=16).differing == 0
+    with pytest.raises(ValueError, match="normals: expected 'file', 'vertex', 'place'"):
+        scene.render(camera, normals="smooth")
 
 
 def test_both_engines_agree(spot):

@@ -164,13 +164,13 @@ void add_shares_of_parts(const Seen& x, const ProjectedTriangle& t, Shares& shar
 template <class Real>
 void add_shares_of_normal(const Seen& x, const ProjectedTriangle& t, const ExactVector3& n,
                           Shares& shares) {
-  const WorldNormal<Real> normal = world_normal<Real>(x.corners, x.object);
+  const PlacedNormal<Real> normal = world_normal<Real>(x.corners, x.object);
   const Vector<double> errors = errors_of(normal);
   Share& components = x.object.placed_as_is ? shares.mesh_normal : shares.placed_normal;
   for (std::size_t i = 0; i < 3; ++i) {
     components.add(Certified<Real>{normal.n[i], errors[i]}, Ratio(n[i]));
   }
-  shares.length.add(length_of(normal), root(Ratio(dot(n, n))));
+  shares.length.add(length_of(normal.n, errors_of(normal)), root(Ratio(dot(n, n))));
   const Dyadic det = determinant_of(x.rays.world(), t);
   shares.turn.add(along_ray(normal, x.rays.world().rays, x.image, x.s),
                   Ratio(t.weight.at(x.s.u, x.s.v), det));

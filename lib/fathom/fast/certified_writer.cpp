@@ -40,7 +40,8 @@ CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays)
     : exact_(exact),
       values_(exact.values()),
       frame_(rays),
-      each_pixel_(values_.barycentric[0] || values_.low) {}
+      each_pixel_(values_.barycentric[0] || values_.low || values_.shading_normal[0]),
+      shading_normals_(exact.corner_normals()) {}
 
 struct CertifiedWriter::Open {
   std::uint64_t depth = 0, distance = 0;
@@ -81,18 +82,18 @@ void CertifiedWriter::write_origins(const VisibleRow& row) const {
   });
 }
 
-void CertifiedWriter::write_normals(const VisibleRow& row, Referee& referee,
-                                    RenderStatistics& statistics) {
-  const WriterTarget target{values_, exact_, referee, statistics};
+void CertifiedWriter::write_normals(const VisibleRow& row, Normal normal,
+                                    const std::array<float*, 3>& values,
+                                    const WriterTarget& target) {
   std::uint32_t last = no_surface;
-  std::array<float, 3> normal{};
+  std::array<float, 3> n{};
   for_each_bit(row.surface, [&](std::size_t k) {
     const VisibleSurface surface = row.at(k);
     if (surface.triangle != last) {
-      normal = PixelWriter(surface, facts(surface.triangle), frame_, target).normal();
+      n = (PixelWriter(surface, facts(surface.triangle), frame_, target).*normal)();
       last = surface.triangle;
     }
-    for (std::size_t i = 0; i < 3; ++i) values_.normal[i][surface.pixel] = normal[i];
+    for (std::size_t i = 0; i < 3; ++i) values[i][surface.pixel] = n[i];
   });
 }
 
@@ -117,8 +118,11 @@ CertifiedWriter::Open CertifiedWriter::write_settled(const VisibleRow& row,
 std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Referee& referee,
                                                     RenderStatistics& statistics) {
   const Open open = write_settled(row, statistics);
-  if (values_.normal[0]) write_normals(row, referee, statistics);
   const WriterTarget target{values_, exact_, referee, statistics};
+  if (values_.normal[0]) write_normals(row, &PixelWriter::normal, values_.normal, target);
+  if (values_.camera_normal[0]) {
+    write_normals(row, &PixelWriter::camera_normal, values_.camera_normal, target);
+  }
   for (std::uint64_t bits = each_pixel_ ? row.surface : open.any(); bits != 0; bits &= bits - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(bits));
     const auto is_open = [&](std::uint64_t samples) { return (samples >> k & 1) != 0; };
@@ -128,6 +132,7 @@ std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Refer
       if (is_open(open.position[i])) pixel.write_position(i);
     }
     for (std::size_t i = 0; values_.barycentric[0] && i < 2; ++i) pixel.write_barycentric(i);
+    if (values_.shading_normal[0]) pixel.write_shading_normal(shading_normals_);
     if (is_open(open.distance)) {
       if (auto fault = pixel.write_distance()) return fault;
     }

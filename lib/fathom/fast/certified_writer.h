@@ -30,8 +30,8 @@ struct VisibleRow {
 /// Writes every channel of the specification, section 6, by certified floating point: a value comes
 /// with a proved bound on its error, and is written if all numbers that the bound allows round to
 /// the same one. Tiers, each tried where the one before does not settle a value:
-///   binary64      from the tile's q (Z, distance, P) or from the triangle (N, bary);
-///   double-words  from the triangle; Zlow and binary64 output begin here;
+///   binary64      from the tile's q (Z, distance, P) or from the triangle (N, Nc, Ns, bary);
+///   double-words  from the triangle, not Ns; Zlow and binary64 output begin here;
 ///   constants     depth or a world coordinate is exactly the same at the three corners, or a
 ///                 value is proved to be exactly 0, or a depth to be a binary32 number, because
 ///                 its numerator is a multiple of a power of two above its bound;
@@ -52,9 +52,10 @@ class CertifiedWriter {
 
   /// id, face, object and what a segmentation has.
   void write_origins(const VisibleRow& row) const;
-  /// The normal is the same at all pixels of a triangle.
-  void write_normals(const VisibleRow& row, triangle::Referee& referee,
-                     RenderStatistics& statistics);
+  using Normal = const std::array<float, 3>& (PixelWriter::*)();
+  /// A normal that is the same at all pixels of a triangle.
+  void write_normals(const VisibleRow& row, Normal normal, const std::array<float*, 3>& values,
+                     const WriterTarget& target);
   /// Writes what follows from number and q; returns what is left.
   Open write_settled(const VisibleRow& row, RenderStatistics& statistics) const;
   std::uint64_t write_encoded(const VisibleRow& row, const triangle::EncodedValues& values,
@@ -70,6 +71,7 @@ class CertifiedWriter {
   /// Whether a channel was asked for that is not written by rows.
   bool each_pixel_;
   triangle::RecentTriangles<SurfaceFacts, 512> remembered_;
+  ShadingNormals shading_normals_;
 };
 
 }  // namespace fathom::fast

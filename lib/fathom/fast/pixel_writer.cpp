@@ -1,5 +1,7 @@
 #include "fathom/fast/pixel_writer.h"
 
+#include <cmath>
+
 #include "fathom/numeric/certified_rounding.h"
 
 namespace fathom::fast {
@@ -141,11 +143,22 @@ const std::array<float, 3>& PixelWriter::normal() {
   return *facts_.normal;
 }
 
+const std::array<float, 3>& PixelWriter::camera_normal() {
+  if (facts_.camera_normal) return *facts_.camera_normal;
+  std::array<float, 3> normal{};
+  if (!facts_.usable || !facts_.object->camera_normals_usable || !settle_camera_normal(normal)) {
+    count_exact();
+    target_.exact.write_camera_normal(surface_.pixel, projected());
+    for (std::size_t i = 0; i < 3; ++i) normal[i] = target_.values.camera_normal[i][surface_.pixel];
+  }
+  facts_.camera_normal = normal;
+  return *facts_.camera_normal;
+}
+
 /// Each component by its own tier.
-bool PixelWriter::settle_normal(std::array<float, 3>& normal) {
-  const ObjectRays& world = frame_.rays.world();
-  const auto narrow =
-      unit_normal<double>(facts_.corners, *facts_.object, world, frame_.image, surface_.sample);
+template <class Wide>
+bool PixelWriter::settle_components(const Vector<Certified<double>>& narrow, const Wide& make_wide,
+                                    std::array<float, 3>& normal) {
   std::optional<Vector<Certified<WordPair>>> wide;
   bool all = true;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -153,10 +166,7 @@ bool PixelWriter::settle_normal(std::array<float, 3>& normal) {
       count_narrow();
       continue;
     }
-    if (!wide) {
-      wide =
-          frame_.wide.normal(facts_.corners, *facts_.object, world, frame_.image, surface_.sample);
-    }
+    if (!wide) wide = make_wide();
     if (take((*wide)[i], normal[i])) {
       count_wide();
     } else {
@@ -164,6 +174,60 @@ bool PixelWriter::settle_normal(std::array<float, 3>& normal) {
     }
   }
   return all;
+}
+
+bool PixelWriter::settle_normal(std::array<float, 3>& normal) {
+  const ObjectRays& world = frame_.rays.world();
+  const ImagePoint& s = surface_.sample;
+  const ImageBounds& image = frame_.image;
+  return settle_components(
+      unit_normal<double>(facts_.corners, *facts_.object, world, image, s),
+      [&] { return frame_.wide.normal(facts_.corners, *facts_.object, world, image, s); }, normal);
+}
+
+bool PixelWriter::settle_camera_normal(std::array<float, 3>& normal) {
+  const ObjectRays& world = frame_.rays.world();
+  const ImagePoint& s = surface_.sample;
+  const ImageBounds& image = frame_.image;
+  const Sign handedness = frame_.rays.handedness();
+  return settle_components(
+      unit_camera_normal<double>(facts_.corners, *facts_.object, world, image, s, handedness),
+      [&] {
+        return frame_.wide.camera_normal(facts_.corners, *facts_.object, world, image, s,
+                                         handedness);
+      },
+      normal);
+}
+
+void PixelWriter::write_shading_normal(ShadingNormals& normals) {
+  if (facts_.usable && settle_shading_normal(normals)) return;
+  count_exact();
+  target_.exact.write_shading_normal(surface_.pixel, projected(), surface_.sample);
+}
+
+void PixelWriter::settle_zero(Certified<double>& component, std::size_t i,
+                              ShadingNormals& normals) {
+  if (is_exact_zero(component) || !(std::abs(component.value) <= component.error)) return;
+  if (!facts_.normal_bits) facts_.normal_bits = normals.last_bits(surface_.triangle);
+  if (values_.interpolated_is_zero(component, (*facts_.normal_bits)[i])) component = {0, 0};
+}
+
+bool PixelWriter::settle_shading_normal(ShadingNormals& normals) {
+  if (!facts_.corner_normals) facts_.corner_normals = normals.of_surface(surface_.triangle, facts_);
+  const WeightForms<double>& forms = weights_of(facts_, frame_);
+  Vector<Certified<double>> n = interpolated(
+      *facts_.corner_normals, {forms.at(0, surface_.sample), forms.at(1, surface_.sample)});
+  for (std::size_t i = 0; i < 3; ++i) settle_zero(n[i], i, normals);
+  n = unit(n);
+  std::array<float, 3> rounded{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!take(to_binary32(n[i].value, n[i].error), rounded[i])) return false;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    target_.values.shading_normal[i][surface_.pixel] = rounded[i];
+    count_narrow();
+  }
+  return true;
 }
 
 }  // namespace fathom::fast

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fathom/fast/shading_normals.h"
 #include "fathom/fast/surface_values.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/referee.h"
@@ -34,8 +35,10 @@ class PixelWriter {
         target_(target),
         values_(facts, frame, surface.sample) {}
 
-  /// The normal of the surface, from any one of its pixels.
+  /// The normal of the surface, in the world or in the camera frame, from any one of its pixels.
   const std::array<float, 3>& normal();
+  const std::array<float, 3>& camera_normal();
+  void write_shading_normal(ShadingNormals& normals);
   void write_position(std::size_t k);
   void write_barycentric(std::size_t k);
   void write_low_part();
@@ -53,6 +56,14 @@ class PixelWriter {
   bool settle_depth(const triangle::EncodedValues& values);
   bool settle_distance();
   bool settle_normal(std::array<float, 3>& normal);
+  bool settle_camera_normal(std::array<float, 3>& normal);
+  /// From components in binary64, and a function that gives them in double-words.
+  template <class Wide>
+  bool settle_components(const Vector<Certified<double>>& narrow, const Wide& make_wide,
+                         std::array<float, 3>& normal);
+  bool settle_shading_normal(ShadingNormals& normals);
+  /// Makes a component exactly 0 that is, where that can be proved.
+  void settle_zero(Certified<double>& component, std::size_t i, ShadingNormals& normals);
 
   void count_narrow() { ++target_.statistics.rounding.interval; }
   void count_wide() {

@@ -20,6 +20,12 @@ struct ValueFrame {
   triangle::RaySizes world_sizes;
 };
 
+/// The normals of a triangle's corners in the world, as they are interpolated: that of A, and what
+/// those of B and C have beyond it.
+struct SurfaceNormals {
+  Vector<Certified<double>> at_A, to_B, to_C;
+};
+
 /// A visible triangle, with what has been found out about it so far. Functions that find out more
 /// keep it here.
 struct SurfaceFacts {
@@ -31,8 +37,11 @@ struct SurfaceFacts {
 
   std::optional<triangle::WeightForms<double>> weights;
   std::optional<triangle::DepthForms<WordPair>> depth;
-  /// The normal as it is written.
-  std::optional<std::array<float, 3>> normal;
+  /// The normals as they are written, in the world and in the camera frame.
+  std::optional<std::array<float, 3>> normal, camera_normal;
+  std::optional<SurfaceNormals> corner_normals;
+  /// Exponents of powers of two of which the components of these are multiples.
+  std::optional<std::array<long, 3>> normal_bits;
   /// World x, y, z and depth, if they are found to be the same at all three corners; bit k of
   /// constants_known: constants[k] was looked for.
   std::array<std::optional<WordPair>, 4> constants;

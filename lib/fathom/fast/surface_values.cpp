@@ -46,9 +46,13 @@ bool SurfaceValues::position_is_zero(std::size_t k) {
 }
 
 bool SurfaceValues::weight_is_zero(const Certified<double>& narrow) {
+  return interpolated_is_zero(narrow, 0);
+}
+
+bool SurfaceValues::interpolated_is_zero(const Certified<double>& narrow, long bits) {
   const Certified<double> divisor = weights_of(surface_, frame_).divisor.at(s_);
   return zero_.holds(std::abs(narrow.value) + narrow.error, std::abs(divisor.value) + divisor.error,
-                     zero_.weight_bits());
+                     zero_.weight_bits() + bits);
 }
 
 bool SurfaceValues::weight_is_zero(std::size_t k) {

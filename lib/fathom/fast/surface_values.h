@@ -29,6 +29,9 @@ class SurfaceValues {
   bool position_is_zero(std::size_t k);
   bool weight_is_zero(const Certified<double>& narrow);
   bool weight_is_zero(std::size_t k);
+  /// Whether what is interpolated between numbers at the corners that are multiples of 2^(bits) is
+  /// exactly 0.
+  bool interpolated_is_zero(const Certified<double>& narrow, long bits);
 
  private:
   bool is_zero(const Certified<WordPair>& value, long numerator_bits);

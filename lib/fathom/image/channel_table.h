@@ -25,7 +25,9 @@ enum class Channel {
   label,
   N,
   P,
-  bary
+  bary,
+  Nc,
+  Ns
 };
 
 /// What a channel's values mean, which decides what value says "no surface".
@@ -33,7 +35,7 @@ enum class ChannelKind {
   depth,       ///< Z, distance, disparity, Zdecoded: background +∞ (of codes and
                ///< disparities 0), or what the map says (background.h)
   identifier,  ///< id, face, object, material and every other 32-bit integer: background no_surface
-  direction,   ///< N.X, N.Y, N.Z: background 0 in all three
+  direction,   ///< N.*, Nc.*, Ns.*: background 0 in all three
   position,    ///< P.*, bary.*: background NaN
   quantity     ///< everything else (A, Zlow, other programs' channels): 0, which is a value too
 };
@@ -79,6 +81,10 @@ inline constexpr auto channel_table = std::to_array<ChannelDescription>({
     {Channel::P, "P", "XYZ", ChannelType::binary32, ChannelKind::position, "position in the world"},
     {Channel::bary, "bary", "UV", ChannelType::binary32, ChannelKind::position,
      "barycentric weights of B and C"},
+    {Channel::Nc, "Nc", "XYZ", ChannelType::binary32, ChannelKind::direction,
+     "normal in the camera frame"},
+    {Channel::Ns, "Ns", "XYZ", ChannelType::binary32, ChannelKind::direction,
+     "interpolated normal in the world"},
 });
 
 inline const ChannelDescription& description_of(Channel channel) {

@@ -169,13 +169,17 @@ void draw_identifiers(Sheet& sheet, const DepthMap& map, const ImageChannel& cha
   specials.add_to(sheet, ids.size());
 }
 
+/// The three parts of a channel of directions as RGB.
 void draw_normals(Sheet& sheet, const DepthMap& map, const PreviewOptions& options) {
+  const std::string& name = options.channel;
   std::array<const Samples<float>*, 3> parts{};
   for (std::size_t c = 0; c < 3; ++c) {
-    parts[c] = map.values<float>("N." + std::string(1, "XYZ"[c]));
-    if (!parts[c]) throw UsageError("the map has no normals N.X, N.Y, N.Z");
+    parts[c] = map.values<float>(name + "." + "XYZ"[c]);
+    if (!parts[c]) {
+      throw UsageError("the map has no normals " + name + ".X, " + name + ".Y, " + name + ".Z");
+    }
   }
-  const std::vector<std::uint8_t> mask = surface_mask(map, *map.find("N.X"));
+  const std::vector<std::uint8_t> mask = surface_mask(map, *map.find(name + ".X"));
   Specials specials;
   for (std::size_t k = 0; k < mask.size(); ++k) {
     const Rgb background = background_colour(options.colours);
@@ -199,8 +203,9 @@ RgbImage draw_preview(const DepthMap& map, const PreviewOptions& options) {
   require_valid(map);
   Sheet sheet;
   sheet.picture = RgbImage(map.width, map.height);
-  if (options.channel == "N") {
-    sheet.title = title_of(map, {"N", Samples<float>{}});
+  const std::optional<Channel> asked = channel_named(options.channel);
+  if (asked && description_of(*asked).kind == ChannelKind::direction) {
+    sheet.title = title_of(map, {options.channel, Samples<float>{}});
     draw_normals(sheet, map, options);
   } else {
     const ImageChannel* channel = options.channel.empty() && !map.find("Z") && !map.channels.empty()

@@ -23,7 +23,8 @@ Rgb colour_at(ColourMap map, double t);
 Rgb colour_of_identifier(std::uint32_t id);
 
 struct PreviewOptions {
-  /// The channel to draw; empty: Z, or else the map's first. `N` draws N.X, N.Y, N.Z as RGB.
+  /// The channel to draw; empty: Z, or else the map's first. `N` draws N.X, N.Y, N.Z
+  /// as RGB, `Nc` and `Ns` theirs.
   std::string channel;
   ColourMap colours = ColourMap::viridis;
   /// Ends of the colour bar; by default the least and the greatest finite value of a surface.

@@ -283,9 +283,10 @@ std::array<bool, 3> zero_components(const Edges<Real>& edges) {
   return zero;
 }
 
-/// The normal in the world, of any length and turned either way: components with errors.
+/// The normal in the world or in the camera frame, of any length and turned either way: components
+/// with errors.
 template <class Real>
-struct WorldNormal {
+struct PlacedNormal {
   Vector<Real> n;
   /// Errors are at most 4ε (placed as is) or 8ε (a dot product of cofactors, exact entries rounded
   /// once, with the mesh's n) times this.
@@ -293,30 +294,41 @@ struct WorldNormal {
   double factor = surface_bounds::normal;
 };
 
+/// That of the mesh.
 template <class Real>
-WorldNormal<Real> world_normal(const MeshTriangle& corners, const ObjectRays& object) {
+PlacedNormal<Real> mesh_normal(const MeshTriangle& corners) {
   const Edges<Real> edges(corners);
   const std::array<bool, 3> zero = zero_components(edges);
-  WorldNormal<Real> mesh{edges.n, edges.n_size};
+  PlacedNormal<Real> mesh{edges.n, edges.n_size};
   for (std::size_t i = 0; i < 3; ++i) {
     if (zero[i]) {
       mesh.n[i] = 0.0;
       mesh.size[i] = 0;
     }
   }
-  if (object.placed_as_is) return mesh;
-  WorldNormal<Real> placed;
+  return mesh;
+}
+
+template <class Real>
+PlacedNormal<Real> placed(const PlacedNormal<Real>& mesh, const NormalMatrix& matrix) {
+  PlacedNormal<Real> result;
   for (std::size_t i = 0; i < 3; ++i) {
-    placed.n[i] = dot(entries<Real>(object.normal_matrix[i]), mesh.n);
-    placed.size[i] = dot(object.normal_sizes[i], mesh.size);
+    result.n[i] = dot(entries<Real>(matrix.rows[i]), mesh.n);
+    result.size[i] = dot(matrix.sizes[i], mesh.size);
   }
-  placed.factor = surface_bounds::placed_normal;
-  return placed;
+  result.factor = surface_bounds::placed_normal;
+  return result;
+}
+
+template <class Real>
+PlacedNormal<Real> world_normal(const MeshTriangle& corners, const ObjectRays& object) {
+  const PlacedNormal<Real> mesh = mesh_normal<Real>(corners);
+  return object.placed_as_is ? mesh : placed(mesh, object.to_world);
 }
 
 /// Bounds on the errors of its components.
 template <class Real>
-Vector<double> errors_of(const WorldNormal<Real>& normal) {
+Vector<double> errors_of(const PlacedNormal<Real>& normal) {
   const double e = normal.factor * (epsilon<Real> * slack);
   return {e * normal.size[0], e * normal.size[1], e * normal.size[2]};
 }
@@ -326,16 +338,15 @@ Vector<double> errors_of(const WorldNormal<Real>& normal) {
 /// sum of the components' errors, and |n̂| is computed with an error of (3/2 + 1)ε; 3 is used.
 /// Needs    squares of the components that stay in range.
 template <class Real>
-Certified<Real> length_of(const WorldNormal<Real>& normal) {
-  const Vector<double> error = errors_of(normal);
-  const Real length = square_root(dot(normal.n, normal.n));
+Certified<Real> length_of(const Vector<Real>& n, const Vector<double>& error) {
+  const Real length = square_root(dot(n, n));
   return {length, (error[0] + error[1] + error[2]) +
                       surface_bounds::length * epsilon<Real> * slack * std::abs(nearest(length))};
 }
 
 /// n·d at a sample: the products err by (8 + 4 + 1)ε and two sums.
 template <class Real>
-Certified<Real> along_ray(const WorldNormal<Real>& normal, const Rays& world,
+Certified<Real> along_ray(const PlacedNormal<Real>& normal, const Rays& world,
                           const ImageBounds& image, const ImagePoint& s) {
   const Vector<Real> d = ray_at<Real>(world, image.perspective, s).direction;
   const Vector<double> d_size = RaySizes(world, image).direction;
@@ -343,36 +354,64 @@ Certified<Real> along_ray(const WorldNormal<Real>& normal, const Rays& world,
           surface_bounds::turn * (epsilon<Real> * slack) * dot(normal.size, d_size)};
 }
 
-/// The unit normal, turned towards the camera, at a sample where the triangle is visible; every
-/// error is +∞ if it is not certain which way to turn it.
-/// Needs    safe corners, and usable rays of the object and of the world.
+/// Which way a normal is turned to point towards the camera: −1 against n, 1 along it, 0 where that
+/// is not certain.
 ///
-/// Turn. Σe = det(H)·(n·d) and Δ = D·Σe for n and d of one frame (H the linear part of the map to
+/// Σe = det(H)·(n·d) and Δ = D·Σe for n and d of one frame (H the linear part of the map to
 /// (U, V, D), det H = fx·fy·det R in the world), and D > 0: so the specification's sign
 /// −sign(Δ)·sign(fx·fy·det R) is −sign(n·d).
+template <class Real>
+int turn_of(const PlacedNormal<Real>& normal, const ObjectRays& world, const ImageBounds& image,
+            const ImagePoint& s) {
+  const Certified<Real> nd = along_ray(normal, world.rays, image, s);
+  if (!(std::abs(nearest(nd.value)) > nd.error)) return 0;
+  return nearest(nd.value) > 0 ? -1 : 1;
+}
+
+/// The unit normal in a frame, turned that way; every error is +∞ if it is not known.
 ///
 /// Underflow. Components of placed normals are multiples of 2⁻⁵⁶⁶ (2⁻²⁶² of an entry times 2⁻³⁰⁴ of
-/// n), so their squares may lose words below 2⁻¹⁰⁷⁴. That is less than 2⁻³⁰⁰ of |n|²: as the turn is
-/// certain and the greatest size at least 2⁻²⁵⁰, |n| is at least 2⁻¹⁰⁰·2⁻²⁵⁰. The slack covers it.
+/// n), so their squares may lose words below 2⁻¹⁰⁷⁴. That is less than 2⁻³⁰⁰ of |n|²: quotient() knows
+/// nothing unless |n| is 2²⁰ times its error, which is above 2⁻¹⁰¹ of the greatest size, and that is
+/// at least 2⁻²⁵⁰. The slack covers it.
 template <class Real>
-Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRays& object,
-                                    const ObjectRays& world, const ImageBounds& image,
-                                    const ImagePoint& s) {
+Vector<Certified<Real>> unit(const PlacedNormal<Real>& normal, int turn) {
   Vector<Certified<Real>> result;
-  const WorldNormal<Real> normal = world_normal<Real>(corners, object);
-  const Certified<Real> nd = along_ray(normal, world.rays, image, s);
-  if (!(std::abs(nearest(nd.value)) > nd.error)) return result;
-
   const double greatest = std::max({normal.size[0], normal.size[1], normal.size[2]});
   if (!(greatest >= 0x1p-250 && greatest <= 0x1p450)) return result;  // squares stay in range
+  if (turn == 0) return result;
   const Vector<double> error = errors_of(normal);
-  const Certified<Real> length = length_of(normal);
+  const Certified<Real> length = length_of(normal.n, error);
   for (std::size_t i = 0; i < 3; ++i) {
-    const Real turned = nearest(nd.value) > 0 ? -normal.n[i] : normal.n[i];
+    const Real turned = turn < 0 ? -normal.n[i] : normal.n[i];
     result[i] = quotient<Real>({turned, error[i]}, length);
     if (normal.size[i] == 0) result[i] = {Real(0.0), 0};
   }
   return result;
+}
+
+/// The unit normal in the world, turned towards the camera, at a sample where the triangle is
+/// visible; every error is +∞ if it is not certain which way to turn it.
+/// Needs    safe corners, and usable rays of the object and of the world.
+template <class Real>
+Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRays& object,
+                                    const ObjectRays& world, const ImageBounds& image,
+                                    const ImagePoint& s) {
+  const PlacedNormal<Real> normal = world_normal<Real>(corners, object);
+  return unit(normal, turn_of(normal, world, image, s));
+}
+
+/// The same in the camera frame. Cofactors of R take n to det R times what has the product with R·d
+/// that n has with d: so where det R < 0 it is turned the other way.
+/// Needs    also that camera normals are usable; `handedness`, the sign of det R.
+template <class Real>
+Vector<Certified<Real>> unit_camera_normal(const MeshTriangle& corners, const ObjectRays& object,
+                                           const ObjectRays& world, const ImageBounds& image,
+                                           const ImagePoint& s, Sign handedness) {
+  const PlacedNormal<Real> mesh = mesh_normal<Real>(corners);
+  const int turn =
+      turn_of(object.placed_as_is ? mesh : placed(mesh, object.to_world), world, image, s);
+  return unit(placed(mesh, object.to_camera), handedness == Sign::negative ? -turn : turn);
 }
 
 }  // namespace fathom::triangle

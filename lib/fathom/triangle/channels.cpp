@@ -164,6 +164,10 @@ ChannelValues::ChannelValues(DepthMap& map)
       segments(segment_values_of(map)),
       normal{values_of<float>(map, "N.X"), values_of<float>(map, "N.Y"),
              values_of<float>(map, "N.Z")},
+      camera_normal{values_of<float>(map, "Nc.X"), values_of<float>(map, "Nc.Y"),
+                    values_of<float>(map, "Nc.Z")},
+      shading_normal{values_of<float>(map, "Ns.X"), values_of<float>(map, "Ns.Y"),
+                     values_of<float>(map, "Ns.Z")},
       position{values_of<float>(map, "P.X"), values_of<float>(map, "P.Y"),
                values_of<float>(map, "P.Z")},
       barycentric{values_of<float>(map, "bary.U"), values_of<float>(map, "bary.V")} {}
@@ -186,16 +190,22 @@ ChannelWriter::ChannelWriter(DepthMap& map, const TriangleSource& triangles, con
     : triangles_(triangles),
       perspective_(camera.projection == Projection::perspective),
       encoding_(options.depth_encoding),
-      handedness_(Dyadic(camera.fx).sign() * Dyadic(camera.fy).sign() *
-                  determinant_of_rotation(camera).sign()),
-      values_(map) {
+      image_handedness_(Dyadic(camera.fx).sign() * Dyadic(camera.fy).sign()),
+      handedness_(image_handedness_ * determinant_of_rotation(camera).sign()),
+      values_(map),
+      exact_corner_normals_([this] { return ExactCornerNormals(corner_normals_); }) {
   segments_ = segments_for(values_, triangles_);
+  if (values_.shading_normal[0]) {
+    corner_normals_ = std::make_shared<const CornerNormals>(triangles, options.normals);
+  }
 }
 
 std::optional<EncodingFault> ChannelWriter::write(std::size_t pixel, const ProjectedTriangle& t,
                                                   const ImagePoint& s) {
   write_origin(pixel, t.number);
   if (values_.normal[0]) write_normal(pixel, t);
+  if (values_.camera_normal[0]) write_camera_normal(pixel, t);
+  if (values_.shading_normal[0]) write_shading_normal(pixel, t, s);
   for (std::size_t k = 0; values_.position[0] && k < 3; ++k) write_position(pixel, k, t, s);
   for (std::size_t k = 0; values_.barycentric[0] && k < 2; ++k) write_barycentric(pixel, k, t, s);
   if (values_.distance.wanted()) {
@@ -264,17 +274,40 @@ OriginNumbers ChannelWriter::numbers_of(std::uint32_t triangle) const {
   return numbers;
 }
 
-// n / |n| with n = ±(B − A) × (C − A): each component is ±√(nᵢ² / n·n).
-void ChannelWriter::write_normal(std::size_t pixel, const ProjectedTriangle& t) {
-  const auto& [A, B, C] = t.world;
-  const ExactVector3 n = cross(ExactVector3{B.x - A.x, B.y - A.y, B.z - A.z},
-                               ExactVector3{C.x - A.x, C.y - A.y, C.z - A.z});
+namespace {
+
+/// ±n / |n|: each component is ±√(nᵢ² / n·n). 0 where n is.
+void write_unit_vector(const std::array<float*, 3>& values, std::size_t pixel,
+                       const ExactVector3& n, Sign turn) {
   const Dyadic squared_length = dot(n, n);
-  const Sign turn = -t.orientation * handedness_;
   for (std::size_t i = 0; i < 3; ++i) {
-    const float magnitude = round_sqrt_to_binary32({n[i] * n[i], squared_length});
-    values_.normal[i][pixel] = n[i].sign() * turn == Sign::negative ? -magnitude : magnitude;
+    const float magnitude =
+        n[i].is_zero() ? 0 : round_sqrt_to_binary32({n[i] * n[i], squared_length});
+    values[i][pixel] = n[i].sign() * turn == Sign::negative ? -magnitude : magnitude;
   }
+}
+
+}  // namespace
+
+void ChannelWriter::write_normal(std::size_t pixel, const ProjectedTriangle& t) {
+  write_unit_vector(values_.normal, pixel, area_vector(t.world), -t.orientation * handedness_);
+}
+
+void ChannelWriter::write_camera_normal(std::size_t pixel, const ProjectedTriangle& t) {
+  write_unit_vector(values_.camera_normal, pixel, area_vector(t.camera),
+                    -t.orientation * image_handedness_);
+}
+
+// The weights are eᵢ / Σ eᵢ; Σ eᵢ > 0 does not change the direction.
+void ChannelWriter::write_shading_normal(std::size_t pixel, const ProjectedTriangle& t,
+                                         const ImagePoint& s) {
+  const std::array<ExactVector3, 3> normals = exact_corner_normals_.local().of_triangle(t.number);
+  ExactVector3 n;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const Dyadic e = t.edges[corner].at(s.u, s.v);
+    for (std::size_t i = 0; i < 3; ++i) n[i] += e * normals[corner][i];
+  }
+  write_unit_vector(values_.shading_normal, pixel, n, Sign::positive);
 }
 
 void ChannelWriter::write_position(std::size_t pixel, std::size_t component,

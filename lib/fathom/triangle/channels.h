@@ -8,6 +8,8 @@
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/scene/triangle_source.h"
+#include "fathom/threads/per_thread.h"
+#include "fathom/triangle/corner_normals.h"
 #include "fathom/triangle/options.h"
 #include "fathom/triangle/projected_triangle.h"
 
@@ -59,7 +61,7 @@ struct ChannelValues {
   float* low = nullptr;
   std::uint32_t *id = nullptr, *face = nullptr, *object = nullptr;
   std::array<std::uint32_t*, all_segmentations.size()> segments{};
-  std::array<float*, 3> normal{};
+  std::array<float*, 3> normal{}, camera_normal{}, shading_normal{};
   std::array<float*, 3> position{};
   std::array<float*, 2> barycentric{};
 };
@@ -68,11 +70,17 @@ struct ChannelValues {
 /// else. Several threads may write different pixels at the same time.
 class ChannelWriter {
  public:
+  /// Fails    UsageError where Ns is asked for of a scene that stays in its files.
   ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                 const RenderOptions& options);
   /// Writes every channel. Returns what is wrong if the encoding cannot hold the depth.
   std::optional<EncodingFault> write(std::size_t pixel, const ProjectedTriangle& triangle,
                                      const ImagePoint& s);
+
+  /// Of channel Ns; null if it was not asked for.
+  [[nodiscard]] const std::shared_ptr<const CornerNormals>& corner_normals() const {
+    return corner_normals_;
+  }
 
   /// For writing one channel, or one component: it must have been asked for.
   [[nodiscard]] const ChannelValues& values() const { return values_; }
@@ -84,6 +92,9 @@ class ChannelWriter {
                                               const ImagePoint& s);
   void write_low_part(std::size_t pixel, const ProjectedTriangle& triangle, const ImagePoint& s);
   void write_normal(std::size_t pixel, const ProjectedTriangle& triangle);
+  void write_camera_normal(std::size_t pixel, const ProjectedTriangle& triangle);
+  void write_shading_normal(std::size_t pixel, const ProjectedTriangle& triangle,
+                            const ImagePoint& s);
   void write_position(std::size_t pixel, std::size_t component, const ProjectedTriangle& triangle,
                       const ImagePoint& s);
   void write_barycentric(std::size_t pixel, std::size_t component,
@@ -99,9 +110,11 @@ class ChannelWriter {
   std::shared_ptr<const SceneSegments> segments_;
   bool perspective_;
   DepthEncoding encoding_;
-  /// sign(fx·fy·det R)
-  Sign handedness_;
+  /// sign(fx·fy), sign(fx·fy·det R)
+  Sign image_handedness_, handedness_;
   ChannelValues values_;
+  std::shared_ptr<const CornerNormals> corner_normals_;
+  PerThread<ExactCornerNormals> exact_corner_normals_;
 };
 
 }  // namespace fathom::triangle

@@ -56,6 +56,13 @@ struct Wide {
                                             const ImagePoint& s) {
     return as<WordPair>(unit_normal<Real>(corners, object, world, image, s));
   }
+  static Vector<Certified<WordPair>> camera_normal(const MeshTriangle& corners,
+                                                   const ObjectRays& object,
+                                                   const ObjectRays& world,
+                                                   const ImageBounds& image, const ImagePoint& s,
+                                                   Sign handedness) {
+    return as<WordPair>(unit_camera_normal<Real>(corners, object, world, image, s, handedness));
+  }
 };
 
 FATHOM_WITH_FMA DepthForms<WordPair> depth_forms_with_fma(const MeshTriangle& corners,
@@ -90,13 +97,19 @@ FATHOM_WITH_FMA Vector<Certified<WordPair>> normal_with_fma(const MeshTriangle& 
                                                             const ImagePoint& s) {
   return Wide<true>::normal(corners, object, world, image, s);
 }
+FATHOM_WITH_FMA Vector<Certified<WordPair>> camera_normal_with_fma(
+    const MeshTriangle& corners, const ObjectRays& object, const ObjectRays& world,
+    const ImageBounds& image, const ImagePoint& s, Sign handedness) {
+  return Wide<true>::camera_normal(corners, object, world, image, s, handedness);
+}
 }  // namespace
 
-const WideArithmetic wide_without_fma{Wide<false>::depth_forms, Wide<false>::depth,
-                                      Wide<false>::distance,    Wide<false>::position,
-                                      Wide<false>::weights,     Wide<false>::normal};
-const WideArithmetic wide_with_fma{depth_forms_with_fma, depth_with_fma,   distance_with_fma,
-                                   position_with_fma,    weights_with_fma, normal_with_fma};
+const WideArithmetic wide_without_fma{
+    Wide<false>::depth_forms, Wide<false>::depth,  Wide<false>::distance,     Wide<false>::position,
+    Wide<false>::weights,     Wide<false>::normal, Wide<false>::camera_normal};
+const WideArithmetic wide_with_fma{depth_forms_with_fma,  depth_with_fma,   distance_with_fma,
+                                   position_with_fma,     weights_with_fma, normal_with_fma,
+                                   camera_normal_with_fma};
 
 const WideArithmetic& wide_arithmetic() {
   static const WideArithmetic& chosen = processor_has_fma() ? wide_with_fma : wide_without_fma;

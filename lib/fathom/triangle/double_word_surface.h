@@ -56,6 +56,9 @@ struct WideArithmetic {
   Vector<Certified<WordPair>> (*normal)(const MeshTriangle&, const ObjectRays& object,
                                         const ObjectRays& world, const ImageBounds&,
                                         const ImagePoint&);
+  Vector<Certified<WordPair>> (*camera_normal)(const MeshTriangle&, const ObjectRays& object,
+                                               const ObjectRays& world, const ImageBounds&,
+                                               const ImagePoint&, Sign handedness);
 };
 
 extern const WideArithmetic wide_without_fma;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fathom/image/channel_table.h"
+#include "fathom/mesh/normal_source.h"
 #include "fathom/numeric/certified.h"
 
 namespace fathom {
@@ -80,6 +81,8 @@ struct RenderOptions {
   std::vector<Channel> channels{Channel::Z};
   Cull cull = Cull::none;
   DepthEncoding depth_encoding;
+  /// Of channel Ns.
+  NormalSource normals = NormalSource::file;
   FastSwitches fast;
   /// If set, asked for the memory of each channel of the map, by its name: width × height values of
   /// its type, which outlive the map, and of which all are written. nullptr: memory of its own.

@@ -8,6 +8,7 @@
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/last_bit.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/triangle/corner_normals.h"
 
 // Over a mesh the image is affine: (U, V, D) = H·X + h, exactly. At depth D, a sample (u, v) of a
 // perspective camera sees the X with H·X + h = D·(u, v, 1), as W = D; of an orthographic one, the X
@@ -66,9 +67,26 @@ ExactMatrix linear_part(const std::array<ExactRow, 3>& rows) {
   return {linear_part(rows[0]), linear_part(rows[1]), linear_part(rows[2])};
 }
 
-/// Row i of the cofactors is the cross product of the other two rows, in cyclic order.
-ExactMatrix cofactors(const ExactMatrix& m) {
-  return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
+/// False if the magnitude of an entry is not safe.
+bool set(const ExactMatrix& exact, NormalMatrix& matrix) {
+  bool safe = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      safe = set(Ratio(exact[i][k]), matrix.rows[i][k], matrix.sizes[i][k]) && safe;
+    }
+  }
+  return safe;
+}
+
+/// R times a linear map.
+ExactMatrix in_camera(const Camera& camera, const ExactMatrix& m) {
+  ExactMatrix product;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t j = 0; j < 3; ++j) product[i][k] += camera.world_to_camera[i][j] * m[j][k];
+    }
+  }
+  return product;
 }
 
 /// False if the magnitude of an entry is not safe, or H is singular.
@@ -139,13 +157,11 @@ ObjectRays::ObjectRays(const Object& object, const Camera& camera)
     : placed_as_is(object.placed_as_is), image_rows(image_rows_of(object, camera)) {
   for (std::size_t i = 0; i < 3; ++i) world_rows[i] = ExactRow(object.world_from_mesh.rows[i]);
   usable = invert(image_rows, rays, determinant);
+  const ExactMatrix M = linear_part(world_rows);
+  camera_normals_usable = set(cofactors(in_camera(camera, M)), to_camera);
   if (placed_as_is) return;
-  const ExactMatrix C = cofactors(linear_part(world_rows));
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      usable = set(Ratio(C[i][k]), normal_matrix[i][k], normal_sizes[i][k]) && usable;
-    }
-  }
+  mirrored = fathom::determinant(M[0], M[1], M[2]).sign() == Sign::negative;
+  usable = set(cofactors(M), to_world) && usable;
 }
 
 // x = (u − cx' − skew·y)/fx with y = (v − cy')/fy. cx' is −(U of the point (0, 0, 1) at W = 1).
@@ -155,6 +171,7 @@ SceneRays::SceneRays(const TriangleSource& triangles, const Camera& camera)
       perspective_(camera.projection == Projection::perspective),
       greatest_u_(camera.width),
       greatest_v_(camera.height),
+      handedness_(determinant_of_rotation(camera).sign()),
       world_(identity(), camera),
       objects_(triangles.objects().size()) {
   const Dyadic half_less_centre = Dyadic(0.5) - camera.pixel_centre;

@@ -43,6 +43,13 @@ struct ExactRow {
   [[nodiscard]] std::optional<WordPair> value_at(const MeshPoint& X) const;
 };
 
+/// Takes normals from one frame to another: cofactors of a linear map, exact numbers rounded to
+/// double-words, and their magnitudes.
+struct NormalMatrix {
+  std::array<std::array<WordPair, 3>, 3> rows;
+  std::array<std::array<double, 3>, 3> sizes{};
+};
+
 /// How the mesh of an object lies relative to the camera: all that the channels need to know of it.
 struct ObjectRays {
   ObjectRays(const Object& object, const Camera& camera);
@@ -51,11 +58,16 @@ struct ObjectRays {
   /// the mesh: then the object's channels are written from exact numbers.
   bool usable = false;
   Rays rays;
-  /// Takes the normal of a triangle of the mesh to the world: the cofactors of the placement.
-  /// Not set where the placement is the identity.
+  /// From the mesh to the world: the cofactors of the placement. Not set where the placement is the
+  /// identity.
   bool placed_as_is = true;
-  std::array<std::array<WordPair, 3>, 3> normal_matrix;
-  std::array<std::array<double, 3>, 3> normal_sizes{};
+  NormalMatrix to_world;
+  /// Whether the determinant of the placement is below 0.
+  bool mirrored = false;
+  /// From the mesh to the camera frame, by the cofactors of R times the placement; only where
+  /// camera_normals_usable.
+  NormalMatrix to_camera;
+  bool camera_normals_usable = false;
   /// From the mesh to U, V and D, and to the world.
   std::array<ExactRow, 3> image_rows;
   std::array<ExactRow, 3> world_rows;
@@ -74,6 +86,8 @@ class SceneRays {
   /// Upper bounds on the samples' coordinates, in pixels.
   [[nodiscard]] double greatest_u() const { return greatest_u_; }
   [[nodiscard]] double greatest_v() const { return greatest_v_; }
+  /// The sign of det R.
+  [[nodiscard]] Sign handedness() const { return handedness_; }
   /// Rays in the world.
   [[nodiscard]] const ObjectRays& world() const { return world_; }
   [[nodiscard]] const ObjectRays& object(std::uint32_t number) const;
@@ -89,6 +103,7 @@ class SceneRays {
   const Camera& camera_;
   bool perspective_;
   double greatest_u_, greatest_v_;
+  Sign handedness_;
   ObjectRays world_;
   std::array<std::array<WordPair, 3>, 2> lens_;
   double lens_size_;

@@ -6,8 +6,8 @@
 
 namespace fathom::triangle {
 
-/// What was found out about the triangles that were asked about last, by number: one for each
-/// number modulo `most`, so that triangles with neighbouring numbers, which are often neighbours in
+/// What was found out about the triangles (or vertices) that were asked about last, by number: one
+/// for each number modulo `most`, so that triangles with neighbouring numbers, which are often neighbours in
 /// the image, do not displace each other.
 template <class Facts, std::size_t most>
 class RecentTriangles {
@@ -16,7 +16,7 @@ class RecentTriangles {
   /// facts about another triangle or on Facts{}. The reference is valid until another number is
   /// asked for.
   template <class Make>
-  Facts& get(std::uint32_t number, const Make& make) {
+  Facts& get(std::uint64_t number, const Make& make) {
     if (slots_.empty()) slots_.resize(most);
     Slot& slot = slots_[number % most];
     if (!slot.known || slot.number != number) {
@@ -29,7 +29,7 @@ class RecentTriangles {
 
  private:
   struct Slot {
-    std::uint32_t number = 0;
+    std::uint64_t number = 0;
     bool known = false;
     Facts facts;
   };

@@ -39,7 +39,7 @@ namespace {
 /// Options as Python's code has them, with names that it has checked.
 RenderOptions make_options(const std::vector<std::string>& channels, const std::string& cull,
                            const std::string& type, double scale, const std::string& engine,
-                           int threads) {
+                           int threads, const std::string& normals) {
   RenderOptions options;
   options.channels.clear();
   for (const std::string& name : channels) {
@@ -56,6 +56,9 @@ RenderOptions make_options(const std::vector<std::string>& channels, const std::
   options.depth_encoding.scale = scale;
   options.engine = engine == "reference" ? Engine::reference : Engine::fast;
   options.threads = threads;
+  options.normals = normals == "vertex"  ? NormalSource::vertex
+                    : normals == "place" ? NormalSource::place
+                                         : NormalSource::file;
   require_meaningful(options);
   return options;
 }

@@ -115,6 +115,7 @@ std::pair<SharedScene, Warnings> read(const std::vector<std::filesystem::path>& 
   ReadOptions options;
   options.threads = threads;
   options.segments = true;
+  options.attributes = true;  // normals, for channel Ns
   if (!formats_program.empty()) {
     options.formats_program = [&] { return std::filesystem::path(formats_program); };
   }

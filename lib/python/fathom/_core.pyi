@@ -194,7 +194,8 @@ def compare_maps(
 
 class RenderOptions:
     def __init__(
-        self, channels: list[str], cull: str, type: str, scale: float, engine: str, threads: int
+        self, channels: list[str], cull: str, type: str, scale: float, engine: str, threads: int,
+        normals: str
     ) -> None: ...
 
 def render_one(

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 Cull = Literal["none", "back", "front"]
 culls = ("none", "back", "front")
 Background = Union[float, Literal["inf", "nan"]]
+Normals = Literal["file", "vertex", "place"]
+normal_sources = ("file", "vertex", "place")
 
 most_threads = 1024
 
@@ -36,6 +38,7 @@ def render_cameras(
     background: Background,
     engine: str,
     threads: int,
+    normals: str,
     out: Mapping[str, npt.NDArray[Any]] | None = None,
 ) -> Map:
     names = channel_names(channels)
@@ -47,6 +50,7 @@ def render_cameras(
         as_number("scale", scale),
         one_of("engine", engine, ("fast", "reference")),
         as_count("threads", threads, 0, most_threads),
+        one_of("normals", normals, normal_sources),
     )
     nothing = background_value(background, stored)
     single = isinstance(camera, Camera)
@@ -196,6 +200,7 @@ def render(
     dtype: npt.DTypeLike = "float32",
     scale: float = 1000,
     background: Background = math.inf,
+    normals: Normals = "file",
     threads: int = 0,
     out: Mapping[str, npt.NDArray[Any]] | None = None,
 ) -> Map:
@@ -211,18 +216,21 @@ def render(
     channels      what to render: Z (planar depth), A (coverage), Zlow (exact depth minus Z), distance (along the ray),
                   id, face, object (numbers of what is visible; NO_SURFACE where nothing is), material, group, part
                   and label (of a Scene; NO_SEGMENT where what is visible has none), N (normal) and P (position), both
-                  in the world, bary (weights of a triangle's second and third corner)
+                  in the world, bary (weights of a triangle's second and third corner), Nc (normal in the camera
+                  frame), Ns (the corners' normals interpolated, in the world)
     near, far     the range of planar depth that counts, in scene units
     cull          "back" or "front" leaves out triangles that face so
     dtype         of Z and distance: float32, float64, or uint16 for codes round(scale · depth), 0 for no surface
     background    what Z and distance have where there is no surface (and where a depth is beyond the greatest number
                   of the type): inf, nan, 0 or any other number
+    normals       of Ns: "file" (where there are none, as "vertex"), "vertex": sums over the triangles at each vertex,
+                  weighted by area, or "place": over those at all vertices that lie at one place
     threads       to work in; 0: all. Results never depend on it.
     out           arrays to write to, by channel, such as an earlier call has returned: saves the time in which the
                   system provides memory. They must fit, and are what is returned.
 
-    Returns a dict: H×W arrays by the names of channels, H×W×3 for N and P, H×W×2 for bary; with n cameras, n of each,
-    n×H×W(×3). Arrays of vertices and faces that fit (see Scene.add_mesh()) are not copied. Other Python threads run
+    Returns a dict: H×W arrays by the names of channels, H×W×3 for N, P, Nc and Ns, H×W×2 for bary; with n cameras, n of
+    each, n×H×W(×3). Arrays of vertices and faces that fit (see Scene.add_mesh()) are not copied. Other Python threads run
     meanwhile, and Ctrl-C ends it.
 
     Warns (ViewWarning) of what is probably not meant: nothing in front of the camera, a matrix from camera to world, one
@@ -244,7 +252,7 @@ def render(
     scene = Scene()
     scene.add_mesh(vertices, faces)
     cameras = cameras_of(K, T, size, pixel_centre, near, far)
-    return render_cameras(scene, cameras, channels, cull, dtype, scale, background, "fast", threads, out)
+    return render_cameras(scene, cameras, channels, cull, dtype, scale, background, "fast", threads, normals, out)
 
 
 def cameras_of(

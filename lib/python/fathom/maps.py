@@ -37,9 +37,9 @@ quantities = ("Z", "distance", "disparity")
 
 
 class Map(dict[str, "npt.NDArray[Any]"]):
-    """The channels of a depth map, H×W arrays by name (H×W×3 for N and P, H×W×2 for bary), and what the map carries
-    so that it can be computed again. A stack, rendered with several cameras, has the number of the camera as the first
-    axis of its arrays: its view(i) is the map of camera i.
+    """The channels of a depth map, H×W arrays by name (H×W×3 for N, P, Nc and Ns, H×W×2 for bary), and what the map
+    carries so that it can be computed again. A stack, rendered with several cameras, has the number of the camera as
+    the first axis of its arrays: its view(i) is the map of camera i.
 
     camera    the Camera that it shows; None where that is not known, and of a stack
     cameras   of a stack: all of them; else the one that it shows, if it is known
@@ -84,8 +84,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         """Writes the map in the format that the file's suffix names. A folder that is missing is made.
 
         .exr, .npz        all channels, with camera and metadata
-        .npy, .pfm, .png  one channel, `channel` where the map has several: .npy also N, P and bary, .png codes of
-                          uint16 and identifiers
+        .npy, .pfm, .png  one channel, `channel` where the map has several: .npy also those of several parts, .png
+                          codes of uint16 and identifiers
 
         names  what channels are called in an EXR: {"Z": "Y"} is for cv2.imread(), which shows R, G, B and Y alone
         """

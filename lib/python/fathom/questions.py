@@ -119,7 +119,8 @@ def verify(map: Map, scene: Scene, camera: Camera | None = None, *, pixels: int 
     depths = next((map[name] for name in ("Z", "distance") if name in map), None)
     stored = "float32" if depths is None else stored_type(depths.dtype)
     options = _core.RenderOptions(channels, one_of("cull", cull, culls), stored, map.scale or 1000, "fast",
-                                  as_count("threads", threads, 0, most_threads))
+                                  as_count("threads", threads, 0, most_threads),
+                                  map.metadata.get("fathom.normals", "file"))
     verified, differing, first = _core.verify(map._handle(), scene_handle(scene), camera_handle(view), options,
                                               as_count("pixels", pixels, 1, 2**63))
     return Verification(verified, differing, None if first is None else Disagreement(*first))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from . import _core
 from ._arguments import as_count, check_elements, faces_of, labels_of, names_of, pose_of, vertices_of
 from ._files import Path
-from ._render import Background, Cull, render_cameras
+from ._render import Background, Cull, Normals, render_cameras
 
 if TYPE_CHECKING:
     import numpy as np
@@ -168,12 +168,13 @@ class Scene:
         scale: float = 1000,
         background: Background = float("inf"),
         engine: str = "fast",
+        normals: Normals = "file",
         threads: int = 0,
         out: Mapping[str, npt.NDArray[Any]] | None = None,
     ) -> Map:
         """Renders the scene as a camera sees it, or as many of one image size do: see fathom.render(), whose other
         arguments these are. One camera gives arrays of H×W, a sequence of n cameras arrays of n×H×W."""
-        return render_cameras(self, camera, channels, cull, dtype, scale, background, engine, threads, out)
+        return render_cameras(self, camera, channels, cull, dtype, scale, background, engine, threads, normals, out)
 
     def _check(self) -> None:
         """Raises an exception that names the argument at fault, if one is."""

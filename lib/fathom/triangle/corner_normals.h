@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fathom/mesh/vertex_normals.h"
+#include "fathom/numeric/certified.h"
+#include "fathom/scene/triangle_source.h"
+#include "fathom/triangle/recent_triangles.h"
+
+/// The normals of the corners of triangles, from which channel Ns is interpolated (specification,
+/// section 6).
+namespace fathom::triangle {
+
+/// What the normal of a corner is, in the frame of its mesh.
+struct CornerNormal {
+  /// That of the file, if it has one; else null: the sum of the area vectors of `triangles`.
+  const std::array<double, 3>* given = nullptr;
+  std::span<const std::uint32_t> triangles;
+  /// A number that all corners with this sum, and no others of the scene, have.
+  std::uint64_t number = 0;
+};
+
+/// The normals of all corners of a scene. Threads share it.
+class CornerNormals {
+ public:
+  /// The scene must outlive this unchanged.
+  /// Fails    UsageError where the scene stays in its files: sums need all triangles of a mesh.
+  CornerNormals(const TriangleSource& triangles, NormalSource source);
+
+  [[nodiscard]] const TriangleSource& triangles() const { return triangles_; }
+  [[nodiscard]] const Mesh& mesh_of(const TriangleOrigin& origin) const;
+  [[nodiscard]] CornerNormal at(const TriangleOrigin& origin, std::size_t corner) const;
+
+ private:
+  TriangleSource triangles_;
+  NormalSource source_;
+  /// For each mesh; nothing in those of meshes that no object places or that need no sums.
+  std::vector<mesh::SharedTriangles> shared_;
+  /// For each mesh, how many vertices the meshes before it have.
+  std::vector<std::uint64_t> first_vertex_;
+};
+
+/// The normals of corners in the world, as exact numbers. One for each thread: it remembers the sums
+/// that it was asked about last.
+class ExactCornerNormals {
+ public:
+  explicit ExactCornerNormals(std::shared_ptr<const CornerNormals> normals)
+      : normals_(std::move(normals)) {}
+
+  /// Those of the three corners of a triangle, as they are to be interpolated: their lengths count.
+  /// All three may be longer or shorter than specified by one factor above 0.
+  std::array<ExactVector3, 3> of_triangle(std::uint32_t number);
+
+ private:
+  ExactVector3 in_mesh(const TriangleOrigin& origin, std::size_t corner);
+
+  std::shared_ptr<const CornerNormals> normals_;
+  RecentTriangles<ExactVector3, 1024> sums_;
+};
+
+/// (B − A) × (C − A), exactly.
+template <class Point>
+ExactVector3 area_vector(const std::array<Point, 3>& corners) {
+  const auto from_A = [&](const Point& p) {
+    const Point& A = corners[0];
+    return ExactVector3{Dyadic(p.x) - Dyadic(A.x), Dyadic(p.y) - Dyadic(A.y),
+                        Dyadic(p.z) - Dyadic(A.z)};
+  };
+  return cross(from_A(corners[1]), from_A(corners[2]));
+}
+
+/// The corners of a triangle of a mesh.
+inline std::array<MeshPoint, 3> corners_of(const Mesh& mesh, std::uint32_t triangle) {
+  const CornerIndices& t = mesh.triangles[triangle];
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+}
+
+/// Row i of the cofactors is the cross product of the other two rows, in cyclic order.
+std::array<ExactVector3, 3> cofactors(const std::array<ExactVector3, 3>& rows);
+
+/// The linear part of a placement.
+std::array<ExactVector3, 3> linear_part(const WorldFromMesh& placement);
+
+}  // namespace fathom::triangle
