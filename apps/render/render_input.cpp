@@ -29,7 +29,7 @@ StreamedScene stream(const SceneOptions& options, bool segments, const Console& 
 RenderInput::RenderInput(const SceneOptions& options, Place place, const Kept& kept,
                          const Console& console) {
   if (place == Place::files) {
-    streamed_ = stream(options, segments, console);
+    streamed_ = stream(options, kept.segments, console);
     scene_ = outline_of(*streamed_);
   } else {
     scene_ = options.read(console,
