@@ -36,6 +36,7 @@ function(_fathom_models result program)
   if(NOT is_known)
     execute_process(COMMAND "${program}" --help OUTPUT_VARIABLE help ERROR_QUIET)
     set(models "")
+    string(REGEX REPLACE "[ \n]+" " " help "${help}") # which is broken into lines
     if(help MATCHES "Models: ([a-z0-9, -]+)")
       string(REPLACE ", " ";" models "${CMAKE_MATCH_1}")
     endif()

@@ -38,13 +38,11 @@ std::vector<std::string> parse_scenes(const std::string& list) {
   for (const std::string& name : names) {
     const bool is_file = name.find_first_of("./") != std::string::npos;
     if (!bench::is_made_scene(name) && !is_file) {
-      std::vector<std::string> names = bench::default_scene_names();
-      const std::string list = joined(names, ", ");
-      names.emplace_back("room-outside");
-      throw UnknownName(
-          fmt::format("there is no scene '{}'; there are {}, room-outside, sphere-N and mesh files",
-                      name, list),
-          name, names);
+      std::vector<std::string> existing = bench::default_scene_names();
+      existing.emplace_back("room-outside");
+      throw UnknownName(fmt::format("there is no scene '{}'; there are {}, sphere-N and mesh files",
+                                    name, joined(existing, ", ")),
+                        name, existing);
     }
   }
   return names;
