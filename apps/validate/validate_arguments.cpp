@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "apps/validate/judge_brought.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/numeric/unknown_name.h"
 #include "validation/scenes/validation_scenes.h"
