@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Union, cast
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
@@ -169,7 +169,9 @@ def labels_of(value: object, face_count: int) -> npt.NDArray[np.uint32]:
 
 def names_of(argument: str, value: object, face_count: int) -> tuple[npt.NDArray[np.uint32], list[str]]:
     """The number of each face's name, or of the one of all, and the names by these numbers."""
-    given = [value] if isinstance(value, str) else list(cast("Sequence[object]", value))
+    if not isinstance(value, (str, Iterable)):
+        raise TypeError(f"{argument}: expected a name, or one for each face, found {value!r}")
+    given: list[object] = [value] if isinstance(value, str) else list(value)
     if not isinstance(value, str) and len(given) != face_count:
         raise ValueError(f"{argument}: expected one name for each of {face_count} faces, found {len(given)}")
     numbers: dict[str, int] = {}
