@@ -1,15 +1,15 @@
 """Pages of the commands, made of what the program and its companions say of themselves by --help.
 
 Help has a sentence, a line "Usage: …", sections ("Options:") of items, examples and paragraphs. An item begins in column
-2 and its text in column 34, of the same line or of the next.
+2 and its text in column 26, of the same line or of the next.
 """
 
 import dataclasses
 import re
 import subprocess
 
-text_column = 34
-COMMANDS = re.compile(r"Subcommands:|Programs of their own.*:")
+text_column = 26
+COMMANDS = re.compile(r"Commands:|Programs of their own.*:")
 
 
 @dataclasses.dataclass
@@ -132,7 +132,7 @@ def page(command, children):
     for section in command.sections:
         if COMMANDS.match(section.title):
             names = {item.name for item in section.items}
-            title = "Commands" if section.title.startswith("Sub") else "Programs of their own"
+            title = "Commands" if section.title == "Commands:" else "Programs of their own"
             parts += [f"## {title}\n"] + [f"- [{' '.join(child.words)}]({child.page}.md): {escaped(child.summary)}"
                                           for child in children if child.words[-1] in names] + [""]
         else:
