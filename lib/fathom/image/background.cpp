@@ -57,6 +57,11 @@ std::optional<double> declared_background(const DepthMap& map) {
   return value;
 }
 
+void declare_background(DepthMap& map, double value) {
+  map.texts.erase(background_text);
+  if (value != unbounded) map.texts[background_text] = background_as_text(value);
+}
+
 DepthMap with_background(DepthMap map, double value, std::optional<double> now) {
   const StandardArithmetic standard;
   require_valid(map);
@@ -82,8 +87,7 @@ DepthMap with_background(DepthMap map, double value, std::optional<double> now) 
       fill_background(map, channel.name, *doubles, surfaces[c], value);
     }
   }
-  map.texts.erase(background_text);
-  if (value != unbounded) map.texts[background_text] = background_as_text(value);
+  declare_background(map, value);
   return map;
 }
 

@@ -16,6 +16,9 @@ inline constexpr const char* background_text = "fathom.background";
 /// Fails    InputError if the text is neither a number nor "nan" nor "inf".
 std::optional<double> declared_background(const DepthMap& map);
 
+/// Sets what a map says of its own background; +∞ needs no text.
+void declare_background(DepthMap& map, double value);
+
 /// The map with `value` wherever a depth channel (Z, distance, disparity, Zdecoded, …) shows no
 /// surface, and the text that says so (none for +∞). Where there is no surface is as surface_mask()
 /// tells it: by identifiers, where the map has them, else by the background that it has: `now`, and

@@ -85,6 +85,10 @@ DepthMap with_storage(const DepthMap& map, const std::string& asked, StoredType 
   // That of codes is 0, and +∞ where they become depths.
   const bool from_codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
   if (from_codes || type == StoredType::scaled_unorm16) result.texts.erase(background_text);
+  // What is widened is the value as it was stored.
+  const auto background = declared_background(result);
+  if (background && std::holds_alternative<Samples<float>>(channel.values))
+    declare_background(result, static_cast<double>(static_cast<float>(*background)));
   switch (type) {
     case StoredType::binary32:
       result.channels.push_back({channel.name, as_floating_point<float>(map, channel)});

@@ -21,16 +21,26 @@ PyObject* make_error(py::module_& core, const char* name, const char* doc, const
   return type;
 }
 
+/// Names of files that are not UTF-8 stand in messages, as Python writes them.
+void set_error(PyObject* type, const std::exception& error) {
+  const std::string text = error.what();
+  PyObject* message =
+      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "backslashreplace");
+  if (message == nullptr) return;
+  PyErr_SetObject(type, message);
+  Py_DECREF(message);
+}
+
 // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 has it so
 void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
   } catch (const UsageError& error) {
-    PyErr_SetString(usage_error, error.what());
+    set_error(usage_error, error);
   } catch (const InputError& error) {
-    PyErr_SetString(input_error, error.what());
+    set_error(input_error, error);
   } catch (const OutputError& error) {
-    PyErr_SetString(output_error, error.what());
+    set_error(output_error, error);
   } catch (const std::bad_alloc&) {
     PyErr_SetString(PyExc_MemoryError, "fathom: there is not enough memory");
   }

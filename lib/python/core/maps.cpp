@@ -82,14 +82,15 @@ SharedMap read(const std::filesystem::path& path) {
   return run([&](const auto&) { return std::make_shared<DepthMap>(read_map(path)); });
 }
 
+MapFormat format_of(const std::filesystem::path& path) {
+  if (const auto format = map_format_of(path)) return *format;
+  throw UsageError(path.string() + ": expected a name that ends in .exr, .npz, .npy, .pfm or .png");
+}
+
 void write(const SharedMap& map, const std::filesystem::path& path, const std::string& channel,
            const std::string& compression, int threads,
            const std::vector<std::pair<std::string, std::string>>& names) {
-  const auto format = map_format_of(path);
-  if (!format) {
-    throw UsageError(path.string() +
-                     ": expected a name that ends in .exr, .npz, .npy, .pfm or .png");
-  }
+  const MapFormat format = format_of(path);
   WriteOptions options;
   options.channel = channel;
   options.threads = threads;
@@ -98,8 +99,8 @@ void write(const SharedMap& map, const std::filesystem::path& path, const std::s
   others.reserve(names.size());
   for (const auto& [own, in_file] : names) others.push_back({own, in_file});
   run([&](const auto&) {
-    if (others.empty()) return write_map(*map, path, *format, options);
-    write_map(with_channel_names(*map, others), path, *format, options);
+    if (others.empty()) return write_map(*map, path, format, options);
+    write_map(with_channel_names(*map, others), path, format, options);
   });
 }
 
@@ -269,6 +270,7 @@ void bind_maps(py::module_& core) {
       .def("with_channels", &with_channels);
   core.def("read_map", &read);
   core.def("write_map", &write);
+  core.def("require_map_name", [](const std::filesystem::path& path) { format_of(path); });
   core.def("convert_quantity", &convert);
   core.def("with_storage",
            [](const SharedMap& map, const std::string& channel, const std::string& type,

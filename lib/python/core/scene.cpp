@@ -3,7 +3,9 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -136,6 +138,26 @@ py::array view_of(const std::shared_ptr<const Scene>& scene, const MeshArray<Row
   return array;
 }
 
+template <class T>
+std::pair<std::uintptr_t, std::uintptr_t> place_of(const T* first, std::size_t count) {
+  const auto begin = reinterpret_cast<std::uintptr_t>(first);
+  return {begin, begin + count * sizeof(T)};
+}
+
+/// Whether the array lies in memory of the scene's meshes.
+bool overlaps(const SharedScene& shared, const py::array& array) {
+  const auto [begin, end] = place_of(static_cast<const std::byte*>(array.data()),
+                                     static_cast<std::size_t>(array.nbytes()));
+  const auto meets = [begin = begin, end = end](const auto& elements) {
+    const auto [first, last] = place_of(elements.data(), elements.size());
+    return first < end && begin < last;
+  };
+  const std::vector<Mesh>& meshes = shared.scene->meshes;
+  return std::any_of(meshes.begin(), meshes.end(), [&](const Mesh& mesh) {
+    return meets(mesh.vertices) || meets(mesh.triangles);
+  });
+}
+
 using Corner = std::array<double, 3>;
 
 std::optional<std::pair<Corner, Corner>> bounds(const SharedScene& shared) {
@@ -171,6 +193,7 @@ void bind_scene(py::module_& core) {
       .def("objects", &objects)
       .def("origin", &origin)
       .def("bounds", &bounds)
+      .def("overlaps", &overlaps)
       .def_property_readonly("mesh_count",
                              [](const SharedScene& shared) { return shared.scene->meshes.size(); })
       .def_property_readonly("object_count",

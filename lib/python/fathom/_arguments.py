@@ -22,14 +22,28 @@ most_rows = 2**32 - 2
 
 
 def as_array(name: str, value: object) -> npt.NDArray[Any]:
-    """`value` as an array, without a copy where it is one."""
+    """`value` as an array, without a copy where it is one. Masks are refused: that of a map is its background."""
     try:
         array = np.asarray(value)
     except (TypeError, ValueError):
-        raise TypeError(f"{name}: expected an array of numbers") from None
+        raise TypeError(f"{name}: expected an array of numbers, found rows of different shapes") from None
     if array.dtype == object:
-        raise TypeError(f"{name}: expected an array of numbers, found objects (rows of different lengths?)")
+        raise TypeError(f"{name}: expected an array of numbers, found {_in_short(value)}")
+    if isinstance(value, np.ma.MaskedArray) and np.any(np.asarray(value.mask)):
+        raise TypeError(f"{name}: an array with a mask: fill it first, such as by filled(numpy.inf)")
     return array
+
+
+def _in_short(value: object) -> str:
+    return "None" if value is None else f"objects ({type(value).__name__})"
+
+
+def as_text(name: str, value: object) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{name}: expected a string, found {value!r}")
+    if any(letter == "\0" or "\ud800" <= letter <= "\udfff" for letter in value):
+        raise ValueError(f"{name}: expected text without NUL and surrogates, found {value!r}")
+    return value
 
 
 def as_numbers(name: str, value: object, shape: tuple[int, ...] | None = None) -> Numbers:
@@ -192,6 +206,7 @@ def check_elements(vertices: Numbers, faces: npt.NDArray[Any]) -> None:
 
 def pose_of(name: str, value: object) -> Rows:
     """The three rows of a 3×4 matrix, or of a 4×4 matrix whose last row is 0 0 0 1."""
+    require_one_matrix(name, value)
     array = as_array(name, value)
     if array.shape not in ((3, 4), (4, 4)):
         raise ValueError(f"{name}: expected shape 4×4 or 3×4, found {in_words(array.shape)}")
@@ -200,6 +215,13 @@ def pose_of(name: str, value: object) -> Rows:
         hint = "; is it transposed?" if matrix[:, 3].tolist() == [0, 0, 0, 1] else ""
         raise ValueError(f"{name}: expected the last row to be 0 0 0 1, found {_row(matrix[3])}{hint}")
     return tuple(map(tuple, matrix[:3].tolist()))
+
+
+def require_one_matrix(name: str, value: object) -> None:
+    """A rotation and a translation by themselves are what OpenCV's users have at hand."""
+    if isinstance(value, (tuple, list)) and len(value) == 2 and not isinstance(value[0], (int, float)):
+        if np.size(value[0]) == 9 and np.size(value[1]) == 3:
+            raise ValueError(f"{name}: expected one matrix, found R and t: np.column_stack([R, t]) is one")
 
 
 def _row(numbers: Numbers) -> str:

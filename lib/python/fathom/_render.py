@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Union, cast
 
 import numpy as np
 
 from . import _core
-from ._arguments import as_count, as_number, camera_handle, in_words, one_of, scene_handle
+from ._arguments import as_array, as_count, as_number, camera_handle, in_words, one_of, require_one_matrix, scene_handle
 from .camera import Camera, ViewWarning
 from .maps import Map, rendered
 
@@ -57,8 +57,10 @@ def render_cameras(
     cameras = [camera] if isinstance(camera, Camera) else list_of_cameras(camera)
     require_room(cameras, names, stored)
     width, height = cameras[0].size
-    arrays = room_for(names, stored, (height, width) if single else (len(cameras), height, width), out)
     handle = scene_handle(scene)
+    arrays = room_for(names, stored, (height, width) if single else (len(cameras), height, width), out)
+    if out is not None:
+        check_apart(handle, arrays)
     handles = [camera_handle(each) for each in cameras]
     try:
         if single:
@@ -97,6 +99,17 @@ def room_for(
     return arrays
 
 
+def check_apart(scene: _core.Scene, arrays: Mapping[str, npt.NDArray[Any]]) -> None:
+    """What is written must lie apart from what is read, and from each other."""
+    names = list(arrays)
+    for i, name in enumerate(names):
+        if scene.overlaps(arrays[name]):
+            raise ValueError(f"out: the array for channel {name} shares memory with a mesh of the scene")
+        for other in names[:i]:
+            if np.may_share_memory(arrays[name], arrays[other]):  # which is exact for arrays in C order
+                raise ValueError(f"out: the arrays for channels {other} and {name} share memory")
+
+
 def checked_out(
     out: Mapping[str, npt.NDArray[Any]], name: str, shape: tuple[int, ...], kind: np.dtype[Any]
 ) -> npt.NDArray[Any]:
@@ -118,10 +131,11 @@ def checked_out(
 
 
 def list_of_cameras(cameras: Sequence[Camera]) -> list[Camera]:
-    try:
-        listed = list(cameras)
-    except TypeError:
-        raise TypeError(f"camera: expected a Camera or a sequence of them, found {cameras!r}") from None
+    if isinstance(cameras, Mapping):
+        raise TypeError("camera: expected a Camera or a sequence of them, found a dict: take its values()")
+    if not isinstance(cameras, Iterable):
+        raise TypeError(f"camera: expected a Camera or a sequence of them, found {cameras!r}")
+    listed = list(cameras)
     if not listed:
         raise ValueError("camera: expected at least one")
     for each in listed:
@@ -141,6 +155,8 @@ def in_pixels(camera: Camera) -> str:
 def channel_names(channels: Sequence[str]) -> list[str]:
     if isinstance(channels, str):
         raise TypeError(f"channels: expected a sequence of names such as ({channels!r},), found a string")
+    if not isinstance(channels, Iterable):
+        raise TypeError(f"channels: expected a sequence of names, found {channels!r}")
     names: list[str] = []
     for name in channels:
         one_of("channels", name, rendered)
@@ -153,7 +169,7 @@ def channel_names(channels: Sequence[str]) -> list[str]:
 
 def stored_type(dtype: npt.DTypeLike) -> str:
     try:
-        name = np.dtype(dtype).name
+        name = "None" if dtype is None else np.dtype(dtype).name
     except TypeError:
         name = str(dtype)
     if name not in ("float32", "float64", "uint16"):
@@ -259,7 +275,8 @@ def cameras_of(
     K: npt.ArrayLike, T: npt.ArrayLike, size: Sequence[int], pixel_centre: float, near: float, far: float
 ) -> Camera | list[Camera]:
     """One camera, or as many as K or T is a stack of; the other one may be a single matrix for all."""
-    intrinsics, poses = np.asarray(K), np.asarray(T)
+    require_one_matrix("T", T)
+    intrinsics, poses = as_array("K", K), as_array("T", T)
     counts = {len(stack) for stack in (intrinsics, poses) if stack.ndim == 3}
     if not counts:
         return Camera.from_opencv(K, T, size, pixel_centre=pixel_centre, near=near, far=far)

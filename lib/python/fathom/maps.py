@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
 from . import _core
 from ._core import OutputError
-from ._arguments import as_array, as_count, as_number, camera_handle, one_of, scene_handle
+from ._arguments import as_array, as_count, as_number, as_text, camera_handle, one_of, scene_handle
 from ._files import Path, make_folder_of
 from .camera import Camera, cameras_from_json
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     import numpy.typing as npt
 
     from ._arguments import Numbers
@@ -48,6 +47,9 @@ class Map(dict[str, "npt.NDArray[Any]"]):
     tables    what numbers stand for, by channel: {"object": {0: "spot"}, "material": {0: "steel", 1: "oak"}}
     scale     for uint16 codes: codes per scene unit
     background  what depth channels have where there is no surface
+
+    Map({"Z": depths}, camera, background=0) makes one of your own arrays; with scale=1000, of uint16 codes. copy() and
+    pickle keep all that a map carries.
     """
 
     def __init__(
@@ -56,11 +58,32 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         camera: Camera | None = None,
         _description: _core.Map | None = None,
         _views: list[tuple[Camera, _core.Map]] | None = None,
+        *,
+        scale: float | None = None,
+        background: float | None = None,
     ) -> None:
         super().__init__(channels or {})
         self.camera = camera
         self._views = _views
         self._description = _core.Map() if _description is None else _description
+        if scale is not None:
+            self._description.png_scale = _positive("scale", scale)
+        if background is not None:
+            value = as_number("background", background)
+            if value == -np.inf:
+                raise ValueError("background: expected inf, nan or a number, found -inf")
+            self._description.texts = {**self._description.texts, _core.background_text: repr(value)}
+
+    def copy(self) -> Map:
+        """A map with the same arrays, not copies of them."""
+        views = None if self._views is None else [(camera, _same(each)) for camera, each in self._views]
+        return Map(dict(self), self.camera, _same(self._description), views)
+
+    __copy__ = copy
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        views = None if self._views is None else [(camera, _state_of(each)) for camera, each in self._views]
+        return _map_of_state, (dict(self), self.camera, _state_of(self._description), views)
 
     @classmethod
     def read(cls, file: Path) -> Map:
@@ -89,13 +112,17 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
         names  what channels are called in an EXR: {"Z": "Y"} is for cv2.imread(), which shows R, G, B and Y alone
         """
-        others = list((names or {}).items())
-        for pair in others:
-            if not all(isinstance(name, str) for name in pair):
-                raise TypeError(f"names: expected names by the names of channels, found {names!r}")
+        if names is not None and not isinstance(names, Mapping):
+            raise TypeError(f"names: expected a dict of names by the names of channels, found {names!r}")
+        others = [(as_text("names", own), as_text("names", other)) for own, other in (names or {}).items()]
+        asked = "" if channel is None else as_text("channel", channel)
+        if asked and asked not in self:
+            raise ValueError(f"channel: the map has no channel '{asked}', only {', '.join(self)}")
+        compressed = as_text("compression", compression)
         handle = self._handle()
+        _core.require_map_name(os.fspath(file))
         make_folder_of(file)
-        _core.write_map(handle, os.fspath(file), channel or "", compression,
+        _core.write_map(handle, os.fspath(file), asked, compressed,
                         as_count("threads", threads, 0, 1024), others)
 
     @property
@@ -225,9 +252,12 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
     def stored_as(self, dtype: npt.DTypeLike, *, channel: str = "", scale: float | None = None) -> Map:
         """The map with one depth channel alone, stored as float32, float64 or uint16 codes of round(scale · depth)."""
-        name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64", "uint16"))
+        try:
+            name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64", "uint16"))
+        except TypeError:
+            raise TypeError(f"dtype: expected float32, float64 or uint16, found {dtype!r}") from None
         factor = None if scale is None else as_number("scale", scale)
-        return Map._of(_core.with_storage(self._handle(), channel, name, factor))
+        return Map._of(_core.with_storage(self._handle(), as_text("channel", channel), name, factor))
 
     def points(self, camera: Camera | None = None, *, frame: str = "world") -> Numbers:
         """N×3 float64 points, one for each pixel with a surface at a finite depth, row by row, in scene units, of Z
@@ -251,6 +281,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
     def add_cryptomatte(self, scene: Scene, camera: Camera | None = None, *, cull: str = "none", threads: int = 0) -> None:
         """Adds Cryptomatte's channels by object, CryptoObject00.R and so on, with exact coverage, each rounded once to
         float32, and the manifest among the metadata. What compositing programs read is the EXR of it."""
+        if self._views is not None:
+            raise ValueError("map: it is a stack: add Cryptomatte's channels to maps by view(i)")
         view = self._camera(camera)
         matte = _core.cryptomatte(scene_handle(scene), camera_handle(view), one_of("cull", cull, ("none", "back", "front")),
                                   as_count("threads", threads, 0, 1024))
@@ -260,6 +292,42 @@ class Map(dict[str, "npt.NDArray[Any]"]):
     def __repr__(self) -> str:
         channels = ", ".join(f"{name}: {array.dtype} {array.shape}" for name, array in self.items())
         return f"Map({channels})"
+
+
+_State = tuple[dict[str, str], list[str], dict[str, list[str]], Union[float, None]]
+
+
+def _state_of(description: _core.Map) -> _State:
+    """All that a description has, as objects of Python's."""
+    return description.texts, description.object_names, description.tables, description.png_scale
+
+
+def _description_of(state: _State) -> _core.Map:
+    description = _core.Map()
+    description.texts, description.object_names, description.tables, description.png_scale = state
+    return description
+
+
+def _same(description: _core.Map) -> _core.Map:
+    return _description_of(_state_of(description))
+
+
+def _map_of_state(
+    channels: dict[str, npt.NDArray[Any]],
+    camera: Camera | None,
+    state: _State,
+    views: list[tuple[Camera, _State]] | None,
+) -> Map:
+    """What pickle calls."""
+    of_views = None if views is None else [(each, _description_of(of_view)) for each, of_view in views]
+    return Map(channels, camera, _description_of(state), of_views)
+
+
+def _positive(name: str, value: object) -> float:
+    number = as_number(name, value)
+    if not 0 < number < np.inf:
+        raise ValueError(f"{name}: expected a number above 0, found {number:g}")
+    return number
 
 
 def _camera_of(description: _core.Map) -> Camera | None:
@@ -284,11 +352,18 @@ def _grouped(planes: dict[str, npt.NDArray[Any]]) -> dict[str, npt.NDArray[Any]]
     return channels
 
 
+def _native(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """In this machine's order of bytes; float16 as float32, which has all of its numbers."""
+    if array.dtype == np.float16:
+        return array.astype(np.float32)
+    return array if array.dtype.isnative else array.astype(array.dtype.newbyteorder("="))
+
+
 def _planes(channels: dict[str, npt.NDArray[Any]]) -> list[tuple[str, npt.NDArray[Any]]]:
     """The channels as files have them."""
     planes: list[tuple[str, npt.NDArray[Any]]] = []
     for name, value in channels.items():
-        array = as_array(f"map: channel {name}", value)
+        array = _native(as_array(f"map: channel {as_text('map: channels', name)}", value))
         parts = parts_of.get(name)
         if parts and array.ndim == 3 and array.shape[2] == len(parts):
             planes += [(f"{name}.{part}", np.ascontiguousarray(array[..., i])) for i, part in enumerate(parts)]
@@ -311,8 +386,6 @@ def as_map(name: str, value: object) -> Map:
     array = as_array(name, value)
     if array.ndim != 2:
         raise ValueError(f"{name}: expected an H×W array or a Map, found shape {array.shape}")
-    if array.dtype.kind == "f" and array.dtype.itemsize < 4:
-        array = array.astype(np.float32)
     return Map({"Z": array})
 
 
@@ -352,8 +425,8 @@ def compare(
     return _core.compare_maps(
         as_map("truth", truth)._handle(),
         as_map("other", other)._handle(),
-        channel,
-        other_channel,
+        as_text("channel", channel),
+        as_text("other_channel", other_channel),
         (
             as_number("tolerance_ulp", tolerance_ulp),
             as_number("tolerance_absolute", tolerance_absolute),

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
-from ._arguments import as_count, check_elements, faces_of, labels_of, names_of, pose_of, vertices_of
+from ._arguments import as_count, as_text, check_elements, faces_of, labels_of, names_of, pose_of, vertices_of
 from ._files import Path
 from ._render import Background, Cull, Normals, render_cameras
 
@@ -99,6 +99,7 @@ class Scene:
         in the scene, and must not be while something is rendered.
         """
         placed = None if pose is None else pose_of("pose", pose)
+        called = as_text("name", name)
         numbers = vertices_of(vertices)
         corners = faces_of(faces, len(numbers))
         of_labels = None if labels is None else labels_of(labels, len(corners))
@@ -108,7 +109,7 @@ class Scene:
             self._handle.set_segments(mesh, "label", of_labels, [])
         if of_materials is not None:
             self._handle.set_segments(mesh, "material", *of_materials)
-        self._handle.add_object(mesh, placed, _text("name", name) or f"mesh {mesh}")
+        self._handle.add_object(mesh, placed, called or f"mesh {mesh}")
         return mesh
 
     def add_instance(self, mesh: int, pose: npt.ArrayLike | None = None, *, name: str = "") -> int:
@@ -116,7 +117,7 @@ class Scene:
         number = as_count("mesh", mesh, 0, self.mesh_count - 1) if self.mesh_count else _no_mesh()
         placed = None if pose is None else pose_of("pose", pose)
         objects = self._handle.object_count
-        self._handle.add_object(number, placed, _text("name", name) or f"object {objects}")
+        self._handle.add_object(number, placed, as_text("name", name) or f"object {objects}")
         return objects
 
     @property
@@ -183,12 +184,6 @@ class Scene:
 
     def __repr__(self) -> str:
         return f"Scene({self._handle.object_count} objects, {self.mesh_count} meshes, {self.triangle_count} triangles)"
-
-
-def _text(name: str, value: Any) -> str:
-    if not isinstance(value, str):
-        raise TypeError(f"{name}: expected a string, found {value!r}")
-    return value
 
 
 def _no_mesh() -> int:
