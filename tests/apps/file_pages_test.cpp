@@ -141,7 +141,7 @@ TEST_F(Pages, EveryKeyOfACameraFileHasAnExampleThatIsRead) {
 /// Each key where it belongs.
 TEST_F(Pages, EveryKeyOfASceneFileHasAnExampleThatIsRead) {
   const auto keys = keys_of(page("scene-files.md"));
-  const std::vector<std::string> of_mesh{"file", "transform", "name", "draw"},
+  const std::vector<std::string> of_mesh{"file", "transform", "name", "material", "label", "draw"},
       of_draw{"depth_test", "depth_write", "colour_write", "polygon_offset", "alpha", "stencil"},
       of_stencil{"test", "reference", "mask", "write_mask", "fail", "depth_fail", "pass"};
   std::vector<std::string> all{"meshes"};

@@ -110,7 +110,8 @@ TEST(ValidateVtk, ColoursThatCannotBeComparedAreRefused) {
   EXPECT_THAT(outcome.out, HasSubstr("sphere: phong, VTK Phong: "));
   EXPECT_EQ(run_fathom({"validate", "--colour", "--against", "vtk"}).status, 2);
   for (const auto& option : {"--variants", "--baseline", "--model", "--channel", "-o"}) {
-    const Outcome refused = run_fathom({"validate", "--colour", option, "x"});
+    const std::string value = option == std::string("--model") ? "float32-ray" : "x";
+    const Outcome refused = run_fathom({"validate", "--colour", option, value});
     EXPECT_EQ(refused.status, 2) << option;
     EXPECT_THAT(refused.err, HasSubstr("has no meaning with --colour"));
   }
