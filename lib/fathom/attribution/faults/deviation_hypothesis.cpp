@@ -46,8 +46,9 @@ std::string text_of_planes(const Camera& camera, const RendererModel& model,
 /// Where samples lie is the negative of where the principal point does.
 std::string text_of_shift(const FittedDeviation& fit) {
   return fmt::format(
-      "the image is shifted by ({:.6g}, {:.6g}) pixels, ± ({:.2g}, {:.2g}): its samples lie there "
-      "from the centres of the pixels, or its principal point the other way",
+      "the image is shifted by ({:.6g}, {:.6g}) pixels, ± ({:.2g}, {:.2g}): it was sampled that "
+      "far from the pixel centres, or its principal point (cx, cy, pixel_centre) is off by the "
+      "opposite",
       0 - of(fit.deviation, P::centre_x), 0 - of(fit.deviation, P::centre_y),
       of(fit.standard, P::centre_x), of(fit.standard, P::centre_y));
 }

@@ -63,12 +63,11 @@ std::optional<Hypothesis> shifted(const Truth& truth, const OtherMap& other,
     }
   }
   if (greatest == none) return std::nullopt;
-  Hypothesis h{
-      "shift",
-      fmt::format("the image is shifted by ({}, {}) pixels: its samples lie there from the "
-                  "centres of the pixels",
-                  best.x, best.y),
-      model, other};
+  Hypothesis h{"shift",
+               fmt::format("the image is shifted by ({}, {}) pixels: it was sampled that far from "
+                           "the pixel centres",
+                           best.x, best.y),
+               model, other};
   h.model.sample.x += best.x;
   h.model.sample.y += best.y;
   return h;
