@@ -167,7 +167,15 @@ TEST(CameraWarnings, APrincipalPointFarFromTheMiddle) {
   EXPECT_THAT(text_of(warnings_of_camera(camera), Kind::principal_point), HasSubstr("fractions"));
   camera.width = 480, camera.height = 1920, camera.cx = 960, camera.cy = 240;
   EXPECT_THAT(text_of(warnings_of_camera(camera), Kind::principal_point), HasSubstr("swapped"));
+  camera.width = 480, camera.height = 640, camera.cx = 322, camera.cy = 237;
+  EXPECT_THAT(text_of(warnings_of_camera(camera), Kind::principal_point),
+              AllOf(HasSubstr("(322, 237)"), HasSubstr("480x640"), HasSubstr("swapped")));
+  camera.cx = 300;  // some part of a larger image
+  EXPECT_THAT(warnings_of_camera(camera), IsEmpty());
+  camera.width = 639, camera.height = 640, camera.cx = 320, camera.cy = 319.5;
+  EXPECT_THAT(warnings_of_camera(camera), IsEmpty());
   camera.projection = Projection::orthographic;
+  camera.cx = 1000;
   EXPECT_THAT(warnings_of_camera(camera), IsEmpty());
 }
 

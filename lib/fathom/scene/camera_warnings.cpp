@@ -81,10 +81,17 @@ bool in_middle(double x, double size, double part) {
 void add_warning_of_principal_point(const Camera& camera, std::vector<ViewWarning>& warnings) {
   if (camera.projection != Projection::perspective) return;
   const auto [x, y] = principal_point(camera);
-  if (in_middle(x, camera.width, 0.25) && in_middle(y, camera.height, 0.25)) return;
+  const auto lies_in_middle = [&, x = x, y = y](double part) {
+    return in_middle(x, camera.width, part) && in_middle(y, camera.height, part);
+  };
+  const auto would_lie_there_if_swapped = [&, x = x, y = y](double part) {
+    return in_middle(y, camera.width, part) && in_middle(x, camera.height, part);
+  };
+  // K of a landscape image and the size of a portrait one.
+  const bool fits_the_other_way = would_lie_there_if_swapped(0.02) && !lies_in_middle(0.0625);
+  if (lies_in_middle(0.25) && !fits_the_other_way) return;
   const bool are_fractions = camera.cx > 0 && camera.cx <= 1 && camera.cy > 0 && camera.cy <= 1;
-  const bool are_swapped =
-      in_middle(y, camera.width, 0.0625) && in_middle(x, camera.height, 0.0625);
+  const bool are_swapped = would_lie_there_if_swapped(0.0625);
   warnings.push_back(
       {Kind::principal_point,
        fmt::format("the principal point ({:.6g}, {:.6g}) lies far from the middle of the {}x{} "

@@ -46,7 +46,7 @@ struct ViewWarning {
 
 /// Of the camera alone: a 3×3 part of world_to_camera that is no rotation, but scaled, mirrored
 /// (unless fx or fy mirrors it back) or skewed; a principal point of a perspective camera outside
-/// of the middle half of the image.
+/// of the middle half of the image, or in the middle of one whose width and height are exchanged.
 /// Cost     none to speak of.
 /// Fails    never; nothing is said of a camera with a fault (find_fault).
 std::vector<ViewWarning> warnings_of_camera(const Camera& camera);
