@@ -13,6 +13,7 @@ namespace {
 
 std::vector<std::string> every_channel_name() {
   std::vector<std::string> names;
+  names.reserve(channel_table.size());
   for (const ChannelDescription& channel : channel_table) names.emplace_back(channel.name);
   return names;
 }

@@ -65,6 +65,7 @@ std::optional<std::string> answer_of(const Companion& companion,
   if (companion.takes_name()) words.push_back(companion.command);
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> list;
+  list.reserve(words.size() + 1);
   for (std::string& word : words) list.push_back(word.data());
   list.push_back(nullptr);
 

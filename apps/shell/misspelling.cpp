@@ -75,7 +75,7 @@ std::string unknown_command(const std::string& name, const std::vector<std::stri
 std::string unexpected_argument(const CLI::App& program) {
   const CLI::App* command = &program;
   for (;;) {
-    const std::string message = unexpected_of(*command);
+    std::string message = unexpected_of(*command);
     if (!message.empty()) return message;
     if (command->get_subcommands().empty()) return "";
     command = command->get_subcommands().front();

@@ -43,6 +43,7 @@ std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Con
   std::vector<SceneToMake> scenes;
   const std::vector<std::string> names =
       arguments.scene_names.empty() ? validation::scene_names() : parse_list(arguments.scene_names);
+  scenes.reserve(names.size());
   for (const std::string& name : names) {
     scenes.push_back({name, [name, w = width, h = height] {
                         return validation::make_validation_scene(name, w, h);
