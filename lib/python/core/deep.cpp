@@ -55,16 +55,17 @@ py::tuple deep(const SharedScene& shared, const Camera& camera, const std::strin
 }
 
 /// Python has made sure that the arrays fit each other.
-DeepMap deep_map_of(const DeepDescription& description, const ContiguousArray<float>& Z,
-                    const ContiguousArray<float>& ZBack, const ContiguousArray<float>& area,
-                    const ContiguousArray<float>& A, const ContiguousArray<std::uint32_t>& id,
+DeepMap deep_map_of(const DeepDescription& description, const ContiguousArray<float>& front,
+                    const ContiguousArray<float>& back, const ContiguousArray<float>& area,
+                    const ContiguousArray<float>& alpha, const ContiguousArray<std::uint32_t>& id,
                     const ContiguousArray<std::uint32_t>& counts) {
   DeepMap map;
   map.description = description;
   map.counts.assign(counts.data(), counts.data() + counts.size());
-  map.samples.resize(static_cast<std::size_t>(Z.size()));
+  map.samples.resize(static_cast<std::size_t>(front.size()));
   for (std::size_t i = 0; i < map.samples.size(); ++i)
-    map.samples[i] = {Z.data()[i], ZBack.data()[i], id.data()[i], area.data()[i], A.data()[i]};
+    map.samples[i] = {front.data()[i], back.data()[i], id.data()[i], area.data()[i],
+                      alpha.data()[i]};
   return map;
 }
 
@@ -86,12 +87,12 @@ SharedMap cryptomatte(const SharedScene& shared, const Camera& camera, const std
 void bind_deep(py::module_& core) {
   core.def("deep", &deep);
   core.def("write_deep",
-           [](const SharedMap& description, const ContiguousArray<float>& Z,
-              const ContiguousArray<float>& ZBack, const ContiguousArray<float>& area,
-              const ContiguousArray<float>& A, const ContiguousArray<std::uint32_t>& id,
+           [](const SharedMap& description, const ContiguousArray<float>& front,
+              const ContiguousArray<float>& back, const ContiguousArray<float>& area,
+              const ContiguousArray<float>& alpha, const ContiguousArray<std::uint32_t>& id,
               const ContiguousArray<std::uint32_t>& counts, const std::filesystem::path& path,
               const std::string& compression, int threads) {
-             const DeepMap map = deep_map_of(*description, Z, ZBack, area, A, id, counts);
+             const DeepMap map = deep_map_of(*description, front, back, area, alpha, id, counts);
              const Compression stored = compression_named(compression);
              run([&](const auto&) { write_deep_map(map, path, stored, threads); });
            });

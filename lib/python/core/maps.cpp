@@ -155,7 +155,7 @@ py::array points(const SharedMap& map, const Camera& camera, const std::string& 
 }
 
 template <class T>
-bool lend_if_of(DepthMap& map, const std::string& name, py::array& array) {
+bool lend_if_of(DepthMap& map, const std::string& name, py::array array) {
   if (!py::isinstance<ContiguousArray<T>>(array)) return false;
   map.channels.push_back({name, Samples<T>::lent(static_cast<T*>(array.mutable_data()),
                                                  static_cast<std::size_t>(array.size()))});
@@ -165,11 +165,11 @@ bool lend_if_of(DepthMap& map, const std::string& name, py::array& array) {
 /// Changes the arrays of a map that was rendered, and returns its texts.
 std::map<std::string, std::string> set_background(
     const DepthMap& description, std::uint32_t height, std::uint32_t width,
-    std::vector<std::pair<std::string, py::array>> channels, double value) {
+    const std::vector<std::pair<std::string, py::array>>& channels, double value) {
   DepthMap map = description;
   map.height = height;
   map.width = width;
-  for (auto& [name, array] : channels) {
+  for (const auto& [name, array] : channels) {
     if (!lend_if_of<float>(map, name, array) && !lend_if_of<double>(map, name, array))
       lend_if_of<std::uint32_t>(map, name, array);
   }
