@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import numbers
 from collections.abc import Iterable, Sequence
+from decimal import Decimal
 from fractions import Fraction
-from typing import Any, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 from . import _core
 from ._arguments import one_of
 
-Number = Union[int, float, Fraction, str]
+if TYPE_CHECKING:
+    import numpy as np
+
+#: What is taken as the number that it is; a str as Fraction reads it: "1/3", "0.1".
+Number = Union[int, float, Fraction, Decimal, str, "np.integer[Any]", "np.floating[Any]"]
 Point = tuple[Fraction, Fraction]
 #: The corners of a closed polyline; the first is not repeated.
 Ring = list[Point]
@@ -34,7 +40,12 @@ def clip(
     algorithm: str = "weiler-atherton",
 ) -> list[Polygon]:
     """Intersection or difference of two polygons, each given as its rings, outlines and holes, by the even-odd rule.
-    Numbers are taken as what they are: floats too. Any shape, degenerate ones too; parts of no area are dropped.
+    Numbers are taken as what they are, not rounded: int, float, Fraction, Decimal, NumPy's, "1/3".
+
+    A ring is simple: it has three corners or more, not all on one line, and does not meet itself (no bowtie, no spike).
+    Corners may be repeated or lie on a straight edge. Rings of one polygon may touch, in points or along edges, and be
+    equal, but not cross. The two polygons may lie to each other as they like, and have no rings; parts of the result
+    that have no area are dropped.
 
     operation  "intersection" or "difference"
     algorithm  "weiler-atherton", or "cgal" to have CGAL's Boolean operations judge it: equal regions are equal lists
@@ -42,6 +53,9 @@ def clip(
     >>> square = [(0, 0), (2, 0), (2, 2), (0, 2)]
     >>> [piece.area for piece in clip([square], [[(1, 1), (Fraction(7, 3), 1), (1, 3)]])]
     [Fraction(11, 12)]
+
+    Raises InputError, which names the ring, for one that is not as above; ValueError for what are no rings of finite
+    numbers; TypeError for coordinates of other types.
     """
     one_of("operation", operation, ("intersection", "difference"))
     one_of("algorithm", algorithm, ("weiler-atherton", "cgal"))
@@ -54,7 +68,7 @@ def area_of(rings: Iterable[Sequence[Sequence[Number]]]) -> Fraction:
     """The signed area of rings: counter-clockwise ones count as positive."""
     twice = Fraction(0)
     for ring in rings:
-        points = [(Fraction(x), Fraction(y)) for x, y in ring]
+        points = [(_exact("rings", x), _exact("rings", y)) for x, y in ring]
         for (ax, ay), (bx, by) in zip(points, points[1:] + points[:1]):
             twice += ax * by - bx * ay
     return twice / 2
@@ -62,13 +76,31 @@ def area_of(rings: Iterable[Sequence[Sequence[Number]]]) -> Fraction:
 
 def _rings(name: str, rings: Iterable[Sequence[Sequence[Number]]]) -> list[list[Any]]:
     try:
-        return [[(_exact(x), _exact(y)) for x, y in ring] for ring in rings]
-    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
-        raise ValueError(f"{name}: expected a list of rings, each a list of (x, y) of finite numbers") from None
+        points = [[(x, y) for x, y in ring] for ring in rings]
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: {_expected_rings}") from None
+    return [[(_parts(_exact(name, x)), _parts(_exact(name, y))) for x, y in ring] for ring in points]
 
 
-def _exact(value: Any) -> tuple[int, int]:
-    number = Fraction(value if isinstance(value, (int, Fraction, str)) else float(value))
+_expected_rings = "expected a list of rings, each a list of (x, y) of finite numbers"
+
+
+def _exact(name: str, value: Any) -> Fraction:
+    try:
+        if isinstance(value, numbers.Integral):
+            return Fraction(int(value))
+        if isinstance(value, numbers.Rational):
+            return Fraction(int(value.numerator), int(value.denominator))
+        if isinstance(value, (str, Decimal)):
+            return Fraction(value)
+        if hasattr(value, "as_integer_ratio"):
+            return Fraction(*value.as_integer_ratio())
+    except (ValueError, OverflowError, ZeroDivisionError):
+        raise ValueError(f"{name}: {_expected_rings}, found {value!r}") from None
+    raise TypeError(f"{name}: expected coordinates of int, float, Fraction, Decimal or str, found {value!r}")
+
+
+def _parts(number: Fraction) -> tuple[int, int]:
     return number.numerator, number.denominator
 
 
