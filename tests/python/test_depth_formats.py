@@ -77,6 +77,26 @@ def test_what_formats_refuse(call, error, words):
         call()
 
 
+@pytest.mark.parametrize("storage, bits", [
+    ("unorm24", 2**24),
+    ("float16", 0xFFFF),  # NaN
+    ("float32", 0x7FC00000),  # NaN
+    ("float32", 0x3F800001),  # just above 1
+    ("float64", 0xBFF0000000000000),  # -1
+])
+def test_what_is_no_stored_value_is_neither_decoded_nor_a_value(storage, bits):
+    format = fathom.DepthFormat("linear", storage, near=1, far=2)
+    assert format.values([0, format.greatest]).tolist() == [0, 1]
+    for read in (format.decode, format.values):
+        with pytest.raises(fathom.InputError, match=f"stored: expected values from 0 to {format.greatest}, found {bits}"):
+            read(np.array([0, bits], np.uint64))
+
+
+def test_the_documentation_has_the_names():
+    for name in MAPPINGS + STORAGES:
+        assert f'"{name}"' in fathom.DepthFormat.__doc__
+
+
 def test_clamp():
     format = fathom.DepthFormat("linear", "unorm16", near=1, far=2)
     assert format.encode([-np.inf, 0, 9, np.inf], clamp=True).tolist() == [0, 0, 65535, 65535]

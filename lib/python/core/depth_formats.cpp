@@ -65,14 +65,17 @@ py::array encode_depths(const DepthFormat& format, const ContiguousArray<double>
       depths, [&](double depth) { return encode(format, depth_in(format, depth, clamp)).bits; });
 }
 
-py::array decode_bits(const DepthFormat& format, const ContiguousArray<std::uint64_t>& stored) {
+/// function(stored value) for each; a value that is none is refused.
+template <class Function>
+py::array of_stored(const DepthFormat& format, const ContiguousArray<std::uint64_t>& stored,
+                    const Function& function) {
   const std::uint64_t greatest = greatest_stored(format.storage).bits;
   return mapped<std::uint64_t, double>(stored, [&](std::uint64_t bits) {
     if (bits > greatest) {
       throw InputError("stored: expected values from 0 to " + std::to_string(greatest) +
                        ", found " + std::to_string(bits));
     }
-    return decode_to_binary64(format, {bits});
+    return function(StoredDepth{bits});
   });
 }
 
@@ -102,11 +105,15 @@ void bind_depth_formats(py::module_& core) {
   py::class_<DepthFormat>(core, "DepthFormat")
       .def(py::init(&make_format))
       .def("encode", &encode_depths)
-      .def("decode", &decode_bits)
+      .def("decode",
+           [](const DepthFormat& format, const ContiguousArray<std::uint64_t>& stored) {
+             return of_stored(format, stored,
+                              [&](StoredDepth each) { return decode_to_binary64(format, each); });
+           })
       .def("values",
            [](const DepthFormat& format, const ContiguousArray<std::uint64_t>& stored) {
-             return mapped<std::uint64_t, double>(stored, [&](std::uint64_t bits) {
-               return round_to_binary64(value_of(format.storage, {bits}));
+             return of_stored(format, stored, [&](StoredDepth each) {
+               return round_to_binary64(value_of(format.storage, each));
              });
            })
       .def("to_nearer",

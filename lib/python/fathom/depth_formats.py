@@ -19,8 +19,8 @@ STORAGES: tuple[str, ...] = tuple(_core.storages)
 class DepthFormat:
     """A map from planar depth to [0, 1], and a type that keeps the value.
 
-    mapping    one of MAPPINGS: "standard", "reversed", "infinite", "reversed_infinite", "opengl", "linear", "w", "log",
-               "log_ulrich"
+    mapping    one of MAPPINGS: "standard", "reversed", "infinite", "reversed-infinite", "opengl", "linear", "w", "log",
+               "log-ulrich"
     storage    one of STORAGES: "unorm16", "unorm24", "unorm32", "float16", "float32", "float64"
     near, far  planar depths in scene units
     c          the constant of "log"
@@ -53,11 +53,13 @@ class DepthFormat:
         return self._handle.encode(as_numbers("depths", depths), bool(clamp))
 
     def decode(self, stored: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """The depths that stored values mean, exact numbers rounded once; inf where that is infinite."""
+        """The depths that stored values mean, exact numbers rounded once; inf where that is infinite.
+
+        Raises InputError for what is above `greatest`: bits of floats beyond 1, of negative ones, of NaN."""
         return self._handle.decode(_stored(stored))
 
     def values(self, stored: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """The numbers in [0, 1] that stored values are."""
+        """The numbers in [0, 1] that stored values are, rounded once. Raises InputError as decode()."""
         return self._handle.values(_stored(stored))
 
     def resolution(self, depths: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
