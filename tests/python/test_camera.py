@@ -173,3 +173,52 @@ def test_a_camera_does_not_change():
             setattr(camera, name, 3)
     camera.world_to_camera[0, 0] = 9  # of an array of its own
     assert camera.world_to_camera[0, 0] == 1
+
+
+@pytest.mark.parametrize("lens, words", [
+    ({"fov": 40, "focal": 3}, "fov, focal: give one of them"),
+    ({"extent": 3}, "extent: it is for orthographic cameras"),
+    ({"projection": "orthographic", "extent": 3, "fov": 40}, "fov, focal: they are for perspective cameras"),
+    ({"projection": "orthographic", "extent": 3, "focal": 40}, "fov, focal: they are for perspective cameras"),
+])
+def test_lenses_that_say_two_things_are_refused(spot, lens, words):
+    for make_one in (lambda: fathom.Camera.look_at((0, 0, 3), **lens),
+                     lambda: fathom.Camera.orbit(2, distance=3, **lens),
+                     lambda: fathom.Camera.frame(spot, **lens),
+                     lambda: fathom.Camera.orbit_scene(spot, 2, **lens)):
+        with pytest.raises(ValueError, match=words):
+            make_one()
+
+
+@pytest.mark.parametrize("change, size, words", [
+    ({"w": 9}, (8, 8), "frame a: its size is 9×8 by w and h, 8×8 by the argument size"),
+    ({"frames": ["a", "b", "a"]}, None, "frame a: there are two frames with this file_path"),
+    ({"fl_x": None, "camera_angle_x": 3.2}, None, "frame a: the focal lengths are -.* expected positive ones"),
+])
+def test_what_a_transforms_json_must_not_say(tmp_path, change, size, words):
+    pose = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 4], [0, 0, 0, 1]]
+
+    def read(size=None, frames=("a",), **keys):
+        content = {"fl_x": 100, "w": 8, "h": 8, **keys,
+                   "frames": [{"file_path": name, "transform_matrix": pose} for name in frames]}
+        file = tmp_path / "transforms.json"
+        file.write_text(json.dumps({name: value for name, value in content.items() if value is not None}))
+        return fathom.Camera.from_nerf(file, size)
+
+    assert list(read((8, 8), ("a", "b"))) == ["a", "b"] and read(w=None, h=None, size=(4, 5))["a"].size == (4, 5)
+    assert read(fl_x=None, camera_angle_x=3.1)["a"].fx > 0
+    with pytest.raises(fathom.InputError, match=f"transforms.json: {words}"):
+        read(size, **change)
+
+
+def test_errors_of_camera_files_name_them(tmp_path):
+    with pytest.raises(fathom.InputError, match="missing: cannot be opened: No such file"):
+        fathom.read_cameras(tmp_path / "missing")
+    with pytest.raises(fathom.InputError, match="cannot be opened: Is a directory"):
+        fathom.Camera.read(tmp_path)
+    (tmp_path / "binary").write_bytes(b"\xff\xfe\x00\x80")
+    with pytest.raises(fathom.InputError, match="binary: is not text, expected a camera file"):
+        fathom.read_cameras(tmp_path / "binary")
+    for place, words in ((tmp_path, "Is a directory"), ("/dev/full", "/dev/full: No space left on device")):
+        with pytest.raises(fathom.OutputError, match=words):
+            make().write(place)

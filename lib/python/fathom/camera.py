@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, Union
 import numpy as np
 
 from . import _core
+from ._core import InputError, OutputError
 from ._arguments import (
     Rows,
     Size,
@@ -170,6 +171,8 @@ class Camera:
         focal   fx = fy in pixels, in its place
         extent  orthographic cameras: the scene units that the image's height spans
 
+        Raises ValueError for two of them, or one that is not for the projection.
+
         >>> Camera.look_at((0, 0, 3)).world_to_camera[2]
         array([ 0.,  0., -1.,  3.])
         """
@@ -260,12 +263,26 @@ class Camera:
 
     @classmethod
     def from_nerf(cls, file: Path, size: Size | None = None) -> dict[str, Camera]:
-        """The cameras of a transforms.json, by their file_path. `size` is for files without w and h."""
+        """The cameras of a transforms.json, by their file_path; those of frames without one by their number. `size`,
+        (width, height) in pixels, is for files without w and h.
+
+        Raises InputError, which names the frame, where two have one file_path, a focal length is negative (an angle
+        beyond π radians gives such), or the file has another size than the one that is given.
+        """
         width, height = (0, 0) if size is None else as_size(size)
         cameras, notes = _core.import_nerf(os.fspath(file), width, height)
         for note in notes:
             warnings.warn(note, ViewWarning, stacklevel=2)
-        return {name: cls._of(camera) for name, camera in cameras}
+        made: dict[str, Camera] = {}
+        for name, core in cameras:
+            camera = cls._of(core)
+            fault = _fault_of_frame(camera, size is not None and (width, height))
+            if name in made:
+                fault = "there are two frames with this file_path"
+            if fault:
+                raise InputError(f"{os.fsdecode(file)}: frame {name}: {fault}")
+            made[name] = camera
+        return made
 
     @classmethod
     def from_bop(cls, file: Path, size: Size) -> dict[str, Camera]:
@@ -400,11 +417,27 @@ def _point(name: str, value: npt.ArrayLike) -> list[float]:
     return [float(each) for each in as_finite(name, value, (3,))]
 
 
+def _fault_of_frame(camera: Camera, size: tuple[int, int] | Literal[False]) -> str:
+    """What is wrong with a camera of a transforms.json; empty where nothing is."""
+    if size and camera.size != size:
+        return f"its size is {camera.width}×{camera.height} by w and h, {size[0]}×{size[1]} by the argument size"
+    if camera.fx < 0 or camera.fy < 0:
+        return (f"the focal lengths are {camera.fx:g} and {camera.fy:g} pixels; expected positive ones, "
+                "and angles from 0 to π radians")
+    return ""
+
+
 def _lens(size: Size, fov: float | None, focal: float | None, extent: float | None, projection: str, near: float,
           far: float) -> _core.Lens:
     def or_none(name: str, value: float | None) -> float | None:
         return None if value is None else as_number(name, value)
 
+    if projection == "perspective" and extent is not None:
+        raise ValueError("extent: it is for orthographic cameras: give fov or focal")
+    if projection == "orthographic" and (fov is not None or focal is not None):
+        raise ValueError("fov, focal: they are for perspective cameras: give extent")
+    if fov is not None and focal is not None:
+        raise ValueError("fov, focal: give one of them")
     return _core.Lens(
         *as_size(size),
         one_of("projection", projection, projections) == "orthographic",
@@ -444,14 +477,25 @@ def cameras_from_json(text: str, name: str = "camera") -> list[Camera]:
 
 
 def read_cameras(file: Path) -> list[Camera]:
-    """The cameras of a camera file: one, or a list (a camera path)."""
-    with open(file, encoding="utf-8") as stream:
-        return cameras_from_json(stream.read(), os.fspath(file))
+    """The cameras of a camera file: one, or a list (a camera path). Raises InputError, which names the file."""
+    name = os.fsdecode(file)
+    try:
+        with open(file, encoding="utf-8") as stream:
+            text = stream.read()
+    except OSError as error:
+        raise InputError(f"{name}: cannot be opened: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{name}: is not text, expected a camera file (JSON)") from None
+    return cameras_from_json(text, name)
 
 
 def write_cameras(file: Path, cameras: Iterable[Camera]) -> None:
-    """Writes a camera file. A single camera is an object, several are a list. A folder that is missing is made."""
+    """Writes a camera file. A single camera is an object, several are a list. A folder that is missing is made.
+    Raises OutputError where it cannot be written."""
     text = _core.cameras_to_json([camera_handle(camera) for camera in cameras])
     make_folder_of(file)
-    with open(file, "w", encoding="utf-8") as stream:
-        stream.write(text + "\n")
+    try:
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write(text + "\n")
+    except OSError as error:
+        raise OutputError(f"{os.fsdecode(file)}: {error.strerror}") from None
