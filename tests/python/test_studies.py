@@ -54,6 +54,19 @@ def test_types_do_not_depend_on_the_values(resolution):
     assert studies.run("lines", samples=2).tables["drift"].dtype["pixels"] == np.int64
 
 
+def test_tables_of_several_runs_are_joined(spot, triangle):
+    """A scene of a single triangle has no separations."""
+    alone = fathom.Scene()
+    alone.add_mesh(*triangle)
+    runs = [studies.run("z-fighting", scene, fathom.Camera.frame(scene, size=(40, 30)), near=0.1, far=100)
+            for scene in (alone, spot)]
+    none, some = (run.tables["separations"] for run in runs)
+    assert len(some) > len(none) == 0
+    assert [none.dtype[column].kind for column in none.dtype.names] == ["U", "U", "f", "f", "f"]
+    joined = np.concatenate([none, some])
+    assert joined.dtype == some.dtype and np.array_equal(joined, some)
+
+
 def test_the_step_of_a_linear_format_is_known(resolution):
     steps = resolution.tables["steps"]
     linear = steps[(steps["mapping"] == "linear") & (steps["storage"] == "unorm16") & (steps["depth"] == 2)]
@@ -86,6 +99,7 @@ def test_plots_are_drawn_where_they_are_asked_for(tmp_path):
     ("depth-resolution", {"near": "1"}, TypeError, "near: expected a number"),
     ("depth-resolution", {"samples": 1}, ValueError, "samples: expected"),
     ("depth-resolution", {"samples": 2**31}, ValueError, "^samples"),
+    ("depth-resolution", {"separation": 0.1}, fathom.UsageError, "the study depth-resolution has no separation"),
     ("mitigation", {"samples": 5}, ValueError, "no separation and no samples"),
     ("subpixel", {"scene": 5}, TypeError, "scene: expected a Scene"),
 ])

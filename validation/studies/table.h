@@ -3,13 +3,50 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "validation/studies/cell.h"
 
 namespace fathom::studies {
+
+/// What the cells of a column are, whatever its rows hold: so that tables of one study have one
+/// type, those without rows too.
+enum class CellKind {
+  any,     ///< not told by the column: what its cells hold
+  flag,    ///< bool
+  count,   ///< integers
+  number,  ///< floating-point numbers, and whatever number may be empty
+  text
+};
+
+namespace table {
+
+template <class T>
+struct KindOf {
+  static constexpr CellKind value = std::is_same_v<T, bool>       ? CellKind::flag
+                                    : std::is_integral_v<T>       ? CellKind::count
+                                    : std::is_floating_point_v<T> ? CellKind::number
+                                                                  : CellKind::text;
+};
+template <>
+struct KindOf<Cell> {
+  static constexpr CellKind value = CellKind::any;
+};
+template <class T>
+struct KindOf<std::optional<T>> {
+  static constexpr CellKind value =
+      KindOf<T>::value == CellKind::text ? CellKind::text : CellKind::number;
+};
+
+}  // namespace table
+
+/// The kind of cells that are made of a T.
+template <class T>
+inline constexpr CellKind kind_of_cells = table::KindOf<std::remove_cvref_t<T>>::value;
 
 /// A column of a table: where it is written, under which name, and how its floating-point numbers
 /// are formatted there (see text_of). Without more it is in CSV and JSON.
@@ -20,6 +57,7 @@ struct Column {
   std::optional<std::string> heading;  ///< on the page; none: not there
   const char* page_format = "";
   bool is_percent = false;  ///< the page shows a hundred times the value
+  CellKind kind = CellKind::any;
 
   Column(const char* name) : Column(std::string(name)) {}
   Column(const std::string& name, const char* format = ".17g")
@@ -55,8 +93,13 @@ inline Column percent_heading(const std::string& name, const char* format) {
 template <class Row>
 struct ColumnOf {
   Column column;
-  /// A member or a function of a row.
   std::function<Cell(const Row&)> value;
+
+  /// `value_of` is a member or a function of a row.
+  template <class Value>
+  ColumnOf(Column of, Value value_of) : column(std::move(of)), value(std::move(value_of)) {
+    column.kind = kind_of_cells<std::invoke_result_t<const Value&, const Row&>>;
+  }
 };
 
 /// The rows that `holds` is true of.

@@ -49,7 +49,24 @@ py::object object_of(const studies::Cell& cell, const char* format) {
   return std::visit(Convert{cell, format}, cell.value);
 }
 
-/// The columns that a CSV file has: (name, cells).
+/// As fathom.studies has it: of what type the array of a column is; "" where its cells tell.
+const char* name_of(studies::CellKind kind) {
+  switch (kind) {
+    case studies::CellKind::flag:
+      return "bool";
+    case studies::CellKind::count:
+      return "int64";
+    case studies::CellKind::number:
+      return "float64";
+    case studies::CellKind::text:
+      return "str";
+    case studies::CellKind::any:
+      break;
+  }
+  return "";
+}
+
+/// The columns that a CSV file has: (name, type, cells).
 py::list columns_of(const studies::Table& table) {
   py::list columns;
   for (std::size_t i = 0; i < table.columns().size(); ++i) {
@@ -57,13 +74,13 @@ py::list columns_of(const studies::Table& table) {
     if (column.key.empty()) continue;
     py::list cells;
     for (const auto& row : table.rows()) cells.append(object_of(row[i], column.csv_format));
-    columns.append(py::make_tuple(column.key, cells));
+    columns.append(py::make_tuple(column.key, name_of(column.kind), cells));
   }
   return columns;
 }
 
-/// The files of a study by their names, and the tables of those that have one. The scene is looked at through the camera that comes with
-/// it.
+/// The files of a study by their names, and the tables of those that have one. The scene is looked
+/// at through the camera that comes with it.
 py::tuple run_study(const std::string& name, const SharedScene* scene, const Camera* camera,
                     const std::array<std::optional<double>, 3>& depths,
                     std::optional<std::uint32_t> samples, bool plots) {

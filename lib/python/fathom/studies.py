@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 
+#: Studies that would not look at it. All others use it, or refuse it themselves.
+_without_separation = ("clipping", "depth-resolution", "indistinguishable")
+
+
 class Description(NamedTuple):
     """What a study is about, and whether it can be made of a scene."""
 
@@ -44,14 +48,16 @@ class Study:
     """The results of a study.
 
     name     as `fathom study --list` has it
-    tables   structured arrays by name, one element a row: counts are int64, other numbers float64 (NaN where a cell is
-             empty), answers bool, all else text. The CSV files of the same name hold their numbers with fewer digits
+    tables   structured arrays by name, one element a row: counts are int64, other numbers float64 (as are counts of
+             which some may be missing; NaN where a cell is empty), answers bool, all else text. Columns have these
+             types whatever the rows, none among them, so that np.concatenate() joins tables of several runs. The CSV
+             files of the same name hold their numbers with fewer digits
     summary  the figures of summary.json
     files    the contents of all files by name, index.html and pictures among them
     """
 
     def __init__(
-        self, name: str, files: dict[str, bytes], tables: dict[str, list[tuple[str, list[Any]]]]
+        self, name: str, files: dict[str, bytes], tables: dict[str, list[tuple[str, str, list[Any]]]]
     ) -> None:
         self.name = name
         self.files = files
@@ -112,6 +118,8 @@ def run(
         None if value is None else as_number(what, value)
         for what, value in (("near", near), ("far", far), ("separation", separation))
     )
+    if separation is not None and name in _without_separation:
+        raise UsageError(f"the study {name} has no separation")
     count = None if samples is None else as_count("samples", samples, 2, 2**32 - 1)
     handle = None if scene is None else scene_handle(scene)
     try:
@@ -121,20 +129,25 @@ def run(
         raise UsageError(re.sub(r"--(near|far|separation|samples|scene|camera)\b", r"\1", str(error))) from None
 
 
-def _table(columns: Sequence[tuple[str, Sequence[Any]]]) -> npt.NDArray[Any]:
-    arrays = [(name, _array(cells)) for name, cells in columns]
+def _table(columns: Sequence[tuple[str, str, Sequence[Any]]]) -> npt.NDArray[Any]:
+    arrays = [(name, _array(kind, cells)) for name, kind, cells in columns]
     table = np.empty(len(arrays[0][1]), [(name, array.dtype) for name, array in arrays])
     for name, array in arrays:
         table[name] = array
     return table
 
 
-def _array(cells: Sequence[Any]) -> npt.NDArray[Any]:
+def _array(kind: str, cells: Sequence[Any]) -> npt.NDArray[Any]:
+    if (kind or _kind_of(cells)) == "str":
+        return np.array([cell if isinstance(cell, str) else "" if cell != cell else str(cell) for cell in cells], str)
+    return np.array(cells, kind or _kind_of(cells))
+
+
+def _kind_of(cells: Sequence[Any]) -> str:
+    """The type of a column that does not say it."""
     kinds = {type(cell) for cell in cells}
     if kinds == {int}:
-        return np.array(cells, np.int64)
+        return "int64"
     if kinds == {bool}:
-        return np.array(cells, np.bool_)
-    if str in kinds:
-        return np.array([cell if isinstance(cell, str) else "" if cell != cell else str(cell) for cell in cells], str)
-    return np.array(cells, np.float64)
+        return "bool"
+    return "str" if str in kinds else "float64"
