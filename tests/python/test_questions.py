@@ -1,5 +1,6 @@
 """probe, visible, render_deep, verify: judged by fractions, by sums, and by each other."""
 
+import copy
 from fractions import Fraction
 
 import numpy as np
@@ -69,8 +70,10 @@ def test_deep_maps_are_written_as_the_program_writes_them(spot, camera, run_prog
 
 
 def test_deep_maps_that_do_not_fit_together_are_refused(spot, camera, tmp_path):
+    rendered = fathom.render_deep(spot, camera)
+
     def change(name, value):
-        deep = fathom.render_deep(spot, camera)
+        deep = copy.copy(rendered)
         setattr(deep, name, value(getattr(deep, name)))
         deep.write(tmp_path / "never.exr")
 
@@ -83,9 +86,31 @@ def test_deep_maps_that_do_not_fit_together_are_refused(spot, camera, tmp_path):
         change("offsets", lambda offsets: offsets[::-1].copy())
     with pytest.raises(ValueError, match="offsets: expected numbers that rise"):
         change("offsets", lambda offsets: offsets + np.uint64(1))
+    for name in ("Z", "ZBack", "area", "A"):
+        with pytest.raises(ValueError, match=f"{name}: fragment 7 has NaN"):
+            change(name, lambda column: np.where(np.arange(len(column)) == 7, np.float32(np.nan), column))
+    with pytest.raises(ValueError, match="ZBack: that of fragment 3 is nearer than its Z"):
+        change("ZBack", lambda column: np.where(np.arange(len(column)) == 3, np.float32(0), column))
+    with pytest.raises(ValueError, match="camera: its image has 44×60 pixels, the deep map 60×44 pixels"):
+        change("camera", lambda camera: camera.with_size(44, 60))
+    with pytest.raises(ValueError, match="never.npz: expected a name that ends in .exr"):
+        rendered.write(tmp_path / "never.npz")
     with pytest.raises(ValueError, match="zips, rle or none"):
-        fathom.render_deep(spot, camera).write(tmp_path / "never.exr", compression="piz")
-    assert not (tmp_path / "never.exr").exists()
+        rendered.write(tmp_path / "never.exr", compression="piz")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_deep_maps_are_written_nearest_first(spot, camera, tmp_path):
+    deep = fathom.render_deep(spot, camera)
+    steps = np.diff(deep.Z)
+    # From one pixel to the next, depths may fall.
+    assert (steps < 0).any()
+    starts = set(deep.offsets.tolist())
+    second = next(i + 1 for i in np.flatnonzero(steps > 0).tolist() if i + 1 not in starts)
+    for column in (deep.Z, deep.ZBack):
+        column[[second - 1, second]] = column[[second, second - 1]]
+    with pytest.raises(ValueError, match=f"Z: fragment {second} is nearer than the one before it in its pixel"):
+        deep.write(tmp_path / "never.exr")
 
 
 def test_cryptomatte_is_what_the_program_writes(spot, camera, run_program, tmp_path):

@@ -58,12 +58,22 @@ class DeepMap:
 
     def write(self, file: Path, *, compression: str = "zips", threads: int = 0) -> None:
         """Writes a deep EXR with channels A, Z, ZBack, area and id, as compositing programs read it. `compression` is
-        zips, rle or none."""
+        zips, rle or none.
+
+        Raises ValueError unless the name ends in .exr, and for arrays that have been changed into what such a file
+        cannot say: NaN, a pixel's fragments in another order than nearest first, ZBack nearer than Z.
+        """
+        if not os.fsdecode(file).lower().endswith(".exr"):
+            raise ValueError(f"{os.fsdecode(file)}: expected a name that ends in .exr")
+        drawn = self._description.width, self._description.height
+        if self.camera.size != drawn:
+            raise ValueError(f"camera: its image has {_in_pixels(self.camera.size)}, the deep map {_in_pixels(drawn)}")
         counts = self.counts
         if (counts < 0).any() or counts.sum() != len(self.Z) or int(self.offsets[0]) != 0:
             raise ValueError("offsets: expected numbers that rise from 0 to that of the fragments")
-        Z, ZBack, area, A = (self._column(name, np.float32) for name in ("Z", "ZBack", "area", "A"))
+        Z, ZBack, area, A = (self._numbers(name) for name in ("Z", "ZBack", "area", "A"))
         id = self._column("id", np.uint32)
+        self._expect_nearest_first(Z, ZBack)
         make_folder_of(file)
         _core.write_deep(self._description, Z, ZBack, area, A, id, np.ascontiguousarray(counts, np.uint32),
                          os.fspath(file), compression, as_count("threads", threads, 0, most_threads))
@@ -74,8 +84,31 @@ class DeepMap:
             raise ValueError(f"{name}: expected an array of {np.dtype(kind)}, a number for each fragment")
         return np.ascontiguousarray(column)
 
+    def _numbers(self, name: str) -> npt.NDArray[np.float32]:
+        column = self._column(name, np.float32)
+        not_numbers = np.isnan(column)
+        if not_numbers.any():
+            raise ValueError(f"{name}: fragment {int(np.argmax(not_numbers))} has NaN")
+        return column
+
+    def _expect_nearest_first(self, Z: npt.NDArray[np.float32], ZBack: npt.NDArray[np.float32]) -> None:
+        nearer = Z[1:] < Z[:-1]
+        # The first fragment of a pixel follows none.
+        first = self.offsets.astype(np.int64)
+        nearer[first[(first > 0) & (first < len(Z))] - 1] = False
+        if nearer.any():
+            raise ValueError(f"Z: fragment {int(np.argmax(nearer)) + 1} is nearer than the one before it in its pixel; "
+                             "expected the nearest first")
+        inverted = ZBack < Z
+        if inverted.any():
+            raise ValueError(f"ZBack: that of fragment {int(np.argmax(inverted))} is nearer than its Z")
+
     def __repr__(self) -> str:
         return f"DeepMap({self.camera.width}×{self.camera.height}, {len(self.Z)} fragments)"
+
+
+def _in_pixels(size: tuple[int, int]) -> str:
+    return f"{size[0]}×{size[1]} pixels"
 
 
 def render_deep(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: int = 0) -> DeepMap:
