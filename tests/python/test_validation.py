@@ -132,8 +132,71 @@ def test_mirrored(assert_depth):
     told = subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"], cwd=tmp_path,
                           capture_output=True, text=True).stdout
     assert "1 failed, 1 passed" in told and "AssertionError: mirrored: the image is mirrored" in told, told
-    assert (tmp_path / "fathom-reports/test_mirrored/report.txt").exists()
-    assert not (tmp_path / "fathom-reports/test_right").exists()
+    assert (tmp_path / "fathom-reports/test_mine/test_mirrored/report.txt").exists()
+    assert not (tmp_path / "fathom-reports/test_mine/test_right").exists()
+
+
+@pytest.mark.parametrize("report, words", [
+    ("/proc/zz", "no report in /proc/zz: No such file or directory"),
+    ("/dev/null/zz", "no report in /dev/null/zz: Not a directory"),
+    ("z" * 300, "no report in z+: File name too long"),
+    (b"x", "no report: expected the name of a folder, found b'x'"),
+    (5, "no report: expected the name of a folder, found 5"),
+])
+def test_no_report_hides_the_failure(spot, camera, depths, report, words):
+    with pytest.raises(AssertionError, match=rf"the vertical axis is flipped.*\({words}\)"):
+        assert_depth(depths[::-1].copy(), spot, camera, "float32-ray", report=report)
+
+
+def test_reports_of_lists_and_of_maps_that_cannot_be_written(spot, camera, depths, tmp_path):
+    upside_down = depths[::-1].copy()
+    with pytest.raises(AssertionError, match="flipped.*report in"):
+        assert_depth({"Z": upside_down.tolist()}, spot, camera, "float32-ray", report=tmp_path / "list")
+    assert np.array_equal(fathom.read_map(tmp_path / "list/map.exr")["Z"], upside_down)
+    (tmp_path / "full/map.exr").mkdir(parents=True)
+    with pytest.raises(AssertionError, match="flipped.*report in"):
+        assert_depth(upside_down, spot, camera, "float32-ray", report=tmp_path / "full")
+    assert "no map.exr: " in (tmp_path / "full/map.txt").read_text()
+    assert np.load(tmp_path / "full/classes.npy").shape == (60, 80)
+
+
+def test_every_failure_has_a_report_of_its_own(tmp_path):
+    (tmp_path / "conftest.py").write_text('pytest_plugins = ["fathom.testing"]\n')
+    (tmp_path / "pytest.ini").write_text("[pytest]\naddopts = --import-mode=importlib\n")
+    (tmp_path / "inner").mkdir()
+    for file in ("test_a.py", "inner/test_a.py"):
+        (tmp_path / file).write_text('''
+import fathom
+import pytest
+
+scene = fathom.Scene()
+scene.add_mesh([(-4, -4, 3), (4, -4, 5), (0, 4, 4)], [(0, 1, 2)])
+camera = fathom.Camera(64, 48, 40, 40, 32, 24, pixel_centre=0.5)
+mirrored = scene.render(camera)["Z"][:, ::-1].copy()
+
+class TestA:
+    def test_bad(self, assert_depth):
+        assert_depth(mirrored, scene, camera, model="float32-ray")
+
+class TestB:
+    def test_bad(self, assert_depth):
+        for _ in range(3):
+            with pytest.raises(AssertionError, match="mirrored"):
+                assert_depth(mirrored, scene, camera, model="float32-ray")
+
+@pytest.mark.parametrize("name", ["a b", "a-b", "a/b", "a::b", "..", "x" * 300])
+def test_bad(name, assert_depth):
+    assert_depth(mirrored, scene, camera, model="float32-ray")
+''')
+    told = subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"], cwd=tmp_path,
+                          capture_output=True, text=True).stdout
+    assert "14 failed, 2 passed" in told and "no report" not in told, told
+    reports = tmp_path / "fathom-reports"
+    kept = sorted(str(file.parent.relative_to(reports)) for file in reports.rglob("report.txt"))
+    assert len(kept) == 2 * (1 + 3 + 6), kept
+    for file in ("test_a", "inner/test_a"):
+        for folder in ("TestA/test_bad", "TestB/test_bad", "TestB/test_bad/2", "TestB/test_bad/3", "test_bad-a-b"):
+            assert f"{file}/{folder}" in kept, kept
 
 
 @pytest.mark.parametrize("change, error, words", [
@@ -142,6 +205,7 @@ def test_mirrored(assert_depth):
     ({"map": np.ones((3, 7), np.float32)}, ValueError, "map: has 7x3 pixels, the camera 80x60; expected the camera"),
     ({"map": np.zeros((60, 80), np.uint8)}, TypeError, "expected float32"),
     ({"channel": "Y"}, ValueError, "Y"),
+    ({"channel": None}, TypeError, "channel: expected a name, found None"),
     ({"scene": None}, TypeError, "scene: expected a Scene"),
     ({"camera": None}, TypeError, "camera: expected a Camera"),
 ])

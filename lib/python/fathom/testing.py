@@ -6,6 +6,8 @@ installed by pip have it without that.
 
 from __future__ import annotations
 
+import hashlib
+import os
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable
@@ -37,12 +39,13 @@ def assert_depth(
     """Fails with an AssertionError, which says what is wrong with a map in one line, unless every pixel of it is
     explained by the model and nothing is wrong with it on the whole. The arguments are those of fathom.validate().
 
-    report  a folder for report.txt, map.exr, camera.json and classes.npy, written where the map fails
+    report  a folder for report.txt, map.exr, camera.json and classes.npy, written where the map fails. Where they
+            cannot be written, the AssertionError says why
     """
     __tracebackhide__ = True
     found = validate(map, scene, camera, model, channel=channel)
     if not found.is_good:
-        kept = "" if report is None else f" (report in {keep_report(Path(report), map, camera, found)})"
+        kept = "" if report is None else f" ({_kept_or_why_not(report, map, camera, found)})"
         raise AssertionError(found.cause + kept)
     return found
 
@@ -54,13 +57,46 @@ def keep_report(folder: Path, map: Any, camera: Camera, found: Validation) -> Pa
     camera.write(folder / "camera.json")
     planes: dict[str, npt.NDArray[Any]] = {}
     for name, plane in as_map("map", map).items():
-        planes[name] = plane.astype(np.float32) if plane.dtype == np.float64 else plane
+        array = np.asarray(plane)
+        planes[name] = array.astype(np.float32) if array.dtype == np.float64 else array
     try:
         same_size = found.camera.size == camera.size
         Map(planes, camera if same_size else None).write(folder / "map.exr")
-    except OSError as error:
+    except Exception as error:  # the rest is worth having
         (folder / "map.txt").write_text(f"no map.exr: {error}\n", encoding="utf-8")
     return folder
+
+
+def _kept_or_why_not(folder: object, map: Any, camera: Camera, found: Validation) -> str:
+    """In words. No failure to keep a report hides what is wrong with the map."""
+    if not isinstance(folder, (str, os.PathLike)):
+        return f"no report: expected the name of a folder, found {folder!r}"
+    try:
+        return f"report in {keep_report(Path(folder), map, camera, found)}"
+    except Exception as error:
+        why = (error.strerror if isinstance(error, OSError) else None) or str(error)
+        return f"no report in {os.fspath(folder)}: {' '.join(why.split())}"
+
+
+#: Names of folders are cut to this: file systems have 255 bytes.
+_longest = 120
+
+
+def _folder_name(text: str) -> str:
+    """What can be part of a path. Where that is another text, a hash makes it another name than that of any other."""
+    name = re.sub(r"[^\w.-]+", "-", text).encode()[:_longest].decode(errors="ignore").strip(".-")
+    return name if name == text else f"{name}-{hashlib.sha256(text.encode()).hexdigest()[:12]}".lstrip("-")
+
+
+def _folder_of(node: str) -> Path:
+    """The folder of a test, of the id that pytest gives it: for tests/test_a.py::TestB::test_c[1] it is
+    tests/test_a/TestB/test_c-1."""
+    path, _, parameters = node.partition("[")
+    file, *names = path.split("::")
+    folders = [*re.sub(r"\.py$", "", file).split("/"), *names]
+    if parameters:
+        folders[-1] += f"-{parameters.removesuffix(']')}"
+    return Path(*(_folder_name(each) for each in folders if each))
 
 
 try:
@@ -76,13 +112,18 @@ else:
     @pytest.fixture(name="assert_depth")
     def assert_depth_fixture(request: pytest.FixtureRequest) -> Iterator[Callable[..., Validation]]:
         """fathom.testing.assert_depth(), which keeps a report for each map that fails, in a folder named after the
-        test."""
-        folder = Path(request.config.getoption("--fathom-reports"))
-        name = re.sub(r"[^\w.-]+", "-", request.node.name)
+        test: FILE/CLASS/TEST, and FILE/CLASS/TEST/2 for a second one of the same test."""
+        folder = Path(request.config.getoption("--fathom-reports")) / _folder_of(request.node.nodeid)
+        failures = 0
 
         def check(*arguments: Any, **options: Any) -> Validation:
             __tracebackhide__ = True
-            options.setdefault("report", folder / name)
-            return assert_depth(*arguments, **options)
+            nonlocal failures
+            options.setdefault("report", folder / str(failures + 1) if failures else folder)
+            try:
+                return assert_depth(*arguments, **options)
+            except AssertionError:
+                failures += 1
+                raise
 
         yield check

@@ -108,4 +108,6 @@ def validate(
     theirs = as_map("map", map)._handle()
     if not isinstance(model, str):
         raise TypeError(f"model: expected a name, found {model!r}")
+    if not isinstance(channel, str):
+        raise TypeError(f"channel: expected a name, found {channel!r}")
     return Validation(_core.validate(theirs, channel, *handles, model))
