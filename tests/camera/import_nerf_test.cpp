@@ -122,6 +122,11 @@ TEST(ImportNerf, WarnsOfGeometryAndRefusesDistortion) {
   EXPECT_THAT(fault(R"({"frames": []})"), HasSubstr("no frame"));
   EXPECT_THAT(fault(std::string(R"({"w": 6, "h": 4, "frames": [{)") + nerf_pose + "}]}"),
               HasSubstr("frames[0]: the focal length is missing"));
+  for (const char* angle : {"0", "-1", "3.2", "40"}) {
+    EXPECT_THAT(fault(std::string(R"({"w": 6, "h": 4, "camera_angle_x": )") + angle +
+                      R"(, "frames": [{)" + nerf_pose + "}]}"),
+                HasSubstr("camera_angle_x: expected an angle in radians between 0 and π"));
+  }
   EXPECT_THAT(fault(R"({"fl_x": 1, "w": 6, "h": 4, "frames": [{}]})"),
               HasSubstr("\"transform_matrix\" is missing"));
   EXPECT_THAT(

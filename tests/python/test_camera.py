@@ -193,7 +193,7 @@ def test_lenses_that_say_two_things_are_refused(spot, lens, words):
 @pytest.mark.parametrize("change, size, words", [
     ({"w": 9}, (8, 8), "frame a: its size is 9×8 by w and h, 8×8 by the argument size"),
     ({"frames": ["a", "b", "a"]}, None, "frame a: there are two frames with this file_path"),
-    ({"fl_x": None, "camera_angle_x": 3.2}, None, "frame a: the focal lengths are -.* expected positive ones"),
+    ({"fl_x": None, "camera_angle_x": 3.2}, None, "camera_angle_x: expected an angle in radians between 0 and π"),
 ])
 def test_what_a_transforms_json_must_not_say(tmp_path, change, size, words):
     pose = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 4], [0, 0, 0, 1]]
@@ -206,6 +206,8 @@ def test_what_a_transforms_json_must_not_say(tmp_path, change, size, words):
         return fathom.Camera.from_nerf(file, size)
 
     assert list(read((8, 8), ("a", "b"))) == ["a", "b"] and read(w=None, h=None, size=(4, 5))["a"].size == (4, 5)
+    with pytest.raises(fathom.InputError, match="frame a: the focal lengths are -100 and .* expected positive ones"):
+        read(fl_x=-100)
     assert read(fl_x=None, camera_angle_x=3.1)["a"].fx > 0
     with pytest.raises(fathom.InputError, match=f"transforms.json: {words}"):
         read(size, **change)

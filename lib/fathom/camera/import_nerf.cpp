@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/camera/pose.h"
@@ -52,13 +53,22 @@ std::uint32_t image_size(const Frame& frame, const char* key, std::uint32_t give
   return given;
 }
 
+/// The angle in radians that the image spans.
+std::optional<double> angle_of(const Frame& frame, const char* key) {
+  const auto angle = frame.number(key);
+  if (angle && !(*angle > 0 && *angle < std::numbers::pi))
+    frame.find(key)->fail("expected an angle in radians between 0 and π");
+  return angle;
+}
+
 /// ½·size / tan(angle/2) in extended precision, then rounded.
 double focal_of(std::uint32_t size, double angle) {
   return static_cast<double>(0.5L * size / std::tan(0.5L * static_cast<long double>(angle)));
 }
 
 void read_intrinsics(const Frame& frame, Camera& camera) {
-  const auto angle_x = frame.number("camera_angle_x"), angle_y = frame.number("camera_angle_y");
+  const auto angle_x = angle_of(frame, "camera_angle_x"),
+             angle_y = angle_of(frame, "camera_angle_y");
   const auto fl_x = frame.number("fl_x"), fl_y = frame.number("fl_y");
   if (!fl_x && !angle_x)
     frame.own.fail("the focal length is missing: expected fl_x or camera_angle_x");
