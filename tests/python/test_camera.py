@@ -3,6 +3,8 @@
 import copy
 import json
 import pickle
+import signal
+import time
 
 import numpy as np
 import pytest
@@ -224,3 +226,27 @@ def test_errors_of_camera_files_name_them(tmp_path):
     for place, words in ((tmp_path, "Is a directory"), ("/dev/full", "/dev/full: No space left on device")):
         with pytest.raises(fathom.OutputError, match=words):
             make().write(place)
+
+
+@pytest.mark.parametrize("make_orbit", [
+    lambda scene: fathom.Camera.orbit_scene(scene, 1_000_000),
+    lambda scene: fathom.Camera.orbit(1_000_000, distance=3),
+])
+def test_signals_end_an_orbit(spot, make_orbit):
+    """As Ctrl-C does. All of it would take many seconds; those of the processor are counted, whatever else it does."""
+    class Enough(Exception):
+        pass
+
+    def stop(*_):
+        raise Enough
+
+    before = signal.signal(signal.SIGVTALRM, stop)
+    try:
+        started = time.process_time()
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.2)
+        with pytest.raises(Enough):
+            make_orbit(spot)
+        assert time.process_time() - started < 2
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.signal(signal.SIGVTALRM, before)

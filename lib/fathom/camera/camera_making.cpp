@@ -165,12 +165,15 @@ Camera look_from(const View& view, const Vector3& centre, double distance, const
 }
 
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const Vector3& centre,
-                          double distance, const Lens& lens) {
+                          double distance, const Lens& lens,
+                          const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   expect_count(count);
   std::vector<Camera> path;
-  for (std::uint32_t i = 0; i < count; ++i)
+  for (std::uint32_t i = 0; i < count; ++i) {
     path.push_back(look_from(turned(first, i, count), centre, distance, lens));
+    if (progress) progress((i + 1.0) / count);
+  }
   return path;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -68,8 +69,10 @@ Camera look_from(const View& view, const Vector3& centre, double distance, const
 
 /// A camera path of `count` views around `centre`, the first at `first`, the others at azimuths
 /// 360°/count apart.
+/// progress, if given, hears after each camera which part is done; what it throws ends the call.
 /// Fails    UsageError as look_from(), and if count is 0 or above 1,000,000.
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const Vector3& centre,
-                          double distance, const Lens& lens = {});
+                          double distance, const Lens& lens = {},
+                          const std::function<void(double)>& progress = {});
 
 }  // namespace fathom

@@ -116,7 +116,7 @@ Camera place(const Box& box, const Matrix3& R, const Lens& lens, double distance
 }  // namespace
 
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBounds& bounds,
-                          const Lens& lens) {
+                          const Lens& lens, const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   expect_count(count);
   const Box box = box_of(bounds);
@@ -131,6 +131,7 @@ std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBou
     const Placement one = estimate_placement(box, rotations.back(), chosen);
     placement.distance = std::max(placement.distance, one.distance);
     placement.vertical_extent = std::max(placement.vertical_extent, one.vertical_extent);
+    if (progress) progress((i + 1.0) / count / 4);  // about a quarter of the work
   }
   const bool all_must_be_seen = lens.projection == Projection::perspective || extent_is_free;
   // Rounding of the pose can move a small scene that is far from the origin out of the picture;
@@ -144,6 +145,7 @@ std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBou
       if (find_fault(camera)) break;
       if (all_must_be_seen ? !sees_corners(camera, box) : !in_front(camera, box)) break;
       path.push_back(camera);
+      if (progress) progress(0.25 + 0.75 * static_cast<double>(path.size()) / count);
     }
     if (path.size() == count) return path;
   }
@@ -155,14 +157,14 @@ Camera frame(const WorldBounds& bounds, const View& view, const Lens& lens) {
 }
 
 std::vector<Camera> orbit_scene(const View& first, std::uint32_t count, const Scene& scene,
-                                const Lens& lens) {
+                                const Lens& lens, const std::function<void(double)>& progress) {
   const auto bounds = world_bounds(scene);
   if (!bounds) throw InputError("the scene has no triangle that a camera could frame");
   if (!are_finite(*bounds))
     throw InputError(name_of_farthest_object(scene) +
                      ": reaches beyond the largest binary64 number, where no camera frames it");
   try {
-    return orbit(first, count, *bounds, lens);
+    return orbit(first, count, *bounds, lens, progress);
   } catch (const InputError& error) {
     throw InputError(name_of_farthest_object(scene) + ": " + error.what());
   }

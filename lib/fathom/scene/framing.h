@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "fathom/camera/camera_making.h"
@@ -20,10 +21,11 @@ namespace fathom {
 Camera frame(const WorldBounds& bounds, const View& view = {}, const Lens& lens = {});
 
 /// A camera path around `bounds`: each camera looks at their middle, from the same distance, chosen
-/// so that every camera sees all of them.
+/// so that every camera sees all of them. progress, if given, hears now and then which part is
+/// done; what it throws ends the call.
 /// Fails    UsageError as frame(), and if count is 0 or above 1,000,000; InputError as frame().
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBounds& bounds,
-                          const Lens& lens = {});
+                          const Lens& lens = {}, const std::function<void(double)>& progress = {});
 
 /// The camera that frames a scene: frame() on its world_bounds().
 /// Fails    UsageError as frame(); InputError also if the scene has a fault (find_fault), no
@@ -34,6 +36,7 @@ Camera frame_scene(const Scene& scene, const View& view = {}, const Lens& lens =
 /// The camera path around a scene: orbit() around its world_bounds().
 /// Fails    UsageError as orbit(); InputError as frame_scene().
 std::vector<Camera> orbit_scene(const View& first, std::uint32_t count, const Scene& scene,
-                                const Lens& lens = {});
+                                const Lens& lens = {},
+                                const std::function<void(double)>& progress = {});
 
 }  // namespace fathom

@@ -71,9 +71,12 @@ void bind_making(py::module_& core) {
   py::class_<Lens>(core, "Lens").def(py::init(&make_lens));
   py::class_<View>(core, "View").def(py::init(&make_view));
   core.def("look_at", &look_at);
-  core.def(
-      "orbit",
-      py::overload_cast<const View&, std::uint32_t, const Vector3&, double, const Lens&>(&orbit));
+  core.def("orbit", [](const View& first, std::uint32_t count, const Vector3& centre,
+                       double distance, const Lens& lens) {
+    return run([&](const auto& progress) {
+      return orbit(first, count, centre, distance, lens, progress);
+    });
+  });
   core.def("frame_scene", [](const SharedScene& shared, const View& view, const Lens& lens) {
     const std::shared_ptr<const Scene> scene = shared.scene;
     return run([&](const auto&) { return frame_scene(*scene, view, lens); });
@@ -81,7 +84,9 @@ void bind_making(py::module_& core) {
   core.def("orbit_scene",
            [](const SharedScene& shared, const View& first, std::uint32_t count, const Lens& lens) {
              const std::shared_ptr<const Scene> scene = shared.scene;
-             return run([&](const auto&) { return orbit_scene(first, count, *scene, lens); });
+             return run([&](const auto& progress) {
+               return orbit_scene(first, count, *scene, lens, progress);
+             });
            });
 }
 
