@@ -19,13 +19,13 @@ def spot():
 
 @pytest.fixture(scope="session")
 def run_program():
-    """Runs the program; a failure is a failure of the test."""
+    """Runs the program, and returns what it prints; a failure is a failure of the test."""
 
     def run(*arguments):
         # It has a sanitizer of its own, if this process was given one.
         environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
-        subprocess.run([os.environ["FATHOM_PROGRAM"], *map(str, arguments)], check=True, capture_output=True,
-                       env=environment)
+        return subprocess.run([os.environ["FATHOM_PROGRAM"], *map(str, arguments)], check=True, capture_output=True,
+                              env=environment, text=True).stdout
 
     return run
 

@@ -3,7 +3,6 @@
 import json
 import os
 import pathlib
-import subprocess
 
 import numpy as np
 import pytest
@@ -122,19 +121,19 @@ def test_channels_hold_what_the_obj_says_of_the_face_of_every_pixel(tmp_path):
         assert None in seen and len(seen) > 30
 
 
-def test_the_program_names_them_too(tmp_path):
-    file, program = tmp_path / "teapot.obj", os.environ["FATHOM_PROGRAM"]
+def test_the_program_names_them_too(run_program, tmp_path):
+    file = tmp_path / "teapot.obj"
     obj_with_names(file)
     map_file = tmp_path / "map.exr"
-    subprocess.run([program, "render", file, "--size", "160x120", "--channels", "Z,face,material,part", "-o", map_file], check=True)
+    run_program("render", file, "--size", "160x120", "--channels", "Z,face,material,part", "-o", map_file)
     maps = fathom.read_map(map_file)
     truth = names_of_faces(file.read_text())
-    told = json.loads(subprocess.run([program, "info", map_file, "--json"], check=True, capture_output=True).stdout)
+    told = json.loads(run_program("info", map_file, "--json"))
     assert told["materials"] == list(maps.tables["material"].values()) and told["parts"] == list(maps.tables["part"].values())
     row, column = (int(i) for i in np.argwhere(maps["material"] < 100)[0])
-    asked = [program, "probe", file, "--size", "160x120", "--pixel", f"{column},{row}"]
-    visible = json.loads(subprocess.run([*asked, "--json"], check=True, capture_output=True).stdout)["triangles"][0]
+    asked = ["probe", file, "--size", "160x120", "--pixel", f"{column},{row}"]
+    visible = json.loads(run_program(*asked, "--json"))["triangles"][0]
     assert visible["face"] == maps["face"][row, column]
     assert visible["material"] == truth[visible["face"]]["usemtl"] == maps.tables["material"][maps["material"][row, column]]
-    text = subprocess.run(asked, check=True, capture_output=True, text=True).stdout
+    text = run_program(*asked)
     assert f"  material {visible['material']}" in text and visible["label"] is None
