@@ -27,11 +27,11 @@ namespace fs = std::filesystem;
 using testing::Both;
 using testing::CaseMaker;
 using testing::effort;
-using testing::streamed_channels;
 using testing::expect_same_map;
 using testing::Kind;
 using testing::ply_of;
 using testing::stl_of;
+using testing::streamed_channels;
 
 const fs::path data = test::source_dir() / "data";
 
