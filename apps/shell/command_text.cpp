@@ -78,6 +78,16 @@ std::string CommandText::name() const {
   return fmt::format("{}", fmt::join(path, " "));
 }
 
+std::vector<std::string> CommandText::headings() const {
+  std::vector<std::string> headings;
+  const auto note = [&](const std::string& heading) {
+    if (std::ranges::count(headings, heading) == 0) headings.push_back(heading);
+  };
+  for (const OptionText& option : options) note(option.heading);
+  for (const Below& below : commands) note(below.heading);
+  return headings;
+}
+
 std::string CommandText::synopsis() const {
   std::string line = name() + " [OPTIONS]";
   for (const OptionText& option : options) {

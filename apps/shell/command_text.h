@@ -39,6 +39,8 @@ struct CommandText {
   std::string examples;  ///< lines that are kept as they are
   std::string notes;     ///< paragraphs, with empty lines between them
 
+  /// What options and commands stand below, in the order in which each occurs first.
+  [[nodiscard]] std::vector<std::string> headings() const;
   /// "fathom camera orbit"
   [[nodiscard]] std::string name() const;
   /// "fathom camera orbit [OPTIONS] [SCENE...]"

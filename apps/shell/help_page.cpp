@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <vector>
+#include <string>
 
 #include "apps/shell/wrapped.h"
 
@@ -35,55 +35,31 @@ std::string shown_name(const OptionText& option) {
   return option.takes_several ? text + "..." : text;
 }
 
-/// Entries below headings, each heading where it first occurs.
-class Sections {
- public:
-  void add(const std::string& heading, const std::string& entry) {
-    auto section = std::ranges::find(sections_, heading, &Section::heading);
-    if (section == sections_.end()) section = sections_.insert(section, {heading, ""});
-    section->entries += entry;
-  }
+std::string section(const CommandText& command, const std::string& heading, std::size_t width) {
+  std::string text = "\n" + heading + ":\n";
+  for (const OptionText& option : command.options)
+    if (option.heading == heading) text += entry(shown_name(option), meaning_of(option), width);
+  for (const CommandText::Below& below : command.commands)
+    if (below.heading == heading) text += entry(below.name, below.summary, width);
+  return text;
+}
 
-  [[nodiscard]] std::string text() const {
-    std::string text;
-    for (const auto& [heading, entries] : sections_) text += "\n" + heading + ":\n" + entries;
-    return text;
-  }
-
- private:
-  struct Section {
-    std::string heading, entries;
-  };
-  std::vector<Section> sections_;
-};
-
-std::string paragraphs(const std::string& notes, std::size_t width) {
+std::string lines_of(const std::string& paragraph, std::size_t width) {
   std::string text;
-  std::size_t begin = 0;
-  while (begin < notes.size()) {
-    const std::size_t end = std::min(notes.find("\n\n", begin), notes.size());
-    text += "\n";
-    for (const std::string& line : wrapped(notes.substr(begin, end - begin), width))
-      text += line + "\n";
-    begin = end + 2;
-  }
+  for (const std::string& line : wrapped(paragraph, width)) text += line + "\n";
   return text;
 }
 
 }  // namespace
 
 std::string help_page(const CommandText& command, std::size_t width) {
-  std::string text;
-  for (const std::string& line : wrapped(command.summary, width)) text += line + "\n";
+  std::string text = lines_of(command.summary, width);
   text += "Usage: " + command.synopsis() + "\n";
-  Sections sections;
-  for (const OptionText& option : command.options)
-    sections.add(option.heading, entry(shown_name(option), meaning_of(option), width));
-  for (const CommandText::Below& below : command.commands)
-    sections.add(below.heading, entry(below.name, below.summary, width));
-  text += sections.text();
+  for (const std::string& heading : command.headings()) text += section(command, heading, width);
   if (!command.examples.empty()) text += "\nExamples:\n" + command.examples + "\n";
-  return text + paragraphs(command.notes, width);
+  for (const std::string& paragraph : paragraphs_of(command.notes))
+    text += "\n" + lines_of(paragraph, width);
+  return text;
 }
 
 std::size_t help_width() {

@@ -98,14 +98,8 @@ std::string tag_of(const OptionText& option) {
 
 /// Entries below the headings of the help, each of which is a section.
 std::string roff_sections(const CommandText& command) {
-  std::vector<std::string> headings;
-  const auto note = [&](const std::string& heading) {
-    if (std::ranges::count(headings, heading) == 0) headings.push_back(heading);
-  };
-  for (const OptionText& option : command.options) note(option.heading);
-  for (const CommandText::Below& below : command.commands) note(below.heading);
   std::string text;
-  for (const std::string& heading : headings) {
+  for (const std::string& heading : command.headings()) {
     text += roff_section(heading);
     for (const OptionText& option : command.options) {
       if (option.heading == heading) text += roff_entry(tag_of(option), meaning_of(option));
@@ -120,13 +114,8 @@ std::string roff_sections(const CommandText& command) {
 /// Paragraphs: an empty line becomes .PP.
 std::string roff_paragraphs(const std::string& notes) {
   std::string text;
-  std::size_t begin = 0;
-  while (begin < notes.size()) {
-    const std::size_t end = std::min(notes.find("\n\n", begin), notes.size());
-    if (begin > 0) text += ".PP\n";
-    text += roff_lines(notes.substr(begin, end - begin));
-    begin = end + 2;
-  }
+  for (const std::string& paragraph : paragraphs_of(notes))
+    text += (text.empty() ? "" : ".PP\n") + roff_lines(paragraph);
   return text;
 }
 

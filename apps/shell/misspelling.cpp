@@ -27,6 +27,12 @@ std::string without_value(const std::string& argument) {
   return argument.substr(0, argument.find('='));
 }
 
+/// What a message says behind a name that there is not: the names that may be meant.
+std::string behind_name(const std::vector<std::string>& near) {
+  const std::string text = did_you_mean(near);
+  return text.empty() ? text : ": " + text;
+}
+
 /// Suggestions are looked for without the dashes, of which every option has as many.
 std::string suggested_option(const std::string& name, const CLI::App& command) {
   const std::size_t dashes = name.starts_with("--") ? 2 : 1;
@@ -34,10 +40,9 @@ std::string suggested_option(const std::string& name, const CLI::App& command) {
   for (const std::string& each : option_names(command)) {
     if ((each.starts_with("--") ? 2U : 1U) == dashes) bare.push_back(each.substr(dashes));
   }
-  std::string text;
-  for (const std::string& each : nearest_names(name.substr(dashes), bare))
-    text += (text.empty() ? ": did you mean '" : " or '") + name.substr(0, dashes) + each + "'";
-  return text.empty() ? text : text + "?";
+  std::vector<std::string> near = nearest_names(name.substr(dashes), bare);
+  for (std::string& each : near) each.insert(0, name, 0, dashes);
+  return behind_name(near);
 }
 
 std::string unexpected_of(const CLI::App& command) {
@@ -64,12 +69,8 @@ std::vector<std::string> commands_below(const CLI::App& command) {
 }
 
 std::string unknown_command(const std::string& name, const std::vector<std::string>& existing) {
-  std::string near;
-  for (const std::string& each : nearest_names(name, existing))
-    near += (near.empty() ? ": did you mean '" : " or '") + each + "'";
-  if (!near.empty()) near += "?";
-  return fmt::format("there is no command '{}'{}; the commands are {}", name, near,
-                     joined(existing));
+  return fmt::format("there is no command '{}'{}; the commands are {}", name,
+                     behind_name(nearest_names(name, existing)), joined(existing));
 }
 
 std::string unexpected_argument(const CLI::App& program) {
@@ -89,7 +90,7 @@ std::string missing_dash(const CLI::App& program, const std::vector<std::string>
     const std::string name = without_value(argument);
     if (name.size() < 3 || !name.starts_with('-') || name.starts_with("--")) continue;
     if (std::ranges::count(names, "-" + name) > 0)
-      return fmt::format("there is no option '{}': did you mean '-{}'?", name, name);
+      return fmt::format("there is no option '{}'{}", name, behind_name({"-" + name}));
   }
   return "";
 }

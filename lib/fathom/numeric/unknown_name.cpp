@@ -62,11 +62,16 @@ std::vector<std::string> nearest_names(std::string_view name,
   return nearest;
 }
 
-std::string suggestion(std::string_view name, const std::vector<std::string>& names) {
+std::string did_you_mean(const std::vector<std::string>& names) {
   std::string text;
-  for (const std::string& each : nearest_names(name, names))
-    text += (text.empty() ? "; did you mean '" : " or '") + each + "'";
+  for (const std::string& name : names)
+    text += (text.empty() ? "did you mean '" : " or '") + name + "'";
   return text.empty() ? text : text + "?";
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string>& names) {
+  const std::string text = did_you_mean(nearest_names(name, names));
+  return text.empty() ? text : "; " + text;
 }
 
 UnknownName::UnknownName(const std::string& message, std::string name,

@@ -15,7 +15,10 @@ namespace fathom {
 std::vector<std::string> nearest_names(std::string_view name,
                                        const std::vector<std::string>& names);
 
-/// "; did you mean 'near'?", "; did you mean 'near' or 'bear'?", or "" where no name is near.
+/// "did you mean 'near'?", "did you mean 'near' or 'bear'?", or "" for no names.
+std::string did_you_mean(const std::vector<std::string>& names);
+
+/// "; did you mean 'near'?", of the nearest names, or "" where no name is near.
 std::string suggestion(std::string_view name, const std::vector<std::string>& names);
 
 /// A name that is none of those that exist. It carries them, so that a program can offer them.
