@@ -20,9 +20,6 @@ namespace py = pybind11;
 namespace fathom::python {
 namespace {
 
-/// A deep map without its samples, which are arrays of Python's.
-using DeepDescription = DepthMap;
-
 /// Samples by column, where those of each pixel begin, and the rest of the map.
 py::tuple deep(const SharedScene& shared, const Camera& camera, const std::string& cull,
                int threads) {
@@ -55,7 +52,7 @@ py::tuple deep(const SharedScene& shared, const Camera& camera, const std::strin
 }
 
 /// Python has made sure that the arrays fit each other.
-DeepMap deep_map_of(const DeepDescription& description, const ContiguousArray<float>& front,
+DeepMap deep_map_of(const DepthMap& description, const ContiguousArray<float>& front,
                     const ContiguousArray<float>& back, const ContiguousArray<float>& area,
                     const ContiguousArray<float>& alpha, const ContiguousArray<std::uint32_t>& id,
                     const ContiguousArray<std::uint32_t>& counts) {

@@ -81,6 +81,21 @@ def as_number(name: str, value: Any) -> float:
     raise TypeError(f"{name}: expected a number, found {value!r}")
 
 
+#: What cull may be.
+culls = ("none", "back", "front")
+
+most_threads = 1024
+
+
+def as_threads(value: Any) -> int:
+    return as_count("threads", value, 0, most_threads)
+
+
+def in_pixels(size: Sequence[int]) -> str:
+    width, height = size
+    return f"{width}×{height}"
+
+
 def as_count(name: str, value: Any, least: int, most: int) -> int:
     try:
         count = operator.index(value)

@@ -10,7 +10,18 @@ from typing import TYPE_CHECKING, Any, Literal, Union, cast
 import numpy as np
 
 from . import _core
-from ._arguments import as_array, as_count, as_number, camera_handle, in_words, one_of, require_one_matrix, scene_handle
+from ._arguments import (
+    as_array,
+    as_number,
+    as_threads,
+    camera_handle,
+    culls,
+    in_pixels,
+    in_words,
+    one_of,
+    require_one_matrix,
+    scene_handle,
+)
 from .camera import Camera, ViewWarning
 from .maps import Map, rendered
 
@@ -20,13 +31,9 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 Cull = Literal["none", "back", "front"]
-culls = ("none", "back", "front")
 Background = Union[float, Literal["inf", "nan"]]
 Normals = Literal["file", "vertex", "place"]
 normal_sources = ("file", "vertex", "place")
-
-most_threads = 1024
-
 
 def render_cameras(
     scene: Scene,
@@ -49,7 +56,7 @@ def render_cameras(
         stored,
         as_number("scale", scale),
         one_of("engine", engine, ("fast", "reference")),
-        as_count("threads", threads, 0, most_threads),
+        as_threads(threads),
         one_of("normals", normals, normal_sources),
     )
     nothing = background_value(background, stored)
@@ -143,13 +150,9 @@ def list_of_cameras(cameras: Sequence[Camera]) -> list[Camera]:
         if each.size != listed[0].size:
             raise ValueError(
                 "camera: a stack of maps needs cameras of one size, found "
-                f"{in_pixels(listed[0])} and {in_pixels(each)}"
+                f"{in_pixels(listed[0].size)} and {in_pixels(each.size)}"
             )
     return listed
-
-
-def in_pixels(camera: Camera) -> str:
-    return f"{camera.width}×{camera.height}"
 
 
 def channel_names(channels: Sequence[str]) -> list[str]:
@@ -191,14 +194,14 @@ def require_room(cameras: list[Camera], names: list[str], stored: str) -> None:
     """Raises MemoryError rather than have the system end the process."""
     pixels = float(cameras[0].width) * cameras[0].height
     if pixels > 2.0**44:
-        raise ValueError(f"size: an image of {in_pixels(cameras[0])} has more than 2^44 pixels")
+        raise ValueError(f"size: an image of {in_pixels(cameras[0].size)} has more than 2^44 pixels")
     bytes_of_pixel = sum(
         np.dtype(own or stored).itemsize * max(1, len(parts)) for parts, own in (rendered[name] for name in names)
     )
     needed = pixels * len(cameras) * bytes_of_pixel
     if needed > 2.0**28:  # to ask what there is takes longer than a small map
         maps = "" if len(cameras) == 1 else f"{len(cameras)} maps of "
-        _core.require_bytes(f"{maps}{in_pixels(cameras[0])} pixels", needed)
+        _core.require_bytes(f"{maps}{in_pixels(cameras[0].size)} pixels", needed)
 
 
 def render(

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
-from ._arguments import as_count, camera_handle, one_of, scene_handle
+from ._arguments import as_count, as_threads, camera_handle, culls, in_pixels, one_of, scene_handle
 from ._files import Path, make_folder_of
-from ._render import Cull, culls, most_threads
+from ._render import Cull
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -67,7 +67,8 @@ class DeepMap:
             raise ValueError(f"{os.fsdecode(file)}: expected a name that ends in .exr")
         drawn = self._description.width, self._description.height
         if self.camera.size != drawn:
-            raise ValueError(f"camera: its image has {_in_pixels(self.camera.size)}, the deep map {_in_pixels(drawn)}")
+            sizes = f"{in_pixels(self.camera.size)} pixels, the deep map {in_pixels(drawn)} pixels"
+            raise ValueError(f"camera: its image has {sizes}")
         counts = self.counts
         if (counts < 0).any() or counts.sum() != len(self.Z) or int(self.offsets[0]) != 0:
             raise ValueError("offsets: expected numbers that rise from 0 to that of the fragments")
@@ -76,7 +77,7 @@ class DeepMap:
         self._expect_nearest_first(Z, ZBack)
         make_folder_of(file)
         _core.write_deep(self._description, Z, ZBack, area, A, id, np.ascontiguousarray(counts, np.uint32),
-                         os.fspath(file), compression, as_count("threads", threads, 0, most_threads))
+                         os.fspath(file), compression, as_threads(threads))
 
     def _column(self, name: str, kind: type[np.generic]) -> npt.NDArray[Any]:
         column = getattr(self, name)
@@ -107,10 +108,6 @@ class DeepMap:
         return f"DeepMap({self.camera.width}×{self.camera.height}, {len(self.Z)} fragments)"
 
 
-def _in_pixels(size: tuple[int, int]) -> str:
-    return f"{size[0]}×{size[1]} pixels"
-
-
 def render_deep(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: int = 0) -> DeepMap:
     """The visible fragments of every pixel, with their exact areas, each rounded once to float32.
 
@@ -123,5 +120,5 @@ def render_deep(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: i
     ([[1, 1], [1, 0]], [1.0, 0.5, 0.5])
     """
     arrays, description = _core.deep(scene_handle(scene), camera_handle(camera), one_of("cull", cull, culls),
-                                     as_count("threads", threads, 0, most_threads))
+                                     as_threads(threads))
     return DeepMap(arrays, camera, description)

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core
 from ._core import OutputError
-from ._arguments import as_array, as_count, as_number, as_text, camera_handle, one_of, scene_handle
+from ._arguments import as_array, as_count, as_number, as_text, as_threads, camera_handle, culls, one_of, scene_handle
 from ._files import Path, make_folder_of
 from .camera import Camera, cameras_from_json
 
@@ -123,7 +123,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         _core.require_map_name(os.fspath(file))
         make_folder_of(file)
         _core.write_map(handle, os.fspath(file), asked, compressed,
-                        as_count("threads", threads, 0, 1024), others)
+                        as_threads(threads), others)
 
     @property
     def cameras(self) -> list[Camera]:
@@ -284,8 +284,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         if self._views is not None:
             raise ValueError("map: it is a stack: add Cryptomatte's channels to maps by view(i)")
         view = self._camera(camera)
-        matte = _core.cryptomatte(scene_handle(scene), camera_handle(view), one_of("cull", cull, ("none", "back", "front")),
-                                  as_count("threads", threads, 0, 1024))
+        matte = _core.cryptomatte(scene_handle(scene), camera_handle(view), one_of("cull", cull, culls),
+                                  as_threads(threads))
         self.update(matte.take_channels())
         self._description.texts = {**self._description.texts, **matte.texts}
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from . import _core
-from ._arguments import as_count, camera_handle, one_of, scene_handle
-from ._render import Cull, culls, most_threads, stored_type
+from ._arguments import as_count, as_threads, camera_handle, culls, one_of, scene_handle
+from ._render import Cull, stored_type
 from .maps import Map, rendered
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ class VisibleAreas(NamedTuple):
 def visible(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: int = 0) -> VisibleAreas:
     """The exact visible area of every triangle and every object, in pixels of the image, whatever its size."""
     triangles, objects = _core.visible(scene_handle(scene), camera_handle(camera), one_of("cull", cull, culls),
-                                       as_count("threads", threads, 0, most_threads))
+                                       as_threads(threads))
     return VisibleAreas(Areas(*triangles), Areas(*objects))
 
 
@@ -119,7 +119,7 @@ def verify(map: Map, scene: Scene, camera: Camera | None = None, *, pixels: int 
     depths = next((map[name] for name in ("Z", "distance") if name in map), None)
     stored = "float32" if depths is None else stored_type(depths.dtype)
     options = _core.RenderOptions(channels, one_of("cull", cull, culls), stored, map.scale or 1000, "fast",
-                                  as_count("threads", threads, 0, most_threads),
+                                  as_threads(threads),
                                   map.metadata.get("fathom.normals", "file"))
     verified, differing, first = _core.verify(map._handle(), scene_handle(scene), camera_handle(view), options,
                                               as_count("pixels", pixels, 1, 2**63))

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
-from ._arguments import as_count, as_text, check_elements, faces_of, labels_of, names_of, pose_of, vertices_of
+from ._arguments import as_count, as_text, as_threads, check_elements, faces_of, labels_of, names_of, pose_of, vertices_of
 from ._files import Path
 from ._render import Background, Cull, Normals, render_cameras
 
@@ -69,7 +69,7 @@ class Scene:
 
         paths = [os.fspath(file) for file in files]
         formats = shutil.which("fathom-formats") or ""
-        scene._handle, notes = _core.read_scene(paths, formats, as_count("threads", threads, 0, 1024))
+        scene._handle, notes = _core.read_scene(paths, formats, as_threads(threads))
         for note in notes:
             warnings.warn(note, stacklevel=2)
         return scene

@@ -110,9 +110,9 @@ def run(
         raise TypeError(f"name: expected the name of a study, found {name!r}")
     if scene is None and camera is not None:
         raise ValueError("camera: it belongs to a scene: give one")
-    view = None
+    handle = view = None
     if scene is not None:
-        scene_handle(scene)
+        handle = scene_handle(scene)
         view = camera_handle(camera if camera is not None else Camera.frame(scene, size=(640, 360)))
     depths = tuple(
         None if value is None else as_number(what, value)
@@ -121,7 +121,6 @@ def run(
     if separation is not None and name in _without_separation:
         raise UsageError(f"the study {name} has no separation")
     count = None if samples is None else as_count("samples", samples, 2, 2**32 - 1)
-    handle = None if scene is None else scene_handle(scene)
     try:
         return Study(name, *_studies.run_study(name, handle, view, depths, count, bool(plots)))
     except UsageError as error:
