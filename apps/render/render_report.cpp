@@ -24,6 +24,7 @@ Json to_json(const RenderStatistics& statistics) {
           {"exact_setups", statistics.exact_setups},
           {"same_plane", statistics.same_plane},
           {"double_words", statistics.double_words},
+          {"samples_in_binary64", statistics.samples_in_binary64},
           {"grid_setups", statistics.grid_setups},
           {"decisions",
            {{"facing", to_json(statistics.facing)},

@@ -20,6 +20,15 @@ using namespace triangle;
 using testing::CaseMaker;
 using testing::Kind;
 
+std::vector<std::uint64_t> in_one_tile(const BoxBatch& boxes) {
+  std::vector<std::uint64_t> entries;
+  for (const BoxBatch::Entries& side : boxes.in_one_tile) {
+    const auto some = side.all();
+    entries.insert(entries.end(), some.begin(), some.end());
+  }
+  return entries;
+}
+
 struct Tally {
   int settled = 0, unsettled = 0, degenerate = 0, culled = 0, covered = 0;
 };
@@ -43,9 +52,9 @@ void check(const testing::Case& c, Cull cull, Tally& tally) {
   // An image of 6 × 5 pixels is one tile.
   EXPECT_EQ(boxes->in_more_tiles, 0U);
   std::set<std::uint32_t> visible;
-  for (std::size_t i = 0; i < boxes->in_one_tile; ++i) {
-    EXPECT_EQ(boxes->entries[i] >> 32, 0U);
-    visible.insert(static_cast<std::uint32_t>(boxes->entries[i]));
+  for (const std::uint64_t entry : in_one_tile(*boxes)) {
+    EXPECT_EQ(entry >> 32, 0U);
+    visible.insert(static_cast<std::uint32_t>(entry));
   }
   tally.unsettled += static_cast<int>(boxes->unsettled);
   tally.settled += static_cast<int>(count - boxes->unsettled);
@@ -144,7 +153,7 @@ TEST(Boxes, AFullBatchOnPaper) {
                 *boxes);
   EXPECT_EQ(boxes->unsettled, 0U);
   EXPECT_EQ(boxes->in_more_tiles, BoxBatch::most / 8);
-  EXPECT_EQ(boxes->in_one_tile, BoxBatch::most * 7 / 8);
+  EXPECT_EQ(in_one_tile(*boxes).size(), BoxBatch::most * 7 / 8);
   for (std::size_t k = 0; k < boxes->in_more_tiles; ++k) {
     const std::uint32_t i = boxes->number[k];
     EXPECT_EQ(i % 8, 7U);
@@ -157,8 +166,8 @@ TEST(Boxes, AFullBatchOnPaper) {
     EXPECT_LE(boxes->box[k].last_row, y + 9);
   }
   std::map<std::uint32_t, std::uint64_t> tile_of;
-  for (std::size_t k = 0; k < boxes->in_one_tile; ++k) {
-    tile_of[static_cast<std::uint32_t>(boxes->entries[k])] = boxes->entries[k] >> 32;
+  for (const std::uint64_t entry : in_one_tile(*boxes)) {
+    tile_of[static_cast<std::uint32_t>(entry)] = entry >> 32;
   }
   for (const auto& [i, tile] : tile_of) {
     EXPECT_EQ(tile, static_cast<std::uint64_t>(points[std::size_t{3} * i].x) / 64) << i;

@@ -58,7 +58,9 @@ TEST(FastFrame, SortingInPartsIsSortingAtOnce) {
     std::vector<std::multiset<std::uint32_t>> tiles(frame.grid.count());
     for (const Bins& b : bins) {
       for (std::uint32_t tile = 0; tile < frame.grid.count(); ++tile) {
-        for (const std::uint32_t number : b.in_tile(tile)) tiles[tile].insert(number);
+        for (const Side side : {Side::front, Side::back}) {
+          for (const std::uint32_t number : b.in_tile(tile, side)) tiles[tile].insert(number);
+        }
       }
     }
     const RenderStatistics statistics = sum_of(workers, 2500);

@@ -86,10 +86,11 @@ int expect_nearest(TileScene& x, const PixelBox& area) {
   for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
     for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
       const std::size_t at = Tile::index(column - area.first_column, row - area.first_row);
-      const auto number = static_cast<std::uint32_t>(tile.tags()[at]);
+      const std::uint32_t number = tile.surface_at(at).number();
       EXPECT_EQ(number, visible_at(x.projected, x.camera, centre_of_pixel(column, row)))
           << column << ' ' << row;
       EXPECT_EQ(tile.q()[at] == -infinity, number == no_surface);
+      EXPECT_EQ(tile.shows_surface(at), number != no_surface);
       seen += number != no_surface;
     }
   }
@@ -133,12 +134,12 @@ TEST(Tile, StartEmptiesIt) {
   Tile tile;
   tile.start({0, 63, 0, 63});
   tile.draw(x.objects[0], x.drawn, x.context());
-  EXPECT_EQ(static_cast<std::uint32_t>(tile.tags()[Tile::index(32, 32)]), 0U);
+  EXPECT_EQ(tile.surface_at(Tile::index(32, 32)).number(), 0U);
   EXPECT_EQ(tile.q()[Tile::index(32, 32)], 1);
   tile.start({0, 63, 0, 63});
   for (std::uint32_t row = 0; row < 64; ++row) {
     for (std::uint32_t column = 0; column < 64; ++column) {
-      ASSERT_EQ(tile.tags()[Tile::index(column, row)], no_surface_tag);
+      ASSERT_EQ(tile.surface_at(Tile::index(column, row)).number(), no_surface);
       ASSERT_EQ(tile.q()[Tile::index(column, row)], -infinity);
     }
   }

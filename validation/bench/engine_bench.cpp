@@ -15,8 +15,9 @@
 /// Times render(), from mesh and camera in memory to the complete map in memory, without any peer:
 ///   engine_bench [SCENE…] [--size WxH] [--threads N] [--repeat N] [--engine fast|reference]
 ///                [--channels Z,id,…] [--cull back|front|none]
-///                [--without simd,hierarchy,early-rejection]
-/// The scenes are those of scenes.h, or mesh files. The first run of each is not counted.
+///                [--without simd,hierarchy,early-rejection] [--tiers]
+/// The scenes are those of scenes.h, or mesh files. The first run of each is not counted. --tiers
+/// tells how many decisions and values were settled by which arithmetic.
 namespace {
 
 using namespace fathom;
@@ -26,6 +27,7 @@ struct Arguments {
   std::vector<std::string> scenes;
   unsigned width = 1920, height = 1080;
   int repeat = 9;
+  bool tiers = false;
   RenderOptions options{.engine = Engine::fast};
 };
 
@@ -88,6 +90,10 @@ Arguments parse(int argc, char** argv) {
   Arguments arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string name = argv[i];
+    if (name == "--tiers") {
+      arguments.tiers = true;
+      continue;
+    }
     if (!name.starts_with("--")) {
       arguments.scenes.push_back(name);
       continue;
@@ -118,6 +124,23 @@ Arguments parse(int argc, char** argv) {
   return arguments;
 }
 
+void print_tiers(const RenderStatistics& s) {
+  const auto line = [](const char* what, std::initializer_list<std::uint64_t> counts) {
+    std::printf("  %-12s", what);
+    for (const std::uint64_t count : counts) {
+      std::printf(" %12llu", static_cast<unsigned long long>(count));
+    }
+    std::printf("\n");
+  };
+  const std::uint64_t exact = s.edges.exact + s.visibility.exact + s.range.exact;
+  std::printf("  %-12s %12s %12s %12s %12s\n", "", "binary32", "binary64", "double-words", "exact");
+  line("samples", {s.samples_tested - s.samples_in_binary64, s.samples_in_binary64 - exact,
+                   s.double_words, exact - s.double_words});
+  line("facing", {0, s.facing.interval, 0, s.facing.exact});
+  line("values", {0, s.rounding.interval - s.double_word_roundings, s.double_word_roundings,
+                  s.rounding.exact});
+}
+
 void time_scene(const std::string& name, const Arguments& arguments) {
   const bench::BenchScene bench = bench::make_scene(name, arguments.width, arguments.height);
   std::vector<double> milliseconds;
@@ -136,6 +159,13 @@ void time_scene(const std::string& name, const Arguments& arguments) {
   std::printf("%-16s %10llu triangles %9zu pixels  median %9.2f ms  min %9.2f ms\n", name.c_str(),
               static_cast<unsigned long long>(triangle_count(bench.scene)), covered,
               milliseconds[milliseconds.size() / 2], milliseconds.front());
+  if (arguments.tiers) {
+    RenderStatistics statistics;
+    RenderOptions options = arguments.options;
+    options.statistics = &statistics;
+    render(bench.scene, bench.camera, options);
+    print_tiers(statistics);
+  }
   std::fflush(stdout);
 }
 

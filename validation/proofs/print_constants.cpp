@@ -33,6 +33,9 @@ int main() {
   print("q_left", fast::setup_bounds::q_left);
   print("q_moves", fast::setup_bounds::q_moves);
   print("q_room", fast::setup_bounds::q_room);
+  print("lane_error", fast::setup_bounds::lane_error);
+  print("lane_room", fast::setup_bounds::lane_room);
+  print("tile_q_error", fast::setup_bounds::tile_q_error);
   print("exact_edge_error", fast::setup_bounds::exact_edge_error);
   print("exact_q_error", fast::setup_bounds::exact_q_error);
   print("shape_share", fast::setup_bounds::shape_share);
@@ -50,6 +53,7 @@ int main() {
 
   print("end_room", fast::resolve_bounds::end_room);
   print("spread_room", fast::resolve_bounds::spread_room);
+  print("greatest_residual", fast::resolve_bounds::greatest_residual);
   print("greatest_relative_error_of_q", fast::resolve_bounds::greatest_relative_error);
 
   print("interval_widening", interval_widening);

@@ -70,12 +70,11 @@ PixelBox TileGrid::area(std::uint32_t tile) const {
 }
 
 void Bins::fill(const Context& context) {
-  entries_.reserve(end_ - first_);
-  starts_.assign(context.grid.count() + std::size_t{1}, 0);
+  for (Lists& lists : lists_) lists.start(context.grid.count());
   for (const ImageObject& object : context.objects) {
     if (object.end_number() > first_ && object.first_number < end_) add_object(object, context);
   }
-  sort(context.grid.count());
+  for (Lists& lists : lists_) lists.sort();
 }
 
 namespace {
@@ -123,21 +122,30 @@ void Bins::add_object(const ImageObject& object, const Context& context) {
     statistics.facing.interval += count - boxes->unsettled;
     statistics.degenerate_triangles += boxes->degenerate;
     statistics.culled_triangles += boxes->culled;
-    for (std::size_t i = 0; i < boxes->in_one_tile; ++i) ++starts_[(boxes->entries[i] >> 32) + 1];
-    entries_.insert(entries_.end(), boxes->entries.begin(),
-                    boxes->entries.begin() + static_cast<std::ptrdiff_t>(boxes->in_one_tile));
+    for (const Side side : {Side::front, Side::back}) {
+      lists_[index(side)].add(boxes->in_one_tile[index(side)].all());
+    }
     for (std::size_t i = 0; i < boxes->in_more_tiles; ++i) {
-      add(boxes->number[i], boxes->box[i], context.grid);
+      lists_[index(boxes->side[i])].add(boxes->number[i], boxes->box[i], context.grid);
     }
     for (std::size_t i = 0; i < boxes->unsettled; ++i) {
       const std::uint32_t number = boxes->unsettled_number[i];
       const PixelBox box = visible_box_exactly(object, number, context);
-      if (!box.is_empty()) add(number, box, context.grid);
+      if (!box.is_empty()) lists_[index(Side::front)].add(number, box, context.grid);
     }
   }
 }
 
-void Bins::add(std::uint32_t number, const PixelBox& box, const TileGrid& grid) {
+void Bins::Lists::start(std::uint32_t tiles) {
+  starts_.assign(tiles + std::size_t{1}, 0);
+}
+
+void Bins::Lists::add(std::span<const std::uint64_t> entries) {
+  for (const std::uint64_t entry : entries) ++starts_[(entry >> 32) + 1];
+  entries_.insert(entries_.end(), entries.begin(), entries.end());
+}
+
+void Bins::Lists::add(std::uint32_t number, const PixelBox& box, const TileGrid& grid) {
   for (std::uint32_t row = box.first_row / Tile::size; row <= box.last_row / Tile::size; ++row) {
     for (std::uint32_t column = box.first_column / Tile::size;
          column <= box.last_column / Tile::size; ++column) {
@@ -148,8 +156,8 @@ void Bins::add(std::uint32_t number, const PixelBox& box, const TileGrid& grid) 
   }
 }
 
-void Bins::sort(std::uint32_t tiles) {
-  for (std::size_t tile = 0; tile < tiles; ++tile) starts_[tile + 1] += starts_[tile];
+void Bins::Lists::sort() {
+  for (std::size_t tile = 0; tile + 1 < starts_.size(); ++tile) starts_[tile + 1] += starts_[tile];
   sorted_.resize(entries_.size());
   std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
   for (const std::uint64_t entry : entries_) {

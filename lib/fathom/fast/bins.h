@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "fathom/fast/boxes.h"
 #include "fathom/fast/depth_range.h"
 #include "fathom/fast/vertex.h"
 #include "fathom/triangle/referee.h"
@@ -64,21 +66,38 @@ class Bins {
   };
   void fill(const Context& context);
 
-  /// Numbers of triangles, those of one object next to each other.
-  [[nodiscard]] std::span<const std::uint32_t> in_tile(std::uint32_t tile) const {
-    return std::span(sorted_).subspan(starts_[tile], starts_[tile + 1] - starts_[tile]);
+  /// Numbers of the triangles of a side (front, where that takes exact numbers), those of one object next to each other.
+  [[nodiscard]] std::span<const std::uint32_t> in_tile(std::uint32_t tile, Side side) const {
+    return lists_[index(side)].in_tile(tile);
+  }
+  [[nodiscard]] bool is_empty(std::uint32_t tile) const {
+    return in_tile(tile, Side::front).empty() && in_tile(tile, Side::back).empty();
   }
 
  private:
   void add_object(const ImageObject& object, const Context& context);
-  void add(std::uint32_t number, const PixelBox& box, const TileGrid& grid);
-  void sort(std::uint32_t tiles);
+
+  /// Triangles by tiles.
+  class Lists {
+   public:
+    void start(std::uint32_t tiles);
+    /// Tile (upper half) and triangle (lower half) of triangles that meet one tile.
+    void add(std::span<const std::uint64_t> entries);
+    void add(std::uint32_t number, const PixelBox& box, const TileGrid& grid);
+    void sort();
+    [[nodiscard]] std::span<const std::uint32_t> in_tile(std::uint32_t tile) const {
+      return std::span(sorted_).subspan(starts_[tile], starts_[tile + 1] - starts_[tile]);
+    }
+
+   private:
+    std::vector<std::uint64_t> entries_;
+    std::vector<std::uint32_t> sorted_;
+    std::vector<std::size_t> starts_;
+  };
+  static std::size_t index(Side side) { return static_cast<std::size_t>(side); }
 
   std::uint32_t first_, end_;
-  /// Tile (upper half) and triangle (lower half).
-  std::vector<std::uint64_t> entries_;
-  std::vector<std::uint32_t> sorted_;
-  std::vector<std::size_t> starts_;
+  std::array<Lists, 2> lists_;
 };
 
 }  // namespace fathom::fast

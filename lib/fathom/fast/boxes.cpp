@@ -42,6 +42,7 @@ HWY_INLINE V tile_of(V pixel) {
 
 struct Sorted {
   M one_tile, more_tiles, unsettled;
+  M front;
   V tile;
   Boxes box;
 };
@@ -58,6 +59,7 @@ HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles
   const M kept = r.cull == Cull::none ? with_area : r.cull == Cull::back ? negative : positive;
 
   Sorted s;
+  s.front = o.negative;
   s.unsettled = hn::AndNot(hn::Or(with_area, zero), valid);
   const PixelBox image{0, r.image_width - 1, 0, r.image_height - 1};
   s.box = r.by_area ? area_boxes(t, image) : sample_boxes(t, image);
@@ -81,17 +83,23 @@ HWY_INLINE void append(const Sorted& s, std::uint32_t first_number, BoxBatch& ou
   const auto number = counting_lanes(du, std::uint64_t{first_number});
   const auto tile = hn::BitCast(du, hn::ConvertTo(DI(), s.tile));
   const auto entry = hn::Or(hn::ShiftLeft<32>(tile), number);
-  out.in_one_tile += hn::CompressStore(entry, hn::RebindMask(du, s.one_tile), du,
-                                       out.entries.data() + out.in_one_tile);
+  const auto store = [&](M mask, BoxBatch::Entries& entries) HWY_ATTR {
+    entries.count += hn::CompressStore(entry, hn::RebindMask(du, mask), du,
+                                       entries.entries.data() + entries.count);
+  };
+  store(hn::And(s.one_tile, s.front), out.in_one_tile[static_cast<std::size_t>(Side::front)]);
+  store(hn::AndNot(s.front, s.one_tile), out.in_one_tile[static_cast<std::size_t>(Side::back)]);
   if (HWY_UNLIKELY(!hn::AllFalse(d, s.more_tiles))) {
     alignas(64) double left[8], right[8], top[8], bottom[8];
     hn::Store(s.box.first_column, d, left);
     hn::Store(s.box.last_column, d, right);
     hn::Store(s.box.first_row, d, top);
     hn::Store(s.box.last_row, d, bottom);
+    const unsigned front = bits_of(s.front);
     for (unsigned bits = bits_of(s.more_tiles); bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
       out.number[out.in_more_tiles] = first_number + k;
+      out.side[out.in_more_tiles] = front >> k & 1 ? Side::front : Side::back;
       out.box[out.in_more_tiles++] = {
           static_cast<std::uint32_t>(left[k]), static_cast<std::uint32_t>(right[k]),
           static_cast<std::uint32_t>(top[k]), static_cast<std::uint32_t>(bottom[k])};
@@ -147,7 +155,8 @@ using namespace triangle;
 HWY_EXPORT(sort_triangles);
 
 void box_triangles(const BoxRequest& request, BoxBatch& boxes) {
-  boxes.in_one_tile = boxes.in_more_tiles = boxes.unsettled = 0;
+  for (BoxBatch::Entries& entries : boxes.in_one_tile) entries.count = 0;
+  boxes.in_more_tiles = boxes.unsettled = 0;
   boxes.degenerate = boxes.culled = 0;
   if (!HWY_DYNAMIC_DISPATCH(sort_triangles)(request, boxes)) throw scene::ElementFault();
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "fathom/triangle/options.h"
 #include "fathom/triangle/projected_triangle.h"
@@ -9,6 +10,10 @@
 namespace fathom::fast {
 
 struct ImageVertex;
+
+/// The side of a triangle that is seen. Where a mesh is closed its front faces hide the others:
+/// drawn first, they save time.
+enum class Side : std::uint8_t { front, back };
 
 /// Consecutive triangles of one object; corners index `vertices`.
 struct BoxRequest {
@@ -28,11 +33,18 @@ struct BoxRequest {
 struct BoxBatch {
   static constexpr std::size_t most = 1024;
 
-  /// Visible within one tile: its number in the upper, the triangle's in the lower half.
-  std::size_t in_one_tile = 0;
-  std::array<std::uint64_t, most + 8> entries;
+  struct Entries {
+    std::size_t count = 0;
+    std::array<std::uint64_t, most + 8> entries;
+    [[nodiscard]] std::span<const std::uint64_t> all() const {
+      return std::span(entries).first(count);
+    }
+  };
+  /// Visible within one tile, by Side: its number in the upper, the triangle's in the lower half.
+  std::array<Entries, 2> in_one_tile;
   /// Visible in several tiles.
   std::size_t in_more_tiles = 0;
+  std::array<Side, most> side;
   std::array<std::uint32_t, most> number;
   std::array<PixelBox, most> box;
   /// A corner is not usable, or the orientation not certain.

@@ -60,7 +60,15 @@ void count_intervals(RenderStatistics& statistics) {
 
 void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bins,
                const ImageObjects& objects, const Tile::Context& context) {
-  for (const Bins& bins : all_bins) draw(bins.in_tile(number), objects, tile, context);
+  for (const Side side : {Side::front, Side::back}) {
+    std::vector<std::uint32_t>& together = tile.numbers();
+    together.clear();
+    for (const Bins& bins : all_bins) {
+      const auto some = bins.in_tile(number, side);
+      together.insert(together.end(), some.begin(), some.end());
+    }
+    draw(together, objects, tile, context);
+  }
 }
 
 RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles) {

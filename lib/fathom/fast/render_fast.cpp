@@ -53,7 +53,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   FirstFault fault;
   Progress progress(options.progress, frame.grid.count());
   parallel_for(std::uint32_t{0}, frame.grid.count(), [&](std::uint32_t number) {
-    const auto is_empty = [&](const Bins& part) { return part.in_tile(number).empty(); };
+    const auto is_empty = [&](const Bins& part) { return part.is_empty(number); };
     if (std::all_of(bins.begin(), bins.end(), is_empty)) {
       output.write_background(frame.grid.area(number), camera.width);
     } else {

@@ -8,7 +8,9 @@
 #include <bit>
 #include <limits>
 
+#include "fathom/fast/counting_lanes-inl.h"
 #include "fathom/fast/depth_interval-inl.h"
+#include "fathom/fast/lane_batch-inl.h"
 #include "fathom/fast/tile.h"
 
 #ifndef FATHOM_FAST_RESOLVE_ROW
@@ -16,11 +18,16 @@
 namespace fathom::fast {
 using namespace triangle;
 
-/// One row of a tile: depths rounded to binary32, +∞ where there is no surface. A bit for each
-/// column: whether it shows a surface, and whether its depth is not settled.
-struct RoundedRow {
-  std::array<float, Tile::size> depth;
+/// A bit for each column of a row of a tile: whether it shows a surface, and whether its depth is
+/// not settled.
+struct RowBits {
   std::uint64_t surface = 0, open = 0;
+};
+
+/// What is visible along a row of a tile: q in binary64 and tags.
+struct SurfacesOfRow {
+  alignas(64) std::array<double, Tile::size> q;
+  alignas(64) std::array<std::uint64_t, Tile::size> tags;
 };
 
 }  // namespace fathom::fast
@@ -30,30 +37,88 @@ HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
+/// For as many samples of a row as there are lanes of binary64.
+using D32 = hn::Rebind<float, D>;
+using DT32 = hn::Rebind<LaneTag, D>;
+
+HWY_INLINE hn::Vec<DT32> lane_tags_at(const Tile& tile, std::uint32_t column, std::uint32_t row) {
+  const LaneTag* const first = tile.tags() + Tile::index(column, row);
+#if HWY_TARGET != HWY_SCALAR && !HWY_HAVE_SCALABLE
+  if constexpr (hn::MaxLanes(D()) == 2 * Tile::cell) {
+    // Cells that are next to each other in a row are so in memory.
+    const hn::Half<DT32> d;
+    return hn::Combine(DT32(), hn::Load(d, first + Tile::cell * Tile::cell), hn::Load(d, first));
+  }
+#endif
+  return hn::LoadU(DT32(), first);
+}
+
+struct Surfaces {
+  V q;
+  hn::Vec<DU> tag;
+};
+
+HWY_INLINE Surfaces surfaces_of(const Tile& tile, hn::Vec<DT32> tags, std::uint32_t column,
+                                std::uint32_t row) {
+  const DT32 dt;
+  const TileSurface* const surfaces = tile.surfaces();
+  const V x = counting_lanes(D(), static_cast<double>(column)), y = constant(row);
+  const LaneTag first = hn::GetLane(tags);
+  if (hn::AllTrue(dt, hn::Eq(tags, hn::Set(dt, first)))) {
+    const TileSurface& s = surfaces[Tile::place_of(first)];
+    return {hn::MulAdd(constant(s.b), y, hn::MulAdd(constant(s.a), x, constant(s.c))),
+            hn::Set(DU(), s.tag)};
+  }
+  HWY_ALIGN LaneTag tag_of[SetupBatch::most];
+  hn::Store(tags, dt, tag_of);
+  const Records r = load_records(
+      [&](std::size_t lane) HWY_ATTR { return &surfaces[Tile::place_of(tag_of[lane])].c; });
+  return {hn::MulAdd(r.third, y, hn::MulAdd(r.second, x, r.first)), hn::BitCast(DU(), r.fourth)};
+}
+
+void surfaces_of_row(const Tile& tile, std::uint32_t row, SurfacesOfRow& out) {
+  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(D()));
+  for (std::uint32_t column = 0; column < Tile::size; column += lanes) {
+    const Surfaces s = surfaces_of(tile, lane_tags_at(tile, column, row), column, row);
+    hn::Store(s.q, D(), out.q.data() + column);
+    hn::Store(s.tag, DU(), out.tags.data() + column);
+  }
+}
+
 // If both ends of an interval that contains D round to the same number, so does D: rounding is
 // monotone.
-void round_row(const double* q_at, const std::uint64_t* tags, bool perspective, RoundedRow& row) {
+template <bool perspective>
+HWY_INLINE RowBits round_row(const Tile& tile, std::uint32_t row, float* depths) {
   const D d;
-  const DU du;
-  const hn::Rebind<float, D> d32;
-  const std::size_t lanes = hn::Lanes(d);
-  const V none = constant(-std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < Tile::size; i += lanes) {
-    const V q = hn::LoadU(d, q_at + i);
-    const V error = hn::BitCast(d, hn::LoadU(du, tags + i));
+  const D32 d32;
+  const DT32 dt;
+  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto background = hn::Set(d32, std::numeric_limits<float>::infinity());
+  const auto no_place = hn::Zero(dt), place = hn::Set(dt, Tile::place_of(~LaneTag{0}));
+  RowBits bits;
+  for (std::uint32_t column = 0; column < Tile::size; column += lanes) {
+    const auto tags = lane_tags_at(tile, column, row);
+    const Surfaces s = surfaces_of(tile, tags, column, row);
+    const V error = hn::BitCast(d, s.tag);
     const DepthInterval D_interval =
-        perspective ? perspective_depth(q, error) : orthographic_depth(q, error);
+        perspective ? perspective_depth(s.q, error) : orthographic_depth(s.q, error);
     const auto least = to_binary32(d32, D_interval.least);
-    const V rounded = hn::PromoteTo(d, least);
-    const V other = hn::PromoteTo(d, to_binary32(d32, D_interval.greatest));
-    const M surface = hn::Gt(q, none);
-    const M settled = hn::And(D_interval.known, hn::Eq(rounded, other));
-    const V background = constant(std::numeric_limits<double>::infinity());
-    hn::StoreU(to_binary32(d32, hn::IfThenElse(surface, rounded, background)), d32,
-               row.depth.data() + i);
-    row.surface |= std::uint64_t{bits_of(surface)} << i;
-    row.open |= std::uint64_t{bits_of(hn::AndNot(settled, surface))} << i;
+    const auto greatest = to_binary32(d32, D_interval.greatest);
+    const auto surface = hn::Ne(hn::And(tags, place), no_place);
+    hn::StoreU(hn::IfThenElse(hn::RebindMask(d32, surface), least, background), d32,
+               depths + column);
+    const unsigned shown = lane_bits(dt, surface);
+    const unsigned settled = bits_of(D_interval.known) & lane_bits(d32, hn::Eq(least, greatest));
+    bits.surface |= std::uint64_t{shown} << column;
+    bits.open |= std::uint64_t{shown & ~settled} << column;
   }
+  return bits;
+}
+
+/// Writes the depths of a row rounded to binary32, +∞ where there is no surface; those that are open
+/// mean nothing.
+RowBits round_depths_of_row(const Tile& tile, std::uint32_t row, bool perspective, float* depths) {
+  return perspective ? round_row<true>(tile, row, depths) : round_row<false>(tile, row, depths);
 }
 
 }  // namespace
@@ -63,7 +128,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fathom::fast {
 
-HWY_EXPORT(round_row);
+HWY_EXPORT(surfaces_of_row);
+HWY_EXPORT(round_depths_of_row);
 
 std::optional<EncodingFault> Tile::resolve(CertifiedWriter& certified, float* depths,
                                            std::uint32_t image_width,
@@ -71,28 +137,34 @@ std::optional<EncodingFault> Tile::resolve(CertifiedWriter& certified, float* de
   const std::uint32_t columns = area_.last_column - area_.first_column + 1;
   static_assert(size == samples_of_row);
   RenderStatistics& statistics = context.statistics;
+  std::array<float, size> rounded;
+  SurfacesOfRow surfaces;
   for (std::uint32_t row = area_.first_row; row <= area_.last_row; ++row) {
-    const std::size_t first = index(0, row - area_.first_row);
+    const std::uint32_t tile_row = row - area_.first_row;
     VisibleRow visible;
-    visible.lanes = {q() + first, tags() + first, area_.first_column + 0.5, row + 0.5};
     visible.first_pixel = static_cast<std::size_t>(row) * image_width + area_.first_column;
-    RoundedRow rounded;
-    HWY_DYNAMIC_DISPATCH(round_row)(q() + first, tags() + first, context.perspective, rounded);
-    visible.surface = rounded.surface & ~std::uint64_t{0} >> (size - columns);
+    const bool in_place = depths && columns == size;
+    const RowBits bits = HWY_DYNAMIC_DISPATCH(round_depths_of_row)(
+        *this, tile_row, context.perspective,
+        in_place ? depths + visible.first_pixel : rounded.data());
+    if (depths && !in_place) std::copy_n(rounded.data(), columns, depths + visible.first_pixel);
+    visible.surface = bits.surface & ~std::uint64_t{0} >> (size - columns);
+    const std::uint64_t open = visible.surface & bits.open;
     if (context.doubtful) {
-      for (std::uint64_t bits = visible.surface & rounded.open; bits != 0; bits &= bits - 1) {
-        context.note_doubt(area_.first_column + static_cast<std::uint32_t>(std::countr_zero(bits)),
+      for (std::uint64_t rest = open; rest != 0; rest &= rest - 1) {
+        context.note_doubt(area_.first_column + static_cast<std::uint32_t>(std::countr_zero(rest)),
                            row);
       }
     }
     statistics.pixels_with_surface += static_cast<std::uint64_t>(std::popcount(visible.surface));
     if (depths) {
-      std::copy_n(rounded.depth.data(), columns, depths + visible.first_pixel);
-      const std::uint64_t settled = visible.surface & ~rounded.open;
-      statistics.rounding.interval += static_cast<std::uint64_t>(std::popcount(settled));
-      visible.surface &= rounded.open;
+      statistics.rounding.interval +=
+          static_cast<std::uint64_t>(std::popcount(visible.surface & ~open));
+      visible.surface = open;
     }
     if (visible.surface == 0) continue;
+    HWY_DYNAMIC_DISPATCH(surfaces_of_row)(*this, tile_row, surfaces);
+    visible.lanes = {surfaces.q.data(), surfaces.tags.data(), area_.first_column + 0.5, row + 0.5};
     if (auto fault = certified.write(visible, context.referee, statistics)) return fault;
   }
   return std::nullopt;

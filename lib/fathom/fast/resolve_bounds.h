@@ -7,6 +7,8 @@ namespace fathom::fast::resolve_bounds {
 /// Relative room for the roundings of the ends of the interval, and of what spreads it.
 inline constexpr double end_room = 0x1p-50;
 inline constexpr double spread_room = 1 + 0x1p-18;
+/// Of the quotient in binary32 that 1/q is computed from: 1 − q·z.
+inline constexpr double greatest_residual = 0x1p-21;
 /// The greatest error of q, relative to q, for which 1/q has an interval.
 inline constexpr double greatest_relative_error = 0x1p-21;
 

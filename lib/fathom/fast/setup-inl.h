@@ -89,47 +89,56 @@ HWY_INLINE Corner corner_from(V u, V v, V q, V errors) {
           hn::BitCast(d, hn::ShiftLeft<32>(bits))};
 }
 
-/// Corner `which` of as many triangles as there are lanes. A vertex is four consecutive numbers, so
-/// whole vertices are loaded and transposed.
-template <std::size_t which>
-HWY_INLINE Corner load_corner(const ImageVertex* vertices, const CornerIndices* triangles) {
+/// Four numbers of each lane's record.
+struct Records {
+  V first, second, third, fourth;
+};
+
+/// at(lane) points to the first of four consecutive numbers, at a multiple of 32 bytes; whole
+/// records are loaded and transposed.
+template <class At>
+HWY_INLINE Records load_records(const At& at) {
   const D d;
-  const auto vertex = [&](std::size_t lane)
-                          HWY_ATTR { return &vertices[triangles[lane][which]].u; };
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
   HWY_ALIGN std::int64_t offsets[SetupBatch::most];
-  for (std::size_t k = 0; k < hn::Lanes(d); ++k) {
-    offsets[k] = vertex(k) - &vertices->u;
-  }
+  const double* const base = at(0);
+  for (std::size_t k = 0; k < hn::Lanes(d); ++k) offsets[k] = at(k) - base;
   const auto offset = hn::Load(DI(), offsets);
-  const double* base = &vertices->u;
-  return corner_from(hn::GatherIndex(d, base, offset), hn::GatherIndex(d, base + 1, offset),
-                     hn::GatherIndex(d, base + 2, offset), hn::GatherIndex(d, base + 3, offset));
+  return {hn::GatherIndex(d, base, offset), hn::GatherIndex(d, base + 1, offset),
+          hn::GatherIndex(d, base + 2, offset), hn::GatherIndex(d, base + 3, offset)};
 #else
   if constexpr (hn::MaxLanes(D()) == 2) {
-    const V uv0 = hn::Load(d, vertex(0)), uv1 = hn::Load(d, vertex(1));
-    const V qe0 = hn::Load(d, vertex(0) + 2), qe1 = hn::Load(d, vertex(1) + 2);
-    return corner_from(hn::InterleaveLower(d, uv0, uv1), hn::InterleaveUpper(d, uv0, uv1),
-                       hn::InterleaveLower(d, qe0, qe1), hn::InterleaveUpper(d, qe0, qe1));
+    const V a0 = hn::Load(d, at(0)), a1 = hn::Load(d, at(1));
+    const V b0 = hn::Load(d, at(0) + 2), b1 = hn::Load(d, at(1) + 2);
+    return {hn::InterleaveLower(d, a0, a1), hn::InterleaveUpper(d, a0, a1),
+            hn::InterleaveLower(d, b0, b1), hn::InterleaveUpper(d, b0, b1)};
   } else {
-    // Blocks of 128 bits: (u v)(q e) of one vertex, of a second in the upper half if that is wide.
+    // Blocks of 128 bits: (1 2)(3 4) of one record, of a second in the upper half if that is wide.
     const hn::CappedTag<double, 4> d4;
     const auto load = [&](std::size_t lane) HWY_ATTR {
       if constexpr (hn::MaxLanes(D()) == 8) {
-        return hn::Combine(d, hn::Load(d4, vertex(lane + 4)), hn::Load(d4, vertex(lane)));
+        return hn::Combine(d, hn::Load(d4, at(lane + 4)), hn::Load(d4, at(lane)));
       } else {
-        return hn::Load(d4, vertex(lane));
+        return hn::Load(d4, at(lane));
       }
     };
     const V v0 = load(0), v1 = load(1), v2 = load(2), v3 = load(3);
-    const V uq01 = hn::InterleaveLower(d, v0, v1), ve01 = hn::InterleaveUpper(d, v0, v1);
-    const V uq23 = hn::InterleaveLower(d, v2, v3), ve23 = hn::InterleaveUpper(d, v2, v3);
-    return corner_from(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(uq23), uq01),
-                       hn::OddEvenBlocks(hn::SwapAdjacentBlocks(ve23), ve01),
-                       hn::OddEvenBlocks(uq23, hn::SwapAdjacentBlocks(uq01)),
-                       hn::OddEvenBlocks(ve23, hn::SwapAdjacentBlocks(ve01)));
+    const V odd01 = hn::InterleaveLower(d, v0, v1), even01 = hn::InterleaveUpper(d, v0, v1);
+    const V odd23 = hn::InterleaveLower(d, v2, v3), even23 = hn::InterleaveUpper(d, v2, v3);
+    return {hn::OddEvenBlocks(hn::SwapAdjacentBlocks(odd23), odd01),
+            hn::OddEvenBlocks(hn::SwapAdjacentBlocks(even23), even01),
+            hn::OddEvenBlocks(odd23, hn::SwapAdjacentBlocks(odd01)),
+            hn::OddEvenBlocks(even23, hn::SwapAdjacentBlocks(even01))};
   }
 #endif
+}
+
+/// Corner `which` of as many triangles as there are lanes.
+template <std::size_t which>
+HWY_INLINE Corner load_corner(const ImageVertex* vertices, const CornerIndices* triangles) {
+  const Records r =
+      load_records([&](std::size_t lane) HWY_ATTR { return &vertices[triangles[lane][which]].u; });
+  return corner_from(r.first, r.second, r.third, r.fourth);
 }
 
 /// Loads as many triangles as there are lanes.

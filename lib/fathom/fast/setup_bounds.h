@@ -33,6 +33,19 @@ inline constexpr double q_room = 1 + 2 * q_left;
 /// rounding (moved_q).
 inline constexpr double q_moves = 2;
 
+/// The functions of a batch in binary32 (lane_value): of the sum of the magnitudes of the terms,
+/// with their own bound, as room for their users and for rounding the bound, and against underflow.
+inline constexpr double lane_error = 5 * unit_roundoff<float>;
+inline constexpr double lane_room = 1 + 0x1p-18;
+inline constexpr double lane_floor = 0x1p-120;
+/// Beyond it such a sum may overflow binary32.
+inline constexpr double lane_limit = 0x1p100;
+/// Below it sums of multiples of 2⁻¹⁷, as functions on the grid have, are exact in binary32.
+inline constexpr double exact_lane_limit = 0x1p7;
+
+/// q as a function over the whole tile: of the sum of the magnitudes of its terms (tile_q).
+inline constexpr double tile_q_error = 12 * unit_roundoff<double>;
+
 /// exact_setup() (exact_edges, exact_q).
 inline constexpr double exact_edge_error = 12 * unit_roundoff<double>;
 inline constexpr double exact_q_error = 5 * unit_roundoff<double>;

@@ -27,8 +27,7 @@ constexpr std::uint32_t parts_of_chunk = 8;
 
 /// Whether a triangle may be visible in the tile.
 bool is_met(std::uint32_t number, const std::vector<Bins>& bins) {
-  return std::any_of(bins.begin(), bins.end(),
-                     [&](const Bins& b) { return !b.in_tile(number).empty(); });
+  return std::any_of(bins.begin(), bins.end(), [&](const Bins& b) { return !b.is_empty(number); });
 }
 
 /// Rows of tiles [first_row, end_row); a tile exists from the first triangle on that may be visible
@@ -37,7 +36,7 @@ class Band {
  public:
   Band(const TileGrid& grid, std::uint32_t first_row, std::uint64_t most_bytes)
       : grid_(grid),
-        most_tiles_(most_bytes / sizeof(Tile)),
+        most_tiles_(most_bytes / Tile::most_packed_bytes),
         first_row_(first_row),
         end_row_(grid.rows),
         tiles_(std::size_t{grid.columns} * (end_row_ - first_row)) {}
@@ -72,6 +71,7 @@ class Band {
         tile->start(grid_.area(number));
       }
       draw_tile(*tile, number, bins, objects, frame.context(workers.local()));
+      tile->pack();
     });
   }
 

@@ -19,10 +19,45 @@ double local(std::uint32_t position, std::uint32_t origin) {
 
 void Tile::start(const PixelBox& area) {
   area_ = area;
-  q_.fill(-std::numeric_limits<double>::infinity());
-  tags_.fill(no_surface_tag);
-  farthest_.fill(-std::numeric_limits<double>::infinity());
+  q_.fill(-std::numeric_limits<float>::infinity());
+  tags_.fill(no_surface_lane_tag);
+  farthest_.fill(-std::numeric_limits<float>::infinity());
   draws_.fill(0);
+  if (surfaces_.empty()) {
+    surfaces_.push_back({-std::numeric_limits<double>::infinity(), 0, 0, no_surface_tag});
+  }
+  places_ = 1;
+}
+
+std::uint32_t Tile::next_place() {
+  if (places_ + SetupBatch::most > most_places) forget_hidden();
+  if (places_ + SetupBatch::most > surfaces_.size()) {
+    surfaces_.resize(std::max<std::size_t>(2 * surfaces_.size(), 512));
+  }
+  return places_;
+}
+
+void Tile::forget_hidden() {
+  std::vector<std::uint32_t> new_place(places_);
+  std::vector<TileSurface> kept{surfaces_[0]};
+  for (LaneTag& tag : tags_) {
+    const std::uint32_t place = place_of(tag);
+    if (place == 0) continue;
+    if (new_place[place] == 0) {
+      new_place[place] = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(surfaces_[place]);
+    }
+    tag = (tag & 0xFFFF0000) | new_place[place];
+  }
+  std::copy(kept.begin(), kept.end(), surfaces_.begin());
+  places_ = static_cast<std::uint32_t>(kept.size());
+}
+
+void Tile::pack() {
+  forget_hidden();
+  surfaces_.resize(places_);
+  surfaces_.shrink_to_fit();
+  numbers_ = {};
 }
 
 void Tile::set_up_exactly(std::uint32_t number, const PixelBox& box, const Context& context,
@@ -36,9 +71,10 @@ void Tile::set_up_exactly(std::uint32_t number, const PixelBox& box, const Conte
 
 // The decisions of the vector code (tile_lanes.cpp) once more, each by its own tier. The functions
 // may be summed in another order, within the same bounds.
-void Tile::settle(const TriangleSetup& setup, bool test_range, std::uint32_t column,
+void Tile::settle(const TriangleSetup& setup, LaneTag tag, bool test_range, std::uint32_t column,
                   std::uint32_t row, const Context& context) {
-  context.note_doubt(column, row);
+  RenderStatistics& statistics = context.statistics;
+  ++statistics.samples_in_binary64;
   const std::size_t i = index(column - area_.first_column, row - area_.first_row);
   const double x = local(column, setup.column), y = local(row, setup.row);
   double least_edge = std::numeric_limits<double>::infinity();
@@ -46,29 +82,30 @@ void Tile::settle(const TriangleSetup& setup, bool test_range, std::uint32_t col
     least_edge = std::min(least_edge, setup.edge_c[k] + setup.edge_a[k] * x + setup.edge_b[k] * y);
   }
   const double q = setup.q_c + setup.q_a * x + setup.q_b * y;
-  const std::uint64_t tag = surface_tag(setup.number, setup.q_error);
-  RenderStatistics& statistics = context.statistics;
   const ImagePoint s = centre_of_pixel(column, row);
   if (least_edge < -setup.edge_error) return;
   if (!(least_edge > setup.edge_error)) {
+    context.note_doubt(column, row);
     if (!context.referee.covers(setup.number, s, statistics)) return;
   }
   if (test_range) {
     const double error = setup_bounds::q_moves * setup.q_error;
     if (context.range.certainly_misses(q - error, q + error)) return;
     if (!context.range.certainly_contains(q - error, q + error)) {
+      context.note_doubt(column, row);
       if (!context.referee.is_in_range(setup.number, s, statistics)) return;
     }
   }
   ++statistics.samples_covered;
-  const double d = q - q_[i], sum = std::bit_cast<double>(tag) + error_at(i);
+  const TileSurface& other = surface_at(i);
+  const double d = q - other.q(local(column, area_.first_column), local(row, area_.first_row));
+  const double sum = setup.q_error + other.error();
   if (d < -sum) return;
-  const bool certainly_nearer = number_at(i) == no_surface || d > sum;
-  if (!certainly_nearer &&
-      !context.referee.hides(setup.number, number_at(i), s, context.statistics)) {
-    return;
+  if (!(d > sum) && other.number() != no_surface) {
+    context.note_doubt(column, row);
+    if (!context.referee.hides(setup.number, other.number(), s, statistics)) return;
   }
-  q_[i] = q;
+  q_[i] = static_cast<float>(q);
   tags_[i] = tag;
 }
 

@@ -21,13 +21,42 @@ struct DoubtfulPixel {
   std::uint32_t column, row;
 };
 
+/// Tag of a surface: its number in the lower half and, read as a whole as a binary64 number, a
+/// bound on the error of its q: upper_half() rounds up, so that the lower half can only add to it.
+/// A bound of +∞ becomes NaN, for which no comparison holds: nothing is certain.
+inline std::uint64_t surface_tag(std::uint32_t number, double q_error) {
+  return upper_half(q_error) << 32 | number;
+}
+/// No surface: an error of almost nothing.
+inline constexpr std::uint64_t no_surface_tag = std::uint64_t{0x00100000} << 32 | no_surface;
+
+/// A surface that may be visible in a tile: q as an affine function of the sample's column and row
+/// in the tile, c + a·column + b·row, with its tag.
+struct alignas(32) TileSurface {
+  double c, a, b;
+  std::uint64_t tag;
+
+  [[nodiscard]] double q(double column, double row) const { return c + a * column + b * row; }
+  [[nodiscard]] double error() const { return std::bit_cast<double>(tag); }
+  [[nodiscard]] std::uint32_t number() const { return static_cast<std::uint32_t>(tag); }
+};
+
+/// q at a sample in binary32, a bound on its error, and which of the tile's surfaces it is of: as a
+/// surface_tag(), with half as many bits for each. The place of a surface is its index.
+using LaneTag = std::uint32_t;
+inline LaneTag lane_tag(std::uint32_t place, float q_error) {
+  return ((std::bit_cast<std::uint32_t>(q_error) >> 16) + 1) << 16 | place;
+}
+
 /// The nearest surface so far at the samples of a small part of the image, whatever the order in
-/// which triangles are drawn.
+/// which triangles are drawn. Samples hold q in binary32, which settles nearly every decision; the
+/// surfaces have it in binary64.
 class Tile {
  public:
   static constexpr std::uint32_t size = 64;
   static constexpr std::uint32_t block = 8;
   static constexpr std::size_t blocks = (size / block) * (size / block);
+  static const std::size_t most_packed_bytes;
 
   /// What a tile works with, one for each thread.
   struct Context {
@@ -48,10 +77,21 @@ class Tile {
   /// column multiples of size.
   void start(const PixelBox& area);
   [[nodiscard]] const PixelBox& area() const { return area_; }
+  /// Whether the area is smaller than a tile can be.
+  [[nodiscard]] bool is_partial() const {
+    return area_.last_column - area_.first_column != size - 1 ||
+           area_.last_row - area_.first_row != size - 1;
+  }
 
+  /// Room for numbers of triangles, kept from one tile to the next.
+  std::vector<std::uint32_t>& numbers() { return numbers_; }
   /// Draws triangles of one object (their numbers in the scene) at the samples of the area.
   void draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
             const Context& context);
+
+  /// Gives back the memory that is not needed to keep the tile: what remains is most_packed_bytes at
+  /// most.
+  void pack();
 
   /// Writes the visible surfaces; stops at the first fault in row order. `depths`: if not null, the
   /// values of channel Z, the only one of surfaces, which are written here for the whole area.
@@ -59,50 +99,67 @@ class Tile {
                                                  std::uint32_t image_width,
                                                  const Context& context) const;
 
-  // For the vector code.
+  /// Samples are kept by cells of 4 × 4, row by row of the tile, each row by row: a vector has as
+  /// much of a cell as it can, always at the same place of memory, which a processor can hand from a
+  /// write to the next read.
+  static constexpr std::uint32_t cell = 4;
   /// Index of a sample by its column and row within the tile.
-  static std::size_t index(std::uint32_t column, std::uint32_t row) {
-    return static_cast<std::size_t>(row) * size + column;
+  static constexpr std::size_t index(std::uint32_t column, std::uint32_t row) {
+    return (static_cast<std::size_t>(row / cell) * (size / cell) + column / cell) * (cell * cell) +
+           row % cell * cell + column % cell;
   }
+  /// The surface at a sample; its number is no_surface where there is none.
+  [[nodiscard]] const TileSurface& surface_at(std::size_t i) const {
+    return surfaces_[place_of(tags_[i])];
+  }
+  [[nodiscard]] bool shows_surface(std::size_t i) const { return place_of(tags_[i]) != 0; }
+
+  // For the vector code.
+  static constexpr std::uint32_t place_of(LaneTag tag) { return tag & 0xFFFF; }
   /// The surface at a sample: its q, −∞ if there is none, and its tag.
-  double* q() { return q_.data(); }
-  std::uint64_t* tags() { return tags_.data(); }
-  [[nodiscard]] const double* q() const { return q_.data(); }
-  [[nodiscard]] const std::uint64_t* tags() const { return tags_.data(); }
+  float* q() { return q_.data(); }
+  LaneTag* tags() { return tags_.data(); }
+  [[nodiscard]] const LaneTag* tags() const { return tags_.data(); }
+  [[nodiscard]] const TileSurface* surfaces() const { return surfaces_.data(); }
+  /// Room for as many surfaces as a batch has, from this place on; those that are kept are the
+  /// first `count` of them.
+  std::uint32_t next_place();
+  TileSurface* surfaces_at(std::uint32_t place) { return surfaces_.data() + place; }
+  void keep_surfaces(std::uint32_t count) { places_ += count; }
   /// For each block a number that is not greater than the exact q at any of its samples.
-  double* farthest() { return farthest_.data(); }
+  std::array<float, blocks>& farthest() { return farthest_; }
   /// How often a block was drawn into since its number above was computed.
   std::uint8_t* draws() { return draws_.data(); }
-  /// Settles one sample, exactly where the bounds do not. Column and row are those of the image.
-  void settle(const TriangleSetup& setup, bool test_range, std::uint32_t column, std::uint32_t row,
-              const Context& context);
+  /// Settles one sample by binary64, and exactly where that does not. Column and row are those of
+  /// the image; the tag is that of the triangle.
+  void settle(const TriangleSetup& setup, LaneTag tag, bool test_range, std::uint32_t column,
+              std::uint32_t row, const Context& context);
   /// Sets up a triangle from exact numbers, for the samples of `box`.
   static void set_up_exactly(std::uint32_t number, const PixelBox& box, const Context& context,
                              SetupBatch& batch);
 
  private:
-  /// Of the surface at a sample: the bound on the error of its q, and its number.
-  [[nodiscard]] double error_at(std::size_t i) const { return std::bit_cast<double>(tags_[i]); }
-  [[nodiscard]] std::uint32_t number_at(std::size_t i) const {
-    return static_cast<std::uint32_t>(tags_[i]);
-  }
+  /// Forgets the surfaces that are at no sample any more.
+  void forget_hidden();
 
-  /// Vectors may reach beyond the last row.
-  static constexpr std::size_t room = size * size + block;
+  /// Place 0 is no surface; others are numbered by 16 bits.
+  static constexpr std::uint32_t most_places = 0x10000;
+  static constexpr std::size_t room = std::size_t{size} * size;
   PixelBox area_;
-  alignas(64) std::array<double, room> q_;
-  alignas(64) std::array<std::uint64_t, room> tags_;
-  alignas(64) std::array<double, blocks> farthest_;
+  alignas(64) std::array<float, room> q_;
+  alignas(64) std::array<LaneTag, room> tags_;
+  alignas(64) std::array<float, blocks> farthest_;
   std::array<std::uint8_t, blocks> draws_;
+  std::vector<TileSurface> surfaces_;
+  std::uint32_t places_;
+  std::vector<std::uint32_t> numbers_;
 };
 
-/// Tag of a surface: its number in the lower half and, read as a whole as a binary64 number, a
-/// bound on the error of its q: upper_half() rounds up, so that the lower half can only add to it.
-/// A bound of +∞ becomes NaN, for which no comparison holds: nothing is certain.
-inline std::uint64_t surface_tag(std::uint32_t number, double q_error) {
-  return upper_half(q_error) << 32 | number;
-}
-/// No surface: an error of almost nothing.
-inline constexpr std::uint64_t no_surface_tag = std::uint64_t{0x00100000} << 32 | no_surface;
+/// The tile, and a surface at each sample.
+inline constexpr std::size_t Tile::most_packed_bytes =
+    sizeof(Tile) + (std::size_t{size} * size + 1) * sizeof(TileSurface);
+
+/// No surface: an error of almost nothing, and place 0.
+inline constexpr LaneTag no_surface_lane_tag = 0x00800000;
 
 }  // namespace fathom::fast

@@ -1,4 +1,4 @@
-// Triangles drawn into a tile, a row of eight samples at once.
+// Triangles drawn into a tile, as many samples at once as there are lanes of binary32.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fathom/fast/tile_lanes.cpp"
 #include <hwy/cache_control.h>
@@ -9,171 +9,200 @@
 #include <bit>
 #include <limits>
 
-#include "fathom/fast/counting_lanes-inl.h"
+#include "fathom/fast/farthest-inl.h"
+#include "fathom/fast/lane_batch-inl.h"
 #include "fathom/fast/setup-inl.h"
 #include "fathom/fast/tile.h"
 
+// How to read this file: draw_triangles() is the whole story. Triangles that are hidden are left out
+// (farthest-inl.h), the others set up in binary64 (setup-inl.h) and turned into functions in
+// binary32 (lane_batch-inl.h). These decide about nearly every sample; Tile::settle() about the
+// rest.
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
-constexpr int block = static_cast<int>(Tile::block);
-
 /// One triangle's functions, the same in every lane.
 struct Functions {
-  V a[3], b[3], c[3];
-  V error;
-  V q_a, q_b, q_c;
-  V q_error;
+  VF a[3], b[3], c[3];
+  VF error;
+  VF q_a, q_b, q_c;
+  VF q_error;
+  /// The last column and row of the box.
+  VF last_x, last_y;
 };
 
-HWY_INLINE Functions functions_of(const SetupBatch& batch, std::size_t k) {
+HWY_INLINE VF constant32(float x) {
+  return hn::Set(DF(), x);
+}
+
+HWY_INLINE Functions functions_of(const LaneBatch& batch, std::size_t k) {
   Functions f;
   for (std::size_t i = 0; i < 3; ++i) {
-    f.a[i] = constant(batch.edge_a[i][k]);
-    f.b[i] = constant(batch.edge_b[i][k]);
-    f.c[i] = constant(batch.edge_c[i][k]);
+    f.a[i] = constant32(batch.edge_a[i][k]);
+    f.b[i] = constant32(batch.edge_b[i][k]);
+    f.c[i] = constant32(batch.edge_c[i][k]);
   }
-  f.error = constant(batch.edge_error[k]);
-  f.q_a = constant(batch.q_a[k]);
-  f.q_b = constant(batch.q_b[k]);
-  f.q_c = constant(batch.q_c[k]);
-  f.q_error = constant(batch.q_error[k]);
+  f.error = constant32(batch.edge_error[k]);
+  f.q_a = constant32(batch.q_a[k]);
+  f.q_b = constant32(batch.q_b[k]);
+  f.q_c = constant32(batch.q_c[k]);
+  f.q_error = constant32(batch.q_error[k]);
+  f.last_x = constant32(static_cast<float>(batch.last_column[k] - batch.first_column[k]));
+  f.last_y = constant32(static_cast<float>(batch.last_row[k] - batch.first_row[k]));
   return f;
 }
 
 /// The triangle that is drawn: a lane of a batch.
 struct Drawn {
-  const SetupBatch& batch;
+  const SetupBatch& setups;
+  const LaneBatch& batch;
   std::size_t lane;
   Functions f;
-  hn::Vec<DU> tag;
-  /// Its box within the tile, and the tile's first sample relative to the origin of the functions.
-  int first_column, last_column, first_row, last_row;
-  double x, y;
   bool test_range;
+  /// Whether the box may end where the image does.
+  bool is_clipped;
+  /// Its box within the tile.
+  int first_column, last_column, first_row, last_row;
 };
 
-HWY_INLINE Drawn drawn(const SetupBatch& batch, std::size_t k, bool test_range,
-                       const PixelBox& area) {
-  // Columns and rows of the image may be beyond the range of int; those of a tile are below 64.
-  const auto local = [](double position, std::uint32_t origin) {
-    return static_cast<int>(position - origin);
-  };
-  const int first_column = local(batch.first_column[k], area.first_column);
-  const int first_row = local(batch.first_row[k], area.first_row);
-  return {batch,
+HWY_INLINE Drawn drawn(const SetupBatch& setups, const LaneBatch& batch, std::size_t k,
+                       bool test_range, bool is_clipped) {
+  return {setups,
+          batch,
           k,
           functions_of(batch, k),
-          hn::Set(DU(), surface_tag(batch.number[k], batch.q_error[k])),
-          first_column,
-          local(batch.last_column[k], area.first_column),
-          first_row,
-          local(batch.last_row[k], area.first_row),
-          static_cast<double>(-first_column),
-          static_cast<double>(-first_row),
-          test_range};
+          test_range,
+          is_clipped,
+          batch.first_column[k],
+          batch.last_column[k],
+          batch.first_row[k],
+          batch.last_row[k]};
 }
 
+/// A bit for each lane, from the sample of this column and row of the tile on.
 HWY_NOINLINE void settle_lanes(Tile& tile, const Drawn& t, unsigned lanes, int column, int row,
                                const Tile::Context& context) {
-  const TriangleSetup setup = t.batch.get(t.lane);
+  const TriangleSetup setup = t.setups.get(t.lane);
   for (; lanes != 0; lanes &= lanes - 1) {
-    tile.settle(setup, t.test_range,
-                tile.area().first_column + static_cast<std::uint32_t>(column) +
-                    static_cast<std::uint32_t>(std::countr_zero(lanes)),
-                tile.area().first_row + static_cast<std::uint32_t>(row), context);
+    const int lane = std::countr_zero(lanes);
+    const int x = column + lane % cell, y = row + lane / cell;
+    // Cells reach beyond the box, where the triangle covers no sample.
+    if (x < t.first_column || x > t.last_column || y < t.first_row || y > t.last_row) continue;
+    tile.settle(setup, t.batch.tag[t.lane], t.test_range,
+                tile.area().first_column + static_cast<std::uint32_t>(x),
+                tile.area().first_row + static_cast<std::uint32_t>(y), context);
   }
 }
 
-/// Samples of the tile: rows first_row ≤ row ≤ last_row of eight columns, of which those from
-/// first_lane to last_lane count.
-struct Strip {
-  int column, first_row, last_row;
-  int first_lane, last_lane;
+/// Cells of the tile, by the columns and rows of their first samples.
+struct Cells {
+  int first_column, last_column, first_row, last_row;
 };
 
+/// The ends of the range of depths in binary32, moved inwards.
+struct RangeEnds {
+  VF least, greatest;
+};
+HWY_INLINE RangeEnds range_ends(const DepthRange& range) {
+  return {constant32(not_less(range.inside_least)), constant32(-not_less(-range.inside_greatest))};
+}
+
 // At every sample the triangle is certainly the nearest surface so far ("wins"), or certainly not
-// ("loses"), or neither is certain. The third case is settled exactly.
+// ("loses"), or neither is certain. The third case is settled by binary64, or exactly.
 //
-// d is the difference of two values of q with a relative error of u; the sum of their errors has
+// d is the difference of two values of q with a relative error of 2⁻²⁴; the sum of their errors has
 // one too, and both errors leave out q_left of themselves: d > sum implies that the exact q of this
 // triangle is greater (validation/proofs/nearer_q.gappa.in). Where the triangle does not cover the
 // sample the bound on q does not hold, but then "loses" is right anyway. Ends of the range are
-// compared with q moved by twice its error: a bound on q is never below u·|q|, so the second half
+// compared with q moved by twice its error: a bound on q is never below 2⁻²⁴·|q|, so the second half
 // covers the rounding of the end (moved_q.gappa.in).
+// Samples of the cells beyond the box are not covered, unless the box ends where the area does: a
+// sample beyond the area counts for nothing.
 template <bool test_edges, bool test_range>
-HWY_INLINE bool draw_strip(Tile& tile, const Drawn& t, const Strip& strip,
+HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
                            const Tile::Context& context) {
-  const D d;
-  const DU du;
+  const DF d;
+  const DT dt;
   const int lanes = static_cast<int>(hn::Lanes(d));
+  const int rows_at_once = lanes / cell;
   const Functions& f = t.f;
-  const V minus_error = hn::Neg(f.error);
+  const VF minus_error = hn::Neg(f.error);
+  const auto tag = hn::Set(dt, t.batch.tag[t.lane]);
+  const VF tag_error = hn::BitCast(d, tag);
+  RangeEnds ends{};
+  if constexpr (test_range) ends = range_ends(context.range);
   std::size_t wins_in_all = 0;
-  for (int part = 0; part < block; part += lanes) {
-    const V lane = counting_lanes(d, static_cast<double>(part));
-    const M counts =
-        hn::And(hn::Ge(lane, constant(strip.first_lane)), hn::Le(lane, constant(strip.last_lane)));
-    if (lanes < block && hn::AllFalse(d, counts)) continue;
-    const V x = hn::Add(lane, constant(t.x + strip.column));
-    const V e0 = hn::MulAdd(f.a[0], x, f.c[0]), e1 = hn::MulAdd(f.a[1], x, f.c[1]);
-    const V e2 = hn::MulAdd(f.a[2], x, f.c[2]), q0 = hn::MulAdd(f.q_a, x, f.q_c);
-    const std::size_t start = Tile::index(static_cast<std::uint32_t>(strip.column + part), 0);
-    V y = constant(t.y + strip.first_row - 1);
-    for (int row = strip.first_row; row <= strip.last_row; ++row) {
-      y = hn::Add(y, constant(1));  // integers: exact
-      double* const q_at = tile.q() + start + static_cast<std::size_t>(row) * Tile::size;
-      std::uint64_t* const tag_at =
-          tile.tags() + start + static_cast<std::size_t>(row) * Tile::size;
-      const V q = hn::MulAdd(f.q_b, y, q0);
-      const V difference = hn::Sub(q, hn::LoadU(d, q_at));
-      const V sum = hn::Add(f.q_error, hn::BitCast(d, hn::LoadU(du, tag_at)));
-      M open = hn::AndNot(hn::Lt(difference, hn::Neg(sum)), counts);
-      M wins = hn::Gt(difference, sum);
+  const VF step = constant32(cell);
+  const VF first_x =
+      hn::Add(lane_columns(), constant32(static_cast<float>(cells.first_column - t.first_column)));
+  VF y = hn::Add(lane_rows(), constant32(static_cast<float>(cells.first_row - t.first_row)));
+  for (int row = cells.first_row; row < cells.last_row + cell; row += rows_at_once) {
+    const VF e0 = hn::MulAdd(f.b[0], y, f.c[0]), e1 = hn::MulAdd(f.b[1], y, f.c[1]);
+    const VF e2 = hn::MulAdd(f.b[2], y, f.c[2]), q0 = hn::MulAdd(f.q_b, y, f.q_c);
+    const std::size_t start = Tile::index(static_cast<std::uint32_t>(cells.first_column),
+                                          static_cast<std::uint32_t>(row));
+    float* q_at = tile.q() + start;
+    LaneTag* tag_at = tile.tags() + start;
+    VF x = first_x;
+    for (int column = cells.first_column; column <= cells.last_column;
+         column += cell, q_at += cell * cell, tag_at += cell * cell, x = hn::Add(x, step)) {
+      const VF q = hn::MulAdd(f.q_a, x, q0);
+      const VF q_there = hn::Load(d, q_at);
+      const auto tag_there = hn::Load(dt, tag_at);
+      const VF difference = hn::Sub(q, q_there);
+      const VF sum = hn::Add(tag_error, hn::BitCast(d, tag_there));
+      MF open = hn::Not(hn::Lt(difference, hn::Neg(sum)));
+      MF wins = hn::Gt(difference, sum);
       if constexpr (test_edges) {
-        const V least = least_of(hn::MulAdd(f.b[0], y, e0), hn::MulAdd(f.b[1], y, e1),
-                                 hn::MulAdd(f.b[2], y, e2));
+        const VF least = hn::Min(hn::Min(hn::MulAdd(f.a[0], x, e0), hn::MulAdd(f.a[1], x, e1)),
+                                 hn::MulAdd(f.a[2], x, e2));
         open = hn::And(open, hn::Ge(least, minus_error));
         wins = hn::And(wins, hn::Gt(least, f.error));
       }
-      if (hn::AllFalse(d, open)) continue;
+
       if constexpr (test_range) {
-        const V error = hn::Mul(constant(setup_bounds::q_moves), f.q_error);
-        const DepthRange& range = context.range;
-        wins = hn::And(wins, hn::And(hn::Ge(hn::Sub(q, error), constant(range.inside_least)),
-                                     hn::Le(hn::Add(q, error), constant(range.inside_greatest))));
+        const VF error = hn::Mul(constant32(setup_bounds::q_moves), tag_error);
+        wins = hn::And(wins, hn::And(hn::Ge(hn::Sub(q, error), ends.least),
+                                     hn::Le(hn::Add(q, error), ends.greatest)));
+      }
+      if (HWY_UNLIKELY(t.is_clipped)) {
+        open = hn::And(open, hn::And(hn::Le(x, t.f.last_x), hn::Le(y, t.f.last_y)));
       }
       wins = hn::And(wins, open);
-      hn::BlendedStore(q, wins, d, q_at);
-      hn::BlendedStore(t.tag, hn::RebindMask(du, wins), du, tag_at);
+      hn::Store(hn::IfThenElse(wins, q, q_there), d, q_at);
+      hn::Store(hn::IfThenElse(hn::RebindMask(dt, wins), tag, tag_there), dt, tag_at);
       wins_in_all += hn::CountTrue(d, wins);
-      const M doubtful = hn::AndNot(wins, open);
+      const MF doubtful = hn::AndNot(wins, open);
       if (HWY_UNLIKELY(!hn::AllFalse(d, doubtful))) {
-        settle_lanes(tile, t, bits_of(doubtful), strip.column + part, row, context);
+        settle_lanes(tile, t, lane_bits(d, doubtful), column, row, context);
       }
     }
+    y = hn::Add(y, constant32(static_cast<float>(rows_at_once)));  // integers: exact
   }
   context.statistics.samples_covered += wins_in_all;
-  context.statistics.samples_tested += static_cast<std::uint64_t>(
-      (strip.last_lane - strip.first_lane + 1) * (strip.last_row - strip.first_row + 1));
   return wins_in_all != 0;
 }
 
 template <bool test_edges>
-HWY_INLINE bool draw_strip(Tile& tile, const Drawn& t, const Strip& strip,
+HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
                            const Tile::Context& context) {
-  return t.test_range ? draw_strip<test_edges, true>(tile, t, strip, context)
-                      : draw_strip<test_edges, false>(tile, t, strip, context);
+  return t.test_range ? draw_cells<test_edges, true>(tile, t, cells, context)
+                      : draw_cells<test_edges, false>(tile, t, cells, context);
 }
 
-/// Strips over the whole box.
+HWY_INLINE int cell_of(int place) {
+  return place / cell * cell;
+}
+
+/// The cells of the whole box.
 HWY_INLINE void draw_box(Tile& tile, const Drawn& t, const Tile::Context& context) {
-  for (int column = t.first_column; column <= t.last_column; column += block) {
-    draw_strip<true>(
-        tile, t, {column, t.first_row, t.last_row, 0, std::min(block - 1, t.last_column - column)},
-        context);
-  }
+  draw_cells<true>(
+      tile, t,
+      {cell_of(t.first_column), cell_of(t.last_column), cell_of(t.first_row), cell_of(t.last_row)},
+      context);
+  context.statistics.samples_tested += static_cast<std::uint64_t>(
+      (t.last_column - t.first_column + 1) * (t.last_row - t.first_row + 1));
 }
 
 /// What is certain about a row of blocks of a tile, a bit for each block.
@@ -187,70 +216,67 @@ struct BlockRow {
 // Hidden: no surface of the block has a q below the block's farthest, and the triangle's greatest q
 // moved by twice its error is below that (moved_q.gappa.in, of the sample where q is greatest; the
 // computed value at the corner is not less, and rounding is monotone).
+// A block that lies inside shows surfaces that are not farther than the triangle once it is drawn,
+// at all its samples if it has no range to leave: its least q moved down by twice its error is not
+// greater than any q there.
 HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, int block_row, bool reject) {
-  const D d;
+  const DF8 d;
+  const auto set = [](float x) HWY_ATTR { return hn::Set(DF8(), x); };
+  const auto zero = hn::Zero(d);
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const Functions& f = t.f;
-  const V side = constant(block - 1);
-  const V top = constant(t.y + block_row * block);
+  const LaneBatch& f = t.batch;
+  const std::size_t k = t.lane;
+  const auto side = set(block - 1);
+  const auto top = set(static_cast<float>(block_row * block - t.first_row));
+  const auto error = set(f.edge_error[k]);
+  const auto first_met = set(static_cast<float>(t.first_column / block));
+  const auto last_met = set(static_cast<float>(t.last_column / block));
   BlockRow row{0, 0};
   for (int part = 0; part < static_cast<int>(Tile::size) / block; part += lanes) {
-    const V number = counting_lanes(d, static_cast<double>(part));
-    const V left = hn::MulAdd(number, constant(block), constant(t.x));
-    M missed = hn::Lt(constant(1), constant(0)), inside = hn::Not(missed);
-    for (int i = 0; i < 3; ++i) {
-      const M right_is_greater = hn::Gt(f.a[i], constant(0));
-      const M bottom_is_greater = hn::Gt(f.b[i], constant(0));
-      const V greatest_x = hn::Add(left, hn::IfThenElseZero(right_is_greater, side));
-      const V least_x = hn::Add(left, hn::IfThenZeroElse(right_is_greater, side));
-      const V greatest_y = hn::Add(top, hn::IfThenElseZero(bottom_is_greater, side));
-      const V least_y = hn::Add(top, hn::IfThenZeroElse(bottom_is_greater, side));
-      const V greatest = hn::MulAdd(f.b[i], greatest_y, hn::MulAdd(f.a[i], greatest_x, f.c[i]));
-      const V least = hn::MulAdd(f.b[i], least_y, hn::MulAdd(f.a[i], least_x, f.c[i]));
-      missed = hn::Or(missed, hn::Lt(greatest, hn::Neg(f.error)));
-      inside = hn::And(inside, hn::Gt(least, f.error));
+    const auto number = counting_lanes(d, static_cast<float>(part));
+    const auto left = hn::MulAdd(number, set(block), set(static_cast<float>(-t.first_column)));
+    auto missed = hn::Lt(side, zero),
+         inside = hn::And(hn::Ge(number, first_met), hn::Le(number, last_met));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto a = set(f.edge_a[i][k]), b = set(f.edge_b[i][k]), c = set(f.edge_c[i][k]);
+      const auto right_is_greater = hn::Gt(a, zero);
+      const auto bottom_is_greater = hn::Gt(b, zero);
+      const auto greatest_x = hn::Add(left, hn::IfThenElseZero(right_is_greater, side));
+      const auto least_x = hn::Add(left, hn::IfThenZeroElse(right_is_greater, side));
+      const auto greatest_y = hn::Add(top, hn::IfThenElseZero(bottom_is_greater, side));
+      const auto least_y = hn::Add(top, hn::IfThenZeroElse(bottom_is_greater, side));
+      const auto greatest = hn::MulAdd(b, greatest_y, hn::MulAdd(a, greatest_x, c));
+      const auto least = hn::MulAdd(b, least_y, hn::MulAdd(a, least_x, c));
+      missed = hn::Or(missed, hn::Lt(greatest, hn::Neg(error)));
+      inside = hn::And(inside, hn::Gt(least, error));
     }
     if (reject) {
-      const V x = hn::Add(left, hn::IfThenElseZero(hn::Gt(f.q_a, constant(0)), side));
-      const V y = hn::Add(top, hn::IfThenElseZero(hn::Gt(f.q_b, constant(0)), side));
-      const V greatest = hn::MulAdd(f.q_b, y, hn::MulAdd(f.q_a, x, f.q_c));
-      const V farthest = hn::LoadU(
-          d, tile.farthest() + static_cast<std::size_t>(
-                                   block_row * (static_cast<int>(Tile::size) / block) + part));
-      missed = hn::Or(
-          missed,
-          hn::Lt(hn::MulAdd(constant(setup_bounds::q_moves), f.q_error, greatest), farthest));
+      const auto a = set(f.q_a[k]), b = set(f.q_b[k]), c = set(f.q_c[k]);
+      const auto right_is_greater = hn::Gt(a, zero);
+      const auto bottom_is_greater = hn::Gt(b, zero);
+      const auto value = [&](auto from_left, auto from_top) HWY_ATTR {
+        return hn::MulAdd(b, hn::Add(top, from_top), hn::MulAdd(a, hn::Add(left, from_left), c));
+      };
+      const auto greatest = value(hn::IfThenElseZero(right_is_greater, side),
+                                  hn::IfThenElseZero(bottom_is_greater, side));
+      const auto least = value(hn::IfThenZeroElse(right_is_greater, side),
+                               hn::IfThenZeroElse(bottom_is_greater, side));
+      const auto moves = set(setup_bounds::q_moves), q_error = set(f.q_error[k]);
+      float* const farthest_at =
+          tile.farthest().data() + block_row * (static_cast<int>(Tile::size) / block) + part;
+      const auto farthest = hn::LoadU(d, farthest_at);
+      missed = hn::Or(missed, hn::Lt(hn::MulAdd(moves, q_error, greatest), farthest));
+      // NaN, of a triangle without a bound, is not greater.
+      const auto here = hn::NegMulAdd(moves, q_error, least);
+      if (!t.test_range) {
+        hn::StoreU(hn::IfThenElse(hn::And(inside, hn::Gt(here, farthest)), here, farthest), d,
+                   farthest_at);
+      }
     }
-    row.drawn |= (bits_of(missed) ^ ((1U << lanes) - 1)) << part;
-    row.inside |= bits_of(inside) << part;
+    row.drawn |= (lane_bits(d, missed) ^ ((1U << lanes) - 1)) << part;
+    row.inside |= lane_bits(d, inside) << part;
   }
   return row;
-}
-
-// The least q, moved by twice its error: not greater than any exact q (moved_q.gappa.in). If a
-// surface has no bound (NaN), nothing is known.
-HWY_INLINE void update_farthest(Tile& tile, std::size_t block_number) {
-  const D d;
-  const DU du;
-  const std::size_t lanes = hn::Lanes(d);
-  const std::size_t blocks_in_row = Tile::size / Tile::block;
-  const std::size_t start =
-      Tile::index(static_cast<std::uint32_t>(block_number % blocks_in_row * Tile::block),
-                  static_cast<std::uint32_t>(block_number / blocks_in_row * Tile::block));
-  V least = constant(std::numeric_limits<double>::infinity());
-  M known = hn::Eq(least, least);
-  for (std::size_t row = 0; row < Tile::block; ++row) {
-    for (std::size_t part = 0; part < Tile::block; part += lanes) {
-      const std::size_t i = start + row * Tile::size + part;
-      const V error = hn::BitCast(d, hn::LoadU(du, tile.tags() + i));
-      least = hn::Min(
-          least, hn::NegMulAdd(constant(setup_bounds::q_moves), error, hn::LoadU(d, tile.q() + i)));
-      known = hn::And(known, hn::Eq(error, error));
-    }
-  }
-  tile.farthest()[block_number] = hn::AllTrue(d, known) ? hn::GetLane(hn::MinOfLanes(d, least))
-                                                        : -std::numeric_limits<double>::infinity();
-  tile.draws()[block_number] = 0;
 }
 
 /// Draws by rows of blocks: blocks without a covered sample and those behind everything that is
@@ -265,26 +291,28 @@ HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& con
     for (unsigned bits = certain.drawn & met; bits != 0; bits &= bits - 1) {
       const int number = std::countr_zero(bits);
       const int column = number * block;
-      const Strip strip{
-          column, std::max(row * block, t.first_row), std::min(row * block + block - 1, t.last_row),
-          std::max(t.first_column - column, 0), std::min(t.last_column - column, block - 1)};
+      const int left = std::max(column, t.first_column);
+      const int right = std::min(column + block - 1, t.last_column);
+      const int top = std::max(row * block, t.first_row);
+      const int bottom = std::min(row * block + block - 1, t.last_row);
+      const Cells cells{cell_of(left), cell_of(right), cell_of(top), cell_of(bottom)};
       const bool inside = certain.inside >> number & 1;
-      const bool drew = inside ? draw_strip<false>(tile, t, strip, context)
-                               : draw_strip<true>(tile, t, strip, context);
-      if (!reject || !drew) continue;
+      const bool drew = inside ? draw_cells<false>(tile, t, cells, context)
+                               : draw_cells<true>(tile, t, cells, context);
+      context.statistics.samples_tested +=
+          static_cast<std::uint64_t>((right - left + 1) * (bottom - top + 1));
+      if (!reject || !drew || (inside && !t.test_range)) continue;
       const auto block_number = static_cast<std::size_t>(row) * (Tile::size / Tile::block) +
                                 static_cast<std::size_t>(number);
-      if (inside || ++tile.draws()[block_number] >= draws_until_update) {
+      if (++tile.draws()[block_number] >= draws_until_update) {
         update_farthest(tile, block_number);
       }
     }
   }
 }
 
-HWY_INLINE void draw_triangle(Tile& tile, const SetupBatch& batch, std::size_t lane,
-                              bool test_range, const Tile::Context& context) {
-  const Drawn t = drawn(batch, lane, test_range, tile.area());
-  if (std::max(t.last_column - t.first_column, t.last_row - t.first_row) < 2 * block ||
+HWY_INLINE void draw_triangle(Tile& tile, const Drawn& t, const Tile::Context& context) {
+  if (std::max(t.last_column - t.first_column, t.last_row - t.first_row) < 3 * block ||
       !context.switches.hierarchy) {
     draw_box(tile, t, context);
   } else {
@@ -294,89 +322,88 @@ HWY_INLINE void draw_triangle(Tile& tile, const SetupBatch& batch, std::size_t l
 
 /// The lanes of a batch whose boxes have at most two columns and two rows.
 HWY_INLINE unsigned small_lanes(const SetupBatch& batch) {
-  const D d;
-  const V columns =
-      hn::Sub(hn::Load(d, batch.last_column.data()), hn::Load(d, batch.first_column.data()));
-  const V rows = hn::Sub(hn::Load(d, batch.last_row.data()), hn::Load(d, batch.first_row.data()));
+  const V columns = hn::Sub(load(batch.last_column), load(batch.first_column));
+  const V rows = hn::Sub(load(batch.last_row), load(batch.first_row));
   return bits_of(hn::Le(hn::Max(columns, rows), constant(1)));
 }
 
 /// One sample of each of the small triangles, by its column and row in their boxes: the decisions
-/// of draw_strip(), those about edges for all triangles at once.
-HWY_INLINE void draw_sample_of_each(Tile& tile, const SetupBatch& batch, unsigned drawn, int column,
-                                    int row, const Tile::Context& context) {
-  const D d;
+/// of draw_cells(), those about edges in binary64 for all triangles at once.
+HWY_INLINE void draw_sample_of_each(Tile& tile, const SetupBatch& setups, const LaneBatch& batch,
+                                    unsigned drawn, int column, int row,
+                                    const Tile::Context& context) {
+  const hn::Rebind<float, D> d32;
   const V x = constant(column), y = constant(row);
-  const V columns =
-      hn::Sub(hn::Load(d, batch.last_column.data()), hn::Load(d, batch.first_column.data()));
-  const V rows = hn::Sub(hn::Load(d, batch.last_row.data()), hn::Load(d, batch.first_row.data()));
+  const V columns = hn::Sub(load(setups.last_column), load(setups.first_column));
+  const V rows = hn::Sub(load(setups.last_row), load(setups.first_row));
   const unsigned within = drawn & bits_of(hn::And(hn::Ge(columns, x), hn::Ge(rows, y)));
-  V e[3];
-  for (std::size_t i = 0; i < 3; ++i) {
-    e[i] = hn::MulAdd(
-        hn::Load(d, batch.edge_b[i].data()), y,
-        hn::MulAdd(hn::Load(d, batch.edge_a[i].data()), x, hn::Load(d, batch.edge_c[i].data())));
-  }
-  const V least = least_of(e[0], e[1], e[2]);
-  const V error = hn::Load(d, batch.edge_error.data());
+  const auto value =
+      [&](const SetupBatch::Numbers& a, const SetupBatch::Numbers& b, const SetupBatch::Numbers& c)
+          HWY_ATTR { return hn::MulAdd(load(b), y, hn::MulAdd(load(a), x, load(c))); };
+  const V least = least_of(value(setups.edge_a[0], setups.edge_b[0], setups.edge_c[0]),
+                           value(setups.edge_a[1], setups.edge_b[1], setups.edge_c[1]),
+                           value(setups.edge_a[2], setups.edge_b[2], setups.edge_c[2]));
+  const V error = load(setups.edge_error);
   const unsigned open = within & bits_of(hn::Ge(least, hn::Neg(error)));
-  const unsigned covered = bits_of(hn::Gt(least, error)) & ~batch.test_range;
-  alignas(64) double q_of[SetupBatch::most];
-  hn::Store(hn::MulAdd(hn::Load(d, batch.q_b.data()), y,
-                       hn::MulAdd(hn::Load(d, batch.q_a.data()), x, hn::Load(d, batch.q_c.data()))),
-            d, q_of);
+  const unsigned covered = bits_of(hn::Gt(least, error)) & ~setups.test_range;
+  alignas(32) LaneBatch::Numbers q_of;
+  hn::Store(to_binary32(d32, value(setups.q_a, setups.q_b, setups.q_c)), d32, q_of.data());
   std::uint64_t wins = 0;
   for (unsigned bits = open; bits != 0; bits &= bits - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-    const auto image_column =
-        static_cast<std::uint32_t>(batch.first_column[k]) + static_cast<std::uint32_t>(column);
-    const auto image_row =
-        static_cast<std::uint32_t>(batch.first_row[k]) + static_cast<std::uint32_t>(row);
-    const std::size_t i =
-        Tile::index(image_column - tile.area().first_column, image_row - tile.area().first_row);
-    const std::uint64_t tag = surface_tag(batch.number[k], batch.q_error[k]);
-    const double difference = q_of[k] - tile.q()[i];
-    const double sum = std::bit_cast<double>(tag) + std::bit_cast<double>(tile.tags()[i]);
+    const auto tile_column = static_cast<std::uint32_t>(batch.first_column[k] + column);
+    const auto tile_row = static_cast<std::uint32_t>(batch.first_row[k] + row);
+    const std::size_t i = Tile::index(tile_column, tile_row);
+    const LaneTag tag = batch.tag[k];
+    const float difference = q_of[k] - tile.q()[i];
+    const float sum = std::bit_cast<float>(tag) + std::bit_cast<float>(tile.tags()[i]);
     if (difference < -sum) continue;
     if (difference > sum && (covered >> k & 1)) {
       tile.q()[i] = q_of[k];
       tile.tags()[i] = tag;
       ++wins;
     } else {
-      tile.settle(batch.get(k), batch.test_range >> k & 1, image_column, image_row, context);
+      tile.settle(setups.get(k), tag, setups.test_range >> k & 1,
+                  tile.area().first_column + tile_column, tile.area().first_row + tile_row,
+                  context);
     }
   }
   context.statistics.samples_tested += static_cast<unsigned>(std::popcount(within));
   context.statistics.samples_covered += wins;
 }
 
-HWY_NOINLINE void draw_exactly(Tile& tile, std::uint32_t number, const PixelBox& box,
-                               const Tile::Context& context) {
-  SetupBatch exact;
-  Tile::set_up_exactly(number, box, context, exact);
-  draw_triangle(tile, exact, 0, true, context);
+/// Draws lanes of a batch that are not refused.
+HWY_INLINE void draw_batch(Tile& tile, const SetupBatch& setups, unsigned lanes, LaneBatch& batch,
+                           const Tile::Context& context) {
+  const std::uint32_t place = tile.next_place();
+  // Triangles of a batch may hide each other.
+  make_surfaces(setups, tile.area(), tile.surfaces_at(place));
+  make_lane_places(setups, tile.area(), place, batch);
+  const std::uint64_t covered_before = context.statistics.samples_covered;
+  const unsigned small = lanes & small_lanes(setups);
+  if (small != 0) {
+    for (int sample = 0; sample < 4; ++sample) {
+      draw_sample_of_each(tile, setups, batch, small, sample % 2, sample / 2, context);
+    }
+  }
+  if (lanes != small) make_lane_functions(setups, batch);
+  for (unsigned bits = lanes & ~small; bits != 0; bits &= bits - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+    draw_triangle(tile, drawn(setups, batch, k, setups.test_range >> k & 1, tile.is_partial()),
+                  context);
+  }
+  if (context.statistics.samples_covered != covered_before) {
+    tile.keep_surfaces(static_cast<std::uint32_t>(hn::Lanes(D())));
+  }
 }
 
-/// Triangles to draw, as many as there are lanes (the last one repeated if there are fewer).
-struct Triangles {
-  std::array<std::uint32_t, SetupBatch::most> number;
-  std::array<CornerIndices, SetupBatch::most> corners;
-};
-
-/// Reads those from `first` on, and prefetches those that come next: triangles of a tile may be
-/// anywhere in the mesh.
-HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> numbers,
-                      std::size_t first, Triangles& next) {
-  const std::size_t lanes = hn::Lanes(D());
-  const CornerIndices* triangles = object.mesh.triangles.data();
-  for (std::size_t k = 0; k < lanes; ++k) {
-    const std::size_t i = std::min(first + k, numbers.size() - 1);
-    const std::size_t later = std::min(i + 2 * lanes, numbers.size() - 1);
-    hwy::Prefetch(triangles + (numbers[later] - object.first_number));
-    next.number[k] = numbers[i];
-    next.corners[k] = triangles[numbers[i] - object.first_number];
-    for (const std::uint32_t vertex : next.corners[k]) hwy::Prefetch(&object.vertices[vertex]);
-  }
+HWY_NOINLINE void draw_exactly(Tile& tile, std::uint32_t number, const PixelBox& box,
+                               const Tile::Context& context) {
+  SetupBatch exact{};
+  LaneBatch lanes{};
+  exact.test_range = 1;
+  Tile::set_up_exactly(number, box, context, exact);
+  draw_batch(tile, exact, 1, lanes, context);
 }
 
 /// Edge functions without any error have no bound to widen.
@@ -387,11 +414,12 @@ HWY_NOINLINE void widen(SetupBatch& batch, double factor) {
   }
 }
 
-void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
-                    const Tile::Context& context) {
+void draw_some(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
+               const Tile::Context& context) {
   const std::size_t lanes = hn::Lanes(D());
   Triangles next{};
   SetupBatch batch;
+  LaneBatch lane_batch{};
   fetch(object, numbers, 0, next);
   for (std::size_t first = 0; first < numbers.size(); first += lanes) {
     const std::size_t count = std::min(lanes, numbers.size() - first);
@@ -401,22 +429,36 @@ void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::
     set_up_lanes(object.vertices.get(), now.corners.data(), tile.area(), context.range, batch);
     if (HWY_UNLIKELY(context.switches.widening != 1)) widen(batch, context.switches.widening);
     const unsigned drawn_lanes = ((1U << count) - 1) & ~batch.empty;
-    context.statistics.grid_setups +=
-        static_cast<unsigned>(std::popcount(drawn_lanes & batch.snapped & ~batch.refused));
-    const unsigned small = drawn_lanes & ~batch.refused & small_lanes(batch);
-    if (small != 0) {
-      for (int sample = 0; sample < 4; ++sample) {
-        draw_sample_of_each(tile, batch, small, sample % 2, sample / 2, context);
-      }
-    }
-    for (unsigned bits = drawn_lanes & ~small; bits != 0; bits &= bits - 1) {
+    const unsigned certain = drawn_lanes & ~batch.refused;
+    context.statistics.grid_setups += static_cast<unsigned>(std::popcount(certain & batch.snapped));
+    if (certain != 0) draw_batch(tile, batch, certain, lane_batch, context);
+    for (unsigned bits = drawn_lanes & batch.refused; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-      if (HWY_UNLIKELY(batch.refused >> k & 1)) {
-        draw_exactly(tile, batch.number[k], batch.box(k), context);
-      } else {
-        draw_triangle(tile, batch, k, batch.test_range >> k & 1, context);
-      }
+      draw_exactly(tile, batch.number[k], batch.box(k), context);
     }
+  }
+}
+
+/// Looking for hidden triangles pays where there are some: it is tried with the first of a list and
+/// now and then, and goes on where one in eight was hidden.
+void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
+                    const Tile::Context& context) {
+  constexpr std::size_t most = 256, least = 16, pause = 8;
+  std::array<std::uint32_t, most> visible;
+  std::size_t parts_until_look = 0;
+  FarthestOfBlocks farthest;
+  for (std::size_t first = 0; first < numbers.size(); first += most) {
+    const auto some = numbers.subspan(first, std::min(most, numbers.size() - first));
+    const bool look = context.switches.early_rejection && parts_until_look == 0 &&
+                      some.size() >= least && find_farthest(tile, farthest);
+    if (!look) {
+      parts_until_look = parts_until_look == 0 ? pause : parts_until_look - 1;
+      draw_some(tile, object, some, context);
+      continue;
+    }
+    const std::size_t count = leave_out_hidden(tile, farthest, object, some, visible.data());
+    parts_until_look = count > some.size() - some.size() / 8 ? pause : 0;
+    if (count > 0) draw_some(tile, object, std::span(visible).first(count), context);
   }
 }
 

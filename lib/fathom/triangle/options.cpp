@@ -28,6 +28,7 @@ void add(RenderStatistics& sum, const RenderStatistics& part) {
   sum.exact_setups += part.exact_setups;
   sum.same_plane += part.same_plane;
   sum.double_words += part.double_words;
+  sum.samples_in_binary64 += part.samples_in_binary64;
   sum.grid_setups += part.grid_setups;
 }
 

@@ -49,6 +49,8 @@ struct RenderStatistics {
   TierCounts rounding;
   /// Those of rounding.interval that binary64 did not settle, but double-words did.
   std::uint64_t double_word_roundings = 0;
+  /// Samples that binary32 did not settle: settled by binary64, or counted as exact.
+  std::uint64_t samples_in_binary64 = 0;
   /// How often a triangle was set up from exact numbers, once for each tile that it meets.
   std::uint64_t exact_setups = 0;
   /// Those of visibility.exact that were settled because both triangles lie in one plane.

@@ -38,10 +38,9 @@ void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile
 void TileCoverage::write_closed(const Tile& tile, float* values, std::uint32_t image_width) const {
   const std::uint32_t columns = area_.last_column - area_.first_column + 1;
   for (std::uint32_t row = area_.first_row; row <= area_.last_row; ++row) {
-    const double* q = tile.q() + Tile::index(0, row - area_.first_row);
     float* const out = values + std::size_t{row} * image_width + area_.first_column;
     for (std::uint32_t column = 0; column < columns; ++column) {
-      out[column] = q[column] > -std::numeric_limits<double>::infinity() ? 1.0F : 0.0F;
+      out[column] = tile.shows_surface(Tile::index(column, row - area_.first_row)) ? 1.0F : 0.0F;
     }
   }
 }

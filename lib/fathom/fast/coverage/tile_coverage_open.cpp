@@ -52,9 +52,13 @@ class VertexAtPlace {
 void TileCoverage::collect_triangles(std::uint32_t tile_number) {
   numbers_.clear();
   for (const Bins& bins : scene_.bins) {
-    const auto numbers = bins.in_tile(tile_number);
-    numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
+    for (const Side side : {Side::front, Side::back}) {
+      const auto numbers = bins.in_tile(tile_number, side);
+      numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
+    }
   }
+  // Those of one object next to each other.
+  if (scene_.objects.size() > 1) std::sort(numbers_.begin(), numbers_.end());
 }
 
 /// The pixels that the rectangle around the edge meets, widened by `margin` on all sides.
