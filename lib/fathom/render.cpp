@@ -1,6 +1,7 @@
 #include "fathom/render.h"
 
 #include <atomic>
+#include <utility>
 
 #include "fathom/area/deep_pixels.h"
 #include "fathom/fast/render_fast.h"
@@ -79,11 +80,20 @@ Mattes mattes_by_segment(const Scene& scene, const Camera& camera, const RenderO
 }  // namespace
 
 DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& options) {
-  const StandardArithmetic standard;
-  DepthMap map = options.engine == Engine::fast ? render_fast(scene, camera, options)
-                                                : render_reference(scene, camera, options);
-  describe(scene, camera, options, map);
+  DepthMap map;
+  render_into(map, scene, camera, options);
   return map;
+}
+
+void render_into(DepthMap& map, const Scene& scene, const Camera& camera,
+                 const RenderOptions& options) {
+  const StandardArithmetic standard;
+  DepthMap before = std::exchange(map, {});
+  DepthMap now = options.engine == Engine::fast
+                     ? render_fast(scene, camera, options, std::move(before))
+                     : render_reference(scene, camera, options, std::move(before));
+  describe(scene, camera, options, now);
+  map = std::move(now);
 }
 
 DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options,

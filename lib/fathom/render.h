@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "fathom/camera/camera.h"
+#include "fathom/fast/render_memory.h"
 #include "fathom/fast/stream.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/depth_map.h"
@@ -22,6 +23,13 @@ namespace fathom {
 ///          2⁴⁴ pixels; UsageError for options that mean nothing (require_meaningful); OutputError
 ///          if a depth does not fit the encoding asked for.
 DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
+
+/// Renders into a map of before: channels that are there with the same name, type and number of
+/// values are written where they are; all else of the map is replaced. With a RenderMemory in the
+/// options, a frame of the same scene and size takes no memory of the system.
+/// Fails    as render(); the map is empty then.
+void render_into(DepthMap& map, const Scene& scene, const Camera& camera,
+                 const RenderOptions& options = {});
 
 /// The same map of a scene whose meshes stay in their files, by the fast engine.
 /// Fails    also InputError if a file changes meanwhile; UsageError if another engine is asked for.

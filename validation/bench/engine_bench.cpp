@@ -12,10 +12,11 @@
 #include "fathom/render.h"
 #include "validation/bench/scenes.h"
 
-/// Times render(), from mesh and camera in memory to the complete map in memory, without any peer:
+/// Times render(), from mesh and camera in memory to the complete map in memory, without any peer, or
+/// with --keep render_into() a map of before, with memory of before:
 ///   engine_bench [SCENE…] [--size WxH] [--threads N] [--repeat N] [--engine fast|reference]
 ///                [--channels Z,id,…] [--cull back|front|none]
-///                [--without simd,hierarchy,early-rejection] [--tiers]
+///                [--without simd,hierarchy,early-rejection] [--tiers] [--keep]
 /// The scenes are those of scenes.h, or mesh files. The first run of each is not counted. --tiers
 /// tells how many decisions and values were settled by which arithmetic.
 namespace {
@@ -27,7 +28,7 @@ struct Arguments {
   std::vector<std::string> scenes;
   unsigned width = 1920, height = 1080;
   int repeat = 9;
-  bool tiers = false;
+  bool tiers = false, keep = false;
   RenderOptions options{.engine = Engine::fast};
 };
 
@@ -90,8 +91,8 @@ Arguments parse(int argc, char** argv) {
   Arguments arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string name = argv[i];
-    if (name == "--tiers") {
-      arguments.tiers = true;
+    if (name == "--tiers" || name == "--keep") {
+      (name == "--tiers" ? arguments.tiers : arguments.keep) = true;
       continue;
     }
     if (!name.starts_with("--")) {
@@ -145,9 +146,14 @@ void time_scene(const std::string& name, const Arguments& arguments) {
   const bench::BenchScene bench = bench::make_scene(name, arguments.width, arguments.height);
   std::vector<double> milliseconds;
   std::size_t covered = 0;
+  RenderMemory memory;
+  RenderOptions options = arguments.options;
+  if (arguments.keep) options.kept = &memory;
+  DepthMap map;
   for (int run = 0; run <= arguments.repeat; ++run) {
+    if (!arguments.keep) map = {};
     const auto start = Clock::now();
-    const DepthMap map = render(bench.scene, bench.camera, arguments.options);
+    render_into(map, bench.scene, bench.camera, options);
     const std::chrono::duration<double, std::milli> time = Clock::now() - start;
     if (run > 0) milliseconds.push_back(time.count());
     if (const auto* Z = map.values<float>("Z"); Z != nullptr && run == 0) {
@@ -161,7 +167,6 @@ void time_scene(const std::string& name, const Arguments& arguments) {
               milliseconds[milliseconds.size() / 2], milliseconds.front());
   if (arguments.tiers) {
     RenderStatistics statistics;
-    RenderOptions options = arguments.options;
     options.statistics = &statistics;
     render(bench.scene, bench.camera, options);
     print_tiers(statistics);

@@ -30,11 +30,13 @@ void transform_finite(const VertexTransform& transform, std::span<const MeshPoin
 }  // namespace
 
 ImageObject::ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
-                         std::uint32_t first_triangle)
+                         std::uint32_t first_triangle, VertexMemory* where_kept)
     : mesh(its_mesh),
       first_number(first_triangle),
       transform(object, camera),
-      vertices(std::make_unique_for_overwrite<ImageVertex[]>(mesh.vertices.size())) {
+      vertices(where_kept ? where_kept->take(mesh.vertices.size())
+                          : std::make_unique_for_overwrite<ImageVertex[]>(mesh.vertices.size())),
+      kept(where_kept) {
   constexpr std::size_t part = 4096;
   const std::size_t count = mesh.vertices.size();
   in_parallel((count + part - 1) / part, [&](std::size_t i) {
@@ -43,6 +45,23 @@ ImageObject::ImageObject(const Object& object, const Mesh& its_mesh, const Camer
                      std::span(mesh.vertices).subspan(first, std::min(part, count - first)),
                      vertices.get() + first);
   });
+}
+
+ImageObject::~ImageObject() {
+  if (kept) kept->give_back(std::move(vertices), mesh.vertices.size());
+}
+
+VertexMemory::Vertices VertexMemory::take(std::size_t count) {
+  const auto fits = std::find_if(blocks_.begin(), blocks_.end(),
+                                 [&](const Block& block) { return block.count == count; });
+  if (fits == blocks_.end()) return std::make_unique_for_overwrite<ImageVertex[]>(count);
+  Vertices vertices = std::move(fits->vertices);
+  blocks_.erase(fits);
+  return vertices;
+}
+
+void VertexMemory::give_back(Vertices vertices, std::size_t count) {
+  blocks_.push_back({std::move(vertices), count});
 }
 
 const ImageObject& object_of(const ImageObjects& objects, std::uint32_t number) {
@@ -74,7 +93,7 @@ void Bins::fill(const Context& context) {
   for (const ImageObject& object : context.objects) {
     if (object.end_number() > first_ && object.first_number < end_) add_object(object, context);
   }
-  for (Lists& lists : lists_) lists.sort();
+  for (Lists& lists : lists_) lists.sort(context.keep_memory);
 }
 
 namespace {
@@ -156,14 +175,19 @@ void Bins::Lists::add(std::uint32_t number, const PixelBox& box, const TileGrid&
   }
 }
 
-void Bins::Lists::sort() {
+void Bins::Lists::sort(bool keep_memory) {
   for (std::size_t tile = 0; tile + 1 < starts_.size(); ++tile) starts_[tile + 1] += starts_[tile];
   sorted_.resize(entries_.size());
-  std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
+  next_.assign(starts_.begin(), starts_.end() - 1);
   for (const std::uint64_t entry : entries_) {
-    sorted_[next[entry >> 32]++] = static_cast<std::uint32_t>(entry);
+    sorted_[next_[entry >> 32]++] = static_cast<std::uint32_t>(entry);
   }
-  entries_ = {};
+  if (keep_memory) {
+    entries_.clear();
+  } else {
+    entries_ = {};
+    next_ = {};
+  }
 }
 
 }  // namespace fathom::fast

@@ -14,11 +14,30 @@
 
 namespace fathom::fast {
 
+/// Memory for vertices in the image, which objects take and give back.
+class VertexMemory {
+ public:
+  using Vertices = std::unique_ptr<ImageVertex[]>;
+  /// Room for `count` vertices or more, whatever it holds.
+  Vertices take(std::size_t count);
+  void give_back(Vertices vertices, std::size_t count);
+
+ private:
+  struct Block {
+    Vertices vertices;
+    std::size_t count;
+  };
+  std::vector<Block> blocks_;
+};
+
 /// One object with its vertices in the image.
 struct ImageObject {
   /// For an object or a part of one; its first triangle is number `first_triangle` in the scene.
   ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
-              std::uint32_t first_triangle);
+              std::uint32_t first_triangle, VertexMemory* kept = nullptr);
+  ~ImageObject();
+  ImageObject(const ImageObject&) = delete;
+  ImageObject& operator=(const ImageObject&) = delete;
 
   const Mesh& mesh;
   /// Number of its first triangle in the scene.
@@ -26,6 +45,8 @@ struct ImageObject {
   VertexTransform transform;
   /// One for each vertex of the mesh.
   std::unique_ptr<ImageVertex[]> vertices;
+  /// Where the vertices are given back to; may be null.
+  VertexMemory* kept;
 
   [[nodiscard]] std::uint32_t end_number() const {
     return first_number + static_cast<std::uint32_t>(mesh.triangles.size());
@@ -53,6 +74,11 @@ class Bins {
  public:
   /// For the triangles first ≤ number < end of the scene.
   Bins(std::uint32_t first, std::uint32_t end) : first_(first), end_(end) {}
+  /// For others; keeps the memory.
+  void restart(std::uint32_t first, std::uint32_t end) {
+    first_ = first;
+    end_ = end;
+  }
 
   struct Context {
     const ImageObjects& objects;
@@ -63,6 +89,8 @@ class Bins {
     const TileGrid& grid;
     triangle::Referee& referee;
     RenderStatistics& statistics;
+    /// Whether memory that is needed while sorting is kept for the next time.
+    bool keep_memory = false;
   };
   void fill(const Context& context);
 
@@ -84,7 +112,7 @@ class Bins {
     /// Tile (upper half) and triangle (lower half) of triangles that meet one tile.
     void add(std::span<const std::uint64_t> entries);
     void add(std::uint32_t number, const PixelBox& box, const TileGrid& grid);
-    void sort();
+    void sort(bool keep_memory);
     [[nodiscard]] std::span<const std::uint32_t> in_tile(std::uint32_t tile) const {
       return std::span(sorted_).subspan(starts_[tile], starts_[tile + 1] - starts_[tile]);
     }
@@ -93,6 +121,7 @@ class Bins {
     std::vector<std::uint64_t> entries_;
     std::vector<std::uint32_t> sorted_;
     std::vector<std::size_t> starts_;
+    std::vector<std::size_t> next_;
   };
   static std::size_t index(Side side) { return static_cast<std::size_t>(side); }
 

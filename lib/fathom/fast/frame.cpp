@@ -17,18 +17,21 @@ FastFrame::FastFrame(const Camera& the_camera, const RenderOptions& the_options)
 
 std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
                                   std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
-                                  FastWorkers& workers) {
+                                  FastWorkers& workers, std::vector<Bins> bins) {
   constexpr std::uint64_t least = 1024;
   const std::uint64_t length = std::max(least, std::uint64_t{end - first} / parts + 1);
-  std::vector<Bins> bins;
+  std::size_t count = 0;
   for (std::uint64_t next = first; next < end; next += length) {
-    bins.emplace_back(static_cast<std::uint32_t>(next),
-                      static_cast<std::uint32_t>(std::min<std::uint64_t>(next + length, end)));
+    const auto from = static_cast<std::uint32_t>(next);
+    const auto to = static_cast<std::uint32_t>(std::min<std::uint64_t>(next + length, end));
+    if (count == bins.size()) bins.emplace_back(from, to);
+    bins[count++].restart(from, to);
   }
+  bins.resize(count, Bins(0, 0));
   parallel_for(std::size_t{0}, bins.size(), [&](std::size_t i) {
     FastWorker& worker = workers.local();
     bins[i].fill({objects, frame.camera, frame.options.cull, frame.by_area, frame.grid,
-                  worker.referee, worker.statistics});
+                  worker.referee, worker.statistics, frame.options.kept != nullptr});
   });
   return bins;
 }

@@ -52,9 +52,10 @@ struct FastFrame {
 /// Sorts triangles [first, end) of the scene, all of which belong to these objects, into tiles:
 /// `parts` bins of equal length, or fewer, so that each thread has several and their tables of
 /// tiles stay small.
+/// `bins` lend their memory, and keep it if the options say so.
 std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
                                   std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
-                                  FastWorkers& workers);
+                                  FastWorkers& workers, std::vector<Bins> bins = {});
 
 /// Draws the triangles of a tile.
 void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bins,

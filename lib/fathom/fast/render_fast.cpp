@@ -4,6 +4,7 @@
 
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/frame.h"
+#include "fathom/fast/render_memory_parts.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
@@ -21,30 +22,31 @@ namespace {
 
 constexpr std::uint32_t parts_of_scene = 64;
 
-ImageObjects transform(const Scene& scene, const Camera& camera) {
+ImageObjects transform(const Scene& scene, const Camera& camera, VertexMemory* kept) {
   ImageObjects objects;
   TriangleSource(scene).for_each_part(0, [&](const TriangleSource::Part& part) {
-    objects.emplace_back(part.object, part.mesh, camera, part.first_number);
+    objects.emplace_back(part.object, part.mesh, camera, part.first_number, kept);
   });
   return objects;
 }
 
-DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                         RenderMemory::Parts& memory, DepthMap before) {
   FastFrame frame(camera, options);
   const TriangleSource triangles(scene);
   const SceneRays rays(triangles, camera);
   FastWorkers workers([&] { return FastWorker(triangles, camera, rays); });
-  PerThread<std::unique_ptr<Tile>> tiles([] { return std::make_unique<Tile>(); });
 
   frame.by_area = std::count(options.channels.begin(), options.channels.end(), Channel::A) != 0;
 
-  const ImageObjects objects = transform(scene, camera);
-  const std::vector<Bins> bins = sort_into_tiles(
-      objects, 0, static_cast<std::uint32_t>(triangles.count()), parts_of_scene, frame, workers);
+  const ImageObjects objects = transform(scene, camera, options.kept ? &memory.vertices : nullptr);
+  const std::vector<Bins>& bins = memory.bins =
+      sort_into_tiles(objects, 0, static_cast<std::uint32_t>(triangles.count()), parts_of_scene,
+                      frame, workers, std::move(memory.bins));
 
   DepthMap map = FastOutput::writes_whole_tiles(options)
-                     ? make_background_but_depth(camera, options)
-                     : make_background(camera, options);
+                     ? make_background_but_depth(camera, options, std::move(before))
+                     : make_background(camera, options, std::move(before));
   ChannelWriter writer(map, triangles, camera, options);
   float* const coverage = writer.values().coverage;
   const CoverageFrame coverage_frame{triangles, camera, options.cull};
@@ -58,7 +60,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
       output.write_background(frame.grid.area(number), camera.width);
     } else {
       const Tile::Context context = frame.context(workers.local());
-      Tile& tile = *tiles.local();
+      Tile& tile = *memory.tiles.local();
       tile.start(frame.grid.area(number));
       draw_tile(tile, number, bins, objects, context);
       fault.add(output.write(tile, camera.width, context));
@@ -74,12 +76,15 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
 
 }  // namespace
 
-DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                     DepthMap before) {
   require_meaningful(options);
+  RenderMemory for_once;
+  RenderMemory::Parts& memory = (options.kept ? *options.kept : for_once).parts();
   return with_threads(options.threads, [&] {
     scene::require_renderable_but_elements(scene, camera);
     try {
-      return render_in_arena(scene, camera, options);
+      return render_in_arena(scene, camera, options, memory, std::move(before));
     } catch (const scene::ElementFault&) {
       require_valid(scene);
       throw;

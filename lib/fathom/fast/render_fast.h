@@ -14,7 +14,9 @@ namespace fathom {
 /// Unit     depths in scene units, of planar depth in the camera frame (specification, section 6).
 /// Exact    every value is the exact number rounded once.
 /// Fails    as render_reference().
-DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options);
+/// `before`  a map that is not needed any more: its channels lend their memory where they fit.
+DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                     DepthMap before = {});
 
 /// The kind of vector instructions that the fast engine uses on this machine, by Highway's names:
 /// "AVX2", "AVX3", … The map does not depend on it.

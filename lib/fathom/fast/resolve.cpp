@@ -98,13 +98,17 @@ HWY_INLINE RowBits round_row(const Tile& tile, std::uint32_t row, float* depths)
   RowBits bits;
   for (std::uint32_t column = 0; column < Tile::size; column += lanes) {
     const auto tags = lane_tags_at(tile, column, row);
+    const auto surface = hn::Ne(hn::And(tags, place), no_place);
+    if (hn::AllFalse(dt, surface)) {
+      hn::StoreU(background, d32, depths + column);
+      continue;
+    }
     const Surfaces s = surfaces_of(tile, tags, column, row);
     const V error = hn::BitCast(d, s.tag);
     const DepthInterval D_interval =
         perspective ? perspective_depth(s.q, error) : orthographic_depth(s.q, error);
     const auto least = to_binary32(d32, D_interval.least);
     const auto greatest = to_binary32(d32, D_interval.greatest);
-    const auto surface = hn::Ne(hn::And(tags, place), no_place);
     hn::StoreU(hn::IfThenElse(hn::RebindMask(d32, surface), least, background), d32,
                depths + column);
     const unsigned shown = lane_bits(dt, surface);

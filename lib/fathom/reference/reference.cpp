@@ -214,13 +214,14 @@ std::optional<EncodingFault> render_band(const Scene& scene, const Camera& camer
   return band.resolve(writer, statistics);
 }
 
-DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                         DepthMap before) {
   RenderStatistics statistics;
   statistics.triangles = triangle_count(scene);
   const std::vector<Candidate> candidates =
       find_candidates(scene, camera, options.cull, statistics);
 
-  DepthMap map = make_background(camera, options);
+  DepthMap map = make_background(camera, options, std::move(before));
   ChannelWriter writer(map, scene, camera, options);
   const std::uint32_t bands = (camera.height - 1) / rows_per_band + 1;
   std::vector<RenderStatistics> parts(bands);
@@ -245,11 +246,12 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
 
 }  // namespace
 
-DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                          DepthMap before) {
   require_meaningful(options);
   return with_threads(options.threads, [&] {
     require_renderable(scene, camera);
-    return render_in_arena(scene, camera, options);
+    return render_in_arena(scene, camera, options, std::move(before));
   });
 }
 

@@ -15,6 +15,8 @@ namespace fathom {
 /// Fails    InputError where scene or camera has a fault (find_fault); UsageError for options that
 ///          mean nothing (require_meaningful); OutputError if a depth does not fit
 ///          options.depth_encoding; it names the first such pixel in row order.
-DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options);
+/// `before`  a map that is not needed any more: its channels lend their memory where they fit.
+DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                          DepthMap before = {});
 
 }  // namespace fathom

@@ -1,4 +1,5 @@
 // Parallel work by oneTBB (FATHOM_THREADS=tbb).
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/scalable_allocator.h>
@@ -42,9 +43,9 @@ int possible_threads(int wanted) {
 }
 
 void spread(std::size_t count, const std::function<void(std::size_t)>& work) {
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& some) {
     const StandardArithmetic standard;
-    work(i);
+    for (std::size_t i = some.begin(); i != some.end(); ++i) work(i);
   });
 }
 

@@ -17,45 +17,61 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 static_assert(no_segment == unsegmented, "what a map has is what a scene says");
 
-/// Room for the values of a channel. Where the caller lends it, it is not 0.
+/// Where the memory of a map's channels comes from.
+struct MapMemory {
+  std::size_t pixels;
+  const RenderOptions& options;
+  /// A map whose channels are not needed any more.
+  DepthMap& before;
+};
+
 template <class T>
-Samples<T> room_for(const std::string& name, std::size_t pixels, const RenderOptions& options) {
-  void* const lent = options.memory ? options.memory(name) : nullptr;
-  return lent ? Samples<T>::lent(static_cast<T*>(lent), pixels) : Samples<T>(pixels);
+struct Room {
+  Samples<T> values;
+  /// Whether they are 0.
+  bool is_zeroed;
+};
+
+template <class T>
+Room<T> room_for(const std::string& name, const MapMemory& memory) {
+  if (auto* values = memory.before.values<T>(name); values && values->size() == memory.pixels) {
+    return {std::move(*values), false};
+  }
+  void* const lent = memory.options.memory ? memory.options.memory(name) : nullptr;
+  if (lent) return {Samples<T>::lent(static_cast<T*>(lent), memory.pixels), false};
+  return {Samples<T>(memory.pixels), true};
 }
 
 template <class T>
-ImageChannel filled(const std::string& name, std::size_t pixels, T background,
-                    const RenderOptions& options) {
-  Samples<T> values = room_for<T>(name, pixels, options);
-  if (options.memory || background != T{0}) {  // NaN too
+ImageChannel filled(const std::string& name, T background, const MapMemory& memory) {
+  auto [values, is_zeroed] = room_for<T>(name, memory);
+  if (!is_zeroed || background != T{0}) {  // NaN too
     // A huge page is zeroed by whichever thread touches it first, while others wait for it.
     constexpr std::size_t part = (std::size_t{1} << 21) / sizeof(T);
+    T* const first = values.begin();
+    const std::size_t pixels = memory.pixels;
     parallel_for(std::size_t{0}, (pixels + part - 1) / part, [&](std::size_t i) {
-      std::fill(values.begin() + i * part, values.begin() + std::min(pixels, (i + 1) * part),
-                background);
+      std::fill(first + i * part, first + std::min(pixels, (i + 1) * part), background);
     });
   }
   return {name, std::move(values)};
 }
 
 /// A channel that shows no surface; its kind decides which value says so.
-ImageChannel background_of(const std::string& name, const ChannelDescription& d, std::size_t pixels,
-                           const RenderOptions& options) {
-  const DepthEncoding::Type encoding = options.depth_encoding.type;
-  if (d.type == ChannelType::identifier) {
-    return filled<std::uint32_t>(name, pixels, no_surface, options);
-  }
+ImageChannel background_of(const std::string& name, const ChannelDescription& d,
+                           const MapMemory& memory) {
+  const DepthEncoding::Type encoding = memory.options.depth_encoding.type;
+  if (d.type == ChannelType::identifier) return filled<std::uint32_t>(name, no_surface, memory);
   if (d.type == ChannelType::encoded && encoding == DepthEncoding::Type::scaled_unorm16) {
-    return filled<std::uint16_t>(name, pixels, 0, options);
+    return filled<std::uint16_t>(name, 0, memory);
   }
   const float value = d.kind == ChannelKind::depth      ? infinity
                       : d.kind == ChannelKind::position ? nan
                                                         : 0;
   if (d.type == ChannelType::encoded && encoding == DepthEncoding::Type::binary64) {
-    return filled<double>(name, pixels, value, options);
+    return filled<double>(name, value, memory);
   }
-  return filled<float>(name, pixels, value, options);
+  return filled<float>(name, value, memory);
 }
 
 /// Stores a non-negative quantity x, or √x where `root`, in the channel's type.
@@ -120,21 +136,22 @@ void fail(const EncodingFault& fault, const DepthMap& map) {
 
 namespace {
 
-DepthMap make_map(const Camera& camera, const RenderOptions& options, bool fill_depth) {
+DepthMap make_map(const Camera& camera, const RenderOptions& options, bool fill_depth,
+                  DepthMap& before) {
   DepthMap map;
   map.width = camera.width;
   map.height = camera.height;
-  const std::size_t pixels = static_cast<std::size_t>(camera.width) * camera.height;
+  const MapMemory memory{static_cast<std::size_t>(camera.width) * camera.height, options, before};
   std::vector<Channel> seen;
   for (const Channel channel : options.channels) {
     if (std::find(seen.begin(), seen.end(), channel) != seen.end()) continue;
     seen.push_back(channel);
     if (channel == Channel::Z && !fill_depth) {
-      map.channels.push_back({"Z", room_for<float>("Z", pixels, options)});
+      map.channels.push_back({"Z", room_for<float>("Z", memory).values});
       continue;
     }
     for (const std::string& name : part_names(channel)) {
-      map.channels.push_back(background_of(name, description_of(channel), pixels, options));
+      map.channels.push_back(background_of(name, description_of(channel), memory));
     }
   }
   if (options.depth_encoding.type == DepthEncoding::Type::scaled_unorm16) {
@@ -145,12 +162,14 @@ DepthMap make_map(const Camera& camera, const RenderOptions& options, bool fill_
 
 }  // namespace
 
-DepthMap make_background(const Camera& camera, const RenderOptions& options) {
-  return make_map(camera, options, true);
+DepthMap make_background(const Camera& camera, const RenderOptions& options, DepthMap before) {
+  return make_map(camera, options, true, before);
 }
 
-DepthMap make_background_but_depth(const Camera& camera, const RenderOptions& options) {
-  return make_map(camera, options, options.depth_encoding.type != DepthEncoding::Type::binary32);
+DepthMap make_background_but_depth(const Camera& camera, const RenderOptions& options,
+                                   DepthMap before) {
+  return make_map(camera, options, options.depth_encoding.type != DepthEncoding::Type::binary32,
+                  before);
 }
 
 ChannelValues::ChannelValues(DepthMap& map)

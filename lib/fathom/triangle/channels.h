@@ -25,10 +25,12 @@ struct EncodingFault {
 [[noreturn]] void fail(const EncodingFault& fault, const DepthMap& map);
 
 /// The map of a scene without a visible surface: every channel asked for, once, with its
-/// background (specification, section 6), in the encoding asked for.
-DepthMap make_background(const Camera& camera, const RenderOptions& options);
-/// make_background(), but all binary32 values of Z are left 0 for the caller to write.
-DepthMap make_background_but_depth(const Camera& camera, const RenderOptions& options);
+/// background (specification, section 6), in the encoding asked for. Channels of `before` that have
+/// the same name, type and size lend their memory for good.
+DepthMap make_background(const Camera& camera, const RenderOptions& options, DepthMap before = {});
+/// make_background(), but all binary32 values of Z are left for the caller to write.
+DepthMap make_background_but_depth(const Camera& camera, const RenderOptions& options,
+                                   DepthMap before = {});
 
 /// Where the values of a channel that is stored as DepthEncoding says are kept: one pointer is not
 /// null, or none if the channel was not asked for.

@@ -11,6 +11,8 @@
 
 namespace fathom {
 
+class RenderMemory;
+
 enum class Engine { reference, fast };
 /// "reference" or "fast".
 std::string_view name_of(Engine engine);
@@ -89,6 +91,9 @@ struct RenderOptions {
   /// If set, asked for the memory of each channel of the map, by its name: width × height values of
   /// its type, which outlive the map, and of which all are written. nullptr: memory of its own.
   std::function<void*(const std::string& channel)> memory;
+  /// If set, the fast engine keeps memory that it works with there, from one frame to the next; one
+  /// frame at a time.
+  RenderMemory* kept = nullptr;
   /// Threads to use; 0: all.
   int threads = 0;
   /// Called now and then, from any thread but never from two at once, with the fraction done, in
