@@ -3,6 +3,8 @@
 
 #include <map>
 
+#include "fathom/numeric/errors.h"
+#include "fathom/render.h"
 #include "tests/engines/expect_same_map.h"
 #include "tests/inputs/random_scenes.h"
 
@@ -66,6 +68,66 @@ TEST(LentMemory, HoldsTheSameMapInEveryEncoding) {
       expect_same_in_lent_memory(scene, camera, options);
     }
   }
+}
+
+/// Addresses of all channels.
+std::map<std::string, const void*> places_of(const DepthMap& map) {
+  std::map<std::string, const void*> places;
+  for (const ImageChannel& channel : map.channels) {
+    std::visit([&](const auto& values) { places[channel.name] = values.data(); }, channel.values);
+  }
+  return places;
+}
+
+/// One map and one memory for scenes, sizes, engines, channels and encodings in turn: what was there
+/// never shows, and what has the same name, type and size stays where it is.
+TEST(RenderInto, GivesTheMapOfRenderWhereTheChannelsWereBefore) {
+  CaseMaker cases(21, Kind::few_bits);
+  RenderMemory memory;
+  DepthMap map;
+  map.texts["left"] = "over";
+  for (int i = 0; i < 24; ++i) {
+    const auto [scene, camera] = cases.make();
+    RenderOptions options;
+    options.engine = i % 5 == 4 ? Engine::reference : Engine::fast;
+    options.channels = i % 3 == 0 ? std::vector{Channel::Z} : every_channel;
+    if (i % 4 == 3) options.depth_encoding.type = StoredType::binary64;
+    if (i % 2 == 0) options.threads = 1;
+    const DepthMap expected = render(scene, camera, options);
+    options.kept = &memory;
+    const std::size_t pixels = std::size_t{map.width} * map.height;
+    const bool same_size = std::size_t{camera.width} * camera.height == pixels;
+    for (const bool again : {false, true}) {
+      const auto before = places_of(map);
+      render_into(map, scene, camera, options);
+      expect_same_map(map, expected);
+      EXPECT_EQ(map.texts, expected.texts);
+      if (!again && !same_size) continue;
+      const auto now = places_of(map);
+      for (const auto& [name, place] : now) {
+        const auto found = before.find(name);
+        // Depths may have been of another type.
+        const bool may_differ = !again && (name == "Z" || name == "distance");
+        if (found == before.end() || may_differ) continue;
+        EXPECT_EQ(place, found->second) << name;
+      }
+    }
+  }
+}
+
+TEST(RenderInto, LeavesAnEmptyMapWhereItFails) {
+  CaseMaker cases(22, Kind::few_bits);
+  auto [scene, camera] = cases.make();
+  RenderMemory memory;
+  RenderOptions options;
+  options.kept = &memory;
+  DepthMap map = render(scene, camera, options);
+  Scene broken = scene;
+  broken.meshes[0].triangles[0][0] = static_cast<std::uint32_t>(broken.meshes[0].vertices.size());
+  EXPECT_THROW(render_into(map, broken, camera, options), InputError);
+  EXPECT_TRUE(map.channels.empty());
+  render_into(map, scene, camera, options);
+  expect_same_map(map, render(scene, camera));
 }
 
 TEST(LentMemory, IsOfTheMapsOwnWhereNoneIsLent) {

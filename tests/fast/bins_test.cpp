@@ -23,8 +23,7 @@ using testing::camera_of;
 std::vector<std::uint32_t> all_in_tile(const Bins& bins, std::uint32_t tile) {
   std::vector<std::uint32_t> numbers;
   for (const Side side : {Side::front, Side::back}) {
-    const auto some = bins.in_tile(tile, side);
-    numbers.insert(numbers.end(), some.begin(), some.end());
+    for (const TileEntry& entry : bins.in_tile(tile, side)) numbers.push_back(entry.number);
   }
   return numbers;
 }

@@ -59,7 +59,7 @@ TEST(FastFrame, SortingInPartsIsSortingAtOnce) {
     for (const Bins& b : bins) {
       for (std::uint32_t tile = 0; tile < frame.grid.count(); ++tile) {
         for (const Side side : {Side::front, Side::back}) {
-          for (const std::uint32_t number : b.in_tile(tile, side)) tiles[tile].insert(number);
+          for (const TileEntry& e : b.in_tile(tile, side)) tiles[tile].insert(e.number);
         }
       }
     }

@@ -128,6 +128,56 @@ TEST(Tile, ShowsTheNearestInColumnsBeyondTheRangeOfInt) {
   EXPECT_GT(seen, 1000);
 }
 
+/// Places of surfaces have 16 bits. Two small triangles that are near stay visible, while more large
+/// ones than there are places are drawn behind them, each nearer than the one before; then again
+/// after the tile was packed.
+TEST(Tile, ForgetsSurfacesThatAreHidden) {
+  std::vector<MeshPoint> vertices{{-0.4, -0.4, 1}, {-0.1, -0.4, 1}, {-0.4, -0.1, 1},
+                                  {0.4, 0.4, 1},   {0.1, 0.4, 1},   {0.4, 0.1, 1}};
+  std::vector<CornerIndices> triangles{{0, 1, 2}, {3, 4, 5}};
+  constexpr std::uint32_t large = 70'000;
+  for (std::uint32_t i = 0; i < large; ++i) {
+    const double z = 100 - i * 0.001;
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    vertices.insert(vertices.end(), {{-9 * z, -9 * z, z}, {9 * z, -9 * z, z}, {0, 9 * z, z}});
+    triangles.push_back({first, first + 1, first + 2});
+  }
+  const Scene scene = testing::scene_of(vertices, triangles);
+  const Camera camera = testing::camera_of(64, 64, 64);
+  const TriangleSource source(scene);
+  Referee referee(source, camera);
+  RenderStatistics statistics;
+  const DepthRange range = depth_range(camera);
+  const FastSwitches switches;
+  const Tile::Context context{referee, statistics, range, true, switches};
+  ImageObjects objects;
+  objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
+  std::vector<std::uint32_t> numbers(large + 2);
+  for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
+  const auto number_at = [](const Tile& tile, std::uint32_t column, std::uint32_t row) {
+    return tile.surface_at(Tile::index(column, row)).number();
+  };
+  Tile tile;
+  tile.start({0, 63, 0, 63});
+  const std::size_t half = numbers.size() / 2;
+  for (const std::size_t first : {std::size_t{0}, half}) {
+    tile.draw(objects[0], std::span(numbers).subspan(first, half), context);
+    EXPECT_EQ(number_at(tile, 10, 10), 0U);
+    EXPECT_EQ(number_at(tile, 54, 54), 1U);
+    EXPECT_EQ(number_at(tile, 32, 32), first + half - 1);
+    EXPECT_EQ(number_at(tile, 0, 63), first + half - 1);
+    tile.pack();
+    EXPECT_EQ(number_at(tile, 10, 10), 0U);
+    EXPECT_EQ(number_at(tile, 32, 32), first + half - 1);
+  }
+  EXPECT_EQ(statistics.visibility.exact, 0U);
+  // All of them at once.
+  tile.start({0, 63, 0, 63});
+  tile.draw(objects[0], numbers, context);
+  EXPECT_EQ(number_at(tile, 10, 10), 0U);
+  EXPECT_EQ(number_at(tile, 32, 32), large + 1);
+}
+
 TEST(Tile, StartEmptiesIt) {
   TileScene x(testing::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, {{0, 1, 2}}),
               testing::camera_of(64, 64, 1));

@@ -142,15 +142,17 @@ void Bins::add_object(const ImageObject& object, const Context& context) {
     statistics.degenerate_triangles += boxes->degenerate;
     statistics.culled_triangles += boxes->culled;
     for (const Side side : {Side::front, Side::back}) {
-      lists_[index(side)].add(boxes->in_one_tile[index(side)].all());
+      lists_[index(side)].add(boxes->in_one_tile[index(side)]);
     }
     for (std::size_t i = 0; i < boxes->in_more_tiles; ++i) {
-      lists_[index(boxes->side[i])].add(boxes->number[i], boxes->box[i], context.grid);
+      lists_[index(boxes->side[i])].add(boxes->number[i], boxes->nearest[i], boxes->box[i],
+                                        context.grid);
     }
     for (std::size_t i = 0; i < boxes->unsettled; ++i) {
       const std::uint32_t number = boxes->unsettled_number[i];
       const PixelBox box = visible_box_exactly(object, number, context);
-      if (!box.is_empty()) lists_[index(Side::front)].add(number, box, context.grid);
+      if (box.is_empty()) continue;
+      lists_[index(Side::front)].add(number, never_hidden, box, context.grid);
     }
   }
 }
@@ -159,17 +161,36 @@ void Bins::Lists::start(std::uint32_t tiles) {
   starts_.assign(tiles + std::size_t{1}, 0);
 }
 
-void Bins::Lists::add(std::span<const std::uint64_t> entries) {
-  for (const std::uint64_t entry : entries) ++starts_[(entry >> 32) + 1];
-  entries_.insert(entries_.end(), entries.begin(), entries.end());
+void Bins::Lists::add(const BoxBatch::Entries& entries) {
+  for (const std::uint64_t entry : entries.all()) ++starts_[(entry >> 32) + 1];
+  entries_.insert(entries_.end(), entries.all().begin(), entries.all().end());
+  const std::size_t before = nearness_.size();
+  nearness_.resize(before + entries.count);
+  for (std::size_t i = 0; i < entries.count; ++i) {
+    nearness_[before + i] = static_cast<Nearness>(entries.nearness[i]);
+  }
 }
 
-void Bins::Lists::add(std::uint32_t number, const PixelBox& box, const TileGrid& grid) {
+void Bins::Lists::add(std::uint32_t number, std::uint32_t q, const PixelBox& box,
+                      const TileGrid& grid) {
+  // The blocks of the box in the part of it that a tile has of the columns, or of the rows.
+  const auto first_block = [](std::uint32_t first, std::uint32_t tile) {
+    return first / Tile::size == tile ? first % Tile::size / Tile::block : 0;
+  };
+  const auto last_block = [](std::uint32_t last, std::uint32_t tile) {
+    return (last / Tile::size == tile ? last % Tile::size : Tile::size - 1) / Tile::block;
+  };
   for (std::uint32_t row = box.first_row / Tile::size; row <= box.last_row / Tile::size; ++row) {
+    const std::uint32_t top = first_block(box.first_row, row);
+    const std::uint32_t bottom = last_block(box.last_row, row);
     for (std::uint32_t column = box.first_column / Tile::size;
          column <= box.last_column / Tile::size; ++column) {
       const std::uint64_t tile = row * grid.columns + column;
       entries_.push_back(tile << 32 | number);
+      nearness_.push_back(q == never_hidden
+                              ? never_hidden
+                              : nearness_in(q, first_block(box.first_column, column),
+                                            last_block(box.last_column, column), top, bottom));
       ++starts_[tile + 1];
     }
   }
@@ -179,13 +200,15 @@ void Bins::Lists::sort(bool keep_memory) {
   for (std::size_t tile = 0; tile + 1 < starts_.size(); ++tile) starts_[tile + 1] += starts_[tile];
   sorted_.resize(entries_.size());
   next_.assign(starts_.begin(), starts_.end() - 1);
-  for (const std::uint64_t entry : entries_) {
-    sorted_[next_[entry >> 32]++] = static_cast<std::uint32_t>(entry);
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    sorted_[next_[entries_[i] >> 32]++] = {static_cast<std::uint32_t>(entries_[i]), nearness_[i]};
   }
   if (keep_memory) {
     entries_.clear();
+    nearness_.clear();
   } else {
     entries_ = {};
+    nearness_ = {};
     next_ = {};
   }
 }

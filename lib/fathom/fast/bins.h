@@ -95,7 +95,7 @@ class Bins {
   void fill(const Context& context);
 
   /// Numbers of the triangles of a side (front, where that takes exact numbers), those of one object next to each other.
-  [[nodiscard]] std::span<const std::uint32_t> in_tile(std::uint32_t tile, Side side) const {
+  [[nodiscard]] std::span<const TileEntry> in_tile(std::uint32_t tile, Side side) const {
     return lists_[index(side)].in_tile(tile);
   }
   [[nodiscard]] bool is_empty(std::uint32_t tile) const {
@@ -109,17 +109,20 @@ class Bins {
   class Lists {
    public:
     void start(std::uint32_t tiles);
-    /// Tile (upper half) and triangle (lower half) of triangles that meet one tile.
-    void add(std::span<const std::uint64_t> entries);
-    void add(std::uint32_t number, const PixelBox& box, const TileGrid& grid);
+    /// Triangles that meet one tile.
+    void add(const BoxBatch::Entries& entries);
+    /// `q`: moved_up_in_24_bits().
+    void add(std::uint32_t number, std::uint32_t q, const PixelBox& box, const TileGrid& grid);
     void sort(bool keep_memory);
-    [[nodiscard]] std::span<const std::uint32_t> in_tile(std::uint32_t tile) const {
+    [[nodiscard]] std::span<const TileEntry> in_tile(std::uint32_t tile) const {
       return std::span(sorted_).subspan(starts_[tile], starts_[tile + 1] - starts_[tile]);
     }
 
    private:
+    /// Tile (upper half) and triangle (lower half).
     std::vector<std::uint64_t> entries_;
-    std::vector<std::uint32_t> sorted_;
+    std::vector<Nearness> nearness_;
+    std::vector<TileEntry> sorted_;
     std::vector<std::size_t> starts_;
     std::vector<std::size_t> next_;
   };

@@ -45,7 +45,45 @@ struct Sorted {
   M front;
   V tile;
   Boxes box;
+  /// In the lower halves: the greatest q moved_up_in_24_bits(); Nearness of those in one tile.
+  hn::Vec<DU> nearest, nearness;
 };
+
+// A covered sample's q lies between those of the corners, and that of a corner, moved by twice its
+// bound, beyond the exact one (moved_q.gappa.in: no bound of a usable corner's q is below u│q│).
+// Rounding to binary32 takes less from it than moving it up by a 256th part more adds.
+HWY_INLINE hn::Vec<DU> nearest_of(const Corners& t) {
+  const DU du;
+  const hn::Rebind<float, D> d32;
+  const hn::Rebind<std::uint32_t, D> du32;
+  const V q =
+      hn::MulAdd(constant(setup_bounds::q_moves), t.q_error, greatest_of(t.A.q, t.B.q, t.C.q));
+  const auto bits = hn::PromoteTo(du, hn::BitCast(du32, to_binary32(d32, q)));
+  const auto whole = hn::Set(du, 0xFFFFFF00);
+  const auto negative = hn::Ne(hn::And(bits, hn::Set(du, 0x80000000)), hn::Zero(du));
+  return hn::IfThenElse(negative, hn::Sub(hn::And(bits, whole), hn::Set(du, 0x100)),
+                        hn::And(hn::Add(bits, hn::Set(du, 0x1FF)), whole));
+}
+
+/// nearness_in() of boxes that lie in the tile of this column and row.
+HWY_INLINE hn::Vec<DU> nearness_of(hn::Vec<DU> nearest, const Boxes& box, V tile_column,
+                                   V tile_row) {
+  const DU du;
+  const auto block_of = [](V pixel) HWY_ATTR {
+    return hn::Floor(hn::Mul(pixel, constant(1.0 / Tile::block)));
+  };
+  const V blocks = constant(Tile::size / Tile::block);
+  const V left = block_of(box.first_column), top = block_of(box.first_row);
+  const V more =
+      hn::Max(hn::Sub(block_of(box.last_column), left), hn::Sub(block_of(box.last_row), top));
+  const V column = hn::NegMulAdd(tile_column, blocks, left);
+  const V row = hn::NegMulAdd(tile_row, blocks, top);
+  const V place = hn::Add(hn::MulAdd(row, blocks, column),
+                          hn::IfThenElseZero(hn::Gt(more, constant(1)), constant(0x40)));
+  const auto known = hn::Or(nearest, hn::BitCast(du, hn::ConvertTo(DI(), place)));
+  return hn::IfThenElse(hn::RebindMask(du, hn::Gt(more, constant(3))),
+                        hn::Set(du, std::uint64_t{never_hidden}), known);
+}
 
 HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles, M valid,
                              BoxBatch& out) {
@@ -72,6 +110,8 @@ HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles
   s.one_tile = hn::And(visible, together);
   s.more_tiles = hn::AndNot(together, visible);
   s.tile = hn::MulAdd(row, constant(r.tile_columns), column);
+  s.nearest = nearest_of(t);
+  s.nearness = nearness_of(s.nearest, s.box, column, row);
   out.degenerate += hn::CountTrue(d, zero);
   out.culled += hn::CountTrue(d, hn::AndNot(kept, with_area));
   return s;
@@ -84,8 +124,9 @@ HWY_INLINE void append(const Sorted& s, std::uint32_t first_number, BoxBatch& ou
   const auto tile = hn::BitCast(du, hn::ConvertTo(DI(), s.tile));
   const auto entry = hn::Or(hn::ShiftLeft<32>(tile), number);
   const auto store = [&](M mask, BoxBatch::Entries& entries) HWY_ATTR {
-    entries.count += hn::CompressStore(entry, hn::RebindMask(du, mask), du,
-                                       entries.entries.data() + entries.count);
+    const auto which = hn::RebindMask(du, mask);
+    hn::CompressStore(s.nearness, which, du, entries.nearness.data() + entries.count);
+    entries.count += hn::CompressStore(entry, which, du, entries.entries.data() + entries.count);
   };
   store(hn::And(s.one_tile, s.front), out.in_one_tile[static_cast<std::size_t>(Side::front)]);
   store(hn::AndNot(s.front, s.one_tile), out.in_one_tile[static_cast<std::size_t>(Side::back)]);
@@ -95,10 +136,13 @@ HWY_INLINE void append(const Sorted& s, std::uint32_t first_number, BoxBatch& ou
     hn::Store(s.box.last_column, d, right);
     hn::Store(s.box.first_row, d, top);
     hn::Store(s.box.last_row, d, bottom);
+    alignas(64) std::uint64_t nearest[8];
+    hn::Store(s.nearest, du, nearest);
     const unsigned front = bits_of(s.front);
     for (unsigned bits = bits_of(s.more_tiles); bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
       out.number[out.in_more_tiles] = first_number + k;
+      out.nearest[out.in_more_tiles] = static_cast<std::uint32_t>(nearest[k]);
       out.side[out.in_more_tiles] = front >> k & 1 ? Side::front : Side::back;
       out.box[out.in_more_tiles++] = {
           static_cast<std::uint32_t>(left[k]), static_cast<std::uint32_t>(right[k]),

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "fathom/fast/nearness.h"
 #include "fathom/triangle/options.h"
 #include "fathom/triangle/projected_triangle.h"
 
@@ -36,6 +37,8 @@ struct BoxBatch {
   struct Entries {
     std::size_t count = 0;
     std::array<std::uint64_t, most + 8> entries;
+    /// In the lower halves.
+    std::array<std::uint64_t, most + 8> nearness;
     [[nodiscard]] std::span<const std::uint64_t> all() const {
       return std::span(entries).first(count);
     }
@@ -45,6 +48,8 @@ struct BoxBatch {
   /// Visible in several tiles.
   std::size_t in_more_tiles = 0;
   std::array<Side, most> side;
+  /// The greatest q of a covered sample, moved_up_in_24_bits().
+  std::array<std::uint32_t, most> nearest;
   std::array<std::uint32_t, most> number;
   std::array<PixelBox, most> box;
   /// A corner is not usable, or the orientation not certain.

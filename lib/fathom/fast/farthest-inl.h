@@ -83,84 +83,30 @@ HWY_INLINE bool find_farthest(Tile& tile, FarthestOfBlocks& farthest) {
   return true;
 }
 
-/// Triangles to draw, as many as there are lanes (the last one repeated if there are fewer).
-struct Triangles {
-  std::array<std::uint32_t, SetupBatch::most> number;
-  std::array<CornerIndices, SetupBatch::most> corners;
-};
-
-/// Reads those from `first` on, and prefetches those that come next: triangles of a tile may be
-/// anywhere in the mesh.
-HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> numbers,
-                      std::size_t first, Triangles& next) {
-  const std::size_t lanes = hn::Lanes(D());
-  const CornerIndices* triangles = object.mesh.triangles.data();
-  for (std::size_t k = 0; k < lanes; ++k) {
-    const std::size_t i = std::min(first + k, numbers.size() - 1);
-    const std::size_t later = std::min(i + 2 * lanes, numbers.size() - 1);
-    hwy::Prefetch(triangles + (numbers[later] - object.first_number));
-    next.number[k] = numbers[i];
-    next.corners[k] = triangles[numbers[i] - object.first_number];
-    for (const std::uint32_t vertex : next.corners[k]) hwy::Prefetch(&object.vertices[vertex]);
-  }
-}
-
-/// The lanes whose triangles are certainly hidden by what is drawn, or have no sample in the tile.
-//
-// A covered sample's q lies between those of the corners, and that of a corner, moved by twice its
-// bound, beyond the exact one (moved_q.gappa.in: no bound of a usable corner's q is below u│q│).
-// Triangles are looked at if they meet at most four by four blocks: larger ones are left out by
-// blocks (draw_blocks() in tile_lanes.cpp).
-HWY_INLINE unsigned hidden_lanes(const Corners& t, const Tile& tile,
-                                 const FarthestOfBlocks& farthest) {
-  const hn::Rebind<std::int32_t, D> di;
-  const hn::Rebind<float, D> d32;
-  const D d;
-  const M usable = are_usable(t);
-  const Boxes box = sample_boxes(t, tile.area());
-  const M empty = hn::And(usable, are_empty(box));
-  const V q =
-      hn::MulAdd(constant(setup_bounds::q_moves), t.q_error, greatest_of(t.A.q, t.B.q, t.C.q));
-  const V share = constant(1.0 / Tile::block);
-  const auto block_of = [&](V place, std::uint32_t origin) HWY_ATTR {
-    return hn::Floor(hn::Mul(hn::Sub(place, constant(origin)), share));
-  };
-  const V left = block_of(box.first_column, tile.area().first_column);
-  const V right = block_of(box.last_column, tile.area().first_column);
-  const V top = block_of(box.first_row, tile.area().first_row);
-  const V bottom = block_of(box.last_row, tile.area().first_row);
-  const V blocks = hn::Max(hn::Sub(right, left), hn::Sub(bottom, top));
-  const M open =
-      hn::AndNot(empty, hn::And(hn::And(usable, hn::Le(blocks, constant(3))),
-                                hn::Lt(q, constant(static_cast<double>(farthest.greatest)))));
-  if (hn::AllFalse(d, open)) return bits_of(empty);
-  const V place = hn::MulAdd(top, constant(blocks_of_row), left);
-  const auto index = hn::DemoteTo(di, hn::IfThenElseZero(open, place));
-  const V two = hn::PromoteTo(d, hn::GatherIndex(d32, farthest.two.data(), index));
-  const V four = hn::PromoteTo(d, hn::GatherIndex(d32, farthest.four.data(), index));
-  const V least = hn::IfThenElse(hn::Le(blocks, constant(1)), two, four);
-  return bits_of(hn::Or(empty, hn::And(open, hn::Lt(q, least))));
-}
-
 /// Copies the numbers of triangles that may be visible; returns how many there are.
-HWY_INLINE std::size_t leave_out_hidden(const Tile& tile, const FarthestOfBlocks& farthest,
-                                        const ImageObject& object,
-                                        std::span<const std::uint32_t> numbers,
+HWY_INLINE std::size_t leave_out_hidden(const FarthestOfBlocks& farthest,
+                                        std::span<const TileEntry> entries,
                                         std::uint32_t* visible) {
-  const std::size_t lanes = hn::Lanes(D());
+  const DF8 d;
+  const hn::Rebind<std::uint32_t, DF8> du;
+  const DI8 di;
+  const std::size_t lanes = hn::Lanes(d);
   std::size_t count = 0;
-  Triangles next{};
-  fetch(object, numbers, 0, next);
-  for (std::size_t first = 0; first < numbers.size(); first += lanes) {
-    const Triangles now = next;
-    fetch(object, numbers, first + lanes, next);
-    const std::size_t here = std::min(lanes, numbers.size() - first);
-    const unsigned hidden =
-        hidden_lanes(load_corners(object.vertices.get(), now.corners.data()), tile, farthest);
-    for (std::size_t k = 0; k < here; ++k) {
-      visible[count] = now.number[k];
-      count += ~hidden >> k & 1;
-    }
+  for (std::size_t first = 0; first < entries.size(); first += lanes) {
+    const std::size_t here = std::min(lanes, entries.size() - first);
+    TileEntry last[SetupBatch::most] = {};
+    const TileEntry* from = entries.data() + first;
+    if (here < lanes) from = std::copy_n(from, here, last) - here;
+    hn::Vec<decltype(du)> number, nearness;
+    hn::LoadInterleaved2(du, &from->number, number, nearness);
+    const auto q = hn::BitCast(d, hn::And(nearness, hn::Set(du, 0xFFFFFF00)));
+    const auto place = hn::BitCast(di, hn::And(nearness, hn::Set(du, 0x3F)));
+    const auto is_more = hn::Ne(hn::And(nearness, hn::Set(du, 0x40)), hn::Zero(du));
+    const auto least =
+        hn::IfThenElse(hn::RebindMask(d, is_more), hn::GatherIndex(d, farthest.four.data(), place),
+                       hn::GatherIndex(d, farthest.two.data(), place));
+    const auto open = hn::AndNot(hn::RebindMask(du, hn::Lt(q, least)), hn::FirstN(du, here));
+    count += hn::CompressStore(number, open, du, visible + count);
   }
   return count;
 }

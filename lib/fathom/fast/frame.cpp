@@ -64,13 +64,15 @@ void count_intervals(RenderStatistics& statistics) {
 void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bins,
                const ImageObjects& objects, const Tile::Context& context) {
   for (const Side side : {Side::front, Side::back}) {
-    std::vector<std::uint32_t>& together = tile.numbers();
+    std::vector<TileEntry>& together = tile.entries();
     together.clear();
     for (const Bins& bins : all_bins) {
       const auto some = bins.in_tile(number, side);
       together.insert(together.end(), some.begin(), some.end());
     }
-    draw(together, objects, tile, context);
+    tile.for_visible(together, context, [&](std::span<const std::uint32_t> numbers) {
+      draw(numbers, objects, tile, context);
+    });
   }
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int block = static_cast<int>(Tile::block), cell = static_cast<int>(Tile::cell);
 
-/// Samples of a cell, all or as many rows as a vector holds.
+/// Samples of a cell, all or as many as a vector holds.
 #if HWY_HAVE_SCALABLE
 using DF = hn::CappedTag<float, 8>;
 #else
@@ -43,14 +43,14 @@ HWY_INLINE unsigned lane_bits(Tag d, Mask mask) {
   return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
 }
 
-/// Column and row within a cell of the samples in the lanes.
-HWY_INLINE VF lane_columns() {
+/// Column and row of the samples in the lanes, from one of a cell on.
+HWY_INLINE VF lane_columns(int first) {
   HWY_ALIGN static constexpr float columns[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-  return hn::Load(DF(), columns);
+  return hn::LoadU(DF(), columns + first);
 }
-HWY_INLINE VF lane_rows() {
+HWY_INLINE VF lane_rows(int first) {
   HWY_ALIGN static constexpr float rows[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-  return hn::Load(DF(), rows);
+  return hn::LoadU(DF(), rows + first);
 }
 
 /// The least binary32 number that is not less.

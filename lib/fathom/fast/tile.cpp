@@ -53,11 +53,17 @@ void Tile::forget_hidden() {
   places_ = static_cast<std::uint32_t>(kept.size());
 }
 
+std::span<const std::uint32_t> Tile::numbers_of(std::span<const TileEntry> some) {
+  std::transform(some.begin(), some.end(), numbers_.begin(),
+                 [](const TileEntry& entry) { return entry.number; });
+  return std::span(numbers_).first(some.size());
+}
+
 void Tile::pack() {
   forget_hidden();
   surfaces_.resize(places_);
   surfaces_.shrink_to_fit();
-  numbers_ = {};
+  entries_ = {};
 }
 
 void Tile::set_up_exactly(std::uint32_t number, const PixelBox& box, const Context& context,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -83,8 +84,25 @@ class Tile {
            area_.last_row - area_.first_row != size - 1;
   }
 
-  /// Room for numbers of triangles, kept from one tile to the next.
-  std::vector<std::uint32_t>& numbers() { return numbers_; }
+  /// Room for the triangles of a tile, kept from one tile to the next.
+  std::vector<TileEntry>& entries() { return entries_; }
+  /// Calls draw(numbers) for the triangles in parts, without those that are certainly hidden by what
+  /// was drawn before the part. Looking for them pays where there are some: it is tried with the
+  /// first part and now and then, and goes on where one in eight was hidden.
+  template <class Draw>
+  void for_visible(std::span<const TileEntry> entries, const Context& context, const Draw& draw) {
+    constexpr std::size_t least = 16, pause = 8;
+    std::size_t parts_until_look = 0;
+    for (; !entries.empty(); entries = entries.subspan(std::min(entries.size(), most_at_once))) {
+      const auto some = entries.first(std::min(entries.size(), most_at_once));
+      const bool look =
+          context.switches.early_rejection && parts_until_look == 0 && some.size() >= least;
+      const auto numbers = look ? visible_of(some) : numbers_of(some);
+      const bool pays = look && numbers.size() <= some.size() - some.size() / 8;
+      parts_until_look = pays ? 0 : parts_until_look == 0 ? pause : parts_until_look - 1;
+      if (!numbers.empty()) draw(numbers);
+    }
+  }
   /// Draws triangles of one object (their numbers in the scene) at the samples of the area.
   void draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
             const Context& context);
@@ -139,6 +157,10 @@ class Tile {
                              SetupBatch& batch);
 
  private:
+  static constexpr std::size_t most_at_once = 256;
+  /// Their numbers; those of the triangles that may be visible.
+  std::span<const std::uint32_t> numbers_of(std::span<const TileEntry> some);
+  std::span<const std::uint32_t> visible_of(std::span<const TileEntry> some);
   /// Forgets the surfaces that are at no sample any more.
   void forget_hidden();
 
@@ -152,7 +174,9 @@ class Tile {
   std::array<std::uint8_t, blocks> draws_;
   std::vector<TileSurface> surfaces_;
   std::uint32_t places_;
-  std::vector<std::uint32_t> numbers_;
+  std::vector<TileEntry> entries_;
+  /// Vectors may write beyond the last one.
+  std::array<std::uint32_t, most_at_once + 16> numbers_;
 };
 
 /// The tile, and a surface at each sample.

@@ -14,10 +14,10 @@
 #include "fathom/fast/setup-inl.h"
 #include "fathom/fast/tile.h"
 
-// How to read this file: draw_triangles() is the whole story. Triangles that are hidden are left out
-// (farthest-inl.h), the others set up in binary64 (setup-inl.h) and turned into functions in
-// binary32 (lane_batch-inl.h). These decide about nearly every sample; Tile::settle() about the
-// rest.
+// How to read this file: visible_triangles() leaves out triangles that are hidden (farthest-inl.h),
+// draw_triangles() draws the others. They are set up in binary64 (setup-inl.h) and turned into
+// functions in binary32 (lane_batch-inl.h), which decide about nearly every sample; Tile::settle()
+// does about the rest.
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
 namespace {
@@ -80,13 +80,13 @@ HWY_INLINE Drawn drawn(const SetupBatch& setups, const LaneBatch& batch, std::si
           batch.last_row[k]};
 }
 
-/// A bit for each lane, from the sample of this column and row of the tile on.
-HWY_NOINLINE void settle_lanes(Tile& tile, const Drawn& t, unsigned lanes, int column, int row,
-                               const Tile::Context& context) {
+/// A bit for each sample of the cell that begins at this column and row of the tile.
+HWY_NOINLINE void settle_samples(Tile& tile, const Drawn& t, unsigned samples, int column, int row,
+                                 const Tile::Context& context) {
   const TriangleSetup setup = t.setups.get(t.lane);
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int lane = std::countr_zero(lanes);
-    const int x = column + lane % cell, y = row + lane / cell;
+  for (; samples != 0; samples &= samples - 1) {
+    const int sample = std::countr_zero(samples);
+    const int x = column + sample % cell, y = row + sample / cell;
     // Cells reach beyond the box, where the triangle covers no sample.
     if (x < t.first_column || x > t.last_column || y < t.first_row || y > t.last_row) continue;
     tile.settle(setup, t.batch.tag[t.lane], t.test_range,
@@ -125,7 +125,6 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
   const DF d;
   const DT dt;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const int rows_at_once = lanes / cell;
   const Functions& f = t.f;
   const VF minus_error = hn::Neg(f.error);
   const auto tag = hn::Set(dt, t.batch.tag[t.lane]);
@@ -134,51 +133,52 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
   if constexpr (test_range) ends = range_ends(context.range);
   std::size_t wins_in_all = 0;
   const VF step = constant32(cell);
-  const VF first_x =
-      hn::Add(lane_columns(), constant32(static_cast<float>(cells.first_column - t.first_column)));
-  VF y = hn::Add(lane_rows(), constant32(static_cast<float>(cells.first_row - t.first_row)));
-  for (int row = cells.first_row; row < cells.last_row + cell; row += rows_at_once) {
-    const VF e0 = hn::MulAdd(f.b[0], y, f.c[0]), e1 = hn::MulAdd(f.b[1], y, f.c[1]);
-    const VF e2 = hn::MulAdd(f.b[2], y, f.c[2]), q0 = hn::MulAdd(f.q_b, y, f.q_c);
+  const VF left = constant32(static_cast<float>(cells.first_column - t.first_column));
+  for (int row = cells.first_row; row <= cells.last_row; row += cell) {
+    const VF top = constant32(static_cast<float>(row - t.first_row));
     const std::size_t start = Tile::index(static_cast<std::uint32_t>(cells.first_column),
                                           static_cast<std::uint32_t>(row));
-    float* q_at = tile.q() + start;
-    LaneTag* tag_at = tile.tags() + start;
-    VF x = first_x;
-    for (int column = cells.first_column; column <= cells.last_column;
-         column += cell, q_at += cell * cell, tag_at += cell * cell, x = hn::Add(x, step)) {
-      const VF q = hn::MulAdd(f.q_a, x, q0);
-      const VF q_there = hn::Load(d, q_at);
-      const auto tag_there = hn::Load(dt, tag_at);
-      const VF difference = hn::Sub(q, q_there);
-      const VF sum = hn::Add(tag_error, hn::BitCast(d, tag_there));
-      MF open = hn::Not(hn::Lt(difference, hn::Neg(sum)));
-      MF wins = hn::Gt(difference, sum);
-      if constexpr (test_edges) {
-        const VF least = hn::Min(hn::Min(hn::MulAdd(f.a[0], x, e0), hn::MulAdd(f.a[1], x, e1)),
-                                 hn::MulAdd(f.a[2], x, e2));
-        open = hn::And(open, hn::Ge(least, minus_error));
-        wins = hn::And(wins, hn::Gt(least, f.error));
-      }
-
-      if constexpr (test_range) {
-        const VF error = hn::Mul(constant32(setup_bounds::q_moves), tag_error);
-        wins = hn::And(wins, hn::And(hn::Ge(hn::Sub(q, error), ends.least),
-                                     hn::Le(hn::Add(q, error), ends.greatest)));
-      }
-      if (HWY_UNLIKELY(t.is_clipped)) {
-        open = hn::And(open, hn::And(hn::Le(x, t.f.last_x), hn::Le(y, t.f.last_y)));
-      }
-      wins = hn::And(wins, open);
-      hn::Store(hn::IfThenElse(wins, q, q_there), d, q_at);
-      hn::Store(hn::IfThenElse(hn::RebindMask(dt, wins), tag, tag_there), dt, tag_at);
-      wins_in_all += hn::CountTrue(d, wins);
-      const MF doubtful = hn::AndNot(wins, open);
-      if (HWY_UNLIKELY(!hn::AllFalse(d, doubtful))) {
-        settle_lanes(tile, t, lane_bits(d, doubtful), column, row, context);
+    for (int part = 0; part < cell * cell; part += lanes) {
+      const VF y = hn::Add(lane_rows(part), top);
+      const VF e0 = hn::MulAdd(f.b[0], y, f.c[0]), e1 = hn::MulAdd(f.b[1], y, f.c[1]);
+      const VF e2 = hn::MulAdd(f.b[2], y, f.c[2]), q0 = hn::MulAdd(f.q_b, y, f.q_c);
+      float* q_at = tile.q() + start + part;
+      LaneTag* tag_at = tile.tags() + start + part;
+      VF x = hn::Add(lane_columns(part), left);
+      for (int column = cells.first_column; column <= cells.last_column;
+           column += cell, q_at += cell * cell, tag_at += cell * cell, x = hn::Add(x, step)) {
+        const VF q = hn::MulAdd(f.q_a, x, q0);
+        const VF q_there = hn::Load(d, q_at);
+        const auto tag_there = hn::Load(dt, tag_at);
+        const VF difference = hn::Sub(q, q_there);
+        const VF sum = hn::Add(tag_error, hn::BitCast(d, tag_there));
+        MF open = hn::Not(hn::Lt(difference, hn::Neg(sum)));
+        MF wins = hn::Gt(difference, sum);
+        if constexpr (test_edges) {
+          const VF least = hn::Min(hn::Min(hn::MulAdd(f.a[0], x, e0), hn::MulAdd(f.a[1], x, e1)),
+                                   hn::MulAdd(f.a[2], x, e2));
+          open = hn::And(open, hn::Ge(least, minus_error));
+          wins = hn::And(wins, hn::Gt(least, f.error));
+        }
+        if constexpr (test_range) {
+          const VF error = hn::Mul(constant32(setup_bounds::q_moves), tag_error);
+          wins = hn::And(wins, hn::And(hn::Ge(hn::Sub(q, error), ends.least),
+                                       hn::Le(hn::Add(q, error), ends.greatest)));
+        }
+        if (HWY_UNLIKELY(t.is_clipped)) {
+          open = hn::And(open, hn::And(hn::Le(x, f.last_x), hn::Le(y, f.last_y)));
+        }
+        // Without a branch: half of the cells have no sample that wins, but there is no telling which.
+        wins = hn::And(wins, open);
+        hn::Store(hn::IfThenElse(wins, q, q_there), d, q_at);
+        hn::Store(hn::IfThenElse(hn::RebindMask(dt, wins), tag, tag_there), dt, tag_at);
+        wins_in_all += hn::CountTrue(d, wins);
+        const MF doubtful = hn::AndNot(wins, open);
+        if (HWY_UNLIKELY(!hn::AllFalse(d, doubtful))) {
+          settle_samples(tile, t, lane_bits(d, doubtful) << part, column, row, context);
+        }
       }
     }
-    y = hn::Add(y, constant32(static_cast<float>(rows_at_once)));  // integers: exact
   }
   context.statistics.samples_covered += wins_in_all;
   return wins_in_all != 0;
@@ -406,6 +406,28 @@ HWY_NOINLINE void draw_exactly(Tile& tile, std::uint32_t number, const PixelBox&
   draw_batch(tile, exact, 1, lanes, context);
 }
 
+/// Triangles to draw, as many as there are lanes (the last one repeated if there are fewer).
+struct Triangles {
+  std::array<std::uint32_t, SetupBatch::most> number;
+  std::array<CornerIndices, SetupBatch::most> corners;
+};
+
+/// Reads those from `first` on, and prefetches those that come next: triangles of a tile may be
+/// anywhere in the mesh.
+HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> numbers,
+                      std::size_t first, Triangles& next) {
+  const std::size_t lanes = hn::Lanes(D());
+  const CornerIndices* triangles = object.mesh.triangles.data();
+  for (std::size_t k = 0; k < lanes; ++k) {
+    const std::size_t i = std::min(first + k, numbers.size() - 1);
+    const std::size_t later = std::min(i + 2 * lanes, numbers.size() - 1);
+    hwy::Prefetch(triangles + (numbers[later] - object.first_number));
+    next.number[k] = numbers[i];
+    next.corners[k] = triangles[numbers[i] - object.first_number];
+    for (const std::uint32_t vertex : next.corners[k]) hwy::Prefetch(&object.vertices[vertex]);
+  }
+}
+
 /// Edge functions without any error have no bound to widen.
 HWY_NOINLINE void widen(SetupBatch& batch, double factor) {
   for (std::size_t k = 0; k < hn::Lanes(D()); ++k) {
@@ -414,8 +436,8 @@ HWY_NOINLINE void widen(SetupBatch& batch, double factor) {
   }
 }
 
-void draw_some(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
-               const Tile::Context& context) {
+void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
+                    const Tile::Context& context) {
   const std::size_t lanes = hn::Lanes(D());
   Triangles next{};
   SetupBatch batch;
@@ -439,27 +461,15 @@ void draw_some(Tile& tile, const ImageObject& object, std::span<const std::uint3
   }
 }
 
-/// Looking for hidden triangles pays where there are some: it is tried with the first of a list and
-/// now and then, and goes on where one in eight was hidden.
-void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
-                    const Tile::Context& context) {
-  constexpr std::size_t most = 256, least = 16, pause = 8;
-  std::array<std::uint32_t, most> visible;
-  std::size_t parts_until_look = 0;
+std::size_t visible_triangles(Tile& tile, std::span<const TileEntry> entries,
+                              std::uint32_t* numbers) {
   FarthestOfBlocks farthest;
-  for (std::size_t first = 0; first < numbers.size(); first += most) {
-    const auto some = numbers.subspan(first, std::min(most, numbers.size() - first));
-    const bool look = context.switches.early_rejection && parts_until_look == 0 &&
-                      some.size() >= least && find_farthest(tile, farthest);
-    if (!look) {
-      parts_until_look = parts_until_look == 0 ? pause : parts_until_look - 1;
-      draw_some(tile, object, some, context);
-      continue;
-    }
-    const std::size_t count = leave_out_hidden(tile, farthest, object, some, visible.data());
-    parts_until_look = count > some.size() - some.size() / 8 ? pause : 0;
-    if (count > 0) draw_some(tile, object, std::span(visible).first(count), context);
+  if (!find_farthest(tile, farthest)) {
+    std::transform(entries.begin(), entries.end(), numbers,
+                   [](const TileEntry& entry) { return entry.number; });
+    return entries.size();
   }
+  return leave_out_hidden(farthest, entries, numbers);
 }
 
 }  // namespace
@@ -471,6 +481,12 @@ namespace fathom::fast {
 using namespace triangle;
 
 HWY_EXPORT(draw_triangles);
+HWY_EXPORT(visible_triangles);
+
+std::span<const std::uint32_t> Tile::visible_of(std::span<const TileEntry> some) {
+  const std::size_t count = HWY_DYNAMIC_DISPATCH(visible_triangles)(*this, some, numbers_.data());
+  return std::span(numbers_).first(count);
+}
 
 void Tile::draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
                 const Context& context) {

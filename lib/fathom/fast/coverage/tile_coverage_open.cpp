@@ -53,8 +53,9 @@ void TileCoverage::collect_triangles(std::uint32_t tile_number) {
   numbers_.clear();
   for (const Bins& bins : scene_.bins) {
     for (const Side side : {Side::front, Side::back}) {
-      const auto numbers = bins.in_tile(tile_number, side);
-      numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
+      for (const TileEntry& entry : bins.in_tile(tile_number, side)) {
+        numbers_.push_back(entry.number);
+      }
     }
   }
   // Those of one object next to each other.
