@@ -145,7 +145,7 @@ MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOp
   return report;
 }
 
-int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Console& console) {
+int render_maps(const RenderArguments& arguments, MapPlan plan, const Console& console) {
   const ThreadLimit limit(plan.rendering.threads);
   Stopwatch stopwatch;
   const auto place = arguments.stream ? RenderInput::Place::files : RenderInput::Place::memory;
@@ -159,6 +159,8 @@ int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Con
   RenderOutputs outputs(arguments, cameras.size());
   outputs.write_cameras(to_json(cameras) + "\n");
 
+  RenderMemory memory;
+  if (cameras.size() > 1) plan.rendering.kept = &memory;
   std::vector<MapReport> reports;
   bool all_agree = true;
   CameraWarnings warnings;

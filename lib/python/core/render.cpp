@@ -11,6 +11,7 @@
 #include "fathom/memory/available_memory.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/view_warnings.h"
+#include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 #include "maps.h"
 #include "render_options.h"
@@ -140,17 +141,23 @@ std::vector<Rendered> render_all(const Scene& scene, const std::vector<Camera>& 
                                  const RenderOptions& options, const std::vector<Target>& targets) {
   std::vector<Rendered> rendered(cameras.size());
   if (!one_thread_each(scene, cameras.size(), options.threads)) {
+    RenderMemory memory;
+    RenderOptions together = options;
+    together.kept = &memory;
     for (std::size_t i = 0; i < cameras.size(); ++i)
-      rendered[i] = render_into(scene, cameras[i], options, targets, i);
+      rendered[i] = render_into(scene, cameras[i], together, targets, i);
     return rendered;
   }
   RenderOptions alone = options;
   alone.threads = 1;
   alone.progress = nullptr;
   Progress done(options.progress, cameras.size());
+  PerThread<RenderMemory> memories;
   with_threads(options.threads, [&] {
     parallel_for(std::size_t{0}, cameras.size(), [&](std::size_t i) {
-      rendered[i] = render_into(scene, cameras[i], alone, targets, i);
+      RenderOptions own = alone;
+      own.kept = &memories.local();
+      rendered[i] = render_into(scene, cameras[i], own, targets, i);
       done.part_done();
     });
   });
