@@ -134,7 +134,7 @@ void print_tiers(const RenderStatistics& s) {
     std::printf("\n");
   };
   const std::uint64_t exact = s.edges.exact + s.visibility.exact + s.range.exact;
-  std::printf("  %-12s %12s %12s %12s %12s\n", "", "binary32", "binary64", "double-words", "exact");
+  std::printf("  %-12s %12s %12s %12s %12s\n", "", "vectors", "binary64", "double-words", "exact");
   line("samples", {s.samples_tested - s.samples_in_binary64, s.samples_in_binary64 - exact,
                    s.double_words, exact - s.double_words});
   line("facing", {0, s.facing.interval, 0, s.facing.exact});
