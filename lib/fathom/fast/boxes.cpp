@@ -72,7 +72,8 @@ HWY_INLINE hn::Vec<DU> nearness_of(hn::Vec<DU> nearest, const Boxes& box, V tile
   const auto block_of = [](V pixel) HWY_ATTR {
     return hn::Floor(hn::Mul(pixel, constant(1.0 / Tile::block)));
   };
-  const V blocks = constant(Tile::size / Tile::block);
+  constexpr std::uint32_t blocks_of_row = Tile::size / Tile::block;
+  const V blocks = constant(blocks_of_row);
   const V left = block_of(box.first_column), top = block_of(box.first_row);
   const V more =
       hn::Max(hn::Sub(block_of(box.last_column), left), hn::Sub(block_of(box.last_row), top));

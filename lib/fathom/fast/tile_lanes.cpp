@@ -229,8 +229,9 @@ HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, int block_row, bo
   const auto side = set(block - 1);
   const auto top = set(static_cast<float>(block_row * block - t.first_row));
   const auto error = set(f.edge_error[k]);
-  const auto first_met = set(static_cast<float>(t.first_column / block));
-  const auto last_met = set(static_cast<float>(t.last_column / block));
+  const int first_block = t.first_column / block, last_block = t.last_column / block;
+  const auto first_met = set(static_cast<float>(first_block));
+  const auto last_met = set(static_cast<float>(last_block));
   BlockRow row{0, 0};
   for (int part = 0; part < static_cast<int>(Tile::size) / block; part += lanes) {
     const auto number = counting_lanes(d, static_cast<float>(part));
