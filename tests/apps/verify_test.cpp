@@ -62,7 +62,7 @@ TEST_F(Verifying, EveryFormatEngineAndChannel) {
 }
 
 TEST_F(Verifying, EveryMapOfAPath) {
-  folder_.write("path.json", "[" + square_camera + ", " + camera_with("near", "3") + "]");
+  folder_.write("path.json", "[" + square_camera + ", " + camera_with("near", "2") + "]");
   const Outcome outcome =
       run_fathom({"render", "square.obj", "--camera", "path.json", "--engine", "fast", "--verify",
                   "9", "--stats", "stats.json", "-o", "{index}.pfm"},

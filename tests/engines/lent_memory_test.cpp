@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <thread>
 
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
@@ -112,6 +113,21 @@ TEST(RenderInto, GivesTheMapOfRenderWhereTheChannelsWereBefore) {
         EXPECT_EQ(place, found->second) << name;
       }
     }
+  }
+}
+
+/// Each frame by another thread, and of another mesh.
+TEST(RenderInto, WorksWithMemoryThatOtherThreadsHaveUsed) {
+  CaseMaker cases(23, Kind::few_bits);
+  RenderMemory memory;
+  for (int i = 0; i < 12; ++i) {
+    const auto [scene, camera] = cases.make();
+    RenderOptions options;
+    const DepthMap expected = render(scene, camera, options);
+    options.kept = &memory;
+    DepthMap map;
+    std::thread([&] { render_into(map, scene, camera, options); }).join();
+    expect_same_map(map, expected);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 
 #include "fathom/fast/boxes.h"
 #include "fathom/fast/tile.h"
@@ -60,8 +61,9 @@ VertexMemory::Vertices VertexMemory::take(std::size_t count) {
   return vertices;
 }
 
-void VertexMemory::give_back(Vertices vertices, std::size_t count) {
+void VertexMemory::give_back(Vertices vertices, std::size_t count) noexcept try {
   blocks_.push_back({std::move(vertices), count});
+} catch (const std::bad_alloc&) {
 }
 
 const ImageObject& object_of(const ImageObjects& objects, std::uint32_t number) {

@@ -20,7 +20,10 @@ class VertexMemory {
   using Vertices = std::unique_ptr<ImageVertex[]>;
   /// Room for `count` vertices or more, whatever it holds.
   Vertices take(std::size_t count);
-  void give_back(Vertices vertices, std::size_t count);
+  /// Where there is no memory for the list, they go back to the system.
+  void give_back(Vertices vertices, std::size_t count) noexcept;
+  /// Gives what nobody has taken back to the system.
+  void forget() { blocks_.clear(); }
 
  private:
   struct Block {

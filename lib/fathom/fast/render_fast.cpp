@@ -35,11 +35,13 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   FastFrame frame(camera, options);
   const TriangleSource triangles(scene);
   const SceneRays rays(triangles, camera);
+  PerThread<TakenTile> tiles([&] { return TakenTile(memory.tiles); });
   FastWorkers workers([&] { return FastWorker(triangles, camera, rays); });
 
   frame.by_area = std::count(options.channels.begin(), options.channels.end(), Channel::A) != 0;
 
   const ImageObjects objects = transform(scene, camera, options.kept ? &memory.vertices : nullptr);
+  memory.vertices.forget();
   const std::vector<Bins>& bins = memory.bins =
       sort_into_tiles(objects, 0, static_cast<std::uint32_t>(triangles.count()), parts_of_scene,
                       frame, workers, std::move(memory.bins));
@@ -60,7 +62,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
       output.write_background(frame.grid.area(number), camera.width);
     } else {
       const Tile::Context context = frame.context(workers.local());
-      Tile& tile = *memory.tiles.local();
+      Tile& tile = *tiles.local();
       tile.start(frame.grid.area(number));
       draw_tile(tile, number, bins, objects, context);
       fault.add(output.write(tile, camera.width, context));

@@ -100,12 +100,16 @@ struct Cells {
   int first_column, last_column, first_row, last_row;
 };
 
-/// The ends of the range of depths in binary32, moved inwards.
+/// The ends of the range of depths in binary32: q between the first two is within, beyond one of the
+/// others not.
 struct RangeEnds {
   VF least, greatest;
+  VF outside_least, outside_greatest;
 };
 HWY_INLINE RangeEnds range_ends(const DepthRange& range) {
-  return {constant32(not_less(range.inside_least)), constant32(-not_less(-range.inside_greatest))};
+  return {constant32(not_less(range.inside_least)), constant32(-not_less(-range.inside_greatest)),
+          constant32(-not_less(-range.outside_least)),
+          constant32(not_less(range.outside_greatest))};
 }
 
 // At every sample the triangle is certainly the nearest surface so far ("wins"), or certainly not
@@ -162,8 +166,11 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
         }
         if constexpr (test_range) {
           const VF error = hn::Mul(constant32(setup_bounds::q_moves), tag_error);
-          wins = hn::And(wins, hn::And(hn::Ge(hn::Sub(q, error), ends.least),
-                                       hn::Le(hn::Add(q, error), ends.greatest)));
+          const VF least = hn::Sub(q, error), greatest = hn::Add(q, error);
+          wins = hn::And(wins, hn::And(hn::Ge(least, ends.least), hn::Le(greatest, ends.greatest)));
+          open = hn::AndNot(
+              hn::Or(hn::Lt(greatest, ends.outside_least), hn::Gt(least, ends.outside_greatest)),
+              open);
         }
         if (HWY_UNLIKELY(t.is_clipped)) {
           open = hn::And(open, hn::And(hn::Le(x, f.last_x), hn::Le(y, f.last_y)));
