@@ -9,14 +9,20 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
+#include "validation/bench/made/city.h"
+#include "validation/bench/made/machine_part.h"
+#include "validation/bench/made/scan.h"
+#include "validation/bench/made/text_page.h"
+#include "validation/bench/made/tree.h"
 #include "validation/bench/shapes.h"
 #include "validation/bench/simple_camera.h"
 
 namespace fathom::bench {
 namespace {
 
-const std::vector<std::string> made_names{"mesh",         "soup", "few-large",   "grid-aligned",
-                                          "grid-shifted", "room", "room-outside"};
+const std::vector<std::string> made_names{"mesh",         "soup", "few-large",    "grid-aligned",
+                                          "grid-shifted", "room", "room-outside", "scan",
+                                          "city",         "tree", "text",         "cad"};
 
 /// The N of "sphere-N": a number, which may end in k or m.
 std::optional<std::uint64_t> sphere_size(const std::string& name) {
@@ -62,6 +68,48 @@ BenchScene room_scene(const std::string& name, const ImageSize& size) {
   return {name, as_scene(room(100), name), camera};
 }
 
+/// The boulder from 3.5 away: its outline reaches nine tenths of the way to the image's border.
+BenchScene scan_scene(const ImageSize& size) {
+  const double focal = 0.485 * std::sqrt(8.0) * size.least();
+  const Camera camera = look_from({.azimuth = 35, .elevation = 25}, {0, 0, 0}, 3.5,
+                                  {.width = size.width, .height = size.height, .focal = focal});
+  return {"scan", as_scene({scan(1'030'000)}, "scan"), camera};
+}
+
+/// From the middle of a street, between two rows of houses, along it.
+Camera street_camera(const ImageSize& size) {
+  const double z = -street_spacing / 2;
+  return look_at({1.5, 1.7, z}, {-1, 6, z + 50}, {0, 1, 0},
+                 {.width = size.width, .height = size.height, .vertical_fov = 60});
+}
+
+/// The page from below, so that the last line is larger than the first.
+Camera page_camera(const ImageSize& size, double height) {
+  return look_at({page_width / 2, -1.0 * height, 38}, {page_width / 2, -0.62 * height, 0},
+                 {0, 1, 0}, {.width = size.width, .height = size.height, .vertical_fov = 52});
+}
+
+BenchScene city_scene(const ImageSize& size) {
+  return {"city", as_scene({city(20)}, "city"), street_camera(size)};
+}
+
+BenchScene tree_scene(const ImageSize& size) {
+  return {"tree", as_scene({tree(6, 150)}, "tree"),
+          look_at({16, 1.7, 17}, {0, 8.5, 0}, {0, 1, 0},
+                  {.width = size.width, .height = size.height, .vertical_fov = 45})};
+}
+
+BenchScene text_scene(const ImageSize& size) {
+  constexpr std::uint32_t lines = 60;
+  return {"text", as_scene({text_page(lines)}, "text"), page_camera(size, page_height(lines))};
+}
+
+BenchScene cad_scene(const ImageSize& size) {
+  return {"cad", as_scene({machine_part(24)}, "cad"),
+          look_at({8, -27, 29}, {0.3, -1.5, 0}, {0, 0, 1},
+                  {.width = size.width, .height = size.height, .vertical_fov = 40})};
+}
+
 Scene read(const std::string& file) {
   Warnings warnings;
   return read_scene({file}, {.hash = false}, warnings);
@@ -75,8 +123,8 @@ BenchScene framed(const std::string& name, Scene scene, const ImageSize& size) {
 }  // namespace
 
 std::vector<std::string> default_scene_names() {
-  return {"sphere-20k", "sphere-200k",  "sphere-2m",    "mesh", "soup",
-          "few-large",  "grid-aligned", "grid-shifted", "room"};
+  return {"sphere-20k",   "sphere-200k", "sphere-2m", "mesh", "soup", "few-large", "grid-aligned",
+          "grid-shifted", "room",        "scan",      "city", "tree", "text",      "cad"};
 }
 
 bool is_made_scene(const std::string& name) {
@@ -97,6 +145,11 @@ BenchScene make_scene(const std::string& name, std::uint32_t width, std::uint32_
   }
   if (name.starts_with("grid-") && is_made_scene(name)) return grid_scene(name, size);
   if (name.starts_with("room") && is_made_scene(name)) return room_scene(name, size);
+  if (name == "scan") return scan_scene(size);
+  if (name == "city") return city_scene(size);
+  if (name == "tree") return tree_scene(size);
+  if (name == "text") return text_scene(size);
+  if (name == "cad") return cad_scene(size);
   return framed(name, read(name), size);
 }
 

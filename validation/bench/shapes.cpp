@@ -3,29 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <utility>
+
+#include "validation/bench/made/mesh_building.h"
+#include "validation/bench/made/random.h"
 
 namespace fathom::bench {
 namespace {
-
-using Vector3 = std::array<double, 3>;
-
-/// The same numbers with every standard library: in [0, 1), multiples of 2⁻⁵³.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : bits_(seed) {}
-  double operator()() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
-  double between(double low, double high) { return low + (high - low) * (*this)(); }
-
- private:
-  std::mt19937_64 bits_;
-};
-
-std::uint32_t add_vertex(Mesh& mesh, const Vector3& p) {
-  mesh.vertices.push_back({p[0], p[1], p[2]});
-  return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
-}
 
 /// The point that `camera` (R = identity, t = 0, perspective) sees at (u, v) in depth z.
 Vector3 seen_at(const Camera& camera, double u, double v, double z) {
