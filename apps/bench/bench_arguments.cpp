@@ -89,10 +89,10 @@ void BenchArguments::add_to(Command& command) {
                  "Image sizes (default 1920x1080; with --parts 640x360)");
   command.option("--threads", "N", into(threads, parse_threads),
                  "Numbers of threads (default: all processors; with --parts 1, 2, 4, …)");
-  const Option peers_option =
-      command.option("--peers", "NAME", into(peers, parse_peers),
-                     "Renderers beside fast: vtk, embree, reference or none (default: all, the "
-                     "reference engine up to 20000 triangles)");
+  const Option peers_option = command.option(
+      "--peers", "NAME", into(peers, parse_peers),
+      "Renderers beside fast and fast-kept: vtk, embree, reference or none (default: all, the "
+      "reference engine up to 20000 triangles)");
   const Option channels_option =
       command.option("--channels", "LIST", into(channels, parse_channels),
                      "Channels that our engines compute (default Z)");

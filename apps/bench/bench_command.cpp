@@ -45,7 +45,7 @@ std::vector<Plan> plans_of(const BenchArguments& a) {
 }
 
 std::vector<std::string> renderers_for(const Peers& peers, std::uint64_t triangles) {
-  std::vector<std::string> renderers{"fast"};
+  std::vector<std::string> renderers{"fast", "fast-kept"};
   if (peers.vtk) renderers.emplace_back("vtk");
   if (peers.embree) renderers.insert(renderers.end(), {"embree", "embree-robust"});
   if (peers.reference && !(peers.by_default && triangles > bearable_triangles)) {
@@ -133,8 +133,10 @@ void add_bench(Command& program) {
       "grid-shifted, room, scan, city, tree, text and cad (default: these), room-outside,\n"
       "sphere-N for any N, mesh files.\n"
       "Each renderer runs in a process of its own on as many processors as there are threads;\n"
-      "its first frame is not counted. Times of vtk are without read-back, those of embree\n"
-      "without embree-build.\n"
+      "its first frame is not counted. fast begins each frame with nothing; fast-kept draws into\n"
+      "the map of the frame before and keeps the memory it works with, as for frames of a path,\n"
+      "and as vtk and embree keep their buffers. Times of vtk are without read-back, those of\n"
+      "embree without embree-build.\n"
       "\n--parts switches each idea that makes drawing fast on and off, in one process, in turn:\n"
       "lanes of binary32 and binary64, blocks before pixels, early rejection by the order of\n"
       "drawing, tiles, threads, culling. It prints times, how many times as fast that is (by the\n"

@@ -33,21 +33,24 @@ TEST(BenchProgram, ShowsATableAndWritesJson) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   EXPECT_THAT(outcome.out, HasSubstr("sphere-200: 200 triangles, 40x30, 1 thread\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\n  fast-kept "));
   EXPECT_THAT(outcome.out, HasSubstr("\n  reference "));
 
   const auto json = nlohmann::json::parse(folder.read("t.json"));
   EXPECT_TRUE(json.contains("machine"));
-  ASSERT_EQ(json["results"].size(), 4U);
+  ASSERT_EQ(json["results"].size(), 6U);
   EXPECT_EQ(json["results"][0]["renderer"], "fast");
-  EXPECT_EQ(json["results"][1]["renderer"], "reference");
-  EXPECT_EQ(json["results"][2]["scene"], "few-large");
+  EXPECT_EQ(json["results"][1]["renderer"], "fast-kept");
+  EXPECT_EQ(json["results"][2]["renderer"], "reference");
+  EXPECT_EQ(json["results"][3]["scene"], "few-large");
   EXPECT_EQ(json["results"][0]["covered_pixels"], json["results"][1]["covered_pixels"]);
+  EXPECT_EQ(json["results"][0]["covered_pixels"], json["results"][2]["covered_pixels"]);
 }
 
 TEST(BenchProgram, JsonAloneOnStandardOutput) {
   const Outcome outcome = run_fathom(small({"--scene", "sphere-8", "--json", "-"}));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(nlohmann::json::parse(outcome.out)["results"].size(), 2U);
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["results"].size(), 3U);
 }
 
 TEST(BenchProgram, TimesAMeshFileAndEverySizeAndNumberOfThreads) {
@@ -56,9 +59,9 @@ TEST(BenchProgram, TimesAMeshFileAndEverySizeAndNumberOfThreads) {
                                       "1,1", "--peers", "none", "--repeat", "1", "--json", "-"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
-  ASSERT_EQ(json["results"].size(), 4U);
-  EXPECT_EQ(json["results"][3]["width"], 8);
-  EXPECT_EQ(json["results"][3]["triangles"], 12);
+  ASSERT_EQ(json["results"].size(), 2U * 4);
+  EXPECT_EQ(json["results"][7]["width"], 8);
+  EXPECT_EQ(json["results"][7]["triangles"], 12);
 }
 
 /// A small run of the ideas.

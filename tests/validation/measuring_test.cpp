@@ -53,7 +53,7 @@ TEST(BenchProcessors, AChildKeepsToOne) {
 TEST(BenchRenderers, EnginesAreMeasured) {
   const Plan plan{.scene = "sphere-512", .width = 64, .height = 36, .threads = 1, .repeat = 2};
   std::vector<std::uint64_t> covered;
-  for (const char* renderer : {"fast", "reference"}) {
+  for (const char* renderer : {"fast", "fast-kept", "reference"}) {
     const std::vector<Measurement> measurements = measure_in_child(renderer, plan);
     ASSERT_EQ(measurements.size(), 1U);
     EXPECT_EQ(measurements[0].renderer, renderer);
@@ -64,6 +64,7 @@ TEST(BenchRenderers, EnginesAreMeasured) {
   }
   EXPECT_GT(covered[0], 0U);
   EXPECT_EQ(covered[0], covered[1]);
+  EXPECT_EQ(covered[0], covered[2]);
   EXPECT_THROW(measure("raytracer", plan), UsageError);
   EXPECT_EQ(count_triangles_in_child(plan), 512U);
 }

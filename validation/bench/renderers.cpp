@@ -23,14 +23,23 @@ std::uint64_t covered_pixels(const DepthMap& map) {
   return static_cast<std::uint64_t>(covered);
 }
 
-std::vector<Measurement> measure_engine(Engine engine, const BenchScene& bench, const Plan& plan,
+/// What one frame leaves to the next.
+enum class Kept { nothing, map_and_memory };
+
+std::vector<Measurement> measure_engine(const std::string& name, Engine engine, Kept kept,
+                                        const BenchScene& bench, const Plan& plan,
                                         std::uint64_t idle_bytes) {
-  const RenderOptions options{.engine = engine, .channels = plan.channels, .threads = plan.threads};
+  RenderOptions options{.engine = engine, .channels = plan.channels, .threads = plan.threads};
+  RenderMemory memory;
+  if (kept == Kept::map_and_memory) options.kept = &memory;
   forget_peak();
   DepthMap map;
   Frames frames = time_frames(
-      plan.repeat, [&] { map = render(bench.scene, bench.camera, options); }, [&] { map = {}; });
-  return {{std::string(name_of(engine)), "", frames.first_ms, std::move(frames.milliseconds),
+      plan.repeat, [&] { render_into(map, bench.scene, bench.camera, options); },
+      [&] {
+        if (kept == Kept::nothing) map = {};
+      });
+  return {{name, "", frames.first_ms, std::move(frames.milliseconds),
            peak_resident_bytes() - idle_bytes, covered_pixels(map)}};
 }
 
@@ -40,8 +49,12 @@ std::vector<Measurement> measure(const std::string& renderer, const Plan& plan) 
   const std::uint64_t idle_bytes = resident_bytes();
   BenchScene bench = make_scene(plan.scene, plan.width, plan.height);
   keep_to_processors(plan.threads);
-  if (renderer == "fast") return measure_engine(Engine::fast, bench, plan, idle_bytes);
-  if (renderer == "reference") return measure_engine(Engine::reference, bench, plan, idle_bytes);
+  const auto engine = [&](Engine which, Kept kept) {
+    return measure_engine(renderer, which, kept, bench, plan, idle_bytes);
+  };
+  if (renderer == "fast") return engine(Engine::fast, Kept::nothing);
+  if (renderer == "fast-kept") return engine(Engine::fast, Kept::map_and_memory);
+  if (renderer == "reference") return engine(Engine::reference, Kept::nothing);
   if (renderer == "vtk") return measure_vtk(std::move(bench), plan, idle_bytes);
   if (renderer == "embree") return measure_embree(std::move(bench), plan, false, idle_bytes);
   if (renderer == "embree-robust") return measure_embree(std::move(bench), plan, true, idle_bytes);

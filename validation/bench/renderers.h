@@ -7,10 +7,14 @@
 
 namespace fathom::bench {
 
-/// Times one renderer: fast, reference and, if they are built in, vtk, embree or embree-robust.
+/// Times one renderer: fast, fast-kept, reference and, if they are built in, vtk, embree or
+/// embree-robust.
 ///
 ///   fast, reference        from mesh and camera in memory to the complete map in memory; nothing
 ///                          is kept from an earlier frame
+///   fast-kept              the same, but into the map of the frame before and with the memory that
+///                          it worked with (render_into(), RenderMemory): what a frame of a path
+///                          costs, as vtk and embree keep their buffers
 ///   vtk                    drawing and waiting until it is done; depths are not read back, and the
 ///                          mesh was passed to OpenGL with the first frame
 ///   embree, embree-robust  making rays, tracing them, storing depths; the hierarchy has already
