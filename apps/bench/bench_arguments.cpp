@@ -13,7 +13,11 @@ namespace fathom::app {
 namespace {
 
 Peers parse_peers(const std::string& list) {
-  Peers peers{false, false, false, false};
+  Peers peers{.vtk = false,
+              .embree = false,
+              .reference = false,
+              .masked_occlusion_culling = false,
+              .by_default = false};
   for (const std::string& name : parse_list(list)) {
     if (name == "vtk") {
       peers.vtk = true;
@@ -21,14 +25,21 @@ Peers parse_peers(const std::string& list) {
       peers.embree = true;
     } else if (name == "reference") {
       peers.reference = true;
+    } else if (name == "masked-occlusion-culling") {
+      peers.masked_occlusion_culling = true;
     } else if (name != "none") {
-      refuse_word(name, {"vtk", "embree", "reference", "none"});
+      refuse_word(name, {"vtk", "embree", "reference", "masked-occlusion-culling", "none"});
     }
   }
   if ((peers.vtk || peers.embree) && !bench::peers_are_built()) {
     throw UsageError(
         "VTK and Embree are not built in: 'scripts/fathom bench' installs "
         "them and builds with them (-DFATHOM_PEERS=ON)");
+  }
+  if (peers.masked_occlusion_culling && !bench::masked_occlusion_culling_is_built()) {
+    throw UsageError(
+        "masked-occlusion-culling is not built in: -DFATHOM_MASKED_OCCLUSION_CULLING=FOLDER builds "
+        "with a clone of GameTechDev/MaskedOcclusionCulling");
   }
   return peers;
 }
@@ -91,8 +102,8 @@ void BenchArguments::add_to(Command& command) {
                  "Numbers of threads (default: all processors; with --parts 1, 2, 4, …)");
   const Option peers_option = command.option(
       "--peers", "NAME", into(peers, parse_peers),
-      "Renderers beside fast and fast-kept: vtk, embree, reference or none (default: all, the "
-      "reference engine up to 20000 triangles)");
+      "Renderers beside fast and fast-kept: vtk, embree, reference, masked-occlusion-culling or "
+      "none (default: all that are built in, the reference engine up to 20000 triangles)");
   const Option channels_option =
       command.option("--channels", "LIST", into(channels, parse_channels),
                      "Channels that our engines compute (default Z)");

@@ -15,6 +15,7 @@ namespace fathom::app {
 /// What --peers names, or what there is.
 struct Peers {
   bool vtk = bench::peers_are_built(), embree = bench::peers_are_built(), reference = true;
+  bool masked_occlusion_culling = bench::masked_occlusion_culling_is_built();
   /// No --peers: the reference engine where it is bearable.
   bool by_default = true;
 };

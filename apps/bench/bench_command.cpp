@@ -44,10 +44,14 @@ std::vector<Plan> plans_of(const BenchArguments& a) {
   return plans;
 }
 
-std::vector<std::string> renderers_for(const Peers& peers, std::uint64_t triangles) {
+std::vector<std::string> renderers_for(const Peers& peers, const Plan& plan,
+                                       std::uint64_t triangles) {
   std::vector<std::string> renderers{"fast", "fast-kept"};
   if (peers.vtk) renderers.emplace_back("vtk");
   if (peers.embree) renderers.insert(renderers.end(), {"embree", "embree-robust"});
+  if (peers.masked_occlusion_culling && plan.threads == 1) {
+    renderers.emplace_back("masked-occlusion-culling");
+  }
   if (peers.reference && !(peers.by_default && triangles > bearable_triangles)) {
     renderers.emplace_back("reference");
   }
@@ -68,10 +72,22 @@ void warn_of_other_pictures(const Comparison& comparison, const Console& console
   }
 }
 
+/// Masked Occlusion Culling, where it was asked for by name and is not in the table.
+void warn_of_what_is_left_out(const Comparison& comparison, const Peers& peers,
+                              const Console& console) {
+  if (peers.by_default || !peers.masked_occlusion_culling) return;
+  for (const Measurement& m : comparison.measurements) {
+    if (m.renderer == "masked-occlusion-culling") return;
+  }
+  console.warn(fmt::format(
+      "{}: masked-occlusion-culling {}", comparison.plan.scene,
+      comparison.plan.threads == 1 ? "draws no orthographic view" : "draws with one thread only"));
+}
+
 Comparison compare(const Plan& plan, const Peers& peers, const Console& console,
                    const std::function<void(double)>& progress) {
   Comparison comparison{plan, bench::count_triangles_in_child(plan), {}};
-  const std::vector<std::string> renderers = renderers_for(peers, comparison.triangles);
+  const std::vector<std::string> renderers = renderers_for(peers, plan, comparison.triangles);
   for (std::size_t i = 0; i < renderers.size(); ++i) {
     if (progress) progress(static_cast<double>(i) / static_cast<double>(renderers.size()));
     for (Measurement& m : bench::measure_in_child(renderers[i], plan)) {
@@ -79,6 +95,7 @@ Comparison compare(const Plan& plan, const Peers& peers, const Console& console,
     }
   }
   warn_of_other_pictures(comparison, console);
+  warn_of_what_is_left_out(comparison, peers, console);
   return comparison;
 }
 
@@ -136,7 +153,8 @@ void add_bench(Command& program) {
       "its first frame is not counted. fast begins each frame with nothing; fast-kept draws into\n"
       "the map of the frame before and keeps the memory it works with, as for frames of a path,\n"
       "and as vtk and embree keep their buffers. Times of vtk are without read-back, those of\n"
-      "embree without embree-build.\n"
+      "embree without embree-build. masked-occlusion-culling, where it is built in, is timed with\n"
+      "one thread, from a cleared buffer; what it draws is bounds of depths, not depths.\n"
       "\n--parts switches each idea that makes drawing fast on and off, in one process, in turn:\n"
       "lanes of binary32 and binary64, blocks before pixels, early rejection by the order of\n"
       "drawing, tiles, threads, culling. It prints times, how many times as fast that is (by the\n"

@@ -110,6 +110,21 @@ TEST(BenchProgram, SaysWhyAnIdeaIsLeftOut) {
   EXPECT_THAT(outcome.out, HasSubstr("\nculling: changes the picture"));
 }
 
+TEST(BenchProgram, MaskedOcclusionCullingIsTimedWithOneThreadOrSaidNotToBeBuiltIn) {
+  const Outcome outcome =
+      run_fathom({"bench", "--scene", "sphere-200", "--size", "40x30", "--threads", "1", "--repeat",
+                  "1", "--peers", "masked-occlusion-culling", "--json", "-"});
+#ifdef FATHOM_MASKED_OCCLUSION_CULLING
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(json["results"].size(), 3U);
+  EXPECT_EQ(json["results"][2]["renderer"], "masked-occlusion-culling");
+#else
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("masked-occlusion-culling is not built in"));
+#endif
+}
+
 struct Refused {
   std::string name;
   std::vector<std::string> arguments;

@@ -70,6 +70,15 @@ TEST(BenchReport, TableIsAligned) {
       "\n");
 }
 
+TEST(BenchReport, TableHasRoomForLongNames) {
+  Comparison with_long = comparison();
+  with_long.measurements[2].renderer = "masked-occlusion-culling";
+  const std::string text = table(with_long);
+  EXPECT_THAT(text, HasSubstr("\n  renderer                  median ms  "));
+  EXPECT_THAT(text, HasSubstr("\n  fast                           2.00  "));
+  EXPECT_THAT(text, HasSubstr("\n  masked-occlusion-culling       1.00  "));
+}
+
 TEST(BenchReport, MeasurementsComeFromAnotherProcessFieldByField) {
   const auto given = comparison().measurements;
   const std::string bytes = validation::to_bytes(given);

@@ -23,8 +23,8 @@ struct Plan {
 
 /// One renderer on one scene.
 struct Measurement {
-  /// fast, fast-kept, reference, vtk, embree, embree-robust, or embree-build: building the hierarchy
-  /// that embree then traces.
+  /// fast, fast-kept, reference, vtk, embree, embree-robust, masked-occlusion-culling, or
+  /// embree-build: building the hierarchy that embree then traces.
   std::string renderer;
   /// Its version and what it runs on; "" for our engines.
   std::string description;

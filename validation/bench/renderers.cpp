@@ -58,6 +58,9 @@ std::vector<Measurement> measure(const std::string& renderer, const Plan& plan) 
   if (renderer == "vtk") return measure_vtk(std::move(bench), plan, idle_bytes);
   if (renderer == "embree") return measure_embree(std::move(bench), plan, false, idle_bytes);
   if (renderer == "embree-robust") return measure_embree(std::move(bench), plan, true, idle_bytes);
+  if (renderer == "masked-occlusion-culling") {
+    return measure_masked_occlusion_culling(std::move(bench), plan, idle_bytes);
+  }
   throw UsageError("'" + renderer + "' is no renderer");
 }
 

@@ -7,8 +7,8 @@
 
 namespace fathom::bench {
 
-/// Times one renderer: fast, fast-kept, reference and, if they are built in, vtk, embree or
-/// embree-robust.
+/// Times one renderer: fast, fast-kept, reference and, if they are built in, vtk, embree,
+/// embree-robust or masked-occlusion-culling.
 ///
 ///   fast, reference        from mesh and camera in memory to the complete map in memory; nothing
 ///                          is kept from an earlier frame
@@ -19,6 +19,11 @@ namespace fathom::bench {
 ///                          mesh was passed to OpenGL with the first frame
 ///   embree, embree-robust  making rays, tracing them, storing depths; the hierarchy has already
 ///                          been built. embree-build, returned with embree, is building it
+///   masked-occlusion-culling
+///                          from vertices in the world, in binary32, and a cleared buffer to all
+///                          triangles drawn into it; one thread, whatever the plan says. Depths of
+///                          pixels, which are not read, would be bounds: two for each 8×4 pixels.
+///                          Nothing is returned for an orthographic camera, which it does not know
 ///
 /// Does     make the scene and restrict this process to the processors of the plan.
 /// Fails    InputError as make_scene(), or if the renderer does not start; UsageError if there is no
@@ -36,5 +41,8 @@ std::uint64_t count_triangles_in_child(const Plan& plan);
 
 /// Whether VTK and Embree are built in.
 bool peers_are_built();
+
+/// Whether Masked Occlusion Culling is.
+bool masked_occlusion_culling_is_built();
 
 }  // namespace fathom::bench

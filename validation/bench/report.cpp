@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -27,12 +28,21 @@ double pixels(const Plan& plan, const Measurement& m) {
   return m.renderer == "embree-build" ? 0 : static_cast<double>(plan.width) * plan.height;
 }
 
+/// The width of the first column.
+std::size_t name_width(const Comparison& comparison) {
+  std::size_t width = 14;
+  for (const Measurement& m : comparison.measurements) {
+    width = std::max(width, m.renderer.size());
+  }
+  return width;
+}
+
 std::string row(const Comparison& comparison, const Measurement& m) {
   const double median = m.median_ms();
   const auto ratio = ratio_to_fast(comparison, m);
   const double drawn = pixels(comparison.plan, m);
-  return fmt::format("  {:<14}{:>11.2f}{:>11.2f}{:>11.2f}{:>9}{:>10.1f}{:>9.3g}{:>9}\n", m.renderer,
-                     median, m.milliseconds.front(), m.milliseconds.back(),
+  return fmt::format("  {:<{}}{:>11.2f}{:>11.2f}{:>11.2f}{:>9}{:>10.1f}{:>9.3g}{:>9}\n", m.renderer,
+                     name_width(comparison), median, m.milliseconds.front(), m.milliseconds.back(),
                      ratio ? fmt::format("{:.2f}", *ratio) : "-",
                      static_cast<double>(m.peak_bytes) / (1 << 20),
                      per_second(static_cast<double>(comparison.triangles), median) * 1e-6,
@@ -74,8 +84,9 @@ std::string table(const Comparison& comparison) {
       fmt::format("{}: {} triangle{}, {}x{}, {} thread{}\n", plan.scene, comparison.triangles,
                   comparison.triangles == 1 ? "" : "s", plan.width, plan.height, plan.threads,
                   plan.threads == 1 ? "" : "s");
-  text += fmt::format("  {:<14}{:>11}{:>11}{:>11}{:>9}{:>10}{:>9}{:>9}\n", "renderer", "median ms",
-                      "min ms", "max ms", "x fast", "peak MiB", "Mtri/s", "Mpix/s");
+  text += fmt::format("  {:<{}}{:>11}{:>11}{:>11}{:>9}{:>10}{:>9}{:>9}\n", "renderer",
+                      name_width(comparison), "median ms", "min ms", "max ms", "x fast", "peak MiB",
+                      "Mtri/s", "Mpix/s");
   for (const Measurement& m : comparison.measurements) text += row(comparison, m);
   return text + "\n";
 }

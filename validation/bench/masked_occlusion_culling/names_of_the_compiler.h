@@ -1,0 +1,9 @@
+#pragma once
+
+/// Read before each source of Masked Occlusion Culling. It defines __cpuidex and _xgetbv for GCC,
+/// which has had both since version 11; here, its own get other names.
+#include <cpuid.h>
+#include <immintrin.h>
+
+#define __cpuidex moc_cpuidex
+#define _xgetbv moc_xgetbv
