@@ -22,7 +22,7 @@ struct MaskedWay {
   bool vertices_first = true;
 };
 
-/// What is drawn by Masked Occlusion Culling [HAAM16]: per block of 8×4 pixels two depths and a mask
+/// What is drawn by Masked Occlusion Culling [HAA16]: per block of 8×4 pixels two depths and a mask
 /// that says which pixel has which; each depth is no nearer than what is seen there, as far as
 /// binary32 and corners on a grid of 1/256 pixel allow, and often farther.
 ///
