@@ -37,7 +37,7 @@ bool masked_occlusion_culling_is_built() {
   return true;
 }
 
-std::vector<Measurement> measure_masked_occlusion_culling(BenchScene bench, const Plan& plan,
+std::vector<Measurement> measure_masked_occlusion_culling(BenchScene&& bench, const Plan& plan,
                                                           std::uint64_t idle_bytes) {
   if (bench.camera.projection != Projection::perspective) return {};
   attribution::WorldMesh mesh = attribution::world_mesh(bench.scene);

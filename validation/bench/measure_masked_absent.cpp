@@ -8,7 +8,7 @@ bool masked_occlusion_culling_is_built() {
   return false;
 }
 
-std::vector<Measurement> measure_masked_occlusion_culling(BenchScene /*bench*/,
+std::vector<Measurement> measure_masked_occlusion_culling(BenchScene&& /*bench*/,
                                                           const Plan& /*plan*/,
                                                           std::uint64_t /*idle_bytes*/) {
   throw UsageError(

@@ -14,7 +14,7 @@ std::vector<Measurement> measure_vtk(BenchScene bench, const Plan& plan, std::ui
 std::vector<Measurement> measure_embree(BenchScene bench, const Plan& plan, bool robust,
                                         std::uint64_t idle_bytes);
 /// Nothing if the camera is orthographic.
-std::vector<Measurement> measure_masked_occlusion_culling(BenchScene bench, const Plan& plan,
+std::vector<Measurement> measure_masked_occlusion_culling(BenchScene&& bench, const Plan& plan,
                                                           std::uint64_t idle_bytes);
 
 }  // namespace fathom::bench

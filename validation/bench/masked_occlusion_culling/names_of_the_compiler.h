@@ -1,7 +1,7 @@
 #pragma once
 
-/// Read before each source of Masked Occlusion Culling. It defines __cpuidex and _xgetbv for GCC,
-/// which has had both since version 11; here, its own get other names.
+/// Read before each source of Masked Occlusion Culling. It defines __cpuidex and _xgetbv, which
+/// compilers of today have, too: here, its own get other names.
 #include <cpuid.h>
 #include <immintrin.h>
 
