@@ -128,9 +128,7 @@ void resolve(benchmark::State& state, const std::string& scene) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const char* scene : {"sphere-20k", "sphere-200k", "sphere-2m", "soup", "few-large",
-                            "grid-aligned", "grid-shifted"}) {
-    const std::string name = scene;
+  for (const std::string& name : fathom::bench::default_scene_names()) {
     const auto add = [&](const char* stage, auto* function) {
       benchmark::RegisterBenchmark((name + "/" + stage).c_str(), function, name)
           ->Unit(benchmark::kMillisecond);
