@@ -160,7 +160,8 @@ int render_maps(const RenderArguments& arguments, MapPlan plan, const Console& c
   outputs.write_cameras(to_json(cameras) + "\n");
 
   RenderMemory memory;
-  if (cameras.size() > 1) plan.rendering.kept = &memory;
+  // Files are read to keep memory small.
+  if (cameras.size() > 1 && !arguments.stream) plan.rendering.kept = &memory;
   std::vector<MapReport> reports;
   bool all_agree = true;
   CameraWarnings warnings;

@@ -33,7 +33,9 @@ struct Row {
       tags[k] = std::bit_cast<std::uint64_t>(perspective ? spread / (D * D) : spread);
     }
   }
-  [[nodiscard]] SurfaceRow lanes(double v) const { return {q.data(), tags.data(), 0.5, v}; }
+  [[nodiscard]] SurfaceRow lanes(double v) const {
+    return {q.data(), tags.data(), nullptr, 0.5, v};
+  }
   /// The end of D's interval for an error `factor` times the bound, in units of the bound.
   [[nodiscard]] Ratio depth(std::size_t k, double factor, bool perspective) const {
     const Dyadic moved = Dyadic(q[k]) - Dyadic(factor) * Dyadic(std::bit_cast<double>(tags[k]));

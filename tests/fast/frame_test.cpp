@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <set>
 
 #include "tests/inputs/soup.h"
@@ -28,16 +29,46 @@ TEST(FirstFault, IsThatOfTheFirstPixel) {
   EXPECT_EQ(first.get()->pixel, 12U);
 }
 
-TEST(FastOutput, WholeTilesAreWrittenWhereDepthIsAllThereIs) {
+void expect_same_bytes(const DepthMap& a, const DepthMap& b) {
+  ASSERT_EQ(a.channels.size(), b.channels.size());
+  for (std::size_t i = 0; i < a.channels.size(); ++i) {
+    SCOPED_TRACE(a.channels[i].name);
+    std::visit(
+        [&](const auto& values) {
+          const auto& others = std::get<std::decay_t<decltype(values)>>(b.channels[i].values);
+          ASSERT_EQ(values.size(), others.size());
+          EXPECT_EQ(std::memcmp(values.data(), others.data(), values.size() * sizeof(values[0])),
+                    0);
+        },
+        a.channels[i].values);
+  }
+}
+
+/// Parts of a map are filled with what make_background() fills all of it with.
+TEST(MapBackground, IsThatOfAWholeMapInAnyParts) {
+  const Camera camera = testing::camera_of(70, 3, 64);
   RenderOptions options;
-  EXPECT_TRUE(FastOutput::writes_whole_tiles(options));
-  options.channels = {Channel::Z, Channel::A};
-  EXPECT_TRUE(FastOutput::writes_whole_tiles(options));
-  options.channels = {Channel::Z, Channel::id};
-  EXPECT_FALSE(FastOutput::writes_whole_tiles(options));
-  options.channels = {Channel::Z};
-  options.depth_encoding.type = DepthEncoding::Type::binary64;
-  EXPECT_FALSE(FastOutput::writes_whole_tiles(options));
+  options.channels = {Channel::Z, Channel::A, Channel::id,
+                      Channel::P, Channel::N, Channel::distance};
+  using Type = DepthEncoding::Type;
+  for (const Type type : {Type::binary32, Type::binary64, Type::scaled_unorm16}) {
+    options.depth_encoding.type = type;
+    const DepthMap expected = make_background(camera, options);
+    UnfilledMap unfilled = make_unfilled_map(camera, options);
+    for (std::size_t first = 0; first < 210; first += 64) {
+      unfilled.background.fill(first, std::min<std::size_t>(64, 210 - first));
+    }
+    expect_same_bytes(unfilled.map, expected);
+    DepthMap used = expected;
+    used.values<std::uint32_t>("id")->begin()[100] = 7;
+    UnfilledMap again = make_unfilled_map(camera, options, std::move(used));
+    MapBackground others = again.background;
+    others.leave_out("id");
+    others.fill(0, 210);
+    EXPECT_EQ(again.map.values<std::uint32_t>("id")->at(100), 7U);
+    again.background.fill(64, 64);
+    expect_same_bytes(again.map, expected);
+  }
 }
 
 /// However many bins there are, each triangle is in the same tiles, once.

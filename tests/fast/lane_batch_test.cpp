@@ -57,8 +57,8 @@ struct OneFunction {
   }
   [[nodiscard]] lanes::LaneBatch in_lanes(std::uint32_t place) const {
     lanes::LaneBatch batch{};
-    lanes::make_lane_places(setups, area, place, batch);
-    lanes::make_lane_functions(setups, batch);
+    lanes::make_lane_places(setups, area, place, lanes::extent_of(setups), 1, batch);
+    lanes::make_lane_functions(setups, lanes::extent_of(setups), 1, batch);
     return batch;
   }
   [[nodiscard]] Dyadic exact(int x, int y) const {

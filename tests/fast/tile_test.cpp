@@ -58,6 +58,7 @@ struct TileScene {
   RenderStatistics statistics;
   DepthRange range = depth_range(camera);
   FastSwitches switches;
+  ExactSetups exact_setups{{0, camera.width - 1, 0, camera.height - 1}};
   ImageObjects objects;
   std::vector<ProjectedTriangle> projected;
   /// The triangles that are not seen edge-on.
@@ -74,7 +75,9 @@ struct TileScene {
   }
   TileScene(const TileScene&) = delete;
   TileScene& operator=(const TileScene&) = delete;
-  [[nodiscard]] Tile::Context context() { return {referee, statistics, range, true, switches}; }
+  [[nodiscard]] Tile::Context context() {
+    return {referee, statistics, range, true, switches, nullptr, exact_setups};
+  }
 };
 
 /// Draws a tile and looks at every sample. Returns how many show a surface.
@@ -149,7 +152,8 @@ TEST(Tile, ForgetsSurfacesThatAreHidden) {
   RenderStatistics statistics;
   const DepthRange range = depth_range(camera);
   const FastSwitches switches;
-  const Tile::Context context{referee, statistics, range, true, switches};
+  ExactSetups exact_setups({0, camera.width - 1, 0, camera.height - 1});
+  const Tile::Context context{referee, statistics, range, true, switches, nullptr, exact_setups};
   ImageObjects objects;
   objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
   std::vector<std::uint32_t> numbers(large + 2);

@@ -38,6 +38,7 @@ int main() {
   print("tile_q_error", fast::setup_bounds::tile_q_error);
   print("exact_edge_error", fast::setup_bounds::exact_edge_error);
   print("exact_q_error", fast::setup_bounds::exact_q_error);
+  print("moved_share", fast::setup_bounds::moved_share);
   print("shape_share", fast::setup_bounds::shape_share);
   print("range_end_rounding", fast::setup_bounds::range_end_rounding);
   print("shape_rounding", fast::setup_bounds::shape_rounding);
@@ -54,6 +55,7 @@ int main() {
   print("end_room", fast::resolve_bounds::end_room);
   print("spread_room", fast::resolve_bounds::spread_room);
   print("greatest_residual", fast::resolve_bounds::greatest_residual);
+  print("weight_rounding", fast::resolve_bounds::weight_rounding);
   print("greatest_relative_error_of_q", fast::resolve_bounds::greatest_relative_error);
 
   print("interval_widening", interval_widening);

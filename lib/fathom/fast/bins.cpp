@@ -5,6 +5,7 @@
 #include <new>
 
 #include "fathom/fast/boxes.h"
+#include "fathom/fast/setup.h"
 #include "fathom/fast/tile.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/element_checks.h"
@@ -83,6 +84,10 @@ TileGrid::TileGrid(std::uint32_t image_width, std::uint32_t image_height)
   }
 }
 
+std::uint32_t TileGrid::tile_at(std::uint32_t column, std::uint32_t row) const {
+  return row / Tile::size * columns + column / Tile::size;
+}
+
 PixelBox TileGrid::area(std::uint32_t tile) const {
   const std::uint32_t column = tile % columns * Tile::size, row = tile / columns * Tile::size;
   // Sums with the side of a tile could be beyond the range of a column.
@@ -99,6 +104,26 @@ void Bins::fill(const Context& context) {
 }
 
 namespace {
+
+PixelBox common_part(const PixelBox& a, const PixelBox& b) {
+  return {std::max(a.first_column, b.first_column), std::min(a.last_column, b.last_column),
+          std::max(a.first_row, b.first_row), std::min(a.last_row, b.last_row)};
+}
+
+// An edge function that is certainly negative at the corner of the box where it is greatest is so at
+// all samples; and in all of their pixels, as the box is taken to be greater by one sample on each
+// side, for which the bounds hold, too.
+bool certainly_misses(const TriangleSetup& s, const PixelBox& box) {
+  const double left = static_cast<double>(box.first_column) - s.column - 1;
+  const double right = static_cast<double>(box.last_column) - s.column + 1;
+  const double top = static_cast<double>(box.first_row) - s.row - 1;
+  const double bottom = static_cast<double>(box.last_row) - s.row + 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = s.edge_a[k] > 0 ? right : left, y = s.edge_b[k] > 0 ? bottom : top;
+    if (s.edge_c[k] + s.edge_a[k] * x + s.edge_b[k] * y < -s.edge_error) return true;
+  }
+  return false;
+}
 
 /// The pixels where a triangle about which nothing was certain can be visible; empty if none.
 PixelBox visible_box_exactly(const ImageObject& object, std::uint32_t number,
@@ -129,6 +154,31 @@ PixelBox visible_box_exactly(const ImageObject& object, std::uint32_t number,
 
 }  // namespace
 
+// The box of a triangle that reaches behind the camera is the whole image, most of whose tiles it
+// misses.
+void Bins::add_exactly(const ImageObject& object, std::uint32_t number, const Context& context) {
+  const PixelBox box = visible_box_exactly(object, number, context);
+  if (box.is_empty()) return;
+  Lists& lists = lists_[index(Side::front)];
+  const TileGrid& grid = context.grid;
+  if (grid.tile_at(box.first_column, box.first_row) ==
+      grid.tile_at(box.last_column, box.last_row)) {
+    lists.add(number, never_hidden, box, grid);
+    return;
+  }
+  const bool perspective = context.camera.projection == Projection::perspective;
+  ++context.statistics.exact_setups;
+  const TriangleSetup setup = exact_setup(context.referee.projected(number), perspective, box);
+  for (std::uint32_t row = box.first_row / Tile::size; row <= box.last_row / Tile::size; ++row) {
+    for (std::uint32_t column = box.first_column / Tile::size;
+         column <= box.last_column / Tile::size; ++column) {
+      const std::uint32_t tile = row * grid.columns + column;
+      const PixelBox part = common_part(grid.area(tile), box);
+      if (!certainly_misses(setup, part)) lists.add(number, never_hidden, part, grid);
+    }
+  }
+}
+
 void Bins::add_object(const ImageObject& object, const Context& context) {
   const std::uint32_t first = std::max(first_, object.first_number);
   const std::uint32_t end = std::min(end_, object.end_number());
@@ -151,10 +201,7 @@ void Bins::add_object(const ImageObject& object, const Context& context) {
                                         context.grid);
     }
     for (std::size_t i = 0; i < boxes->unsettled; ++i) {
-      const std::uint32_t number = boxes->unsettled_number[i];
-      const PixelBox box = visible_box_exactly(object, number, context);
-      if (box.is_empty()) continue;
-      lists_[index(Side::front)].add(number, never_hidden, box, context.grid);
+      add_exactly(object, boxes->unsettled_number[i], context);
     }
   }
 }

@@ -18,7 +18,7 @@ namespace fathom::fast {
 class VertexMemory {
  public:
   using Vertices = std::unique_ptr<ImageVertex[]>;
-  /// Room for `count` vertices or more, whatever it holds.
+  /// Room for `count` vertices, whatever it holds.
   Vertices take(std::size_t count);
   /// Where there is no memory for the list, they go back to the system.
   void give_back(Vertices vertices, std::size_t count) noexcept;
@@ -67,6 +67,8 @@ struct TileGrid {
   TileGrid(std::uint32_t image_width, std::uint32_t image_height);
   [[nodiscard]] std::uint32_t count() const { return columns * rows; }
   [[nodiscard]] PixelBox area(std::uint32_t tile) const;
+  /// The tile of a pixel.
+  [[nodiscard]] std::uint32_t tile_at(std::uint32_t column, std::uint32_t row) const;
 
   std::uint32_t width, height;  // of the image
   std::uint32_t columns, rows;
@@ -107,6 +109,8 @@ class Bins {
 
  private:
   void add_object(const ImageObject& object, const Context& context);
+  /// A triangle about which nothing is certain.
+  void add_exactly(const ImageObject& object, std::uint32_t number, const Context& context);
 
   /// Triangles by tiles.
   class Lists {

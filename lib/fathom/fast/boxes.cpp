@@ -59,7 +59,7 @@ HWY_INLINE hn::Vec<DU> nearest_of(const Corners& t) {
   const V q =
       hn::MulAdd(constant(setup_bounds::q_moves), t.q_error, greatest_of(t.A.q, t.B.q, t.C.q));
   const auto bits = hn::PromoteTo(du, hn::BitCast(du32, to_binary32(d32, q)));
-  const auto whole = hn::Set(du, 0xFFFFFF00);
+  const auto whole = hn::Set(du, std::uint64_t{nearness_of_q});
   const auto negative = hn::Ne(hn::And(bits, hn::Set(du, 0x80000000)), hn::Zero(du));
   return hn::IfThenElse(negative, hn::Sub(hn::And(bits, whole), hn::Set(du, 0x100)),
                         hn::And(hn::Add(bits, hn::Set(du, 0x1FF)), whole));
@@ -72,15 +72,15 @@ HWY_INLINE hn::Vec<DU> nearness_of(hn::Vec<DU> nearest, const Boxes& box, V tile
   const auto block_of = [](V pixel) HWY_ATTR {
     return hn::Floor(hn::Mul(pixel, constant(1.0 / Tile::block)));
   };
-  constexpr std::uint32_t blocks_of_row = Tile::size / Tile::block;
-  const V blocks = constant(blocks_of_row);
+  const V blocks = constant(Tile::blocks_of_row);
   const V left = block_of(box.first_column), top = block_of(box.first_row);
   const V more =
       hn::Max(hn::Sub(block_of(box.last_column), left), hn::Sub(block_of(box.last_row), top));
   const V column = hn::NegMulAdd(tile_column, blocks, left);
   const V row = hn::NegMulAdd(tile_row, blocks, top);
-  const V place = hn::Add(hn::MulAdd(row, blocks, column),
-                          hn::IfThenElseZero(hn::Gt(more, constant(1)), constant(0x40)));
+  const V place =
+      hn::Add(hn::MulAdd(row, blocks, column),
+              hn::IfThenElseZero(hn::Gt(more, constant(1)), constant(nearness_of_more)));
   const auto known = hn::Or(nearest, hn::BitCast(du, hn::ConvertTo(DI(), place)));
   return hn::IfThenElse(hn::RebindMask(du, hn::Gt(more, constant(3))),
                         hn::Set(du, std::uint64_t{never_hidden}), known);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "fathom/fast/tile.h"
+
 // How to read this file: CertifiedWriter::write() is the list of channels. What follows from q
 // alone is rounded for a whole row (channel_rows.h); for the rest, PixelWriter has a function for
 // each channel, which goes through the tiers. Values and their bounds come from
@@ -18,18 +20,25 @@ void for_each_bit(std::uint64_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-/// Copies settled values of a row to its pixels; returns the samples that are left.
+/// Copies settled values of a row to its pixels, as far as they are wanted; returns the samples that
+/// are left.
 template <class T>
-std::uint64_t copy(const VisibleRow& row, const RoundedValues<T>& rounded, T* target,
-                   RenderStatistics& statistics) {
+std::uint64_t copy(const VisibleRow& row, std::uint64_t wanted, const RoundedValues<T>& rounded,
+                   T* target, RenderStatistics& statistics) {
+  const std::uint64_t settled = wanted & rounded.settled;
+  for_each_bit(settled, [&](std::size_t k) { target[row.first_pixel + k] = rounded.values[k]; });
+  statistics.rounding.interval += static_cast<std::uint64_t>(std::popcount(settled));
+  return wanted & ~settled;
+}
+
+/// Writes a whole row, with the background where there is no surface; returns the samples that are
+/// left, which have the background, too.
+template <class T>
+std::uint64_t write_row(const VisibleRow& row, RoundedValues<T>& rounded, T background, T* target,
+                        RenderStatistics& statistics) {
   const std::uint64_t settled = row.surface & rounded.settled;
-  for (std::uint64_t rest = settled; rest != 0;) {
-    const int first = std::countr_zero(rest), count = std::countr_one(rest >> first);
-    std::copy_n(rounded.values.data() + first, count,
-                target + row.first_pixel + static_cast<std::size_t>(first));
-    if (first + count == 64) break;
-    rest &= ~std::uint64_t{0} << (first + count);
-  }
+  for_each_bit(row.all() & ~settled, [&](std::size_t k) { rounded.values[k] = background; });
+  write_map_row(rounded.values, row.columns, target + row.first_pixel);
   statistics.rounding.interval += static_cast<std::uint64_t>(std::popcount(settled));
   return row.surface & ~settled;
 }
@@ -40,89 +49,159 @@ CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays)
     : exact_(exact),
       values_(exact.values()),
       frame_(rays),
-      each_pixel_(values_.barycentric[0] || values_.low || values_.shading_normal[0]),
+      each_pixel_(values_.low || values_.shading_normal[0]),
+      needs_surfaces_(values_.barycentric[0] || values_.normal[0] || values_.camera_normal[0]),
       shading_normals_(exact.corner_normals()) {}
 
 struct CertifiedWriter::Open {
   std::uint64_t depth = 0, distance = 0;
   std::array<std::uint64_t, 3> position{};
+  std::array<std::uint64_t, 2> barycentric{};
 
   [[nodiscard]] std::uint64_t any() const {
-    return depth | distance | position[0] | position[1] | position[2];
+    return depth | distance | position[0] | position[1] | position[2] | barycentric[0] |
+           barycentric[1];
   }
 };
 
+void CertifiedWriter::start(const Tile& tile, std::uint32_t image_width, Referee& referee,
+                            RenderStatistics& statistics) {
+  if (!needs_surfaces_) return;
+  surfaces_.start(tile);
+  if (values_.barycentric[0]) surfaces_.make_forms(frame_);
+  const WriterTarget target{values_, exact_, referee, statistics};
+  const auto make = [&](bool in_camera_frame, auto normal, TileSurfaces::Normals& normals) {
+    const std::size_t settled =
+        surfaces_.make_normals(frame_, in_camera_frame, normals, [&](std::size_t index) {
+          const auto& [number, column, row] = surfaces_.visible()[index - 1];
+          const std::size_t x = tile.area().first_column + column, y = tile.area().first_row + row;
+          const VisibleSurface surface{
+              y * image_width + x,
+              number,
+              {static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5}};
+          const auto& n = (PixelWriter(surface, facts(number), frame_, target).*normal)();
+          normals[index] = {n[0], n[1], n[2], 0};
+        });
+    statistics.rounding.interval += 3 * settled;
+  };
+  if (values_.normal[0]) make(false, &PixelWriter::normal, normals_);
+  if (values_.camera_normal[0]) make(true, &PixelWriter::camera_normal, camera_normals_);
+}
+
 std::uint64_t CertifiedWriter::write_encoded(const VisibleRow& row, const EncodedValues& values,
                                              bool distance, RenderStatistics& statistics) const {
-  if (!values.wanted() || values.binary64) return values.wanted() ? row.surface : 0;
+  if (values.binary64) return row.surface;
   if (values.codes) {
     RoundedValues<std::uint16_t> codes;
     round_to_codes(row.lanes, frame_.rays, distance, exact_.scale(), codes);
-    return copy(row, codes, values.codes, statistics);
+    return write_row(row, codes, std::uint16_t{0}, values.codes, statistics);
   }
   RoundedValues<float> rounded;
   round_depths(row.lanes, frame_.rays, distance, rounded);
-  return copy(row, rounded, values.binary32, statistics);
+  return write_row(row, rounded, Backgrounds::depth, values.binary32, statistics);
+}
+
+// In binary32 what is left to write is what an interval did not settle (Tile::resolve()).
+std::uint64_t CertifiedWriter::write_open_depths(const VisibleRow& row,
+                                                 RenderStatistics& statistics) const {
+  if (!values_.depth.wanted() || row.open_depth == 0) return 0;
+  if (!values_.depth.binary32) return write_encoded(row, values_.depth, false, statistics);
+  RoundedValues<float> rounded;
+  round_depths(row.lanes, frame_.rays, false, rounded);
+  return copy(row, row.open_depth, rounded, values_.depth.binary32, statistics);
 }
 
 void CertifiedWriter::write_origins(const VisibleRow& row) const {
   if (values_.id) {
+    MapRow<std::uint32_t> numbers;
+    numbers.fill(no_surface);
     for_each_bit(row.surface, [&](std::size_t k) {
-      const VisibleSurface surface = row.at(k);
-      values_.id[surface.pixel] = surface.triangle;
+      numbers[k] = static_cast<std::uint32_t>(row.lanes.tags[k]);
     });
+    write_map_row(numbers, row.columns, values_.id + row.first_pixel);
   }
   if (!values_.wants_origins()) return;
+  // face, object, and what segmentations have.
+  std::array<MapRow<std::uint32_t>, OriginNumbers::count> rows;
+  for (MapRow<std::uint32_t>& numbers : rows) numbers.fill(no_surface);
   std::uint32_t last = no_surface;
-  OriginNumbers numbers;
+  std::array<std::uint32_t, OriginNumbers::count> numbers{};
   for_each_bit(row.surface, [&](std::size_t k) {
-    const VisibleSurface surface = row.at(k);
-    if (surface.triangle != last) numbers = exact_.numbers_of(last = surface.triangle);
-    values_.write(surface.pixel, numbers);
+    const auto triangle = static_cast<std::uint32_t>(row.lanes.tags[k]);
+    if (triangle != last) numbers = exact_.numbers_of(last = triangle).all();
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i][k] = numbers[i];
   });
+  const auto targets = values_.origins();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (targets[i]) write_map_row(rows[i], row.columns, targets[i] + row.first_pixel);
+  }
 }
 
-void CertifiedWriter::write_normals(const VisibleRow& row, Normal normal,
-                                    const std::array<float*, 3>& values,
-                                    const WriterTarget& target) {
-  std::uint32_t last = no_surface;
-  std::array<float, 3> n{};
-  for_each_bit(row.surface, [&](std::size_t k) {
-    const VisibleSurface surface = row.at(k);
-    if (surface.triangle != last) {
-      n = (PixelWriter(surface, facts(surface.triangle), frame_, target).*normal)();
-      last = surface.triangle;
+// What is written pixel by pixel.
+void CertifiedWriter::fill_background(const VisibleRow& row) const {
+  const auto fill = [&](auto* values, auto background) {
+    if (values) std::fill_n(values + row.first_pixel, row.columns, background);
+  };
+  fill(values_.low, Backgrounds::other);
+  for (float* values : values_.shading_normal) fill(values, Backgrounds::other);
+  for (const EncodedValues* values : {&values_.depth, &values_.distance}) {
+    fill(values->binary64, double{Backgrounds::depth});
+  }
+}
+
+void CertifiedWriter::write_normals(const VisibleRow& row, const SurfaceIndices& indices) const {
+  std::array<MapRow<float>, 3> numbers;
+  const auto write = [&](const TileSurfaces::Normals& normals,
+                         const std::array<float*, 3>& values) {
+    take_normals(indices, normals, numbers);
+    for (std::size_t i = 0; i < 3; ++i) {
+      write_map_row(numbers[i], row.columns, values[i] + row.first_pixel);
     }
-    for (std::size_t i = 0; i < 3; ++i) values[i][surface.pixel] = n[i];
-  });
+  };
+  if (values_.normal[0]) write(normals_, values_.normal);
+  if (values_.camera_normal[0]) write(camera_normals_, values_.camera_normal);
 }
 
 CertifiedWriter::Open CertifiedWriter::write_settled(const VisibleRow& row,
-                                                     RenderStatistics& statistics) const {
+                                                     RenderStatistics& statistics) {
   Open open;
   write_origins(row);
-  open.depth = write_encoded(row, values_.depth, false, statistics);
-  open.distance = write_encoded(row, values_.distance, true, statistics);
+  open.depth = write_open_depths(row, statistics);
+  if (values_.distance.wanted()) {
+    open.distance = write_encoded(row, values_.distance, true, statistics);
+  }
+  if (needs_surfaces_) {
+    SurfaceIndices indices;
+    surfaces_.find(row.lanes.places, indices);
+
+    write_normals(row, indices);
+    if (values_.barycentric[0]) {
+      std::array<RoundedValues<float>, 2> rounded;
+      round_weights(row.lanes, indices, surfaces_.forms(), rounded);
+      for (std::size_t k = 0; k < 2; ++k) {
+        open.barycentric[k] =
+            write_row(row, rounded[k], Backgrounds::position, values_.barycentric[k], statistics);
+      }
+    }
+  }
   if (!values_.position[0]) return open;
-  open.position.fill(row.surface);
-  if (!frame_.rays.world().usable) return open;
   std::array<RoundedValues<float>, 3> rounded;
-  round_positions(row.lanes, frame_.rays.world().rays, frame_.world_sizes, frame_.image.perspective,
-                  rounded);
+  if (frame_.rays.world().usable) {
+    round_positions(row.lanes, frame_.rays.world().rays, frame_.world_sizes,
+                    frame_.image.perspective, rounded);
+  }
   for (std::size_t k = 0; k < 3; ++k) {
-    open.position[k] = copy(row, rounded[k], values_.position[k], statistics);
+    open.position[k] =
+        write_row(row, rounded[k], Backgrounds::position, values_.position[k], statistics);
   }
   return open;
 }
 
 std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Referee& referee,
                                                     RenderStatistics& statistics) {
+  if (row.surface != row.all()) fill_background(row);
   const Open open = write_settled(row, statistics);
   const WriterTarget target{values_, exact_, referee, statistics};
-  if (values_.normal[0]) write_normals(row, &PixelWriter::normal, values_.normal, target);
-  if (values_.camera_normal[0]) {
-    write_normals(row, &PixelWriter::camera_normal, values_.camera_normal, target);
-  }
   for (std::uint64_t bits = each_pixel_ ? row.surface : open.any(); bits != 0; bits &= bits - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(bits));
     const auto is_open = [&](std::uint64_t samples) { return (samples >> k & 1) != 0; };
@@ -131,7 +210,9 @@ std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Refer
     for (std::size_t i = 0; i < 3; ++i) {
       if (is_open(open.position[i])) pixel.write_position(i);
     }
-    for (std::size_t i = 0; values_.barycentric[0] && i < 2; ++i) pixel.write_barycentric(i);
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (is_open(open.barycentric[i])) pixel.write_barycentric(i);
+    }
     if (values_.shading_normal[0]) pixel.write_shading_normal(shading_normals_);
     if (is_open(open.distance)) {
       if (auto fault = pixel.write_distance()) return fault;

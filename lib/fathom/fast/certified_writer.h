@@ -6,6 +6,7 @@
 #include "fathom/fast/channel_rows.h"
 #include "fathom/fast/pixel_writer.h"
 #include "fathom/fast/surface_facts.h"
+#include "fathom/fast/tile_surfaces.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/rays.h"
 #include "fathom/triangle/recent_triangles.h"
@@ -18,7 +19,14 @@ struct VisibleRow {
   SurfaceRow lanes;
   /// A bit for each sample that shows a surface.
   std::uint64_t surface = 0;
+  /// Those of them at which Z is still to be written.
+  std::uint64_t open_depth = 0;
   std::size_t first_pixel = 0;  // row · width + column, of the first sample
+  std::size_t columns = samples_of_row;
+
+  [[nodiscard]] std::uint64_t all() const {
+    return ~std::uint64_t{0} >> (samples_of_row - columns);
+  }
 
   [[nodiscard]] VisibleSurface at(std::size_t k) const {
     return {first_pixel + k,
@@ -41,6 +49,9 @@ class CertifiedWriter {
  public:
   CertifiedWriter(triangle::ChannelWriter& exact, const triangle::SceneRays& rays);
 
+  /// To be called before the rows of a tile are written.
+  void start(const Tile& tile, std::uint32_t image_width, triangle::Referee& referee,
+             RenderStatistics& statistics);
   /// If the encoding cannot hold a depth, returns what is wrong at the first such pixel.
   /// `statistics.rounding` counts values.
   std::optional<triangle::EncodingFault> write(const VisibleRow& row, triangle::Referee& referee,
@@ -52,14 +63,14 @@ class CertifiedWriter {
 
   /// id, face, object and what a segmentation has.
   void write_origins(const VisibleRow& row) const;
-  using Normal = const std::array<float, 3>& (PixelWriter::*)();
-  /// A normal that is the same at all pixels of a triangle.
-  void write_normals(const VisibleRow& row, Normal normal, const std::array<float*, 3>& values,
-                     const WriterTarget& target);
+  /// What is the same at all pixels of a triangle.
+  void write_normals(const VisibleRow& row, const SurfaceIndices& indices) const;
   /// Writes what follows from number and q; returns what is left.
-  Open write_settled(const VisibleRow& row, RenderStatistics& statistics) const;
+  Open write_settled(const VisibleRow& row, RenderStatistics& statistics);
   std::uint64_t write_encoded(const VisibleRow& row, const triangle::EncodedValues& values,
                               bool distance, RenderStatistics& statistics) const;
+  std::uint64_t write_open_depths(const VisibleRow& row, RenderStatistics& statistics) const;
+  void fill_background(const VisibleRow& row) const;
 
   SurfaceFacts& facts(std::uint32_t number) {
     return remembered_.get(number, [&](SurfaceFacts& t) { t = surface_facts(number, frame_); });
@@ -70,6 +81,11 @@ class CertifiedWriter {
   const ValueFrame frame_;
   /// Whether a channel was asked for that is not written by rows.
   bool each_pixel_;
+  /// Whether one was asked for that needs to know the surfaces of the tile.
+  bool needs_surfaces_;
+  TileSurfaces surfaces_;
+  /// By the surfaces' indices.
+  TileSurfaces::Normals normals_, camera_normals_;
   triangle::RecentTriangles<SurfaceFacts, 512> remembered_;
   ShadingNormals shading_normals_;
 };

@@ -7,7 +7,7 @@
 
 #include <limits>
 
-#include "fathom/fast/counting_lanes-inl.h"
+#include "fathom/fast/round_lanes-inl.h"
 #include "fathom/fast/setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,14 +17,6 @@ using namespace triangle;
 namespace {
 
 constexpr double ulp = epsilon<double>;
-
-struct CertifiedLanes {
-  V value, error;
-};
-
-HWY_INLINE V load_u(const SurfaceRow& row, std::size_t first) {
-  return hn::Add(counting_lanes(D(), static_cast<double>(first)), constant(row.first_u));
-}
 
 /// D from q. Perspective: 1/q, where |1/q̂ − 1/q| = |q − q̂|/(q·q̂) and q ≥ q̂·(1 − 2⁻²⁰), and the
 /// division rounds (validation/proofs/depth_row.gappa.in). Orthographic: −q. A bound that is NaN says
@@ -40,20 +32,6 @@ HWY_INLINE CertifiedLanes load_depth(const SurfaceRow& row, std::size_t first, b
   const V error = hn::Mul(hn::Mul(relative, depth), constant(slack));
   const M known = hn::Le(q_error, hn::Mul(q, constant(quotient_condition)));
   return {depth, hn::IfThenElse(known, error, constant(std::numeric_limits<double>::infinity()))};
-}
-
-/// Like to_binary32() of a binary64 number.
-HWY_INLINE void round_lanes(const CertifiedLanes& x, std::size_t first,
-                            RoundedValues<float>& rounded) {
-  const D d;
-  const hn::Rebind<float, D> d32;
-  const V margin = hn::MulAdd(hn::Abs(x.value), constant(interval_widening), x.error);
-  const V low = hn::Sub(x.value, margin), high = hn::Add(x.value, margin);
-  const auto nearest_to_low = to_binary32(d32, low);
-  const M one_sign = hn::Or(hn::Gt(low, constant(0)), hn::Lt(high, constant(0)));
-  const M same = hn::Eq(hn::PromoteTo(d, nearest_to_low), hn::PromoteTo(d, to_binary32(d32, high)));
-  hn::StoreU(nearest_to_low, d32, rounded.values.data() + first);
-  rounded.settled |= std::uint64_t{bits_of(hn::And(one_sign, same))} << first;
 }
 
 /// Like to_code() of a binary64 number with an error, to which scaling adds a rounding
@@ -89,23 +67,26 @@ struct AlongRow {
 HWY_ATTR void round_lanes_of_positions(const SurfaceRow& row, const Rays& world,
                                        const RaySizes& sizes, bool perspective,
                                        std::array<RoundedValues<float>, 3>& rounded) {
-  const std::size_t lanes = hn::Lanes(D());
+  const auto& [m0, m1, m2, O] = world.columns;
+  const auto& varying = perspective ? m2 : O;
+  const auto& fixed = perspective ? O : m2;
+  const std::array<AlongRow, 3> along{AlongRow(varying[0].hi, m1[0].hi, m0[0].hi, row.v),
+                                      AlongRow(varying[1].hi, m1[1].hi, m0[1].hi, row.v),
+                                      AlongRow(varying[2].hi, m1[2].hi, m0[2].hi, row.v)};
   for (RoundedValues<float>& r : rounded) r.settled = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto& [m0, m1, m2, O] = world.columns;
-    const AlongRow varying((perspective ? m2 : O)[i].hi, m1[i].hi, m0[i].hi, row.v);
-    const V constant_part = constant((perspective ? O : m2)[i].hi);
-    const V origin_size = constant(sizes.origin[i]), d_size = constant(sizes.direction[i]);
-    for (std::size_t first = 0; first < samples_of_row; first += lanes) {
-      const CertifiedLanes depth = load_depth(row, first, perspective);
-      const V along = varying.at(load_u(row, first));
-      const V origin = perspective ? constant_part : along;
-      const V d = perspective ? along : constant_part;
-      const V size = hn::MulAdd(d_size, hn::Abs(depth.value), origin_size);
+  for (std::size_t first = 0; first < samples_of_row; first += hn::Lanes(D())) {
+    const CertifiedLanes depth = load_depth(row, first, perspective);
+    const V u = load_u(row, first), depth_size = hn::Abs(depth.value);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const V constant_part = constant(fixed[i].hi), varying_part = along[i].at(u);
+      const V origin = perspective ? constant_part : varying_part;
+      const V d = perspective ? varying_part : constant_part;
+      const V d_size = constant(sizes.direction[i]);
+      const V size = hn::MulAdd(d_size, depth_size, constant(sizes.origin[i]));
       const V error =
           hn::MulAdd(size, constant(surface_bounds::position * ulp), hn::Mul(d_size, depth.error));
-      round_lanes({hn::MulAdd(d, depth.value, origin), hn::Mul(error, constant(slack))}, first,
-                  rounded[i]);
+      store_rounded({hn::MulAdd(d, depth.value, origin), hn::Mul(error, constant(slack))}, first,
+                    rounded[i]);
     }
   }
 }
@@ -142,7 +123,7 @@ HWY_ATTR void round_lanes_of_depths(const SurfaceRow& row, const SceneRays& rays
                                     RoundedValues<float>& rounded) {
   rounded.settled = 0;
   for_lanes(row, rays, distance, [&](const CertifiedLanes& x, std::size_t first) HWY_ATTR {
-    round_lanes(x, first, rounded);
+    store_rounded(x, first, rounded);
   });
 }
 

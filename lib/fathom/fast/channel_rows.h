@@ -3,12 +3,10 @@
 #include <array>
 #include <cstdint>
 
+#include "fathom/fast/map_rows.h"
 #include "fathom/triangle/double_word_surface.h"
 
 namespace fathom::fast {
-
-/// Samples of a row of a tile.
-inline constexpr std::size_t samples_of_row = 64;
 
 /// What is visible along a row: for each sample q and its tag, whose bits as a binary64 number are
 /// a bound on the error of q and whose lower half is the triangle's number (see surface_tag()).
@@ -16,6 +14,8 @@ inline constexpr std::size_t samples_of_row = 64;
 struct SurfaceRow {
   const double* q = nullptr;
   const std::uint64_t* tags = nullptr;
+  /// Places of the surfaces in the tile.
+  const std::uint32_t* places = nullptr;
   /// u of the first sample, v of all.
   double first_u = 0, v = 0;
 };
@@ -24,7 +24,7 @@ struct SurfaceRow {
 /// once. The others, and samples without a surface, may have anything.
 template <class T>
 struct RoundedValues {
-  alignas(64) std::array<T, samples_of_row> values;
+  MapRow<T> values;
   std::uint64_t settled = 0;
 };
 

@@ -74,4 +74,21 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
   return setup;
 }
 
+// The constants become the values at the first sample of the part; all magnitudes are those of
+// exact_setup(), whose bounds are about half of what is needed.
+TriangleSetup moved_to(const TriangleSetup& s, const PixelBox& part) {
+  TriangleSetup moved = s;
+  const double x = static_cast<double>(part.first_column) - s.column;
+  const double y = static_cast<double>(part.first_row) - s.row;
+  moved.column = part.first_column;
+  moved.row = part.first_row;
+  for (std::size_t i = 0; i < 3; ++i) {
+    moved.edge_c[i] = s.edge_b[i] * y + (s.edge_a[i] * x + s.edge_c[i]);
+  }
+  moved.q_c = s.q_b * y + (s.q_a * x + s.q_c);
+  moved.edge_error *= setup_bounds::moved_share;
+  moved.q_error *= setup_bounds::moved_share;
+  return moved;
+}
+
 }  // namespace fathom::fast

@@ -7,7 +7,6 @@
 #define FATHOM_FAST_FARTHEST_INL_H
 #endif
 
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -22,7 +21,7 @@ HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
-constexpr std::uint32_t blocks_of_row = Tile::size / Tile::block;
+constexpr std::uint32_t blocks_of_row = Tile::blocks_of_row;
 
 // The least q, moved by twice its error: not greater than any exact q (moved_q.gappa.in). If a
 // surface has no bound (NaN), nothing is known.
@@ -51,11 +50,10 @@ HWY_INLINE void update_farthest(Tile& tile, std::size_t block_number) {
 }
 
 /// For each block the farthest q of the two by two, and of the four by four blocks that begin with
-/// it, and the greatest of all blocks.
+/// it.
 struct FarthestOfBlocks {
   alignas(64) std::array<float, Tile::blocks> two;
   alignas(64) std::array<float, Tile::blocks> four;
-  float greatest;
 };
 
 /// The least of what square blocks of `step` begin with: at each place, those that are `step` to the
@@ -76,8 +74,8 @@ HWY_INLINE void least_of_squares(const std::array<float, Tile::blocks>& from, st
 /// Computes the farthest q of all blocks. Returns whether one of them hides anything.
 HWY_INLINE bool find_farthest(Tile& tile, FarthestOfBlocks& farthest) {
   for (std::size_t number = 0; number < Tile::blocks; ++number) update_farthest(tile, number);
-  farthest.greatest = *std::max_element(tile.farthest().begin(), tile.farthest().end());
-  if (farthest.greatest == -std::numeric_limits<float>::infinity()) return false;
+  const float greatest = *std::max_element(tile.farthest().begin(), tile.farthest().end());
+  if (greatest == -std::numeric_limits<float>::infinity()) return false;
   least_of_squares(tile.farthest(), 1, farthest.two);
   least_of_squares(farthest.two, 2, farthest.four);
   return true;
@@ -99,9 +97,9 @@ HWY_INLINE std::size_t leave_out_hidden(const FarthestOfBlocks& farthest,
     if (here < lanes) from = std::copy_n(from, here, last) - here;
     hn::Vec<decltype(du)> number, nearness;
     hn::LoadInterleaved2(du, &from->number, number, nearness);
-    const auto q = hn::BitCast(d, hn::And(nearness, hn::Set(du, 0xFFFFFF00)));
-    const auto place = hn::BitCast(di, hn::And(nearness, hn::Set(du, 0x3F)));
-    const auto is_more = hn::Ne(hn::And(nearness, hn::Set(du, 0x40)), hn::Zero(du));
+    const auto q = hn::BitCast(d, hn::And(nearness, hn::Set(du, nearness_of_q)));
+    const auto place = hn::BitCast(di, hn::And(nearness, hn::Set(du, nearness_of_block)));
+    const auto is_more = hn::Ne(hn::And(nearness, hn::Set(du, nearness_of_more)), hn::Zero(du));
     const auto least =
         hn::IfThenElse(hn::RebindMask(d, is_more), hn::GatherIndex(d, farthest.four.data(), place),
                        hn::GatherIndex(d, farthest.two.data(), place));

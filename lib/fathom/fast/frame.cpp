@@ -64,6 +64,7 @@ void count_intervals(RenderStatistics& statistics) {
 void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bins,
                const ImageObjects& objects, const Tile::Context& context) {
   for (const Side side : {Side::front, Side::back}) {
+    if (side == Side::back) tile.begin_back_faces();
     std::vector<TileEntry>& together = tile.entries();
     together.clear();
     for (const Bins& bins : all_bins) {
@@ -94,31 +95,30 @@ void collect_doubtful(const FastWorkers& workers, const Camera& camera,
   });
 }
 
-bool FastOutput::writes_whole_tiles(const RenderOptions& options) {
-  return options.depth_encoding.type == DepthEncoding::Type::binary32 &&
-         std::all_of(options.channels.begin(), options.channels.end(),
-                     [](Channel c) { return c == Channel::Z || c == Channel::A; });
+FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays,
+                       MapBackground unfilled)
+    : certified_([&] { return CertifiedWriter(writer, rays); }),
+      depths_(writer.values().depth.binary32),
+      others_(std::any_of(map.channels.begin(), map.channels.end(),
+                          [&](const ImageChannel& channel) {
+                            return channel.name != "A" && !(depths_ && channel.name == "Z");
+                          })),
+      all_(std::move(unfilled)),
+      unfilled_(all_) {
+  unfilled_.leave_out("A");
+  if (depths_) unfilled_.leave_out("Z");
 }
 
 void FastOutput::write_background(const PixelBox& area, std::uint32_t image_width) const {
-  if (!depths_) return;
   const std::uint32_t columns = area.last_column - area.first_column + 1;
-  for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
-    std::fill_n(depths_ + std::size_t{row} * image_width + area.first_column, columns,
-                std::numeric_limits<float>::infinity());
-  }
-}
-
-FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays)
-    : certified_([&] { return CertifiedWriter(writer, rays); }) {
-  ImageChannel* depth = nullptr;
-  for (ImageChannel& channel : map.channels) {
-    if (channel.name == "A") continue;
-    if (channel.name != "Z") return;
-    depth = &channel;
-  }
-  if (!depth) return;
-  if (auto* values = std::get_if<Samples<float>>(&depth->values)) depths_ = values->data();
+  all_.for_each([&](auto* values, auto background) {
+    MapRow<decltype(background)> pixels;
+    pixels.fill(background);
+    for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
+      write_map_row(pixels, columns, values + std::size_t{row} * image_width + area.first_column);
+    }
+  });
+  finish_map_rows();
 }
 
 }  // namespace fathom::fast

@@ -17,8 +17,10 @@ namespace fathom::fast {
 /// What a thread works with.
 struct FastWorker {
   FastWorker(const TriangleSource& triangles, const Camera& camera, const triangle::SceneRays& rays)
-      : referee(triangles, camera, &rays) {}
+      : referee(triangles, camera, &rays),
+        exact_setups({0, camera.width - 1, 0, camera.height - 1}) {}
   triangle::Referee referee;
+  ExactSetups exact_setups;
   RenderStatistics statistics;
   std::vector<DoubtfulPixel> doubtful;
 };
@@ -36,8 +38,10 @@ struct FastFrame {
   FastFrame(const Camera& camera, const RenderOptions& options);
 
   [[nodiscard]] Tile::Context context(FastWorker& worker) const {
-    return {worker.referee, worker.statistics, range,
-            perspective,    options.fast,      options.fast.doubtful ? &worker.doubtful : nullptr};
+    return {
+        worker.referee,     worker.statistics, range,
+        perspective,        options.fast,      options.fast.doubtful ? &worker.doubtful : nullptr,
+        worker.exact_setups};
   }
 
   const Camera& camera;
@@ -79,20 +83,24 @@ class FirstFault {
 /// Where the tiles write, from any thread.
 class FastOutput {
  public:
-  FastOutput(DepthMap& map, triangle::ChannelWriter& writer, const triangle::SceneRays& rays);
-  /// Whether tiles write all values of Z, so that the map need not be filled beforehand.
-  static bool writes_whole_tiles(const RenderOptions& options);
-  /// For a tile without any triangle.
+  /// `unfilled`: of the channels that have not been filled with it. A is written elsewhere.
+  FastOutput(DepthMap& map, triangle::ChannelWriter& writer, const triangle::SceneRays& rays,
+             triangle::MapBackground unfilled = {});
+  /// For a tile without any triangle: all channels.
   void write_background(const PixelBox& area, std::uint32_t image_width) const;
   std::optional<triangle::EncodingFault> write(const Tile& tile, std::uint32_t image_width,
                                                const Tile::Context& context) {
-    return tile.resolve(certified_.local(), depths_, image_width, context);
+    return tile.resolve({certified_.local(), depths_, others_, unfilled_, image_width}, context);
   }
 
  private:
   PerThread<CertifiedWriter> certified_;
-  /// The values of Z, if it is the only channel besides A, and binary32.
-  float* depths_ = nullptr;
+  /// The values of Z in binary32.
+  float* depths_;
+  /// Whether there are channels besides these and A.
+  bool others_;
+  /// Of all channels, and of those besides A and these.
+  triangle::MapBackground all_, unfilled_;
 };
 
 }  // namespace fathom::fast

@@ -15,6 +15,7 @@
 #include "fathom/fast/counting_lanes-inl.h"
 #include "fathom/fast/setup-inl.h"
 #include "fathom/fast/tile.h"
+#include "fathom/fast/upper_half-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
@@ -34,14 +35,6 @@ using MF = hn::Mask<DF>;
 /// Triangles of a batch, or blocks of a row.
 using DF8 = hn::CappedTag<float, 8>;
 using DI8 = hn::Rebind<std::int32_t, DF8>;
-
-/// One bit per lane.
-template <class Tag, class Mask>
-HWY_INLINE unsigned lane_bits(Tag d, Mask mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
-}
 
 /// Column and row of the samples in the lanes, from one of a cell on.
 HWY_INLINE VF lane_columns(int first) {
@@ -111,10 +104,16 @@ HWY_INLINE V lane_error(V terms, V error) {
                  constant(setup_bounds::lane_room));
 }
 
+/// Bounds in binary32, moved up where that is asked for; exact ones stay.
+HWY_INLINE V widened(V error, double widening) {
+  return widening == 1 ? error : hn::Mul(error, constant(widening));
+}
+
 // Edge functions are scaled by powers of two, each by its own, so that S < 2 and one bound does for
 // all three. On the grid of snap_step all terms are multiples of 2⁻¹⁷: where S < 2⁷, 24 bits hold
 // every sum exactly.
-HWY_INLINE void make_lane_edges(const SetupBatch& setups, V extent, LaneBatch& lanes) {
+HWY_INLINE void make_lane_edges(const SetupBatch& setups, V extent, double widening,
+                                LaneBatch& lanes) {
   const auto bits = static_cast<std::uint8_t>(setups.snapped);
   const std::uint8_t bytes[8] = {bits};
   const M snapped = hn::LoadMaskBits(D(), bytes);
@@ -131,7 +130,7 @@ HWY_INLINE void make_lane_edges(const SetupBatch& setups, V extent, LaneBatch& l
     const V in_lanes = hn::IfThenZeroElse(exact, lane_error(terms, own_error));
     error = hn::Max(error, hn::Mul(in_lanes, scale));
   }
-  store32(error, lanes.edge_error);
+  store32(widened(error, widening), lanes.edge_error);
 }
 
 /// The greatest distance of a sample's column or row from those of the functions.
@@ -143,8 +142,9 @@ HWY_INLINE V extent_of(const SetupBatch& setups) {
 }
 
 /// The functions, in the first lanes, as many as are set up at once.
-HWY_INLINE void make_lane_functions(const SetupBatch& setups, LaneBatch& lanes) {
-  make_lane_edges(setups, extent_of(setups), lanes);
+HWY_INLINE void make_lane_functions(const SetupBatch& setups, V extent, double widening,
+                                    LaneBatch& lanes) {
+  make_lane_edges(setups, extent, widening, lanes);
   store32(load(setups.q_a), lanes.q_a);
   store32(load(setups.q_b), lanes.q_b);
   store32(load(setups.q_c), lanes.q_c);
@@ -165,12 +165,12 @@ HWY_INLINE void make_lane_boxes(const SetupBatch& setups, const PixelBox& area, 
 
 /// The boxes, and the tags of the surfaces, which will be kept from `place` on.
 HWY_INLINE void make_lane_places(const SetupBatch& setups, const PixelBox& area,
-                                 std::uint32_t place, LaneBatch& lanes) {
-  const V terms = terms_of(load(setups.q_a), load(setups.q_b), load(setups.q_c), extent_of(setups));
+                                 std::uint32_t place, V extent, double widening, LaneBatch& lanes) {
+  const V terms = terms_of(load(setups.q_a), load(setups.q_b), load(setups.q_c), extent);
   const V error = hn::IfThenElse(hn::Lt(terms, constant(setup_bounds::lane_limit)),
                                  lane_error(terms, load(setups.q_error)),
                                  constant(std::numeric_limits<double>::infinity()));
-  store32(error, lanes.q_error);
+  store32(widened(error, widening), lanes.q_error);
   for (std::size_t k = 0; k < hn::Lanes(D()); ++k) {
     lanes.tag[k] = lane_tag(place + static_cast<std::uint32_t>(k), lanes.q_error[k]);
   }
@@ -192,10 +192,9 @@ HWY_INLINE void make_surfaces(const SetupBatch& setups, const PixelBox& area,
   const V error =
       hn::Mul(hn::MulAdd(terms, constant(setup_bounds::tile_q_error), load(setups.q_error)),
               constant(setup_bounds::q_room));
-  const auto upper = hn::Add(hn::ShiftRight<32>(hn::BitCast(du, error)), hn::Set(du, 1));
   const hn::Rebind<std::uint32_t, D> d32;
   const auto number = hn::PromoteTo(du, hn::LoadU(d32, setups.number.data()));
-  const auto tag = hn::Or(hn::ShiftLeft<32>(upper), number);
+  const auto tag = hn::Or(hn::ShiftLeft<32>(upper_halves(error)), number);
   hn::StoreInterleaved4(moved, a, b, hn::BitCast(d, tag), d, &surfaces->c);
 }
 

@@ -10,9 +10,12 @@ namespace fathom::fast {
 /// How near a triangle can be at its samples in a tile, and where they are, in 32 bits: the greatest
 /// q of a covered sample rounded up, as a binary32 number of 24 bits, and in the last eight the
 /// block of the box's first sample (column, row: three bits each) and whether the box meets more
-/// than two by two blocks; four by four it meets at most. As a number the last bits can only add to
-/// a positive q, and are left out of a negative one by hiding_q().
+/// than two by two blocks; four by four it meets at most.
 using Nearness = std::uint32_t;
+
+/// Its parts.
+inline constexpr Nearness nearness_of_q = 0xFFFFFF00, nearness_of_block = 0x3F,
+                          nearness_of_more = 0x40;
 
 /// Of a triangle about which that is not known: NaN, for which no comparison holds.
 inline constexpr Nearness never_hidden = 0x7FC00000;
@@ -22,14 +25,14 @@ inline constexpr Nearness never_hidden = 0x7FC00000;
 template <class Bits>
 constexpr Bits moved_up_in_24_bits(Bits bits) {
   const bool negative = (bits & 0x80000000) != 0;
-  return negative ? (bits & 0xFFFFFF00) - 0x100 : (bits + 0x1FF) & 0xFFFFFF00;
+  return negative ? (bits & nearness_of_q) - 0x100 : (bits + 0x1FF) & nearness_of_q;
 }
 
 constexpr std::uint32_t block_of(Nearness n) {
-  return n & 0x3F;
+  return n & nearness_of_block;
 }
 constexpr bool meets_more_than_two_blocks(Nearness n) {
-  return (n & 0x40) != 0;
+  return (n & nearness_of_more) != 0;
 }
 
 /// `q`: moved_up_in_24_bits(); the blocks that the box in the tile meets.
@@ -37,7 +40,7 @@ inline Nearness nearness_in(std::uint32_t q, std::uint32_t first_column, std::ui
                             std::uint32_t first_row, std::uint32_t last_row) {
   const std::uint32_t more = std::max(last_column - first_column, last_row - first_row);
   if (more > 3) return never_hidden;
-  return q | (more > 1 ? 0x40 : 0) | first_row << 3 | first_column;
+  return q | (more > 1 ? nearness_of_more : 0) | first_row << 3 | first_column;
 }
 
 /// A triangle of a tile.

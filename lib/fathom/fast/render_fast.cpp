@@ -46,14 +46,12 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
       sort_into_tiles(objects, 0, static_cast<std::uint32_t>(triangles.count()), parts_of_scene,
                       frame, workers, std::move(memory.bins));
 
-  DepthMap map = FastOutput::writes_whole_tiles(options)
-                     ? make_background_but_depth(camera, options, std::move(before))
-                     : make_background(camera, options, std::move(before));
+  auto [map, background] = make_unfilled_map(camera, options, std::move(before));
   ChannelWriter writer(map, triangles, camera, options);
   float* const coverage = writer.values().coverage;
   const CoverageFrame coverage_frame{triangles, camera, options.cull};
   PerThread<TileCoverage> coverages([&] { return TileCoverage({coverage_frame, objects, bins}); });
-  FastOutput output(map, writer, rays);
+  FastOutput output(map, writer, rays, std::move(background));
   FirstFault fault;
   Progress progress(options.progress, frame.grid.count());
   parallel_for(std::uint32_t{0}, frame.grid.count(), [&](std::uint32_t number) {
@@ -73,7 +71,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   if (fault.get()) fail(*fault.get(), map);
   collect_doubtful(workers, camera, options);
   if (options.statistics) *options.statistics = sum_of(workers, triangles.count());
-  return map;
+  return std::move(map);
 }
 
 }  // namespace

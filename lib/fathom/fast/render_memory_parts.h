@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <mutex>
-#include <new>
 #include <vector>
 
 #include "fathom/fast/bins.h"
@@ -27,7 +26,7 @@ class TileMemory {
   void give_back(std::unique_ptr<Tile> tile) noexcept try {
     const std::lock_guard lock(mutex_);
     tiles_.push_back(std::move(tile));
-  } catch (const std::bad_alloc&) {
+  } catch (...) {
   }
 
  private:

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "fathom/numeric/unit_roundoff.h"
+
 // Constants of the interval of D at a sample (depth_interval-inl.h).
-// validation/proofs/depth_*.gappa.in proves each.
+// validation/proofs/depth_*.gappa.in and weight_row.gappa.in prove each.
 namespace fathom::fast::resolve_bounds {
 
 /// Relative room for the roundings of the ends of the interval, and of what spreads it.
@@ -11,5 +13,8 @@ inline constexpr double spread_room = 1 + 0x1p-18;
 inline constexpr double greatest_residual = 0x1p-21;
 /// The greatest error of q, relative to q, for which 1/q has an interval.
 inline constexpr double greatest_relative_error = 0x1p-21;
+
+/// Of a weight at a sample, from the inverse of its divisor (surface_lanes.cpp; weight_row).
+inline constexpr double weight_rounding = 5 * unit_roundoff<double>;
 
 }  // namespace fathom::fast::resolve_bounds

@@ -49,11 +49,17 @@ HWY_INLINE V greatest_magnitude(V a, V b, V c) {
   return greatest_of(hn::Abs(a), hn::Abs(b), hn::Abs(c));
 }
 
-/// One bit per lane.
-HWY_INLINE unsigned bits_of(M mask) {
+/// One bit per lane, of which there are at most 16.
+template <class Tag, class Mask>
+HWY_INLINE unsigned lane_bits(Tag d, Mask mask) {
   std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(D(), mask, bytes);
-  return bytes[0];
+  hn::StoreMaskBits(d, mask, bytes);
+  // One read of both bytes would have to wait for two writes.
+  if constexpr (hn::MaxLanes(Tag()) <= 8) return bytes[0];
+  return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
+}
+HWY_INLINE unsigned bits_of(M mask) {
+  return lane_bits(D(), mask);
 }
 
 /// Rounded to binary32; what is beyond its greatest number becomes ±∞. Emulated vectors would give

@@ -74,5 +74,7 @@ void certified_setups(const ImageVertex* vertices, const CornerIndices* triangle
 /// From exact forms; works for every triangle with Δ ≠ 0, even if it reaches behind the camera.
 TriangleSetup exact_setup(const triangle::ProjectedTriangle& triangle, bool perspective,
                           const PixelBox& box);
+/// Such functions for the samples of a part of the box that they were made for.
+TriangleSetup moved_to(const TriangleSetup& exact_setup, const PixelBox& part);
 
 }  // namespace fathom::fast

@@ -50,6 +50,9 @@ inline constexpr double tile_q_error = 12 * unit_roundoff<double>;
 inline constexpr double exact_edge_error = 12 * unit_roundoff<double>;
 inline constexpr double exact_q_error = 5 * unit_roundoff<double>;
 
+/// moved_to(): so many times the bounds of exact_setup() (moved_exact_edges, moved_exact_q).
+inline constexpr double moved_share = 2.5;
+
 /// functions_over_tile(): so many times the bounds of exact_setup() (shape_edges).
 inline constexpr double shape_share = 1.5;
 /// The same, of an end of the range of depths (shape_q).

@@ -27,6 +27,8 @@ void Tile::start(const PixelBox& area) {
     surfaces_.push_back({-std::numeric_limits<double>::infinity(), 0, 0, no_surface_tag});
   }
   places_ = 1;
+  end_of_front_ = 0;
+  draws_back_faces_ = false;
 }
 
 std::uint32_t Tile::next_place() {
@@ -49,6 +51,7 @@ void Tile::forget_hidden() {
     }
     tag = (tag & 0xFFFF0000) | new_place[place];
   }
+  end_of_front_ = 0;
   std::copy(kept.begin(), kept.end(), surfaces_.begin());
   places_ = static_cast<std::uint32_t>(kept.size());
 }
@@ -69,7 +72,8 @@ void Tile::pack() {
 void Tile::set_up_exactly(std::uint32_t number, const PixelBox& box, const Context& context,
                           SetupBatch& batch) {
   ++context.statistics.exact_setups;
-  TriangleSetup setup = exact_setup(context.referee.projected(number), context.perspective, box);
+  TriangleSetup setup =
+      moved_to(context.exact_setups.of(number, context.referee, context.perspective), box);
   setup.edge_error *= context.switches.widening;
   setup.q_error *= context.switches.widening;
   batch.set(0, setup, box);
@@ -81,6 +85,7 @@ void Tile::settle(const TriangleSetup& setup, LaneTag tag, bool test_range, std:
                   std::uint32_t row, const Context& context) {
   RenderStatistics& statistics = context.statistics;
   ++statistics.samples_in_binary64;
+  context.note_doubt(column, row);
   const std::size_t i = index(column - area_.first_column, row - area_.first_row);
   const double x = local(column, setup.column), y = local(row, setup.row);
   double least_edge = std::numeric_limits<double>::infinity();
@@ -91,14 +96,12 @@ void Tile::settle(const TriangleSetup& setup, LaneTag tag, bool test_range, std:
   const ImagePoint s = centre_of_pixel(column, row);
   if (least_edge < -setup.edge_error) return;
   if (!(least_edge > setup.edge_error)) {
-    context.note_doubt(column, row);
     if (!context.referee.covers(setup.number, s, statistics)) return;
   }
   if (test_range) {
     const double error = setup_bounds::q_moves * setup.q_error;
     if (context.range.certainly_misses(q - error, q + error)) return;
     if (!context.range.certainly_contains(q - error, q + error)) {
-      context.note_doubt(column, row);
       if (!context.referee.is_in_range(setup.number, s, statistics)) return;
     }
   }
@@ -108,7 +111,6 @@ void Tile::settle(const TriangleSetup& setup, LaneTag tag, bool test_range, std:
   const double sum = setup.q_error + other.error();
   if (d < -sum) return;
   if (!(d > sum) && other.number() != no_surface) {
-    context.note_doubt(column, row);
     if (!context.referee.hides(setup.number, other.number(), s, statistics)) return;
   }
   q_[i] = static_cast<float>(q);

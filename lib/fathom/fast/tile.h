@@ -13,6 +13,7 @@
 #include "fathom/fast/depth_range.h"
 #include "fathom/fast/setup.h"
 #include "fathom/triangle/channels.h"
+#include "fathom/triangle/recent_triangles.h"
 #include "fathom/triangle/referee.h"
 
 namespace fathom::fast {
@@ -30,6 +31,22 @@ inline std::uint64_t surface_tag(std::uint32_t number, double q_error) {
 }
 /// No surface: an error of almost nothing.
 inline constexpr std::uint64_t no_surface_tag = std::uint64_t{0x00100000} << 32 | no_surface;
+
+/// Setups of triangles from exact numbers for all samples of an image, one for each thread: each of
+/// many tiles needs them.
+class ExactSetups {
+ public:
+  explicit ExactSetups(const PixelBox& image) : image_(image) {}
+  const TriangleSetup& of(std::uint32_t number, triangle::Referee& referee, bool perspective) {
+    return remembered_.get(number, [&](TriangleSetup& setup) {
+      setup = exact_setup(referee.projected(number), perspective, image_);
+    });
+  }
+
+ private:
+  PixelBox image_;
+  triangle::RecentTriangles<TriangleSetup, 4096> remembered_;
+};
 
 /// A surface that may be visible in a tile: q as an affine function of the sample's column and row
 /// in the tile, c + a·column + b·row, with its tag.
@@ -56,7 +73,8 @@ class Tile {
  public:
   static constexpr std::uint32_t size = 64;
   static constexpr std::uint32_t block = 8;
-  static constexpr std::size_t blocks = (size / block) * (size / block);
+  static constexpr std::uint32_t blocks_of_row = size / block;
+  static constexpr std::size_t blocks = std::size_t{blocks_of_row} * blocks_of_row;
   static const std::size_t most_packed_bytes;
 
   /// What a tile works with, one for each thread.
@@ -66,8 +84,10 @@ class Tile {
     const DepthRange& range;
     bool perspective;
     const FastSwitches& switches;
-    /// If not null, gets the pixels at which a bound does not settle a decision.
+    /// If not null, gets the pixels at which a bound does not settle a decision in binary32.
     std::vector<DoubtfulPixel>* doubtful = nullptr;
+    /// Setups from exact numbers for the whole image: those that were asked for last.
+    ExactSetups& exact_setups;
 
     void note_doubt(std::uint32_t column, std::uint32_t row) const {
       if (doubtful) doubtful->push_back({column, row});
@@ -111,10 +131,19 @@ class Tile {
   /// most.
   void pack();
 
-  /// Writes the visible surfaces; stops at the first fault in row order. `depths`: if not null, the
-  /// values of channel Z, the only one of surfaces, which are written here for the whole area.
-  std::optional<triangle::EncodingFault> resolve(CertifiedWriter& certified, float* depths,
-                                                 std::uint32_t image_width,
+  /// Where a tile is written to.
+  struct Output {
+    CertifiedWriter& certified;
+    /// If not null, the values of channel Z, which are written for the whole area.
+    float* depths;
+    /// Whether there are channels besides Z in binary32 and A, and what these have where there is
+    /// no surface, as far as they have to be filled.
+    bool others;
+    const triangle::MapBackground& unfilled;
+    std::uint32_t image_width;
+  };
+  /// Writes the visible surfaces; stops at the first fault in row order.
+  std::optional<triangle::EncodingFault> resolve(const Output& output,
                                                  const Context& context) const;
 
   /// Samples are kept by cells of 4 × 4, row by row of the tile, each row by row: a vector has as
@@ -126,11 +155,28 @@ class Tile {
     return (static_cast<std::size_t>(row / cell) * (size / cell) + column / cell) * (cell * cell) +
            row % cell * cell + column % cell;
   }
+  /// Column and row of the sample at an index.
+  static constexpr std::uint32_t column_of(std::size_t i) {
+    return static_cast<std::uint32_t>(i / (cell * cell) % (size / cell) * cell + i % cell);
+  }
+  static constexpr std::uint32_t row_of(std::size_t i) {
+    return static_cast<std::uint32_t>(i / (cell * size) * cell + i / cell % cell);
+  }
   /// The surface at a sample; its number is no_surface where there is none.
   [[nodiscard]] const TileSurface& surface_at(std::size_t i) const {
     return surfaces_[place_of(tags_[i])];
   }
   [[nodiscard]] bool shows_surface(std::size_t i) const { return place_of(tags_[i]) != 0; }
+  /// Says that what is drawn from now on are back faces.
+  void begin_back_faces() {
+    end_of_front_ = draws_back_faces_ ? 0 : places_;
+    draws_back_faces_ = true;
+  }
+  /// Whether a sample certainly shows a surface that was drawn before the first of them. Not known
+  /// where surfaces have been numbered anew since, or front faces been drawn.
+  [[nodiscard]] bool shows_front(std::size_t i) const {
+    return shows_surface(i) && place_of(tags_[i]) < end_of_front_;
+  }
 
   // For the vector code.
   static constexpr std::uint32_t place_of(LaneTag tag) { return tag & 0xFFFF; }
@@ -139,6 +185,8 @@ class Tile {
   LaneTag* tags() { return tags_.data(); }
   [[nodiscard]] const LaneTag* tags() const { return tags_.data(); }
   [[nodiscard]] const TileSurface* surfaces() const { return surfaces_.data(); }
+  /// Surfaces have places from 1 up to this number, less one.
+  [[nodiscard]] std::uint32_t end_of_places() const { return places_; }
   /// Room for as many surfaces as a batch has, from this place on; those that are kept are the
   /// first `count` of them.
   std::uint32_t next_place();
@@ -174,6 +222,9 @@ class Tile {
   std::array<std::uint8_t, blocks> draws_;
   std::vector<TileSurface> surfaces_;
   std::uint32_t places_;
+  /// Places of surfaces that were drawn before back faces are below it.
+  std::uint32_t end_of_front_;
+  bool draws_back_faces_;
   std::vector<TileEntry> entries_;
   /// Vectors may write beyond the last one.
   std::array<std::uint32_t, most_at_once + 16> numbers_;

@@ -27,7 +27,6 @@ struct Functions {
   VF a[3], b[3], c[3];
   VF error;
   VF q_a, q_b, q_c;
-  VF q_error;
   /// The last column and row of the box.
   VF last_x, last_y;
 };
@@ -47,7 +46,6 @@ HWY_INLINE Functions functions_of(const LaneBatch& batch, std::size_t k) {
   f.q_a = constant32(batch.q_a[k]);
   f.q_b = constant32(batch.q_b[k]);
   f.q_c = constant32(batch.q_c[k]);
-  f.q_error = constant32(batch.q_error[k]);
   f.last_x = constant32(static_cast<float>(batch.last_column[k] - batch.first_column[k]));
   f.last_y = constant32(static_cast<float>(batch.last_row[k] - batch.first_row[k]));
   return f;
@@ -240,7 +238,7 @@ HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, int block_row, bo
   const auto first_met = set(static_cast<float>(first_block));
   const auto last_met = set(static_cast<float>(last_block));
   BlockRow row{0, 0};
-  for (int part = 0; part < static_cast<int>(Tile::size) / block; part += lanes) {
+  for (int part = 0; part < static_cast<int>(Tile::blocks_of_row); part += lanes) {
     const auto number = counting_lanes(d, static_cast<float>(part));
     const auto left = hn::MulAdd(number, set(block), set(static_cast<float>(-t.first_column)));
     auto missed = hn::Lt(side, zero),
@@ -271,7 +269,7 @@ HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, int block_row, bo
                                hn::IfThenZeroElse(bottom_is_greater, side));
       const auto moves = set(setup_bounds::q_moves), q_error = set(f.q_error[k]);
       float* const farthest_at =
-          tile.farthest().data() + block_row * (static_cast<int>(Tile::size) / block) + part;
+          tile.farthest().data() + block_row * static_cast<int>(Tile::blocks_of_row) + part;
       const auto farthest = hn::LoadU(d, farthest_at);
       missed = hn::Or(missed, hn::Lt(hn::MulAdd(moves, q_error, greatest), farthest));
       // NaN, of a triangle without a bound, is not greater.
@@ -310,8 +308,8 @@ HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& con
       context.statistics.samples_tested +=
           static_cast<std::uint64_t>((right - left + 1) * (bottom - top + 1));
       if (!reject || !drew || (inside && !t.test_range)) continue;
-      const auto block_number = static_cast<std::size_t>(row) * (Tile::size / Tile::block) +
-                                static_cast<std::size_t>(number);
+      const auto block_number =
+          static_cast<std::size_t>(row) * Tile::blocks_of_row + static_cast<std::size_t>(number);
       if (++tile.draws()[block_number] >= draws_until_update) {
         update_farthest(tile, block_number);
       }
@@ -386,7 +384,9 @@ HWY_INLINE void draw_batch(Tile& tile, const SetupBatch& setups, unsigned lanes,
   const std::uint32_t place = tile.next_place();
   // Triangles of a batch may hide each other.
   make_surfaces(setups, tile.area(), tile.surfaces_at(place));
-  make_lane_places(setups, tile.area(), place, batch);
+  const V extent = extent_of(setups);
+  const double widening = context.switches.widening;
+  make_lane_places(setups, tile.area(), place, extent, widening, batch);
   const std::uint64_t covered_before = context.statistics.samples_covered;
   const unsigned small = lanes & small_lanes(setups);
   if (small != 0) {
@@ -394,7 +394,7 @@ HWY_INLINE void draw_batch(Tile& tile, const SetupBatch& setups, unsigned lanes,
       draw_sample_of_each(tile, setups, batch, small, sample % 2, sample / 2, context);
     }
   }
-  if (lanes != small) make_lane_functions(setups, batch);
+  if (lanes != small) make_lane_functions(setups, extent, widening, batch);
   for (unsigned bits = lanes & ~small; bits != 0; bits &= bits - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(bits));
     draw_triangle(tile, drawn(setups, batch, k, setups.test_range >> k & 1, tile.is_partial()),

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/fast/upper_half-inl.h"
 #include "fathom/fast/vertex.h"
 #include "fathom/fast/vertex_bounds.h"
 
@@ -95,12 +96,10 @@ HWY_INLINE Result orthographic_vertex(const ImageRows& rows, V x, V y, V z) {
 /// See ImageVertex::errors; a position error of +∞ stays +∞.
 HWY_INLINE hn::Vec<DU> errors_of(const Result& r) {
   const DU du;
-  const auto position = hn::ShiftRight<32>(hn::BitCast(du, r.position_error));
-  const auto rounded = hn::ShiftLeft<32>(hn::Add(position, hn::Set(du, 1)));
+  const auto rounded = hn::ShiftLeft<32>(upper_halves(r.position_error));
   const auto unusable = hn::BitCast(du, constant(infinity));
   const auto upper = hn::IfThenElse(hn::RebindMask(du, r.usable), rounded, unusable);
-  const auto lower = hn::Add(hn::ShiftRight<32>(hn::BitCast(du, r.q_error)), hn::Set(du, 1));
-  return hn::Or(upper, hn::IfThenElseZero(hn::RebindMask(du, r.usable), lower));
+  return hn::Or(upper, hn::IfThenElseZero(hn::RebindMask(du, r.usable), upper_halves(r.q_error)));
 }
 
 /// Whether u and v are within their bounds of multiples of snap_step.

@@ -378,7 +378,8 @@ template <class Real>
 Vector<Certified<Real>> unit(const PlacedNormal<Real>& normal, int turn) {
   Vector<Certified<Real>> result;
   const double greatest = std::max({normal.size[0], normal.size[1], normal.size[2]});
-  if (!(greatest >= 0x1p-250 && greatest <= 0x1p450)) return result;  // squares stay in range
+  using surface_bounds::least_normal, surface_bounds::greatest_normal;
+  if (!(greatest >= least_normal && greatest <= greatest_normal)) return result;
   if (turn == 0) return result;
   const Vector<double> error = errors_of(normal);
   const Certified<Real> length = length_of(normal.n, error);

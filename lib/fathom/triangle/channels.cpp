@@ -12,9 +12,6 @@
 namespace fathom::triangle {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-
 static_assert(no_segment == unsegmented, "what a map has is what a scene says");
 
 /// Where the memory of a map's channels comes from.
@@ -34,44 +31,39 @@ struct Room {
 
 template <class T>
 Room<T> room_for(const std::string& name, const MapMemory& memory) {
+  // First the caller's own, which a map of before may have been lent, too.
+  void* const lent = memory.options.memory ? memory.options.memory(name) : nullptr;
+  if (lent) return {Samples<T>::lent(static_cast<T*>(lent), memory.pixels), false};
   if (auto* values = memory.before.values<T>(name); values && values->size() == memory.pixels) {
     return {std::move(*values), false};
   }
-  void* const lent = memory.options.memory ? memory.options.memory(name) : nullptr;
-  if (lent) return {Samples<T>::lent(static_cast<T*>(lent), memory.pixels), false};
   return {Samples<T>(memory.pixels), true};
 }
 
 template <class T>
-ImageChannel filled(const std::string& name, T background, const MapMemory& memory) {
+ImageChannel channel_with(const std::string& name, T background, const MapMemory& memory,
+                          MapBackground& to_fill) {
   auto [values, is_zeroed] = room_for<T>(name, memory);
-  if (!is_zeroed || background != T{0}) {  // NaN too
-    // A huge page is zeroed by whichever thread touches it first, while others wait for it.
-    constexpr std::size_t part = (std::size_t{1} << 21) / sizeof(T);
-    T* const first = values.begin();
-    const std::size_t pixels = memory.pixels;
-    parallel_for(std::size_t{0}, (pixels + part - 1) / part, [&](std::size_t i) {
-      std::fill(first + i * part, first + std::min(pixels, (i + 1) * part), background);
-    });
-  }
+  if (!is_zeroed || background != T{0}) to_fill.add(name, values.data(), background);  // NaN too
   return {name, std::move(values)};
 }
 
-/// A channel that shows no surface; its kind decides which value says so.
-ImageChannel background_of(const std::string& name, const ChannelDescription& d,
-                           const MapMemory& memory) {
+/// A channel whose kind decides which value says that no surface is seen.
+ImageChannel channel_of_kind(const std::string& name, const ChannelDescription& d,
+                             const MapMemory& memory, MapBackground& to_fill) {
   const DepthEncoding::Type encoding = memory.options.depth_encoding.type;
-  if (d.type == ChannelType::identifier) return filled<std::uint32_t>(name, no_surface, memory);
+  if (d.type == ChannelType::identifier)
+    return channel_with<std::uint32_t>(name, no_surface, memory, to_fill);
   if (d.type == ChannelType::encoded && encoding == DepthEncoding::Type::scaled_unorm16) {
-    return filled<std::uint16_t>(name, 0, memory);
+    return channel_with<std::uint16_t>(name, 0, memory, to_fill);
   }
-  const float value = d.kind == ChannelKind::depth      ? infinity
-                      : d.kind == ChannelKind::position ? nan
-                                                        : 0;
+  const float value = d.kind == ChannelKind::depth      ? Backgrounds::depth
+                      : d.kind == ChannelKind::position ? Backgrounds::position
+                                                        : Backgrounds::other;
   if (d.type == ChannelType::encoded && encoding == DepthEncoding::Type::binary64) {
-    return filled<double>(name, value, memory);
+    return channel_with<double>(name, value, memory, to_fill);
   }
-  return filled<float>(name, value, memory);
+  return channel_with<float>(name, value, memory, to_fill);
 }
 
 /// Stores a non-negative quantity x, or √x where `root`, in the channel's type.
@@ -134,11 +126,14 @@ void fail(const EncodingFault& fault, const DepthMap& map) {
                     "; choose another scale");
 }
 
-namespace {
+void MapBackground::fill(std::size_t first_pixel, std::size_t count) const {
+  for_each(
+      [&](auto* values, auto background) { std::fill_n(values + first_pixel, count, background); });
+}
 
-DepthMap make_map(const Camera& camera, const RenderOptions& options, bool fill_depth,
-                  DepthMap& before) {
-  DepthMap map;
+UnfilledMap make_unfilled_map(const Camera& camera, const RenderOptions& options, DepthMap before) {
+  UnfilledMap made;
+  DepthMap& map = made.map;
   map.width = camera.width;
   map.height = camera.height;
   const MapMemory memory{static_cast<std::size_t>(camera.width) * camera.height, options, before};
@@ -146,30 +141,26 @@ DepthMap make_map(const Camera& camera, const RenderOptions& options, bool fill_
   for (const Channel channel : options.channels) {
     if (std::find(seen.begin(), seen.end(), channel) != seen.end()) continue;
     seen.push_back(channel);
-    if (channel == Channel::Z && !fill_depth) {
-      map.channels.push_back({"Z", room_for<float>("Z", memory).values});
-      continue;
-    }
     for (const std::string& name : part_names(channel)) {
-      map.channels.push_back(background_of(name, description_of(channel), memory));
+      map.channels.push_back(
+          channel_of_kind(name, description_of(channel), memory, made.background));
     }
   }
   if (options.depth_encoding.type == DepthEncoding::Type::scaled_unorm16) {
     map.png_scale = options.depth_encoding.scale;
   }
-  return map;
+  return made;
 }
-
-}  // namespace
 
 DepthMap make_background(const Camera& camera, const RenderOptions& options, DepthMap before) {
-  return make_map(camera, options, true, before);
-}
-
-DepthMap make_background_but_depth(const Camera& camera, const RenderOptions& options,
-                                   DepthMap before) {
-  return make_map(camera, options, options.depth_encoding.type != DepthEncoding::Type::binary32,
-                  before);
+  UnfilledMap made = make_unfilled_map(camera, options, std::move(before));
+  const std::size_t pixels = std::size_t{camera.width} * camera.height;
+  // A huge page is zeroed by whichever thread touches it first, while others wait for it.
+  constexpr std::size_t part = (std::size_t{1} << 21) / sizeof(float);
+  parallel_for(std::size_t{0}, (pixels + part - 1) / part, [&](std::size_t i) {
+    made.background.fill(i * part, std::min(part, pixels - i * part));
+  });
+  return std::move(made.map);
 }
 
 ChannelValues::ChannelValues(DepthMap& map)
@@ -197,10 +188,10 @@ bool ChannelValues::wants_origins() const {
 }
 
 void ChannelValues::write(std::size_t pixel, const OriginNumbers& numbers) const {
-  if (face) face[pixel] = numbers.face;
-  if (object) object[pixel] = numbers.object;
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    if (segments[i]) segments[i][pixel] = numbers.segments[i];
+  const auto values = origins();
+  const auto all = numbers.all();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i]) values[i][pixel] = all[i];
   }
 }
 

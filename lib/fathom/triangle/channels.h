@@ -1,9 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/scene_segments.h"
@@ -28,9 +33,59 @@ struct EncodingFault {
 /// background (specification, section 6), in the encoding asked for. Channels of `before` that have
 /// the same name, type and size lend their memory for good.
 DepthMap make_background(const Camera& camera, const RenderOptions& options, DepthMap before = {});
-/// make_background(), but all binary32 values of Z are left for the caller to write.
-DepthMap make_background_but_depth(const Camera& camera, const RenderOptions& options,
-                                   DepthMap before = {});
+
+/// What channels of a map have where no surface is seen, for filling a map part by part.
+class MapBackground {
+ public:
+  /// `count` pixels from this one on (row · width + column). Several threads may fill different
+  /// ones at the same time.
+  void fill(std::size_t first_pixel, std::size_t count) const;
+  /// Calls visit(values of the channel, its background) for each.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (const Filled& channel : channels_) {
+      std::visit([&](const auto& values) { visit(values.first, values.background); },
+                 channel.values);
+    }
+  }
+
+  template <class T>
+  void add(const std::string& channel, T* values, T background) {
+    channels_.push_back({channel, Values<T>{values, background}});
+  }
+  void leave_out(std::string_view channel) {
+    std::erase_if(channels_, [&](const Filled& filled) { return filled.name == channel; });
+  }
+
+ private:
+  template <class T>
+  struct Values {
+    T* first;
+    T background;
+  };
+  struct Filled {
+    std::string name;
+    std::variant<Values<float>, Values<double>, Values<std::uint16_t>, Values<std::uint32_t>>
+        values;
+  };
+  std::vector<Filled> channels_;
+};
+
+struct UnfilledMap {
+  DepthMap map;
+  /// Of the channels that do not have it yet.
+  MapBackground background;
+};
+/// make_background(), but filling it is left to the caller.
+UnfilledMap make_unfilled_map(const Camera& camera, const RenderOptions& options,
+                              DepthMap before = {});
+
+/// What binary32 and binary64 channels have where no surface is seen.
+struct Backgrounds {
+  static constexpr float depth = std::numeric_limits<float>::infinity();
+  static constexpr float position = std::numeric_limits<float>::quiet_NaN();
+  static constexpr float other = 0;
+};
 
 /// Where the values of a channel that is stored as DepthEncoding says are kept: one pointer is not
 /// null, or none if the channel was not asked for.
@@ -47,6 +102,14 @@ struct OriginNumbers {
   std::uint32_t face = 0, object = 0;
   /// In the order of Segmentation.
   std::array<std::uint32_t, all_segmentations.size()> segments{};
+
+  static constexpr std::size_t count = 2 + all_segmentations.size();
+  /// In this order.
+  [[nodiscard]] std::array<std::uint32_t, count> all() const {
+    std::array<std::uint32_t, count> numbers{face, object};
+    std::copy(segments.begin(), segments.end(), numbers.begin() + 2);
+    return numbers;
+  }
 };
 
 /// Where the values of a map's channels are kept; null where a channel was not asked for.
@@ -56,6 +119,12 @@ struct ChannelValues {
   /// Whether a channel of OriginNumbers was asked for.
   [[nodiscard]] bool wants_origins() const;
   void write(std::size_t pixel, const OriginNumbers& numbers) const;
+  /// In the order of OriginNumbers::all(); null where it was not asked for.
+  [[nodiscard]] std::array<std::uint32_t*, OriginNumbers::count> origins() const {
+    std::array<std::uint32_t*, OriginNumbers::count> values{face, object};
+    std::copy(segments.begin(), segments.end(), values.begin() + 2);
+    return values;
+  }
 
   EncodedValues depth, distance;
   /// Not filled by ChannelWriter: A is not a value of a single surface.

@@ -12,4 +12,7 @@ inline constexpr double length = 3;
 /// Origin + direction·D; √(x² + y² + 1), in units of X̄² + Ȳ² + 1 (one more, and of the value).
 inline constexpr double position = 6, ray_length = 6;
 
+/// Greatest sizes of a normal's components whose squares stay in range.
+inline constexpr double least_normal = 0x1p-250, greatest_normal = 0x1p450;
+
 }  // namespace fathom::triangle::surface_bounds

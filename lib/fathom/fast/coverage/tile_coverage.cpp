@@ -20,29 +20,51 @@ constexpr std::size_t most_edges = 400;
 void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile::Context& context,
                          float* values, std::uint32_t image_width) {
   area_ = tile.area();
-  collect_triangles(tile_number);
-  classify(context);
-  look_at_open(context);
-  fill_large();
-  write_closed(tile, values, image_width);
-  if (is_full(whole())) return;
-  find_open_pixels();
+  look_at_samples(tile);
+  settle(tile_number, context);
+  const std::uint32_t columns = area_.last_column - area_.first_column + 1;
+  for (std::uint32_t row = area_.first_row; row <= area_.last_row; ++row) {
+    write_map_row(values_[row - area_.first_row], columns,
+                  values + std::size_t{row} * image_width + area_.first_column);
+  }
+  finish_map_rows();
+}
+
+// The number of triangles that cover a point is the same throughout the inside of a pixel that is
+// not open, and at its sample it is 0 exactly where no surface is seen: this is the value there.
+void TileCoverage::look_at_samples(const Tile& tile) {
+  for (std::uint32_t row = 0; row < size; ++row) {
+    front_[row] = 0;
+    for (std::uint32_t column = 0; column < size; ++column) {
+      const std::size_t i = Tile::index(column, row);
+      values_[row][column] = tile.shows_surface(i) ? 1.0F : 0.0F;
+      front_[row] |= std::uint64_t{tile.shows_front(i)} << column;
+    }
+  }
+}
+
+// The number of front faces is the same, too, throughout a pixel that they do not open, and not 0
+// where one is seen.
+void TileCoverage::settle(std::uint32_t tile_number, const Tile::Context& context) {
+  numbers_.clear();
+  classes_.clear();
+  open_shapes_.clear();
+  left_.clear();
+  full_.fill(0);
+  for (const Side side : {Side::front, Side::back}) {
+    const std::size_t begin = add_triangles(side, tile_number, context);
+    fill_large(begin);
+    if (is_full(whole())) return;
+    balance_edges(begin);
+    if (side == Side::back) break;
+    for (std::size_t row = 0; row < size; ++row) full_[row] |= front_[row] & ~open_[row];
+    if (is_full(whole())) return;
+  }
+  for (std::size_t row = 0; row < size; ++row) open_[row] &= ~full_[row];
   if (std::all_of(open_.begin(), open_.end(), [](std::uint64_t row) { return row == 0; })) return;
   meet_triangles();
   meet_edges();
-  settle_open(context, values, image_width);
-}
-
-// The number of triangles that cover a point is the same throughout the inside of such a pixel, and
-// at its sample it is 0 exactly where no surface is seen.
-void TileCoverage::write_closed(const Tile& tile, float* values, std::uint32_t image_width) const {
-  const std::uint32_t columns = area_.last_column - area_.first_column + 1;
-  for (std::uint32_t row = area_.first_row; row <= area_.last_row; ++row) {
-    float* const out = values + std::size_t{row} * image_width + area_.first_column;
-    for (std::uint32_t column = 0; column < columns; ++column) {
-      out[column] = tile.shows_surface(Tile::index(column, row - area_.first_row)) ? 1.0F : 0.0F;
-    }
-  }
+  settle_open(context);
 }
 
 bool TileCoverage::is_open(const TileBox& box) const {
@@ -101,7 +123,6 @@ void TileCoverage::meet_triangles() {
   met_.fill(0);
   shapes_.clear();
   shapes_at_.clear();
-  const ImageObject* object = nullptr;
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     const auto& [kind, is_large, box] = classes_[i];
     if (kind == CoverageClass::open) {
@@ -109,10 +130,7 @@ void TileCoverage::meet_triangles() {
       continue;
     }
     if (kind == CoverageClass::nothing || !is_open(box)) continue;
-    if (!object || numbers_[i] >= object->end_number()) {
-      object = &object_of(scene_.objects, numbers_[i]);
-    }
-    meet(box, shape_of(*object, i));
+    meet(box, shape_of(object_at(i), i));
   }
   shapes_at_.sort();
 }
@@ -126,18 +144,16 @@ void TileCoverage::Meetings::sort() {
   for (const Meeting& meeting : unsorted_) sorted_[next[meeting.pixel]++] = meeting.index;
 }
 
-void TileCoverage::settle_open(const Tile::Context& context, float* values,
-                               std::uint32_t image_width) {
+void TileCoverage::settle_open(const Tile::Context& context) {
   for (std::size_t row = 0; row < size; ++row) {
-    float* const out = values + (area_.first_row + row) * image_width + area_.first_column;
     context.statistics.coverage_rounding.interval +=
         static_cast<std::uint64_t>(std::popcount(met_[row]));
     for (std::uint64_t bits = met_[row]; bits != 0; bits &= bits - 1) {
-      out[std::countr_zero(bits)] = 1;
+      values_[row][static_cast<std::size_t>(std::countr_zero(bits))] = 1;
     }
     for (std::uint64_t bits = open_[row]; bits != 0; bits &= bits - 1) {
       const auto column = static_cast<std::uint32_t>(std::countr_zero(bits));
-      out[column] = settle(static_cast<std::uint32_t>(row) * size + column, context);
+      values_[row][column] = settle_pixel(static_cast<std::uint32_t>(row) * size + column, context);
     }
   }
 }
@@ -228,7 +244,7 @@ void TileCoverage::add_to_union(const Shape& shape, std::uint32_t x, std::uint32
   union_.add(p, area_bounds::moved_triangle * (e + unit_roundoff<double> * extent));
 }
 
-float TileCoverage::settle(std::uint32_t pixel, const Tile::Context& context) {
+float TileCoverage::settle_pixel(std::uint32_t pixel, const Tile::Context& context) {
   TierCounts& counts = context.statistics.coverage_rounding;
   const auto shapes = shapes_at_.at(pixel);
   if (shapes.empty()) {
@@ -240,7 +256,7 @@ float TileCoverage::settle(std::uint32_t pixel, const Tile::Context& context) {
   };
   const bool any_open = std::any_of(shapes.begin(), shapes.end(),
                                     [&](std::uint32_t i) { return shapes_[i].is_open; });
-  if (any_open && shapes.size() > most_edges) return settle_exactly(pixel, context);
+  if (any_open && shapes.size() > most_edges) return settle_pixel_exactly(pixel, context);
   Interval area = any_open ? area_of_union(pixel) : area_between_edges(pixel, Corners::computed);
   if (!settles(area) && !any_open && winding_.size() <= most_edges) {
     area = area_between_edges(pixel, Corners::exact);
@@ -253,10 +269,10 @@ float TileCoverage::settle(std::uint32_t pixel, const Tile::Context& context) {
     ++counts.interval;
     return static_cast<float>(area.lower);
   }
-  return settle_exactly(pixel, context);
+  return settle_pixel_exactly(pixel, context);
 }
 
-float TileCoverage::settle_exactly(std::uint32_t pixel, const Tile::Context& context) {
+float TileCoverage::settle_pixel_exactly(std::uint32_t pixel, const Tile::Context& context) {
   ++context.statistics.coverage_rounding.exact;
   exact_numbers_.clear();
   for (const std::uint32_t i : shapes_at_.at(pixel)) {

@@ -47,8 +47,9 @@ void classify_for_coverage(const ImageObject& object, std::span<const std::uint3
 ///
 /// How many triangles cover a point of the image changes only across edges that do not lie between
 /// two adjacent triangles (EdgeBalance). A pixel that no such edge meets is covered wholly or not
-/// at all, as its sample is, and one that a single triangle covers is covered wholly; what is left
-/// is mostly silhouettes. There, the area between such edges counts (PixelWinding) or, where
+/// at all, as its sample is, and one that a single triangle covers is covered wholly. That holds for
+/// front faces alone, too: where they are seen to cover a pixel, back faces need not be looked at,
+/// and in most tiles they do so everywhere. What is left is mostly silhouettes. There, the area between such edges counts (PixelWinding) or, where
 /// triangles are cut by the range of depths, the area of the union of what meets the pixel
 /// (PixelUnion). Where a bound does not settle the rounding, first the ends of the edges are
 /// computed from exact numbers, and in the end the area.
@@ -107,13 +108,21 @@ class TileCoverage {
   };
 
   // tile_coverage_open.cpp: which pixels are open.
-  void collect_triangles(std::uint32_t tile_number);
-  /// visit(object, first, end): indices into numbers_.
+  /// Adds the triangles of a side to those that are there; returns the index of the first of them.
+  std::size_t add_triangles(Side side, std::uint32_t tile_number, const Tile::Context& context);
+  /// Finds the pixels that all open, after triangles have been added from `begin` on.
+  void balance_edges(std::size_t begin);
+  void collect_triangles(Side side, std::uint32_t tile_number);
+  /// visit(object, first, end): indices into numbers_, from `begin` on.
   template <class Visit>
-  void for_each_object(const Visit& visit) const;
-  void classify(const Tile::Context& context);
+  void for_each_object(std::size_t begin, const Visit& visit) const;
+  [[nodiscard]] const ImageObject& object_at(std::size_t i);
+  void classify(std::size_t begin, const Tile::Context& context);
   void find_open_pixels();
-  void balance_edges(const ImageObject& object, std::size_t first, std::size_t end);
+  std::vector<EdgeBalance::Edge>& edges_left_of(const ImageObject& object);
+  void balance_edges_of(const ImageObject& object, std::size_t first, std::size_t end);
+  void add_edges(const ImageObject& object, std::size_t first, std::size_t end);
+  void open_along(const ImageObject& object, const std::vector<EdgeBalance::Edge>& edges);
   template <class Visit>
   void for_each_row(const UnbalancedEdge& edge, const Visit& visit) const;
   void open_where_it_may_be(const Shape& shape);
@@ -126,12 +135,13 @@ class TileCoverage {
             static_cast<std::int16_t>(area_.last_row - area_.first_row)};
   }
   [[nodiscard]] bool misses_tile(const Shape& shape) const;
-  void look_at_open(const Tile::Context& context);
-  void fill_large();
+  void look_at_open(std::size_t begin, const Tile::Context& context);
+  void fill_large(std::size_t begin);
   void fill(const Shape& shape, const TileBox& box);
 
   // tile_coverage.cpp: settling them.
-  void write_closed(const Tile& tile, float* values, std::uint32_t image_width) const;
+  void look_at_samples(const Tile& tile);
+  void settle(std::uint32_t tile_number, const Tile::Context& context);
   void meet_triangles();
   void meet(const TileBox& box, const Shape& shape);
   /// Whether any bit of the box is set, and whether all are.
@@ -139,10 +149,10 @@ class TileCoverage {
   [[nodiscard]] bool is_full(const TileBox& box) const;
   [[nodiscard]] Shape shape_of(const ImageObject& object, std::size_t i) const;
   [[nodiscard]] Shape exact_shape(std::size_t i, const Tile::Context& context) const;
-  void settle_open(const Tile::Context& context, float* values, std::uint32_t image_width);
-  float settle(std::uint32_t pixel, const Tile::Context& context);
-  /// settle() by exact numbers alone.
-  float settle_exactly(std::uint32_t pixel, const Tile::Context& context);
+  void settle_open(const Tile::Context& context);
+  float settle_pixel(std::uint32_t pixel, const Tile::Context& context);
+  /// settle_pixel() by exact numbers alone.
+  float settle_pixel_exactly(std::uint32_t pixel, const Tile::Context& context);
   enum class Corners { computed, exact };
   [[nodiscard]] Interval area_between_edges(std::uint32_t pixel, Corners corners);
   [[nodiscard]] SquarePoint exact_corner(const ImageObject& object, const ImageVertex& vertex,
@@ -155,11 +165,19 @@ class TileCoverage {
   /// The triangles of the tile, those of one object next to each other, and their classes.
   std::vector<std::uint32_t> numbers_;
   std::vector<CoverageTriangle> classes_;
-  /// A bit for each pixel, a word for each row: covered wholly by one triangle; open; open at
-  /// first, then found to be covered by one triangle.
-  std::array<std::uint64_t, size> full_{}, open_{}, met_{};
+  /// The object that was asked for last.
+  const ImageObject* object_ = nullptr;
+  /// A bit for each pixel, a word for each row: the sample shows a front face; covered wholly by
+  /// one triangle, or by front faces; open; open at first, then found to be covered by one triangle.
+  std::array<std::uint64_t, size> front_{}, full_{}, open_{}, met_{};
+  std::array<MapRow<float>, size> values_;
   EdgeBalance balance_;
-  std::vector<EdgeBalance::Edge> left_;
+  /// What opposite edges leave of each object's, in the order of the objects.
+  struct EdgesLeft {
+    const ImageObject* object;
+    std::vector<EdgeBalance::Edge> edges;
+  };
+  std::vector<EdgesLeft> left_;
   std::vector<std::uint32_t> vertex_at_;
   std::vector<UnbalancedEdge> unbalanced_;
   std::vector<Shape> shapes_;

@@ -50,10 +50,8 @@ bool TileCoverage::misses_tile(const Shape& shape) const {
   });
 }
 
-void TileCoverage::look_at_open(const Tile::Context& context) {
-  full_.fill(0);
-  open_shapes_.clear();
-  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+void TileCoverage::look_at_open(std::size_t begin, const Tile::Context& context) {
+  for (std::size_t i = begin; i < numbers_.size(); ++i) {
     if (classes_[i].kind != CoverageClass::open) continue;
     const Shape shape = exact_shape(i, context);
     if (misses_tile(shape)) {
@@ -65,15 +63,11 @@ void TileCoverage::look_at_open(const Tile::Context& context) {
   }
 }
 
-void TileCoverage::fill_large() {
+void TileCoverage::fill_large(std::size_t begin) {
   std::size_t filled = 0;
-  const ImageObject* object = nullptr;
-  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+  for (std::size_t i = begin; i < numbers_.size(); ++i) {
     if (!classes_[i].is_large || is_full(classes_[i].box)) continue;
-    if (!object || numbers_[i] >= object->end_number()) {
-      object = &object_of(scene_.objects, numbers_[i]);
-    }
-    fill(shape_of(*object, i), classes_[i].box);
+    fill(shape_of(object_at(i), i), classes_[i].box);
     if (++filled % 8 == 0 && is_full(whole())) return;
   }
 }

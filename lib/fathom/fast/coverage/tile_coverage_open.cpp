@@ -49,17 +49,50 @@ class VertexAtPlace {
 
 }  // namespace
 
-void TileCoverage::collect_triangles(std::uint32_t tile_number) {
-  numbers_.clear();
+template <class Visit>
+void TileCoverage::for_each_object(std::size_t begin, const Visit& visit) const {
+  for (std::size_t first = begin; first < numbers_.size();) {
+    const ImageObject& object = object_of(scene_.objects, numbers_[first]);
+    std::size_t end = first;
+    while (end < numbers_.size() && numbers_[end] < object.end_number()) ++end;
+    visit(object, first, end);
+    first = end;
+  }
+}
+
+std::size_t TileCoverage::add_triangles(Side side, std::uint32_t tile_number,
+                                        const Tile::Context& context) {
+  const std::size_t begin = numbers_.size();
+  collect_triangles(side, tile_number);
+  classify(begin, context);
+  look_at_open(begin, context);
+  return begin;
+}
+
+void TileCoverage::balance_edges(std::size_t begin) {
+  for_each_object(begin, [&](const ImageObject& object, std::size_t first, std::size_t end) {
+    balance_edges_of(object, first, end);
+  });
+  find_open_pixels();
+}
+
+void TileCoverage::collect_triangles(Side side, std::uint32_t tile_number) {
+  const auto begin = static_cast<std::ptrdiff_t>(numbers_.size());
   for (const Bins& bins : scene_.bins) {
-    for (const Side side : {Side::front, Side::back}) {
-      for (const TileEntry& entry : bins.in_tile(tile_number, side)) {
-        numbers_.push_back(entry.number);
-      }
+    for (const TileEntry& entry : bins.in_tile(tile_number, side)) {
+      numbers_.push_back(entry.number);
     }
   }
   // Those of one object next to each other.
-  if (scene_.objects.size() > 1) std::sort(numbers_.begin(), numbers_.end());
+  if (scene_.objects.size() > 1) std::sort(numbers_.begin() + begin, numbers_.end());
+}
+
+const ImageObject& TileCoverage::object_at(std::size_t i) {
+  const std::uint32_t number = numbers_[i];
+  if (!object_ || number < object_->first_number || number >= object_->end_number()) {
+    object_ = &object_of(scene_.objects, number);
+  }
+  return *object_;
 }
 
 /// The pixels that the rectangle around the edge meets, widened by `margin` on all sides.
@@ -131,8 +164,7 @@ void TileCoverage::for_each_row(const UnbalancedEdge& edge, const Visit& visit) 
 
 // Consecutive triangles of a file often have an edge in common, which then needs no table: it is
 // left out of both.
-void TileCoverage::balance_edges(const ImageObject& object, std::size_t first, std::size_t end) {
-  balance_.start(end - first);
+void TileCoverage::add_edges(const ImageObject& object, std::size_t first, std::size_t end) {
   std::array<EdgeBalance::Edge, 3> waiting{};
   std::size_t waiting_count = 0;
   const auto flush = [&] {
@@ -162,14 +194,41 @@ void TileCoverage::balance_edges(const ImageObject& object, std::size_t first, s
     waiting_count = count;
   }
   flush();
-  left_.clear();
-  balance_.for_each_left([&](const EdgeBalance::Edge& edge) { left_.push_back(edge); });
-  if (left_.empty()) return;
+}
 
+std::vector<EdgeBalance::Edge>& TileCoverage::edges_left_of(const ImageObject& object) {
+  auto place = std::lower_bound(left_.begin(), left_.end(), object.first_number,
+                                [](const EdgesLeft& left, std::uint32_t number) {
+                                  return left.object->first_number < number;
+                                });
+  if (place == left_.end() || place->object != &object) place = left_.insert(place, {&object, {}});
+  return place->edges;
+}
+
+/// Adds the edges of these triangles to what is left of the object's.
+void TileCoverage::balance_edges_of(const ImageObject& object, std::size_t first, std::size_t end) {
+  std::vector<EdgeBalance::Edge>& left = edges_left_of(object);
+  balance_.start(end - first + left.size());
+  for (const auto& [from, to, times] : left) balance_.add(from, to, times);
+  add_edges(object, first, end);
+  left.clear();
+  balance_.for_each_left([&](const EdgeBalance::Edge& edge) { left.push_back(edge); });
+}
+
+void TileCoverage::find_open_pixels() {
+  open_.fill(0);
+  unbalanced_.clear();
+  for (const Shape& shape : open_shapes_) open_where_it_may_be(shape);
+  for (const auto& [object, edges] : left_) open_along(*object, edges);
+}
+
+void TileCoverage::open_along(const ImageObject& object,
+                              const std::vector<EdgeBalance::Edge>& edges) {
+  if (edges.empty()) return;
   // Vertices that are in the file more than once, at the same place, are taken as one.
-  VertexAtPlace vertex_at(object.mesh, 2 * left_.size(), vertex_at_);
-  balance_.start(left_.size());
-  for (const auto& [from, to, times] : left_) balance_.add(vertex_at(from), vertex_at(to), times);
+  VertexAtPlace vertex_at(object.mesh, 2 * edges.size(), vertex_at_);
+  balance_.start(edges.size());
+  for (const auto& [from, to, times] : edges) balance_.add(vertex_at(from), vertex_at(to), times);
   balance_.for_each_left([&](const EdgeBalance::Edge& edge) {
     unbalanced_.push_back({&object.vertices[edge.from], &object.vertices[edge.to], &object,
                            static_cast<int>(edge.times)});
@@ -178,33 +237,12 @@ void TileCoverage::balance_edges(const ImageObject& object, std::size_t first, s
   });
 }
 
-template <class Visit>
-void TileCoverage::for_each_object(const Visit& visit) const {
-  for (std::size_t first = 0; first < numbers_.size();) {
-    const ImageObject& object = object_of(scene_.objects, numbers_[first]);
-    std::size_t end = first;
-    while (end < numbers_.size() && numbers_[end] < object.end_number()) ++end;
-    visit(object, first, end);
-    first = end;
-  }
-}
-
-void TileCoverage::classify(const Tile::Context& context) {
+void TileCoverage::classify(std::size_t begin, const Tile::Context& context) {
   classes_.resize(numbers_.size());
-  for_each_object([&](const ImageObject& object, std::size_t first, std::size_t end) {
+  for_each_object(begin, [&](const ImageObject& object, std::size_t first, std::size_t end) {
     classify_for_coverage(object, std::span(numbers_).subspan(first, end - first), context.range,
                           area_, classes_.data() + first);
   });
-}
-
-void TileCoverage::find_open_pixels() {
-  open_.fill(0);
-  unbalanced_.clear();
-  for (const Shape& shape : open_shapes_) open_where_it_may_be(shape);
-  for_each_object([&](const ImageObject& object, std::size_t first, std::size_t end) {
-    balance_edges(object, first, end);
-  });
-  for (std::size_t row = 0; row < size; ++row) open_[row] &= ~full_[row];
 }
 
 void TileCoverage::meet_edges() {

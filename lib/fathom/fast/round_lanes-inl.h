@@ -1,0 +1,56 @@
+// Numbers with bounds on their errors rounded to binary32, several at once. Included once for every
+// kind of vector instructions, by the files that foreach_target.h compiles for each.
+#if defined(FATHOM_FAST_ROUND_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef FATHOM_FAST_ROUND_LANES_INL_H
+#undef FATHOM_FAST_ROUND_LANES_INL_H
+#else
+#define FATHOM_FAST_ROUND_LANES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "fathom/fast/channel_rows.h"
+#include "fathom/fast/counting_lanes-inl.h"
+#include "fathom/fast/setup-inl.h"
+#include "fathom/numeric/certified_rounding.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fathom::fast::HWY_NAMESPACE {
+namespace {
+
+struct CertifiedLanes {
+  V value, error;
+};
+
+HWY_INLINE V load_u(const SurfaceRow& row, std::size_t first) {
+  return hn::Add(counting_lanes(D(), static_cast<double>(first)), constant(row.first_u));
+}
+
+/// Rounded values, and a bit for each lane whose value is settled.
+struct RoundedLanes {
+  hn::Vec<hn::Rebind<float, D>> value;
+  unsigned settled;
+};
+
+// Like to_binary32() of a binary64 number, which is not settled if it is 0. Two numbers that are
+// rounded to the same one, which is not 0, have one sign.
+HWY_INLINE RoundedLanes round_to_binary32(const CertifiedLanes& x) {
+  const hn::Rebind<float, D> d32;
+  const V margin = hn::MulAdd(hn::Abs(x.value), constant(interval_widening), x.error);
+  const auto low = to_binary32(d32, hn::Sub(x.value, margin));
+  const auto high = to_binary32(d32, hn::Add(x.value, margin));
+  return {low, lane_bits(d32, hn::And(hn::Eq(low, high), hn::Ne(low, hn::Zero(d32))))};
+}
+
+HWY_INLINE void store_rounded(const CertifiedLanes& x, std::size_t first,
+                              RoundedValues<float>& rounded) {
+  const RoundedLanes lanes = round_to_binary32(x);
+  hn::StoreU(lanes.value, hn::Rebind<float, D>(), rounded.values.data() + first);
+  rounded.settled |= std::uint64_t{lanes.settled} << first;
+}
+
+}  // namespace
+}  // namespace fathom::fast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
