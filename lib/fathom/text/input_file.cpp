@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <new>
 
+#include "fathom/memory/huge_pages.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/descriptor.h"
 #include "fathom/text/system_failure.h"
@@ -83,6 +84,7 @@ void InputFile::resize(std::size_t capacity) {
   if (bytes == nullptr) throw std::bad_alloc();
   static_cast<void>(buffer_.release());
   buffer_.reset(bytes);
+  memory::prefer_huge_pages(bytes, capacity);
 }
 
 void InputFile::read(int descriptor, std::uint64_t size, const std::string& name) {

@@ -73,7 +73,8 @@ DecimalResult<Real> TextCursor::reread() const {
 template DecimalResult<float> TextCursor::reread<float>() const;
 template DecimalResult<double> TextCursor::reread<double>() const;
 
-const char* TextCursor::parse_integer(const char* first, const char* last, std::int64_t& value) {
+const char* TextCursor::parse_any_integer(const char* first, const char* last,
+                                          std::int64_t& value) {
   if (first != last && *first == '+') {
     ++first;
     if (first != last && *first == '-') return nullptr;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <string_view>
 
 #include "fathom/text/decimal.h"
+#include "fathom/text/digits.h"
 
 namespace fathom::text {
 
@@ -61,6 +63,11 @@ class TextCursor {
 
   /// Goes to the start of the next line.
   void skip_line() {
+    if (at_ != end_ && *at_ == line_end_) {  // a line that has been read to its end: most
+      ++at_;
+      ++line_;
+      return;
+    }
     while (true) {
       const void* found = std::memchr(at_, line_end_, static_cast<std::size_t>(end_ - at_));
       if (!found) {
@@ -149,7 +156,15 @@ class TextCursor {
 
   /// Reads a decimal integer [+-] digits at `first`, and returns the position after it; nullptr if
   /// there is none or it does not fit.
-  static const char* parse_integer(const char* first, const char* last, std::int64_t& value);
+  static const char* parse_integer(const char* first, const char* last, std::int64_t& value) {
+    constexpr std::size_t most_digits = 18;  // any of so many fit
+    const char* at = first;
+    const DigitRun digits = read_digits(at, last);
+    if (digits.count == 0 || digits.count > most_digits)
+      return parse_any_integer(first, last, value);
+    value = static_cast<std::int64_t>(digits.number);
+    return at;
+  }
 
   /// Throws InputError "FILE: line N: message".
   [[noreturn]] void fail(const std::string& message) const { fail_at(line_, message); }
@@ -158,6 +173,8 @@ class TextCursor {
   [[noreturn]] void fail_here(const std::string& message);
 
  private:
+  /// parse_integer(), also with a sign or more digits.
+  static const char* parse_any_integer(const char* first, const char* last, std::int64_t& value);
   static bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
   }

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+static_assert(std::endian::native == std::endian::little,
+              "the first of eight digits is the lowest byte");
+
+namespace fathom::text {
+
+/// 10⁰ to 10⁸.
+inline constexpr std::array<std::uint64_t, 9> short_powers_of_ten{
+    1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000};
+
+/// Digits that follow each other, and the number that they are.
+struct DigitRun {
+  std::uint64_t number = 0;
+  std::size_t count = 0;
+};
+
+/// How many digits the eight characters begin with that have been exclusive-ored with '0'.
+[[gnu::always_inline]] inline std::size_t leading_digits(std::uint64_t characters) {
+  const std::uint64_t others =
+      ((characters + 0x0606060606060606) | characters) & 0xF0F0F0F0F0F0F0F0;
+  return static_cast<std::size_t>(std::countr_zero(others)) / 8;
+}
+
+inline constexpr std::uint64_t eight_zeros = 0x3030303030303030;  // '0': '9' becomes 9, 'a' more
+
+/// The first digits of eight characters, without a branch for each.
+/// Source   [Lem21]: neighbours are joined to numbers of two, four and eight digits.
+[[gnu::always_inline]] inline DigitRun digits_of_eight(const char* at) {
+  std::uint64_t word = 0;
+  std::memcpy(&word, at, sizeof word);
+  word ^= eight_zeros;
+  const std::size_t count = leading_digits(word);
+  if (count == 0) return {};
+  word <<= 64 - 8 * count;  // zeros in front
+  word = (word * 10 + (word >> 8)) & 0x00FF00FF00FF00FF;
+  word = (word * 100 + (word >> 16)) & 0x0000FFFF0000FFFF;
+  word = (word * 10000 + (word >> 32)) & 0x00000000FFFFFFFF;
+  return {word, count};
+}
+
+/// The digits at `at`, behind which it moves, as they follow those of `before`: the number modulo 2⁶⁴,
+/// so that it is right where there are at most 19 of them in all.
+[[gnu::always_inline]] inline DigitRun read_digits(const char*& at, const char* last,
+                                                   DigitRun before = {}) {
+  while (static_cast<std::size_t>(last - at) >= sizeof(std::uint64_t)) {
+    const DigitRun some = digits_of_eight(at);
+    before.number = before.number * short_powers_of_ten[some.count] + some.number;
+    before.count += some.count;
+    at += some.count;
+    if (some.count < sizeof(std::uint64_t)) return before;
+  }
+  for (; at != last && '0' <= *at && *at <= '9'; ++at, ++before.count)
+    before.number = 10 * before.number + static_cast<std::uint64_t>(*at - '0');
+  return before;
+}
+
+/// Moves `at` behind the digits there.
+[[gnu::always_inline]] inline void skip_digits(const char*& at, const char* last) {
+  while (static_cast<std::size_t>(last - at) >= sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, at, sizeof word);
+    const std::size_t count = leading_digits(word ^ eight_zeros);
+    at += count;
+    if (count < sizeof word) return;
+  }
+  while (at != last && '0' <= *at && *at <= '9') ++at;
+}
+
+}  // namespace fathom::text
