@@ -59,7 +59,7 @@ or from a language that calls C.")
 set(CPACK_DEBIAN_DEVEL_PACKAGE_NAME libfathom-dev)
 set(CPACK_DEBIAN_DEVEL_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVEL_PACKAGE_DEPENDS
-    "libgmp-dev, libmpfr-dev, libopenexr-dev, libpng-dev, zlib1g-dev, libfreetype-dev, libssl-dev, libtbb-dev, libhwy-dev")
+    "libgmp-dev, libmpfr-dev, libopenexr-dev, libpng-dev, zlib1g-dev, libdeflate-dev, libfreetype-dev, libssl-dev, libtbb-dev, libhwy-dev")
 if(FATHOM_C)
   string(PREPEND CPACK_DEBIAN_DEVEL_PACKAGE_DEPENDS "${FATHOM_PACKAGE_NAME_runtime} (= ${PROJECT_VERSION}), ")
 endif()

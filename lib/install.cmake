@@ -16,6 +16,7 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/FathomConfigVersion.cmak
 install(FILES "${PROJECT_BINARY_DIR}/FathomConfig.cmake"
               "${PROJECT_BINARY_DIR}/FathomConfigVersion.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FathomDepthTest.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/FindDeflate.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindGMP.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindMPFR.cmake"
         DESTINATION "${FATHOM_PACKAGE_DIR}")

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include "fathom/image/files/exr_attributes.h"
 #include "fathom/image/files/exr_streams.h"
+#include "fathom/image/files/exr_zip.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/errors.h"
 
@@ -31,6 +33,21 @@ Source source_of(const ImageChannel& channel, const std::string& name) {
     return {Imf::UINT, reinterpret_cast<const char*>(ids->data())};
   throw OutputError(name + ": EXR holds binary32 numbers and 32-bit identifiers, and channel '" +
                     channel.name + "' is stored otherwise");
+}
+
+/// An EXR up to its table of chunks, whose entries are zeros, in which it ends.
+Bytes header_bytes(const Imf::Header& header, const std::string& name) {
+  ByteOutput stream(name);
+  { const Imf::OutputFile file(stream, header, 0); }
+  return stream.take();
+}
+
+/// The channels in the order of the file, that of their names.
+std::vector<ExrPlane> planes_of(const Imf::FrameBuffer& pixels) {
+  std::vector<ExrPlane> planes;
+  for (auto slice = pixels.begin(); slice != pixels.end(); ++slice)
+    planes.push_back(reinterpret_cast<ExrPlane>(slice.slice().base));
+  return planes;
 }
 
 }  // namespace
@@ -72,6 +89,13 @@ Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
       header.channels().insert(channel.name, Imf::Channel(source.type));
       pixels.insert(channel.name, Imf::Slice(source.type, const_cast<char*>(source.values), 4,
                                              std::size_t{4} * map.width));
+    }
+    const bool zipped = compression == Compression::zip || compression == Compression::zips;
+    if (zipped && !map.channels.empty()) {
+      Bytes file = header_bytes(header, name);
+      append_zip_chunks(file, planes_of(pixels), map.width, map.height,
+                        rows_of_a_chunk(compression), threads);
+      return file;
     }
     ByteOutput stream(name);
     {
