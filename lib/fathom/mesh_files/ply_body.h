@@ -32,6 +32,8 @@ using PlyVertex = std::array<double, slot_count>;
 ///   vertex(values)
 ///   begin_faces(element, columns, most, rows)   `most` faces of three corners fit into the file
 ///   face(face, rows)                        after its row
+///   triangle(corners)                       instead of it, if the sink has this function: of a face
+///                                           of three corners that has no label
 ///   begin_strips(element, indices)
 ///   strip_corner(strip, row, rows)          before a corner of a strip is read
 ///   strip_triangle(triangle)                a face of its own
@@ -141,11 +143,51 @@ class PlyBody {
         rows());
     PlyVertex row{};
     row[slot_colour + 3] = 1;
+    const std::optional<PlyPointLayout> layout = point_layout(element, plan);
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      if (layout && take_point(*layout, row)) {
+        sink_.vertex(row);
+        continue;
+      }
       rows().begin_row(element, i);
       for (std::size_t k = 0; k < plan.size(); ++k) read_value(element.properties[k], plan[k], row);
       rows().end_row();
       sink_.vertex(row);
+    }
+  }
+
+  static constexpr bool takes_points =
+      requires(Rows & rows, const PlyPointLayout& layout, std::array<double, 3>& point) {
+    rows.take_point(layout, point);
+  };
+
+  /// Where the coordinates lie if they are floats of one type and nothing else is wanted of a vertex.
+  static std::optional<PlyPointLayout> point_layout(const PlyElement& element,
+                                                    const std::vector<int>& plan) {
+    PlyPointLayout layout;
+    std::optional<PlyType> type;
+    for (std::size_t k = 0; k < plan.size(); ++k) {
+      const PlyProperty& property = element.properties[k];
+      if (property.count_type || plan[k] >= slot_normal) return std::nullopt;
+      if (plan[k] != skipped) {
+        if (is_integer(property.type) || (type && *type != property.type)) return std::nullopt;
+        type = property.type;
+        layout.offsets[static_cast<std::size_t>(plan[k])] = layout.row_size;
+      }
+      layout.row_size += size_of(property.type);
+    }
+    layout.type = *type;  // a vertex has coordinates
+    return layout;
+  }
+
+  bool take_point(const PlyPointLayout& layout, PlyVertex& row) {
+    if constexpr (takes_points) {
+      std::array<double, 3> point;
+      if (!rows().take_point(layout, point)) return false;
+      std::copy(point.begin(), point.end(), row.begin());
+      return true;
+    } else {
+      return false;
     }
   }
 
@@ -176,13 +218,33 @@ class PlyBody {
     const std::uint64_t least =
         Rows::least_triangle_size(element, element.properties[columns.indices]);
     sink_.begin_faces(element, columns, std::min(element.count, rows().rest() / least), rows());
+    const bool only_corners = element.properties.size() == 1;
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      if (only_corners && take_triangle(element.properties[0])) continue;
       rows().begin_row(element, i);
       reader_.read_face(element, columns, face_);
       rows().expect_face(face_.ring.size());
       rows().end_row();
       if (columns.label) usable(face_.label);
       sink_.face(face_, rows());
+    }
+  }
+
+  static constexpr bool takes_triangles =
+      requires(Rows & rows, Sink& sink, CornerIndices& triangle) {
+    rows.take_triangle(PlyProperty(), 0, triangle);
+    sink.triangle(triangle);
+  };
+
+  /// A face that is a triangle, at once.
+  bool take_triangle(const PlyProperty& indices) {
+    if constexpr (takes_triangles) {
+      CornerIndices triangle;
+      if (!rows().take_triangle(indices, reader_.vertex_count(), triangle)) return false;
+      sink_.triangle(triangle);
+      return true;
+    } else {
+      return false;
     }
   }
 

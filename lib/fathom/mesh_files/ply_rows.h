@@ -24,6 +24,13 @@ static_assert(std::endian::native == std::endian::little, "little endian PLY is 
 /// those of text.)
 namespace fathom::mesh_files {
 
+/// Where the coordinates lie in a row of an element whose rows all have one size.
+struct PlyPointLayout {
+  std::size_t row_size = 0;
+  std::array<std::size_t, 3> offsets{};
+  PlyType type = PlyType::float32;  // or float64
+};
+
 /// The values of a binary body, one after another.
 template <bool big_endian>
 class BinaryRows {
@@ -42,6 +49,34 @@ class BinaryRows {
   [[nodiscard]] std::uint64_t rest() const { return bytes_.rest(); }
   /// Number of the next byte in the file.
   [[nodiscard]] std::uint64_t position() const { return bytes_.position(); }
+
+  /// A row at once, where its three coordinates are all that is wanted of it. False of a row that is not at
+  /// hand or has one that is not finite: it is then still to be read, value by value.
+  bool take_point(const PlyPointLayout& layout, std::array<double, 3>& point) {
+    if (!bytes_.has_at_hand(layout.row_size)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const char* const at = bytes_.at() + layout.offsets[k];
+      point[k] = layout.type == PlyType::float32 ? static_cast<double>(value_at<float>(at))
+                                                 : value_at<double>(at);
+    }
+    if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
+      return false;
+    bytes_.advance(layout.row_size);
+    return true;
+  }
+  /// The same of a list of three indices below `count`, as most faces are: a byte and three integers
+  /// of 32 bits.
+  bool take_triangle(const PlyProperty& list, std::uint64_t count, CornerIndices& triangle) {
+    if (list.count_type != PlyType::uint8) return false;
+    if (list.type != PlyType::int32 && list.type != PlyType::uint32) return false;
+    if (!bytes_.has_at_hand(1 + sizeof triangle) || *bytes_.at() != 3) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+      triangle[k] = value_at<std::uint32_t>(bytes_.at() + 1 + k * sizeof(std::uint32_t));
+    const std::uint32_t greatest = std::max({triangle[0], triangle[1], triangle[2]});
+    if (greatest >= count || greatest > 0x7FFFFFFF) return false;  // or negative
+    bytes_.advance(1 + sizeof triangle);
+    return true;
+  }
 
   void begin_row(const PlyElement&, std::uint64_t) {}
   void end_row() {}
@@ -96,9 +131,14 @@ class BinaryRows {
   template <class T>
   T take() {
     if (!bytes_.has(sizeof(T))) fail_end();
-    std::array<char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), bytes_.at(), sizeof(T));
+    const T value = value_at<T>(bytes_.at());
     bytes_.advance(sizeof(T));
+    return value;
+  }
+  template <class T>
+  static T value_at(const char* at) {
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), at, sizeof(T));
     if constexpr (big_endian) std::reverse(bytes.begin(), bytes.end());
     return std::bit_cast<T>(bytes);
   }
@@ -138,6 +178,7 @@ class PlyRowReader {
       : rows_(std::move(rows)), vertex_count_(vertex_count) {}
 
   [[nodiscard]] Rows& rows() { return rows_; }
+  [[nodiscard]] std::uint64_t vertex_count() const { return vertex_count_; }
 
   /// One row of element face.
   void read_face(const PlyElement& element, const PlyFaceColumns& columns, PlyFace& face) {

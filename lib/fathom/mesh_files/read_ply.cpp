@@ -1,6 +1,7 @@
 #include "fathom/mesh_files/ply_body.h"
 #include "fathom/mesh_files/ply_text.h"
 #include "fathom/mesh_files/read_mesh.h"
+#include "fathom/mesh_files/reserve_large.h"
 #include "fathom/text/text_ends.h"
 
 namespace fathom::mesh_files {
@@ -20,10 +21,10 @@ class MeshSink {
     normals_ = has(slot_normal) && has(slot_normal + 1) && has(slot_normal + 2);
     textures_ = has(slot_texture) && has(slot_texture + 1);
     colours_ = has(slot_colour) && has(slot_colour + 1) && has(slot_colour + 2);
-    mesh_.vertices.reserve(element.count);
-    if (normals_) mesh_.normals.reserve(element.count);
-    if (textures_) mesh_.texture_coordinates.reserve(element.count);
-    if (colours_) mesh_.colours.reserve(element.count);
+    reserve_large(mesh_.vertices, element.count);
+    if (normals_) reserve_large(mesh_.normals, element.count);
+    if (textures_) reserve_large(mesh_.texture_coordinates, element.count);
+    if (colours_) reserve_large(mesh_.colours, element.count);
     vertices_have_labels_ = has(slot_label);
     if (vertices_have_labels_) vertex_labels_.reserve(element.count);
   }
@@ -40,7 +41,7 @@ class MeshSink {
   template <class Rows>
   void begin_faces(const PlyElement&, const PlyFaceColumns& columns, std::uint64_t most,
                    const Rows&) {
-    mesh_.triangles.reserve(most);
+    reserve_large(mesh_.triangles, most);
     faces_have_labels_ = columns.label.has_value();
     if (faces_have_labels_) labels_.reserve(most);
   }
@@ -52,6 +53,8 @@ class MeshSink {
     faces_.add(face.ring);
     if (faces_have_labels_) labels_.resize(mesh_.triangles.size(), face.label);
   }
+
+  void triangle(const CornerIndices& corners) { faces_.add(corners); }
 
   void begin_strips(const PlyElement&, std::size_t) {}
   template <class Rows>

@@ -35,6 +35,10 @@ class ByteWindow {
   bool has(std::size_t count) {
     return static_cast<std::size_t>(end_ - at_) >= count || read_on(count);
   }
+  /// Whether `count` more bytes, however many, lie at at() without reading on.
+  [[nodiscard]] bool has_at_hand(std::size_t count) const {
+    return static_cast<std::size_t>(end_ - at_) >= count;
+  }
   void advance(std::size_t count) { at_ += count; }
   /// Back over bytes that were just advanced over.
   void back(std::size_t count) { at_ -= count; }
