@@ -174,9 +174,21 @@ void GltfAccessor::for_each_finite(const Visit& visit) const {
 
 template <class Visit>
 void GltfAccessor::for_each_index(const Visit& visit) const {
-  for_each([&](std::uint64_t i, const Element& element) {
-    visit(i, static_cast<std::uint32_t>(element[0]));
-  });
+  const auto as_stored = [&]<class T>(T) {
+    for_each_place([&](std::uint64_t i, const std::byte* place) {
+      T stored = 0;
+      if (place != nullptr) std::memcpy(&stored, place, sizeof stored);
+      visit(i, std::uint32_t{stored});
+    });
+  };
+  switch (component_) {
+    case GltfComponent::uint8:
+      return as_stored(std::uint8_t{});
+    case GltfComponent::uint16:
+      return as_stored(std::uint16_t{});
+    default:
+      return as_stored(std::uint32_t{});
+  }
 }
 
 }  // namespace fathom::mesh_files

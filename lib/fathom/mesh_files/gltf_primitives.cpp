@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fathom/mesh_files/gltf_references.h"
+#include "fathom/mesh_files/reserve_large.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::mesh_files {
@@ -98,7 +99,7 @@ template <class List>
 void GltfPrimitives::make_room(List& list, std::uint64_t more) {
   accessors_.budget().take(more, sizeof(typename List::value_type));
   const std::size_t needed = list.size() + more;
-  if (needed > list.capacity()) list.reserve(std::max(needed, 2 * list.capacity()));
+  if (needed > list.capacity()) reserve_large(list, std::max(needed, 2 * list.capacity()));
 }
 
 /// An attribute is per vertex if all triangles have it, per corner if only some do, and nothing if
@@ -297,12 +298,13 @@ void GltfPrimitives::read_indices(const JsonValue& primitive, const GltfAccessor
   expect_indices(indices);
   corners_.clear();
   make_room(corners_, indices.count());
+  corners_.resize(indices.count());
   indices.for_each_index([&](std::uint64_t i, std::uint32_t index) {
     if (index >= vertices.count)
       primitive.fail("index " + std::to_string(index) + " at place " + std::to_string(i) +
                      " is out of range, the primitive has " +
                      text::counted(vertices.count, "vertex", "vertices"));
-    corners_.push_back(index);
+    corners_[i] = index;
   });
 }
 

@@ -1,6 +1,7 @@
 #include "fathom/scene/bounds.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -25,18 +26,21 @@ void for_each_part(std::span<const T> list, const Visit& visit) {
     visit(list.subspan(first, std::min(part, list.size() - first)));
 }
 
-void note_used(std::uint32_t vertex, std::vector<bool>& used) {
+/// 1 for each vertex that something uses: bytes, which are set without reading those beside them.
+using UsedVertices = std::vector<std::uint8_t>;
+
+void note_used(std::uint32_t vertex, UsedVertices& used) {
   if (vertex >= used.size()) throw ElementFault();
-  used[vertex] = true;
+  used[vertex] = 1;
 }
 
 /// The vertices that at least one triangle, line or point uses.
-std::vector<bool> used_vertices(const Mesh& mesh) {
-  std::vector<bool> used(mesh.vertices.size());
+UsedVertices used_vertices(const Mesh& mesh) {
+  UsedVertices used(mesh.vertices.size());
   for_each_part(std::span(mesh.triangles), [&](std::span<const CornerIndices> part) {
     if (!all_below(part, used.size())) throw ElementFault();
     for (const CornerIndices& triangle : part)
-      for (const std::uint32_t corner : triangle) used[corner] = true;
+      for (const std::uint32_t corner : triangle) used[corner] = 1;
   });
   for (const auto& line : mesh.lines)
     for (const std::uint32_t end : line) note_used(end, used);
@@ -49,12 +53,12 @@ void include(WorldBounds& bounds, int axis, const Interval& value) {
   bounds.upper[axis] = std::max(bounds.upper[axis], value.upper);
 }
 
-void include_as_is(WorldBounds& bounds, const Mesh& mesh, const std::vector<bool>& used) {
+void include_as_is(WorldBounds& bounds, const Mesh& mesh, const UsedVertices& used) {
   std::size_t i = 0;
   for_each_part(std::span(mesh.vertices), [&](std::span<const MeshPoint> part) {
     if (!all_finite(part)) throw ElementFault();
     for (const auto& [x, y, z] : part) {
-      if (!used[i++]) continue;
+      if (used[i++] == 0) continue;
       include(bounds, 0, {x, x});
       include(bounds, 1, {y, y});
       include(bounds, 2, {z, z});
@@ -65,19 +69,19 @@ void include_as_is(WorldBounds& bounds, const Mesh& mesh, const std::vector<bool
 /// Widens one axis of the bounds to the placed vertices: exactly, but only for those that the
 /// approximation cannot tell from an extreme one.
 void include_placed(WorldBounds& bounds, int axis, const Object& object, const Mesh& mesh,
-                    const std::vector<bool>& used) {
+                    const UsedVertices& used) {
   const auto& row = object.world_from_mesh.rows[axis];
   const ApproximateRow approximate(row);
   // The minimum is at most `lowest`, the maximum at least `highest`.
   double lowest = infinity, highest = -infinity;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (!used[i]) continue;
+    if (used[i] == 0) continue;
     const Interval value = approximate.at(mesh.vertices[i]);
     lowest = std::min(lowest, value.upper);
     highest = std::max(highest, value.lower);
   }
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (!used[i]) continue;
+    if (used[i] == 0) continue;
     const MeshPoint& p = mesh.vertices[i];
     const Interval value = approximate.at(p);
     if (value.lower > lowest && value.upper < highest) continue;
@@ -93,7 +97,7 @@ std::optional<WorldBounds> bounds_of(const Scene& scene) {
     const Mesh& mesh = scene.meshes[object.mesh];
     if (mesh.is_empty()) continue;
     empty = false;
-    const std::vector<bool> used = used_vertices(mesh);
+    const UsedVertices used = used_vertices(mesh);
     if (object.placed_as_is) {
       include_as_is(bounds, mesh, used);
     } else {
