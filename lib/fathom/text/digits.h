@@ -61,16 +61,30 @@ inline constexpr std::uint64_t eight_zeros = 0x3030303030303030;  // '0': '9' be
   return before;
 }
 
-/// Moves `at` behind the digits there.
-[[gnu::always_inline]] inline void skip_digits(const char*& at, const char* last) {
-  while (static_cast<std::size_t>(last - at) >= sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, at, sizeof word);
-    const std::size_t count = leading_digits(word ^ eight_zeros);
-    at += count;
-    if (count < sizeof word) return;
+/// Marks in the highest bits of eight characters, up to the first that is marked, those that do not lie
+/// between `least` and `greatest`, of ASCII.
+template <char least, char greatest>
+[[gnu::always_inline]] inline std::uint64_t marks_of_others(const char* at) {
+  constexpr std::uint64_t each = 0x0101010101010101;
+  std::uint64_t word = 0;
+  std::memcpy(&word, at, sizeof word);
+  const std::uint64_t above = word + (0x7F - greatest) * each;
+  const std::uint64_t not_below = word + (0x80 - least) * each;
+  return (word | above | ~not_below) & (0x80 * each);
+}
+
+/// Moves `at` behind the characters there that lie between `least` and `greatest`, of ASCII. Sixteen at a
+/// time, so that no branch depends on the length of a usual word.
+template <char least, char greatest>
+[[gnu::always_inline]] inline void skip_characters(const char*& at, const char* last) {
+  while (last - at >= 16) {
+    const std::uint64_t first = marks_of_others<least, greatest>(at);
+    const std::uint64_t second = marks_of_others<least, greatest>(at + 8);
+    const int bits = first != 0 ? std::countr_zero(first) : 64 + std::countr_zero(second);
+    at += bits / 8;
+    if (bits < 128) return;
   }
-  while (at != last && '0' <= *at && *at <= '9') ++at;
+  while (at != last && least <= *at && *at <= greatest) ++at;
 }
 
 }  // namespace fathom::text
