@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 #include <set>
+#include <tuple>
 
+#include "fathom/numeric/errors.h"
 #include "tests/inputs/mesh_variants.h"
 
 namespace fathom {
@@ -146,6 +149,88 @@ TEST(ReadMesh, LargeObjIsReadInPieces) {
     ASSERT_EQ(one.triangles[t],
               i % 2 == 0 ? (CornerIndices{i, i - 1, i - 2}) : (CornerIndices{n - 1, 0, i - 1}));
   }
+}
+
+/// Lines that are plain are counted in another way than those that are not.
+TEST(ReadMesh, PlainLinesCountAsAllOthers) {
+  std::mt19937 random(6);
+  const auto number = [&] { return std::to_string(static_cast<int>(random() % 9) - 4); };
+  const std::string index[] = {"1", "2/1", "3//1", "-1/-1/-1", "00000000000000000002", "+1"};
+  for (int i = 0; i < 300; ++i) {
+    std::string plain = "vt 0 0\nvn 0 0 1\nv 0 0 0\nv 1 0 0\nv\t0 1 0\n", odd = plain;
+    for (int line = 0; line < 6; ++line) {
+      std::string text = random() % 2 == 0 ? "v" : "f";
+      const std::size_t words = text == "v" ? 3 + random() % 5 : random() % 6;
+      for (std::size_t k = 0; k < words; ++k)
+        text +=
+            (random() % 4 == 0 ? "  " : " ") + (text[0] == 'v' ? number() : index[random() % 6]);
+      plain += text + (random() % 4 == 0 ? " \r\n" : "\n");
+      odd += text + (random() % 2 == 0 ? " # all\n" : " \\\n\n");
+    }
+    const auto outcome = [](const std::string& text) {
+      Warnings warnings;
+      std::string failure;
+      Mesh mesh;
+      try {
+        mesh = read_variant({"a.obj", text}, warnings, true);
+      } catch (const InputError& error) {
+        failure = std::string(error.what()).substr(std::string("a.obj: line 1").size());
+      }
+      return std::tuple(failure.substr(failure.find(':') + 1), warnings.size(), mesh.vertices,
+                        mesh.triangles, mesh.face_of_triangle, mesh.face_count, mesh.colours,
+                        mesh.texture_triangles, mesh.normal_triangles);
+    };
+    ASSERT_EQ(outcome(plain), outcome(odd)) << plain << odd;
+  }
+}
+
+/// Rows of a binary PLY that are taken at once, and the same ones value by value: behind each lies
+/// something that is skipped, in a list.
+TEST(ReadMesh, BinaryRowsAtOnceAreThoseOneByOne) {
+  const auto ply = [](const std::string& more_of_vertex, const std::string& more_of_face,
+                      std::uint32_t last_index, float last_z) {
+    std::string text =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float z\nproperty float "
+        "x\nproperty float y\n" +
+        more_of_vertex + "element face 2\nproperty list uchar uint vertex_indices\n" +
+        more_of_face + "end_header\n";
+    const auto put = [&](auto value) {
+      text.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    for (const float z : {1.0F, 2.0F, last_z}) {
+      for (const float value : {z, z + 4, z + 8}) put(value);
+      if (!more_of_vertex.empty()) put(std::uint8_t{0});
+    }
+    for (const std::uint32_t last : {2U, last_index}) {
+      put(std::uint8_t{3});
+      for (const std::uint32_t i : {0U, 1U, last}) put(i);
+      if (!more_of_face.empty()) put(std::uint8_t{0});
+    }
+    return text;
+  };
+  const std::string list = "property list uchar uchar more\n";
+  const Mesh at_once = read("a.ply", ply("", "", 1, 3));
+  const Mesh one_by_one = read("a.ply", ply(list, list, 1, 3));
+  EXPECT_EQ(at_once.vertices, one_by_one.vertices);
+  EXPECT_EQ(at_once.vertices[2], (MeshPoint{7, 11, 3}));
+  EXPECT_EQ(at_once.triangles, one_by_one.triangles);
+  EXPECT_THAT(at_once.triangles, ElementsAre(CornerIndices{0, 1, 2}, CornerIndices{0, 1, 1}));
+
+  const auto failure = [&](const std::string& text) {
+    Warnings warnings;
+    try {
+      read_variant({"a.ply", text}, warnings);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing was thrown");
+  };
+  const std::size_t header = ply("", "", 1, 3).find("end_header\n") + 11;
+  EXPECT_EQ(failure(ply("", "", 1, std::numeric_limits<float>::infinity())),
+            "a.ply: byte " + std::to_string(header + 24) +
+                ": coordinate z is not finite, expected a finite number");
+  EXPECT_EQ(failure(ply("", "", 3, 3)), "a.ply: byte " + std::to_string(header + 36 + 26) +
+                                            ": index 3 is out of range, expected 0 to 2");
 }
 
 }  // namespace
