@@ -292,11 +292,13 @@ class ObjChunk {
       : cursor_(text, file, obj_syntax, line_end, before.lines + 1),
         at_(before),
         total_(total),
+        ends_with_lf_(line_end == '\n'),
         in_the_plane_(total.in_the_plane()),
         mesh_(mesh) {}
 
   ObjOddities read() {
     for (; cursor_.next_line_with_words(); cursor_.skip_line()) {
+      if (ends_with_lf_ && (read_plain_triangle() || read_plain_vertex())) continue;
       switch (statement_named(cursor_.word())) {
         case Statement::vertex:
           read_vertex();
@@ -326,6 +328,55 @@ class ObjChunk {
   }
 
  private:
+  /// Where the words begin that follow the keyword and one blank; null where another statement stands.
+  [[nodiscard]] const char* words_after(char keyword) const {
+    const char* const at = cursor_.position();
+    return cursor_.rest() > 2 && at[0] == keyword && at[1] == ' ' ? at + 2 : nullptr;
+  }
+
+  /// Whether word `k` of three ends at `at`, as in nearly all files: by one blank, or by the line end.
+  /// Then `at` is behind the blank.
+  bool ends_plain_word(std::size_t k, const char*& at) const {
+    if (at == cursor_.limit() || *at != (k < 2 ? ' ' : '\n')) return false;
+    at += k < 2 ? 1 : 0;
+    return true;
+  }
+
+  /// "f 1 2 3", with indices in range. False where the line is another one: then nothing happens.
+  bool read_plain_triangle() {
+    const char* at = words_after('f');
+    if (!at) return false;
+    std::array<Corner, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      constexpr std::size_t most_digits = 18;
+      const DigitRun index = read_digits(at, cursor_.limit());
+      const std::uint64_t place = index.number - 1;  // of 0: the greatest number
+      if (index.count == 0 || index.count > most_digits || place >= total_.vertices) return false;
+      if (!ends_plain_word(k, at)) return false;
+      corners[k].vertex = static_cast<std::uint32_t>(place);
+    }
+    add_triangle(corners[0], corners[1], corners[2]);
+    ++at_.faces;
+    cursor_.move_to(at);
+    return true;
+  }
+
+  /// The same of "v 0.1 0.2 0.3".
+  bool read_plain_vertex() {
+    const char* at = words_after('v');
+    if (!at || in_the_plane_ || at_.vertices >= total_.vertices) return false;
+    std::array<double, 3> numbers{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto number = parse_decimal<double>(at, cursor_.limit());
+      at = number.end;
+      if (number.fault != DecimalFault::none || !ends_plain_word(k, at)) return false;
+      numbers[k] = number.value;
+    }
+    mesh_.vertices[at_.vertices++] = {numbers[0], numbers[1], numbers[2]};
+    cursor_.move_to(at);
+    return true;
+  }
+
   void expect_line_end(const char* what) {
     if (!cursor_.at_line_end()) cursor_.fail_here(what);
   }
@@ -517,7 +568,7 @@ class ObjChunk {
   TextCursor cursor_;
   ObjCounts at_;
   const ObjCounts& total_;
-  bool in_the_plane_;
+  bool ends_with_lf_, in_the_plane_;
   Mesh& mesh_;
   ObjOddities odd_;
 };

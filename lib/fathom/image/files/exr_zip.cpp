@@ -21,8 +21,8 @@ using namespace text;
 
 namespace {
 
-/// Of libdeflate: files are 0.7 to 1.2 % smaller than with zlib at OpenEXR's level 4, in about half
-/// the time. Higher levels gain nothing, lower ones are as slow (docs/performance.md).
+/// Of libdeflate: files are 0.7 to 1.2 % smaller than with zlib at OpenEXR's level 4, in half the time.
+/// Lower levels are hardly faster, higher ones hardly smaller (docs/performance.md).
 constexpr int level = 6;
 
 struct FreeCompressor {
