@@ -67,7 +67,7 @@ ChannelSummary summarise(const DepthMap& map, const ImageChannel& channel) {
         for (std::size_t i = 0; i < values.size(); ++i) {
           if (surface[i] == 0) continue;
           ++summary.surface;
-          if (summary.without && values[i] == no_segment) {
+          if (summary.without && static_cast<double>(values[i]) == double{no_segment}) {
             ++*summary.without;
             continue;
           }

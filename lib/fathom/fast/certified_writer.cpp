@@ -34,20 +34,21 @@ std::uint64_t copy(const VisibleRow& row, std::uint64_t wanted, const RoundedVal
 /// Writes a whole row, with the background where there is no surface; returns the samples that are
 /// left, which have the background, too.
 template <class T>
-std::uint64_t write_row(const VisibleRow& row, RoundedValues<T>& rounded, T background, T* target,
-                        RenderStatistics& statistics) {
+std::uint64_t write_row(const MapRows& rows, const VisibleRow& row, RoundedValues<T>& rounded,
+                        T background, T* target, RenderStatistics& statistics) {
   const std::uint64_t settled = row.surface & rounded.settled;
   for_each_bit(row.all() & ~settled, [&](std::size_t k) { rounded.values[k] = background; });
-  write_map_row(rounded.values, row.columns, target + row.first_pixel);
+  rows.write(rounded.values, row.columns, target + row.first_pixel);
   statistics.rounding.interval += static_cast<std::uint64_t>(std::popcount(settled));
   return row.surface & ~settled;
 }
 
 }  // namespace
 
-CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays)
+CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays, MapRows rows)
     : exact_(exact),
       values_(exact.values()),
+      rows_(rows),
       frame_(rays),
       each_pixel_(values_.low || values_.shading_normal[0]),
       needs_surfaces_(values_.barycentric[0] || values_.normal[0] || values_.camera_normal[0]),
@@ -94,11 +95,11 @@ std::uint64_t CertifiedWriter::write_encoded(const VisibleRow& row, const Encode
   if (values.codes) {
     RoundedValues<std::uint16_t> codes;
     round_to_codes(row.lanes, frame_.rays, distance, exact_.scale(), codes);
-    return write_row(row, codes, std::uint16_t{0}, values.codes, statistics);
+    return write_row(rows_, row, codes, std::uint16_t{0}, values.codes, statistics);
   }
   RoundedValues<float> rounded;
   round_depths(row.lanes, frame_.rays, distance, rounded);
-  return write_row(row, rounded, Backgrounds::depth, values.binary32, statistics);
+  return write_row(rows_, row, rounded, Backgrounds::depth, values.binary32, statistics);
 }
 
 // In binary32 what is left to write is what an interval did not settle (Tile::resolve()).
@@ -118,7 +119,7 @@ void CertifiedWriter::write_origins(const VisibleRow& row) const {
     for_each_bit(row.surface, [&](std::size_t k) {
       numbers[k] = static_cast<std::uint32_t>(row.lanes.tags[k]);
     });
-    write_map_row(numbers, row.columns, values_.id + row.first_pixel);
+    rows_.write(numbers, row.columns, values_.id + row.first_pixel);
   }
   if (!values_.wants_origins()) return;
   // face, object, and what segmentations have.
@@ -133,7 +134,7 @@ void CertifiedWriter::write_origins(const VisibleRow& row) const {
   });
   const auto targets = values_.origins();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (targets[i]) write_map_row(rows[i], row.columns, targets[i] + row.first_pixel);
+    if (targets[i]) rows_.write(rows[i], row.columns, targets[i] + row.first_pixel);
   }
 }
 
@@ -155,7 +156,7 @@ void CertifiedWriter::write_normals(const VisibleRow& row, const SurfaceIndices&
                          const std::array<float*, 3>& values) {
     take_normals(indices, normals, numbers);
     for (std::size_t i = 0; i < 3; ++i) {
-      write_map_row(numbers[i], row.columns, values[i] + row.first_pixel);
+      rows_.write(numbers[i], row.columns, values[i] + row.first_pixel);
     }
   };
   if (values_.normal[0]) write(normals_, values_.normal);
@@ -179,8 +180,8 @@ CertifiedWriter::Open CertifiedWriter::write_settled(const VisibleRow& row,
       std::array<RoundedValues<float>, 2> rounded;
       round_weights(row.lanes, indices, surfaces_.forms(), rounded);
       for (std::size_t k = 0; k < 2; ++k) {
-        open.barycentric[k] =
-            write_row(row, rounded[k], Backgrounds::position, values_.barycentric[k], statistics);
+        open.barycentric[k] = write_row(rows_, row, rounded[k], Backgrounds::position,
+                                        values_.barycentric[k], statistics);
       }
     }
   }
@@ -192,7 +193,7 @@ CertifiedWriter::Open CertifiedWriter::write_settled(const VisibleRow& row,
   }
   for (std::size_t k = 0; k < 3; ++k) {
     open.position[k] =
-        write_row(row, rounded[k], Backgrounds::position, values_.position[k], statistics);
+        write_row(rows_, row, rounded[k], Backgrounds::position, values_.position[k], statistics);
   }
   return open;
 }

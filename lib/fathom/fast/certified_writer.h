@@ -47,7 +47,8 @@ struct VisibleRow {
 /// One for each thread: it remembers the triangles that it was asked about last.
 class CertifiedWriter {
  public:
-  CertifiedWriter(triangle::ChannelWriter& exact, const triangle::SceneRays& rays);
+  CertifiedWriter(triangle::ChannelWriter& exact, const triangle::SceneRays& rays, MapRows rows);
+  [[nodiscard]] const MapRows& rows() const { return rows_; }
 
   /// To be called before the rows of a tile are written.
   void start(const Tile& tile, std::uint32_t image_width, triangle::Referee& referee,
@@ -78,6 +79,7 @@ class CertifiedWriter {
 
   triangle::ChannelWriter& exact_;
   const triangle::ChannelValues values_;
+  const MapRows rows_;
   const ValueFrame frame_;
   /// Whether a channel was asked for that is not written by rows.
   bool each_pixel_;

@@ -96,8 +96,9 @@ void collect_doubtful(const FastWorkers& workers, const Camera& camera,
 }
 
 FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays,
-                       MapBackground unfilled)
-    : certified_([&] { return CertifiedWriter(writer, rays); }),
+                       MapBackground unfilled, MapRows rows)
+    : rows_(rows),
+      certified_([&, rows] { return CertifiedWriter(writer, rays, rows); }),
       depths_(writer.values().depth.binary32),
       others_(std::any_of(map.channels.begin(), map.channels.end(),
                           [&](const ImageChannel& channel) {
@@ -115,10 +116,10 @@ void FastOutput::write_background(const PixelBox& area, std::uint32_t image_widt
     MapRow<decltype(background)> pixels;
     pixels.fill(background);
     for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
-      write_map_row(pixels, columns, values + std::size_t{row} * image_width + area.first_column);
+      rows_.write(pixels, columns, values + std::size_t{row} * image_width + area.first_column);
     }
   });
-  finish_map_rows();
+  rows_.finish();
 }
 
 }  // namespace fathom::fast

@@ -85,7 +85,7 @@ class FastOutput {
  public:
   /// `unfilled`: of the channels that have not been filled with it. A is written elsewhere.
   FastOutput(DepthMap& map, triangle::ChannelWriter& writer, const triangle::SceneRays& rays,
-             triangle::MapBackground unfilled = {});
+             triangle::MapBackground unfilled = {}, MapRows rows = {});
   /// For a tile without any triangle: all channels.
   void write_background(const PixelBox& area, std::uint32_t image_width) const;
   std::optional<triangle::EncodingFault> write(const Tile& tile, std::uint32_t image_width,
@@ -94,6 +94,7 @@ class FastOutput {
   }
 
  private:
+  MapRows rows_;
   PerThread<CertifiedWriter> certified_;
   /// The values of Z in binary32.
   float* depths_;

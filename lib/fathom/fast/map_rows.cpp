@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -44,13 +45,13 @@ namespace fathom::fast {
 
 HWY_EXPORT(write_row);
 
-void write_map_row(const void* from, std::size_t bytes, void* to) {
+void MapRows::write_past_caches(const void* from, std::size_t bytes, void* to) {
   HWY_DYNAMIC_DISPATCH(write_row)
   (static_cast<const std::byte*>(from), bytes, static_cast<std::byte*>(to));
 }
 
-void finish_map_rows() {
-  hwy::FlushStream();
+void MapRows::finish() const {
+  if (past_caches) hwy::FlushStream();
 }
 
 }  // namespace fathom::fast

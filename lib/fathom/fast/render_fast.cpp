@@ -46,12 +46,15 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
       sort_into_tiles(objects, 0, static_cast<std::uint32_t>(triangles.count()), parts_of_scene,
                       frame, workers, std::move(memory.bins));
 
+  const MapRows rows{.past_caches = !before.channels.empty()};
   auto [map, background] = make_unfilled_map(camera, options, std::move(before));
   ChannelWriter writer(map, triangles, camera, options);
   float* const coverage = writer.values().coverage;
   const CoverageFrame coverage_frame{triangles, camera, options.cull};
-  PerThread<TileCoverage> coverages([&] { return TileCoverage({coverage_frame, objects, bins}); });
-  FastOutput output(map, writer, rays, std::move(background));
+  PerThread<TileCoverage> coverages([&] {
+    return TileCoverage({coverage_frame, objects, bins, rows});
+  });
+  FastOutput output(map, writer, rays, std::move(background), rows);
   FirstFault fault;
   Progress progress(options.progress, frame.grid.count());
   parallel_for(std::uint32_t{0}, frame.grid.count(), [&](std::uint32_t number) {

@@ -171,13 +171,13 @@ HWY_EXPORT(round_depths_of_row);
 
 namespace {
 
-RowBits write_depths(const Tile& tile, std::uint32_t row, float* depths,
+RowBits write_depths(const Tile& tile, std::uint32_t row, float* depths, const MapRows& rows,
                      const Tile::Context& context, SurfacesOfRow* surfaces) {
   const std::uint32_t columns = tile.area().last_column - tile.area().first_column + 1;
   MapRow<float> rounded;
   const RowBits bits = HWY_DYNAMIC_DISPATCH(round_depths_of_row)(tile, row, context.perspective,
                                                                  rounded.data(), surfaces);
-  write_map_row(rounded, columns, depths);
+  rows.write(rounded, columns, depths);
   const std::uint64_t within = ~std::uint64_t{0} >> (Tile::size - columns);
   return {bits.surface & within, bits.open & within};
 }
@@ -193,7 +193,7 @@ void write_background(const Tile::Output& output, std::size_t first_pixel, std::
   output.unfilled.for_each([&](auto* values, auto background) {
     MapRow<decltype(background)> pixels;
     pixels.fill(background);
-    write_map_row(pixels, columns, values + first_pixel);
+    output.certified.rows().write(pixels, columns, values + first_pixel);
   });
 }
 
@@ -204,6 +204,7 @@ std::optional<EncodingFault> Tile::resolve(const Output& output, const Context& 
   const std::uint32_t columns = area_.last_column - area_.first_column + 1;
   const std::uint64_t whole_row = ~std::uint64_t{0} >> (size - columns);
   RenderStatistics& statistics = context.statistics;
+  const MapRows& rows = output.certified.rows();
   SurfacesOfRow surfaces;
   output.certified.start(*this, output.image_width, context.referee, statistics);
   for (std::uint32_t row = area_.first_row; row <= area_.last_row; ++row) {
@@ -212,7 +213,7 @@ std::optional<EncodingFault> Tile::resolve(const Output& output, const Context& 
     visible.columns = columns;
     visible.first_pixel = static_cast<std::size_t>(row) * output.image_width + area_.first_column;
     if (output.depths) {
-      const RowBits bits = write_depths(*this, tile_row, output.depths + visible.first_pixel,
+      const RowBits bits = write_depths(*this, tile_row, output.depths + visible.first_pixel, rows,
                                         context, output.others ? &surfaces : nullptr);
       note_doubts(bits.open, area_, row, context);
       visible.surface = bits.surface;
@@ -237,7 +238,7 @@ std::optional<EncodingFault> Tile::resolve(const Output& output, const Context& 
                      area_.first_column + 0.5, row + 0.5};
     if (auto fault = output.certified.write(visible, context.referee, statistics)) return fault;
   }
-  finish_map_rows();
+  rows.finish();
   return std::nullopt;
 }
 

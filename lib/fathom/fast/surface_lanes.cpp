@@ -124,8 +124,8 @@ HWY_INLINE RoundedLanes round_component(V n, V size, V error, const CertifiedLan
               constant(slack));
   const M is_zero = hn::Eq(size, constant(0));
   // Without a bound it is rounded to +0.
-  RoundedLanes rounded = round_to_binary32(
-      {hn::IfThenZeroElse(is_zero, value), hn::IfThenZeroElse(is_zero, bound)});
+  RoundedLanes rounded =
+      round_to_binary32({hn::IfThenZeroElse(is_zero, value), hn::IfThenZeroElse(is_zero, bound)});
   rounded.settled |= bits_of(is_zero);
   return rounded;
 }

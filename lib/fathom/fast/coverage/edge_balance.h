@@ -53,21 +53,15 @@ class EdgeBalance {
   }
 
  private:
-  static constexpr std::size_t vertices_of_part = 8, slots_of_vertex = 4;
   // Less than any edge.
   static constexpr std::uint64_t empty = 0, cancelled = 1;
   static std::uint64_t key(std::uint32_t from, std::uint32_t to) {
     return (std::uint64_t{from} + 1) << 32 | to;
   }
   [[nodiscard]] std::size_t start_of(std::uint32_t from, std::uint32_t to) const {
-    // The same for both directions. Edges of vertices with neighbouring numbers, which neighbouring
-    // triangles have, share a part of the table, so that it is in the innermost cache; which part is
-    // drawn by Fibonacci hashing ([Knu98] 6.4).
-    const std::uint32_t low = std::min(from, to), high = std::max(from, to);
-    const std::uint64_t part =
-        (std::uint64_t{low / vertices_of_part} * 0x9E3779B97F4A7C15) >> shift_;
-    const std::size_t in_part = low % vertices_of_part * slots_of_vertex + high % slots_of_vertex;
-    return (static_cast<std::size_t>(part) & ~(vertices_of_part * slots_of_vertex - 1)) + in_part;
+    // The same for both directions (Fibonacci hashing, [Knu98] 6.4).
+    const std::uint64_t sum = std::uint64_t{from} + to, product = std::uint64_t{from} * to;
+    return static_cast<std::size_t>(((sum ^ product << 1) * 0x9E3779B97F4A7C15) >> shift_);
   }
 
   [[nodiscard]] Edge edge_in(std::size_t i) const {
@@ -103,8 +97,7 @@ class EdgeBalance {
 };
 
 inline void EdgeBalance::start(std::size_t expected_edges) {
-  const std::size_t size = std::bit_ceil(
-      std::max<std::size_t>(2 * vertices_of_part * slots_of_vertex, 2 * expected_edges));
+  const std::size_t size = std::bit_ceil(std::max<std::size_t>(16, 2 * expected_edges));
   mask_ = size - 1;
   shift_ = std::countl_zero(mask_);
   used_ = 0;

@@ -24,10 +24,10 @@ void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile
   settle(tile_number, context);
   const std::uint32_t columns = area_.last_column - area_.first_column + 1;
   for (std::uint32_t row = area_.first_row; row <= area_.last_row; ++row) {
-    write_map_row(values_[row - area_.first_row], columns,
-                  values + std::size_t{row} * image_width + area_.first_column);
+    scene_.rows.write(values_[row - area_.first_row], columns,
+                      values + std::size_t{row} * image_width + area_.first_column);
   }
-  finish_map_rows();
+  scene_.rows.finish();
 }
 
 // The number of triangles that cover a point is the same throughout the inside of a pixel that is

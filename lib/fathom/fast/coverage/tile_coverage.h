@@ -59,6 +59,7 @@ class TileCoverage {
     const CoverageFrame& frame;
     const ImageObjects& objects;
     const std::vector<Bins>& bins;
+    MapRows rows;
   };
   explicit TileCoverage(const Scene& scene) : scene_(scene) {}
 
