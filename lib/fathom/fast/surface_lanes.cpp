@@ -99,14 +99,13 @@ HWY_INLINE SizedVector placed_by(const SizedVector& n, const NormalMatrix& matri
 /// n·d where the triangles are visible, with a bound: see along_ray().
 HWY_INLINE CertifiedLanes along_rays(const SizedVector& n, const TriangleLanes& t,
                                      const ValueFrame& frame, std::size_t first) {
-  const auto& [m0, m1, m2, O] = frame.rays.world().rays.columns;
-  const Vector3 constant_part = entries_of(m2);
-  Vector3 d = constant_part;
+  const auto& columns = frame.rays.world().rays.columns;
+  Vector3 d = entries_of(columns[2]);
   if (frame.image.perspective) {
     const V u = hn::Load(D(), t.u.data() + first), v = hn::Load(D(), t.v.data() + first);
     const auto coordinate = [&](std::size_t i) HWY_ATTR {
-      return hn::MulAdd(constant(m0[i].hi), u,
-                        hn::MulAdd(constant(m1[i].hi), v, constant(m2[i].hi)));
+      return hn::MulAdd(constant(columns[0][i].hi), u,
+                        hn::MulAdd(constant(columns[1][i].hi), v, constant(columns[2][i].hi)));
     };
     d = {coordinate(0), coordinate(1), coordinate(2)};
   }
