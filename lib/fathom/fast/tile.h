@@ -172,11 +172,9 @@ class Tile {
     end_of_front_ = draws_back_faces_ ? 0 : places_;
     draws_back_faces_ = true;
   }
-  /// Whether a sample certainly shows a surface that was drawn before the first of them. Not known
-  /// where surfaces have been numbered anew since, or front faces been drawn.
-  [[nodiscard]] bool shows_front(std::size_t i) const {
-    return shows_surface(i) && place_of(tags_[i]) < end_of_front_;
-  }
+  /// Samples whose surface has a place below this certainly show one that was drawn before the first
+  /// back face. None is known where surfaces have been numbered anew since, or front faces been drawn.
+  [[nodiscard]] std::uint32_t end_of_front() const { return end_of_front_; }
 
   // For the vector code.
   static constexpr std::uint32_t place_of(LaneTag tag) { return tag & 0xFFFF; }

@@ -15,16 +15,12 @@ double in_square(double x) {
 }
 
 /// The integral of the length right of the leftmost edge, up to the next, within the square.
-double area_between(const SquareEdges& edges) {
-  return edges.integrate([&](double height) {
-    std::vector<double> crossings;
-    for (const SquareEdges::Edge& e : edges.edges()) {
-      if (e.low <= height && height <= e.high) crossings.push_back(e.at(height));
-    }
-    std::sort(crossings.begin(), crossings.end());
+double area_between(SquareEdges& edges) {
+  return edges.integrate([](const SquareEdges::Slab& slab) {
     double length = 0;
-    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      length += in_square(crossings[i + 1]) - in_square(crossings[i]);
+    for (std::size_t i = 0; i < slab.crossings.size(); i += 2) {
+      const auto rest = slab.crossings.subspan(i);
+      length += in_square(rest.size() > 1 ? rest[1].x : 1) - in_square(rest[0].x);
     }
     return length;
   });
@@ -36,11 +32,10 @@ SquareEdges triangle(const SquarePoint& a, const SquarePoint& b, const SquarePoi
   edges.add(a, b, 0);
   edges.add(b, c, 1);
   edges.add(c, a, 2);
-  edges.cut(false);
   return edges;
 }
 
-void expect_area(const SquareEdges& edges, double expected) {
+void expect_area(SquareEdges edges, double expected) {
   EXPECT_NEAR(area_between(edges), expected, edges.error_of(6));
   EXPECT_LT(edges.error_of(6), 1e-11);
 }
@@ -60,31 +55,42 @@ TEST(SquareEdges, ACrossingDividesASlab) {
   edges.clear();
   edges.add({0, 0}, {1, 1}, 0);
   edges.add({1, 0}, {0, 1}, 1);
-  edges.cut(false);
   expect_area(edges, 0.5);
-  // With one tag they are taken not to cross, and the slab stays whole: its middle has no length.
-  SquareEdges together;
-  together.clear();
-  together.add({0, 0}, {1, 1}, 5);
-  together.add({1, 0}, {0, 1}, 5);
-  together.cut(true);
-  EXPECT_NEAR(area_between(together), 0, 1e-12);
 }
 
 TEST(SquareEdges, LevelEdgesDivideToo) {
   SquareEdges edges;
   edges.clear();
   edges.add({-3, 0.25}, {5, 0.25}, 0);
-  edges.cut(false);
   // A length that jumps at the height of the edge is integrated exactly.
-  const double area = edges.integrate([](double height) { return height > 0.25 ? 1.0 : 0.0; });
+  const double area =
+      edges.integrate([](const SquareEdges::Slab& slab) { return slab.middle > 0.25 ? 1.0 : 0.0; });
   EXPECT_EQ(area, 0.75);
+}
+
+/// What grows by a tag from the left of an edge to its right, followed along the left side.
+TEST(SquareEdges, TheLeftSideIsFollowed) {
+  SquareEdges edges;
+  edges.clear();
+  edges.add({0.5, 0.125}, {-0.5, 0.375}, 3);   // at height 0.25 to the left
+  edges.add({-0.5, 0.375}, {0.5, 0.625}, 5);   // at height 0.5 to the right
+  edges.add({-1, 0.75}, {2, 0.75}, 7);         // level, from the upper end, at 2, to the left
+  edges.add({-0.5, 0.875}, {0, 0.9375}, 11);   // to x = 0, which is on the right
+  edges.add({0, 0.9375}, {0.25, 0.96875}, 1);  // and on
+  std::vector<std::int32_t> found;
+  edges.for_each_slab([&](const SquareEdges::Slab& slab) {
+    if (found.empty() || found.back() != slab.passed) found.push_back(slab.passed);
+    return true;
+  });
+  EXPECT_EQ(found, (std::vector<std::int32_t>{0, 3, -2, 5, -6}));
+  int visits = 0;
+  edges.for_each_slab([&](const SquareEdges::Slab&) { return ++visits < 2; });
+  EXPECT_EQ(visits, 2);
 }
 
 TEST(SquareEdges, ClearForgets) {
   SquareEdges edges = triangle({0, 0}, {1, 0}, {0, 1});
   edges.clear();
-  edges.cut(false);
   EXPECT_TRUE(edges.edges().empty());
   EXPECT_EQ(area_between(edges), 0);
 }

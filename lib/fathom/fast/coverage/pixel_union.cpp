@@ -4,16 +4,8 @@
 #include <cmath>
 
 #include "fathom/fast/coverage/area_bounds.h"
-#include "fathom/fast/vertex.h"
 
 namespace fathom::fast {
-namespace {
-
-double within_square(double x) {
-  return x < 0 ? 0 : x > 1 ? 1 : x;
-}
-
-}  // namespace
 
 void PixelUnion::clear() {
   edges_.clear();
@@ -29,38 +21,26 @@ void PixelUnion::add(std::span<const SquarePoint> corners, double area_error) {
   ++polygons_;
 }
 
-// The measure of a union of spans changes by no more than one of its ends is moved.
-double PixelUnion::length_at(double height) {
-  constexpr Span none{2, -1};
-  of_polygon_.assign(static_cast<std::size_t>(polygons_), none);
-  for (const SquareEdges::Edge& edge : edges_.edges()) {
-    if (!(edge.low < height && height < edge.high)) continue;
-    const double x = within_square(edge.at(height));
-    Span& span = of_polygon_[static_cast<std::size_t>(edge.tag)];
-    span.left = std::min(span.left, x);
-    span.right = std::max(span.right, x);
+// A line crosses the boundary of each polygon twice or not at all; between the two it is inside. The
+// measure of a union of spans changes by no more than one of its ends is moved.
+double PixelUnion::covered_length(std::span<const SquareEdges::Crossing> crossings) {
+  is_inside_.assign(static_cast<std::size_t>(polygons_), false);
+  double length = 0, left = 0;
+  int number = 0;
+  for (const SquareEdges::Crossing& crossing : crossings) {
+    const double right = std::clamp(crossing.x, 0.0, 1.0);
+    if (number > 0) length += right - left;
+    left = right;
+    char& is_inside = is_inside_[static_cast<std::size_t>(crossing.tag)];
+    number += is_inside ? -1 : 1;
+    is_inside = !is_inside;
   }
-  spans_.clear();
-  for (const Span& span : of_polygon_) {
-    if (!(span.left < span.right)) continue;
-    if (span.left == 0 && span.right == 1) return 1;
-    auto place = spans_.end();
-    while (place != spans_.begin() && std::prev(place)->left > span.left) --place;
-    spans_.insert(place, span);
-  }
-  double length = 0, reached = 0;
-  for (const Span& span : spans_) {
-    if (span.right <= reached) continue;
-    length += span.right - std::max(span.left, reached);
-    reached = span.right;
-  }
-  return length;
+  return number > 0 ? length + (1 - left) : length;
 }
 
-// A line crosses the boundary of each polygon at most twice.
 Interval PixelUnion::area() {
-  edges_.cut(true);
-  const double sum = edges_.integrate([&](double height) { return length_at(height); });
+  const double sum = edges_.integrate(
+      [&](const SquareEdges::Slab& slab) { return covered_length(slab.crossings); });
   const double bound =
       (error_ + edges_.error_of(2 * static_cast<std::size_t>(polygons_))) * (1 + 0x1p-20);
   return {std::max(sum - bound, 0.0), std::min(sum + bound, 1.0)};

@@ -24,13 +24,11 @@ class PixelUnion {
   Interval area();
 
  private:
-  [[nodiscard]] double length_at(double height);
+  double covered_length(std::span<const SquareEdges::Crossing> crossings);
 
-  struct Span {
-    double left, right;
-  };
   SquareEdges edges_;
-  std::vector<Span> of_polygon_, spans_;
+  /// Whether the line that is followed is inside each polygon.
+  std::vector<char> is_inside_;
   std::int32_t polygons_ = 0;
   double error_ = 0;
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "fathom/fast/coverage/area_bounds.h"
-#include "fathom/fast/vertex.h"
 
 // Let the corners of all triangles go straight from their exact to their computed places, by at
 // most ε in each coordinate. At the start the sum of the triangles' winding numbers around a point
@@ -12,6 +11,12 @@
 // Within the square such a strip has an area of at most 2√2·ε·(√2 + 2√2·ε) ≤ 4.1ε. Everywhere else
 // the winding number of the computed edges is the exact number of triangles; in particular at a
 // point where that number is certain for all points within ε.
+//
+// From there it follows everywhere else. Let each edge be bent so that it passes the middles of slabs
+// where its crossings are computed: that moves it by at most ξ, and no end. The number just to the
+// left of x = 0 changes from one middle to another exactly where bent edges pass it in between, and
+// along a middle at the crossings as computed. The point of which the number is known is more than
+// 2ξ away from any crossing, so it has the same number with bent edges.
 //
 // The length of the points with a positive winding number changes by no more than a crossing is
 // moved, and crossings at the same place may come in any order: square_edges.h.
@@ -41,46 +46,45 @@ void PixelWinding::add(const SquarePoint& from, const SquarePoint& to, double po
 }
 
 // With x to the right and y downwards, a triangle of positive area lies to the left of its edges
-// that go down and to the right of those that go up.
+// that go down and to the right of those that go up. An edge with both ends beyond the left side
+// bounds no length in the square, and never passes that side.
 void PixelWinding::set_edges() {
   edges_.clear();
   for (const auto& [first, second, times] : added_) {
-    if (times != 0) edges_.add(first, second, first.y < second.y ? -times : times);
+    if (times == 0 || (first.x < 0 && second.x < 0)) continue;
+    edges_.add(first, second, first.y < second.y ? -times : times);
   }
 }
 
-void PixelWinding::find_crossings(double height) {
-  crossings_.clear();
-  for (const SquareEdges::Edge& edge : edges_.edges()) {
-    if (!(edge.low < height && height < edge.high)) continue;
-    const Crossing crossing{std::clamp(edge.at(height), 0.0, 1.0), edge.tag};
-    auto place = crossings_.end();
-    while (place != crossings_.begin() && std::prev(place)->x > crossing.x) --place;
-    crossings_.insert(place, crossing);
-  }
-}
-
-PixelWinding::Gap PixelWinding::widest_gap() const {
+PixelWinding::Gap PixelWinding::widest_gap(Crossings crossings) {
   Gap widest{0, 0, -1};
   double left = 0;
-  for (std::size_t i = 0; i <= crossings_.size(); ++i) {
-    const double right = i == crossings_.size() ? 1 : crossings_[i].x;
+  for (std::size_t i = 0; i <= crossings.size(); ++i) {
+    const double right = i == crossings.size() ? 1 : std::clamp(crossings[i].x, 0.0, 1.0);
     if (right - left > widest.width) widest = {i, left, right - left};
     left = right;
   }
   return widest;
 }
 
-double PixelWinding::covered_length(std::size_t known, int number) const {
-  for (std::size_t i = 0; i < known; ++i) number -= crossings_[i].change;
+int PixelWinding::number_at_side(Crossings crossings, const Gap& gap, int number) {
+  for (const SquareEdges::Crossing& crossing : crossings.first(gap.place)) {
+    if (!crossing.is_left) number -= crossing.tag;
+  }
+  return number;
+}
+
+double PixelWinding::covered_length(Crossings crossings, int number_at_side) {
+  int number = number_at_side;
   double length = 0, left = 0;
-  for (std::size_t i = 0; i <= crossings_.size(); ++i) {
-    const double right = i == crossings_.size() ? 1 : crossings_[i].x;
+  for (const SquareEdges::Crossing& crossing : crossings) {
+    if (crossing.is_left) continue;
+    const double right = std::min(crossing.x, 1.0);
     if (number > 0) length += right - left;
-    if (i < crossings_.size()) number += crossings_[i].change;
+    number += crossing.tag;
     left = right;
   }
-  return length;
+  return number > 0 ? length + (1 - left) : length;
 }
 
 Interval PixelWinding::enclose(double sum) const {

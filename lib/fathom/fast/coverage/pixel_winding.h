@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "fathom/fast/coverage/square_edges.h"
@@ -8,8 +9,8 @@
 namespace fathom::fast {
 
 /// The area within the unit square of the points that at least one triangle covers, from the edges
-/// across which the number of covering triangles changes (EdgeBalance) and that number at a point
-/// of each slab (square_edges.h), in binary64 with a bound.
+/// across which the number of covering triangles changes (EdgeBalance) and that number at one point
+/// of the square, in binary64 with a bound.
 class PixelWinding {
  public:
   void clear();
@@ -22,26 +23,23 @@ class PixelWinding {
 
   /// An interval that contains the area, within [0, 1]. `count(point)` is the number of triangles
   /// that cover a point of the square, if it is certain that it is the same for all points within
-  /// the position errors around it; otherwise negative. If it is negative at several points,
-  /// nothing is known about the area ({0, 1}).
+  /// the position errors around it; otherwise negative. If it is negative at several points of
+  /// each slab, nothing is known about the area ({0, 1}).
   template <class Count>
   Interval area(const Count& count);
 
  private:
-  struct Crossing {
-    double x;
-    int change;  // of the number, from left to right
-  };
-  /// Crossings of a horizontal line in order, between the square's sides.
-  void find_crossings(double height);
+  using Crossings = std::span<const SquareEdges::Crossing>;
   /// Between crossings: to the left of number `place`, or to the right of all.
   struct Gap {
     std::size_t place;
     double left, width;
   };
-  [[nodiscard]] Gap widest_gap() const;
-  /// Length of the gaps where the number is positive; it is `number` in gap `known`.
-  [[nodiscard]] double covered_length(std::size_t known, int number) const;
+  static Gap widest_gap(Crossings crossings);
+  /// The number at the left side of the square, from that in a gap.
+  static int number_at_side(Crossings crossings, const Gap& gap, int number);
+  /// The length where the number is positive.
+  static double covered_length(Crossings crossings, int number_at_side);
   [[nodiscard]] Interval enclose(double sum) const;
   void set_edges();
 
@@ -52,28 +50,31 @@ class PixelWinding {
   };
   std::vector<Added> added_;
   SquareEdges edges_;
-  std::vector<Crossing> crossings_;
   double error_ = 0;
 };
 
 template <class Count>
 Interval PixelWinding::area(const Count& count) {
   set_edges();
-  edges_.cut(false);
-  bool known = true;
-  const double sum = edges_.integrate([&](double height) {
-    if (!known) return 0.0;
-    find_crossings(height);
-    const Gap gap = widest_gap();
+  int at_top = -1;
+  bool known = false;
+  edges_.for_each_slab([&](const SquareEdges::Slab& slab) {
+    const Gap gap = widest_gap(slab.crossings);
+    // All points below are farther than 2ξ from any crossing.
+    if (gap.width < 8 * edges_.crossing_error()) return true;
     // Not the middle: edges of regular meshes pass through it.
     for (const double share : {0.4142, 0.6180, 0.2679}) {
-      const int number = count(SquarePoint{gap.left + gap.width * share, height});
-      if (number >= 0) return covered_length(gap.place, number);
+      const int number = count(SquarePoint{gap.left + gap.width * share, slab.middle});
+      known = number >= 0;
+      at_top = number_at_side(slab.crossings, gap, number) - slab.passed;
+      if (known) return false;
     }
-    known = false;
-    return 0.0;
+    return true;
   });
-  return known ? enclose(sum) : Interval{0, 1};
+  if (!known) return {0, 1};
+  return enclose(edges_.integrate([&](const SquareEdges::Slab& slab) {
+    return covered_length(slab.crossings, at_top + slab.passed);
+  }));
 }
 
 }  // namespace fathom::fast

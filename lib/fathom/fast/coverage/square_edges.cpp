@@ -4,9 +4,33 @@
 #include <cmath>
 
 #include "fathom/fast/coverage/area_bounds.h"
-#include "fathom/fast/vertex.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::fast {
+namespace {
+
+/// Sorts numbers, or what is nearly in order; visit(a, b) for each two that change places, a having
+/// been before b.
+template <class Items, class Key, class Visit>
+void sort_by(Items& items, const Key& key, const Visit& visit) {
+  for (std::size_t i = 1; i < items.size(); ++i) {
+    if (!(key(items[i]) < key(items[i - 1]))) continue;
+    const auto item = items[i];
+    std::size_t place = i;
+    for (; place > 0 && key(item) < key(items[place - 1]); --place) {
+      visit(items[place - 1], item);
+      items[place] = items[place - 1];
+    }
+    items[place] = item;
+  }
+}
+
+template <class Items, class Key>
+void sort_by(Items& items, const Key& key) {
+  sort_by(items, key, [](const auto&, const auto&) {});
+}
+
+}  // namespace
 
 void SquareEdges::clear() {
   edges_.clear();
@@ -14,13 +38,15 @@ void SquareEdges::clear() {
   extent_ = 1;
 }
 
+// An edge that is level, or nearly, passes x = 0 where it is, at once; its end at q counts as the
+// upper one if they have the same height.
 void SquareEdges::add(const SquarePoint& p, const SquarePoint& q, std::int32_t tag) {
   const SquarePoint& lower = p.y < q.y ? p : q;
   const SquarePoint& upper = p.y < q.y ? q : p;
   if (lower.y >= 1 || upper.y <= 0) return;
   if (upper.y - lower.y < 0x1p-60) {
-    level_.push_back(std::max(lower.y, 0.0));
-    level_.push_back(std::min(upper.y, 1.0));
+    const std::int32_t passed = (upper.x < 0 ? tag : 0) - (lower.x < 0 ? tag : 0);
+    level_.push_back({std::max(lower.y, 0.0), std::min(upper.y, 1.0), passed});
     return;
   }
   extent_ = std::max({extent_, std::abs(p.x), std::abs(q.x)});
@@ -33,44 +59,96 @@ void SquareEdges::add(const SquarePoint& p, const SquarePoint& q, std::int32_t t
   edge.x_low = lower.y >= 0 ? lower.x : edge.at(0);
   edge.x_high = upper.y <= 1 ? upper.x : edge.at(1);
   edge.tag = tag;
+  // Beyond the right side all the way it bounds no length in the square, and never passes x = 0.
+  if (std::min(edge.x_low, edge.x_high) >= 1) return;
   edges_.push_back(edge);
 }
 
-void SquareEdges::add_crossing(const Edge& a, const Edge& b) {
-  const double low = std::max(a.low, b.low), high = std::min(a.high, b.high);
-  if (!(low < high)) return;
-  const double d_low = (low == a.low ? a.x_low : a.at(low)) - (low == b.low ? b.x_low : b.at(low));
-  const double d_high =
-      (high == a.high ? a.x_high : a.at(high)) - (high == b.high ? b.x_high : b.at(high));
-  if ((d_low < 0) == (d_high < 0) || d_low == 0 || d_high == 0) return;
-  breaks_.push_back(low + (high - low) * (d_low / (d_low - d_high)));
-}
-
-void SquareEdges::cut(bool tags_apart) {
-  const Edge left{0, 0, 0, 0, 1, 0, 0, 0}, right{1, 0, 0, 0, 1, 1, 1, 0};
+void SquareEdges::start() {
+  passed_ = 0;
+  slabs_ = next_edge_ = next_level_ = 0;
+  crossings_.clear();
+  waiting_.clear();
   breaks_.assign({0, 1});
-  breaks_.insert(breaks_.end(), level_.begin(), level_.end());
-  inside_.clear();
   for (const Edge& edge : edges_) {
-    breaks_.push_back(edge.low);
-    breaks_.push_back(edge.high);
-    // Beyond a side all the way: equivalent to the side itself.
-    if (std::max(edge.x_low, edge.x_high) <= 0 || std::min(edge.x_low, edge.x_high) >= 1) continue;
-    add_crossing(edge, left);
-    add_crossing(edge, right);
-    for (const Edge* other : inside_) {
-      if (!tags_apart || other->tag != edge.tag) add_crossing(edge, *other);
-    }
-    inside_.push_back(&edge);
+    waiting_.push_back(&edge);
+    if (edge.low > 0) breaks_.push_back(edge.low);
+    if (edge.high < 1) breaks_.push_back(edge.high);
   }
+  for (const Level& level : level_) breaks_.insert(breaks_.end(), {level.low, level.high});
+  std::sort(waiting_.begin(), waiting_.end(),
+            [](const Edge* a, const Edge* b) { return a->low < b->low; });
+  std::sort(level_.begin(), level_.end(),
+            [](const Level& a, const Level& b) { return a.low < b.low; });
   std::sort(breaks_.begin(), breaks_.end());
   breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
 }
 
+/// To the heights between two breaks: leaves out the edges that end, and takes those that begin.
+void SquareEdges::enter(double low, double high) {
+  std::size_t kept = 0;
+  for (Crossing& crossing : crossings_) {
+    const Edge& edge = *crossing.edge;
+    if (edge.high <= low) {
+      look_at_side(crossing, edge.x_high < 0);
+      continue;
+    }
+    crossing.x_low = crossing.x_high;
+    crossings_[kept++] = crossing;
+  }
+  crossings_.resize(kept);
+  for (; next_level_ < level_.size() && level_[next_level_].low <= low; ++next_level_) {
+    passed_ += level_[next_level_].passed;
+  }
+  for (; next_edge_ < waiting_.size() && waiting_[next_edge_]->low <= low; ++next_edge_) {
+    const Edge& edge = *waiting_[next_edge_];
+    crossings_.push_back({edge.x_low, edge.tag, edge.x_low < 0, &edge, edge.x_low, 0});
+  }
+  for (Crossing& crossing : crossings_) {
+    const Edge& edge = *crossing.edge;
+    crossing.x_high = edge.high == high ? edge.x_high : edge.at(high);
+  }
+}
+
+void SquareEdges::add_cut(double low, double high, double d_low, double d_high) {
+  if ((d_low < 0) == (d_high < 0) || d_low == 0 || d_high == 0) return;
+  cuts_.push_back(low + (high - low) * (d_low / (d_low - d_high)));
+}
+
+// Two crossings change places exactly once while what was sorted by x at one height is sorted by
+// that at another. Where they do so beyond a side of the square, that bounds no length in it.
+void SquareEdges::find_cuts(double low, double high) {
+  cuts_.clear();
+  for (const Crossing& c : crossings_) {
+    add_cut(low, high, c.x_low, c.x_high);
+    add_cut(low, high, c.x_low - 1, c.x_high - 1);
+  }
+  sort_by(crossings_, [](const Crossing& c) { return c.x_low; });
+  const auto cross = [&](const Crossing& a, const Crossing& b) {
+    const bool is_left = std::max({a.x_low, a.x_high, b.x_low, b.x_high}) <= 0;
+    const bool is_right = std::min({a.x_low, a.x_high, b.x_low, b.x_high}) >= 1;
+    if (!is_left && !is_right) add_cut(low, high, a.x_low - b.x_low, a.x_high - b.x_high);
+  };
+  sort_by(
+      crossings_, [](const Crossing& c) { return c.x_high; }, cross);
+  std::sort(cuts_.begin(), cuts_.end());
+}
+
+void SquareEdges::move_to(double height) {
+  for (Crossing& crossing : crossings_) {
+    crossing.x = crossing.edge->at(height);
+    look_at_side(crossing, crossing.x < 0);
+  }
+  sort_by(crossings_, [](const Crossing& c) { return c.x; });
+}
+
 double SquareEdges::error_of(std::size_t crossings) const {
-  const double xi = area_bounds::crossing_error * extent_;
-  return 10 * static_cast<double>(crossings + 2) * xi +
-         32 * unit_roundoff<double> * static_cast<double>(breaks_.size());
+  return 10 * static_cast<double>(crossings + 2) * crossing_error() +
+         32 * unit_roundoff<double> * static_cast<double>(slabs_ + 1);
+}
+
+double SquareEdges::crossing_error() const {
+  return area_bounds::crossing_error * extent_;
 }
 
 }  // namespace fathom::fast

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace fathom::fast {
@@ -9,20 +11,21 @@ struct SquarePoint {
   double x, y;
 };
 
-/// Line segments that cross the unit square, cut into slabs of heights within which none of them
-/// ends and, except for rounding, no two cross each other or a side of the square. There, a length
-/// along a horizontal line that depends on the order of the crossings is linear in the height.
+/// Line segments that cross the unit square, swept from top to bottom in slabs: heights within which
+/// none of them ends and, except for rounding, no two cross each other or a side of the square.
+/// There, a length along a horizontal line that depends on the order of the crossings is linear in
+/// the height.
 ///
 /// Let X ≥ 1 bound the x of the segments' ends, and u be the unit roundoff.
 /// 1. x at a height y of an edge is computed as x₀ + (y − y₀)·s with s = (x₁ − x₀)/(y₁ − y₀), y
 ///    between y₀ and y₁. s has a relative error of 3.01u, the difference u, the product u, together
 ///    5.1u·|x₁ − x₀| ≤ 10.2uX, and the sum 3uX more: ξ = 16uX covers it.
-/// 2. Breaks at ends are exact. Where the computed distance of two edges has opposite signs at the
-///    ends of their common heights, a break is set where the linear interpolation of these two
-///    distances vanishes. The true distance differs from that by at most 2ξ everywhere, so it is at
-///    most 2ξ at that place, which is computed with an error of at most 8u. Where the signs are not
-///    opposite, the distance does not fall below −2ξ on the other side. The same holds for an edge
-///    and a side of the square.
+/// 2. Breaks at ends are exact. Where the computed distance of two edges has opposite signs at two
+///    successive ends, a break is set where the linear interpolation of these two distances
+///    vanishes. The true distance differs from that by at most 2ξ everywhere, so it is at most 2ξ at
+///    that place, which is computed with an error of at most 8u. Where the signs are not opposite,
+///    the distance does not fall below −2ξ on the other side. The same holds for an edge and a side
+///    of the square.
 /// 3. So in a slab, except for the 8u at its two ends, any two crossings whose order is somewhere
 ///    different from that at mid-height differ there by at most 4ξ. Sorting them as at mid-height
 ///    moves each by at most 4ξ (running maximum).
@@ -44,37 +47,101 @@ class SquareEdges {
     std::int32_t tag;
     [[nodiscard]] double at(double height) const { return x + (height - y) * slope; }
   };
+  /// Where an edge crosses the middle of a slab.
+  struct Crossing {
+    double x;
+    std::int32_t tag;
+    /// x < 0.
+    bool is_left;
+    // For the sweep: the edge, and its x at the two breaks around the slab.
+    const Edge* edge;
+    double x_low, x_high;
+  };
+  struct Slab {
+    double thickness, middle;
+    /// In the order of their x.
+    std::span<const Crossing> crossings;
+    /// On the way here from the top: the sum of the tags of edges that have come from the right to
+    /// the left of x = 0, less those that have gone from the left to the right. If a tag says by how
+    /// much something that depends on the point grows from the left of the edge to its right, then
+    /// it has grown by so much at x = 0 (at the left of it, as far as edges pass through it).
+    std::int32_t passed;
+  };
 
   void clear();
   /// A segment between points that may lie outside the square. The tag is for the caller's use.
   void add(const SquarePoint& p, const SquarePoint& q, std::int32_t tag);
-  /// To be called after the last edge. If `tags_apart`, edges with the same tag do not cross.
-  void cut(bool tags_apart);
 
+  /// Those that are neither level nor certainly outside the square.
   [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
-  /// Sum over the slabs of height times length(height in the middle).
+  /// Calls visit(Slab) for one after another, as long as it returns true.
+  template <class Visit>
+  void for_each_slab(const Visit& visit);
+  /// The sum over the slabs of thickness times length(Slab).
   template <class Length>
-  double integrate(const Length& length) const {
-    double sum = 0;
-    for (std::size_t i = 0; i + 1 < breaks_.size(); ++i) {
-      const double low = breaks_[i], high = breaks_[i + 1];
-      const double middle = low + (high - low) / 2;
-      if (low < middle && middle < high) sum += (high - low) * length(middle);
-    }
-    return sum;
-  }
-  /// The error of integrate() if a horizontal line crosses at most so many edges.
+  double integrate(const Length& length);
+  /// The error of the integrate() before if a horizontal line crosses at most so many edges.
   [[nodiscard]] double error_of(std::size_t crossings) const;
+  /// ξ.
+  [[nodiscard]] double crossing_error() const;
 
  private:
-  void add_crossing(const Edge& a, const Edge& b);
+  struct Level {
+    double low, high;
+    std::int32_t passed;
+  };
+  void start();
+  void enter(double low, double high);
+  void find_cuts(double low, double high);
+  void add_cut(double low, double high, double d_low, double d_high);
+  void move_to(double height);
+  void look_at_side(Crossing& crossing, bool is_left) {
+    if (crossing.is_left == is_left) return;
+    passed_ += is_left ? crossing.tag : -crossing.tag;
+    crossing.is_left = is_left;
+  }
 
   std::vector<Edge> edges_;
-  std::vector<const Edge*> inside_;
-  /// Heights of the ends of edges that are left out.
-  std::vector<double> level_;
-  std::vector<double> breaks_;
+  std::vector<Level> level_;
   double extent_ = 1;
+  // For the sweep:
+  std::vector<const Edge*> waiting_;
+  std::vector<double> breaks_;
+  std::size_t next_edge_ = 0, next_level_ = 0;
+  std::vector<Crossing> crossings_;
+  std::vector<double> cuts_;
+  std::int32_t passed_ = 0;
+  std::size_t slabs_ = 0;
 };
+
+template <class Visit>
+void SquareEdges::for_each_slab(const Visit& visit) {
+  start();
+  for (std::size_t i = 0; i + 1 < breaks_.size(); ++i) {
+    double low = breaks_[i];
+    const double end = breaks_[i + 1];
+    enter(low, end);
+    find_cuts(low, end);
+    slabs_ += 1 + cuts_.size();
+    for (std::size_t k = 0; k <= cuts_.size(); ++k) {
+      const double high = k < cuts_.size() ? cuts_[k] : end, middle = low + (high - low) / 2;
+      if (low < middle && middle < high) {
+        move_to(middle);
+        if (!visit(Slab{high - low, middle, crossings_, passed_})) return;
+      }
+      low = high;
+    }
+  }
+}
+
+template <class Length>
+double SquareEdges::integrate(const Length& length) {
+  double sum = 0;
+  for_each_slab([&](const Slab& slab) {
+    sum += slab.thickness * length(slab);
+    return true;
+  });
+  return sum;
+}
 
 }  // namespace fathom::fast

@@ -20,27 +20,24 @@ constexpr std::size_t most_edges = 400;
 void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile::Context& context,
                          float* values, std::uint32_t image_width) {
   area_ = tile.area();
-  look_at_samples(tile);
+  // The number of triangles that cover a point is the same throughout the inside of a pixel that is
+  // not open, and at its sample it is 0 exactly where no surface is seen.
+  look_at_samples(tile, shown_, front_);
+  settled_.clear();
   settle(tile_number, context);
   const std::uint32_t columns = area_.last_column - area_.first_column + 1;
+  auto next = settled_.begin();
+  MapRow<float> row_values;
   for (std::uint32_t row = area_.first_row; row <= area_.last_row; ++row) {
-    scene_.rows.write(values_[row - area_.first_row], columns,
+    const std::uint32_t tile_row = row - area_.first_row;
+    to_coverage(shown_[tile_row], row_values);
+    for (; next != settled_.end() && next->pixel / size == tile_row; ++next) {
+      row_values[next->pixel % size] = next->value;
+    }
+    scene_.rows.write(row_values, columns,
                       values + std::size_t{row} * image_width + area_.first_column);
   }
   scene_.rows.finish();
-}
-
-// The number of triangles that cover a point is the same throughout the inside of a pixel that is
-// not open, and at its sample it is 0 exactly where no surface is seen: this is the value there.
-void TileCoverage::look_at_samples(const Tile& tile) {
-  for (std::uint32_t row = 0; row < size; ++row) {
-    front_[row] = 0;
-    for (std::uint32_t column = 0; column < size; ++column) {
-      const std::size_t i = Tile::index(column, row);
-      values_[row][column] = tile.shows_surface(i) ? 1.0F : 0.0F;
-      front_[row] |= std::uint64_t{tile.shows_front(i)} << column;
-    }
-  }
 }
 
 // The number of front faces is the same, too, throughout a pixel that they do not open, and not 0
@@ -81,8 +78,9 @@ TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_
   if (classes_[i].kind == CoverageClass::negative) std::swap(B, C);
   const auto edges =
       edges_over_tile({object.vertices[A], object.vertices[B], object.vertices[C]}, area_);
-  Shape shape{.triangle = static_cast<std::uint32_t>(i), .is_open = false, .sides = {}, .count = 3};
-  std::copy(edges.begin(), edges.end(), shape.sides.begin());
+  Shape shape{
+      .triangle = static_cast<std::uint32_t>(i), .is_open = false, .functions = {}, .count = 3};
+  std::copy(edges.begin(), edges.end(), shape.functions.begin());
   return shape;
 }
 
@@ -94,22 +92,26 @@ TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context
 }
 
 void TileCoverage::meet(const TileBox& box, const Shape& shape) {
+  constexpr int wide = 6;
   shapes_.push_back(shape);
-  for (int row = box.top; row <= box.bottom; ++row) {
-    std::uint64_t& open_row = open_[static_cast<std::size_t>(row)];
-    std::uint64_t bits = open_row & columns_between(box.left, box.right);
+  TileRows may_be_met;
+  const bool is_wide = box.right - box.left >= wide;
+  if (is_wide) find_pixels_met(shape.sides(), box, may_be_met);
+  for (int top = box.top; top <= box.bottom; ++top) {
+    const auto row = static_cast<std::size_t>(top);
+    std::uint64_t bits =
+        open_[row] & (is_wide ? may_be_met[row] : columns_between(box.left, box.right));
     for (; bits != 0; bits &= bits - 1) {
       const int column = std::countr_zero(bits);
       bool inside = true, outside = false;
-      for (std::size_t k = 0; k < shape.count; ++k) {
-        const UncertainHalfPlane& side = shape.sides[k];
-        const auto [least, greatest] = values_in_pixel(side, column, row);
+      for (const UncertainHalfPlane& side : shape.sides()) {
+        const auto [least, greatest] = values_in_pixel(side, column, top);
         inside = inside && least > side.error;
         outside = outside || greatest < -side.error;
       }
       if (inside) {
-        open_row &= ~(std::uint64_t{1} << column);
-        met_[static_cast<std::size_t>(row)] |= std::uint64_t{1} << column;
+        open_[row] &= ~(std::uint64_t{1} << column);
+        met_[row] |= std::uint64_t{1} << column;
       } else if (!outside) {
         shapes_at_.add(static_cast<std::uint32_t>(row) * size + static_cast<std::uint32_t>(column),
                        shapes_.size() - 1);
@@ -148,54 +150,50 @@ void TileCoverage::settle_open(const Tile::Context& context) {
   for (std::size_t row = 0; row < size; ++row) {
     context.statistics.coverage_rounding.interval +=
         static_cast<std::uint64_t>(std::popcount(met_[row]));
-    for (std::uint64_t bits = met_[row]; bits != 0; bits &= bits - 1) {
-      values_[row][static_cast<std::size_t>(std::countr_zero(bits))] = 1;
-    }
+    shown_[row] |= met_[row];
     for (std::uint64_t bits = open_[row]; bits != 0; bits &= bits - 1) {
-      const auto column = static_cast<std::uint32_t>(std::countr_zero(bits));
-      values_[row][column] = settle_pixel(static_cast<std::uint32_t>(row) * size + column, context);
+      const auto pixel = static_cast<std::uint32_t>(row) * size +
+                         static_cast<std::uint32_t>(std::countr_zero(bits));
+      settled_.push_back({pixel, settle_pixel(pixel, context)});
     }
   }
 }
 
 // Rounded once, so within u·|x|.
-SquarePoint TileCoverage::exact_corner(const ImageObject& object, const ImageVertex& vertex,
+SquarePoint TileCoverage::exact_corner(const ImageObject& object, std::uint32_t vertex,
                                        std::uint32_t pixel) const {
   const TriangleSource& triangles = scene_.frame.triangles;
   const Object& its_object = triangles.objects()[triangles.origin(object.first_number).object];
-  const MeshPoint& p =
-      object.mesh.vertices[static_cast<std::size_t>(&vertex - object.vertices.get())];
   const Camera& camera = scene_.frame.camera;
-  const auto [U, V, W] = to_image(camera, to_camera(camera, to_world(its_object, p)));
+  const auto [U, V, W] =
+      to_image(camera, to_camera(camera, to_world(its_object, object.mesh.vertices[vertex])));
   const std::uint32_t x = area_.first_column + pixel % size, y = area_.first_row + pixel / size;
   const Dyadic column = static_cast<double>(x), row = static_cast<double>(y);
   return {round_to_binary64(Ratio(U - column * W, W)), round_to_binary64(Ratio(V - row * W, W))};
 }
 
 Interval TileCoverage::area_between_edges(std::uint32_t pixel, Corners corners) {
-  const std::uint32_t x = pixel % size, y = pixel / size;
-  const double left = area_.first_column + x, top = area_.first_row + y;
+  const double x = pixel % size, y = pixel / size;
   winding_.clear();
   for (const std::uint32_t i : edges_at_.at(pixel)) {
-    const auto& [from, to, object, times] = unbalanced_[i];
-    SquarePoint p{from->u - left, from->v - top}, q{to->u - left, to->v - top};
-    double error = std::max(from->position_error(), to->position_error());
+    const UnbalancedEdge& edge = unbalanced_[i];
+    SquarePoint p{edge.from.x - x, edge.from.y - y}, q{edge.to.x - x, edge.to.y - y};
+    double error = edge.error;
     if (corners == Corners::exact) {
-      p = exact_corner(*object, *from, pixel);
-      q = exact_corner(*object, *to, pixel);
+      p = exact_corner(*edge.object, edge.from_vertex, pixel);
+      q = exact_corner(*edge.object, edge.to_vertex, pixel);
       error = 0;
     }
     const double extent =
         std::max({std::abs(p.x), std::abs(p.y), std::abs(q.x), std::abs(q.y), 1.0});
-    winding_.add(p, q, error + unit_roundoff<double> * extent, times);
+    winding_.add(p, q, error + unit_roundoff<double> * extent, edge.times);
     if (winding_.size() > most_edges) return {0, 1};
   }
   return winding_.area([&](const SquarePoint& point) {
     int number = 0;
     for (const std::uint32_t i : shapes_at_.at(pixel)) {
       bool inside = true, outside = false;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto& [a, b, c, error] = shapes_[i].sides[k];
+      for (const auto& [a, b, c, error] : shapes_[i].sides()) {
         const double f = c + a * (x + point.x) + b * (y + point.y);
         inside = inside && f > error;
         outside = outside || f < -error;
@@ -222,8 +220,7 @@ Interval TileCoverage::area_of_union(std::uint32_t pixel) {
 void TileCoverage::add_to_union(const Shape& shape, std::uint32_t x, std::uint32_t y) {
   if (shape.is_open) {
     ClippedSquare square;
-    for (std::size_t k = 0; k < shape.count; ++k) {
-      auto side = shape.sides[k];
+    for (UncertainHalfPlane side : shape.sides()) {
       side.c += side.a * x + side.b * y;
       square.clip(side);
     }

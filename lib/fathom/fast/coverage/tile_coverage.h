@@ -8,8 +8,10 @@
 #include "fathom/area/coverage.h"
 #include "fathom/fast/bins.h"
 #include "fathom/fast/coverage/edge_balance.h"
+#include "fathom/fast/coverage/edge_sieve.h"
 #include "fathom/fast/coverage/pixel_union.h"
 #include "fathom/fast/coverage/pixel_winding.h"
+#include "fathom/fast/coverage/tile_rows.h"
 #include "fathom/fast/tile.h"
 
 namespace fathom::fast {
@@ -20,13 +22,6 @@ enum class CoverageClass : std::uint8_t {
   positive,  // certainly Δ > 0; all of it in front of the camera and in the range
   negative,  // certainly Δ < 0; all of it in front of the camera and in the range
   open       // none of these
-};
-
-/// The pixels of a box within a tile, last ones included; empty where right < left or
-/// bottom < top.
-struct TileBox {
-  std::int16_t left, right, top, bottom;
-  [[nodiscard]] bool is_empty() const { return right < left || bottom < top; }
 };
 
 struct CoverageTriangle {
@@ -49,9 +44,9 @@ void classify_for_coverage(const ImageObject& object, std::span<const std::uint3
 /// two adjacent triangles (EdgeBalance). A pixel that no such edge meets is covered wholly or not
 /// at all, as its sample is, and one that a single triangle covers is covered wholly. That holds for
 /// front faces alone, too: where they are seen to cover a pixel, back faces need not be looked at,
-/// and in most tiles they do so everywhere. What is left is mostly silhouettes. There, the area between such edges counts (PixelWinding) or, where
-/// triangles are cut by the range of depths, the area of the union of what meets the pixel
-/// (PixelUnion). Where a bound does not settle the rounding, first the ends of the edges are
+/// and in most tiles they do so everywhere. What is left is mostly silhouettes. There, the area between
+/// such edges counts (PixelWinding) or, where triangles are cut by the range of depths, the area of
+/// the union of what meets the pixel (PixelUnion). Where a bound does not settle the rounding, first the ends of the edges are
 /// computed from exact numbers, and in the end the area.
 class TileCoverage {
  public:
@@ -70,15 +65,15 @@ class TileCoverage {
 
  private:
   static constexpr std::uint32_t size = Tile::size;
-  static std::uint64_t columns_between(int left, int right) {
-    return ~std::uint64_t{0} << left & ~std::uint64_t{0} >> (63 - right);
-  }
   /// A triangle by affine functions over the tile, (0, 0) its top left corner, positive inside.
   struct Shape {
     std::uint32_t triangle;  // index into numbers_
     bool is_open;
-    std::array<UncertainHalfPlane, 5> sides;
+    std::array<UncertainHalfPlane, 5> functions;
     std::uint32_t count = 0;
+    [[nodiscard]] std::span<const UncertainHalfPlane> sides() const {
+      return std::span(functions).first(count);
+    }
   };
   /// A shape or an edge that meets a pixel; pixels are numbered by rows of the tile.
   struct Meeting {
@@ -102,10 +97,14 @@ class TileCoverage {
     std::vector<std::uint32_t> sorted_;
     std::array<std::uint32_t, std::size_t{size} * size + 1> starts_;
   };
+  /// In pixels of the tile; the ends err by at most `error` in each coordinate, of which the
+  /// roundings of this are a part.
   struct UnbalancedEdge {
-    const ImageVertex *from, *to;
-    const ImageObject* object;
+    SquarePoint from, to;
+    double error;
     int times;
+    const ImageObject* object;
+    std::uint32_t from_vertex, to_vertex;
   };
 
   // tile_coverage_open.cpp: which pixels are open.
@@ -122,12 +121,14 @@ class TileCoverage {
   void find_open_pixels();
   std::vector<EdgeBalance::Edge>& edges_left_of(const ImageObject& object);
   void balance_edges_of(const ImageObject& object, std::size_t first, std::size_t end);
-  void add_edges(const ImageObject& object, std::size_t first, std::size_t end);
+  void sieve_edges(const ImageObject& object, std::size_t first, std::size_t end);
   void open_along(const ImageObject& object, const std::vector<EdgeBalance::Edge>& edges);
   template <class Visit>
   void for_each_row(const UnbalancedEdge& edge, const Visit& visit) const;
-  void open_where_it_may_be(const Shape& shape);
+  [[nodiscard]] UnbalancedEdge edge_of(const ImageObject& object,
+                                       const EdgeBalance::Edge& edge) const;
   void meet_edges();
+  [[nodiscard]] bool misses_tile(const ImageVertex& p, const ImageVertex& q) const;
   [[nodiscard]] TileBox box_of(const UnbalancedEdge& edge, double margin) const;
 
   // tile_coverage_full.cpp: which pixels one triangle covers wholly.
@@ -138,10 +139,8 @@ class TileCoverage {
   [[nodiscard]] bool misses_tile(const Shape& shape) const;
   void look_at_open(std::size_t begin, const Tile::Context& context);
   void fill_large(std::size_t begin);
-  void fill(const Shape& shape, const TileBox& box);
 
   // tile_coverage.cpp: settling them.
-  void look_at_samples(const Tile& tile);
   void settle(std::uint32_t tile_number, const Tile::Context& context);
   void meet_triangles();
   void meet(const TileBox& box, const Shape& shape);
@@ -156,7 +155,7 @@ class TileCoverage {
   float settle_pixel_exactly(std::uint32_t pixel, const Tile::Context& context);
   enum class Corners { computed, exact };
   [[nodiscard]] Interval area_between_edges(std::uint32_t pixel, Corners corners);
-  [[nodiscard]] SquarePoint exact_corner(const ImageObject& object, const ImageVertex& vertex,
+  [[nodiscard]] SquarePoint exact_corner(const ImageObject& object, std::uint32_t vertex,
                                          std::uint32_t pixel) const;
   [[nodiscard]] Interval area_of_union(std::uint32_t pixel);
   void add_to_union(const Shape& shape, std::uint32_t x, std::uint32_t y);
@@ -168,10 +167,16 @@ class TileCoverage {
   std::vector<CoverageTriangle> classes_;
   /// The object that was asked for last.
   const ImageObject* object_ = nullptr;
-  /// A bit for each pixel, a word for each row: the sample shows a front face; covered wholly by
-  /// one triangle, or by front faces; open; open at first, then found to be covered by one triangle.
-  std::array<std::uint64_t, size> front_{}, full_{}, open_{}, met_{};
-  std::array<MapRow<float>, size> values_;
+  /// The sample shows a surface, a front face; covered wholly by one triangle, or by front faces;
+  /// open; open at first, then found to be covered by one triangle.
+  TileRows shown_{}, front_{}, full_{}, open_{}, met_{};
+  /// What was found at open pixels, row by row.
+  struct PixelValue {
+    std::uint32_t pixel;
+    float value;
+  };
+  std::vector<PixelValue> settled_;
+  EdgeSieve sieve_;
   EdgeBalance balance_;
   /// What opposite edges leave of each object's, in the order of the objects.
   struct EdgesLeft {
@@ -179,6 +184,7 @@ class TileCoverage {
     std::vector<EdgeBalance::Edge> edges;
   };
   std::vector<EdgesLeft> left_;
+  std::vector<EdgeBalance::Edge> met_edges_;
   std::vector<std::uint32_t> vertex_at_;
   std::vector<UnbalancedEdge> unbalanced_;
   std::vector<Shape> shapes_;

@@ -95,66 +95,60 @@ const ImageObject& TileCoverage::object_at(std::size_t i) {
   return *object_;
 }
 
+/// Whether the edge certainly meets no pixel of the tile because it lies beyond one side of it.
+bool TileCoverage::misses_tile(const ImageVertex& p, const ImageVertex& q) const {
+  const double margin = std::max(p.position_error(), q.position_error()) + rounding_room;
+  const auto beyond = [&](double a, double b, std::uint32_t first, std::uint32_t last) {
+    return std::max(a, b) + margin < first || std::min(a, b) - margin >= last + 1.0;
+  };
+  return beyond(p.u, q.u, area_.first_column, area_.last_column) ||
+         beyond(p.v, q.v, area_.first_row, area_.last_row);
+}
+
 /// The pixels that the rectangle around the edge meets, widened by `margin` on all sides.
 TileBox TileCoverage::box_of(const UnbalancedEdge& edge, double margin) const {
-  const auto [least_u, greatest_u] = std::minmax({edge.from->u, edge.to->u});
-  const auto [least_v, greatest_v] = std::minmax({edge.from->v, edge.to->v});
+  const auto [left, right] = std::minmax({edge.from.x, edge.to.x});
+  const auto [top, bottom] = std::minmax({edge.from.y, edge.to.y});
+  // Truncated where negative: these pixels lie outside the tile.
   const auto within = [](double x, int least, int greatest) {
-    return static_cast<std::int16_t>(std::clamp(std::floor(x), 1.0 * least, 1.0 * greatest));
+    return static_cast<std::int16_t>(std::clamp(x, 1.0 * least, 1.0 * greatest));
   };
-  const double left = area_.first_column, top = area_.first_row;
   const TileBox all = whole();
-  return {
-      within(least_u - left - margin, 0, size), within(greatest_u - left + margin, -1, all.right),
-      within(least_v - top - margin, 0, size), within(greatest_v - top + margin, -1, all.bottom)};
+  const auto last = [&](double x, int greatest) {
+    return x < 0 ? std::int16_t{-1} : within(x, 0, greatest);
+  };
+  return {within(left - margin, 0, size), last(right + margin, all.right),
+          within(top - margin, 0, size), last(bottom + margin, all.bottom)};
 }
 
-// Like meet(), by a division for each row, with one more pixel on both sides for its rounding.
-void TileCoverage::open_where_it_may_be(const Shape& shape) {
-  const TileBox box = whole();
-  for (int row = box.top; row <= box.bottom; ++row) {
-    double first = box.left, last = box.right;
-    for (std::size_t k = 0; k < shape.count; ++k) {
-      const auto& [a, b, c, error] = shape.sides[k];
-      const double greatest = c + b * (row + 0.5) + (std::abs(a) + std::abs(b)) / 2 + error;
-      const double root = -greatest / a - 0.5;
-      if (a > 0) first = std::max(first, std::floor(root) - 1);
-      if (a < 0) last = std::min(last, std::ceil(root) + 1);
-    }
-    if (!(first <= last)) continue;
-    open_[static_cast<std::size_t>(row)] |=
-        columns_between(static_cast<int>(first), static_cast<int>(last));
-  }
-}
-
-// Every point of the exact edge lies within e, the corners' error, of its counterpart on the
+// Every point of the exact edge lies within e, the error of its ends, of its counterpart on the
 // computed one in both coordinates. Within the heights of a row of pixels, widened by e on both
 // sides, the computed edge lies between the x of its two ends there; these err by at most
-// 5.1u·|Δu| for the product (see square_edges.h) and 4u of a coordinate for sums: less than
+// 5.1u·|Δx| for the product (see square_edges.h) and 4u of a coordinate for sums: less than
 // rounding_room up to `far` (validation/proofs/row_of_edge.gappa.in). So do the heights.
 template <class Visit>
 void TileCoverage::for_each_row(const UnbalancedEdge& edge, const Visit& visit) const {
-  const ImageVertex &p = *edge.from, &q = *edge.to;
-  const double e = std::max(p.position_error(), q.position_error()) + rounding_room;
-  const auto [least_u, greatest_u] = std::minmax({p.u, q.u});
-  const auto [least_v, greatest_v] = std::minmax({p.v, q.v});
-  const bool is_far = !(std::max({-least_u, greatest_u, -least_v, greatest_v}) < far);
+  const SquarePoint &p = edge.from, &q = edge.to;
+  const double e = edge.error + rounding_room;
+  const auto [left_end, right_end] = std::minmax({p.x, q.x});
+  const auto [top_end, bottom_end] = std::minmax({p.y, q.y});
+  const bool is_far = !(std::max({-left_end, right_end, -top_end, bottom_end}) < far);
   const TileBox box = is_far ? whole() : box_of(edge, e);
   if (box.is_empty()) return;
-  const double rise = q.v - p.v, slope = (q.u - p.u) / rise;
+  const double rise = q.y - p.y, slope = (q.x - p.x) / rise;
   if (is_far || std::abs(rise) < least_rise) {
     const std::uint64_t columns = columns_between(box.left, box.right);
     for (int row = box.top; row <= box.bottom; ++row) visit(static_cast<std::size_t>(row), columns);
     return;
   }
-  const double last = box.right, origin = area_.first_column;
+  const double last = box.right;
   for (int row = box.top; row <= box.bottom; ++row) {
-    const double above = row + static_cast<double>(area_.first_row) - e;
-    const auto at = [&, low = least_v, high = greatest_v](double height) {
-      return p.u + (std::min(std::max(height, low), high) - p.v) * slope;
+    const double above = row - e;
+    const auto at = [&, low = top_end, high = bottom_end](double height) {
+      return p.x + (std::min(std::max(height, low), high) - p.y) * slope;
     };
     const double x = at(above), y = at(above + 1 + 2 * e);
-    const double left = std::min(x, y) - e - origin, right = std::max(x, y) + e - origin;
+    const double left = std::min(x, y) - e, right = std::max(x, y) + e;
     if (left >= last + 1 || right < 0) continue;
     // Integer parts of numbers that are not negative.
     visit(static_cast<std::size_t>(row), columns_between(static_cast<int>(std::max(left, 0.0)),
@@ -162,15 +156,9 @@ void TileCoverage::for_each_row(const UnbalancedEdge& edge, const Visit& visit) 
   }
 }
 
-// Consecutive triangles of a file often have an edge in common, which then needs no table: it is
-// left out of both.
-void TileCoverage::add_edges(const ImageObject& object, std::size_t first, std::size_t end) {
-  std::array<EdgeBalance::Edge, 3> waiting{};
-  std::size_t waiting_count = 0;
-  const auto flush = [&] {
-    for (std::size_t k = 0; k < waiting_count; ++k) balance_.add(waiting[k].from, waiting[k].to);
-    waiting_count = 0;
-  };
+/// Puts the edges of triangles that are not open through the sieve.
+void TileCoverage::sieve_edges(const ImageObject& object, std::size_t first, std::size_t end) {
+  sieve_.start(3 * (end - first));
   for (std::size_t i = first; i < end; ++i) {
     auto [a, b, c] = object.mesh.triangles[numbers_[i] - object.first_number];
     if (classes_[i].kind == CoverageClass::negative) {
@@ -178,22 +166,10 @@ void TileCoverage::add_edges(const ImageObject& object, std::size_t first, std::
     } else if (classes_[i].kind != CoverageClass::positive) {
       continue;
     }
-    std::array<EdgeBalance::Edge, 3> edges{{{a, b}, {b, c}, {c, a}}};
-    std::size_t count = 3;
-    for (std::size_t k = 0; k < waiting_count; ++k) {
-      for (std::size_t j = 0; j < count; ++j) {
-        if (edges[j].from != waiting[k].to || edges[j].to != waiting[k].from) continue;
-        edges[j] = edges[--count];
-        waiting[k] = waiting[--waiting_count];
-        --k;
-        break;
-      }
-    }
-    flush();
-    waiting = edges;
-    waiting_count = count;
+    sieve_.add(a, b);
+    sieve_.add(b, c);
+    sieve_.add(c, a);
   }
-  flush();
 }
 
 std::vector<EdgeBalance::Edge>& TileCoverage::edges_left_of(const ImageObject& object) {
@@ -205,12 +181,19 @@ std::vector<EdgeBalance::Edge>& TileCoverage::edges_left_of(const ImageObject& o
   return place->edges;
 }
 
-/// Adds the edges of these triangles to what is left of the object's.
+/// Adds the edges of these triangles that may meet the tile to what is left of the object's. Most of
+/// what the sieve leaves are edges of triangles that reach beyond the tile, and do not meet it
+/// themselves; nor do their opposites, then.
 void TileCoverage::balance_edges_of(const ImageObject& object, std::size_t first, std::size_t end) {
+  sieve_edges(object, first, end);
+  met_edges_.clear();
+  sieve_.for_each_left([&](std::uint32_t from, std::uint32_t to) {
+    if (!misses_tile(object.vertices[from], object.vertices[to])) met_edges_.push_back({from, to});
+  });
   std::vector<EdgeBalance::Edge>& left = edges_left_of(object);
-  balance_.start(end - first + left.size());
+  balance_.start(met_edges_.size() + left.size());
   for (const auto& [from, to, times] : left) balance_.add(from, to, times);
-  add_edges(object, first, end);
+  for (const auto& [from, to, times] : met_edges_) balance_.add(from, to, times);
   left.clear();
   balance_.for_each_left([&](const EdgeBalance::Edge& edge) { left.push_back(edge); });
 }
@@ -218,8 +201,28 @@ void TileCoverage::balance_edges_of(const ImageObject& object, std::size_t first
 void TileCoverage::find_open_pixels() {
   open_.fill(0);
   unbalanced_.clear();
-  for (const Shape& shape : open_shapes_) open_where_it_may_be(shape);
+  for (const Shape& shape : open_shapes_) {
+    TileRows met;
+    find_pixels_met(shape.sides(), whole(), met);
+    for (int row = 0; row <= whole().bottom; ++row) {
+      open_[static_cast<std::size_t>(row)] |= met[static_cast<std::size_t>(row)];
+    }
+  }
   for (const auto& [object, edges] : left_) open_along(*object, edges);
+}
+
+TileCoverage::UnbalancedEdge TileCoverage::edge_of(const ImageObject& object,
+                                                   const EdgeBalance::Edge& edge) const {
+  const ImageVertex &p = object.vertices[edge.from], &q = object.vertices[edge.to];
+  const auto local = [&](const ImageVertex& vertex) {
+    return SquarePoint{vertex.u - area_.first_column, vertex.v - area_.first_row};
+  };
+  const SquarePoint from = local(p), to = local(q);
+  const double extent =
+      std::max({std::abs(from.x), std::abs(from.y), std::abs(to.x), std::abs(to.y)});
+  const double error =
+      std::max(p.position_error(), q.position_error()) + unit_roundoff<double> * extent;
+  return {from, to, error, static_cast<int>(edge.times), &object, edge.from, edge.to};
 }
 
 void TileCoverage::open_along(const ImageObject& object,
@@ -230,8 +233,7 @@ void TileCoverage::open_along(const ImageObject& object,
   balance_.start(edges.size());
   for (const auto& [from, to, times] : edges) balance_.add(vertex_at(from), vertex_at(to), times);
   balance_.for_each_left([&](const EdgeBalance::Edge& edge) {
-    unbalanced_.push_back({&object.vertices[edge.from], &object.vertices[edge.to], &object,
-                           static_cast<int>(edge.times)});
+    unbalanced_.push_back(edge_of(object, edge));
     for_each_row(unbalanced_.back(),
                  [&](std::size_t row, std::uint64_t columns) { open_[row] |= columns; });
   });

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "fathom/fast/coverage/pixel_union.h"
+#include "fathom/fast/map_rows.h"
+#include "fathom/fast/tile.h"
+
+// Rows of a tile's pixels as words, a bit for each column, several rows at once.
+namespace fathom::fast {
+
+/// The pixels of a box within a tile, last ones included; empty where right < left or
+/// bottom < top.
+struct TileBox {
+  std::int16_t left, right, top, bottom;
+  [[nodiscard]] bool is_empty() const { return right < left || bottom < top; }
+};
+
+using TileRows = std::array<std::uint64_t, Tile::size>;
+
+inline std::uint64_t columns_between(int left, int right) {
+  return ~std::uint64_t{0} << left & ~std::uint64_t{0} >> (63 - right);
+}
+
+/// Which samples show a surface, and which show one that Tile::shows_front() is certain about.
+void look_at_samples(const Tile& tile, TileRows& shown, TileRows& front);
+
+/// 1 where the bit is set, otherwise 0.
+void to_coverage(std::uint64_t row, MapRow<float>& values);
+
+// Of functions over a tile (tile_functions.h), and for pixels of a box that is not empty:
+/// Sets the bits of some pixels throughout which all functions are certainly positive: in each row,
+/// of all but one or two at the ends of those.
+void add_pixels_inside(std::span<const UncertainHalfPlane> sides, const TileBox& box,
+                       TileRows& rows);
+/// The bits of the pixels in which all functions may have points that are not negative, and of one or
+/// two more at the ends of a row. Other rows are left as they are.
+void find_pixels_met(std::span<const UncertainHalfPlane> sides, const TileBox& box, TileRows& rows);
+
+}  // namespace fathom::fast
