@@ -140,6 +140,11 @@ void print_tiers(const RenderStatistics& s) {
   line("facing", {0, s.facing.interval, 0, s.facing.exact});
   line("values", {0, s.rounding.interval - s.double_word_roundings, s.double_word_roundings,
                   s.rounding.exact});
+  // The middle tier: edges between exact ends, each rounded once.
+  const TierCounts& areas = s.coverage_rounding;
+  line("areas",
+       {0, areas.interval + areas.exact - s.areas_with_exact_ends,
+        s.areas_with_exact_ends - std::min(areas.exact, s.areas_with_exact_ends), areas.exact});
 }
 
 void time_scene(const std::string& name, const Arguments& arguments) {

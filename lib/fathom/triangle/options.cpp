@@ -25,6 +25,7 @@ void add(RenderStatistics& sum, const RenderStatistics& part) {
   sum.coverage_rounding += part.coverage_rounding;
   sum.rounding += part.rounding;
   sum.double_word_roundings += part.double_word_roundings;
+  sum.areas_with_exact_ends += part.areas_with_exact_ends;
   sum.exact_setups += part.exact_setups;
   sum.same_plane += part.same_plane;
   sum.double_words += part.double_words;

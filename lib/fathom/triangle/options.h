@@ -51,6 +51,8 @@ struct RenderStatistics {
   TierCounts rounding;
   /// Those of rounding.interval that binary64 did not settle, but double-words did.
   std::uint64_t double_word_roundings = 0;
+  /// Areas that needed the ends of edges from exact numbers; coverage_rounding counts them, too.
+  std::uint64_t areas_with_exact_ends = 0;
   /// Samples that binary32 did not settle: settled by binary64, or counted as exact.
   std::uint64_t samples_in_binary64 = 0;
   /// How often a triangle was set up from exact numbers: once for each tile that it meets, and once

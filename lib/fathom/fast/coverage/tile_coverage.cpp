@@ -40,37 +40,38 @@ void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile
   scene_.rows.finish();
 }
 
-// The number of front faces is the same, too, throughout a pixel that they do not open, and not 0
-// where one is seen.
 void TileCoverage::settle(std::uint32_t tile_number, const Tile::Context& context) {
   numbers_.clear();
   classes_.clear();
   open_shapes_.clear();
   left_.clear();
   full_.fill(0);
-  for (const Side side : {Side::front, Side::back}) {
-    const std::size_t begin = add_triangles(side, tile_number, context);
-    fill_large(begin);
-    if (is_full(whole())) return;
-    balance_edges(begin);
-    if (side == Side::back) break;
-    for (std::size_t row = 0; row < size; ++row) full_[row] |= front_[row] & ~open_[row];
-    if (is_full(whole())) return;
-  }
+  open_.fill(~std::uint64_t{0});
+  const std::size_t front = add_triangles(Side::front, tile_number, context);
+  if (fill_large(front)) return;
+  balance_edges(front);
+  if (look_at_front()) return;
+  const std::size_t back = add_triangles(Side::back, tile_number, context);
+  balance_edges(back);
+  find_open_pixels();
+  if (fill_large(back)) return;
   for (std::size_t row = 0; row < size; ++row) open_[row] &= ~full_[row];
-  if (std::all_of(open_.begin(), open_.end(), [](std::uint64_t row) { return row == 0; })) return;
   meet_triangles();
   meet_edges();
   settle_open(context);
 }
 
-bool TileCoverage::is_open(const TileBox& box) const {
-  if (box.is_empty()) return false;
-  const std::uint64_t columns = columns_between(box.left, box.right);
-  for (int row = box.top; row <= box.bottom; ++row) {
-    if (open_[static_cast<std::size_t>(row)] & columns) return true;
-  }
-  return false;
+// The number of front faces is the same, too, throughout a pixel that they do not open, and not 0
+// where one is seen. With many edges, hardly any pixel is left that none of them meets.
+bool TileCoverage::look_at_front() {
+  constexpr std::size_t many = 256;
+  std::size_t edges = 0;
+  for (const EdgesLeft& left : left_) edges += left.edges.size();
+  if (edges > many) return false;
+  find_open_pixels();
+  for (std::size_t row = 0; row < size; ++row) full_[row] |= front_[row] & ~open_[row];
+  open_.fill(~std::uint64_t{0});
+  return !is_open(whole());
 }
 
 TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_t i) const {
@@ -256,6 +257,7 @@ float TileCoverage::settle_pixel(std::uint32_t pixel, const Tile::Context& conte
   if (any_open && shapes.size() > most_edges) return settle_pixel_exactly(pixel, context);
   Interval area = any_open ? area_of_union(pixel) : area_between_edges(pixel, Corners::computed);
   if (!settles(area) && !any_open && winding_.size() <= most_edges) {
+    ++context.statistics.areas_with_exact_ends;
     area = area_between_edges(pixel, Corners::exact);
   }
   const double more = (area.upper - area.lower) / 2 * (context.switches.widening - 1);

@@ -110,8 +110,10 @@ class TileCoverage {
   // tile_coverage_open.cpp: which pixels are open.
   /// Adds the triangles of a side to those that are there; returns the index of the first of them.
   std::size_t add_triangles(Side side, std::uint32_t tile_number, const Tile::Context& context);
-  /// Finds the pixels that all open, after triangles have been added from `begin` on.
+  /// Balances the edges of the triangles from `begin` on with what was left of others.
   void balance_edges(std::size_t begin);
+  /// Finds pixels that front faces cover, whatever is behind them; returns whether all are covered.
+  bool look_at_front();
   void collect_triangles(Side side, std::uint32_t tile_number);
   /// visit(object, first, end): indices into numbers_, from `begin` on.
   template <class Visit>
@@ -136,17 +138,16 @@ class TileCoverage {
     return {0, static_cast<std::int16_t>(area_.last_column - area_.first_column), 0,
             static_cast<std::int16_t>(area_.last_row - area_.first_row)};
   }
+  /// Whether any pixel of the box is open, and not covered wholly.
+  [[nodiscard]] bool is_open(const TileBox& box) const;
   [[nodiscard]] bool misses_tile(const Shape& shape) const;
   void look_at_open(std::size_t begin, const Tile::Context& context);
-  void fill_large(std::size_t begin);
+  bool fill_large(std::size_t begin);
 
   // tile_coverage.cpp: settling them.
   void settle(std::uint32_t tile_number, const Tile::Context& context);
   void meet_triangles();
   void meet(const TileBox& box, const Shape& shape);
-  /// Whether any bit of the box is set, and whether all are.
-  [[nodiscard]] bool is_open(const TileBox& box) const;
-  [[nodiscard]] bool is_full(const TileBox& box) const;
   [[nodiscard]] Shape shape_of(const ImageObject& object, std::size_t i) const;
   [[nodiscard]] Shape exact_shape(std::size_t i, const Tile::Context& context) const;
   void settle_open(const Tile::Context& context);

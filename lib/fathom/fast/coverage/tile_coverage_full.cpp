@@ -5,13 +5,14 @@
 // Which pixels of a tile one triangle covers wholly: large triangles, row by row.
 namespace fathom::fast {
 
-bool TileCoverage::is_full(const TileBox& box) const {
-  if (box.is_empty()) return true;
+bool TileCoverage::is_open(const TileBox& box) const {
+  if (box.is_empty()) return false;
   const std::uint64_t columns = columns_between(box.left, box.right);
-  for (int row = box.top; row <= box.bottom; ++row) {
-    if (~full_[static_cast<std::size_t>(row)] & columns) return false;
+  for (auto row = static_cast<std::size_t>(box.top); row <= static_cast<std::size_t>(box.bottom);
+       ++row) {
+    if (open_[row] & ~full_[row] & columns) return true;
   }
-  return true;
+  return false;
 }
 
 bool TileCoverage::misses_tile(const Shape& shape) const {
@@ -35,13 +36,16 @@ void TileCoverage::look_at_open(std::size_t begin, const Tile::Context& context)
   }
 }
 
-void TileCoverage::fill_large(std::size_t begin) {
+/// Looks for pixels that large triangles cover, from `begin` on, as far as open pixels need it;
+/// returns whether none is left.
+bool TileCoverage::fill_large(std::size_t begin) {
   std::size_t filled = 0;
   for (std::size_t i = begin; i < numbers_.size(); ++i) {
-    if (!classes_[i].is_large || is_full(classes_[i].box)) continue;
+    if (!classes_[i].is_large || !is_open(classes_[i].box)) continue;
     add_pixels_inside(shape_of(object_at(i), i).sides(), classes_[i].box, full_);
-    if (++filled % 8 == 0 && is_full(whole())) return;
+    if (++filled % 8 == 0 && !is_open(whole())) return true;
   }
+  return !is_open(whole());
 }
 
 }  // namespace fathom::fast

@@ -12,38 +12,38 @@ namespace {
 
 using area_bounds::far, area_bounds::rounding_room, area_bounds::least_rise;
 
-/// A hash that is the same for −0 and 0.
-std::uint64_t hash_of(const MeshPoint& point) {
-  std::uint64_t hash = 0;
-  for (const double x : {point.x, point.y, point.z}) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15;
-    hash ^= hash >> 29;
-  }
-  return hash;
-}
-
-bool same_place(const MeshPoint& a, const MeshPoint& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
-/// Maps each vertex to the first one asked for at the same place.
+/// Maps each vertex of an object to the first one asked for at the same place. Vertices at one place
+/// are in one place of the image, as far as they are taken there by the same instructions; otherwise
+/// they remain two.
 class VertexAtPlace {
  public:
-  VertexAtPlace(const Mesh& mesh, std::size_t most, std::vector<std::uint32_t>& slots)
-      : mesh_(mesh), slots_(slots) {
+  VertexAtPlace(const ImageObject& object, std::size_t most, std::vector<std::uint32_t>& slots)
+      : object_(object), slots_(slots) {
     slots_.assign(std::bit_ceil(most + most / 2 + 1), none);
   }
   std::uint32_t operator()(std::uint32_t vertex) {
     const std::size_t mask = slots_.size() - 1;
-    for (std::size_t i = hash_of(mesh_.vertices[vertex]) & mask;; i = (i + 1) & mask) {
+    for (std::size_t i = hash_of(object_.vertices[vertex]) & mask;; i = (i + 1) & mask) {
       if (slots_[i] == none) slots_[i] = vertex;
-      if (same_place(mesh_.vertices[slots_[i]], mesh_.vertices[vertex])) return slots_[i];
+      if (slots_[i] == vertex || are_at_same_place(slots_[i], vertex)) return slots_[i];
     }
   }
 
  private:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
-  const Mesh& mesh_;
+  /// The same for −0 and 0.
+  static std::uint64_t hash_of(const ImageVertex& vertex) {
+    const std::uint64_t hash = std::bit_cast<std::uint64_t>(vertex.u + 0.0) * 0x9E3779B97F4A7C15 +
+                               std::bit_cast<std::uint64_t>(vertex.v + 0.0);
+    return hash * 0x9E3779B97F4A7C15 >> 20;
+  }
+  [[nodiscard]] bool are_at_same_place(std::uint32_t a, std::uint32_t b) const {
+    if (object_.vertices[a].u != object_.vertices[b].u) return false;
+    const MeshPoint &p = object_.mesh.vertices[a], &q = object_.mesh.vertices[b];
+    return p.x == q.x && p.y == q.y && p.z == q.z;
+  }
+
+  const ImageObject& object_;
   std::vector<std::uint32_t>& slots_;
 };
 
@@ -73,7 +73,6 @@ void TileCoverage::balance_edges(std::size_t begin) {
   for_each_object(begin, [&](const ImageObject& object, std::size_t first, std::size_t end) {
     balance_edges_of(object, first, end);
   });
-  find_open_pixels();
 }
 
 void TileCoverage::collect_triangles(Side side, std::uint32_t tile_number) {
@@ -229,7 +228,7 @@ void TileCoverage::open_along(const ImageObject& object,
                               const std::vector<EdgeBalance::Edge>& edges) {
   if (edges.empty()) return;
   // Vertices that are in the file more than once, at the same place, are taken as one.
-  VertexAtPlace vertex_at(object.mesh, 2 * edges.size(), vertex_at_);
+  VertexAtPlace vertex_at(object, 2 * edges.size(), vertex_at_);
   balance_.start(edges.size());
   for (const auto& [from, to, times] : edges) balance_.add(vertex_at(from), vertex_at(to), times);
   balance_.for_each_left([&](const EdgeBalance::Edge& edge) {
