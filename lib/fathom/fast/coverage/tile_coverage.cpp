@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "fathom/fast/coverage/area_bounds.h"
-#include "fathom/fast/coverage/tile_functions.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom::fast {
@@ -14,6 +12,10 @@ namespace {
 
 /// With slabs between all ends and crossings, time grows with the cube of the number of edges.
 constexpr std::size_t most_edges = 400;
+
+bool settles(const Interval& area) {
+  return static_cast<float>(area.lower) == static_cast<float>(area.upper);
+}
 
 }  // namespace
 
@@ -24,7 +26,11 @@ void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile
   // not open, and at its sample it is 0 exactly where no surface is seen.
   look_at_samples(tile, shown_, front_);
   settled_.clear();
-  settle(tile_number, context);
+  if (find_open_pixels(tile_number, context)) {
+    outlines_.list_edges(open_);
+    prepare_counts();
+    settle_open(context);
+  }
   const std::uint32_t columns = area_.last_column - area_.first_column + 1;
   auto next = settled_.begin();
   MapRow<float> row_values;
@@ -38,113 +44,6 @@ void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile
                       values + std::size_t{row} * image_width + area_.first_column);
   }
   scene_.rows.finish();
-}
-
-void TileCoverage::settle(std::uint32_t tile_number, const Tile::Context& context) {
-  numbers_.clear();
-  classes_.clear();
-  open_shapes_.clear();
-  left_.clear();
-  full_.fill(0);
-  open_.fill(~std::uint64_t{0});
-  const std::size_t front = add_triangles(Side::front, tile_number, context);
-  if (fill_large(front)) return;
-  balance_edges(front);
-  if (look_at_front()) return;
-  const std::size_t back = add_triangles(Side::back, tile_number, context);
-  balance_edges(back);
-  find_open_pixels();
-  if (fill_large(back)) return;
-  for (std::size_t row = 0; row < size; ++row) open_[row] &= ~full_[row];
-  meet_triangles();
-  meet_edges();
-  settle_open(context);
-}
-
-// The number of front faces is the same, too, throughout a pixel that they do not open, and not 0
-// where one is seen. With many edges, hardly any pixel is left that none of them meets.
-bool TileCoverage::look_at_front() {
-  constexpr std::size_t many = 256;
-  std::size_t edges = 0;
-  for (const EdgesLeft& left : left_) edges += left.edges.size();
-  if (edges > many) return false;
-  find_open_pixels();
-  for (std::size_t row = 0; row < size; ++row) full_[row] |= front_[row] & ~open_[row];
-  open_.fill(~std::uint64_t{0});
-  return !is_open(whole());
-}
-
-TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_t i) const {
-  auto [A, B, C] = object.mesh.triangles[numbers_[i] - object.first_number];
-  if (classes_[i].kind == CoverageClass::negative) std::swap(B, C);
-  const auto edges =
-      edges_over_tile({object.vertices[A], object.vertices[B], object.vertices[C]}, area_);
-  Shape shape{
-      .triangle = static_cast<std::uint32_t>(i), .is_open = false, .functions = {}, .count = 3};
-  std::copy(edges.begin(), edges.end(), shape.functions.begin());
-  return shape;
-}
-
-TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context& context) const {
-  const TriangleSetup setup =
-      exact_setup(context.referee.projected(numbers_[i]), context.perspective, area_);
-  const auto [functions, count] = functions_over_tile(setup, context.range);
-  return {static_cast<std::uint32_t>(i), true, functions, count};
-}
-
-void TileCoverage::meet(const TileBox& box, const Shape& shape) {
-  constexpr int wide = 6;
-  shapes_.push_back(shape);
-  TileRows may_be_met;
-  const bool is_wide = box.right - box.left >= wide;
-  if (is_wide) find_pixels_met(shape.sides(), box, may_be_met);
-  for (int top = box.top; top <= box.bottom; ++top) {
-    const auto row = static_cast<std::size_t>(top);
-    std::uint64_t bits =
-        open_[row] & (is_wide ? may_be_met[row] : columns_between(box.left, box.right));
-    for (; bits != 0; bits &= bits - 1) {
-      const int column = std::countr_zero(bits);
-      bool inside = true, outside = false;
-      for (const UncertainHalfPlane& side : shape.sides()) {
-        const auto [least, greatest] = values_in_pixel(side, column, top);
-        inside = inside && least > side.error;
-        outside = outside || greatest < -side.error;
-      }
-      if (inside) {
-        open_[row] &= ~(std::uint64_t{1} << column);
-        met_[row] |= std::uint64_t{1} << column;
-      } else if (!outside) {
-        shapes_at_.add(static_cast<std::uint32_t>(row) * size + static_cast<std::uint32_t>(column),
-                       shapes_.size() - 1);
-      }
-    }
-  }
-}
-
-void TileCoverage::meet_triangles() {
-  auto next_open = open_shapes_.begin();
-  met_.fill(0);
-  shapes_.clear();
-  shapes_at_.clear();
-  for (std::size_t i = 0; i < numbers_.size(); ++i) {
-    const auto& [kind, is_large, box] = classes_[i];
-    if (kind == CoverageClass::open) {
-      meet(whole(), *next_open++);
-      continue;
-    }
-    if (kind == CoverageClass::nothing || !is_open(box)) continue;
-    meet(box, shape_of(object_at(i), i));
-  }
-  shapes_at_.sort();
-}
-
-void TileCoverage::Meetings::sort() {
-  starts_.fill(0);
-  for (const Meeting& meeting : unsorted_) ++starts_[meeting.pixel + 1];
-  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
-  sorted_.resize(unsorted_.size());
-  auto next = starts_;
-  for (const Meeting& meeting : unsorted_) sorted_[next[meeting.pixel]++] = meeting.index;
 }
 
 void TileCoverage::settle_open(const Tile::Context& context) {
@@ -173,11 +72,13 @@ SquarePoint TileCoverage::exact_corner(const ImageObject& object, std::uint32_t 
   return {round_to_binary64(Ratio(U - column * W, W)), round_to_binary64(Ratio(V - row * W, W))};
 }
 
+// Edges that certainly miss the pixel are left out, so that where it is only beside one, the area is
+// known without any error.
 Interval TileCoverage::area_between_edges(std::uint32_t pixel, Corners corners) {
   const double x = pixel % size, y = pixel / size;
   winding_.clear();
-  for (const std::uint32_t i : edges_at_.at(pixel)) {
-    const UnbalancedEdge& edge = unbalanced_[i];
+  for (const std::uint32_t i : outlines_.edges_at(pixel)) {
+    const OutlineEdge& edge = outlines_.edge(i);
     SquarePoint p{edge.from.x - x, edge.from.y - y}, q{edge.to.x - x, edge.to.y - y};
     double error = edge.error;
     if (corners == Corners::exact) {
@@ -185,24 +86,17 @@ Interval TileCoverage::area_between_edges(std::uint32_t pixel, Corners corners) 
       q = exact_corner(*edge.object, edge.to_vertex, pixel);
       error = 0;
     }
-    const double extent =
-        std::max({std::abs(p.x), std::abs(p.y), std::abs(q.x), std::abs(q.y), 1.0});
-    winding_.add(p, q, error + unit_roundoff<double> * extent, edge.times);
+    error += unit_roundoff<double> *
+             std::max({std::abs(p.x), std::abs(p.y), std::abs(q.x), std::abs(q.y), 1.0});
+    const auto misses = [error](double a, double b) {
+      return std::max(a, b) < -error || std::min(a, b) > 1 + error;
+    };
+    if (misses(p.x, q.x) || misses(p.y, q.y)) continue;
+    winding_.add(p, q, error, edge.times);
     if (winding_.size() > most_edges) return {0, 1};
   }
   return winding_.area([&](const SquarePoint& point) {
-    int number = 0;
-    for (const std::uint32_t i : shapes_at_.at(pixel)) {
-      bool inside = true, outside = false;
-      for (const auto& [a, b, c, error] : shapes_[i].sides()) {
-        const double f = c + a * (x + point.x) + b * (y + point.y);
-        inside = inside && f > error;
-        outside = outside || f < -error;
-      }
-      if (!inside && !outside) return -1;
-      if (inside) ++number;
-    }
-    return number;
+    return number_at(pixel, {x + point.x, y + point.y});
   });
 }
 
@@ -243,17 +137,10 @@ void TileCoverage::add_to_union(const Shape& shape, std::uint32_t x, std::uint32
 }
 
 float TileCoverage::settle_pixel(std::uint32_t pixel, const Tile::Context& context) {
-  TierCounts& counts = context.statistics.coverage_rounding;
   const auto shapes = shapes_at_.at(pixel);
-  if (shapes.empty()) {
-    ++counts.interval;
-    return 0;
-  }
-  const auto settles = [&](const Interval& area) {
-    return static_cast<float>(area.lower) == static_cast<float>(area.upper);
-  };
-  const bool any_open = std::any_of(shapes.begin(), shapes.end(),
-                                    [&](std::uint32_t i) { return shapes_[i].is_open; });
+  const bool any_open = !open_shapes_.empty() && std::ranges::any_of(shapes, [&](std::uint32_t i) {
+    return shapes_[i].is_open;
+  });
   if (any_open && shapes.size() > most_edges) return settle_pixel_exactly(pixel, context);
   Interval area = any_open ? area_of_union(pixel) : area_between_edges(pixel, Corners::computed);
   if (!settles(area) && !any_open && winding_.size() <= most_edges) {
@@ -264,21 +151,15 @@ float TileCoverage::settle_pixel(std::uint32_t pixel, const Tile::Context& conte
   if (!settles({area.lower - more, area.upper + more})) {
     context.note_doubt(area_.first_column + pixel % size, area_.first_row + pixel / size);
   }
-  if (settles(area)) {
-    ++counts.interval;
-    return static_cast<float>(area.lower);
-  }
-  return settle_pixel_exactly(pixel, context);
+  if (!settles(area)) return settle_pixel_exactly(pixel, context);
+  ++context.statistics.coverage_rounding.interval;
+  return static_cast<float>(area.lower);
 }
 
 float TileCoverage::settle_pixel_exactly(std::uint32_t pixel, const Tile::Context& context) {
   ++context.statistics.coverage_rounding.exact;
-  exact_numbers_.clear();
-  for (const std::uint32_t i : shapes_at_.at(pixel)) {
-    exact_numbers_.push_back(numbers_[shapes_[i].triangle]);
-  }
-  return rounded_pixel_coverage(scene_.frame, exact_numbers_, area_.first_column + pixel % size,
-                                area_.first_row + pixel / size);
+  return rounded_pixel_coverage(scene_.frame, triangles_at(pixel),
+                                area_.first_column + pixel % size, area_.first_row + pixel / size);
 }
 
 }  // namespace fathom::fast

@@ -7,41 +7,21 @@
 
 #include "fathom/area/coverage.h"
 #include "fathom/fast/bins.h"
-#include "fathom/fast/coverage/edge_balance.h"
-#include "fathom/fast/coverage/edge_sieve.h"
+#include "fathom/fast/coverage/coverage_classes.h"
+#include "fathom/fast/coverage/pixel_meetings.h"
 #include "fathom/fast/coverage/pixel_union.h"
 #include "fathom/fast/coverage/pixel_winding.h"
+#include "fathom/fast/coverage/tile_outlines.h"
 #include "fathom/fast/coverage/tile_rows.h"
 #include "fathom/fast/tile.h"
 
 namespace fathom::fast {
 
-/// What is certain about a triangle whose area counts for channel A.
-enum class CoverageClass : std::uint8_t {
-  nothing,   // no point of it has a depth in the range that counts
-  positive,  // certainly Δ > 0; all of it in front of the camera and in the range
-  negative,  // certainly Δ < 0; all of it in front of the camera and in the range
-  open       // none of these
-};
-
-struct CoverageTriangle {
-  CoverageClass kind;
-  /// Positive or negative, and so large that it pays to look at its pixels one by one.
-  bool is_large;
-  /// The pixels that it can meet, unless it is open.
-  TileBox box;
-};
-
-/// Classifies triangles of an object, by their numbers in the scene, in a tile, several at once.
-void classify_for_coverage(const ImageObject& object, std::span<const std::uint32_t> numbers,
-                           const DepthRange& range, const PixelBox& tile,
-                           CoverageTriangle* classes);
-
 /// Channel A (specification, section 6), one tile after another, with the same values as
 /// rounded_pixel_coverage().
 ///
 /// How many triangles cover a point of the image changes only across edges that do not lie between
-/// two adjacent triangles (EdgeBalance). A pixel that no such edge meets is covered wholly or not
+/// two adjacent triangles (TileOutlines). A pixel that no such edge meets is covered wholly or not
 /// at all, as its sample is, and one that a single triangle covers is covered wholly. That holds for
 /// front faces alone, too: where they are seen to cover a pixel, back faces need not be looked at,
 /// and in most tiles they do so everywhere. What is left is mostly silhouettes. There, the area between
@@ -75,81 +55,52 @@ class TileCoverage {
       return std::span(functions).first(count);
     }
   };
-  /// A shape or an edge that meets a pixel; pixels are numbered by rows of the tile.
-  struct Meeting {
-    std::uint32_t pixel, index;
-  };
-  /// Meetings in the order of their pixels.
-  class Meetings {
-   public:
-    void clear() { unsorted_.clear(); }
-    void add(std::uint32_t pixel, std::size_t index) {
-      unsorted_.push_back({pixel, static_cast<std::uint32_t>(index)});
-    }
-    void sort();
-    /// Those of a pixel, in the order in which they were added.
-    [[nodiscard]] std::span<const std::uint32_t> at(std::uint32_t pixel) const {
-      return std::span(sorted_).subspan(starts_[pixel], starts_[pixel + 1] - starts_[pixel]);
-    }
 
-   private:
-    std::vector<Meeting> unsorted_;
-    std::vector<std::uint32_t> sorted_;
-    std::array<std::uint32_t, std::size_t{size} * size + 1> starts_;
-  };
-  /// In pixels of the tile; the ends err by at most `error` in each coordinate, of which the
-  /// roundings of this are a part.
-  struct UnbalancedEdge {
-    SquarePoint from, to;
-    double error;
-    int times;
-    const ImageObject* object;
-    std::uint32_t from_vertex, to_vertex;
-  };
-
-  // tile_coverage_open.cpp: which pixels are open.
-  /// Adds the triangles of a side to those that are there; returns the index of the first of them.
+  // tile_coverage_full.cpp: the triangles of the tile, and which pixels are covered wholly.
+  /// Finds the open pixels and those that are covered wholly; returns whether any is only open.
+  bool find_open_pixels(std::uint32_t tile_number, const Tile::Context& context);
+  /// Adds the triangles of a side to those that are there, and their edges to the outlines; returns
+  /// the index of the first of them.
   std::size_t add_triangles(Side side, std::uint32_t tile_number, const Tile::Context& context);
-  /// Balances the edges of the triangles from `begin` on with what was left of others.
-  void balance_edges(std::size_t begin);
-  /// Finds pixels that front faces cover, whatever is behind them; returns whether all are covered.
-  bool look_at_front();
   void collect_triangles(Side side, std::uint32_t tile_number);
   /// visit(object, first, end): indices into numbers_, from `begin` on.
   template <class Visit>
   void for_each_object(std::size_t begin, const Visit& visit) const;
-  [[nodiscard]] const ImageObject& object_at(std::size_t i);
   void classify(std::size_t begin, const Tile::Context& context);
-  void find_open_pixels();
-  std::vector<EdgeBalance::Edge>& edges_left_of(const ImageObject& object);
-  void balance_edges_of(const ImageObject& object, std::size_t first, std::size_t end);
-  void sieve_edges(const ImageObject& object, std::size_t first, std::size_t end);
-  void open_along(const ImageObject& object, const std::vector<EdgeBalance::Edge>& edges);
-  template <class Visit>
-  void for_each_row(const UnbalancedEdge& edge, const Visit& visit) const;
-  [[nodiscard]] UnbalancedEdge edge_of(const ImageObject& object,
-                                       const EdgeBalance::Edge& edge) const;
-  void meet_edges();
-  [[nodiscard]] bool misses_tile(const ImageVertex& p, const ImageVertex& q) const;
-  [[nodiscard]] TileBox box_of(const UnbalancedEdge& edge, double margin) const;
-
-  // tile_coverage_full.cpp: which pixels one triangle covers wholly.
-  [[nodiscard]] TileBox whole() const {
-    return {0, static_cast<std::int16_t>(area_.last_column - area_.first_column), 0,
-            static_cast<std::int16_t>(area_.last_row - area_.first_row)};
-  }
+  void look_at_open(std::size_t begin, const Tile::Context& context);
+  void add_edges(std::size_t begin);
+  /// Finds pixels that front faces cover, whatever is behind them; returns whether all are covered.
+  bool look_at_front();
+  void mark_open();
+  /// Looks for pixels that large triangles cover, from `begin` on, as far as open pixels need it;
+  /// returns whether none is left.
+  bool fill_large(std::size_t begin);
   /// Whether any pixel of the box is open, and not covered wholly.
   [[nodiscard]] bool is_open(const TileBox& box) const;
   [[nodiscard]] bool misses_tile(const Shape& shape) const;
-  void look_at_open(std::size_t begin, const Tile::Context& context);
-  bool fill_large(std::size_t begin);
-
-  // tile_coverage.cpp: settling them.
-  void settle(std::uint32_t tile_number, const Tile::Context& context);
-  void meet_triangles();
-  void meet(const TileBox& box, const Shape& shape);
+  [[nodiscard]] const ImageObject& object_at(std::size_t i);
   [[nodiscard]] Shape shape_of(const ImageObject& object, std::size_t i) const;
   [[nodiscard]] Shape exact_shape(std::size_t i, const Tile::Context& context) const;
+
+  // tile_coverage_counts.cpp: how many triangles cover a point of an open pixel.
+  /// Prepares to count: finds columns to count from, and in other rows the triangles of each pixel.
+  void prepare_counts();
+  void find_references();
+  void meet_triangles();
+  void meet(const TileBox& box, const Shape& shape);
+  /// Whether all of a pixel certainly lies inside a triangle, and whether all certainly lies outside.
+  struct Sides {
+    bool inside = true, outside = false;
+  };
+  static Sides is_pixel_of(const Shape& shape, int column, int row);
+  /// The number at a point of the tile within a pixel, not counting open triangles; negative if it is
+  /// not certain.
+  [[nodiscard]] int number_at(std::uint32_t pixel, const SquarePoint& point) const;
+  [[nodiscard]] int number_of_shapes_at(std::uint32_t pixel, const SquarePoint& point) const;
+  /// The triangles that may meet a pixel, by their numbers in the scene.
+  std::span<const std::uint32_t> triangles_at(std::uint32_t pixel);
+
+  // tile_coverage.cpp: settling open pixels.
   void settle_open(const Tile::Context& context);
   float settle_pixel(std::uint32_t pixel, const Tile::Context& context);
   /// settle_pixel() by exact numbers alone.
@@ -166,36 +117,28 @@ class TileCoverage {
   /// The triangles of the tile, those of one object next to each other, and their classes.
   std::vector<std::uint32_t> numbers_;
   std::vector<CoverageTriangle> classes_;
+  /// For open triangles that may meet the tile, in the order of numbers_.
+  std::vector<Shape> open_shapes_;
+  TileOutlines outlines_;
   /// The object that was asked for last.
   const ImageObject* object_ = nullptr;
   /// The sample shows a surface, a front face; covered wholly by one triangle, or by front faces;
   /// open; open at first, then found to be covered by one triangle.
   TileRows shown_{}, front_{}, full_{}, open_{}, met_{};
+  /// For each row, a column whose pixel nothing covers and no edge meets; none where negative.
+  std::array<int, size> reference_{};
+  /// For open pixels of rows without such a column.
+  std::vector<Shape> shapes_;
+  PixelMeetings shapes_at_;
+  std::vector<std::uint32_t> triangles_at_;
+  PixelUnion union_;
+  PixelWinding winding_;
   /// What was found at open pixels, row by row.
   struct PixelValue {
     std::uint32_t pixel;
     float value;
   };
   std::vector<PixelValue> settled_;
-  EdgeSieve sieve_;
-  EdgeBalance balance_;
-  /// What opposite edges leave of each object's, in the order of the objects.
-  struct EdgesLeft {
-    const ImageObject* object;
-    std::vector<EdgeBalance::Edge> edges;
-  };
-  std::vector<EdgesLeft> left_;
-  std::vector<EdgeBalance::Edge> met_edges_;
-  std::vector<std::uint32_t> vertex_at_;
-  std::vector<UnbalancedEdge> unbalanced_;
-  std::vector<Shape> shapes_;
-  /// For open triangles that may meet the tile, in the order of numbers_.
-  std::vector<Shape> open_shapes_;
-  /// For open pixels.
-  Meetings shapes_at_, edges_at_;
-  std::vector<std::uint32_t> exact_numbers_;
-  PixelUnion union_;
-  PixelWinding winding_;
 };
 
 }  // namespace fathom::fast

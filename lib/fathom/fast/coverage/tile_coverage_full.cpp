@@ -1,9 +1,97 @@
 #include <algorithm>
 
 #include "fathom/fast/coverage/tile_coverage.h"
+#include "fathom/fast/coverage/tile_functions.h"
 
-// Which pixels of a tile one triangle covers wholly: large triangles, row by row.
+// The triangles of a tile, which pixels may be covered in part, and which are covered wholly.
 namespace fathom::fast {
+
+template <class Visit>
+void TileCoverage::for_each_object(std::size_t begin, const Visit& visit) const {
+  for (std::size_t first = begin; first < numbers_.size();) {
+    const ImageObject& object = object_of(scene_.objects, numbers_[first]);
+    std::size_t end = first;
+    while (end < numbers_.size() && numbers_[end] < object.end_number()) ++end;
+    visit(object, first, end);
+    first = end;
+  }
+}
+
+bool TileCoverage::find_open_pixels(std::uint32_t tile_number, const Tile::Context& context) {
+  numbers_.clear();
+  classes_.clear();
+  open_shapes_.clear();
+  outlines_.start(area_);
+  full_.fill(0);
+  open_.fill(~std::uint64_t{0});
+  const std::size_t front = add_triangles(Side::front, tile_number, context);
+  if (fill_large(front)) return false;
+  add_edges(front);
+  if (look_at_front()) return false;
+  const std::size_t back = add_triangles(Side::back, tile_number, context);
+  add_edges(back);
+  mark_open();
+  if (fill_large(back)) return false;
+  for (std::size_t row = 0; row < size; ++row) open_[row] &= ~full_[row];
+  return true;
+}
+
+std::size_t TileCoverage::add_triangles(Side side, std::uint32_t tile_number,
+                                        const Tile::Context& context) {
+  const std::size_t begin = numbers_.size();
+  collect_triangles(side, tile_number);
+  classify(begin, context);
+  look_at_open(begin, context);
+  return begin;
+}
+
+void TileCoverage::collect_triangles(Side side, std::uint32_t tile_number) {
+  const auto begin = static_cast<std::ptrdiff_t>(numbers_.size());
+  for (const Bins& bins : scene_.bins) {
+    for (const TileEntry& entry : bins.in_tile(tile_number, side)) {
+      numbers_.push_back(entry.number);
+    }
+  }
+  // Those of one object next to each other.
+  if (scene_.objects.size() > 1) std::sort(numbers_.begin() + begin, numbers_.end());
+}
+
+void TileCoverage::classify(std::size_t begin, const Tile::Context& context) {
+  classes_.resize(numbers_.size());
+  for_each_object(begin, [&](const ImageObject& object, std::size_t first, std::size_t end) {
+    classify_for_coverage(object, std::span(numbers_).subspan(first, end - first), context.range,
+                          area_, classes_.data() + first);
+  });
+}
+
+void TileCoverage::add_edges(std::size_t begin) {
+  for_each_object(begin, [&](const ImageObject& object, std::size_t first, std::size_t end) {
+    outlines_.add(object, std::span(numbers_).subspan(first, end - first),
+                  std::span(classes_).subspan(first, end - first));
+  });
+}
+
+// The number of front faces is the same, too, throughout a pixel that they do not open, and not 0
+// where one is seen. With many edges, hardly any pixel is left that none of them meets.
+bool TileCoverage::look_at_front() {
+  constexpr std::size_t many = 256;
+  if (outlines_.size() > many) return false;
+  mark_open();
+  for (std::size_t row = 0; row < size; ++row) full_[row] |= front_[row] & ~open_[row];
+  open_.fill(~std::uint64_t{0});
+  return !is_open(whole_tile(area_));
+}
+
+void TileCoverage::mark_open() {
+  open_.fill(0);
+  outlines_.find_pixels(open_);
+  const TileBox whole = whole_tile(area_);
+  for (const Shape& shape : open_shapes_) {
+    TileRows met{};
+    find_pixels_met(shape.sides(), whole, met);
+    for (std::size_t row = 0; row < size; ++row) open_[row] |= met[row];
+  }
+}
 
 bool TileCoverage::is_open(const TileBox& box) const {
   if (box.is_empty()) return false;
@@ -31,21 +119,45 @@ void TileCoverage::look_at_open(std::size_t begin, const Tile::Context& context)
       classes_[i].kind = CoverageClass::nothing;
       continue;
     }
-    add_pixels_inside(shape.sides(), whole(), full_);
+    add_pixels_inside(shape.sides(), whole_tile(area_), full_);
     open_shapes_.push_back(shape);
   }
 }
 
-/// Looks for pixels that large triangles cover, from `begin` on, as far as open pixels need it;
-/// returns whether none is left.
 bool TileCoverage::fill_large(std::size_t begin) {
   std::size_t filled = 0;
   for (std::size_t i = begin; i < numbers_.size(); ++i) {
     if (!classes_[i].is_large || !is_open(classes_[i].box)) continue;
     add_pixels_inside(shape_of(object_at(i), i).sides(), classes_[i].box, full_);
-    if (++filled % 8 == 0 && !is_open(whole())) return true;
+    if (++filled % 8 == 0 && !is_open(whole_tile(area_))) return true;
   }
-  return !is_open(whole());
+  return !is_open(whole_tile(area_));
+}
+
+const ImageObject& TileCoverage::object_at(std::size_t i) {
+  const std::uint32_t number = numbers_[i];
+  if (!object_ || number < object_->first_number || number >= object_->end_number()) {
+    object_ = &object_of(scene_.objects, number);
+  }
+  return *object_;
+}
+
+TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_t i) const {
+  auto [A, B, C] = object.mesh.triangles[numbers_[i] - object.first_number];
+  if (classes_[i].kind == CoverageClass::negative) std::swap(B, C);
+  const auto edges =
+      edges_over_tile({object.vertices[A], object.vertices[B], object.vertices[C]}, area_);
+  Shape shape{
+      .triangle = static_cast<std::uint32_t>(i), .is_open = false, .functions = {}, .count = 3};
+  std::copy(edges.begin(), edges.end(), shape.functions.begin());
+  return shape;
+}
+
+TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context& context) const {
+  const TriangleSetup setup =
+      exact_setup(context.referee.projected(numbers_[i]), context.perspective, area_);
+  const auto [functions, count] = functions_over_tile(setup, context.range);
+  return {static_cast<std::uint32_t>(i), true, functions, count};
 }
 
 }  // namespace fathom::fast

@@ -18,6 +18,12 @@ struct TileBox {
   [[nodiscard]] bool is_empty() const { return right < left || bottom < top; }
 };
 
+/// All pixels of a tile.
+inline TileBox whole_tile(const PixelBox& area) {
+  return {0, static_cast<std::int16_t>(area.last_column - area.first_column), 0,
+          static_cast<std::int16_t>(area.last_row - area.first_row)};
+}
+
 using TileRows = std::array<std::uint64_t, Tile::size>;
 
 inline std::uint64_t columns_between(int left, int right) {

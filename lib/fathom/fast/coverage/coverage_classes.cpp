@@ -1,13 +1,14 @@
 // Which triangles are simple for channel A, several at once.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fathom/fast/coverage/tile_coverage_lanes.cpp"
+#define HWY_TARGET_INCLUDE "fathom/fast/coverage/coverage_classes.cpp"
+#include "fathom/fast/coverage/coverage_classes.h"
+
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
 #include <algorithm>
 
-#include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
