@@ -46,6 +46,8 @@ int main() {
   print("crossing_error", fast::area_bounds::crossing_error);
   print("moved_edge", fast::area_bounds::moved_edge);
   print("moved_triangle", fast::area_bounds::moved_triangle);
+  print("moved_length", fast::area_bounds::moved_length);
+  print("moved_end", fast::area_bounds::moved_end);
   print("cut_error", fast::area_bounds::cut_error);
   print("cut_rounding", fast::area_bounds::cut_rounding);
 

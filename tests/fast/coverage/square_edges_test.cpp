@@ -36,8 +36,9 @@ SquareEdges triangle(const SquarePoint& a, const SquarePoint& b, const SquarePoi
 }
 
 void expect_area(SquareEdges edges, double expected) {
-  EXPECT_NEAR(area_between(edges), expected, edges.error_of(6));
-  EXPECT_LT(edges.error_of(6), 1e-11);
+  const double area = area_between(edges);
+  EXPECT_NEAR(area, expected, edges.error(area));
+  EXPECT_LT(edges.error(area), 1e-11);
 }
 
 TEST(SquareEdges, TrianglesInTheSquareAndAcrossItsSides) {

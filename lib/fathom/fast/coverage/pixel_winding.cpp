@@ -1,14 +1,17 @@
 #include "fathom/fast/coverage/pixel_winding.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fathom/fast/coverage/area_bounds.h"
+#include "fathom/numeric/unit_roundoff.h"
 
 // Let the corners of all triangles go straight from their exact to their computed places, by at
 // most ε in each coordinate. At the start the sum of the triangles' winding numbers around a point
 // is the number of triangles that cover it. Cancelled edges cancel all the way, so the sum changes
-// only where an edge that is left passes over the point, which is then within √2·ε of that edge.
-// Within the square such a strip has an area of at most 2√2·ε·(√2 + 2√2·ε) ≤ 4.1ε. Everywhere else
+// only where an edge that is left passes over the point, which is then within r = √2·ε of that edge.
+// Within the square such a strip has an area of at most 2r·(√2 + 2r) ≤ 4.1ε, and of at most
+// 2rl + πr², l being the length of the edge within r of the square. Everywhere else
 // the winding number of the computed edges is the exact number of triangles; in particular at a
 // point where that number is certain for all points within ε.
 //
@@ -22,6 +25,41 @@
 // moved, and crossings at the same place may come in any order: square_edges.h.
 namespace fathom::fast {
 
+namespace {
+
+/// Not less than the length of the segment within `margin` of the square in both coordinates. Shares
+/// of the segment and its length err by 8u together.
+/// Source   [LB84]
+double length_near_square(const SquarePoint& p, const SquarePoint& q, double margin) {
+  double first = 0, last = 1;
+  const auto clip = [&](double start, double change) {
+    if (change == 0) {
+      if (start < -margin || start > 1 + margin) last = 0;
+      return;
+    }
+    const double a = (-margin - start) / change, b = (1 + margin - start) / change;
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  };
+  const double dx = q.x - p.x, dy = q.y - p.y;
+  clip(p.x, dx);
+  clip(p.y, dy);
+  const double w = std::abs(dx), h = std::abs(dy);
+  // At least √(w² + h²).
+  const double length = std::max(w, h) + std::min(w, h) / 2;
+  return (std::max(last - first, 0.0) + 16 * unit_roundoff<double>)*length;
+}
+
+/// The area in the square that an edge passes over while its ends move by at most `error` in each
+/// coordinate.
+double area_passed(const SquarePoint& p, const SquarePoint& q, double error) {
+  const double length = length_near_square(p, q, 2 * error);
+  return error * std::min(area_bounds::moved_edge,
+                          area_bounds::moved_length * length + area_bounds::moved_end * error);
+}
+
+}  // namespace
+
 void PixelWinding::clear() {
   added_.clear();
   error_ = 0;
@@ -31,7 +69,7 @@ void PixelWinding::clear() {
 // own; the computed edges are one line, across which the winding number changes by all of them.
 void PixelWinding::add(const SquarePoint& from, const SquarePoint& to, double position_error,
                        int times) {
-  error_ += area_bounds::moved_edge * position_error;
+  error_ += area_passed(from, to, position_error);
   const bool in_order = from.x < to.x || (from.x == to.x && from.y <= to.y);
   const Added edge = in_order ? Added{from, to, times} : Added{to, from, -times};
   const auto same = std::find_if(added_.rbegin(), added_.rend(), [&](const Added& other) {
@@ -88,7 +126,7 @@ double PixelWinding::covered_length(Crossings crossings, int number_at_side) {
 }
 
 Interval PixelWinding::enclose(double sum) const {
-  const double bound = (error_ + edges_.error_of(edges_.edges().size())) * (1 + 0x1p-20);
+  const double bound = (error_ + edges_.error(sum)) * (1 + 0x1p-20);
   return {std::max(sum - bound, 0.0), std::min(sum + bound, 1.0)};
 }
 

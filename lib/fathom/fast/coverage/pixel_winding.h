@@ -55,6 +55,11 @@ class PixelWinding {
 
 template <class Count>
 Interval PixelWinding::area(const Count& count) {
+  // Where there is no edge, it is all or nothing.
+  if (added_.empty()) {
+    const int number = count(SquarePoint{0.5, 0.5});
+    return number < 0 ? Interval{0, 1} : number > 0 ? Interval{1, 1} : Interval{0, 0};
+  }
   set_edges();
   int at_top = -1;
   bool known = false;

@@ -67,6 +67,8 @@ void SquareEdges::add(const SquarePoint& p, const SquarePoint& q, std::int32_t t
 void SquareEdges::start() {
   passed_ = 0;
   slabs_ = next_edge_ = next_level_ = 0;
+  in_u_ = 32 * static_cast<double>(level_.size());
+  in_xi_ = 0;
   crossings_.clear();
   waiting_.clear();
   breaks_.assign({0, 1});
@@ -142,9 +144,28 @@ void SquareEdges::move_to(double height) {
   sort_by(crossings_, [](const Crossing& c) { return c.x; });
 }
 
-double SquareEdges::error_of(std::size_t crossings) const {
-  return 10 * static_cast<double>(crossings + 2) * crossing_error() +
-         32 * unit_roundoff<double> * static_cast<double>(slabs_ + 1);
+void SquareEdges::add_errors(double heights) {
+  const double margin = 4 * crossing_error();
+  const std::size_t slabs = 1 + cuts_.size();
+  std::size_t met = 0;
+  bool has_slope_bound = false;
+  for (const Crossing& c : crossings_) {
+    const bool beyond =
+        std::max(c.x_low, c.x_high) < -margin || std::min(c.x_low, c.x_high) > 1 + margin;
+    if (beyond) continue;
+    ++met;
+    has_slope_bound = std::abs(c.edge->slope) <= 0x1p20;
+  }
+  slabs_ += slabs;
+  if (met == 0) return;
+  const bool alone = met == 1 && has_slope_bound;
+  in_u_ += (alone ? 1 : 32) * static_cast<double>(slabs);
+  in_xi_ += (alone ? 6 : 10 * static_cast<double>(met + 2)) * heights;
+}
+
+double SquareEdges::error(double sum) const {
+  return in_xi_ * crossing_error() +
+         unit_roundoff<double> * (in_u_ + 4 * static_cast<double>(slabs_ + 2) * sum);
 }
 
 double SquareEdges::crossing_error() const {

@@ -32,12 +32,21 @@ struct SquarePoint {
 /// 4. A length that changes by no more than a crossing is moved, and that is a linear combination
 ///    of crossings as long as their order is fixed, therefore differs by at most 8nξ from a linear
 ///    function that has the value at mid-height, n being the number of crossings and of sides of
-///    the square; the value computed at mid-height adds nξ.
-/// 5. The 8u at both ends of a slab, times a length of at most 1: 16u per slab. A slab too thin for
-///    its middle to lie inside it is left out: 2u. An edge that rises by less than 2⁻⁶⁰ is left
-///    out, except for breaks at its ends: it is met in a slab no higher than that.
-///    Products and sums: 4u per slab.
-/// Together 9nξ, and 32u per slab; error_of() returns 10nξ, and that.
+///    the square; the value computed at mid-height adds nξ. Edges of which the computed x is below
+///    −4ξ at two successive ends, or above 1 + 4ξ, lie beyond that side in between: they do not count,
+///    and where there are no others, the length is constant, and no break is set.
+/// 5. The 8u at both ends of a slab, times a length of at most 1: 16u per slab that an edge may meet.
+///    A slab too thin for its middle to lie inside it is left out: 2u. An edge that rises by less
+///    than 2⁻⁶⁰ is left out, except for breaks at its ends: it is met in a slab no higher than that.
+///    Products and sums: 4u of the sum per slab.
+/// Together 9nξ times the heights in which edges may be met, 32u per slab there, per thin slab and per
+/// level edge, and 4u of the sum per slab; error() returns 10nξ times those heights, and that.
+///
+/// Between two successive ends where a single edge may be met, nothing depends on an order:
+/// 6. In a slab the edge's x differs from what of it is within the square by at most 4ξ if that is so
+///    in the middle, and is otherwise within 4ξ of a side: 5ξ with the value computed at mid-height,
+///    for which error() has 6ξ. The 8u at an end count times what the length varies there, 4ξ and the
+///    slope times 8u: up to a slope of 2²⁰ that is less than 2⁻²⁹, and u per slab is more than enough.
 class SquareEdges {
  public:
   struct Edge {
@@ -80,8 +89,8 @@ class SquareEdges {
   /// The sum over the slabs of thickness times length(Slab).
   template <class Length>
   double integrate(const Length& length);
-  /// The error of the integrate() before if a horizontal line crosses at most so many edges.
-  [[nodiscard]] double error_of(std::size_t crossings) const;
+  /// The error of the integrate() that returned the sum, which was the last.
+  [[nodiscard]] double error(double sum) const;
   /// ξ.
   [[nodiscard]] double crossing_error() const;
 
@@ -93,6 +102,8 @@ class SquareEdges {
   void start();
   void enter(double low, double high);
   void find_cuts(double low, double high);
+  /// For the heights between the last two breaks.
+  void add_errors(double heights);
   void add_cut(double low, double high, double d_low, double d_high);
   void move_to(double height);
   void look_at_side(Crossing& crossing, bool is_left) {
@@ -112,6 +123,8 @@ class SquareEdges {
   std::vector<double> cuts_;
   std::int32_t passed_ = 0;
   std::size_t slabs_ = 0;
+  /// The error so far, over u and over ξ.
+  double in_u_ = 0, in_xi_ = 0;
 };
 
 template <class Visit>
@@ -122,12 +135,14 @@ void SquareEdges::for_each_slab(const Visit& visit) {
     const double end = breaks_[i + 1];
     enter(low, end);
     find_cuts(low, end);
-    slabs_ += 1 + cuts_.size();
+    add_errors(end - low);
     for (std::size_t k = 0; k <= cuts_.size(); ++k) {
       const double high = k < cuts_.size() ? cuts_[k] : end, middle = low + (high - low) / 2;
       if (low < middle && middle < high) {
         move_to(middle);
         if (!visit(Slab{high - low, middle, crossings_, passed_})) return;
+      } else {
+        in_u_ += 2;
       }
       low = high;
     }
