@@ -19,13 +19,13 @@ using namespace triangle;
 
 /// A row of q with errors, and the exact ends of the intervals of D.
 struct Row {
-  std::array<double, samples_of_row> q;
-  std::array<std::uint64_t, samples_of_row> tags;
+  std::array<double, TileShape::size> q;
+  std::array<std::uint64_t, TileShape::size> tags;
 
   /// D near middles of two numbers that are 2^−23·size apart, errors from 2⁻⁴⁵ to 2⁻²⁵.
   Row(std::mt19937_64& random, bool perspective) {
     const auto unit = [&] { return std::ldexp(static_cast<double>(random() >> 11), -53); };
-    for (std::size_t k = 0; k < samples_of_row; ++k) {
+    for (std::size_t k = 0; k < TileShape::size; ++k) {
       const double base = static_cast<float>(1.05 + 0.9 * unit());
       const double spread = std::ldexp(1, -25 - static_cast<int>(random() % 20));
       const double D = base + 0x1p-24 + spread * 3 * (2 * unit() - 1);
@@ -52,7 +52,7 @@ struct Counts {
 template <class T, class Round>
 void expect_right(const RoundedValues<T>& ours, const Row& row, bool perspective,
                   const Round& round, Counts& counts, double loose = 2) {
-  for (std::size_t k = 0; k < samples_of_row; ++k) {
+  for (std::size_t k = 0; k < TileShape::size; ++k) {
     const auto at = [&](double factor) { return round(row.depth(k, factor, perspective), k); };
     if ((ours.settled >> k & 1) != 0) {
       ++counts.settled;
@@ -98,7 +98,7 @@ TEST_P(ChannelRows, DepthsAndCodes) {
     RoundedValues<std::uint16_t> rounded;
     const double scale = 0x1p15;
     Row coarse = row;
-    for (std::size_t k = 0; k < samples_of_row; ++k) {
+    for (std::size_t k = 0; k < TileShape::size; ++k) {
       const double code = 32770 + static_cast<double>(random() % 20000) + 0.5;
       const double D = code / scale * (1 + 0x1p-30 * static_cast<double>(random() % 64));
       coarse.q[k] = perspective ? 1 / D : -D;
@@ -160,7 +160,7 @@ TEST(Fast, RowsOfRayDistances) {
       return Dyadic(x) * Dyadic(x) + Dyadic(y) * Dyadic(y) + Dyadic(1.0);
     };
     // Move D so that the distance is where D was.
-    for (std::size_t k = 0; k < samples_of_row; ++k) {
+    for (std::size_t k = 0; k < TileShape::size; ++k) {
       const double length = std::sqrt(round_to_binary64(Ratio(squared_length(k))));
       row.q[k] *= length;
       row.tags[k] = std::bit_cast<std::uint64_t>(std::bit_cast<double>(row.tags[k]) * length);
@@ -184,7 +184,7 @@ TEST(Fast, RowsOfUnknownDepths) {
     const SceneRays rays(scene, plain_camera(perspective));
     std::mt19937_64 random(54);
     Row row(random, perspective);
-    for (std::size_t k = 0; k < samples_of_row; ++k) {
+    for (std::size_t k = 0; k < TileShape::size; ++k) {
       row.tags[k] = std::bit_cast<std::uint64_t>(k % 2 ? std::nan("")
                                                        : std::numeric_limits<double>::infinity());
     }

@@ -174,7 +174,6 @@ CertifiedWriter::Open CertifiedWriter::write_settled(const VisibleRow& row,
   if (needs_surfaces_) {
     SurfaceIndices indices;
     surfaces_.find(row.lanes.places, indices);
-
     write_normals(row, indices);
     if (values_.barycentric[0]) {
       std::array<RoundedValues<float>, 2> rounded;

@@ -22,10 +22,10 @@ struct VisibleRow {
   /// Those of them at which Z is still to be written.
   std::uint64_t open_depth = 0;
   std::size_t first_pixel = 0;  // row · width + column, of the first sample
-  std::size_t columns = samples_of_row;
+  std::size_t columns = TileShape::size;
 
   [[nodiscard]] std::uint64_t all() const {
-    return ~std::uint64_t{0} >> (samples_of_row - columns);
+    return ~std::uint64_t{0} >> (TileShape::size - columns);
   }
 
   [[nodiscard]] VisibleSurface at(std::size_t k) const {

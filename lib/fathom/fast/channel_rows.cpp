@@ -74,7 +74,7 @@ HWY_ATTR void round_lanes_of_positions(const SurfaceRow& row, const Rays& world,
                                       AlongRow(varying[1].hi, m1[1].hi, m0[1].hi, row.v),
                                       AlongRow(varying[2].hi, m1[2].hi, m0[2].hi, row.v)};
   for (RoundedValues<float>& r : rounded) r.settled = 0;
-  for (std::size_t first = 0; first < samples_of_row; first += hn::Lanes(D())) {
+  for (std::size_t first = 0; first < TileShape::size; first += hn::Lanes(D())) {
     const CertifiedLanes depth = load_depth(row, first, perspective);
     const V u = load_u(row, first), depth_size = hn::Abs(depth.value);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -113,7 +113,7 @@ template <class Round>
 HWY_INLINE void for_lanes(const SurfaceRow& row, const SceneRays& rays, bool distance,
                           const Round& round) {
   const bool times_length = distance && rays.perspective();
-  for (std::size_t first = 0; first < samples_of_row; first += hn::Lanes(D())) {
+  for (std::size_t first = 0; first < TileShape::size; first += hn::Lanes(D())) {
     const CertifiedLanes depth = load_depth(row, first, rays.perspective());
     round(times_length ? times_ray_length(depth, load_u(row, first), row, rays) : depth, first);
   }

@@ -4,14 +4,13 @@
 #include <array>
 #include <cstddef>
 
-namespace fathom::fast {
+#include "fathom/fast/tile_shape.h"
 
-/// Samples of a row of a tile.
-inline constexpr std::size_t samples_of_row = 64;
+namespace fathom::fast {
 
 /// Values of a row of a tile, put together before they are written to a map.
 template <class T>
-struct alignas(64) MapRow : std::array<T, samples_of_row> {};
+struct alignas(64) MapRow : std::array<T, TileShape::size> {};
 
 /// How rows are written to a map: as usual where the system has just provided its memory; else past
 /// the caches. Then nothing waits for what the memory held before: writing a tile's rows into a map

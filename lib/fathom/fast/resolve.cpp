@@ -200,7 +200,6 @@ void write_background(const Tile::Output& output, std::size_t first_pixel, std::
 }  // namespace
 
 std::optional<EncodingFault> Tile::resolve(const Output& output, const Context& context) const {
-  static_assert(size == samples_of_row);
   const std::uint32_t columns = area_.last_column - area_.first_column + 1;
   const std::uint64_t whole_row = ~std::uint64_t{0} >> (size - columns);
   RenderStatistics& statistics = context.statistics;

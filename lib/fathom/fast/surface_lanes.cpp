@@ -301,7 +301,7 @@ HWY_INLINE CertifiedLanes weight_of(const CertifiedLanes& w, const Divisor& y) {
 void weights_in_lanes(const SurfaceRow& row, const SurfaceIndices& indices, const LaneForms& forms,
                       std::array<RoundedValues<float>, 2>& rounded) {
   for (RoundedValues<float>& r : rounded) r.settled = 0;
-  for (std::size_t first = 0; first < samples_of_row; first += hn::Lanes(D())) {
+  for (std::size_t first = 0; first < TileShape::size; first += hn::Lanes(D())) {
     const LaneIndices at = indices_at(indices, first);
     const V u = load_u(row, first);
     const Divisor divisor = divisor_of(form_at(forms.divisor, at, u, row.v));
@@ -339,7 +339,7 @@ void round_weights(const SurfaceRow& row, const SurfaceIndices& indices, const L
 
 void take_normals(const SurfaceIndices& indices, std::span<const NormalOfSurface> normals,
                   std::array<MapRow<float>, 3>& taken) {
-  for (std::size_t k = 0; k < samples_of_row; ++k) {
+  for (std::size_t k = 0; k < TileShape::size; ++k) {
     const NormalOfSurface& n = normals[indices[k]];
     for (std::size_t i = 0; i < 3; ++i) taken[i][k] = n[i];
   }

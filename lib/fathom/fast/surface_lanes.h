@@ -45,7 +45,7 @@ void make_weight_forms(const TriangleLanes& triangles, const triangle::ObjectRay
                        const triangle::ImageBounds& image, const LaneForms& forms);
 
 /// For each sample of a row, the index of its surface among those that are visible in the tile.
-using SurfaceIndices = std::array<std::uint32_t, samples_of_row>;
+using SurfaceIndices = std::array<std::uint32_t, TileShape::size>;
 
 /// Weights of B and of C at the samples of a row.
 void round_weights(const SurfaceRow& row, const SurfaceIndices& indices, const LaneForms& forms,

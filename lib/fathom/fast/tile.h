@@ -11,9 +11,10 @@
 #include "fathom/fast/bins.h"
 #include "fathom/fast/certified_writer.h"
 #include "fathom/fast/depth_range.h"
+#include "fathom/fast/exact_setups.h"
 #include "fathom/fast/setup.h"
+#include "fathom/fast/tile_shape.h"
 #include "fathom/triangle/channels.h"
-#include "fathom/triangle/recent_triangles.h"
 #include "fathom/triangle/referee.h"
 
 namespace fathom::fast {
@@ -31,22 +32,6 @@ inline std::uint64_t surface_tag(std::uint32_t number, double q_error) {
 }
 /// No surface: an error of almost nothing.
 inline constexpr std::uint64_t no_surface_tag = std::uint64_t{0x00100000} << 32 | no_surface;
-
-/// Setups of triangles from exact numbers for all samples of an image, one for each thread: each of
-/// many tiles needs them.
-class ExactSetups {
- public:
-  explicit ExactSetups(const PixelBox& image) : image_(image) {}
-  const TriangleSetup& of(std::uint32_t number, triangle::Referee& referee, bool perspective) {
-    return remembered_.get(number, [&](TriangleSetup& setup) {
-      setup = exact_setup(referee.projected(number), perspective, image_);
-    });
-  }
-
- private:
-  PixelBox image_;
-  triangle::RecentTriangles<TriangleSetup, 4096> remembered_;
-};
 
 /// A surface that may be visible in a tile: q as an affine function of the sample's column and row
 /// in the tile, c + a·column + b·row, with its tag.
@@ -69,12 +54,8 @@ inline LaneTag lane_tag(std::uint32_t place, float q_error) {
 /// The nearest surface so far at the samples of a small part of the image, whatever the order in
 /// which triangles are drawn. Samples hold q in binary32, which settles nearly every decision; the
 /// surfaces have it in binary64.
-class Tile {
+class Tile : public TileShape {
  public:
-  static constexpr std::uint32_t size = 64;
-  static constexpr std::uint32_t block = 8;
-  static constexpr std::uint32_t blocks_of_row = size / block;
-  static constexpr std::size_t blocks = std::size_t{blocks_of_row} * blocks_of_row;
   static const std::size_t most_packed_bytes;
 
   /// What a tile works with, one for each thread.
@@ -146,22 +127,6 @@ class Tile {
   std::optional<triangle::EncodingFault> resolve(const Output& output,
                                                  const Context& context) const;
 
-  /// Samples are kept by cells of 4 × 4, row by row of the tile, each row by row: a vector has as
-  /// much of a cell as it can, always at the same place of memory, which a processor can hand from a
-  /// write to the next read.
-  static constexpr std::uint32_t cell = 4;
-  /// Index of a sample by its column and row within the tile.
-  static constexpr std::size_t index(std::uint32_t column, std::uint32_t row) {
-    return (static_cast<std::size_t>(row / cell) * (size / cell) + column / cell) * (cell * cell) +
-           row % cell * cell + column % cell;
-  }
-  /// Column and row of the sample at an index.
-  static constexpr std::uint32_t column_of(std::size_t i) {
-    return static_cast<std::uint32_t>(i / (cell * cell) % (size / cell) * cell + i % cell);
-  }
-  static constexpr std::uint32_t row_of(std::size_t i) {
-    return static_cast<std::uint32_t>(i / (cell * size) * cell + i / cell % cell);
-  }
   /// The surface at a sample; its number is no_surface where there is none.
   [[nodiscard]] const TileSurface& surface_at(std::size_t i) const {
     return surfaces_[place_of(tags_[i])];

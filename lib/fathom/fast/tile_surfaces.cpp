@@ -36,7 +36,7 @@ void TileSurfaces::start(const Tile& tile) {
 }
 
 void TileSurfaces::find(const std::uint32_t* places, SurfaceIndices& indices) const {
-  for (std::size_t k = 0; k < samples_of_row; ++k) indices[k] = index_at_[places[k]];
+  for (std::size_t k = 0; k < Tile::size; ++k) indices[k] = index_at_[places[k]];
 }
 
 TileSurfaces::Batch TileSurfaces::batch_from(std::size_t first, const ValueFrame& frame) const {
