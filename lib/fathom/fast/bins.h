@@ -9,6 +9,7 @@
 
 #include "fathom/fast/boxes.h"
 #include "fathom/fast/depth_range.h"
+#include "fathom/fast/exact_setups.h"
 #include "fathom/fast/vertex.h"
 #include "fathom/triangle/referee.h"
 
@@ -93,6 +94,7 @@ class Bins {
     bool by_area;
     const TileGrid& grid;
     triangle::Referee& referee;
+    ExactSetups& exact_setups;
     RenderStatistics& statistics;
     /// Whether memory that is needed while sorting is kept for the next time.
     bool keep_memory = false;
@@ -116,9 +118,14 @@ class Bins {
   class Lists {
    public:
     void start(std::uint32_t tiles);
-    /// Triangles that meet one tile.
+    /// Triangles that meet one tile each.
     void add(const BoxBatch::Entries& entries);
-    /// `q`: moved_up_in_24_bits().
+    void add(std::uint32_t number, Nearness nearness, std::uint32_t tile) {
+      entries_.push_back(std::uint64_t{tile} << 32 | number);
+      nearness_.push_back(nearness);
+      ++starts_[std::size_t{tile} + 1];
+    }
+    /// A triangle in all tiles that its box meets. `q`: moved_up_in_24_bits().
     void add(std::uint32_t number, std::uint32_t q, const PixelBox& box, const TileGrid& grid);
     void sort(bool keep_memory);
     [[nodiscard]] std::span<const TileEntry> in_tile(std::uint32_t tile) const {
