@@ -96,6 +96,17 @@ void collect_doubtful(const FastWorkers& workers, const Camera& camera,
   });
 }
 
+namespace {
+
+/// The channels whose background tiles that show surfaces do not write anyway.
+MapBackground beside_surfaces(MapBackground background, bool writes_depths) {
+  background.leave_out("A");
+  if (writes_depths) background.leave_out("Z");
+  return background;
+}
+
+}  // namespace
+
 FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays,
                        MapBackground unfilled, MapRows rows)
     : rows_(rows),
@@ -105,21 +116,11 @@ FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& ra
                           [&](const ImageChannel& channel) {
                             return channel.name != "A" && !(depths_ && channel.name == "Z");
                           })),
-      all_(std::move(unfilled)),
-      unfilled_(all_) {
-  unfilled_.leave_out("A");
-  if (depths_) unfilled_.leave_out("Z");
-}
+      all_(unfilled, rows),
+      beside_surfaces_(beside_surfaces(std::move(unfilled), depths_ != nullptr), rows) {}
 
 void FastOutput::write_background(const PixelBox& area, std::uint32_t image_width) const {
-  const std::uint32_t columns = area.last_column - area.first_column + 1;
-  all_.for_each([&](auto* values, auto background) {
-    MapRow<decltype(background)> pixels;
-    pixels.fill(background);
-    for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
-      rows_.write(pixels, columns, values + std::size_t{row} * image_width + area.first_column);
-    }
-  });
+  all_.write(area, image_width);
   rows_.finish();
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "fathom/fast/background_rows.h"
 #include "fathom/fast/bins.h"
 #include "fathom/fast/certified_writer.h"
 #include "fathom/fast/tile.h"
@@ -90,7 +91,8 @@ class FastOutput {
   void write_background(const PixelBox& area, std::uint32_t image_width) const;
   std::optional<triangle::EncodingFault> write(const Tile& tile, std::uint32_t image_width,
                                                const Tile::Context& context) {
-    return tile.resolve({certified_.local(), depths_, others_, unfilled_, image_width}, context);
+    return tile.resolve({certified_.local(), depths_, others_, beside_surfaces_, image_width},
+                        context);
   }
 
  private:
@@ -101,7 +103,7 @@ class FastOutput {
   /// Whether there are channels besides these and A.
   bool others_;
   /// Of all channels, and of those besides A and these.
-  triangle::MapBackground all_, unfilled_;
+  BackgroundRows all_, beside_surfaces_;
 };
 
 }  // namespace fathom::fast

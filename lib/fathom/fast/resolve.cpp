@@ -93,24 +93,38 @@ HWY_INLINE void store(const Surfaces& s, hn::Vec<DT32> places, std::uint32_t col
   hn::Store(places, DT32(), row.places.data() + column);
 }
 
-/// Which samples of a row show a surface, and which.
-std::uint64_t look_at_row(const Tile& tile, std::uint32_t row, SurfacesOfRow& surfaces) {
+/// Calls shown(column, surfaces, which lanes show one) for as many samples of a row at once as there
+/// are lanes, or empty(column) where none of them shows a surface. `surfaces`: filled if not null.
+/// Returns which samples show one.
+template <class Shown, class Empty>
+HWY_INLINE std::uint64_t look_at_row(const Tile& tile, std::uint32_t row, SurfacesOfRow* surfaces,
+                                     const Shown& shown, const Empty& empty) {
   const DT32 dt;
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(D()));
   const auto place = hn::Set(dt, Tile::place_of(~LaneTag{0}));
-  std::uint64_t shown = 0;
+  std::uint64_t with_surface = 0;
   for (std::uint32_t column = 0; column < Tile::size; column += lanes) {
     const auto tags = lane_tags_at(tile, column, row);
     const auto places = hn::And(tags, place);
     const auto surface = hn::Ne(places, hn::Zero(dt));
     if (hn::AllFalse(dt, surface)) {
-      hn::Store(places, dt, surfaces.places.data() + column);
+      if (surfaces) hn::Store(places, dt, surfaces->places.data() + column);
+      empty(column);
       continue;
     }
-    store(surfaces_of(tile, tags, column, row), places, column, surfaces);
-    shown |= std::uint64_t{lane_bits(dt, surface)} << column;
+    const Surfaces s = surfaces_of(tile, tags, column, row);
+    if (surfaces) store(s, places, column, *surfaces);
+    with_surface |= std::uint64_t{lane_bits(dt, surface)} << column;
+    shown(column, s, surface);
   }
-  return shown;
+  return with_surface;
+}
+
+/// Which samples of a row show a surface, and which.
+std::uint64_t find_surfaces_of_row(const Tile& tile, std::uint32_t row, SurfacesOfRow& surfaces) {
+  return look_at_row(
+      tile, row, &surfaces, [](std::uint32_t, const Surfaces&, hn::Mask<DT32>) HWY_ATTR {},
+      [](std::uint32_t) HWY_ATTR {});
 }
 
 // If both ends of an interval that contains D round to the same number, so does D: rounding is
@@ -118,36 +132,24 @@ std::uint64_t look_at_row(const Tile& tile, std::uint32_t row, SurfacesOfRow& su
 template <bool perspective>
 HWY_INLINE RowBits round_row(const Tile& tile, std::uint32_t row, float* depths,
                              SurfacesOfRow* surfaces) {
-  const D d;
   const D32 d32;
-  const DT32 dt;
-  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
   const auto background = hn::Set(d32, std::numeric_limits<float>::infinity());
-  const auto no_place = hn::Zero(dt), place = hn::Set(dt, Tile::place_of(~LaneTag{0}));
   RowBits bits;
-  for (std::uint32_t column = 0; column < Tile::size; column += lanes) {
-    const auto tags = lane_tags_at(tile, column, row);
-    const auto places = hn::And(tags, place);
-    const auto surface = hn::Ne(places, no_place);
-    if (hn::AllFalse(dt, surface)) {
-      if (surfaces) hn::Store(places, dt, surfaces->places.data() + column);
-      hn::StoreU(background, d32, depths + column);
-      continue;
-    }
-    const Surfaces s = surfaces_of(tile, tags, column, row);
-    if (surfaces) store(s, places, column, *surfaces);
-    const V error = hn::BitCast(d, s.tag);
-    const DepthInterval D_interval =
-        perspective ? perspective_depth(s.q, error) : orthographic_depth(s.q, error);
-    const auto least = to_binary32(d32, D_interval.least);
-    const auto greatest = to_binary32(d32, D_interval.greatest);
-    hn::StoreU(hn::IfThenElse(hn::RebindMask(d32, surface), least, background), d32,
-               depths + column);
-    const unsigned shown = lane_bits(dt, surface);
-    const unsigned settled = bits_of(D_interval.known) & lane_bits(d32, hn::Eq(least, greatest));
-    bits.surface |= std::uint64_t{shown} << column;
-    bits.open |= std::uint64_t{shown & ~settled} << column;
-  }
+  bits.surface = look_at_row(
+      tile, row, surfaces,
+      [&](std::uint32_t column, const Surfaces& s, hn::Mask<DT32> surface) HWY_ATTR {
+        const V error = hn::BitCast(D(), s.tag);
+        const DepthInterval D_interval =
+            perspective ? perspective_depth(s.q, error) : orthographic_depth(s.q, error);
+        const auto least = to_binary32(d32, D_interval.least);
+        const auto greatest = to_binary32(d32, D_interval.greatest);
+        hn::StoreU(hn::IfThenElse(hn::RebindMask(d32, surface), least, background), d32,
+                   depths + column);
+        const unsigned settled =
+            bits_of(D_interval.known) & lane_bits(d32, hn::Eq(least, greatest));
+        bits.open |= std::uint64_t{lane_bits(DT32(), surface) & ~settled} << column;
+      },
+      [&](std::uint32_t column) HWY_ATTR { hn::StoreU(background, d32, depths + column); });
   return bits;
 }
 
@@ -166,20 +168,18 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fathom::fast {
 
-HWY_EXPORT(look_at_row);
+HWY_EXPORT(find_surfaces_of_row);
 HWY_EXPORT(round_depths_of_row);
 
 namespace {
 
-RowBits write_depths(const Tile& tile, std::uint32_t row, float* depths, const MapRows& rows,
-                     const Tile::Context& context, SurfacesOfRow* surfaces) {
-  const std::uint32_t columns = tile.area().last_column - tile.area().first_column + 1;
+RowBits write_depths(const Tile& tile, std::uint32_t row, float* depths, std::size_t columns,
+                     const MapRows& rows, const Tile::Context& context, SurfacesOfRow* surfaces) {
   MapRow<float> rounded;
   const RowBits bits = HWY_DYNAMIC_DISPATCH(round_depths_of_row)(tile, row, context.perspective,
                                                                  rounded.data(), surfaces);
   rows.write(rounded, columns, depths);
-  const std::uint64_t within = ~std::uint64_t{0} >> (Tile::size - columns);
-  return {bits.surface & within, bits.open & within};
+  return bits;
 }
 
 void note_doubts(std::uint64_t open, const PixelBox& area, std::uint32_t row,
@@ -189,19 +189,10 @@ void note_doubts(std::uint64_t open, const PixelBox& area, std::uint32_t row,
   }
 }
 
-void write_background(const Tile::Output& output, std::size_t first_pixel, std::uint32_t columns) {
-  output.unfilled.for_each([&](auto* values, auto background) {
-    MapRow<decltype(background)> pixels;
-    pixels.fill(background);
-    output.certified.rows().write(pixels, columns, values + first_pixel);
-  });
-}
-
 }  // namespace
 
 std::optional<EncodingFault> Tile::resolve(const Output& output, const Context& context) const {
   const std::uint32_t columns = area_.last_column - area_.first_column + 1;
-  const std::uint64_t whole_row = ~std::uint64_t{0} >> (size - columns);
   RenderStatistics& statistics = context.statistics;
   const MapRows& rows = output.certified.rows();
   SurfacesOfRow surfaces;
@@ -212,26 +203,31 @@ std::optional<EncodingFault> Tile::resolve(const Output& output, const Context& 
     visible.columns = columns;
     visible.first_pixel = static_cast<std::size_t>(row) * output.image_width + area_.first_column;
     if (output.depths) {
-      const RowBits bits = write_depths(*this, tile_row, output.depths + visible.first_pixel, rows,
-                                        context, output.others ? &surfaces : nullptr);
-      note_doubts(bits.open, area_, row, context);
-      visible.surface = bits.surface;
-      visible.open_depth = bits.open;
+      const RowBits bits =
+          write_depths(*this, tile_row, output.depths + visible.first_pixel, columns, rows, context,
+                       output.others ? &surfaces : nullptr);
+      visible.surface = bits.surface & visible.all();
+      visible.open_depth = bits.open & visible.all();
+      note_doubts(visible.open_depth, area_, row, context);
     } else {
-      visible.surface = HWY_DYNAMIC_DISPATCH(look_at_row)(*this, tile_row, surfaces) & whole_row;
+      visible.surface =
+          HWY_DYNAMIC_DISPATCH(find_surfaces_of_row)(*this, tile_row, surfaces) & visible.all();
       visible.open_depth = visible.surface;
     }
     statistics.pixels_with_surface += static_cast<std::uint64_t>(std::popcount(visible.surface));
     statistics.rounding.interval +=
         static_cast<std::uint64_t>(std::popcount(visible.surface & ~visible.open_depth));
     if (visible.surface == 0) {
-      write_background(output, visible.first_pixel, columns);
+      if (output.others) {
+        output.background.write({area_.first_column, area_.last_column, row, row},
+                                output.image_width);
+      }
       continue;
     }
     if (!output.others) {
       visible.surface = visible.open_depth;
       if (visible.surface == 0) continue;
-      HWY_DYNAMIC_DISPATCH(look_at_row)(*this, tile_row, surfaces);
+      HWY_DYNAMIC_DISPATCH(find_surfaces_of_row)(*this, tile_row, surfaces);
     }
     visible.lanes = {surfaces.q.data(), surfaces.tags.data(), surfaces.places.data(),
                      area_.first_column + 0.5, row + 0.5};

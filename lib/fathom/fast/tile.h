@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "fathom/fast/background_rows.h"
 #include "fathom/fast/bins.h"
 #include "fathom/fast/certified_writer.h"
 #include "fathom/fast/depth_range.h"
@@ -120,7 +121,7 @@ class Tile : public TileShape {
     /// Whether there are channels besides Z in binary32 and A, and what these have where there is
     /// no surface, as far as they have to be filled.
     bool others;
-    const triangle::MapBackground& unfilled;
+    const BackgroundRows& background;
     std::uint32_t image_width;
   };
   /// Writes the visible surfaces; stops at the first fault in row order.
