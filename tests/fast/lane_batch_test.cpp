@@ -151,33 +151,6 @@ TEST(LaneBatch, WhatMayOverflowHasNoBound) {
   }
 }
 
-TEST(Nearness, IsNeverLessThanTheNumber) {
-  Numbers n(64);
-  for (int i = 0; i < 20000 / effort; ++i) {
-    const auto x = static_cast<float>(std::ldexp(n.unit(), n.below(220) - 100));
-    const std::uint32_t up = moved_up_in_24_bits(std::bit_cast<std::uint32_t>(x));
-    const auto moved = std::bit_cast<float>(up);
-    EXPECT_EQ(up & 0xFF, 0U);
-    EXPECT_GT(moved, x);
-    EXPECT_LT(moved, x + std::abs(x) * 0x1p-14F);
-    const Nearness near = nearness_in(up, 1, 3, 7, 7);
-    EXPECT_EQ(block_of(near), 7U * 8 + 1);
-    EXPECT_TRUE(meets_more_than_two_blocks(near));
-    EXPECT_EQ(near & 0xFFFFFF00, up);
-  }
-  EXPECT_FALSE(meets_more_than_two_blocks(nearness_in(0, 2, 3, 4, 5)));
-  EXPECT_EQ(nearness_in(0, 0, 4, 0, 0), never_hidden);
-  EXPECT_TRUE(std::isnan(std::bit_cast<float>(never_hidden)));
-  const auto moved = [](float x) {
-    return std::bit_cast<float>(moved_up_in_24_bits(std::bit_cast<std::uint32_t>(x)));
-  };
-  EXPECT_TRUE(std::isnan(moved(std::numeric_limits<float>::infinity())));
-  EXPECT_TRUE(std::isnan(moved(std::numeric_limits<float>::max())));
-  EXPECT_GT(moved(0), 0);
-  EXPECT_FALSE(moved(-0.0F) < 0);
-  EXPECT_FALSE(moved(-std::numeric_limits<float>::denorm_min()) < 0);
-}
-
 /// Triangles that are left out are those whose q is below that of every block that they meet.
 TEST(Farthest, LeavesOutWhatIsHidden) {
   Numbers n(65);

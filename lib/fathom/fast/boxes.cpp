@@ -10,6 +10,7 @@
 #include <bit>
 
 #include "fathom/fast/counting_lanes-inl.h"
+#include "fathom/fast/nearness-inl.h"
 #include "fathom/fast/setup-inl.h"
 #include "fathom/fast/tile.h"
 #include "fathom/scene/element_checks.h"
@@ -53,37 +54,8 @@ struct Sorted {
 // bound, beyond the exact one (moved_q.gappa.in: no bound of a usable corner's q is below u│q│).
 // Rounding to binary32 takes less from it than moving it up by a 256th part more adds.
 HWY_INLINE hn::Vec<DU> nearest_of(const Corners& t) {
-  const DU du;
-  const hn::Rebind<float, D> d32;
-  const hn::Rebind<std::uint32_t, D> du32;
-  const V q =
-      hn::MulAdd(constant(setup_bounds::q_moves), t.q_error, greatest_of(t.A.q, t.B.q, t.C.q));
-  const auto bits = hn::PromoteTo(du, hn::BitCast(du32, to_binary32(d32, q)));
-  const auto whole = hn::Set(du, std::uint64_t{nearness_of_q});
-  const auto negative = hn::Ne(hn::And(bits, hn::Set(du, 0x80000000)), hn::Zero(du));
-  return hn::IfThenElse(negative, hn::Sub(hn::And(bits, whole), hn::Set(du, 0x100)),
-                        hn::And(hn::Add(bits, hn::Set(du, 0x1FF)), whole));
-}
-
-/// nearness_in() of boxes that lie in the tile of this column and row.
-HWY_INLINE hn::Vec<DU> nearness_of(hn::Vec<DU> nearest, const Boxes& box, V tile_column,
-                                   V tile_row) {
-  const DU du;
-  const auto block_of = [](V pixel) HWY_ATTR {
-    return hn::Floor(hn::Mul(pixel, constant(1.0 / Tile::block)));
-  };
-  const V blocks = constant(Tile::blocks_of_row);
-  const V left = block_of(box.first_column), top = block_of(box.first_row);
-  const V more =
-      hn::Max(hn::Sub(block_of(box.last_column), left), hn::Sub(block_of(box.last_row), top));
-  const V column = hn::NegMulAdd(tile_column, blocks, left);
-  const V row = hn::NegMulAdd(tile_row, blocks, top);
-  const V place =
-      hn::Add(hn::MulAdd(row, blocks, column),
-              hn::IfThenElseZero(hn::Gt(more, constant(1)), constant(nearness_of_more)));
-  const auto known = hn::Or(nearest, hn::BitCast(du, hn::ConvertTo(DI(), place)));
-  return hn::IfThenElse(hn::RebindMask(du, hn::Gt(more, constant(3))),
-                        hn::Set(du, std::uint64_t{never_hidden}), known);
+  return moved_up_in_24_bits(
+      hn::MulAdd(constant(setup_bounds::q_moves), t.q_error, greatest_of(t.A.q, t.B.q, t.C.q)));
 }
 
 HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles, M valid,
@@ -112,7 +84,7 @@ HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles
   s.more_tiles = hn::AndNot(together, visible);
   s.tile = hn::MulAdd(row, constant(r.tile_columns), column);
   s.nearest = nearest_of(t);
-  s.nearness = nearness_of(s.nearest, s.box, column, row);
+  s.nearness = nearness_in(s.nearest, s.box, column, row);
   out.degenerate += hn::CountTrue(d, zero);
   out.culled += hn::CountTrue(d, hn::AndNot(kept, with_area));
   return s;
