@@ -9,12 +9,14 @@
 #include <sys/mman.h>
 #endif
 
+#include "fathom/memory/huge_pages.h"
+
 namespace fathom {
 namespace {
 
-constexpr std::size_t huge_page = std::size_t{1} << 21;
-
 #ifdef __linux__
+
+using memory::huge_page;
 
 bool is_large(std::size_t bytes) {
   return bytes >= huge_page;
@@ -31,11 +33,11 @@ void* map_zeros(std::size_t bytes) {
   if (mapped == MAP_FAILED) throw std::bad_alloc();
   const auto address = reinterpret_cast<std::uintptr_t>(mapped);
   const std::size_t before = whole_pages(address) - address, after = huge_page - before;
-  auto* memory = static_cast<std::byte*>(mapped) + before;
+  auto* zeros = static_cast<std::byte*>(mapped) + before;
   if (before > 0) munmap(mapped, before);
-  if (after > 0) munmap(memory + length, after);
-  madvise(memory, length, MADV_HUGEPAGE);  // a hint: small pages will do
-  return memory;
+  if (after > 0) munmap(zeros + length, after);
+  memory::prefer_huge_pages(zeros, length);
+  return zeros;
 }
 
 #endif

@@ -9,12 +9,14 @@ namespace fathom::memory {
 
 void prefer_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef MADV_HUGEPAGE
-  constexpr std::size_t page = 4096, huge_page = std::size_t{1} << 21;
-  // Memory less than two of them in size need not contain one.
-  if (bytes < 2 * huge_page) return;
-  const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(memory) % page) % page;
+  constexpr std::size_t page = 4096;
+  // By how much the next multiple lies behind the beginning.
+  const auto before = [&](std::size_t size) {
+    return (size - reinterpret_cast<std::uintptr_t>(memory) % size) % size;
+  };
+  if (bytes < before(huge_page) + huge_page) return;  // contains none
   const int error = errno;
-  ::madvise(static_cast<std::byte*>(memory) + before, bytes - before, MADV_HUGEPAGE);
+  ::madvise(static_cast<std::byte*>(memory) + before(page), bytes - before(page), MADV_HUGEPAGE);
   errno = error;
 #endif
 }

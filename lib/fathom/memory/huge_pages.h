@@ -4,9 +4,12 @@
 
 namespace fathom::memory {
 
+/// Size of a huge page; it begins at a multiple of that.
+inline constexpr std::size_t huge_page = std::size_t{1} << 21;
+
 /// Asks the system to provide memory that nothing has been written to yet in huge pages: a page of
 /// 4 KiB costs a microsecond or two when it is first written, as much as reading a file into it. A
-/// hint: without huge pages, or for little memory, nothing happens.
+/// hint: without huge pages, or for memory that contains none, nothing happens.
 void prefer_huge_pages(void* memory, std::size_t bytes) noexcept;
 
 }  // namespace fathom::memory
