@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "fathom/fast/each_bit.h"
 #include "fathom/fast/tile.h"
 
 // How to read this file: CertifiedWriter::write() is the list of channels. What follows from q
@@ -14,11 +15,6 @@ namespace fathom::fast {
 using namespace triangle;
 
 namespace {
-
-template <class Visit>
-void for_each_bit(std::uint64_t bits, const Visit& visit) {
-  for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
-}
 
 /// Copies settled values of a row to its pixels, as far as they are wanted; returns the samples that
 /// are left.

@@ -34,8 +34,7 @@ struct Reciprocal {
 // of z₀: its error is looked at (depth_interval.gappa.in).
 HWY_INLINE Reciprocal reciprocal(V q) {
   const D d;
-  const hn::Rebind<float, D> d32;
-  const V z = hn::PromoteTo(d, hn::Div(hn::Set(d32, 1.0F), to_binary32(d32, q)));
+  const V z = hn::PromoteTo(d, hn::Div(hn::Set(D32(), 1.0F), to_binary32(q)));
   const V r = hn::NegMulAdd(q, z, constant(1));
   return {hn::MulAdd(z, hn::MulAdd(r, r, r), z),
           hn::Le(hn::Abs(r), constant(resolve_bounds::greatest_residual))};

@@ -77,8 +77,7 @@ HWY_INLINE V load(const SetupBatch::Numbers& numbers) {
 }
 
 HWY_INLINE void store32(V v, LaneBatch::Numbers& numbers) {
-  const hn::Rebind<float, D> d32;
-  hn::Store(to_binary32(d32, v), d32, numbers.data());
+  hn::Store(to_binary32(v), D32(), numbers.data());
 }
 
 /// The sum of the magnitudes of a function's terms where the magnitudes of the samples' places are
@@ -133,10 +132,18 @@ HWY_INLINE void make_lane_edges(const SetupBatch& setups, V extent, double widen
   store32(widened(error, widening), lanes.edge_error);
 }
 
+/// From the first to the last column or row of each box: one less than it has.
+struct BoxSizes {
+  V columns, rows;
+};
+HWY_INLINE BoxSizes box_sizes(const SetupBatch& setups) {
+  return {hn::Sub(load(setups.last_column), load(setups.first_column)),
+          hn::Sub(load(setups.last_row), load(setups.first_row))};
+}
+
 /// The greatest distance of a sample's column or row from those of the functions.
 HWY_INLINE V extent_of(const SetupBatch& setups) {
-  const V columns = hn::Sub(load(setups.last_column), load(setups.first_column));
-  const V rows = hn::Sub(load(setups.last_row), load(setups.first_row));
+  const auto [columns, rows] = box_sizes(setups);
   // The block of a sample may reach 7 beyond the box.
   return hn::Add(hn::Max(columns, rows), constant(8));
 }

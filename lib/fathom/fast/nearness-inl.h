@@ -20,9 +20,8 @@ namespace {
 /// Numbers rounded to binary32 and moved_up_in_24_bits(), in the lower halves.
 HWY_INLINE hn::Vec<DU> moved_up_in_24_bits(V q) {
   const DU du;
-  const hn::Rebind<float, D> d32;
   const hn::Rebind<std::uint32_t, D> du32;
-  const auto bits = hn::PromoteTo(du, hn::BitCast(du32, to_binary32(d32, q)));
+  const auto bits = hn::PromoteTo(du, hn::BitCast(du32, to_binary32(q)));
   const auto whole = hn::Set(du, std::uint64_t{nearness_of_q});
   const auto negative = hn::Ne(hn::And(bits, hn::Set(du, 0x80000000)), hn::Zero(du));
   return hn::IfThenElse(negative, hn::Sub(hn::And(bits, whole), hn::Set(du, 0x100)),

@@ -10,6 +10,7 @@
 
 #include "fathom/fast/counting_lanes-inl.h"
 #include "fathom/fast/depth_interval-inl.h"
+#include "fathom/fast/each_bit.h"
 #include "fathom/fast/lane_batch-inl.h"
 #include "fathom/fast/tile.h"
 
@@ -39,7 +40,6 @@ namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
 /// For as many samples of a row as there are lanes of binary64.
-using D32 = hn::Rebind<float, D>;
 using DT32 = hn::Rebind<LaneTag, D>;
 
 HWY_INLINE hn::Vec<DT32> lane_tags_at(const Tile& tile, std::uint32_t column, std::uint32_t row) {
@@ -141,8 +141,8 @@ HWY_INLINE RowBits round_row(const Tile& tile, std::uint32_t row, float* depths,
         const V error = hn::BitCast(D(), s.tag);
         const DepthInterval D_interval =
             perspective ? perspective_depth(s.q, error) : orthographic_depth(s.q, error);
-        const auto least = to_binary32(d32, D_interval.least);
-        const auto greatest = to_binary32(d32, D_interval.greatest);
+        const auto least = to_binary32(D_interval.least);
+        const auto greatest = to_binary32(D_interval.greatest);
         hn::StoreU(hn::IfThenElse(hn::RebindMask(d32, surface), least, background), d32,
                    depths + column);
         const unsigned settled =
@@ -184,9 +184,10 @@ RowBits write_depths(const Tile& tile, std::uint32_t row, float* depths, std::si
 
 void note_doubts(std::uint64_t open, const PixelBox& area, std::uint32_t row,
                  const Tile::Context& context) {
-  for (; context.doubtful && open != 0; open &= open - 1) {
-    context.note_doubt(area.first_column + static_cast<std::uint32_t>(std::countr_zero(open)), row);
-  }
+  if (!context.doubtful) return;
+  for_each_bit(open, [&](std::size_t k) {
+    context.note_doubt(area.first_column + static_cast<std::uint32_t>(k), row);
+  });
 }
 
 }  // namespace

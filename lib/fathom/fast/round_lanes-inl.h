@@ -28,24 +28,23 @@ HWY_INLINE V load_u(const SurfaceRow& row, std::size_t first) {
 
 /// Rounded values, and a bit for each lane whose value is settled.
 struct RoundedLanes {
-  hn::Vec<hn::Rebind<float, D>> value;
+  hn::Vec<D32> value;
   unsigned settled;
 };
 
 // Like to_binary32() of a binary64 number, which is not settled if it is 0. Two numbers that are
 // rounded to the same one, which is not 0, have one sign.
 HWY_INLINE RoundedLanes round_to_binary32(const CertifiedLanes& x) {
-  const hn::Rebind<float, D> d32;
   const V margin = hn::MulAdd(hn::Abs(x.value), constant(interval_widening), x.error);
-  const auto low = to_binary32(d32, hn::Sub(x.value, margin));
-  const auto high = to_binary32(d32, hn::Add(x.value, margin));
-  return {low, lane_bits(d32, hn::And(hn::Eq(low, high), hn::Ne(low, hn::Zero(d32))))};
+  const auto low = to_binary32(hn::Sub(x.value, margin));
+  const auto high = to_binary32(hn::Add(x.value, margin));
+  return {low, lane_bits(D32(), hn::And(hn::Eq(low, high), hn::Ne(low, hn::Zero(D32()))))};
 }
 
 HWY_INLINE void store_rounded(const CertifiedLanes& x, std::size_t first,
                               RoundedValues<float>& rounded) {
   const RoundedLanes lanes = round_to_binary32(x);
-  hn::StoreU(lanes.value, hn::Rebind<float, D>(), rounded.values.data() + first);
+  hn::StoreU(lanes.value, D32(), rounded.values.data() + first);
   rounded.settled |= std::uint64_t{lanes.settled} << first;
 }
 

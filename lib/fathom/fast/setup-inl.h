@@ -33,6 +33,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 8>;
 using DU = hn::Rebind<std::uint64_t, D>;
 using DI = hn::Rebind<std::int64_t, D>;
+using D32 = hn::Rebind<float, D>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 
@@ -64,16 +65,15 @@ HWY_INLINE unsigned bits_of(M mask) {
 
 /// Rounded to binary32; what is beyond its greatest number becomes ±∞. Emulated vectors would give
 /// the greatest number instead.
-template <class D32>
-HWY_INLINE hn::Vec<D32> to_binary32(D32 d32, V v) {
+HWY_INLINE hn::Vec<D32> to_binary32(V v) {
 #if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR
   alignas(16) double from[8];
   alignas(16) float to[8];
   hn::Store(v, D(), from);
   for (std::size_t k = 0; k < hn::Lanes(D()); ++k) to[k] = static_cast<float>(from[k]);
-  return hn::Load(d32, to);
+  return hn::Load(D32(), to);
 #else
-  return hn::DemoteTo(d32, v);
+  return hn::DemoteTo(D32(), v);
 #endif
 }
 

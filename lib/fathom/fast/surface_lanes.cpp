@@ -180,7 +180,7 @@ unsigned normals_in_lanes(const TriangleLanes& t, const ObjectRays& object, cons
     const RoundedNormals rounded = unit_normals(n, factor, towards);
     HWY_ALIGN float numbers[3][TriangleLanes::most];
     for (std::size_t i = 0; i < 3; ++i) {
-      hn::StoreU(rounded.n[i].value, hn::Rebind<float, D>(), numbers[i]);
+      hn::StoreU(rounded.n[i].value, D32(), numbers[i]);
     }
     for (std::size_t k = 0; k < lanes; ++k) {
       normals[first + k] = {numbers[0][k], numbers[1][k], numbers[2][k], 0};

@@ -328,8 +328,7 @@ HWY_INLINE void draw_triangle(Tile& tile, const Drawn& t, const Tile::Context& c
 
 /// The lanes of a batch whose boxes have at most two columns and two rows.
 HWY_INLINE unsigned small_lanes(const SetupBatch& batch) {
-  const V columns = hn::Sub(load(batch.last_column), load(batch.first_column));
-  const V rows = hn::Sub(load(batch.last_row), load(batch.first_row));
+  const auto [columns, rows] = box_sizes(batch);
   return bits_of(hn::Le(hn::Max(columns, rows), constant(1)));
 }
 
@@ -338,10 +337,8 @@ HWY_INLINE unsigned small_lanes(const SetupBatch& batch) {
 HWY_INLINE void draw_sample_of_each(Tile& tile, const SetupBatch& setups, const LaneBatch& batch,
                                     unsigned drawn, int column, int row,
                                     const Tile::Context& context) {
-  const hn::Rebind<float, D> d32;
   const V x = constant(column), y = constant(row);
-  const V columns = hn::Sub(load(setups.last_column), load(setups.first_column));
-  const V rows = hn::Sub(load(setups.last_row), load(setups.first_row));
+  const auto [columns, rows] = box_sizes(setups);
   const unsigned within = drawn & bits_of(hn::And(hn::Ge(columns, x), hn::Ge(rows, y)));
   const auto value =
       [&](const SetupBatch::Numbers& a, const SetupBatch::Numbers& b, const SetupBatch::Numbers& c)
@@ -353,7 +350,7 @@ HWY_INLINE void draw_sample_of_each(Tile& tile, const SetupBatch& setups, const 
   const unsigned open = within & bits_of(hn::Ge(least, hn::Neg(error)));
   const unsigned covered = bits_of(hn::Gt(least, error)) & ~setups.test_range;
   alignas(32) LaneBatch::Numbers q_of;
-  hn::Store(to_binary32(d32, value(setups.q_a, setups.q_b, setups.q_c)), d32, q_of.data());
+  hn::Store(to_binary32(value(setups.q_a, setups.q_b, setups.q_c)), D32(), q_of.data());
   std::uint64_t wins = 0;
   for (unsigned bits = open; bits != 0; bits &= bits - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(bits));
