@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <tuple>
 
 #include "fathom/fast/coverage/area_bounds.h"
 #include "fathom/numeric/rounding.h"
@@ -59,17 +60,62 @@ void TileCoverage::settle_open(const Tile::Context& context) {
   }
 }
 
-// Rounded once, so within u·|x|.
-SquarePoint TileCoverage::exact_corner(const ImageObject& object, std::uint32_t vertex,
-                                       std::uint32_t pixel) const {
+namespace {
+
+/// The parts of a segment, 0 to 1 from p to q, between which it is near the unit square; where that is
+/// not the whole segment, what is left out is at least about a pixel away from the square.
+struct Part {
+  double first = 0, last = 1;
+};
+Part part_near_square(const SquarePoint& p, const SquarePoint& q) {
+  constexpr double margin = 2;
+  Part part;
+  const auto clip = [&](double start, double change) {
+    const double a = (-margin - start) / change, b = (1 + margin - start) / change;
+    if (!(std::abs(change) > 1)) return;
+    part.first = std::max(part.first, std::min(a, b));
+    part.last = std::min(part.last, std::max(a, b));
+  };
+  clip(p.x, q.x - p.x);
+  clip(p.y, q.y - p.y);
+  return part.first < part.last ? part : Part{};
+}
+
+/// A point of the image from exact homogeneous coordinates.
+struct ExactPoint {
+  Dyadic U, V, W;
+};
+
+/// The point that divides the line from p to q, relative to a pixel's corner; each coordinate is
+/// rounded once.
+SquarePoint point_between(const ExactPoint& p, const ExactPoint& q, const Dyadic& part,
+                          const SquarePoint& corner) {
+  const Dyadic rest = Dyadic(1) - part, W = p.W * q.W;
+  const auto coordinate = [&](const Dyadic& a, const Dyadic& b, double origin) {
+    return round_to_binary64(Ratio(rest * a * q.W + part * b * p.W - Dyadic(origin) * W, W));
+  };
+  return {coordinate(p.U, q.U, corner.x), coordinate(p.V, q.V, corner.y)};
+}
+
+}  // namespace
+
+// Only what is near the pixel, so that coordinates are small.
+std::pair<SquarePoint, SquarePoint> TileCoverage::exact_ends(const OutlineEdge& edge,
+                                                             const SquarePoint& local,
+                                                             const SquarePoint& corner) const {
   const TriangleSource& triangles = scene_.frame.triangles;
-  const Object& its_object = triangles.objects()[triangles.origin(object.first_number).object];
-  const Camera& camera = scene_.frame.camera;
-  const auto [U, V, W] =
-      to_image(camera, to_camera(camera, to_world(its_object, object.mesh.vertices[vertex])));
-  const std::uint32_t x = area_.first_column + pixel % size, y = area_.first_row + pixel / size;
-  const Dyadic column = static_cast<double>(x), row = static_cast<double>(y);
-  return {round_to_binary64(Ratio(U - column * W, W)), round_to_binary64(Ratio(V - row * W, W))};
+  const Object& object = triangles.objects()[triangles.origin(edge.object->first_number).object];
+  const auto exact = [&](std::uint32_t vertex) {
+    const Camera& camera = scene_.frame.camera;
+    const auto [U, V, W] =
+        to_image(camera, to_camera(camera, to_world(object, edge.object->mesh.vertices[vertex])));
+    return ExactPoint{U, V, W};
+  };
+  const ExactPoint from = exact(edge.from_vertex), to = exact(edge.to_vertex);
+  const auto [first, last] = part_near_square({edge.from.x - local.x, edge.from.y - local.y},
+                                              {edge.to.x - local.x, edge.to.y - local.y});
+  return {point_between(from, to, Dyadic(first), corner),
+          point_between(from, to, Dyadic(last), corner)};
 }
 
 // Edges that certainly miss the pixel are left out, so that where it is only beside one, the area is
@@ -82,8 +128,7 @@ Interval TileCoverage::area_between_edges(std::uint32_t pixel, Corners corners) 
     SquarePoint p{edge.from.x - x, edge.from.y - y}, q{edge.to.x - x, edge.to.y - y};
     double error = edge.error;
     if (corners == Corners::exact) {
-      p = exact_corner(*edge.object, edge.from_vertex, pixel);
-      q = exact_corner(*edge.object, edge.to_vertex, pixel);
+      std::tie(p, q) = exact_ends(edge, {x, y}, {area_.first_column + x, area_.first_row + y});
       error = 0;
     }
     error += unit_roundoff<double> *

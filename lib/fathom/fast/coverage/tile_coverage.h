@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "fathom/area/coverage.h"
@@ -107,8 +108,11 @@ class TileCoverage {
   float settle_pixel_exactly(std::uint32_t pixel, const Tile::Context& context);
   enum class Corners { computed, exact };
   [[nodiscard]] Interval area_between_edges(std::uint32_t pixel, Corners corners);
-  [[nodiscard]] SquarePoint exact_corner(const ImageObject& object, std::uint32_t vertex,
-                                         std::uint32_t pixel) const;
+  /// The ends of an edge, or of its part near a pixel, relative to the pixel's corner: exact, and
+  /// rounded once. `local`: the corner in the tile.
+  [[nodiscard]] std::pair<SquarePoint, SquarePoint> exact_ends(const OutlineEdge& edge,
+                                                               const SquarePoint& local,
+                                                               const SquarePoint& corner) const;
   [[nodiscard]] Interval area_of_union(std::uint32_t pixel);
   void add_to_union(const Shape& shape, std::uint32_t x, std::uint32_t y);
 

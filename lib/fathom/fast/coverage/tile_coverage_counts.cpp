@@ -61,6 +61,9 @@ TileCoverage::Sides TileCoverage::is_pixel_of(const Shape& shape, int column, in
     sides.inside = sides.inside && least > side.error;
     sides.outside = sides.outside || greatest < -side.error;
   }
+  if (shape.is_open && !sides.outside) {
+    sides.outside = certainly_misses_pixel(shape.sides(), column, row);
+  }
   return sides;
 }
 

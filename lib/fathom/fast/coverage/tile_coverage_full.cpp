@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "fathom/fast/certain_sign.h"
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/coverage/tile_functions.h"
 
@@ -45,15 +46,13 @@ std::size_t TileCoverage::add_triangles(Side side, std::uint32_t tile_number,
   return begin;
 }
 
+// Those of one object come next to each other.
 void TileCoverage::collect_triangles(Side side, std::uint32_t tile_number) {
-  const auto begin = static_cast<std::ptrdiff_t>(numbers_.size());
   for (const Bins& bins : scene_.bins) {
     for (const TileEntry& entry : bins.in_tile(tile_number, side)) {
       numbers_.push_back(entry.number);
     }
   }
-  // Those of one object next to each other.
-  if (scene_.objects.size() > 1) std::sort(numbers_.begin() + begin, numbers_.end());
 }
 
 void TileCoverage::classify(std::size_t begin, const Tile::Context& context) {
@@ -107,7 +106,7 @@ bool TileCoverage::misses_tile(const Shape& shape) const {
   const double width = area_.last_column - area_.first_column + 1.0;
   const double height = area_.last_row - area_.first_row + 1.0;
   return std::ranges::any_of(shape.sides(), [&](const UncertainHalfPlane& side) {
-    return side.c + std::max(side.a, 0.0) * width + std::max(side.b, 0.0) * height < -side.error;
+    return is_certainly_negative(side.a, side.b, side.c, side.error, {0, width, 0, height});
   });
 }
 

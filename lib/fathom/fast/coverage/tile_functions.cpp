@@ -56,4 +56,39 @@ TileFunctions functions_over_tile(const TriangleSetup& s, const DepthRange& rang
   return over;
 }
 
+namespace {
+
+// A sum with factors that are not negative is negative only where one of the two is. With the pixel's
+// centre at (x, y), f = centre + a·(x' − x) + b·(y' − y). The sum's own roundings are below 16u of the
+// magnitudes of its terms.
+bool certainly_negative_sum(const UncertainHalfPlane& f, const UncertainHalfPlane& g, double column,
+                            double row) {
+  const auto centre = [&](const UncertainHalfPlane& h) {
+    return h.c + h.a * (column + 0.5) + h.b * (row + 0.5);
+  };
+  const double f_centre = centre(f), g_centre = centre(g);
+  const auto negative = [&](double f_factor, double g_factor, double f_rest, double g_rest) {
+    const double middle = f_factor * f_centre + g_factor * g_centre;
+    const double half = std::abs(f_factor * f_rest + g_factor * g_rest) / 2;
+    const double error = f_factor * f.error + g_factor * g.error;
+    const double size = f_factor * (std::abs(f_centre) + std::abs(f_rest)) +
+                        g_factor * (std::abs(g_centre) + std::abs(g_rest));
+    return middle + half < -(error + 32 * unit_roundoff<double> * size);
+  };
+  return (f.a * g.a < 0 && negative(std::abs(g.a), std::abs(f.a), f.b, g.b)) ||
+         (f.b * g.b < 0 && negative(std::abs(g.b), std::abs(f.b), f.a, g.a));
+}
+
+}  // namespace
+
+bool certainly_misses_pixel(std::span<const UncertainHalfPlane> functions, double column,
+                            double row) {
+  for (std::size_t i = 1; i < functions.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (certainly_negative_sum(functions[i], functions[k], column, row)) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace fathom::fast
