@@ -73,10 +73,10 @@ HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles
   s.front = o.negative;
   s.unsettled = hn::AndNot(hn::Or(with_area, zero), valid);
   const PixelBox image{0, r.image_width - 1, 0, r.image_height - 1};
-  s.box = r.by_area ? area_boxes(t, image) : sample_boxes(t, image);
-  const M missed = r.by_area ? are_empty(s.box) : certainly_miss(t, s.box);
-  const M hidden = hn::Or(are_empty(s.box), missed);
-  const M visible = hn::AndNot(hidden, kept);
+  s.box = sample_boxes(t, image);
+  const M without_samples = hn::Or(are_empty(s.box), certainly_miss(t, s.box));
+  if (r.by_area) s.box = area_boxes(t, image);
+  const M visible = hn::AndNot(r.by_area ? are_empty(s.box) : without_samples, kept);
   const V column = tile_of(s.box.first_column), row = tile_of(s.box.first_row);
   const M together =
       hn::And(hn::Eq(column, tile_of(s.box.last_column)), hn::Eq(row, tile_of(s.box.last_row)));
@@ -84,6 +84,11 @@ HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles
   s.more_tiles = hn::AndNot(together, visible);
   s.tile = hn::MulAdd(row, constant(r.tile_columns), column);
   s.nearest = nearest_of(t);
+  if (r.by_area) {
+    const DU du;
+    const auto flag = hn::Set(du, std::uint64_t{nearness_without_samples});
+    s.nearest = hn::Or(s.nearest, hn::IfThenElseZero(hn::RebindMask(du, without_samples), flag));
+  }
   s.nearness = nearness_in(s.nearest, s.box, column, row);
   out.degenerate += hn::CountTrue(d, zero);
   out.culled += hn::CountTrue(d, hn::AndNot(kept, with_area));

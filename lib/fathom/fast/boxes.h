@@ -48,7 +48,7 @@ struct BoxBatch {
   /// Visible in several tiles.
   std::size_t in_more_tiles = 0;
   std::array<Side, most> side;
-  /// The greatest q of a covered sample, moved_up_in_24_bits().
+  /// The greatest q of a covered sample, moved_up_in_24_bits(), perhaps nearness_without_samples.
   std::array<std::uint32_t, most> nearest;
   std::array<std::uint32_t, most> number;
   std::array<PixelBox, most> box;

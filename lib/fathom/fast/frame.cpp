@@ -1,6 +1,7 @@
 #include "fathom/fast/frame.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "fathom/threads/threads.h"
@@ -53,6 +54,10 @@ void draw(std::span<const std::uint32_t> numbers, const ImageObjects& objects, T
   }
 }
 
+bool covers_samples(const TileEntry& entry) {
+  return (entry.nearness & nearness_without_samples) == 0;
+}
+
 /// Samples settled by the bounds are those that were not settled exactly.
 void count_intervals(RenderStatistics& statistics) {
   statistics.edges.interval = statistics.samples_tested - statistics.edges.exact;
@@ -70,7 +75,11 @@ void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bi
     together.clear();
     for (const Bins& bins : all_bins) {
       const auto some = bins.in_tile(number, side);
-      together.insert(together.end(), some.begin(), some.end());
+      if (context.by_area) {
+        std::ranges::copy_if(some, std::back_inserter(together), covers_samples);
+      } else {
+        together.insert(together.end(), some.begin(), some.end());
+      }
     }
     tile.for_visible(together, context, [&](std::span<const std::uint32_t> numbers) {
       draw(numbers, objects, tile, context);

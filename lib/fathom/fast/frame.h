@@ -39,10 +39,14 @@ struct FastFrame {
   FastFrame(const Camera& camera, const RenderOptions& options);
 
   [[nodiscard]] Tile::Context context(FastWorker& worker) const {
-    return {
-        worker.referee,     worker.statistics, range,
-        perspective,        options.fast,      options.fast.doubtful ? &worker.doubtful : nullptr,
-        worker.exact_setups};
+    return {worker.referee,
+            worker.statistics,
+            range,
+            perspective,
+            options.fast,
+            options.fast.doubtful ? &worker.doubtful : nullptr,
+            worker.exact_setups,
+            by_area};
   }
 
   const Camera& camera;

@@ -9,13 +9,14 @@ namespace fathom::fast {
 
 /// How near a triangle can be at its samples in a tile, and where they are, in 32 bits: the greatest
 /// q of a covered sample rounded up, as a binary32 number of 24 bits, and in the last eight the
-/// block of the box's first sample (column, row: three bits each) and whether the box meets more
-/// than two by two blocks; four by four it meets at most.
+/// block of the box's first sample (column, row: three bits each), whether the box meets more
+/// than two by two blocks (four by four it meets at most), and whether the triangle, which is there
+/// for its area, certainly covers no sample.
 using Nearness = std::uint32_t;
 
 /// Its parts.
 inline constexpr Nearness nearness_of_q = 0xFFFFFF00, nearness_of_block = 0x3F,
-                          nearness_of_more = 0x40;
+                          nearness_of_more = 0x40, nearness_without_samples = 0x80;
 
 /// Of a triangle about which that is not known: NaN, for which no comparison holds.
 inline constexpr Nearness never_hidden = 0x7FC00000;
@@ -35,7 +36,7 @@ constexpr bool meets_more_than_two_blocks(Nearness n) {
   return (n & nearness_of_more) != 0;
 }
 
-/// `q`: moved_up_in_24_bits(); the blocks that the box in the tile meets.
+/// `q`: moved_up_in_24_bits(), perhaps without samples; the blocks that the box in the tile meets.
 inline Nearness nearness_in(std::uint32_t q, std::uint32_t first_column, std::uint32_t last_column,
                             std::uint32_t first_row, std::uint32_t last_row) {
   const std::uint32_t more = std::max(last_column - first_column, last_row - first_row);

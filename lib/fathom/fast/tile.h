@@ -70,6 +70,8 @@ class Tile : public TileShape {
     std::vector<DoubtfulPixel>* doubtful = nullptr;
     /// Setups from exact numbers for the whole image: those that were asked for last.
     ExactSetups& exact_setups;
+    /// Whether bins have triangles that cover no sample.
+    bool by_area = false;
 
     void note_doubt(std::uint32_t column, std::uint32_t row) const {
       if (doubtful) doubtful->push_back({column, row});

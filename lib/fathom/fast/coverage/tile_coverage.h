@@ -63,11 +63,15 @@ class TileCoverage {
   /// Adds the triangles of a side to those that are there, and their edges to the outlines; returns
   /// the index of the first of them.
   std::size_t add_triangles(Side side, std::uint32_t tile_number, const Tile::Context& context);
-  void collect_triangles(Side side, std::uint32_t tile_number);
-  /// visit(object, first, end): indices into numbers_, from `begin` on.
+  /// visit(object, first, end): indices of the numbers of an object that come after each other.
   template <class Visit>
-  void for_each_object(std::size_t begin, const Visit& visit) const;
-  void classify(std::size_t begin, const Tile::Context& context);
+  void for_each_object(std::span<const std::uint32_t> numbers, const Visit& visit) const;
+  void classify(std::span<const std::uint32_t> numbers, const Tile::Context& context,
+                std::vector<CoverageTriangle>& classes) const;
+  /// Those of the triangles of which bins do not say enough.
+  void classify_doubtful(const Tile::Context& context);
+  /// The boxes of all that are positive or negative, and whether they are large.
+  void find_boxes(const Tile::Context& context);
   void look_at_open(std::size_t begin, const Tile::Context& context);
   void add_edges(std::size_t begin);
   /// Finds pixels that front faces cover, whatever is behind them; returns whether all are covered.
@@ -121,6 +125,10 @@ class TileCoverage {
   /// The triangles of the tile, those of one object next to each other, and their classes.
   std::vector<std::uint32_t> numbers_;
   std::vector<CoverageTriangle> classes_;
+  /// Indices into numbers_, numbers, and classes of some.
+  std::vector<std::size_t> doubtful_;
+  std::vector<std::uint32_t> doubtful_numbers_;
+  std::vector<CoverageTriangle> doubtful_classes_;
   /// For open triangles that may meet the tile, in the order of numbers_.
   std::vector<Shape> open_shapes_;
   TileOutlines outlines_;

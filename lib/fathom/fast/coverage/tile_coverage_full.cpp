@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <bit>
+#include <limits>
 
 #include "fathom/fast/certain_sign.h"
 #include "fathom/fast/coverage/tile_coverage.h"
@@ -7,12 +9,22 @@
 // The triangles of a tile, which pixels may be covered in part, and which are covered wholly.
 namespace fathom::fast {
 
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
 template <class Visit>
-void TileCoverage::for_each_object(std::size_t begin, const Visit& visit) const {
-  for (std::size_t first = begin; first < numbers_.size();) {
-    const ImageObject& object = object_of(scene_.objects, numbers_[first]);
+void TileCoverage::for_each_object(std::span<const std::uint32_t> numbers,
+                                   const Visit& visit) const {
+  for (std::size_t first = 0; first < numbers.size();) {
+    const ImageObject& object = object_of(scene_.objects, numbers[first]);
     std::size_t end = first;
-    while (end < numbers_.size() && numbers_[end] < object.end_number()) ++end;
+    while (end < numbers.size() && numbers[end] >= object.first_number &&
+           numbers[end] < object.end_number()) {
+      ++end;
+    }
     visit(object, first, end);
     first = end;
   }
@@ -32,41 +44,69 @@ bool TileCoverage::find_open_pixels(std::uint32_t tile_number, const Tile::Conte
   const std::size_t back = add_triangles(Side::back, tile_number, context);
   add_edges(back);
   mark_open();
-  if (fill_large(back)) return false;
+  find_boxes(context);
+  if (fill_large(front)) return false;
   for (std::size_t row = 0; row < size; ++row) open_[row] &= ~full_[row];
   return true;
 }
 
+// Those of one object come next to each other. Bins say of most that their corners are usable, that
+// their orientation is certain, and how near they can be.
 std::size_t TileCoverage::add_triangles(Side side, std::uint32_t tile_number,
                                         const Tile::Context& context) {
   const std::size_t begin = numbers_.size();
-  collect_triangles(side, tile_number);
-  classify(begin, context);
+  const CoverageClass kind =
+      side == Side::front ? CoverageClass::negative : CoverageClass::positive;
+  const double nearest =
+      context.range.inside_least == -infinity ? context.range.inside_greatest : -infinity;
+  doubtful_.clear();
+  for (const Bins& bins : scene_.bins) {
+    for (const TileEntry& entry : bins.in_tile(tile_number, side)) {
+      const bool is_in_range = std::bit_cast<float>(entry.nearness & nearness_of_q) <= nearest;
+      if (!is_in_range) doubtful_.push_back(numbers_.size());
+      numbers_.push_back(entry.number);
+    }
+  }
+  classes_.resize(numbers_.size(), {kind, false, {}});
+  classify_doubtful(context);
   look_at_open(begin, context);
   return begin;
 }
 
-// Those of one object come next to each other.
-void TileCoverage::collect_triangles(Side side, std::uint32_t tile_number) {
-  for (const Bins& bins : scene_.bins) {
-    for (const TileEntry& entry : bins.in_tile(tile_number, side)) {
-      numbers_.push_back(entry.number);
-    }
+void TileCoverage::classify_doubtful(const Tile::Context& context) {
+  std::vector<std::uint32_t>& numbers = doubtful_numbers_;
+  numbers.clear();
+  for (const std::size_t i : doubtful_) numbers.push_back(numbers_[i]);
+  std::vector<CoverageTriangle>& classes = doubtful_classes_;
+  classify(numbers, context, classes);
+  for (std::size_t k = 0; k < doubtful_.size(); ++k) classes_[doubtful_[k]] = classes[k];
+}
+
+// Most tiles do not need them.
+void TileCoverage::find_boxes(const Tile::Context& context) {
+  std::vector<CoverageTriangle>& with_boxes = doubtful_classes_;
+  classify(numbers_, context, with_boxes);
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    const CoverageClass kind = classes_[i].kind;
+    if (kind == CoverageClass::positive || kind == CoverageClass::negative)
+      classes_[i] = with_boxes[i];
   }
 }
 
-void TileCoverage::classify(std::size_t begin, const Tile::Context& context) {
-  classes_.resize(numbers_.size());
-  for_each_object(begin, [&](const ImageObject& object, std::size_t first, std::size_t end) {
-    classify_for_coverage(object, std::span(numbers_).subspan(first, end - first), context.range,
-                          area_, classes_.data() + first);
+void TileCoverage::classify(std::span<const std::uint32_t> numbers, const Tile::Context& context,
+                            std::vector<CoverageTriangle>& classes) const {
+  classes.resize(numbers.size());
+  for_each_object(numbers, [&](const ImageObject& object, std::size_t first, std::size_t end) {
+    classify_for_coverage(object, numbers.subspan(first, end - first), context.range, area_,
+                          classes.data() + first);
   });
 }
 
 void TileCoverage::add_edges(std::size_t begin) {
-  for_each_object(begin, [&](const ImageObject& object, std::size_t first, std::size_t end) {
-    outlines_.add(object, std::span(numbers_).subspan(first, end - first),
-                  std::span(classes_).subspan(first, end - first));
+  const auto numbers = std::span<const std::uint32_t>(numbers_).subspan(begin);
+  const auto classes = std::span<const CoverageTriangle>(classes_).subspan(begin);
+  for_each_object(numbers, [&](const ImageObject& object, std::size_t first, std::size_t end) {
+    outlines_.add(object, numbers.subspan(first, end - first), classes.subspan(first, end - first));
   });
 }
 
