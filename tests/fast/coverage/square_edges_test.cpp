@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 namespace fathom {
 namespace {
@@ -14,9 +16,11 @@ double in_square(double x) {
   return std::clamp(x, 0.0, 1.0);
 }
 
+const auto divided = [](const SquareEdges::Strip&) { return -1.0; };
+
 /// The integral of the length right of the leftmost edge, up to the next, within the square.
 double area_between(SquareEdges& edges) {
-  return edges.integrate([](const SquareEdges::Slab& slab) {
+  return edges.integrate(divided, [](const SquareEdges::Slab& slab) {
     double length = 0;
     for (std::size_t i = 0; i < slab.crossings.size(); i += 2) {
       const auto rest = slab.crossings.subspan(i);
@@ -64,8 +68,8 @@ TEST(SquareEdges, LevelEdgesDivideToo) {
   edges.clear();
   edges.add({-3, 0.25}, {5, 0.25}, 0);
   // A length that jumps at the height of the edge is integrated exactly.
-  const double area =
-      edges.integrate([](const SquareEdges::Slab& slab) { return slab.middle > 0.25 ? 1.0 : 0.0; });
+  const double area = edges.integrate(
+      divided, [](const SquareEdges::Slab& slab) { return slab.middle > 0.25 ? 1.0 : 0.0; });
   EXPECT_EQ(area, 0.75);
 }
 
@@ -79,14 +83,37 @@ TEST(SquareEdges, TheLeftSideIsFollowed) {
   edges.add({-0.5, 0.875}, {0, 0.9375}, 11);   // to x = 0, which is on the right
   edges.add({0, 0.9375}, {0.25, 0.96875}, 1);  // and on
   std::vector<std::int32_t> found;
-  edges.for_each_slab([&](const SquareEdges::Slab& slab) {
-    if (found.empty() || found.back() != slab.passed) found.push_back(slab.passed);
-    return true;
-  });
+  edges.for_each_slab([](const SquareEdges::Strip&) { return false; },
+                      [&](const SquareEdges::Slab& slab) {
+                        if (found.empty() || found.back() != slab.passed)
+                          found.push_back(slab.passed);
+                        return true;
+                      });
   EXPECT_EQ(found, (std::vector<std::int32_t>{0, 3, -2, 5, -6}));
   int visits = 0;
-  edges.for_each_slab([&](const SquareEdges::Slab&) { return ++visits < 2; });
+  edges.for_each_slab([](const SquareEdges::Strip&) { return false; },
+                      [&](const SquareEdges::Slab&) { return ++visits < 2; });
   EXPECT_EQ(visits, 2);
+}
+
+/// Strips between ends at 0.25 and 0.75: an edge in the square, one that comes into it, and ones
+/// beyond its sides, of which only the first two count.
+TEST(SquareEdges, StripsSayWhatEdgesCanChange) {
+  SquareEdges edges;
+  edges.clear();
+  edges.add({0.5, 0.25}, {0.25, 0.75}, 2);
+  edges.add({-0.5, 0.25}, {0.5, 0.75}, 3);
+  edges.add({-0.5, 0.25}, {-0.25, 0.75}, 100);
+  edges.add({1.5, 0.25}, {1.25, 0.75}, 1000);
+  std::vector<std::array<std::int32_t, 3>> found;
+  const double sum = edges.integrate(
+      [&](const SquareEdges::Strip& strip) {
+        found.push_back({strip.passed, strip.least, strip.greatest});
+        return strip.thickness < 0.3 ? 1.0 : 0.5;
+      },
+      [](const SquareEdges::Slab&) { return 1e9; });
+  EXPECT_EQ(found, (std::vector<std::array<std::int32_t, 3>>{{0, 0, 0}, {0, -3, 2}, {-3, 0, 0}}));
+  EXPECT_EQ(sum, 0.75);
 }
 
 TEST(SquareEdges, ClearForgets) {

@@ -40,6 +40,7 @@ double PixelUnion::covered_length(std::span<const SquareEdges::Crossing> crossin
 
 Interval PixelUnion::area() {
   const double sum = edges_.integrate(
+      [](const SquareEdges::Strip&) { return -1.0; },
       [&](const SquareEdges::Slab& slab) { return covered_length(slab.crossings); });
   const double bound = (error_ + edges_.error(sum)) * (1 + 0x1p-20);
   return {std::max(sum - bound, 0.0), std::min(sum + bound, 1.0)};

@@ -63,7 +63,8 @@ Interval PixelWinding::area(const Count& count) {
   set_edges();
   int at_top = -1;
   bool known = false;
-  edges_.for_each_slab([&](const SquareEdges::Slab& slab) {
+  const auto divide = [](const SquareEdges::Strip&) { return false; };
+  edges_.for_each_slab(divide, [&](const SquareEdges::Slab& slab) {
     const Gap gap = widest_gap(slab.crossings);
     // All points below are farther than 2ξ from any crossing.
     if (gap.width < 8 * edges_.crossing_error()) return true;
@@ -77,7 +78,11 @@ Interval PixelWinding::area(const Count& count) {
     return true;
   });
   if (!known) return {0, 1};
-  return enclose(edges_.integrate([&](const SquareEdges::Slab& slab) {
+  const auto all_or_nothing = [&](const SquareEdges::Strip& strip) {
+    const int number = at_top + strip.passed;
+    return number + strip.least > 0 ? 1.0 : number + strip.greatest <= 0 ? 0.0 : -1.0;
+  };
+  return enclose(edges_.integrate(all_or_nothing, [&](const SquareEdges::Slab& slab) {
     return covered_length(slab.crossings, at_top + slab.passed);
   }));
 }

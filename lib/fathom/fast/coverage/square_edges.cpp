@@ -112,6 +112,25 @@ void SquareEdges::enter(double low, double high) {
   }
 }
 
+// On the way from x = 0 at the upper end to any point of the strip, each edge is passed at most once.
+SquareEdges::Strip SquareEdges::strip(double thickness) const {
+  const double margin = 4 * crossing_error();
+  Strip strip{thickness, passed_, 0, 0};
+  for (const Crossing& c : crossings_) {
+    if (std::max(c.x_low, c.x_high) < -margin || std::min(c.x_low, c.x_high) > 1 + margin) continue;
+    const std::int32_t change = c.is_left ? -c.tag : c.tag;
+    strip.least += std::min(change, 0);
+    strip.greatest += std::max(change, 0);
+  }
+  return strip;
+}
+
+/// To the lower end of a strip.
+void SquareEdges::leave_undivided() {
+  ++slabs_;
+  for (Crossing& crossing : crossings_) look_at_side(crossing, crossing.x_high < 0);
+}
+
 void SquareEdges::add_cut(double low, double high, double d_low, double d_high) {
   if ((d_low < 0) == (d_high < 0) || d_low == 0 || d_high == 0) return;
   cuts_.push_back(low + (high - low) * (d_low / (d_low - d_high)));

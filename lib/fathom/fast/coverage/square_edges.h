@@ -42,6 +42,9 @@ struct SquarePoint {
 /// Together 9nξ times the heights in which edges may be met, 32u per slab there, per thin slab and per
 /// level edge, and 4u of the sum per slab; error() returns 10nξ times those heights, and that.
 ///
+/// Where the length is all or nothing between two successive ends, because all edges together could
+/// not change what it depends on, neither order nor place of the edges matters.
+///
 /// Between two successive ends where a single edge may be met, nothing depends on an order:
 /// 6. In a slab the edge's x differs from what of it is within the square by at most 4ξ if that is so
 ///    in the middle, and is otherwise within 4ξ of a side: 5ξ with the value computed at mid-height,
@@ -77,18 +80,30 @@ class SquareEdges {
     std::int32_t passed;
   };
 
+  /// The heights between two successive ends, before they are cut into slabs.
+  struct Strip {
+    double thickness;
+    /// As in a slab, at the upper end.
+    std::int32_t passed;
+    /// What depends on the point, as above, is at any point of the square in the strip at least and
+    /// at most by so much greater than at x = 0 at the upper end.
+    std::int32_t least, greatest;
+  };
+
   void clear();
   /// A segment between points that may lie outside the square. The tag is for the caller's use.
   void add(const SquarePoint& p, const SquarePoint& q, std::int32_t tag);
 
   /// Those that are neither level nor certainly outside the square.
   [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
-  /// Calls visit(Slab) for one after another, as long as it returns true.
-  template <class Visit>
-  void for_each_slab(const Visit& visit);
-  /// The sum over the slabs of thickness times length(Slab).
-  template <class Length>
-  double integrate(const Length& length);
+  /// Calls visit(Slab) for one after another, as long as it returns true, but for those in strips for
+  /// which decide(Strip) returns true.
+  template <class Decide, class Visit>
+  void for_each_slab(const Decide& decide, const Visit& visit);
+  /// The sum over the slabs of thickness times length(Slab); and over strips of thickness times
+  /// length_in(Strip) where that is the length all over it, not a negative number.
+  template <class LengthIn, class Length>
+  double integrate(const LengthIn& length_in, const Length& length);
   /// The error of the integrate() that returned the sum, which was the last.
   [[nodiscard]] double error(double sum) const;
   /// ξ.
@@ -101,6 +116,8 @@ class SquareEdges {
   };
   void start();
   void enter(double low, double high);
+  [[nodiscard]] Strip strip(double thickness) const;
+  void leave_undivided();
   void find_cuts(double low, double high);
   /// For the heights between the last two breaks.
   void add_errors(double heights);
@@ -127,13 +144,17 @@ class SquareEdges {
   double in_u_ = 0, in_xi_ = 0;
 };
 
-template <class Visit>
-void SquareEdges::for_each_slab(const Visit& visit) {
+template <class Decide, class Visit>
+void SquareEdges::for_each_slab(const Decide& decide, const Visit& visit) {
   start();
   for (std::size_t i = 0; i + 1 < breaks_.size(); ++i) {
     double low = breaks_[i];
     const double end = breaks_[i + 1];
     enter(low, end);
+    if (decide(strip(end - low))) {
+      leave_undivided();
+      continue;
+    }
     find_cuts(low, end);
     add_errors(end - low);
     for (std::size_t k = 0; k <= cuts_.size(); ++k) {
@@ -149,10 +170,15 @@ void SquareEdges::for_each_slab(const Visit& visit) {
   }
 }
 
-template <class Length>
-double SquareEdges::integrate(const Length& length) {
+template <class LengthIn, class Length>
+double SquareEdges::integrate(const LengthIn& length_in, const Length& length) {
   double sum = 0;
-  for_each_slab([&](const Slab& slab) {
+  const auto decide = [&](const Strip& strip) {
+    const double its_length = length_in(strip);
+    if (its_length >= 0) sum += strip.thickness * its_length;
+    return its_length >= 0;
+  };
+  for_each_slab(decide, [&](const Slab& slab) {
     sum += slab.thickness * length(slab);
     return true;
   });
