@@ -12,45 +12,43 @@ HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
-/// The bits of a cell's samples, row by row.
-template <class IsSet>
-HWY_INLINE std::uint32_t cell_bits(const LaneTag* tags, const IsSet& is_set) {
+/// Bits of a cell's samples, row by row.
+struct CellBits {
+  std::uint32_t shown = 0, front = 0;
+};
+
+// Places are less than 2¹⁶: signed numbers that are compared.
+HWY_INLINE CellBits look_at_cell(const LaneTag* tags, LaneTag end_of_front) {
   const DT dt;
-  std::uint32_t bits = 0;
+  const hn::RebindToSigned<DT> di;
+  const auto place = hn::Set(dt, Tile::place_of(~LaneTag{0}));
+  const auto end = hn::Set(di, static_cast<std::int32_t>(end_of_front));
+  CellBits bits;
   for (std::size_t k = 0; k < std::size_t{Tile::cell} * Tile::cell; k += hn::Lanes(dt)) {
-    bits |= static_cast<std::uint32_t>(lane_bits(dt, is_set(hn::Load(dt, tags + k)))) << k;
+    const auto its_place = hn::And(hn::Load(dt, tags + k), place);
+    const auto shows = hn::Ne(its_place, hn::Zero(dt));
+    const auto before = hn::RebindMask(dt, hn::Lt(hn::BitCast(di, its_place), end));
+    bits.shown |= static_cast<std::uint32_t>(lane_bits(dt, shows)) << k;
+    bits.front |= static_cast<std::uint32_t>(lane_bits(dt, hn::And(shows, before))) << k;
   }
   return bits;
 }
 
-template <class IsSet>
-HWY_INLINE void look_at_tags(const Tile& tile, const IsSet& is_set, TileRows& rows) {
+void look_at_samples_in_lanes(const Tile& tile, TileRows& shown, TileRows& front) {
+  shown.fill(0);
+  front.fill(0);
   for (std::uint32_t top = 0; top < Tile::size; top += Tile::cell) {
-    std::uint64_t four[Tile::cell] = {};
     for (std::uint32_t left = 0; left < Tile::size; left += Tile::cell) {
-      const std::uint64_t bits = cell_bits(tile.tags() + Tile::index(left, top), is_set);
+      const CellBits bits = look_at_cell(tile.tags() + Tile::index(left, top), tile.end_of_front());
       for (std::uint32_t row = 0; row < Tile::cell; ++row) {
-        four[row] |= (bits >> (Tile::cell * row) & 15) << left;
+        const auto four = [&](std::uint32_t all) {
+          return std::uint64_t{all >> (Tile::cell * row) & 15} << left;
+        };
+        shown[top + row] |= four(bits.shown);
+        front[top + row] |= four(bits.front);
       }
     }
-    for (std::uint32_t row = 0; row < Tile::cell; ++row) rows[top + row] = four[row];
   }
-}
-
-void look_at_samples_in_lanes(const Tile& tile, TileRows& shown, TileRows& front) {
-  const DT dt;
-  const auto place = hn::Set(dt, Tile::place_of(~LaneTag{0})), none = hn::Zero(dt);
-  const auto shows = [&](hn::Vec<DT> tags) HWY_ATTR { return hn::Ne(hn::And(tags, place), none); };
-  look_at_tags(tile, shows, shown);
-  // Places are less than 2¹⁶: signed numbers that are compared.
-  const hn::RebindToSigned<DT> di;
-  const auto end = hn::Set(di, static_cast<std::int32_t>(tile.end_of_front()));
-  const auto shows_front = [&](hn::Vec<DT> tags) HWY_ATTR {
-    const auto its_place = hn::And(tags, place);
-    return hn::And(hn::Ne(its_place, none),
-                   hn::RebindMask(dt, hn::Lt(hn::BitCast(di, its_place), end)));
-  };
-  look_at_tags(tile, shows_front, front);
 }
 
 void to_coverage_in_lanes(std::uint64_t row, float* values) {
