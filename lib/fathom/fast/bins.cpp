@@ -5,7 +5,6 @@
 #include <new>
 
 #include "fathom/fast/boxes.h"
-#include "fathom/fast/certain_sign.h"
 #include "fathom/fast/setup.h"
 #include "fathom/fast/tile.h"
 #include "fathom/numeric/errors.h"
@@ -106,24 +105,8 @@ void Bins::fill(const Context& context) {
 
 namespace {
 
-PixelBox common_part(const PixelBox& a, const PixelBox& b) {
-  return {std::max(a.first_column, b.first_column), std::min(a.last_column, b.last_column),
-          std::max(a.first_row, b.first_row), std::min(a.last_row, b.last_row)};
-}
-
-/// Whether the triangle certainly covers no sample of the box and meets none of its pixels: the box
-/// is taken to be greater by one sample on each side, for which the bounds hold, too.
-bool certainly_misses(const TriangleSetup& s, const PixelBox& box) {
-  const Rectangle pixels{static_cast<double>(box.first_column) - s.column - 1,
-                         static_cast<double>(box.last_column) - s.column + 1,
-                         static_cast<double>(box.first_row) - s.row - 1,
-                         static_cast<double>(box.last_row) - s.row + 1};
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (is_certainly_negative(s.edge_a[k], s.edge_b[k], s.edge_c[k], s.edge_error, pixels)) {
-      return true;
-    }
-  }
-  return false;
+BoxEdges edges_of(const TriangleSetup& s) {
+  return {s.edge_a, s.edge_b, s.edge_c, s.edge_error};
 }
 
 /// The pixels where a triangle about which nothing was certain can be visible; empty if none.
@@ -162,23 +145,16 @@ void Bins::add_exactly(const ImageObject& object, std::uint32_t number, const Co
   if (box.is_empty()) return;
   Lists& lists = lists_[index(Side::front)];
   const TileGrid& grid = context.grid;
-  const std::uint32_t first_tile = grid.tile_at(box.first_column, box.first_row);
-  if (first_tile == grid.tile_at(box.last_column, box.last_row)) {
-    lists.add(number, never_hidden, first_tile);
+  if (grid.tile_at(box.first_column, box.first_row) ==
+      grid.tile_at(box.last_column, box.last_row)) {
+    lists.add(number, never_hidden, box, grid);
     return;
   }
   const bool perspective = context.camera.projection == Projection::perspective;
   ++context.statistics.exact_setups;
-  const TriangleSetup& setup = context.exact_setups.of(number, context.referee, perspective);
-  for (std::uint32_t row = box.first_row / Tile::size; row <= box.last_row / Tile::size; ++row) {
-    for (std::uint32_t column = box.first_column / Tile::size;
-         column <= box.last_column / Tile::size; ++column) {
-      const std::uint32_t tile = row * grid.columns + column;
-      if (!certainly_misses(setup, common_part(grid.area(tile), box))) {
-        lists.add(number, never_hidden, tile);
-      }
-    }
-  }
+  const TriangleSetup setup = exact_setup(context.referee.projected(number), perspective, box);
+  for_parts_met(edges_of(setup), box, Tile::size,
+                [&](const PixelBox& part) { lists.add(number, never_hidden, part, grid); });
 }
 
 void Bins::add_object(const ImageObject& object, const Context& context) {
@@ -199,8 +175,15 @@ void Bins::add_object(const ImageObject& object, const Context& context) {
       lists_[index(side)].add(boxes->in_one_tile[index(side)]);
     }
     for (std::size_t i = 0; i < boxes->in_more_tiles; ++i) {
-      lists_[index(boxes->side[i])].add(boxes->number[i], boxes->nearest[i], boxes->box[i],
-                                        context.grid);
+      const auto add = [&](const PixelBox& part) {
+        lists_[index(boxes->side[i])].add(boxes->number[i], boxes->nearest[i], part, context.grid);
+      };
+      const PixelBox& box = boxes->box[i];
+      if (meets_many_tiles(box, Tile::size)) {
+        for_parts_met(boxes->edges[i], box, Tile::size, add);
+      } else {
+        add(box);
+      }
     }
     for (std::size_t i = 0; i < boxes->unsettled; ++i) {
       add_exactly(object, boxes->unsettled_number[i], context);
@@ -224,22 +207,25 @@ void Bins::Lists::add(const BoxBatch::Entries& entries) {
 
 void Bins::Lists::add(std::uint32_t number, std::uint32_t q, const PixelBox& box,
                       const TileGrid& grid) {
-  // Blocks of the image; those of a tile begin with tile · blocks_of_row.
-  constexpr std::uint32_t blocks = Tile::blocks_of_row;
-  const std::uint32_t left = box.first_column / Tile::block, right = box.last_column / Tile::block;
-  const std::uint32_t top = box.first_row / Tile::block, bottom = box.last_row / Tile::block;
-  const auto first_in = [](std::uint32_t first, std::uint32_t tile) {
-    return std::max(first, tile * blocks) - tile * blocks;
+  // The blocks of the box in the part of it that a tile has of the columns, or of the rows.
+  const auto first_block = [](std::uint32_t first, std::uint32_t tile) {
+    return first / Tile::size == tile ? first % Tile::size / Tile::block : 0;
   };
-  const auto last_in = [](std::uint32_t last, std::uint32_t tile) {
-    return std::min(last - tile * blocks, blocks - 1);
+  const auto last_block = [](std::uint32_t last, std::uint32_t tile) {
+    return (last / Tile::size == tile ? last % Tile::size : Tile::size - 1) / Tile::block;
   };
-  for (std::uint32_t row = top / blocks; row <= bottom / blocks; ++row) {
-    const std::uint32_t first_row = first_in(top, row), last_row = last_in(bottom, row);
-    for (std::uint32_t column = left / blocks; column <= right / blocks; ++column) {
-      add(number,
-          nearness_in(q, first_in(left, column), last_in(right, column), first_row, last_row),
-          row * grid.columns + column);
+  for (std::uint32_t row = box.first_row / Tile::size; row <= box.last_row / Tile::size; ++row) {
+    const std::uint32_t top = first_block(box.first_row, row);
+    const std::uint32_t bottom = last_block(box.last_row, row);
+    for (std::uint32_t column = box.first_column / Tile::size;
+         column <= box.last_column / Tile::size; ++column) {
+      const std::uint64_t tile = row * grid.columns + column;
+      entries_.push_back(tile << 32 | number);
+      nearness_.push_back(q == never_hidden
+                              ? never_hidden
+                              : nearness_in(q, first_block(box.first_column, column),
+                                            last_block(box.last_column, column), top, bottom));
+      ++starts_[tile + 1];
     }
   }
 }

@@ -95,7 +95,31 @@ HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles
   return s;
 }
 
-HWY_INLINE void append(const Sorted& s, std::uint32_t first_number, BoxBatch& out) {
+/// The edge functions of those of the lanes whose boxes meet many tiles; `place` is that of the first
+/// lane among those of the batch.
+/// Needs    a certain orientation.
+HWY_NOINLINE void put_edges(const BoxRequest& r, const CornerIndices* triangles, const Boxes& box,
+                            unsigned lanes, std::size_t place, BoxBatch& out) {
+  const Edges e = certified_edges(localise(load_corners(r.vertices, triangles), box));
+  alignas(64) double a[3][8], b[3][8], c[3][8], error[8];
+  for (std::size_t i = 0; i < 3; ++i) {
+    hn::Store(e.a[i], D(), a[i]);
+    hn::Store(e.b[i], D(), b[i]);
+    hn::Store(e.c[i], D(), c[i]);
+  }
+  hn::Store(e.error, D(), error);
+  for (; lanes != 0; lanes &= lanes - 1, ++place) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(lanes));
+    if (!meets_many_tiles(out.box[place], Tile::size)) continue;
+    out.edges[place] = {{a[0][k], a[1][k], a[2][k]},
+                        {b[0][k], b[1][k], b[2][k]},
+                        {c[0][k], c[1][k], c[2][k]},
+                        error[k]};
+  }
+}
+
+HWY_INLINE void append(const BoxRequest& r, const CornerIndices* triangles, const Sorted& s,
+                       std::uint32_t first_number, BoxBatch& out) {
   const D d;
   const DU du;
   const auto number = counting_lanes(du, std::uint64_t{first_number});
@@ -116,16 +140,20 @@ HWY_INLINE void append(const Sorted& s, std::uint32_t first_number, BoxBatch& ou
     hn::Store(s.box.last_row, d, bottom);
     alignas(64) std::uint64_t nearest[8];
     hn::Store(s.nearest, du, nearest);
-    const unsigned front = bits_of(s.front);
-    for (unsigned bits = bits_of(s.more_tiles); bits != 0; bits &= bits - 1) {
+    const unsigned front = bits_of(s.front), lanes = bits_of(s.more_tiles);
+    const std::size_t place = out.in_more_tiles;
+    bool many = false;
+    for (unsigned bits = lanes; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
       out.number[out.in_more_tiles] = first_number + k;
       out.nearest[out.in_more_tiles] = static_cast<std::uint32_t>(nearest[k]);
       out.side[out.in_more_tiles] = front >> k & 1 ? Side::front : Side::back;
-      out.box[out.in_more_tiles++] = {
-          static_cast<std::uint32_t>(left[k]), static_cast<std::uint32_t>(right[k]),
-          static_cast<std::uint32_t>(top[k]), static_cast<std::uint32_t>(bottom[k])};
+      const PixelBox box{static_cast<std::uint32_t>(left[k]), static_cast<std::uint32_t>(right[k]),
+                         static_cast<std::uint32_t>(top[k]), static_cast<std::uint32_t>(bottom[k])};
+      out.box[out.in_more_tiles++] = box;
+      many = many || meets_many_tiles(box, Tile::size);
     }
+    if (many) put_edges(r, triangles, s.box, lanes, place, out);
   }
   if (HWY_UNLIKELY(!hn::AllFalse(d, s.unsettled))) {
     for (unsigned bits = bits_of(s.unsettled); bits != 0; bits &= bits - 1) {
@@ -160,8 +188,8 @@ bool sort_triangles(const BoxRequest& r, BoxBatch& out) {
     }
     if (HWY_UNLIKELY(!are_vertices(triangles, r.vertex_count))) return false;
     const M valid = hn::FirstN(d, count);
-    append(sort_lanes(r, triangles, valid, out), r.first_number + static_cast<std::uint32_t>(i),
-           out);
+    append(r, triangles, sort_lanes(r, triangles, valid, out),
+           r.first_number + static_cast<std::uint32_t>(i), out);
   }
   return true;
 }

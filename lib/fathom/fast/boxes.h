@@ -5,6 +5,7 @@
 #include <span>
 
 #include "fathom/fast/nearness.h"
+#include "fathom/fast/tiles_met.h"
 #include "fathom/triangle/options.h"
 #include "fathom/triangle/projected_triangle.h"
 
@@ -30,6 +31,13 @@ struct BoxRequest {
   std::uint32_t tile_columns;
 };
 
+/// Whether so many tiles meet a box that some of them are likely to miss its triangle.
+inline bool meets_many_tiles(const PixelBox& box, std::uint32_t tile_size) {
+  const std::uint32_t columns = box.last_column / tile_size - box.first_column / tile_size;
+  const std::uint32_t rows = box.last_row / tile_size - box.first_row / tile_size;
+  return columns != 0 && rows != 0 && columns + rows > 2;
+}
+
 /// What is certain about them: which can be visible, and where.
 struct BoxBatch {
   static constexpr std::size_t most = 1024;
@@ -52,6 +60,8 @@ struct BoxBatch {
   std::array<std::uint32_t, most> nearest;
   std::array<std::uint32_t, most> number;
   std::array<PixelBox, most> box;
+  /// Where the box meets_many_tiles().
+  std::array<BoxEdges, most> edges;
   /// A corner is not usable, or the orientation not certain.
   std::size_t unsettled = 0;
   std::array<std::uint32_t, most> unsettled_number;
