@@ -85,6 +85,21 @@ TEST(Fast, TrianglesAcrossTilesOfAnyNumberOfThreads) {
   EXPECT_GT(sum.rounding.interval, 100000U / testing::effort);
 }
 
+TEST(Fast, LongThinTriangles) {
+  std::mt19937_64 random(4714);
+  for (int i = 0; i < 24 / testing::effort && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    const Scene scene = testing::slivers(random, 120);
+    Camera camera = testing::camera_of(160, 140, 64);
+    if (i % 3 == 1) camera.world_to_camera[2][3] = -2.5;  // among them
+    if (i % 4 == 1) camera.far = 2.5;
+    RenderOptions options;
+    options.channels = i % 6 == 5 ? std::vector{Channel::Z, Channel::A} : quick_channels;
+    options.fast.early_rejection = i % 5 != 4;
+    expect_same(scene, camera, options);
+  }
+}
+
 /// Wider bounds leave the map as it is and more pixels to exact numbers, those from before
 /// included.
 TEST(Fast, WiderBoundsGiveTheSameMapAndMoreDoubt) {

@@ -37,4 +37,32 @@ inline Scene soup(std::mt19937_64& random, int triangles, bool on_samples) {
   return scene_of(std::move(vertices), std::move(indices));
 }
 
+/// The same image with triangles across it that are a few pixels wide at most, upright and level ones
+/// among them, and some large ones that they may pass behind.
+inline Scene slivers(std::mt19937_64& random, int triangles) {
+  std::vector<MeshPoint> vertices;
+  std::vector<CornerIndices> indices;
+  const auto number = [&](double from, double to) {
+    return from + (to - from) * static_cast<double>(random() % 4096) / 4096;
+  };
+  const auto add = [&](double u, double v, double z) {
+    vertices.push_back({(u - 80) / 64 * z, (v - 70) / 64 * z, z});
+  };
+  for (int t = 0; t < triangles; ++t) {
+    const double u = number(-20, 180), v = number(-20, 160);
+    const double width = std::ldexp(number(0, 4), -static_cast<int>(random() % 5));
+    const double z = number(1, 4);
+    const auto kind = random() % 8;
+    const double across = kind == 0 ? 0 : number(-200, 200);
+    const double down = kind == 1 ? 0 : number(-200, 200);
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    add(u, v, z);
+    add(u + across, v + down, number(1, 4));
+    add(kind == 2 ? u + 60 : u + (kind == 0 ? width : number(-width, width)),
+        kind == 2 ? v + 60 : v + (kind == 1 ? width : number(-width, width)), z);
+    indices.push_back({first, first + 1, first + 2});
+  }
+  return scene_of(std::move(vertices), std::move(indices));
+}
+
 }  // namespace fathom::testing

@@ -58,6 +58,8 @@ struct Drawn {
   std::size_t lane;
   Functions f;
   bool test_range;
+  /// Whether it is likely to cover few samples of the blocks that it meets.
+  bool is_thin;
   /// Whether the box may end where the image does.
   bool is_clipped;
   /// Its box within the tile.
@@ -65,12 +67,13 @@ struct Drawn {
 };
 
 HWY_INLINE Drawn drawn(const SetupBatch& setups, const LaneBatch& batch, std::size_t k,
-                       bool test_range, bool is_clipped) {
+                       bool test_range, bool is_thin, bool is_clipped) {
   return {setups,
           batch,
           k,
           functions_of(batch, k),
           test_range,
+          is_thin,
           is_clipped,
           batch.first_column[k],
           batch.last_column[k],
@@ -93,9 +96,40 @@ HWY_NOINLINE void settle_samples(Tile& tile, const Drawn& t, unsigned samples, i
   }
 }
 
+/// Columns of cells, by their first samples; none if the first is greater than the last.
+struct CellColumns {
+  int first, last;
+};
+
 /// Cells of the tile, by the columns and rows of their first samples.
 struct Cells {
   int first_column, last_column, first_row, last_row;
+
+  [[nodiscard]] HWY_INLINE CellColumns in_row(int /*row*/) const {
+    return {first_column, last_column};
+  }
+};
+
+/// The same with columns that differ from row to row, by the rows' numbers, without blocks at their
+/// ends that are left out: those without a bit in the row of blocks.
+struct CellSpans {
+  using Numbers = std::array<std::int32_t, Tile::size / Tile::cell>;
+  int first_row, last_row;
+  alignas(64) Numbers first_columns;
+  alignas(64) Numbers last_columns;
+  std::array<unsigned, Tile::blocks_of_row> open_blocks;
+
+  [[nodiscard]] HWY_INLINE CellColumns in_row(int row) const {
+    const auto number = static_cast<std::size_t>(row / cell);
+    const int first = first_columns[number], last = last_columns[number];
+    if (first > last) return {first, last};
+    const unsigned met = (2U << last / block) - (1U << first / block);
+    const unsigned open = met & open_blocks[static_cast<std::size_t>(row / block)];
+    if (open == 0) return {last, first - 1};
+    const int first_open = std::countr_zero(open) * block;
+    const int last_open = (std::bit_width(open) - 1) * block + (block - cell);
+    return {std::max(first, first_open), std::min(last, last_open)};
+  }
 };
 
 /// The ends of the range of depths in binary32: q between the first two is within, beyond one of the
@@ -121,8 +155,8 @@ HWY_INLINE RangeEnds range_ends(const DepthRange& range) {
 // covers the rounding of the end (moved_q.gappa.in).
 // Samples of the cells beyond the box are not covered, unless the box ends where the area does: a
 // sample beyond the area counts for nothing.
-template <bool test_edges, bool test_range>
-HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
+template <bool test_edges, bool test_range, class SomeCells>
+HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const SomeCells& cells,
                            const Tile::Context& context) {
   const DF d;
   const DT dt;
@@ -135,11 +169,13 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
   if constexpr (test_range) ends = range_ends(context.range);
   std::size_t wins_in_all = 0;
   const VF step = constant32(cell);
-  const VF left = constant32(static_cast<float>(cells.first_column - t.first_column));
   for (int row = cells.first_row; row <= cells.last_row; row += cell) {
+    const auto [first_column, last_column] = cells.in_row(row);
+    if (first_column > last_column) continue;
+    const VF left = constant32(static_cast<float>(first_column - t.first_column));
     const VF top = constant32(static_cast<float>(row - t.first_row));
-    const std::size_t start = Tile::index(static_cast<std::uint32_t>(cells.first_column),
-                                          static_cast<std::uint32_t>(row));
+    const std::size_t start =
+        Tile::index(static_cast<std::uint32_t>(first_column), static_cast<std::uint32_t>(row));
     for (int part = 0; part < cell * cell; part += lanes) {
       const VF y = hn::Add(lane_rows(part), top);
       const VF e0 = hn::MulAdd(f.b[0], y, f.c[0]), e1 = hn::MulAdd(f.b[1], y, f.c[1]);
@@ -147,7 +183,7 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
       float* q_at = tile.q() + start + part;
       LaneTag* tag_at = tile.tags() + start + part;
       VF x = hn::Add(lane_columns(part), left);
-      for (int column = cells.first_column; column <= cells.last_column;
+      for (int column = first_column; column <= last_column;
            column += cell, q_at += cell * cell, tag_at += cell * cell, x = hn::Add(x, step)) {
         const VF q = hn::MulAdd(f.q_a, x, q0);
         const VF q_there = hn::Load(d, q_at);
@@ -189,8 +225,8 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
   return wins_in_all != 0;
 }
 
-template <bool test_edges>
-HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
+template <bool test_edges, class SomeCells>
+HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const SomeCells& cells,
                            const Tile::Context& context) {
   return t.test_range ? draw_cells<test_edges, true>(tile, t, cells, context)
                       : draw_cells<test_edges, false>(tile, t, cells, context);
@@ -202,18 +238,152 @@ HWY_INLINE int cell_of(int place) {
 
 /// The cells of the whole box.
 HWY_INLINE void draw_box(Tile& tile, const Drawn& t, const Tile::Context& context) {
-  draw_cells<true>(
-      tile, t,
-      {cell_of(t.first_column), cell_of(t.last_column), cell_of(t.first_row), cell_of(t.last_row)},
-      context);
+  const Cells cells{cell_of(t.first_column), cell_of(t.last_column), cell_of(t.first_row),
+                    cell_of(t.last_row)};
+  draw_cells<true>(tile, t, cells, context);
   context.statistics.samples_tested += static_cast<std::uint64_t>(
       (t.last_column - t.first_column + 1) * (t.last_row - t.first_row + 1));
+}
+
+/// Columns of cells of the tile as far as no edge function has excluded them, in rows of cells, one
+/// in each lane.
+struct SpanLanes {
+  VF first, last;
+};
+
+// Products and sums are rounded monotonically: where an edge function that grows to the right is
+// certainly negative in the last column of a cell and in that row of the cell in which it is greatest,
+// it is so at all samples of the cell and of those to the left of it. Which cell that may be, a
+// division says, whose roundings do not matter: that the function is negative there is looked at.
+HWY_INLINE void leave_out(float a, float b, float c, float error, int first_column, VF top,
+                          VF first_cell, VF last_cell, SpanLanes& spans) {
+  const VF one = constant32(1), side = constant32(cell), part = constant32(1.0F / cell);
+  const VF origin = constant32(static_cast<float>(first_column));
+  const VF minus_error = constant32(-error);
+  const VF y = hn::Add(top, constant32(b > 0 ? cell - 1 : 0));
+  const VF at_row = hn::MulAdd(constant32(b), y, constant32(c));
+  const auto is_missed = [&](VF column) HWY_ATTR {
+    const VF x = hn::Sub(column, origin);
+    return hn::Lt(hn::MulAdd(constant32(a), x, at_row), minus_error);
+  };
+  if (a == 0) {
+    spans.last = hn::IfThenElse(hn::Lt(at_row, minus_error), hn::Neg(one), spans.last);
+    return;
+  }
+  const VF end = hn::Add(hn::Div(hn::Sub(minus_error, at_row), constant32(a)), origin);
+  if (a > 0) {
+    const VF first = hn::Min(hn::Floor(hn::Mul(hn::Add(end, one), part)), hn::Add(last_cell, one));
+    const MF is_more =
+        hn::And(hn::Gt(first, spans.first), is_missed(hn::Sub(hn::Mul(first, side), one)));
+    spans.first = hn::IfThenElse(is_more, first, spans.first);
+  } else {
+    const VF last = hn::Max(hn::Sub(hn::Ceil(hn::Mul(end, part)), one), hn::Sub(first_cell, one));
+    const MF is_less =
+        hn::And(hn::Lt(last, spans.last), is_missed(hn::Mul(hn::Add(last, one), side)));
+    spans.last = hn::IfThenElse(is_less, last, spans.last);
+  }
+}
+
+/// The cells of the box that may have a covered sample, row by row; returns how many there are at
+/// most.
+HWY_INLINE int make_cell_spans(const Drawn& t, CellSpans& cells) {
+  const DF d;
+  const hn::Rebind<std::int32_t, DF> di;
+  const LaneBatch& f = t.batch;
+  const std::size_t k = t.lane;
+  const VF first_cell = constant32(static_cast<float>(t.first_column / cell));
+  const VF last_cell = constant32(static_cast<float>(t.last_column / cell));
+  cells.first_row = cell_of(t.first_row);
+  cells.last_row = cell_of(t.last_row);
+  const VF first_row = constant32(static_cast<float>(t.first_row / cell));
+  const VF last_row = constant32(static_cast<float>(t.last_row / cell));
+  VF count = constant32(0);
+  for (std::size_t part = 0; part < cells.first_columns.size(); part += hn::Lanes(d)) {
+    const VF number = counting_lanes(d, static_cast<float>(part));
+    const VF top =
+        hn::MulAdd(number, constant32(cell), constant32(static_cast<float>(-t.first_row)));
+    SpanLanes spans{first_cell, last_cell};
+    for (std::size_t i = 0; i < 3; ++i) {
+      leave_out(f.edge_a[i][k], f.edge_b[i][k], f.edge_c[i][k], f.edge_error[k], t.first_column,
+                top, first_cell, last_cell, spans);
+    }
+    const MF is_met = hn::And(hn::Ge(number, first_row), hn::Le(number, last_row));
+    const VF length = hn::Sub(hn::Add(spans.last, constant32(1)), spans.first);
+    count = hn::Add(count, hn::IfThenElseZero(is_met, hn::Max(length, constant32(0))));
+    const VF side = constant32(cell);
+    hn::Store(hn::ConvertTo(di, hn::Mul(spans.first, side)), di, cells.first_columns.data() + part);
+    hn::Store(hn::ConvertTo(di, hn::Mul(spans.last, side)), di, cells.last_columns.data() + part);
+  }
+  return static_cast<int>(hn::GetLane(hn::SumOfLanes(d, count)));
 }
 
 /// What is certain about a row of blocks of a tile, a bit for each block.
 struct BlockRow {
   unsigned drawn, inside;
 };
+
+/// A function at the samples of the blocks of a tile where it is greatest and least: of a column of
+/// blocks what it is without b·y, and y from the top of a row of blocks.
+struct BlockFunction {
+  using Numbers = std::array<float, Tile::blocks_of_row>;
+  alignas(32) Numbers greatest;
+  alignas(32) Numbers least;
+  float b;
+  float greatest_y, least_y;
+};
+
+/// Those of a triangle; −∞ is the first one in columns that the box does not meet.
+struct BlockFunctions {
+  BlockFunction edges[3];
+  BlockFunction q;
+  float q_moves;
+};
+
+HWY_INLINE void make_block_function(float a, float b, float c, float first_column,
+                                    BlockFunction& f) {
+  const DF8 d;
+  const auto at = [&](float x, std::size_t part) HWY_ATTR {
+    const auto left = hn::MulAdd(counting_lanes(d, static_cast<float>(part)), hn::Set(d, block),
+                                 hn::Set(d, x - first_column));
+    return hn::MulAdd(hn::Set(d, a), left, hn::Set(d, c));
+  };
+  constexpr float side = block - 1;
+  for (std::size_t part = 0; part < Tile::blocks_of_row; part += hn::Lanes(d)) {
+    hn::Store(at(a > 0 ? side : 0, part), d, f.greatest.data() + part);
+    hn::Store(at(a > 0 ? 0 : side, part), d, f.least.data() + part);
+  }
+  f.b = b;
+  f.greatest_y = b > 0 ? side : 0;
+  f.least_y = side - f.greatest_y;
+}
+
+HWY_INLINE void leave_out_columns(const Drawn& t, BlockFunction& f) {
+  const DF8 d;
+  const auto first_met = hn::Set(d, static_cast<float>(t.first_column / block));
+  const auto last_met = hn::Set(d, static_cast<float>(t.last_column / block));
+  const auto none = hn::Set(d, -std::numeric_limits<float>::infinity());
+  for (std::size_t part = 0; part < Tile::blocks_of_row; part += hn::Lanes(d)) {
+    const auto number = counting_lanes(d, static_cast<float>(part));
+    const auto is_met = hn::And(hn::Ge(number, first_met), hn::Le(number, last_met));
+    float* const greatest = f.greatest.data() + part;
+    float* const least = f.least.data() + part;
+    hn::Store(hn::IfThenElse(is_met, hn::Load(d, greatest), none), d, greatest);
+    hn::Store(hn::IfThenElse(is_met, hn::Load(d, least), none), d, least);
+  }
+}
+
+HWY_INLINE void make_block_functions(const Drawn& t, BlockFunctions& f) {
+  const LaneBatch& batch = t.batch;
+  const std::size_t k = t.lane;
+  const auto left = static_cast<float>(t.first_column);
+  for (std::size_t i = 0; i < 3; ++i) {
+    make_block_function(batch.edge_a[i][k], batch.edge_b[i][k], batch.edge_c[i][k], left,
+                        f.edges[i]);
+  }
+  make_block_function(batch.q_a[k], batch.q_b[k], batch.q_c[k], left, f.q);
+  f.q_moves = setup_bounds::q_moves * batch.q_error[k];
+  leave_out_columns(t, f.edges[0]);
+}
 
 // Products and sums are rounded monotonically, so no sample of a block has a computed value above
 // that of the corner where the function is greatest, or below that of the opposite corner; only
@@ -224,59 +394,36 @@ struct BlockRow {
 // A block that lies inside shows surfaces that are not farther than the triangle once it is drawn,
 // at all its samples if it has no range to leave: its least q moved down by twice its error is not
 // greater than any q there.
-HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, int block_row, bool reject) {
+HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, const BlockFunctions& f,
+                                   int block_row, bool reject) {
   const DF8 d;
   const auto set = [](float x) HWY_ATTR { return hn::Set(DF8(), x); };
-  const auto zero = hn::Zero(d);
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  const LaneBatch& f = t.batch;
-  const std::size_t k = t.lane;
-  const auto side = set(block - 1);
-  const auto top = set(static_cast<float>(block_row * block - t.first_row));
-  const auto error = set(f.edge_error[k]);
-  const int first_block = t.first_column / block, last_block = t.last_column / block;
-  const auto first_met = set(static_cast<float>(first_block));
-  const auto last_met = set(static_cast<float>(last_block));
+  const std::size_t lanes = hn::Lanes(d);
+  const auto top = static_cast<float>(block_row * block - t.first_row);
+  const auto error = set(t.batch.edge_error[t.lane]), minus_error = hn::Neg(error);
   BlockRow row{0, 0};
-  for (int part = 0; part < static_cast<int>(Tile::blocks_of_row); part += lanes) {
-    const auto number = counting_lanes(d, static_cast<float>(part));
-    const auto left = hn::MulAdd(number, set(block), set(static_cast<float>(-t.first_column)));
-    auto missed = hn::Lt(side, zero),
-         inside = hn::And(hn::Ge(number, first_met), hn::Le(number, last_met));
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto a = set(f.edge_a[i][k]), b = set(f.edge_b[i][k]), c = set(f.edge_c[i][k]);
-      const auto right_is_greater = hn::Gt(a, zero);
-      const auto bottom_is_greater = hn::Gt(b, zero);
-      const auto greatest_x = hn::Add(left, hn::IfThenElseZero(right_is_greater, side));
-      const auto least_x = hn::Add(left, hn::IfThenZeroElse(right_is_greater, side));
-      const auto greatest_y = hn::Add(top, hn::IfThenElseZero(bottom_is_greater, side));
-      const auto least_y = hn::Add(top, hn::IfThenZeroElse(bottom_is_greater, side));
-      const auto greatest = hn::MulAdd(b, greatest_y, hn::MulAdd(a, greatest_x, c));
-      const auto least = hn::MulAdd(b, least_y, hn::MulAdd(a, least_x, c));
-      missed = hn::Or(missed, hn::Lt(greatest, hn::Neg(error)));
-      inside = hn::And(inside, hn::Gt(least, error));
-    }
+  for (std::size_t part = 0; part < Tile::blocks_of_row; part += lanes) {
+    const auto greatest = [&](const BlockFunction& g) HWY_ATTR {
+      return hn::MulAdd(set(g.b), set(top + g.greatest_y), hn::Load(d, g.greatest.data() + part));
+    };
+    const auto least = [&](const BlockFunction& g) HWY_ATTR {
+      return hn::MulAdd(set(g.b), set(top + g.least_y), hn::Load(d, g.least.data() + part));
+    };
+    const auto least_of_edges = [&](const auto& of_edge) HWY_ATTR {
+      return hn::Min(hn::Min(of_edge(f.edges[0]), of_edge(f.edges[1])), of_edge(f.edges[2]));
+    };
+    auto missed = hn::Lt(least_of_edges(greatest), minus_error);
+    const auto inside = hn::Gt(least_of_edges(least), error);
     if (reject) {
-      const auto a = set(f.q_a[k]), b = set(f.q_b[k]), c = set(f.q_c[k]);
-      const auto right_is_greater = hn::Gt(a, zero);
-      const auto bottom_is_greater = hn::Gt(b, zero);
-      const auto value = [&](auto from_left, auto from_top) HWY_ATTR {
-        return hn::MulAdd(b, hn::Add(top, from_top), hn::MulAdd(a, hn::Add(left, from_left), c));
-      };
-      const auto greatest = value(hn::IfThenElseZero(right_is_greater, side),
-                                  hn::IfThenElseZero(bottom_is_greater, side));
-      const auto least = value(hn::IfThenZeroElse(right_is_greater, side),
-                               hn::IfThenZeroElse(bottom_is_greater, side));
-      const auto moves = set(setup_bounds::q_moves), q_error = set(f.q_error[k]);
       float* const farthest_at =
-          tile.farthest().data() + block_row * static_cast<int>(Tile::blocks_of_row) + part;
-      const auto farthest = hn::LoadU(d, farthest_at);
-      missed = hn::Or(missed, hn::Lt(hn::MulAdd(moves, q_error, greatest), farthest));
+          tile.farthest().data() + static_cast<std::size_t>(block_row) * Tile::blocks_of_row + part;
+      const auto farthest = hn::Load(d, farthest_at);
+      missed = hn::Or(missed, hn::Lt(hn::Add(greatest(f.q), set(f.q_moves)), farthest));
       // NaN, of a triangle without a bound, is not greater.
-      const auto here = hn::NegMulAdd(moves, q_error, least);
       if (!t.test_range) {
-        hn::StoreU(hn::IfThenElse(hn::And(inside, hn::Gt(here, farthest)), here, farthest), d,
-                   farthest_at);
+        const auto here = hn::Sub(least(f.q), set(f.q_moves));
+        const auto nearer = hn::And(inside, hn::Gt(here, farthest));
+        hn::Store(hn::IfThenElse(nearer, here, farthest), d, farthest_at);
       }
     }
     row.drawn |= (lane_bits(d, missed) ^ ((1U << lanes) - 1)) << part;
@@ -285,16 +432,41 @@ HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, int block_row, bo
   return row;
 }
 
+/// Leaves out the blocks in which the triangle is hidden, as above.
+HWY_INLINE void leave_out_hidden_blocks(Tile& tile, const Drawn& t, CellSpans& cells) {
+  const DF8 d;
+  const LaneBatch& batch = t.batch;
+  const std::size_t k = t.lane;
+  BlockFunction q;
+  make_block_function(batch.q_a[k], batch.q_b[k], batch.q_c[k], static_cast<float>(t.first_column),
+                      q);
+  const auto moves = hn::Set(d, setup_bounds::q_moves * batch.q_error[k]);
+  for (int row = t.first_row / block; row <= t.last_row / block; ++row) {
+    const auto y = static_cast<float>(row * block - t.first_row) + q.greatest_y;
+    const auto number = static_cast<std::size_t>(row);
+    unsigned open = 0;
+    for (std::size_t part = 0; part < Tile::blocks_of_row; part += hn::Lanes(d)) {
+      const auto greatest =
+          hn::MulAdd(hn::Set(d, q.b), hn::Set(d, y), hn::Load(d, q.greatest.data() + part));
+      const auto farthest =
+          hn::Load(d, tile.farthest().data() + number * Tile::blocks_of_row + part);
+      const auto hidden = hn::Lt(hn::Add(greatest, moves), farthest);
+      open |= (lane_bits(d, hidden) ^ ((1U << hn::Lanes(d)) - 1)) << part;
+    }
+    cells.open_blocks[number] = open;
+  }
+}
+
 /// Draws by rows of blocks: blocks without a covered sample and those behind everything that is
 /// already drawn are left out; in those that lie inside the triangle, edges are not tested.
 HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& context) {
   constexpr std::uint8_t draws_until_update = 4;
   const bool reject = context.switches.early_rejection;
-  const int first_block = t.first_column / block, last_block = t.last_column / block;
-  const unsigned met = ((2U << last_block) - 1) & ~((1U << first_block) - 1);
+  BlockFunctions functions;
+  make_block_functions(t, functions);
   for (int row = t.first_row / block; row <= t.last_row / block; ++row) {
-    const BlockRow certain = look_at_blocks(tile, t, row, reject);
-    for (unsigned bits = certain.drawn & met; bits != 0; bits &= bits - 1) {
+    const BlockRow certain = look_at_blocks(tile, t, functions, row, reject);
+    for (unsigned bits = certain.drawn; bits != 0; bits &= bits - 1) {
       const int number = std::countr_zero(bits);
       const int column = number * block;
       const int left = std::max(column, t.first_column);
@@ -317,11 +489,28 @@ HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& con
   }
 }
 
+/// Draws only the cells that a thin triangle may meet; false, and nothing is drawn, if these are
+/// many.
+HWY_INLINE bool draw_spans(Tile& tile, const Drawn& t, const Tile::Context& context) {
+  constexpr int most = 48;
+  CellSpans cells;
+  const int count = make_cell_spans(t, cells);
+  if (count > most) return false;
+  if (context.switches.early_rejection) {
+    leave_out_hidden_blocks(tile, t, cells);
+  } else {
+    cells.open_blocks.fill(~0U);
+  }
+  draw_cells<true>(tile, t, cells, context);
+  context.statistics.samples_tested += static_cast<std::uint64_t>(count * cell * cell);
+  return true;
+}
+
 HWY_INLINE void draw_triangle(Tile& tile, const Drawn& t, const Tile::Context& context) {
   if (std::max(t.last_column - t.first_column, t.last_row - t.first_row) < 3 * block ||
       !context.switches.hierarchy) {
     draw_box(tile, t, context);
-  } else {
+  } else if (!t.is_thin || !draw_spans(tile, t, context)) {
     draw_blocks(tile, t, context);
   }
 }
@@ -330,6 +519,19 @@ HWY_INLINE void draw_triangle(Tile& tile, const Drawn& t, const Tile::Context& c
 HWY_INLINE unsigned small_lanes(const SetupBatch& batch) {
   const auto [columns, rows] = box_sizes(batch);
   return bits_of(hn::Le(hn::Max(columns, rows), constant(1)));
+}
+
+/// The lanes of a batch whose triangles are a few samples wide at most: their doubled areas, which are
+/// the sums of the edge functions, over the longest sides. Nothing depends on it but time; it is not
+/// so where the functions are scaled, those of exact_setup(), which are taken for wide ones.
+HWY_INLINE unsigned thin_lanes(const SetupBatch& batch) {
+  constexpr double greatest_width = 4;
+  V length = constant(0), area = constant(0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    length = greatest_of(length, hn::Abs(load(batch.edge_a[i])), hn::Abs(load(batch.edge_b[i])));
+    area = hn::Add(area, load(batch.edge_c[i]));
+  }
+  return bits_of(hn::Lt(area, hn::Mul(length, constant(greatest_width))));
 }
 
 /// One sample of each of the small triangles, by its column and row in their boxes: the decisions
@@ -392,10 +594,12 @@ HWY_INLINE void draw_batch(Tile& tile, const SetupBatch& setups, unsigned lanes,
     }
   }
   if (lanes != small) make_lane_functions(setups, extent, widening, batch);
+  const unsigned thin = lanes != small ? thin_lanes(setups) : 0;
   for (unsigned bits = lanes & ~small; bits != 0; bits &= bits - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-    draw_triangle(tile, drawn(setups, batch, k, setups.test_range >> k & 1, tile.is_partial()),
-                  context);
+    draw_triangle(
+        tile, drawn(setups, batch, k, setups.test_range >> k & 1, thin >> k & 1, tile.is_partial()),
+        context);
   }
   if (context.statistics.samples_covered != covered_before) {
     tile.keep_surfaces(static_cast<std::uint32_t>(hn::Lanes(D())));
