@@ -157,6 +157,33 @@ TEST(Bins, HoldEveryTriangleThatASampleOrAreaOfTheTileSees) {
   EXPECT_GT(met, 100);
 }
 
+/// Of the 100 tiles that its box meets, a long thin triangle across the image meets 19 at most, in
+/// front of the camera and reaching behind it.
+TEST(Bins, LeaveOutTilesThatLongTrianglesMiss) {
+  const Camera camera = camera_of(640, 640, 320);
+  const TileGrid grid(camera.width, camera.height);
+  for (const double z : {1.0, -1.0}) {
+    SCOPED_TRACE(z);
+    const Scene scene =
+        testing::scene_of({{-1 * z, -0.9 * z, z}, {1, 0.8, 1}, {1, 0.802, 1}}, {{0, 1, 2}});
+    const TriangleSource triangles(scene);
+    const SceneRays rays(triangles, camera);
+    Referee referee(triangles, camera, &rays);
+    RenderStatistics statistics;
+    ImageObjects objects;
+    objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
+    Bins bins(0, 1);
+    bins.fill({objects, camera, Cull::none, false, grid, referee, statistics});
+    std::size_t tiles = 0;
+    for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
+      tiles += all_in_tile(bins, tile).size();
+    }
+    EXPECT_GE(tiles, z > 0 ? 10U : 1U);
+    EXPECT_LE(tiles, 19U);
+    EXPECT_EQ(statistics.facing.exact, 0U);
+  }
+}
+
 /// A bin of a part of the scene holds that part.
 TEST(Bins, HoldTheTrianglesThatTheyAreOf) {
   std::mt19937_64 random(182);

@@ -153,6 +153,64 @@ TEST_P(Setups, FromExactFormsBoundsHoldAndAreTight) {
   EXPECT_GT(q.publish("q"), 0.1);
 }
 
+/// Edge functions in double-words are the exact ones over |det K·R|.
+Dyadic factor_of_forms(const Camera& camera) {
+  const auto& m = camera.world_to_camera;
+  const auto minor = [&](std::size_t i, std::size_t j) {
+    return Dyadic(m[1][i]) * Dyadic(m[2][j]) - Dyadic(m[1][j]) * Dyadic(m[2][i]);
+  };
+  const Dyadic det =
+      Dyadic(m[0][0]) * minor(1, 2) - Dyadic(m[0][1]) * minor(0, 2) + Dyadic(m[0][2]) * minor(0, 1);
+  return abs(Dyadic(camera.fx) * Dyadic(camera.fy) * det);
+}
+
+TEST(WideSetups, BoundsHoldAndAreTight) {
+  const Camera camera = plain_camera(true);
+  const Dyadic factor = factor_of_forms(camera);
+  const PixelBox image{0, camera.width - 1, 0, camera.height - 1};
+  Numbers n(25);
+  Share edges, q;
+  int refused = 0;
+  for (int i = 0; i < 4000 / effort; ++i) {
+    auto corners = triangle_from(n);
+    if (n.below(2)) corners[0].z -= 5;  // reaches behind the camera
+    const ImageTriangle t = project_both(corners, camera);
+    const Scene scene =
+        scene_of({corners.begin(), corners.end()}, std::vector<CornerIndices>{{0, 1, 2}});
+    const TriangleSource source(scene);
+    const SceneRays rays(source, camera);
+    const auto forms = WideReferee(rays).forms(0);
+    ASSERT_TRUE(forms);
+    const auto setup = wide_setup(*forms, 0, image);
+    refused += !setup;
+    if (t.exact.orientation == Sign::zero) {
+      ASSERT_FALSE(setup);
+    }
+    if (!setup) continue;
+    for (int k = 0; k < 4; ++k) {
+      const ImagePoint s = sample_of(n, image);
+      const double x = s.u - 0.5, y = s.v - 0.5;
+      for (std::size_t j = 0; j < 3; ++j) {
+        const ExactVector3& l = t.exact.edges[j].coefficients();
+        const bool use_a = !l[0].is_zero();
+        const double exact_size = round_to_binary64(Ratio(use_a ? l[0] : l[1], factor));
+        const double size = use_a ? setup->edge_a[j] : setup->edge_b[j];
+        const long scale = std::lround(std::log2(size / exact_size));
+        edges.add(edge_at(*setup, j, x, y),
+                  Ratio(t.exact.edges[j].at(s.u, s.v).scaled(scale), factor), setup->edge_error);
+      }
+      const Dyadic w = t.exact.weight.at(s.u, s.v);
+      if (w.sign() != Sign::positive) continue;
+      q.add(q_at(*setup, x, y), Ratio(w, t.exact.depth_numerator.at(s.u, s.v)),
+            setup->q_error * (1 - 0x1p-20));
+    }
+  }
+  EXPECT_LT(refused, 200 / effort);
+  EXPECT_GT(q.count(), 4000 / effort);
+  EXPECT_GT(edges.publish("edges"), 0.05);
+  EXPECT_GT(q.publish("q"), 0.1);
+}
+
 /// Triangles of almost one depth: what is left of the bound on q is the share of |q_A|.
 TEST(LevelSetups, BoundsHoldForTheRoundingsOfQ) {
   const Camera camera = bare_camera(false);

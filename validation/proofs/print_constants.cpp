@@ -38,6 +38,8 @@ int main() {
   print("tile_q_error", fast::setup_bounds::tile_q_error);
   print("exact_edge_error", fast::setup_bounds::exact_edge_error);
   print("exact_q_error", fast::setup_bounds::exact_q_error);
+  print("wide_terms", fast::setup_bounds::wide_terms);
+  print("wide_difference", fast::setup_bounds::wide_difference);
   print("moved_share", fast::setup_bounds::moved_share);
   print("shape_share", fast::setup_bounds::shape_share);
   print("range_end_rounding", fast::setup_bounds::range_end_rounding);

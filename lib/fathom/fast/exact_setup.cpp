@@ -4,9 +4,10 @@
 
 #include "fathom/fast/setup.h"
 #include "fathom/fast/setup_bounds.h"
+#include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/rounding.h"
 
-// Setups from exact forms: every coefficient is exact and rounded once.
+// Setups from exact forms, or from double-words: every coefficient is exact and rounded once.
 namespace fathom::fast {
 using namespace triangle;
 
@@ -20,6 +21,44 @@ long magnitude(const Dyadic& x) {
 
 double rounded(const Dyadic& x) {
   return round_to_binary64(Ratio(x));
+}
+
+using Word = DoubleWord<false>;
+
+/// The least e with |x| < 2^e, as above.
+long magnitude(const Word& x) {
+  return x.hi == 0 ? std::numeric_limits<long>::min() / 2 : std::ilogb(x.hi) + 1L;
+}
+
+/// A function of column and row from a box's first sample, in double-words: a, b and c err by
+/// error/X, error/Y and error, where samples are at most X and Y from there.
+struct WideFunction {
+  Word a, b, c;
+  double error;
+};
+
+// The bound of a form is of what is computed at any sample: at the first one of the box, that is c.
+// It would be no less if the form had no terms but one, at a sample where u (or v) is the bound of
+// the image's: a or b times that, which is not less than X or Y. So it bounds each of the three.
+WideFunction from_first_sample(const Form<WordPair>& form, double u, double v) {
+  const Word a = form.a, b = form.b, c = form.c;
+  return {a, b, (c + b * v) + a * u, form.error};
+}
+
+WideFunction negated(const WideFunction& f) {
+  return {-f.a, -f.b, -f.c, f.error};
+}
+
+// f − g − h. The bounds are 12ε of the sums of the terms' magnitudes; each of the coefficients is
+// rounded twice, by ε of parts of those sums: by less than a quarter of the bounds.
+WideFunction difference(const WideFunction& f, const WideFunction& g, const WideFunction& h) {
+  return {f.a - g.a - h.a, f.b - g.b - h.b, f.c - g.c - h.c,
+          setup_bounds::wide_difference * (f.error + g.error + h.error)};
+}
+
+double extent_of(const PixelBox& box) {
+  // Samples up to 8 pixels beyond the box count too.
+  return std::max(box.last_column - box.first_column, box.last_row - box.first_row) + 8.0;
 }
 
 }  // namespace
@@ -38,9 +77,7 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
   setup.column = box.first_column;
   setup.row = box.first_row;
   const double origin_u = box.first_column + 0.5, origin_v = box.first_row + 0.5;
-  // Samples up to 8 pixels beyond the box count too.
-  const double extent =
-      std::max(box.last_column - box.first_column, box.last_row - box.first_row) + 8.0;
+  const double extent = extent_of(box);
   const long extent_bits = std::ilogb(extent) + 1;
 
   for (std::size_t i = 0; i < 3; ++i) {
@@ -71,6 +108,59 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
     setup.q_a = setup.q_b = setup.q_c = 0;
     setup.q_error = std::numeric_limits<double>::infinity();
   }
+  return setup;
+}
+
+// Sample (x, y) from the box's first is covered where the weights e_A/S, e_B/S and e_C/S are positive
+// and D = (n·t)/(n·d) is (certified_surface.h). S is n·d times a constant, so that is where the forms
+// of the weights, turned by the sign of n·t, are positive; these are the edge functions times one
+// positive number. q = (n·d)/(n·t).
+//
+// Rounding errs as that of exact coefficients does; besides, the three coefficients of an edge
+// function, times what they are multiplied by, err by `error` each (wide_edges.gappa.in). Those of q
+// are quotients, whose bounds are added up (wide_q.gappa.in).
+std::optional<TriangleSetup> wide_setup(const WideForms& forms, std::uint32_t number,
+                                        const PixelBox& box) {
+  const Certified<Word> nt{forms.constant.value, forms.constant.error};
+  const auto side = certain_sign(forms.constant.value, forms.constant.error);
+  if (!side) return std::nullopt;
+  TriangleSetup setup;
+  setup.number = number;
+  setup.column = box.first_column;
+  setup.row = box.first_row;
+  const double u = box.first_column + 0.5, v = box.first_row + 0.5;
+  const double extent = extent_of(box);
+  const long extent_bits = std::ilogb(extent) + 1;
+
+  const WideFunction all = from_first_sample(forms.weights.divisor, u, v);
+  const WideFunction B = from_first_sample(forms.weights.weights[0], u, v);
+  const WideFunction C = from_first_sample(forms.weights.weights[1], u, v);
+  const WideFunction edges[] = {difference(all, B, C), B, C};
+  double greatest_error = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const WideFunction f = *side < 0 ? negated(edges[i]) : edges[i];
+    const long top =
+        std::max({magnitude(f.a) + extent_bits, magnitude(f.b) + extent_bits, magnitude(f.c)});
+    if (top < -1000) return std::nullopt;
+    const auto scaled = [&](double x) { return std::ldexp(x, static_cast<int>(-top)); };
+    setup.edge_a[i] = scaled(f.a.hi);
+    setup.edge_b[i] = scaled(f.b.hi);
+    setup.edge_c[i] = scaled(f.c.hi);
+    greatest_error = std::max(greatest_error, scaled(f.error));
+  }
+  if (!(greatest_error <= setup_bounds::wide_limit)) return std::nullopt;
+  setup.edge_error = setup_bounds::exact_edge_error + setup_bounds::wide_terms * greatest_error;
+
+  const auto a = quotient<Word>({all.a, all.error / forms.u}, nt);
+  const auto b = quotient<Word>({all.b, all.error / forms.v}, nt);
+  const auto c = quotient<Word>({all.c, all.error}, nt);
+  setup.q_a = a.value.hi;
+  setup.q_b = b.value.hi;
+  setup.q_c = c.value.hi;
+  const double S = std::abs(setup.q_c) + (std::abs(setup.q_a) + std::abs(setup.q_b)) * extent;
+  const double of_words = c.error + (a.error + b.error) * extent;
+  if (!(S < 0x1p100 && of_words < 0x1p100)) return std::nullopt;
+  setup.q_error = (setup_bounds::exact_q_error * S + (of_words + 0x1p-100)) * setup_bounds::q_room;
   return setup;
 }
 

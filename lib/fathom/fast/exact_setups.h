@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "fathom/fast/setup.h"
 #include "fathom/triangle/recent_triangles.h"
@@ -15,7 +16,9 @@ class ExactSetups {
   explicit ExactSetups(const PixelBox& image) : image_(image) {}
   const TriangleSetup& of(std::uint32_t number, triangle::Referee& referee, bool perspective) {
     return remembered_.get(number, [&](TriangleSetup& setup) {
-      setup = exact_setup(referee.projected(number), perspective, image_);
+      const auto forms = referee.wide_forms(number);
+      const auto wide = forms ? wide_setup(*forms, number, image_) : std::nullopt;
+      setup = wide ? *wide : exact_setup(referee.projected(number), perspective, image_);
     });
   }
 

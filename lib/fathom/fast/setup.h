@@ -6,6 +6,7 @@
 
 #include "fathom/fast/depth_range.h"
 #include "fathom/fast/vertex.h"
+#include "fathom/triangle/double_word_referee.h"
 #include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::fast {
@@ -74,6 +75,10 @@ void certified_setups(const ImageVertex* vertices, const CornerIndices* triangle
 /// From exact forms; works for every triangle with Δ ≠ 0, even if it reaches behind the camera.
 TriangleSetup exact_setup(const triangle::ProjectedTriangle& triangle, bool perspective,
                           const PixelBox& box);
+/// The same from double-words, under a perspective camera; nullopt where their bounds do not tell on
+/// which side of its plane the camera is, or are far from those of exact numbers.
+std::optional<TriangleSetup> wide_setup(const triangle::WideForms& forms, std::uint32_t number,
+                                        const PixelBox& box);
 /// Such functions for the samples of a part of the box that they were made for.
 TriangleSetup moved_to(const TriangleSetup& exact_setup, const PixelBox& part);
 

@@ -50,6 +50,13 @@ inline constexpr double tile_q_error = 12 * unit_roundoff<double>;
 inline constexpr double exact_edge_error = 12 * unit_roundoff<double>;
 inline constexpr double exact_q_error = 5 * unit_roundoff<double>;
 
+/// wide_setup(): so many times the bound of a function in double-words, whose terms err by it each
+/// (wide_edges); at most that much of the greatest term. Of the sum of three bounds, that of the
+/// functions' difference (wide_difference).
+inline constexpr double wide_terms = 3;
+inline constexpr double wide_limit = 0x1p-40;
+inline constexpr double wide_difference = 1.25;
+
 /// moved_to(): so many times the bounds of exact_setup() (moved_exact_edges, moved_exact_q).
 inline constexpr double moved_share = 2.5;
 

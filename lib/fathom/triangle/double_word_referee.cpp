@@ -77,6 +77,14 @@ std::optional<bool> WideReferee::covers(std::uint32_t number, const ImagePoint& 
   return *sign > 0;
 }
 
+std::optional<WideForms> WideReferee::forms(std::uint32_t number) {
+  const Triangle& t = remember(number);
+  if (!t.usable || !image_.perspective) return std::nullopt;
+  const ImageBounds image{true, image_.u + WideForms::beyond, image_.v + WideForms::beyond};
+  return WideForms{wide_.weight_forms(t.corners, t.object->rays, image),
+                   wide_.depth_forms(t.corners, t.object->rays, image).constant, image.u, image.v};
+}
+
 std::optional<int> WideReferee::compare_depth(std::uint32_t number, const ImagePoint& s,
                                               double limit) {
   return sign_of_difference(depth_at(number, s), exactly(limit));

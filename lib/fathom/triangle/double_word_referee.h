@@ -10,6 +10,17 @@
 
 namespace fathom::triangle {
 
+/// A triangle under a perspective camera in double-words: what its weights of B and C and D are made
+/// of (certified_surface.h), at the samples of the image and up to `beyond` beyond them.
+struct WideForms {
+  static constexpr double beyond = 8;
+  WeightForms<WordPair> weights;
+  /// D is this over weights.divisor.
+  Certified<WordPair> constant;
+  /// What bounds the coordinates of those samples.
+  double u, v;
+};
+
 /// Settles with double-words what binary64 did not: the tier before exact numbers. nullopt: not
 /// known. One for each thread: it remembers the triangles that it was asked about last.
 class WideReferee {
@@ -18,6 +29,8 @@ class WideReferee {
 
   /// Whether the triangle covers the sample, if that is certain without the top-left rule.
   std::optional<bool> covers(std::uint32_t number, const ImagePoint& s);
+  /// nullopt also under an orthographic camera.
+  std::optional<WideForms> forms(std::uint32_t number);
   /// −1 or 1 if D, at a sample that the triangle covers, is certainly less or greater than `limit`.
   std::optional<int> compare_depth(std::uint32_t number, const ImagePoint& s, double limit);
   /// −1 or 1 if D of `a`, at a sample that both cover, is certainly less or greater than D of `b`.

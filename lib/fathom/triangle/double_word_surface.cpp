@@ -46,9 +46,15 @@ struct Wide {
                                               const Certified<WordPair>& depth) {
     return as<WordPair>(triangle::position(rays, sizes, perspective, s, as<Real>(depth)));
   }
+  static WeightForms<WordPair> weight_forms(const MeshTriangle& corners, const Rays& rays,
+                                            const ImageBounds& image) {
+    const auto forms = triangle::weight_forms<Real>(corners, rays, image);
+    return {{as<WordPair>(forms.weights[0]), as<WordPair>(forms.weights[1])},
+            as<WordPair>(forms.divisor)};
+  }
   static std::array<Certified<WordPair>, 2> weights(const MeshTriangle& corners, const Rays& rays,
                                                     const ImageBounds& image, const ImagePoint& s) {
-    const auto forms = weight_forms<Real>(corners, rays, image);
+    const auto forms = triangle::weight_forms<Real>(corners, rays, image);
     return {as<WordPair>(forms.at(0, s)), as<WordPair>(forms.at(1, s))};
   }
   static Vector<Certified<WordPair>> normal(const MeshTriangle& corners, const ObjectRays& object,
@@ -84,6 +90,11 @@ FATHOM_WITH_FMA Vector<Certified<WordPair>> position_with_fma(const Rays& rays,
                                                               const Certified<WordPair>& depth) {
   return Wide<true>::position(rays, sizes, perspective, s, depth);
 }
+FATHOM_WITH_FMA WeightForms<WordPair> weight_forms_with_fma(const MeshTriangle& corners,
+                                                            const Rays& rays,
+                                                            const ImageBounds& image) {
+  return Wide<true>::weight_forms(corners, rays, image);
+}
 FATHOM_WITH_FMA std::array<Certified<WordPair>, 2> weights_with_fma(const MeshTriangle& corners,
                                                                     const Rays& rays,
                                                                     const ImageBounds& image,
@@ -104,12 +115,13 @@ FATHOM_WITH_FMA Vector<Certified<WordPair>> camera_normal_with_fma(
 }
 }  // namespace
 
-const WideArithmetic wide_without_fma{
-    Wide<false>::depth_forms, Wide<false>::depth,  Wide<false>::distance,     Wide<false>::position,
-    Wide<false>::weights,     Wide<false>::normal, Wide<false>::camera_normal};
-const WideArithmetic wide_with_fma{depth_forms_with_fma,  depth_with_fma,   distance_with_fma,
-                                   position_with_fma,     weights_with_fma, normal_with_fma,
-                                   camera_normal_with_fma};
+const WideArithmetic wide_without_fma{Wide<false>::depth_forms,  Wide<false>::depth,
+                                      Wide<false>::distance,     Wide<false>::position,
+                                      Wide<false>::weight_forms, Wide<false>::weights,
+                                      Wide<false>::normal,       Wide<false>::camera_normal};
+const WideArithmetic wide_with_fma{depth_forms_with_fma, depth_with_fma,        distance_with_fma,
+                                   position_with_fma,    weight_forms_with_fma, weights_with_fma,
+                                   normal_with_fma,      camera_normal_with_fma};
 
 const WideArithmetic& wide_arithmetic() {
   static const WideArithmetic& chosen = processor_has_fma() ? wide_with_fma : wide_without_fma;

@@ -51,6 +51,7 @@ struct WideArithmetic {
                                   const ImagePoint&);
   Vector<Certified<WordPair>> (*position)(const Rays&, const RaySizes&, bool perspective,
                                           const ImagePoint&, const Certified<WordPair>& depth);
+  WeightForms<WordPair> (*weight_forms)(const MeshTriangle&, const Rays&, const ImageBounds&);
   std::array<Certified<WordPair>, 2> (*weights)(const MeshTriangle&, const Rays&,
                                                 const ImageBounds&, const ImagePoint&);
   Vector<Certified<WordPair>> (*normal)(const MeshTriangle&, const ObjectRays& object,

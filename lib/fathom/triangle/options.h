@@ -55,8 +55,8 @@ struct RenderStatistics {
   std::uint64_t areas_with_exact_ends = 0;
   /// Samples that binary32 did not settle: settled by binary64, or counted as exact.
   std::uint64_t samples_in_binary64 = 0;
-  /// How often a triangle was set up from exact numbers: once for each tile that it meets, and once
-  /// to find them.
+  /// How often a triangle was set up from exact numbers or double-words: once for each tile that it
+  /// meets, and once to find them.
   std::uint64_t exact_setups = 0;
   /// Those of visibility.exact that were settled because both triangles lie in one plane.
   std::uint64_t same_plane = 0;

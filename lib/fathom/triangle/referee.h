@@ -25,6 +25,11 @@ class Referee {
   /// Valid until the next question.
   const ProjectedTriangle& projected(std::uint32_t number);
 
+  /// The same in double-words, where there are some.
+  std::optional<WideForms> wide_forms(std::uint32_t number) {
+    return wide_ ? wide_->forms(number) : std::nullopt;
+  }
+
   bool covers(std::uint32_t number, const ImagePoint& s, RenderStatistics& statistics);
   /// Whether D > 0 and near ≤ D ≤ far, at a covered sample.
   bool is_in_range(std::uint32_t number, const ImagePoint& s, RenderStatistics& statistics);
