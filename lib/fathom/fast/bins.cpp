@@ -201,13 +201,14 @@ void Bins::add_object(const ImageObject& object, const Context& context) {
     for (const Side side : {Side::front, Side::back}) {
       lists_[index(side)].add(boxes->in_one_tile[index(side)]);
     }
+    auto edges = boxes->edges.begin();
     for (std::size_t i = 0; i < boxes->in_more_tiles; ++i) {
       const auto add = [&](const PixelBox& part) {
         lists_[index(boxes->side[i])].add(boxes->number[i], boxes->nearest[i], part, context.grid);
       };
       const PixelBox& box = boxes->box[i];
       if (meets_many_tiles(box, Tile::size)) {
-        for_parts_met(boxes->edges[i], box, Tile::size, add);
+        for_parts_met(*edges++, box, Tile::size, add);
       } else {
         add(box);
       }

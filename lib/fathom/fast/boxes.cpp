@@ -95,31 +95,7 @@ HWY_INLINE Sorted sort_lanes(const BoxRequest& r, const CornerIndices* triangles
   return s;
 }
 
-/// The edge functions of those of the lanes whose boxes meet many tiles; `place` is that of the first
-/// lane among those of the batch.
-/// Needs    a certain orientation.
-HWY_NOINLINE void put_edges(const BoxRequest& r, const CornerIndices* triangles, const Boxes& box,
-                            unsigned lanes, std::size_t place, BoxBatch& out) {
-  const Edges e = certified_edges(localise(load_corners(r.vertices, triangles), box));
-  alignas(64) double a[3][8], b[3][8], c[3][8], error[8];
-  for (std::size_t i = 0; i < 3; ++i) {
-    hn::Store(e.a[i], D(), a[i]);
-    hn::Store(e.b[i], D(), b[i]);
-    hn::Store(e.c[i], D(), c[i]);
-  }
-  hn::Store(e.error, D(), error);
-  for (; lanes != 0; lanes &= lanes - 1, ++place) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(lanes));
-    if (!meets_many_tiles(out.box[place], Tile::size)) continue;
-    out.edges[place] = {{a[0][k], a[1][k], a[2][k]},
-                        {b[0][k], b[1][k], b[2][k]},
-                        {c[0][k], c[1][k], c[2][k]},
-                        error[k]};
-  }
-}
-
-HWY_INLINE void append(const BoxRequest& r, const CornerIndices* triangles, const Sorted& s,
-                       std::uint32_t first_number, BoxBatch& out) {
+HWY_INLINE void append(const Sorted& s, std::uint32_t first_number, BoxBatch& out) {
   const D d;
   const DU du;
   const auto number = counting_lanes(du, std::uint64_t{first_number});
@@ -140,20 +116,16 @@ HWY_INLINE void append(const BoxRequest& r, const CornerIndices* triangles, cons
     hn::Store(s.box.last_row, d, bottom);
     alignas(64) std::uint64_t nearest[8];
     hn::Store(s.nearest, du, nearest);
-    const unsigned front = bits_of(s.front), lanes = bits_of(s.more_tiles);
-    const std::size_t place = out.in_more_tiles;
-    bool many = false;
-    for (unsigned bits = lanes; bits != 0; bits &= bits - 1) {
+    const unsigned front = bits_of(s.front);
+    for (unsigned bits = bits_of(s.more_tiles); bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
       out.number[out.in_more_tiles] = first_number + k;
       out.nearest[out.in_more_tiles] = static_cast<std::uint32_t>(nearest[k]);
       out.side[out.in_more_tiles] = front >> k & 1 ? Side::front : Side::back;
-      const PixelBox box{static_cast<std::uint32_t>(left[k]), static_cast<std::uint32_t>(right[k]),
-                         static_cast<std::uint32_t>(top[k]), static_cast<std::uint32_t>(bottom[k])};
-      out.box[out.in_more_tiles++] = box;
-      many = many || meets_many_tiles(box, Tile::size);
+      out.box[out.in_more_tiles++] = {
+          static_cast<std::uint32_t>(left[k]), static_cast<std::uint32_t>(right[k]),
+          static_cast<std::uint32_t>(top[k]), static_cast<std::uint32_t>(bottom[k])};
     }
-    if (many) put_edges(r, triangles, s.box, lanes, place, out);
   }
   if (HWY_UNLIKELY(!hn::AllFalse(d, s.unsettled))) {
     for (unsigned bits = bits_of(s.unsettled); bits != 0; bits &= bits - 1) {
@@ -188,10 +160,57 @@ bool sort_triangles(const BoxRequest& r, BoxBatch& out) {
     }
     if (HWY_UNLIKELY(!are_vertices(triangles, r.vertex_count))) return false;
     const M valid = hn::FirstN(d, count);
-    append(r, triangles, sort_lanes(r, triangles, valid, out),
-           r.first_number + static_cast<std::uint32_t>(i), out);
+    append(sort_lanes(r, triangles, valid, out), r.first_number + static_cast<std::uint32_t>(i),
+           out);
   }
   return true;
+}
+
+/// The edge functions of triangles of the batch, by their places in it, as many as there are lanes or
+/// fewer. Those of all lanes are made, with the first triangle in what is left.
+HWY_INLINE void put_edges_at(const BoxRequest& r, const std::size_t* places, std::size_t count,
+                             BoxBatch& out) {
+  CornerIndices corners[8];
+  alignas(64) double left[8], right[8], top[8], bottom[8];
+  for (std::size_t k = 0; k < hn::Lanes(D()); ++k) {
+    const std::size_t place = places[k < count ? k : 0];
+    const PixelBox& box = out.box[place];
+    corners[k] = r.triangles[out.number[place] - r.first_number];
+    left[k] = box.first_column;
+    right[k] = box.last_column;
+    top[k] = box.first_row;
+    bottom[k] = box.last_row;
+  }
+  const D d;
+  const Boxes box{hn::Load(d, left), hn::Load(d, right), hn::Load(d, top), hn::Load(d, bottom)};
+  const Edges e = certified_edges(localise(load_corners(r.vertices, corners), box));
+  alignas(64) double a[3][8] = {}, b[3][8] = {}, c[3][8] = {}, error[8] = {};
+  for (std::size_t i = 0; i < 3; ++i) {
+    hn::Store(e.a[i], d, a[i]);
+    hn::Store(e.b[i], d, b[i]);
+    hn::Store(e.c[i], d, c[i]);
+  }
+  hn::Store(e.error, d, error);
+  for (std::size_t k = 0; k < count; ++k) {
+    out.edges.push_back({{a[0][k], a[1][k], a[2][k]},
+                         {b[0][k], b[1][k], b[2][k]},
+                         {c[0][k], c[1][k], c[2][k]},
+                         error[k]});
+  }
+}
+
+/// The edge functions of the triangles whose boxes meet many tiles, whose orientation is certain.
+void put_edges(const BoxRequest& r, BoxBatch& out) {
+  out.edges.clear();
+  std::size_t places[8], count = 0;
+  for (std::size_t i = 0; i < out.in_more_tiles; ++i) {
+    if (!meets_many_tiles(out.box[i], Tile::size)) continue;
+    places[count++] = i;
+    if (count < hn::Lanes(D())) continue;
+    put_edges_at(r, places, count, out);
+    count = 0;
+  }
+  if (count != 0) put_edges_at(r, places, count, out);
 }
 
 }  // namespace
@@ -203,12 +222,14 @@ namespace fathom::fast {
 using namespace triangle;
 
 HWY_EXPORT(sort_triangles);
+HWY_EXPORT(put_edges);
 
 void box_triangles(const BoxRequest& request, BoxBatch& boxes) {
   for (BoxBatch::Entries& entries : boxes.in_one_tile) entries.count = 0;
   boxes.in_more_tiles = boxes.unsettled = 0;
   boxes.degenerate = boxes.culled = 0;
   if (!HWY_DYNAMIC_DISPATCH(sort_triangles)(request, boxes)) throw scene::ElementFault();
+  if (boxes.in_more_tiles != 0) HWY_DYNAMIC_DISPATCH(put_edges)(request, boxes);
 }
 
 }  // namespace fathom::fast

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "fathom/fast/nearness.h"
 #include "fathom/fast/tiles_met.h"
@@ -60,8 +61,8 @@ struct BoxBatch {
   std::array<std::uint32_t, most> nearest;
   std::array<std::uint32_t, most> number;
   std::array<PixelBox, most> box;
-  /// Where the box meets_many_tiles().
-  std::array<BoxEdges, most> edges;
+  /// The edge functions of those whose boxes meet many tiles, one after the other.
+  std::vector<BoxEdges> edges;
   /// A corner is not usable, or the orientation not certain.
   std::size_t unsettled = 0;
   std::array<std::uint32_t, most> unsettled_number;

@@ -506,12 +506,17 @@ HWY_INLINE bool draw_spans(Tile& tile, const Drawn& t, const Tile::Context& cont
   return true;
 }
 
+/// Not part of what draws the other triangles, most of which are small: that would be slower.
+HWY_NOINLINE void draw_large(Tile& tile, const Drawn& t, const Tile::Context& context) {
+  if (!t.is_thin || !draw_spans(tile, t, context)) draw_blocks(tile, t, context);
+}
+
 HWY_INLINE void draw_triangle(Tile& tile, const Drawn& t, const Tile::Context& context) {
   if (std::max(t.last_column - t.first_column, t.last_row - t.first_row) < 3 * block ||
       !context.switches.hierarchy) {
     draw_box(tile, t, context);
-  } else if (!t.is_thin || !draw_spans(tile, t, context)) {
-    draw_blocks(tile, t, context);
+  } else {
+    draw_large(tile, t, context);
   }
 }
 
