@@ -103,6 +103,8 @@ struct CellColumns {
 
 /// Cells of the tile, by the columns and rows of their first samples.
 struct Cells {
+  /// Whether whoever draws them counts their samples.
+  static constexpr bool are_counted = true;
   int first_column, last_column, first_row, last_row;
 
   [[nodiscard]] HWY_INLINE CellColumns in_row(int /*row*/) const {
@@ -113,6 +115,7 @@ struct Cells {
 /// The same with columns that differ from row to row, by the rows' numbers, without blocks at their
 /// ends that are left out: those without a bit in the row of blocks.
 struct CellSpans {
+  static constexpr bool are_counted = false;
   using Numbers = std::array<std::int32_t, Tile::size / Tile::cell>;
   int first_row, last_row;
   alignas(64) Numbers first_columns;
@@ -168,10 +171,12 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const SomeCells& cells,
   RangeEnds ends{};
   if constexpr (test_range) ends = range_ends(context.range);
   std::size_t wins_in_all = 0;
+  int tested = 0;  // columns, in rows of cells
   const VF step = constant32(cell);
   for (int row = cells.first_row; row <= cells.last_row; row += cell) {
     const auto [first_column, last_column] = cells.in_row(row);
     if (first_column > last_column) continue;
+    if constexpr (!SomeCells::are_counted) tested += last_column - first_column + cell;
     const VF left = constant32(static_cast<float>(first_column - t.first_column));
     const VF top = constant32(static_cast<float>(row - t.first_row));
     const std::size_t start =
@@ -221,6 +226,7 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const SomeCells& cells,
       }
     }
   }
+  context.statistics.samples_tested += static_cast<std::uint64_t>(tested * cell);
   context.statistics.samples_covered += wins_in_all;
   return wins_in_all != 0;
 }
@@ -494,15 +500,13 @@ HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& con
 HWY_INLINE bool draw_spans(Tile& tile, const Drawn& t, const Tile::Context& context) {
   constexpr int most = 48;
   CellSpans cells;
-  const int count = make_cell_spans(t, cells);
-  if (count > most) return false;
+  if (make_cell_spans(t, cells) > most) return false;
   if (context.switches.early_rejection) {
     leave_out_hidden_blocks(tile, t, cells);
   } else {
     cells.open_blocks.fill(~0U);
   }
   draw_cells<true>(tile, t, cells, context);
-  context.statistics.samples_tested += static_cast<std::uint64_t>(count * cell * cell);
   return true;
 }
 
