@@ -72,13 +72,12 @@ TEST(Bins, TakeTheLastTrianglesThatThereAre) {
   const Scene scene = testing::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, triangles);
   const Camera camera = camera_of(8, 8, 4);
   Referee referee(scene, camera);
-  ExactSetups exact_setups({0, camera.width - 1, 0, camera.height - 1});
   RenderStatistics statistics;
   const TileGrid grid(camera.width, camera.height);
   ImageObjects objects;
   objects.emplace_back(scene.objects[0], scene.meshes[0], camera, first);
   Bins bins(first, no_surface);
-  bins.fill({objects, camera, Cull::none, false, grid, referee, exact_setups, statistics});
+  bins.fill({objects, camera, Cull::none, false, grid, referee, statistics});
   const auto found = all_in_tile(bins, 0);
   ASSERT_EQ(found.size(), 1500U);
   for (std::uint32_t i = 0; i < 1500; ++i) ASSERT_EQ(found[i], first + i);
@@ -102,13 +101,12 @@ TEST(ImageObjects, OwnTheNumbersOfTheirTriangles) {
 void check(const Scene& scene, const Camera& camera, Cull cull, bool by_area, int& met) {
   const TriangleSource triangles(scene);
   Referee referee(triangles, camera);
-  ExactSetups exact_setups({0, camera.width - 1, 0, camera.height - 1});
   RenderStatistics statistics;
   const TileGrid grid(camera.width, camera.height);
   ImageObjects objects;
   objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
   Bins bins(0, static_cast<std::uint32_t>(triangles.count()));
-  bins.fill({objects, camera, cull, by_area, grid, referee, exact_setups, statistics});
+  bins.fill({objects, camera, cull, by_area, grid, referee, statistics});
   // Those behind the camera need no decision.
   EXPECT_LE(statistics.facing.interval + statistics.facing.exact, triangles.count());
   for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
@@ -190,14 +188,13 @@ TEST(Bins, HoldTheTrianglesThatTheyAreOf) {
   const Scene scene = testing::soup(random, 30, true);
   const Camera camera = camera_of(160, 140, 64);
   Referee referee(scene, camera);
-  ExactSetups exact_setups({0, camera.width - 1, 0, camera.height - 1});
   RenderStatistics statistics;
   const TileGrid grid(camera.width, camera.height);
   ImageObjects objects;
   objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
   const auto filled = [&](std::uint32_t first, std::uint32_t end) {
     Bins bins(first, end);
-    bins.fill({objects, camera, Cull::none, false, grid, referee, exact_setups, statistics});
+    bins.fill({objects, camera, Cull::none, false, grid, referee, statistics});
     return bins;
   };
   const Bins all = filled(0, 30), first = filled(0, 11), rest = filled(11, 30);

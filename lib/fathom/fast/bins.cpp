@@ -235,25 +235,22 @@ void Bins::Lists::add(const BoxBatch::Entries& entries) {
 
 void Bins::Lists::add(std::uint32_t number, std::uint32_t q, const PixelBox& box,
                       const TileGrid& grid) {
-  // The blocks of the box in the part of it that a tile has of the columns, or of the rows.
-  const auto first_block = [](std::uint32_t first, std::uint32_t tile) {
-    return first / Tile::size == tile ? first % Tile::size / Tile::block : 0;
+  // Blocks of the image; those of a tile begin with tile · blocks_of_row.
+  constexpr std::uint32_t blocks = Tile::blocks_of_row;
+  const std::uint32_t left = box.first_column / Tile::block, right = box.last_column / Tile::block;
+  const std::uint32_t top = box.first_row / Tile::block, bottom = box.last_row / Tile::block;
+  const auto first_in = [](std::uint32_t first, std::uint32_t tile) {
+    return std::max(first, tile * blocks) - tile * blocks;
   };
-  const auto last_block = [](std::uint32_t last, std::uint32_t tile) {
-    return (last / Tile::size == tile ? last % Tile::size : Tile::size - 1) / Tile::block;
+  const auto last_in = [](std::uint32_t last, std::uint32_t tile) {
+    return std::min(last - tile * blocks, blocks - 1);
   };
-  for (std::uint32_t row = box.first_row / Tile::size; row <= box.last_row / Tile::size; ++row) {
-    const std::uint32_t top = first_block(box.first_row, row);
-    const std::uint32_t bottom = last_block(box.last_row, row);
-    for (std::uint32_t column = box.first_column / Tile::size;
-         column <= box.last_column / Tile::size; ++column) {
-      const std::uint64_t tile = row * grid.columns + column;
-      entries_.push_back(tile << 32 | number);
-      nearness_.push_back(q == never_hidden
-                              ? never_hidden
-                              : nearness_in(q, first_block(box.first_column, column),
-                                            last_block(box.last_column, column), top, bottom));
-      ++starts_[tile + 1];
+  for (std::uint32_t row = top / blocks; row <= bottom / blocks; ++row) {
+    const std::uint32_t first_row = first_in(top, row), last_row = last_in(bottom, row);
+    for (std::uint32_t column = left / blocks; column <= right / blocks; ++column) {
+      add(number,
+          nearness_in(q, first_in(left, column), last_in(right, column), first_row, last_row),
+          row * grid.columns + column);
     }
   }
 }

@@ -9,7 +9,6 @@
 
 #include "fathom/fast/boxes.h"
 #include "fathom/fast/depth_range.h"
-#include "fathom/fast/exact_setups.h"
 #include "fathom/fast/vertex.h"
 #include "fathom/triangle/referee.h"
 
@@ -94,7 +93,6 @@ class Bins {
     bool by_area;
     const TileGrid& grid;
     triangle::Referee& referee;
-    ExactSetups& exact_setups;
     RenderStatistics& statistics;
     /// Whether memory that is needed while sorting is kept for the next time.
     bool keep_memory = false;

@@ -32,8 +32,7 @@ std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t fir
   parallel_for(std::size_t{0}, bins.size(), [&](std::size_t i) {
     FastWorker& worker = workers.local();
     bins[i].fill({objects, frame.camera, frame.options.cull, frame.by_area, frame.grid,
-                  worker.referee, worker.exact_setups, worker.statistics,
-                  frame.options.kept != nullptr});
+                  worker.referee, worker.statistics, frame.options.kept != nullptr});
   });
   return bins;
 }
