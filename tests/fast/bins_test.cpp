@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <set>
 
 #include "fathom/area/coverage.h"
@@ -81,6 +82,56 @@ TEST(Bins, TakeTheLastTrianglesThatThereAre) {
   const auto found = all_in_tile(bins, 0);
   ASSERT_EQ(found.size(), 1500U);
   for (std::uint32_t i = 0; i < 1500; ++i) ASSERT_EQ(found[i], first + i);
+}
+
+/// For areas, tiles get triangles that lie between samples, too, and are told which.
+TEST(Bins, SayWhichTrianglesCoverNoSample) {
+  std::mt19937_64 random(77);
+  std::uniform_real_distribution<double> place(0, 128), size(-0.8, 0.8);
+  std::vector<MeshPoint> vertices;
+  std::vector<CornerIndices> triangles;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const double x = i % 16 == 0 ? 64 : place(random), y = place(random);  // some in two tiles
+    for (int k = 0; k < 3; ++k) vertices.push_back({x + size(random), y + size(random), 1});
+    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const Scene scene = testing::scene_of(vertices, triangles);
+  Camera camera = camera_of(128, 128, 1);
+  camera.projection = Projection::orthographic;
+  camera.cx = camera.cy = 0;
+  const TriangleSource source(scene);
+  Referee referee(source, camera);
+  RenderStatistics statistics;
+  const TileGrid grid(camera.width, camera.height);
+  ImageObjects objects;
+  objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
+  Bins bins(0, static_cast<std::uint32_t>(triangles.size()));
+  bins.fill({objects, camera, Cull::none, true, grid, referee, statistics});
+  int without = 0, with = 0, not_told = 0;
+  TierCounts counts;
+  for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
+    for (const Side side : {Side::front, Side::back}) {
+      for (const TileEntry& entry : bins.in_tile(tile, side)) {
+        const ProjectedTriangle t =
+            project(source.world_corners(entry.number), entry.number, camera, counts);
+        const PixelBox box = bounding_box(t, camera);
+        bool covers_any = false;
+        for (std::uint32_t row = box.first_row; row <= box.last_row; ++row) {
+          for (std::uint32_t column = box.first_column; column <= box.last_column; ++column) {
+            covers_any = covers_any || covers(t, centre_of_pixel(column, row), counts);
+          }
+        }
+        const bool told = (entry.nearness & nearness_without_samples) != 0;
+        if (covers_any) {
+          ASSERT_FALSE(told) << entry.number;
+        }
+        (covers_any ? with : told ? without : not_told) += 1;
+      }
+    }
+  }
+  EXPECT_GT(with, 500);
+  EXPECT_GT(without, 1000);
+  EXPECT_LT(not_told, without / 5);
 }
 
 TEST(ImageObjects, OwnTheNumbersOfTheirTriangles) {

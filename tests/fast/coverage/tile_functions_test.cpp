@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "tests/effort.h"
 #include "tests/fast/image_triangles.h"
@@ -130,6 +131,43 @@ TEST_P(FunctionShares, OfExactSetupsOverATile) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fast, FunctionShares, ::testing::Bool());
+
+/// A pixel beside the corner of a triangle, which none of its sides separates from it, and pixels of
+/// random triangles against their clipped area.
+TEST(CertainlyMissesPixel, IsSaidOfPixelsWithoutAnArea) {
+  std::mt19937_64 random(38);
+  std::uniform_real_distribution<double> place(-3, 4);
+  int missed = 0, empty = 0;
+  for (int i = 0; i < 20000 / effort; ++i) {
+    SCOPED_TRACE(i);
+    std::array<SquarePoint, 3> p{};
+    for (SquarePoint& corner : p) corner = {place(random), place(random)};
+    if ((p[1].x - p[0].x) * (p[2].y - p[0].y) < (p[1].y - p[0].y) * (p[2].x - p[0].x)) {
+      std::swap(p[1], p[2]);
+    }
+    std::array<UncertainHalfPlane, 3> sides{};
+    ClippedSquare square;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const SquarePoint &P = p[k], &Q = p[(k + 1) % 3];
+      sides[k] = {P.y - Q.y, Q.x - P.x, P.x * Q.y - P.y * Q.x, 0x1p-40};
+      square.clip(sides[k]);
+    }
+    const bool is_missed = certainly_misses_pixel(sides, 0, 0);
+    if (is_missed) {
+      ASSERT_TRUE(square.corners().empty());
+    }
+    missed += is_missed ? 1 : 0;
+    empty += square.corners().empty() ? 1 : 0;
+  }
+  EXPECT_GT(empty, 5000 / effort);
+  EXPECT_GT(missed, empty / 3);
+  // Below the pixel, wide and low; between the corner (½, 1¼) and the pixel there is no side.
+  const std::array<UncertainHalfPlane, 3> beside{
+      {{-1, 1, -0.75, 1e-9}, {1, 1, -1.75, 1e-9}, {0, -1, 3, 1e-9}}};
+  EXPECT_TRUE(certainly_misses_pixel(beside, 0, 0));
+  EXPECT_FALSE(certainly_misses_pixel(beside, 0, 1));
+  for (const UncertainHalfPlane& side : beside) EXPECT_GT(values_in_pixel(side, 0, 0).greatest, 0);
+}
 
 }  // namespace
 }  // namespace fathom
