@@ -87,9 +87,8 @@ void TileCoverage::find_boxes(const Tile::Context& context) {
   std::vector<CoverageTriangle>& with_boxes = doubtful_classes_;
   classify(numbers_, context, with_boxes);
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
-    const CoverageClass kind = classes_[i].kind;
-    if (kind == CoverageClass::positive || kind == CoverageClass::negative)
-      classes_[i] = with_boxes[i];
+    classes_[i].is_large = with_boxes[i].is_large;
+    classes_[i].box = with_boxes[i].box;
   }
 }
 
