@@ -155,6 +155,34 @@ TEST(AreaShares, OfMovedEdges) {
   expect_share(share.publish("moved_edge"), 0.4);
 }
 
+/// An edge alone, with exact ends: also of areas that are next to nothing.
+TEST(AreaShares, OfEdgesAlone) {
+  Numbers n(39);
+  Share share;
+  for (int i = 0; i < 4000 / effort; ++i) {
+    auto [p, q] = line_from(n);
+    if (i % 2 == 0) {  // cuts off a corner
+      const double cut = std::ldexp(1 + n.unit() / 2, -n.below(20));
+      const double far = std::ldexp(1, n.below(12));
+      p = {cut * (1 + far), -cut * far};
+      q = {-cut * far, cut * (1 + far) * (1 + n.unit() / 4)};
+    }
+    if (n.below(2)) std::swap(p, q);
+    PixelWinding pixel;
+    pixel.clear();
+    pixel.add(p, q, 0);
+    const Interval area = pixel.area([&, from = p, to = q](const SquarePoint& s) {
+      const double side = cross({from, to, s});
+      return std::abs(side) < 0x1p-30 ? -1 : side > 0 ? 1 : 0;
+    });
+    if (area.upper - area.lower > 0.5) continue;  // no number was certain
+    add_interval(area, area_of(beside_line(unit_square(), {Q(p.x), Q(p.y)}, {Q(q.x), Q(q.y)})),
+                 share);
+  }
+  EXPECT_GT(share.count(), 2000 / effort);
+  expect_share(share.publish("of_edges_alone"), 0.02);
+}
+
 TEST(AreaShares, OfMovedTriangles) {
   Numbers n(34);
   Share share;
