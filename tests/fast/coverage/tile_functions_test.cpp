@@ -36,7 +36,7 @@ void add_pixel(const UncertainHalfPlane& f, Numbers& n, const PixelBox& tile, co
   std::array<Ratio, 4> values;
   for (int k = 0; k < 4; ++k) {
     values[static_cast<std::size_t>(k)] =
-        exact(tile.first_column + 1.0 * (column + k % 2), tile.first_row + 1.0 * (row + k / 2));
+        exact(tile.first_column + 1.0 * (column + k % 2), tile.first_row + 1.0 * (row + (k >> 1)));
   }
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   const ValuesInPixel computed = values_in_pixel(f, column, row);

@@ -121,7 +121,8 @@ std::pair<SquarePoint, SquarePoint> TileCoverage::exact_ends(const OutlineEdge& 
 // Edges that certainly miss the pixel are left out, so that where it is only beside one, the area is
 // known without any error.
 Interval TileCoverage::area_between_edges(std::uint32_t pixel, Corners corners) {
-  const double x = pixel % size, y = pixel / size;
+  const std::uint32_t column = pixel % size, row = pixel / size;
+  const double x = column, y = row;
   winding_.clear();
   for (const std::uint32_t i : outlines_.edges_at(pixel)) {
     const OutlineEdge& edge = outlines_.edge(i);
