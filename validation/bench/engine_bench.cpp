@@ -15,7 +15,7 @@
 /// Times render(), from mesh and camera in memory to the complete map in memory, without any peer, or
 /// with --keep render_into() a map of before, with memory of before:
 ///   engine_bench [SCENE…] [--size WxH] [--threads N] [--repeat N] [--engine fast|reference]
-///                [--channels Z,id,…] [--cull back|front|none]
+///                [--channels Z,id,…] [--depths binary32|binary64|scaled_unorm16] [--cull back|front|none]
 ///                [--without simd,hierarchy,early-rejection] [--tiers] [--keep]
 /// The scenes are those of scenes.h, or mesh files. The first run of each is not counted. --tiers
 /// tells how many decisions and values were settled by which arithmetic.
@@ -63,6 +63,14 @@ Engine engine_named(const std::string& word) {
   if (word == "fast") return Engine::fast;
   if (word == "reference") return Engine::reference;
   refuse_word("--engine", word, "neither fast nor reference");
+}
+
+/// How Z and distance are encoded.
+StoredType type_named(const std::string& word) {
+  if (word == "binary32") return StoredType::binary32;
+  if (word == "binary64") return StoredType::binary64;
+  if (word == "scaled_unorm16") return StoredType::scaled_unorm16;
+  refuse_word("--depths", word, "not one of binary32, binary64 and scaled_unorm16");
 }
 
 Cull cull_named(const std::string& word) {
@@ -113,6 +121,8 @@ Arguments parse(int argc, char** argv) {
       arguments.options.engine = engine_named(value);
     } else if (name == "--channels") {
       arguments.options.channels = channels_of(value);
+    } else if (name == "--depths") {
+      arguments.options.depth_encoding.type = type_named(value);
     } else if (name == "--cull") {
       arguments.options.cull = cull_named(value);
     } else if (name == "--without") {
