@@ -46,17 +46,19 @@ CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays, Ma
       values_(exact.values()),
       rows_(rows),
       frame_(rays),
-      each_pixel_(values_.low || values_.shading_normal[0]),
-      needs_surfaces_(values_.barycentric[0] || values_.normal[0] || values_.camera_normal[0]),
+      each_pixel_(values_.shading_normal[0]),
+      needs_wide_(values_.low || values_.depth.binary64 || values_.distance.binary64),
+      needs_surfaces_(needs_wide_ || values_.barycentric[0] || values_.normal[0] ||
+                      values_.camera_normal[0]),
       shading_normals_(exact.corner_normals()) {}
 
 struct CertifiedWriter::Open {
-  std::uint64_t depth = 0, distance = 0;
+  std::uint64_t depth = 0, distance = 0, low = 0;
   std::array<std::uint64_t, 3> position{};
   std::array<std::uint64_t, 2> barycentric{};
 
   [[nodiscard]] std::uint64_t any() const {
-    return depth | distance | position[0] | position[1] | position[2] | barycentric[0] |
+    return depth | distance | low | position[0] | position[1] | position[2] | barycentric[0] |
            barycentric[1];
   }
 };
@@ -66,6 +68,12 @@ void CertifiedWriter::start(const Tile& tile, std::uint32_t image_width, Referee
   if (!needs_surfaces_) return;
   surfaces_.start(tile);
   if (values_.barycentric[0]) surfaces_.make_forms(frame_);
+  if (needs_wide_) {
+    wide_depths_.assign(1, unknown_wide_depth());
+    for (const auto& surface : surfaces_.visible()) {
+      wide_depths_.push_back(wide_depth(facts(surface.number), frame_));
+    }
+  }
   const WriterTarget target{values_, exact_, referee, statistics};
   const auto make = [&](bool in_camera_frame, auto normal, TileSurfaces::Normals& normals) {
     const std::size_t settled =
@@ -87,7 +95,6 @@ void CertifiedWriter::start(const Tile& tile, std::uint32_t image_width, Referee
 
 std::uint64_t CertifiedWriter::write_encoded(const VisibleRow& row, const EncodedValues& values,
                                              bool distance, RenderStatistics& statistics) const {
-  if (values.binary64) return row.surface;
   if (values.codes) {
     RoundedValues<std::uint16_t> codes;
     round_to_codes(row.lanes, frame_.rays, distance, exact_.scale(), codes);
@@ -101,7 +108,7 @@ std::uint64_t CertifiedWriter::write_encoded(const VisibleRow& row, const Encode
 // In binary32 what is left to write is what an interval did not settle (Tile::resolve()).
 std::uint64_t CertifiedWriter::write_open_depths(const VisibleRow& row,
                                                  RenderStatistics& statistics) const {
-  if (!values_.depth.wanted() || row.open_depth == 0) return 0;
+  if (!values_.depth.wanted() || values_.depth.binary64 || row.open_depth == 0) return 0;
   if (!values_.depth.binary32) return write_encoded(row, values_.depth, false, statistics);
   RoundedValues<float> rounded;
   round_depths(row.lanes, frame_.rays, false, rounded);
@@ -139,11 +146,28 @@ void CertifiedWriter::fill_background(const VisibleRow& row) const {
   const auto fill = [&](auto* values, auto background) {
     if (values) std::fill_n(values + row.first_pixel, row.columns, background);
   };
-  fill(values_.low, Backgrounds::other);
   for (float* values : values_.shading_normal) fill(values, Backgrounds::other);
-  for (const EncodedValues* values : {&values_.depth, &values_.distance}) {
-    fill(values->binary64, double{Backgrounds::depth});
+}
+
+void CertifiedWriter::write_wide(const VisibleRow& row, const SurfaceIndices& indices, Open& open,
+                                 RenderStatistics& statistics) const {
+  RoundedValues<double> depth, distance;
+  RoundedValues<float> low;
+  round_wide(row.lanes, indices, wide_depths_.data(), frame_.rays,
+             {values_.depth.binary64 ? &depth : nullptr,
+              values_.distance.binary64 ? &distance : nullptr, values_.low ? &low : nullptr});
+  const std::uint64_t before = statistics.rounding.interval;
+  const double background = Backgrounds::depth;
+  if (double* const target = values_.depth.binary64) {
+    open.depth = write_row(rows_, row, depth, background, target, statistics);
   }
+  if (double* const target = values_.distance.binary64) {
+    open.distance = write_row(rows_, row, distance, background, target, statistics);
+  }
+  if (values_.low) {
+    open.low = write_row(rows_, row, low, Backgrounds::other, values_.low, statistics);
+  }
+  statistics.double_word_roundings += statistics.rounding.interval - before;
 }
 
 void CertifiedWriter::write_normals(const VisibleRow& row, const SurfaceIndices& indices) const {
@@ -164,13 +188,14 @@ CertifiedWriter::Open CertifiedWriter::write_settled(const VisibleRow& row,
   Open open;
   write_origins(row);
   open.depth = write_open_depths(row, statistics);
-  if (values_.distance.wanted()) {
+  if (values_.distance.wanted() && !values_.distance.binary64) {
     open.distance = write_encoded(row, values_.distance, true, statistics);
   }
   if (needs_surfaces_) {
     SurfaceIndices indices;
     surfaces_.find(row.lanes.places, indices);
     write_normals(row, indices);
+    if (needs_wide_) write_wide(row, indices, open, statistics);
     if (values_.barycentric[0]) {
       std::array<RoundedValues<float>, 2> rounded;
       round_weights(row.lanes, indices, surfaces_.forms(), rounded);
@@ -213,7 +238,7 @@ std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Refer
     if (is_open(open.distance)) {
       if (auto fault = pixel.write_distance()) return fault;
     }
-    if (values_.low) pixel.write_low_part();
+    if (is_open(open.low)) pixel.write_low_part();
     if (is_open(open.depth)) {
       if (auto fault = pixel.write_depth()) return fault;
     }

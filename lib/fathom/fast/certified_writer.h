@@ -7,6 +7,7 @@
 #include "fathom/fast/pixel_writer.h"
 #include "fathom/fast/surface_facts.h"
 #include "fathom/fast/tile_surfaces.h"
+#include "fathom/fast/wide_rows.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/rays.h"
 #include "fathom/triangle/recent_triangles.h"
@@ -71,6 +72,9 @@ class CertifiedWriter {
   std::uint64_t write_encoded(const VisibleRow& row, const triangle::EncodedValues& values,
                               bool distance, RenderStatistics& statistics) const;
   std::uint64_t write_open_depths(const VisibleRow& row, RenderStatistics& statistics) const;
+  /// What binary64 never settles.
+  void write_wide(const VisibleRow& row, const SurfaceIndices& indices, Open& open,
+                  RenderStatistics& statistics) const;
   void fill_background(const VisibleRow& row) const;
 
   SurfaceFacts& facts(std::uint32_t number) {
@@ -83,11 +87,14 @@ class CertifiedWriter {
   const ValueFrame frame_;
   /// Whether a channel was asked for that is not written by rows.
   bool each_pixel_;
+  /// Whether one was that double-words begin with: Zlow, or depth or distance in binary64.
+  bool needs_wide_;
   /// Whether one was asked for that needs to know the surfaces of the tile.
   bool needs_surfaces_;
   TileSurfaces surfaces_;
   /// By the surfaces' indices.
   TileSurfaces::Normals normals_, camera_normals_;
+  std::vector<WideDepth> wide_depths_;
   triangle::RecentTriangles<SurfaceFacts, 512> remembered_;
   ShadingNormals shading_normals_;
 };

@@ -26,6 +26,18 @@ HWY_INLINE V load_u(const SurfaceRow& row, std::size_t first) {
   return hn::Add(counting_lanes(D(), static_cast<double>(first)), constant(row.first_u));
 }
 
+/// The surfaces of as many samples as there are lanes.
+struct LaneIndices {
+  const std::uint32_t* first;
+  bool are_same;
+};
+
+HWY_INLINE LaneIndices indices_at(const std::uint32_t* indices, std::size_t first) {
+  const hn::Rebind<std::uint32_t, D> d;
+  const std::uint32_t* const at = indices + first;
+  return {at, hn::AllTrue(d, hn::Eq(hn::LoadU(d, at), hn::Set(d, *at)))};
+}
+
 /// Rounded values, and a bit for each lane whose value is settled.
 struct RoundedLanes {
   hn::Vec<D32> value;

@@ -249,18 +249,6 @@ void weight_forms_in_lanes(const TriangleLanes& triangles, const ObjectRays& obj
   }
 }
 
-/// The surfaces of as many samples as there are lanes.
-struct LaneIndices {
-  const std::uint32_t* first;
-  bool are_same;
-};
-
-HWY_INLINE LaneIndices indices_at(const SurfaceIndices& indices, std::size_t first) {
-  const hn::Rebind<std::uint32_t, D> d;
-  const std::uint32_t* const at = indices.data() + first;
-  return {at, hn::AllTrue(d, hn::Eq(hn::LoadU(d, at), hn::Set(d, *at)))};
-}
-
 HWY_INLINE CertifiedLanes form_at(const LaneForm* forms, const LaneIndices& indices, V u,
                                   double v) {
   if (indices.are_same) {
@@ -302,7 +290,7 @@ void weights_in_lanes(const SurfaceRow& row, const SurfaceIndices& indices, cons
                       std::array<RoundedValues<float>, 2>& rounded) {
   for (RoundedValues<float>& r : rounded) r.settled = 0;
   for (std::size_t first = 0; first < TileShape::size; first += hn::Lanes(D())) {
-    const LaneIndices at = indices_at(indices, first);
+    const LaneIndices at = indices_at(indices.data(), first);
     const V u = load_u(row, first);
     const Divisor divisor = divisor_of(form_at(forms.divisor, at, u, row.v));
     store_rounded(weight_of(form_at(forms.B, at, u, row.v), divisor), first, rounded[0]);
