@@ -7,8 +7,9 @@
 #include "fathom/fast/tile.h"
 
 // How to read this file: CertifiedWriter::write() is the list of channels. What follows from q
-// alone is rounded for a whole row (channel_rows.h); for the rest, PixelWriter has a function for
-// each channel, which goes through the tiers. Values and their bounds come from
+// alone is rounded for a whole row (channel_rows.h), and so is what follows from the triangle
+// (surface_lanes.h, wide_rows.h); for what that leaves, PixelWriter has a function for each channel,
+// which goes through the tiers. Values and their bounds come from
 // triangle/certified_surface.h and double_word_surface.h, roundings from
 // numeric/certified_rounding.h.
 namespace fathom::fast {
@@ -46,20 +47,19 @@ CertifiedWriter::CertifiedWriter(ChannelWriter& exact, const SceneRays& rays, Ma
       values_(exact.values()),
       rows_(rows),
       frame_(rays),
-      each_pixel_(values_.shading_normal[0]),
       needs_wide_(values_.low || values_.depth.binary64 || values_.distance.binary64),
-      needs_surfaces_(needs_wide_ || values_.barycentric[0] || values_.normal[0] ||
-                      values_.camera_normal[0]),
+      needs_surfaces_(needs_wide_ || values_.shading_normal[0] || values_.barycentric[0] ||
+                      values_.normal[0] || values_.camera_normal[0]),
       shading_normals_(exact.corner_normals()) {}
 
 struct CertifiedWriter::Open {
-  std::uint64_t depth = 0, distance = 0, low = 0;
+  std::uint64_t depth = 0, distance = 0, low = 0, shading_normal = 0;
   std::array<std::uint64_t, 3> position{};
   std::array<std::uint64_t, 2> barycentric{};
 
   [[nodiscard]] std::uint64_t any() const {
-    return depth | distance | low | position[0] | position[1] | position[2] | barycentric[0] |
-           barycentric[1];
+    return depth | distance | low | shading_normal | position[0] | position[1] | position[2] |
+           barycentric[0] | barycentric[1];
   }
 };
 
@@ -67,11 +67,21 @@ void CertifiedWriter::start(const Tile& tile, std::uint32_t image_width, Referee
                             RenderStatistics& statistics) {
   if (!needs_surfaces_) return;
   surfaces_.start(tile);
-  if (values_.barycentric[0]) surfaces_.make_forms(frame_);
+  if (values_.barycentric[0] || values_.shading_normal[0]) surfaces_.make_forms(frame_);
   if (needs_wide_) {
     wide_depths_.assign(1, unknown_wide_depth());
     for (const auto& surface : surfaces_.visible()) {
       wide_depths_.push_back(wide_depth(facts(surface.number), frame_));
+    }
+  }
+  if (values_.shading_normal[0]) {
+    corner_normals_.assign(1, lane_shading_normal(nullptr));
+    for (const auto& surface : surfaces_.visible()) {
+      SurfaceFacts& t = facts(surface.number);
+      if (t.usable && !t.corner_normals) {
+        t.corner_normals = shading_normals_.of_surface(surface.number, t);
+      }
+      corner_normals_.push_back(lane_shading_normal(t.usable ? &*t.corner_normals : nullptr));
     }
   }
   const WriterTarget target{values_, exact_, referee, statistics};
@@ -141,12 +151,14 @@ void CertifiedWriter::write_origins(const VisibleRow& row) const {
   }
 }
 
-// What is written pixel by pixel.
-void CertifiedWriter::fill_background(const VisibleRow& row) const {
-  const auto fill = [&](auto* values, auto background) {
-    if (values) std::fill_n(values + row.first_pixel, row.columns, background);
-  };
-  for (float* values : values_.shading_normal) fill(values, Backgrounds::other);
+void CertifiedWriter::write_shading_normals(const VisibleRow& row, const SurfaceIndices& indices,
+                                            Open& open, RenderStatistics& statistics) {
+  std::array<RoundedValues<float>, 3> rounded;
+  round_shading_normals(row.lanes, indices, surfaces_.forms(), corner_normals_.data(), rounded);
+  for (std::size_t i = 0; i < 3; ++i) {
+    open.shading_normal |= write_row(rows_, row, rounded[i], Backgrounds::other,
+                                     values_.shading_normal[i], statistics);
+  }
 }
 
 void CertifiedWriter::write_wide(const VisibleRow& row, const SurfaceIndices& indices, Open& open,
@@ -195,6 +207,7 @@ CertifiedWriter::Open CertifiedWriter::write_settled(const VisibleRow& row,
     SurfaceIndices indices;
     surfaces_.find(row.lanes.places, indices);
     write_normals(row, indices);
+    if (values_.shading_normal[0]) write_shading_normals(row, indices, open, statistics);
     if (needs_wide_) write_wide(row, indices, open, statistics);
     if (values_.barycentric[0]) {
       std::array<RoundedValues<float>, 2> rounded;
@@ -220,10 +233,9 @@ CertifiedWriter::Open CertifiedWriter::write_settled(const VisibleRow& row,
 
 std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Referee& referee,
                                                     RenderStatistics& statistics) {
-  if (row.surface != row.all()) fill_background(row);
   const Open open = write_settled(row, statistics);
   const WriterTarget target{values_, exact_, referee, statistics};
-  for (std::uint64_t bits = each_pixel_ ? row.surface : open.any(); bits != 0; bits &= bits - 1) {
+  for (std::uint64_t bits = open.any(); bits != 0; bits &= bits - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(bits));
     const auto is_open = [&](std::uint64_t samples) { return (samples >> k & 1) != 0; };
     const VisibleSurface surface = row.at(k);
@@ -234,7 +246,7 @@ std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Refer
     for (std::size_t i = 0; i < 2; ++i) {
       if (is_open(open.barycentric[i])) pixel.write_barycentric(i);
     }
-    if (values_.shading_normal[0]) pixel.write_shading_normal(shading_normals_);
+    if (is_open(open.shading_normal)) pixel.write_shading_normal(shading_normals_);
     if (is_open(open.distance)) {
       if (auto fault = pixel.write_distance()) return fault;
     }

@@ -72,10 +72,11 @@ class CertifiedWriter {
   std::uint64_t write_encoded(const VisibleRow& row, const triangle::EncodedValues& values,
                               bool distance, RenderStatistics& statistics) const;
   std::uint64_t write_open_depths(const VisibleRow& row, RenderStatistics& statistics) const;
+  void write_shading_normals(const VisibleRow& row, const SurfaceIndices& indices, Open& open,
+                             RenderStatistics& statistics);
   /// What binary64 never settles.
   void write_wide(const VisibleRow& row, const SurfaceIndices& indices, Open& open,
                   RenderStatistics& statistics) const;
-  void fill_background(const VisibleRow& row) const;
 
   SurfaceFacts& facts(std::uint32_t number) {
     return remembered_.get(number, [&](SurfaceFacts& t) { t = surface_facts(number, frame_); });
@@ -85,9 +86,7 @@ class CertifiedWriter {
   const triangle::ChannelValues values_;
   const MapRows rows_;
   const ValueFrame frame_;
-  /// Whether a channel was asked for that is not written by rows.
-  bool each_pixel_;
-  /// Whether one was that double-words begin with: Zlow, or depth or distance in binary64.
+  /// Whether a channel was asked for that double-words begin with: Zlow, or depth or distance in binary64.
   bool needs_wide_;
   /// Whether one was asked for that needs to know the surfaces of the tile.
   bool needs_surfaces_;
@@ -95,6 +94,7 @@ class CertifiedWriter {
   /// By the surfaces' indices.
   TileSurfaces::Normals normals_, camera_normals_;
   std::vector<WideDepth> wide_depths_;
+  std::vector<LaneShadingNormal> corner_normals_;
   triangle::RecentTriangles<SurfaceFacts, 512> remembered_;
   ShadingNormals shading_normals_;
 };

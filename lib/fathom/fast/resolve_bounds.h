@@ -14,7 +14,8 @@ inline constexpr double greatest_residual = 0x1p-21;
 /// The greatest error of q, relative to q, for which 1/q has an interval.
 inline constexpr double greatest_relative_error = 0x1p-21;
 
-/// Of a weight at a sample, from the inverse of its divisor (surface_lanes.cpp; weight_row).
+/// Of a quotient at a sample, of a weight for instance, from the inverse of its divisor
+/// (surface_lanes.cpp; weight_row).
 inline constexpr double weight_rounding = 5 * unit_roundoff<double>;
 
 }  // namespace fathom::fast::resolve_bounds

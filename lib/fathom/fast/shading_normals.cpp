@@ -153,7 +153,7 @@ Normal unit(const Normal& normal) {
     errors[i] = normal[i].error;
     greatest = std::max(greatest, std::abs(normal[i].value));
   }
-  if (!(greatest >= 0x1p-400 && greatest <= 0x1p400)) return {};
+  if (!(greatest >= least_shading_normal && greatest <= greatest_shading_normal)) return {};
   const Certified<double> length = length_of(values, errors);
   return {quotient(normal[0], length), quotient(normal[1], length), quotient(normal[2], length)};
 }

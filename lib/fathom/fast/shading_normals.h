@@ -10,6 +10,9 @@
 /// Channel Ns in binary64, with bounds.
 namespace fathom::fast {
 
+/// What the greatest component of a normal may be, so that its square stays in range.
+inline constexpr double least_shading_normal = 0x1p-400, greatest_shading_normal = 0x1p400;
+
 /// Finds them; one for each thread: it remembers the sums that it was asked about last.
 class ShadingNormals {
  public:

@@ -10,6 +10,7 @@
 #include "fathom/fast/depth_interval-inl.h"
 #include "fathom/fast/round_lanes-inl.h"
 #include "fathom/fast/setup-inl.h"
+#include "fathom/fast/shading_normals.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
@@ -260,7 +261,7 @@ HWY_INLINE CertifiedLanes form_at(const LaneForm* forms, const LaneIndices& indi
   return {hn::MulAdd(f.third, u, hn::MulAdd(f.second, constant(v), f.first)), f.fourth};
 }
 
-/// 1/y, whose relative error is 4u, and the part of y that y errs by; NaN if nothing is known.
+/// 1/y, whose relative error is at most 4u, and the part of y that y errs by; NaN if nothing is known.
 struct Divisor {
   V inverse, error;
 };
@@ -275,7 +276,7 @@ HWY_INLINE Divisor divisor_of(const CertifiedLanes& y) {
 
 /// Like quotient() in numeric/certified_value.h, with 5u more of the value for the inverse and the
 /// product with it (validation/proofs/weight_row.gappa.in).
-HWY_INLINE CertifiedLanes weight_of(const CertifiedLanes& w, const Divisor& y) {
+HWY_INLINE CertifiedLanes quotient_by(const Divisor& y, const CertifiedLanes& w) {
   const V value = hn::Mul(w.value, y.inverse), magnitude = hn::Abs(value);
   const V of_operands =
       hn::Mul(hn::Add(hn::MulAdd(magnitude, y.error, w.error), constant(most_underflow)),
@@ -293,9 +294,105 @@ void weights_in_lanes(const SurfaceRow& row, const SurfaceIndices& indices, cons
     const LaneIndices at = indices_at(indices.data(), first);
     const V u = load_u(row, first);
     const Divisor divisor = divisor_of(form_at(forms.divisor, at, u, row.v));
-    store_rounded(weight_of(form_at(forms.B, at, u, row.v), divisor), first, rounded[0]);
-    store_rounded(weight_of(form_at(forms.C, at, u, row.v), divisor), first, rounded[1]);
+    store_rounded(quotient_by(divisor, form_at(forms.B, at, u, row.v)), first, rounded[0]);
+    store_rounded(quotient_by(divisor, form_at(forms.C, at, u, row.v)), first, rounded[1]);
   }
+}
+
+/// at_A, to_B, to_C.
+using NormalLanes = std::array<CertifiedLanes, 3>;
+
+HWY_INLINE NormalLanes shading_normal_at(const LaneShadingNormal* normals,
+                                         const LaneIndices& indices, std::size_t component) {
+  if (indices.are_same) {
+    const auto& n = normals[*indices.first].components[component];
+    return {{{constant(n.at_A), constant(n.error_A)},
+             {constant(n.to_B), constant(n.error_B)},
+             {constant(n.to_C), constant(n.error_C)}}};
+  }
+  const auto at = [&](std::size_t lane)
+                      HWY_ATTR { return &normals[indices.first[lane]].components[component].at_A; };
+  const Records first = load_records(at);
+  const Records second = load_records([&](std::size_t lane) HWY_ATTR { return at(lane) + 4; });
+  return {
+      {{first.first, first.fourth}, {first.second, second.first}, {first.third, second.second}}};
+}
+
+HWY_INLINE M is_exact_zero(const CertifiedLanes& x) {
+  return hn::And(hn::Eq(x.value, constant(0)), hn::Eq(x.error, constant(0)));
+}
+
+/// sum() and product() in numeric/certified_value.h; of the factors only y may be exactly 0.
+HWY_INLINE CertifiedLanes certified_sum(const CertifiedLanes& x, const CertifiedLanes& y) {
+  const V value = hn::Add(x.value, y.value);
+  const V error = hn::MulAdd(constant(ulp), hn::Abs(value), hn::Add(x.error, y.error));
+  return {value, hn::Mul(error, constant(slack))};
+}
+HWY_INLINE CertifiedLanes certified_product(const CertifiedLanes& x, const CertifiedLanes& y) {
+  const V value = hn::Mul(x.value, y.value);
+  const V of_factors =
+      hn::MulAdd(hn::Abs(x.value), y.error, hn::Mul(hn::Add(hn::Abs(y.value), y.error), x.error));
+  const V of_rounding = hn::MulAdd(constant(ulp), hn::Abs(value), constant(most_underflow));
+  const V error = hn::Mul(hn::Add(of_factors, of_rounding), constant(slack));
+  const M is_zero = is_exact_zero(y);
+  return {hn::IfThenZeroElse(is_zero, value), hn::IfThenZeroElse(is_zero, error)};
+}
+
+/// A component of any length, from the weights of B and C.
+HWY_INLINE CertifiedLanes interpolated_component(const LaneShadingNormal* normals,
+                                                 const LaneIndices& at, std::size_t component,
+                                                 const CertifiedLanes& B, const CertifiedLanes& C) {
+  const NormalLanes n = shading_normal_at(normals, at, component);
+  return certified_sum(n[0], certified_sum(certified_product(B, n[1]), certified_product(C, n[2])));
+}
+
+/// The inverse of the length; nothing is known where squares may leave their range.
+HWY_INLINE Divisor length_of(const CertifiedLanes& x, const CertifiedLanes& y,
+                             const CertifiedLanes& z) {
+  const Vector3 n{x.value, y.value, z.value};
+  const V greatest = greatest_magnitude(n.x, n.y, n.z);
+  const V length = hn::Sqrt(dot3(n, n));
+  const V error = hn::MulAdd(constant(surface_bounds::length * ulp * slack), length,
+                             hn::Add(hn::Add(x.error, y.error), z.error));
+  const M known = hn::And(hn::And(hn::Ge(greatest, constant(least_shading_normal)),
+                                  hn::Le(greatest, constant(greatest_shading_normal))),
+                          hn::Le(error, hn::Mul(length, constant(quotient_condition))));
+  return {hn::Div(constant(1), length),
+          hn::IfThenElse(known, error, constant(std::numeric_limits<double>::quiet_NaN()))};
+}
+
+/// One that is exactly 0 stays so where the length is known.
+HWY_INLINE unsigned store_component(const CertifiedLanes& c, const Divisor& length,
+                                    std::size_t first, MapRow<float>& row) {
+  const M is_zero = hn::And(is_exact_zero(c), hn::Eq(length.error, length.error));
+  const CertifiedLanes quotient = quotient_by(length, c);
+  // Without a bound it is rounded to +0.
+  const RoundedLanes r = round_to_binary32(
+      {hn::IfThenZeroElse(is_zero, quotient.value), hn::IfThenZeroElse(is_zero, quotient.error)});
+  hn::StoreU(r.value, D32(), row.data() + first);
+  return r.settled | bits_of(is_zero);
+}
+
+void shading_normals_in_lanes(const SurfaceRow& row, const SurfaceIndices& indices,
+                              const LaneForms& forms, const LaneShadingNormal* normals,
+                              std::array<RoundedValues<float>, 3>& rounded) {
+  std::uint64_t settled = 0;
+  for (std::size_t first = 0; first < TileShape::size; first += hn::Lanes(D())) {
+    const LaneIndices at = indices_at(indices.data(), first);
+    const V u = load_u(row, first);
+    const Divisor divisor = divisor_of(form_at(forms.divisor, at, u, row.v));
+    const CertifiedLanes B = quotient_by(divisor, form_at(forms.B, at, u, row.v));
+    const CertifiedLanes C = quotient_by(divisor, form_at(forms.C, at, u, row.v));
+    const CertifiedLanes x = interpolated_component(normals, at, 0, B, C);
+    const CertifiedLanes y = interpolated_component(normals, at, 1, B, C);
+    const CertifiedLanes z = interpolated_component(normals, at, 2, B, C);
+    const Divisor length = length_of(x, y, z);
+    settled |= std::uint64_t{store_component(x, length, first, rounded[0].values) &
+                             store_component(y, length, first, rounded[1].values) &
+                             store_component(z, length, first, rounded[2].values)}
+               << first;
+  }
+  for (RoundedValues<float>& r : rounded) r.settled = settled;
 }
 
 }  // namespace
@@ -309,6 +406,7 @@ using namespace triangle;
 HWY_EXPORT(normals_in_lanes);
 HWY_EXPORT(weight_forms_in_lanes);
 HWY_EXPORT(weights_in_lanes);
+HWY_EXPORT(shading_normals_in_lanes);
 
 unsigned round_normals(const TriangleLanes& triangles, const ObjectRays& object,
                        const ValueFrame& frame, bool in_camera_frame, NormalOfSurface* normals) {
@@ -323,6 +421,31 @@ void make_weight_forms(const TriangleLanes& triangles, const ObjectRays& object,
 void round_weights(const SurfaceRow& row, const SurfaceIndices& indices, const LaneForms& forms,
                    std::array<RoundedValues<float>, 2>& rounded) {
   HWY_DYNAMIC_DISPATCH(weights_in_lanes)(row, indices, forms, rounded);
+}
+
+LaneShadingNormal lane_shading_normal(const SurfaceNormals* normals) {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  LaneShadingNormal lanes;
+  for (std::size_t i = 0; i < 3; ++i) {
+    LaneShadingNormal::Component& c = lanes.components[i];
+    if (!normals) {
+      c.error_A = c.error_B = c.error_C = unknown;
+      continue;
+    }
+    c.at_A = normals->at_A[i].value;
+    c.to_B = normals->to_B[i].value;
+    c.to_C = normals->to_C[i].value;
+    c.error_A = normals->at_A[i].error;
+    c.error_B = normals->to_B[i].error;
+    c.error_C = normals->to_C[i].error;
+  }
+  return lanes;
+}
+
+void round_shading_normals(const SurfaceRow& row, const SurfaceIndices& indices,
+                           const LaneForms& forms, const LaneShadingNormal* normals,
+                           std::array<RoundedValues<float>, 3>& rounded) {
+  HWY_DYNAMIC_DISPATCH(shading_normals_in_lanes)(row, indices, forms, normals, rounded);
 }
 
 void take_normals(const SurfaceIndices& indices, std::span<const NormalOfSurface> normals,

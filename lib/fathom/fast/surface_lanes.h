@@ -51,6 +51,23 @@ using SurfaceIndices = std::array<std::uint32_t, TileShape::size>;
 void round_weights(const SurfaceRow& row, const SurfaceIndices& indices, const LaneForms& forms,
                    std::array<RoundedValues<float>, 2>& rounded);
 
+/// SurfaceNormals by component: at_A, to_B and to_C, and the bounds on their errors.
+struct alignas(32) LaneShadingNormal {
+  struct alignas(32) Component {
+    double at_A = 0, to_B = 0, to_C = 0, error_A = 0, error_B = 0, error_C = 0;
+    std::array<double, 2> unused{};
+  };
+  std::array<Component, 3> components;
+};
+/// Nothing is known where `normals` is null.
+LaneShadingNormal lane_shading_normal(const SurfaceNormals* normals);
+
+/// Interpolated normals of unit length at the samples of a row; of a sample all three numbers are
+/// settled, or none. Like interpolated() and unit() in shading_normals.h.
+void round_shading_normals(const SurfaceRow& row, const SurfaceIndices& indices,
+                           const LaneForms& forms, const LaneShadingNormal* normals,
+                           std::array<RoundedValues<float>, 3>& rounded);
+
 /// The x, y and z of the surfaces' normals.
 void take_normals(const SurfaceIndices& indices, std::span<const NormalOfSurface> normals,
                   std::array<MapRow<float>, 3>& taken);
