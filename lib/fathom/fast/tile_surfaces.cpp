@@ -18,11 +18,12 @@ void TileSurfaces::start(const Tile& tile) {
     const std::span<const LaneTag> tags(tile.tags() + first, together);
     bool same = true;
     for (const LaneTag tag : tags) same &= tag == last;
-    for (std::size_t k = 0; !same && k < together; ++k) {
-      if (tags[k] == last) continue;
-      last = tags[k];
-      index_at_[Tile::place_of(last)] = static_cast<std::uint32_t>(first + k) + 1;
+    if (same) continue;
+    // Where they do not, a branch for each would mostly be guessed wrong.
+    for (std::size_t k = 0; k < together; ++k) {
+      index_at_[Tile::place_of(tags[k])] = static_cast<std::uint32_t>(first + k) + 1;
     }
+    last = tags.back();
   }
   index_at_[0] = 0;
   visible_.clear();
