@@ -23,8 +23,8 @@ struct WriterTarget {
   RenderStatistics& statistics;
 };
 
-/// Writes the channels of one pixel: what the binary64 tier of channel_rows.h did not settle, or
-/// does not deal with.
+/// Writes the channels of one pixel: what the rows of channel_rows.h, surface_lanes.h and
+/// wide_rows.h leave.
 class PixelWriter {
  public:
   PixelWriter(const VisibleSurface& surface, SurfaceFacts& facts, const ValueFrame& frame,
