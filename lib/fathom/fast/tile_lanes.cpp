@@ -252,42 +252,53 @@ HWY_INLINE void draw_box(Tile& tile, const Drawn& t, const Tile::Context& contex
 }
 
 /// Columns of cells of the tile as far as no edge function has excluded them, in rows of cells, one
-/// in each lane.
+/// in each lane: the first ones, and the last ones with the other sign.
 struct SpanLanes {
-  VF first, last;
+  VF first, minus_last;
 };
+
+/// What the search for spans takes from the triangle's box.
+struct SpanBox {
+  /// The column from which the functions count, and the first cells that are beyond the box, on the
+  /// right and, with the other sign, on the left.
+  VF origin;
+  VF end, minus_end;
+};
+
+HWY_INLINE float inverse(float x) {
+  const hn::CappedTag<float, 1> d;
+  return hn::GetLane(hn::Div(hn::Set(d, 1), hn::Set(d, x)));
+}
 
 // Products and sums are rounded monotonically: where an edge function that grows to the right is
 // certainly negative in the last column of a cell and in that row of the cell in which it is greatest,
 // it is so at all samples of the cell and of those to the left of it. Which cell that may be, a
-// division says, whose roundings do not matter: that the function is negative there is looked at.
-HWY_INLINE void leave_out(float a, float b, float c, float error, int first_column, VF top,
-                          VF first_cell, VF last_cell, SpanLanes& spans) {
-  const VF one = constant32(1), side = constant32(cell), part = constant32(1.0F / cell);
-  const VF origin = constant32(static_cast<float>(first_column));
-  const VF minus_error = constant32(-error);
-  const VF y = hn::Add(top, constant32(b > 0 ? cell - 1 : 0));
-  const VF at_row = hn::MulAdd(constant32(b), y, constant32(c));
-  const auto is_missed = [&](VF column) HWY_ATTR {
-    const VF x = hn::Sub(column, origin);
-    return hn::Lt(hn::MulAdd(constant32(a), x, at_row), minus_error);
-  };
-  if (a == 0) {
-    spans.last = hn::IfThenElse(hn::Lt(at_row, minus_error), hn::Neg(one), spans.last);
-    return;
-  }
-  const VF end = hn::Add(hn::Div(hn::Sub(minus_error, at_row), constant32(a)), origin);
-  if (a > 0) {
-    const VF first = hn::Min(hn::Floor(hn::Mul(hn::Add(end, one), part)), hn::Add(last_cell, one));
-    const MF is_more =
-        hn::And(hn::Gt(first, spans.first), is_missed(hn::Sub(hn::Mul(first, side), one)));
-    spans.first = hn::IfThenElse(is_more, first, spans.first);
-  } else {
-    const VF last = hn::Max(hn::Sub(hn::Ceil(hn::Mul(end, part)), one), hn::Sub(first_cell, one));
-    const MF is_less =
-        hn::And(hn::Lt(last, spans.last), is_missed(hn::Mul(hn::Add(last, one), side)));
-    spans.last = hn::IfThenElse(is_less, last, spans.last);
-  }
+// quotient says, whose roundings do not matter: that the function is negative there is looked at. So
+// nothing is left out where it is not a number or an inverse is infinite.
+// Where a function grows to the left, the same is said of columns 3 − column, among which the cells
+// have their numbers with the other sign. It is done without branches: signs of coefficients are hard
+// to foretell.
+HWY_INLINE void leave_out(float a, float b, float c, float error, VF top, const SpanBox& box,
+                          SpanLanes& spans) {
+  const VF zero = constant32(0), one = constant32(1), side = constant32(cell);
+  const VF minus_error = constant32(-error), slope = constant32(a), growth = constant32(b);
+  const MF grows_right = hn::Gt(slope, zero);
+  const auto by_side = [&](VF right, VF left)
+                           HWY_ATTR { return hn::IfThenElse(grows_right, right, left); };
+  const VF lowest = hn::IfThenElseZero(hn::Gt(growth, zero), constant32(cell - 1));
+  const VF at_row = hn::MulAdd(growth, hn::Add(top, lowest), constant32(c));
+  const VF left = hn::Sub(side, box.origin);
+  const VF beyond = hn::MulAdd(hn::Sub(minus_error, at_row), constant32(inverse(std::abs(a))),
+                               by_side(hn::Add(box.origin, one), left));
+  const VF first =
+      hn::Min(hn::Floor(hn::Mul(beyond, constant32(1.0F / cell))), by_side(box.end, box.minus_end));
+  const VF x = hn::MulAdd(first, by_side(side, hn::Neg(side)),
+                          by_side(hn::Neg(hn::Add(box.origin, one)), left));
+  const MF is_missed = hn::Lt(hn::MulAdd(slope, x, at_row), minus_error);
+  const VF open =
+      hn::IfThenElse(is_missed, first, constant32(-std::numeric_limits<float>::infinity()));
+  spans.first = by_side(hn::Max(spans.first, open), spans.first);
+  spans.minus_last = by_side(spans.minus_last, hn::Max(spans.minus_last, open));
 }
 
 /// The cells of the box that may have a covered sample, row by row; returns how many there are at
@@ -299,6 +310,9 @@ HWY_INLINE int make_cell_spans(const Drawn& t, CellSpans& cells) {
   const std::size_t k = t.lane;
   const VF first_cell = constant32(static_cast<float>(t.first_column / cell));
   const VF last_cell = constant32(static_cast<float>(t.last_column / cell));
+  const VF one = constant32(1), side = constant32(cell);
+  const SpanBox box{constant32(static_cast<float>(t.first_column)), hn::Add(last_cell, one),
+                    hn::Sub(one, first_cell)};
   cells.first_row = cell_of(t.first_row);
   cells.last_row = cell_of(t.last_row);
   const VF first_row = constant32(static_cast<float>(t.first_row / cell));
@@ -306,19 +320,17 @@ HWY_INLINE int make_cell_spans(const Drawn& t, CellSpans& cells) {
   VF count = constant32(0);
   for (std::size_t part = 0; part < cells.first_columns.size(); part += hn::Lanes(d)) {
     const VF number = counting_lanes(d, static_cast<float>(part));
-    const VF top =
-        hn::MulAdd(number, constant32(cell), constant32(static_cast<float>(-t.first_row)));
-    SpanLanes spans{first_cell, last_cell};
+    const VF top = hn::MulAdd(number, side, constant32(static_cast<float>(-t.first_row)));
+    SpanLanes spans{first_cell, hn::Neg(last_cell)};
     for (std::size_t i = 0; i < 3; ++i) {
-      leave_out(f.edge_a[i][k], f.edge_b[i][k], f.edge_c[i][k], f.edge_error[k], t.first_column,
-                top, first_cell, last_cell, spans);
+      leave_out(f.edge_a[i][k], f.edge_b[i][k], f.edge_c[i][k], f.edge_error[k], top, box, spans);
     }
     const MF is_met = hn::And(hn::Ge(number, first_row), hn::Le(number, last_row));
-    const VF length = hn::Sub(hn::Add(spans.last, constant32(1)), spans.first);
+    const VF length = hn::Sub(one, hn::Add(spans.minus_last, spans.first));
     count = hn::Add(count, hn::IfThenElseZero(is_met, hn::Max(length, constant32(0))));
-    const VF side = constant32(cell);
     hn::Store(hn::ConvertTo(di, hn::Mul(spans.first, side)), di, cells.first_columns.data() + part);
-    hn::Store(hn::ConvertTo(di, hn::Mul(spans.last, side)), di, cells.last_columns.data() + part);
+    hn::Store(hn::ConvertTo(di, hn::Mul(spans.minus_last, hn::Neg(side))), di,
+              cells.last_columns.data() + part);
   }
   return static_cast<int>(hn::GetLane(hn::SumOfLanes(d, count)));
 }
@@ -587,6 +599,7 @@ HWY_INLINE void draw_sample_of_each(Tile& tile, const SetupBatch& setups, const 
 }
 
 /// Draws lanes of a batch that are not refused.
+template <bool are_scaled>
 HWY_INLINE void draw_batch(Tile& tile, const SetupBatch& setups, unsigned lanes, LaneBatch& batch,
                            const Tile::Context& context) {
   const std::uint32_t place = tile.next_place();
@@ -603,7 +616,7 @@ HWY_INLINE void draw_batch(Tile& tile, const SetupBatch& setups, unsigned lanes,
     }
   }
   if (lanes != small) make_lane_functions(setups, extent, widening, batch);
-  const unsigned thin = lanes != small ? thin_lanes(setups) : 0;
+  const unsigned thin = are_scaled ? lanes : lanes != small ? thin_lanes(setups) : 0;
   for (unsigned bits = lanes & ~small; bits != 0; bits &= bits - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(bits));
     draw_triangle(
@@ -621,7 +634,7 @@ HWY_NOINLINE void draw_exactly(Tile& tile, std::uint32_t number, const PixelBox&
   LaneBatch lanes{};
   exact.test_range = 1;
   Tile::set_up_exactly(number, box, context, exact);
-  draw_batch(tile, exact, 1, lanes, context);
+  draw_batch<true>(tile, exact, 1, lanes, context);
 }
 
 /// Triangles to draw, as many as there are lanes (the last one repeated if there are fewer).
@@ -671,7 +684,7 @@ void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::
     const unsigned drawn_lanes = ((1U << count) - 1) & ~batch.empty;
     const unsigned certain = drawn_lanes & ~batch.refused;
     context.statistics.grid_setups += static_cast<unsigned>(std::popcount(certain & batch.snapped));
-    if (certain != 0) draw_batch(tile, batch, certain, lane_batch, context);
+    if (certain != 0) draw_batch<false>(tile, batch, certain, lane_batch, context);
     for (unsigned bits = drawn_lanes & batch.refused; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(bits));
       draw_exactly(tile, batch.number[k], batch.box(k), context);
