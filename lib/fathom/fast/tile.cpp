@@ -70,13 +70,13 @@ void Tile::pack() {
 }
 
 void Tile::set_up_exactly(std::uint32_t number, const PixelBox& box, const Context& context,
-                          SetupBatch& batch) {
+                          std::size_t lane, SetupBatch& batch) {
   ++context.statistics.exact_setups;
   TriangleSetup setup =
       moved_to(context.exact_setups.of(number, context.referee, context.perspective), box);
   setup.edge_error *= context.switches.widening;
   setup.q_error *= context.switches.widening;
-  batch.set(0, setup, box);
+  batch.set(lane, setup, box);
 }
 
 // The decisions of the vector code (tile_lanes.cpp) once more, each by its own tier. The functions

@@ -166,9 +166,9 @@ class Tile : public TileShape {
   /// the image; the tag is that of the triangle.
   void settle(const TriangleSetup& setup, LaneTag tag, bool test_range, std::uint32_t column,
               std::uint32_t row, const Context& context);
-  /// Sets up a triangle from exact numbers, for the samples of `box`.
+  /// Sets up a triangle from exact numbers, for the samples of `box`, in a lane of the batch.
   static void set_up_exactly(std::uint32_t number, const PixelBox& box, const Context& context,
-                             SetupBatch& batch);
+                             std::size_t lane, SetupBatch& batch);
 
  private:
   static constexpr std::size_t most_at_once = 256;

@@ -27,8 +27,6 @@ struct Functions {
   VF a[3], b[3], c[3];
   VF error;
   VF q_a, q_b, q_c;
-  /// The last column and row of the box.
-  VF last_x, last_y;
 };
 
 HWY_INLINE VF constant32(float x) {
@@ -46,8 +44,6 @@ HWY_INLINE Functions functions_of(const LaneBatch& batch, std::size_t k) {
   f.q_a = constant32(batch.q_a[k]);
   f.q_b = constant32(batch.q_b[k]);
   f.q_c = constant32(batch.q_c[k]);
-  f.last_x = constant32(static_cast<float>(batch.last_column[k] - batch.first_column[k]));
-  f.last_y = constant32(static_cast<float>(batch.last_row[k] - batch.first_row[k]));
   return f;
 }
 
@@ -56,10 +52,7 @@ struct Drawn {
   const SetupBatch& setups;
   const LaneBatch& batch;
   std::size_t lane;
-  Functions f;
   bool test_range;
-  /// Whether it is likely to cover few samples of the blocks that it meets.
-  bool is_thin;
   /// Whether the box may end where the image does.
   bool is_clipped;
   /// Its box within the tile.
@@ -67,13 +60,11 @@ struct Drawn {
 };
 
 HWY_INLINE Drawn drawn(const SetupBatch& setups, const LaneBatch& batch, std::size_t k,
-                       bool test_range, bool is_thin, bool is_clipped) {
+                       bool test_range, bool is_clipped) {
   return {setups,
           batch,
           k,
-          functions_of(batch, k),
           test_range,
-          is_thin,
           is_clipped,
           batch.first_column[k],
           batch.last_column[k],
@@ -164,7 +155,9 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const SomeCells& cells,
   const DF d;
   const DT dt;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const Functions& f = t.f;
+  const Functions f = functions_of(t.batch, t.lane);
+  const VF last_x = constant32(static_cast<float>(t.last_column - t.first_column));
+  const VF last_y = constant32(static_cast<float>(t.last_row - t.first_row));
   const VF minus_error = hn::Neg(f.error);
   const auto tag = hn::Set(dt, t.batch.tag[t.lane]);
   const VF tag_error = hn::BitCast(d, tag);
@@ -212,7 +205,7 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const SomeCells& cells,
               open);
         }
         if (HWY_UNLIKELY(t.is_clipped)) {
-          open = hn::And(open, hn::And(hn::Le(x, f.last_x), hn::Le(y, f.last_y)));
+          open = hn::And(open, hn::And(hn::Le(x, last_x), hn::Le(y, last_y)));
         }
         // Without a branch: half of the cells have no sample that wins, but there is no telling which.
         wins = hn::And(wins, open);
@@ -257,77 +250,100 @@ struct SpanLanes {
   VF first, minus_last;
 };
 
-/// What the search for spans takes from the triangle's box.
-struct SpanBox {
-  /// The column from which the functions count, and the first cells that are beyond the box, on the
-  /// right and, with the other sign, on the left.
-  VF origin;
-  VF end, minus_end;
+/// For each edge function of the triangles of a batch: where rows of cells probably end, and how that
+/// is looked at.
+struct SpanGuesses {
+  using PerEdge = std::array<LaneBatch::Numbers, 3>;
+  /// The first cell that may not be left out, a function of the number of the row of cells, and the
+  /// greatest such number.
+  alignas(32) PerEdge at_first, by_row, end;
+  /// The place of the last sample that is left out, in the box: a function of the cell's number.
+  alignas(32) PerEdge by_cell, before;
+  /// In the first row of cells, the place of the row in which the function is greatest.
+  alignas(32) PerEdge lowest;
 };
-
-HWY_INLINE float inverse(float x) {
-  const hn::CappedTag<float, 1> d;
-  return hn::GetLane(hn::Div(hn::Set(d, 1), hn::Set(d, x)));
-}
 
 // Products and sums are rounded monotonically: where an edge function that grows to the right is
 // certainly negative in the last column of a cell and in that row of the cell in which it is greatest,
 // it is so at all samples of the cell and of those to the left of it. Which cell that may be, a
-// quotient says, whose roundings do not matter: that the function is negative there is looked at. So
-// nothing is left out where it is not a number or an inverse is infinite.
+// quotient says, whose roundings do not matter: that the function is negative there is looked at.
 // Where a function grows to the left, the same is said of columns 3 − column, among which the cells
 // have their numbers with the other sign. It is done without branches: signs of coefficients are hard
 // to foretell.
-HWY_INLINE void leave_out(float a, float b, float c, float error, VF top, const SpanBox& box,
-                          SpanLanes& spans) {
-  const VF zero = constant32(0), one = constant32(1), side = constant32(cell);
-  const VF minus_error = constant32(-error), slope = constant32(a), growth = constant32(b);
-  const MF grows_right = hn::Gt(slope, zero);
-  const auto by_side = [&](VF right, VF left)
-                           HWY_ATTR { return hn::IfThenElse(grows_right, right, left); };
-  const VF lowest = hn::IfThenElseZero(hn::Gt(growth, zero), constant32(cell - 1));
-  const VF at_row = hn::MulAdd(growth, hn::Add(top, lowest), constant32(c));
-  const VF left = hn::Sub(side, box.origin);
-  const VF beyond = hn::MulAdd(hn::Sub(minus_error, at_row), constant32(inverse(std::abs(a))),
-                               by_side(hn::Add(box.origin, one), left));
-  const VF first =
-      hn::Min(hn::Floor(hn::Mul(beyond, constant32(1.0F / cell))), by_side(box.end, box.minus_end));
-  const VF x = hn::MulAdd(first, by_side(side, hn::Neg(side)),
-                          by_side(hn::Neg(hn::Add(box.origin, one)), left));
-  const MF is_missed = hn::Lt(hn::MulAdd(slope, x, at_row), minus_error);
-  const VF open =
-      hn::IfThenElse(is_missed, first, constant32(-std::numeric_limits<float>::infinity()));
-  spans.first = by_side(hn::Max(spans.first, open), spans.first);
-  spans.minus_last = by_side(spans.minus_last, hn::Max(spans.minus_last, open));
+HWY_INLINE void make_span_guesses(const LaneBatch& batch, SpanGuesses& guesses) {
+  // Scaled functions are below 2: nothing overflows, and a function of rows alone, with a slope of
+  // 0, leaves out all cells of a row or none.
+  constexpr float least_slope = 0x1p-60F;
+  const D32 d;
+  using V32 = hn::Vec<D32>;
+  const auto set = [](float x) HWY_ATTR { return hn::Set(D32(), x); };
+  const auto place = [](const LaneBatch::Places& places) HWY_ATTR {
+    return hn::ConvertTo(D32(), hn::Load(hn::Rebind<std::int32_t, D32>(), places.data()));
+  };
+  const V32 zero = set(0), one = set(1), side = set(cell), part = set(1.0F / cell);
+  const V32 origin = place(batch.first_column), top = place(batch.first_row);
+  const V32 first = hn::Floor(hn::Mul(origin, part));
+  const V32 last = hn::Floor(hn::Mul(place(batch.last_column), part));
+  const V32 left = hn::Sub(side, origin), right = hn::Add(origin, one);
+  const V32 minus_error = hn::Neg(hn::Load(d, batch.edge_error.data()));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const V32 a = hn::Load(d, batch.edge_a[i].data()), b = hn::Load(d, batch.edge_b[i].data());
+    const V32 c = hn::Load(d, batch.edge_c[i].data());
+    const auto grows_right = hn::Gt(a, zero);
+    const auto by_side = [&](V32 x, V32 y) HWY_ATTR { return hn::IfThenElse(grows_right, x, y); };
+    const V32 lowest = hn::Sub(hn::IfThenElseZero(hn::Gt(b, zero), set(cell - 1)), top);
+    const V32 inverse = hn::Div(one, hn::Max(hn::Abs(a), set(least_slope)));
+    const V32 at_top = hn::Sub(minus_error, hn::MulAdd(b, lowest, c));
+    const V32 at_first = hn::MulAdd(at_top, inverse, by_side(right, left));
+    hn::Store(hn::Mul(at_first, part), d, guesses.at_first[i].data());
+    hn::Store(hn::Neg(hn::Mul(b, inverse)), d, guesses.by_row[i].data());
+    hn::Store(by_side(hn::Add(last, one), hn::Sub(one, first)), d, guesses.end[i].data());
+    hn::Store(by_side(side, hn::Neg(side)), d, guesses.by_cell[i].data());
+    hn::Store(by_side(hn::Neg(right), left), d, guesses.before[i].data());
+    hn::Store(lowest, d, guesses.lowest[i].data());
+  }
+}
+
+/// Rows of cells, `top` their first rows in the tile.
+HWY_INLINE void leave_out(const LaneBatch& f, const SpanGuesses& guesses, std::size_t i,
+                          std::size_t k, VF number, VF top, SpanLanes& spans) {
+  const auto of_lane = [&](const SpanGuesses::PerEdge& numbers)
+                           HWY_ATTR { return constant32(numbers[i][k]); };
+  const VF a = of_lane(f.edge_a);
+  const VF minus_error = constant32(-f.edge_error[k]);
+  const VF guess = hn::MulAdd(of_lane(guesses.by_row), number, of_lane(guesses.at_first));
+  const VF first = hn::Min(hn::Floor(guess), of_lane(guesses.end));
+  const VF y = hn::Add(top, of_lane(guesses.lowest));
+  const VF at_row = hn::MulAdd(of_lane(f.edge_b), y, of_lane(f.edge_c));
+  const VF x = hn::MulAdd(of_lane(guesses.by_cell), first, of_lane(guesses.before));
+  const MF is_missed = hn::Lt(hn::MulAdd(a, x, at_row), minus_error);
+  const MF grows_right = hn::Gt(a, constant32(0));
+  const MF right = hn::And(grows_right, is_missed), left = hn::AndNot(grows_right, is_missed);
+  spans.first = hn::IfThenElse(right, hn::Max(spans.first, first), spans.first);
+  spans.minus_last = hn::IfThenElse(left, hn::Max(spans.minus_last, first), spans.minus_last);
 }
 
 /// The cells of the box that may have a covered sample, row by row; returns how many there are at
 /// most.
-HWY_INLINE int make_cell_spans(const Drawn& t, CellSpans& cells) {
+HWY_INLINE int make_cell_spans(const LaneBatch& f, const SpanGuesses& guesses, std::size_t k,
+                               CellSpans& cells) {
   const DF d;
   const hn::Rebind<std::int32_t, DF> di;
-  const LaneBatch& f = t.batch;
-  const std::size_t k = t.lane;
-  const VF first_cell = constant32(static_cast<float>(t.first_column / cell));
-  const VF last_cell = constant32(static_cast<float>(t.last_column / cell));
-  const VF one = constant32(1), side = constant32(cell);
-  const SpanBox box{constant32(static_cast<float>(t.first_column)), hn::Add(last_cell, one),
-                    hn::Sub(one, first_cell)};
-  cells.first_row = cell_of(t.first_row);
-  cells.last_row = cell_of(t.last_row);
-  const VF first_row = constant32(static_cast<float>(t.first_row / cell));
-  const VF last_row = constant32(static_cast<float>(t.last_row / cell));
-  VF count = constant32(0);
+  const VF one = constant32(1), side = constant32(cell), zero = constant32(0);
+  cells.first_row = cell_of(f.first_row[k]);
+  cells.last_row = cell_of(f.last_row[k]);
+  const VF first_row = constant32(static_cast<float>(cells.first_row));
+  const VF last_row = constant32(static_cast<float>(cells.last_row));
+  VF count = zero;
   for (std::size_t part = 0; part < cells.first_columns.size(); part += hn::Lanes(d)) {
     const VF number = counting_lanes(d, static_cast<float>(part));
-    const VF top = hn::MulAdd(number, side, constant32(static_cast<float>(-t.first_row)));
-    SpanLanes spans{first_cell, hn::Neg(last_cell)};
-    for (std::size_t i = 0; i < 3; ++i) {
-      leave_out(f.edge_a[i][k], f.edge_b[i][k], f.edge_c[i][k], f.edge_error[k], top, box, spans);
-    }
-    const MF is_met = hn::And(hn::Ge(number, first_row), hn::Le(number, last_row));
+    const VF top = hn::Mul(number, side);
+    SpanLanes spans{constant32(static_cast<float>(f.first_column[k] / cell)),
+                    constant32(static_cast<float>(-(f.last_column[k] / cell)))};
+    for (std::size_t i = 0; i < 3; ++i) leave_out(f, guesses, i, k, number, top, spans);
+    const MF is_met = hn::And(hn::Ge(top, first_row), hn::Le(top, last_row));
     const VF length = hn::Sub(one, hn::Add(spans.minus_last, spans.first));
-    count = hn::Add(count, hn::IfThenElseZero(is_met, hn::Max(length, constant32(0))));
+    count = hn::Add(count, hn::IfThenElseZero(is_met, hn::Max(length, zero)));
     hn::Store(hn::ConvertTo(di, hn::Mul(spans.first, side)), di, cells.first_columns.data() + part);
     hn::Store(hn::ConvertTo(di, hn::Mul(spans.minus_last, hn::Neg(side))), di,
               cells.last_columns.data() + part);
@@ -451,16 +467,15 @@ HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, const BlockFuncti
 }
 
 /// Leaves out the blocks in which the triangle is hidden, as above.
-HWY_INLINE void leave_out_hidden_blocks(Tile& tile, const Drawn& t, CellSpans& cells) {
+HWY_INLINE void leave_out_hidden_blocks(Tile& tile, const LaneBatch& batch, std::size_t k,
+                                        CellSpans& cells) {
   const DF8 d;
-  const LaneBatch& batch = t.batch;
-  const std::size_t k = t.lane;
   BlockFunction q;
-  make_block_function(batch.q_a[k], batch.q_b[k], batch.q_c[k], static_cast<float>(t.first_column),
-                      q);
+  make_block_function(batch.q_a[k], batch.q_b[k], batch.q_c[k],
+                      static_cast<float>(batch.first_column[k]), q);
   const auto moves = hn::Set(d, setup_bounds::q_moves * batch.q_error[k]);
-  for (int row = t.first_row / block; row <= t.last_row / block; ++row) {
-    const auto y = static_cast<float>(row * block - t.first_row) + q.greatest_y;
+  for (int row = batch.first_row[k] / block; row <= batch.last_row[k] / block; ++row) {
+    const auto y = static_cast<float>(row * block - batch.first_row[k]) + q.greatest_y;
     const auto number = static_cast<std::size_t>(row);
     unsigned open = 0;
     for (std::size_t part = 0; part < Tile::blocks_of_row; part += hn::Lanes(d)) {
@@ -507,32 +522,39 @@ HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& con
   }
 }
 
-/// Draws only the cells that a thin triangle may meet; false, and nothing is drawn, if these are
-/// many.
-HWY_INLINE bool draw_spans(Tile& tile, const Drawn& t, const Tile::Context& context) {
+/// The cells that thin triangles of a batch may meet, for those lanes of which they are few.
+struct ThinLanes {
+  unsigned lanes = 0;
+  std::array<CellSpans, SetupBatch::most> cells;
+};
+
+// For all triangles before the first is drawn: a triangle ends with jumps that the processor does
+// not foresee, after which it would have to wait for the cells of the next one.
+HWY_NOINLINE void make_thin_lanes(Tile& tile, const LaneBatch& batch, unsigned lanes,
+                                  const Tile::Context& context, ThinLanes& thin) {
   constexpr int most = 48;
-  CellSpans cells;
-  if (make_cell_spans(t, cells) > most) return false;
-  if (context.switches.early_rejection) {
-    leave_out_hidden_blocks(tile, t, cells);
-  } else {
-    cells.open_blocks.fill(~0U);
+  SpanGuesses guesses;
+  make_span_guesses(batch, guesses);
+  for (unsigned bits = lanes; bits != 0; bits &= bits - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+    CellSpans& cells = thin.cells[k];
+    if (make_cell_spans(batch, guesses, k, cells) > most) continue;
+    thin.lanes |= 1U << k;
+    if (context.switches.early_rejection) {
+      leave_out_hidden_blocks(tile, batch, k, cells);
+    } else {
+      cells.open_blocks.fill(~0U);
+    }
   }
-  draw_cells<true>(tile, t, cells, context);
-  return true;
 }
 
 /// Not part of what draws the other triangles, most of which are small: that would be slower.
-HWY_NOINLINE void draw_large(Tile& tile, const Drawn& t, const Tile::Context& context) {
-  if (!t.is_thin || !draw_spans(tile, t, context)) draw_blocks(tile, t, context);
-}
-
-HWY_INLINE void draw_triangle(Tile& tile, const Drawn& t, const Tile::Context& context) {
-  if (std::max(t.last_column - t.first_column, t.last_row - t.first_row) < 3 * block ||
-      !context.switches.hierarchy) {
-    draw_box(tile, t, context);
+HWY_NOINLINE void draw_large(Tile& tile, const Drawn& t, const ThinLanes& thin,
+                             const Tile::Context& context) {
+  if (thin.lanes >> t.lane & 1) {
+    draw_cells<true>(tile, t, thin.cells[t.lane], context);
   } else {
-    draw_large(tile, t, context);
+    draw_blocks(tile, t, context);
   }
 }
 
@@ -542,9 +564,15 @@ HWY_INLINE unsigned small_lanes(const SetupBatch& batch) {
   return bits_of(hn::Le(hn::Max(columns, rows), constant(1)));
 }
 
+/// The lanes of a batch whose boxes are drawn by blocks or spans.
+HWY_INLINE unsigned large_lanes(const SetupBatch& batch) {
+  const auto [columns, rows] = box_sizes(batch);
+  return bits_of(hn::Ge(hn::Max(columns, rows), constant(3 * block)));
+}
+
 /// The lanes of a batch whose triangles are a few samples wide at most: their doubled areas, which are
-/// the sums of the edge functions, over the longest sides. Nothing depends on it but time; it is not
-/// so where the functions are scaled, those of exact_setup(), which are taken for wide ones.
+/// the sums of the edge functions, over the longest sides. Nothing depends on it but time.
+/// Needs    functions that are not scaled.
 HWY_INLINE unsigned thin_lanes(const SetupBatch& batch) {
   constexpr double greatest_width = 4;
   V length = constant(0), area = constant(0);
@@ -616,25 +644,45 @@ HWY_INLINE void draw_batch(Tile& tile, const SetupBatch& setups, unsigned lanes,
     }
   }
   if (lanes != small) make_lane_functions(setups, extent, widening, batch);
-  const unsigned thin = are_scaled ? lanes : lanes != small ? thin_lanes(setups) : 0;
+  const unsigned large =
+      lanes != small && context.switches.hierarchy ? lanes & large_lanes(setups) : 0;
+  // Of scaled functions it is not known.
+  const unsigned maybe_thin = are_scaled || large == 0 ? large : large & thin_lanes(setups);
+  ThinLanes thin;
+  if (maybe_thin != 0) make_thin_lanes(tile, batch, maybe_thin, context, thin);
   for (unsigned bits = lanes & ~small; bits != 0; bits &= bits - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-    draw_triangle(
-        tile, drawn(setups, batch, k, setups.test_range >> k & 1, thin >> k & 1, tile.is_partial()),
-        context);
+    const Drawn t = drawn(setups, batch, k, setups.test_range >> k & 1, tile.is_partial());
+    if (large >> k & 1) {
+      draw_large(tile, t, thin, context);
+    } else {
+      draw_box(tile, t, context);
+    }
   }
   if (context.statistics.samples_covered != covered_before) {
     tile.keep_surfaces(static_cast<std::uint32_t>(hn::Lanes(D())));
   }
 }
 
-HWY_NOINLINE void draw_exactly(Tile& tile, std::uint32_t number, const PixelBox& box,
-                               const Tile::Context& context) {
-  SetupBatch exact{};
+/// Triangles that are drawn from exact numbers, or double-words, as many together as there are lanes.
+struct ExactBatch {
+  SetupBatch setups{};
+  std::size_t count = 0;
+};
+
+HWY_NOINLINE void draw_exactly(Tile& tile, ExactBatch& exact, const Tile::Context& context) {
   LaneBatch lanes{};
-  exact.test_range = 1;
-  Tile::set_up_exactly(number, box, context, exact);
-  draw_batch<true>(tile, exact, 1, lanes, context);
+  const unsigned drawn_lanes = (1U << exact.count) - 1;
+  exact.setups.test_range = drawn_lanes;
+  draw_batch<true>(tile, exact.setups, drawn_lanes, lanes, context);
+  exact.count = 0;
+}
+
+/// Draws them once a batch is full.
+HWY_NOINLINE void add_exactly(Tile& tile, std::uint32_t number, const PixelBox& box,
+                              const Tile::Context& context, ExactBatch& exact) {
+  Tile::set_up_exactly(number, box, context, exact.count, exact.setups);
+  if (++exact.count == hn::Lanes(D())) draw_exactly(tile, exact, context);
 }
 
 /// Triangles to draw, as many as there are lanes (the last one repeated if there are fewer).
@@ -673,6 +721,7 @@ void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::
   Triangles next{};
   SetupBatch batch;
   LaneBatch lane_batch{};
+  ExactBatch exact;
   fetch(object, numbers, 0, next);
   for (std::size_t first = 0; first < numbers.size(); first += lanes) {
     const std::size_t count = std::min(lanes, numbers.size() - first);
@@ -687,9 +736,10 @@ void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::
     if (certain != 0) draw_batch<false>(tile, batch, certain, lane_batch, context);
     for (unsigned bits = drawn_lanes & batch.refused; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-      draw_exactly(tile, batch.number[k], batch.box(k), context);
+      add_exactly(tile, batch.number[k], batch.box(k), context, exact);
     }
   }
+  if (exact.count != 0) draw_exactly(tile, exact, context);
 }
 
 std::size_t visible_triangles(Tile& tile, std::span<const TileEntry> entries,
