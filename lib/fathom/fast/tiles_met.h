@@ -39,10 +39,11 @@ class TileRowEdges {
   /// Empty if there is none.
   [[nodiscard]] PixelBox met() const {
     std::uint32_t first = box_.first_column / size_, last = box_.last_column / size_;
-    while (misses(first)) {
+    if (misses(first, last)) return {};
+    while (misses(first, first)) {
       if (first++ == last) return {};
     }
-    while (last > first && misses(last)) --last;
+    while (last > first && misses(last, last)) --last;
     PixelBox met = part_;
     met.first_column = std::max(box_.first_column, first * size_);
     met.last_column = std::min(box_.last_column, last * size_ + (size_ - 1));
@@ -50,9 +51,10 @@ class TileRowEdges {
   }
 
  private:
-  [[nodiscard]] bool misses(std::uint32_t tile_column) const {
-    const std::uint32_t first = std::max(box_.first_column, tile_column * size_);
-    const std::uint32_t last = std::min(box_.last_column, tile_column * size_ + (size_ - 1));
+  /// Whether one of the edge functions is negative in all of some columns of tiles.
+  [[nodiscard]] bool misses(std::uint32_t first_tile, std::uint32_t last_tile) const {
+    const std::uint32_t first = std::max(box_.first_column, first_tile * size_);
+    const std::uint32_t last = std::min(box_.last_column, last_tile * size_ + (size_ - 1));
     const double left = static_cast<double>(first - box_.first_column) - 1;
     const double right = static_cast<double>(last - box_.first_column) + 1;
     const auto is_negative = [&](std::size_t k) {
