@@ -21,6 +21,35 @@ using namespace fast;
 using namespace triangle;
 using testing::camera_of;
 
+/// What bins of a scene of one mesh are filled from.
+struct Filling {
+  Filling(const Scene& scene, const Camera& seen_by, std::uint32_t first_number = 0)
+      : camera(seen_by),
+        triangles(scene),
+        rays(triangles, camera),
+        referee(triangles, camera, &rays),
+        grid(camera.width, camera.height) {
+    objects.emplace_back(scene.objects[0], scene.meshes[0], camera, first_number);
+  }
+  [[nodiscard]] Bins filled(std::uint32_t first, std::uint32_t end, Cull cull, bool by_area) {
+    Bins bins(first, end);
+    bins.fill({objects, camera, cull, by_area, grid, referee, statistics});
+    return bins;
+  }
+  /// Of all triangles.
+  [[nodiscard]] Bins filled(Cull cull = Cull::none, bool by_area = false) {
+    return filled(0, static_cast<std::uint32_t>(triangles.count()), cull, by_area);
+  }
+
+  const Camera& camera;
+  TriangleSource triangles;
+  SceneRays rays;
+  Referee referee;
+  RenderStatistics statistics;
+  TileGrid grid;
+  ImageObjects objects;
+};
+
 std::vector<std::uint32_t> all_in_tile(const Bins& bins, std::uint32_t tile) {
   std::vector<std::uint32_t> numbers;
   for (const Side side : {Side::front, Side::back}) {
@@ -72,13 +101,8 @@ TEST(Bins, TakeTheLastTrianglesThatThereAre) {
   std::vector<CornerIndices> triangles(1500, {0, 1, 2});
   const Scene scene = testing::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, triangles);
   const Camera camera = camera_of(8, 8, 4);
-  Referee referee(scene, camera);
-  RenderStatistics statistics;
-  const TileGrid grid(camera.width, camera.height);
-  ImageObjects objects;
-  objects.emplace_back(scene.objects[0], scene.meshes[0], camera, first);
-  Bins bins(first, no_surface);
-  bins.fill({objects, camera, Cull::none, false, grid, referee, statistics});
+  Filling filling(scene, camera, first);
+  const Bins bins = filling.filled(first, no_surface, Cull::none, false);
   const auto found = all_in_tile(bins, 0);
   ASSERT_EQ(found.size(), 1500U);
   for (std::uint32_t i = 0; i < 1500; ++i) ASSERT_EQ(found[i], first + i);
@@ -99,21 +123,15 @@ TEST(Bins, SayWhichTrianglesCoverNoSample) {
   Camera camera = camera_of(128, 128, 1);
   camera.projection = Projection::orthographic;
   camera.cx = camera.cy = 0;
-  const TriangleSource source(scene);
-  Referee referee(source, camera);
-  RenderStatistics statistics;
-  const TileGrid grid(camera.width, camera.height);
-  ImageObjects objects;
-  objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
-  Bins bins(0, static_cast<std::uint32_t>(triangles.size()));
-  bins.fill({objects, camera, Cull::none, true, grid, referee, statistics});
+  Filling filling(scene, camera);
+  const Bins bins = filling.filled(Cull::none, true);
   int without = 0, with = 0, not_told = 0;
   TierCounts counts;
-  for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
+  for (std::uint32_t tile = 0; tile < filling.grid.count(); ++tile) {
     for (const Side side : {Side::front, Side::back}) {
       for (const TileEntry& entry : bins.in_tile(tile, side)) {
         const ProjectedTriangle t =
-            project(source.world_corners(entry.number), entry.number, camera, counts);
+            project(filling.triangles.world_corners(entry.number), entry.number, camera, counts);
         const PixelBox box = bounding_box(t, camera);
         bool covers_any = false;
         for (std::uint32_t row = box.first_row; row <= box.last_row; ++row) {
@@ -150,14 +168,11 @@ TEST(ImageObjects, OwnTheNumbersOfTheirTriangles) {
 
 /// Every triangle is asked for at samples of every tile, exactly, or for the area that it has there.
 void check(const Scene& scene, const Camera& camera, Cull cull, bool by_area, int& met) {
-  const TriangleSource triangles(scene);
-  Referee referee(triangles, camera);
-  RenderStatistics statistics;
-  const TileGrid grid(camera.width, camera.height);
-  ImageObjects objects;
-  objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
-  Bins bins(0, static_cast<std::uint32_t>(triangles.count()));
-  bins.fill({objects, camera, cull, by_area, grid, referee, statistics});
+  Filling filling(scene, camera);
+  const TriangleSource& triangles = filling.triangles;
+  const TileGrid& grid = filling.grid;
+  const RenderStatistics& statistics = filling.statistics;
+  const Bins bins = filling.filled(cull, by_area);
   // Those behind the camera need no decision.
   EXPECT_LE(statistics.facing.interval + statistics.facing.exact, triangles.count());
   for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
@@ -210,26 +225,19 @@ TEST(Bins, HoldEveryTriangleThatASampleOrAreaOfTheTileSees) {
 /// front of the camera and reaching behind it.
 TEST(Bins, LeaveOutTilesThatLongTrianglesMiss) {
   const Camera camera = camera_of(640, 640, 320);
-  const TileGrid grid(camera.width, camera.height);
   for (const double z : {1.0, -1.0}) {
     SCOPED_TRACE(z);
     const Scene scene =
         testing::scene_of({{-1 * z, -0.9 * z, z}, {1, 0.8, 1}, {1, 0.802, 1}}, {{0, 1, 2}});
-    const TriangleSource triangles(scene);
-    const SceneRays rays(triangles, camera);
-    Referee referee(triangles, camera, &rays);
-    RenderStatistics statistics;
-    ImageObjects objects;
-    objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
-    Bins bins(0, 1);
-    bins.fill({objects, camera, Cull::none, false, grid, referee, statistics});
+    Filling filling(scene, camera);
+    const Bins bins = filling.filled();
     std::size_t tiles = 0;
-    for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
+    for (std::uint32_t tile = 0; tile < filling.grid.count(); ++tile) {
       tiles += all_in_tile(bins, tile).size();
     }
     EXPECT_GE(tiles, z > 0 ? 10U : 1U);
     EXPECT_LE(tiles, 19U);
-    EXPECT_EQ(statistics.facing.exact, 0U);
+    EXPECT_EQ(filling.statistics.facing.exact, 0U);
   }
 }
 
@@ -238,18 +246,11 @@ TEST(Bins, HoldTheTrianglesThatTheyAreOf) {
   std::mt19937_64 random(182);
   const Scene scene = testing::soup(random, 30, true);
   const Camera camera = camera_of(160, 140, 64);
-  Referee referee(scene, camera);
-  RenderStatistics statistics;
-  const TileGrid grid(camera.width, camera.height);
-  ImageObjects objects;
-  objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
-  const auto filled = [&](std::uint32_t first, std::uint32_t end) {
-    Bins bins(first, end);
-    bins.fill({objects, camera, Cull::none, false, grid, referee, statistics});
-    return bins;
-  };
-  const Bins all = filled(0, 30), first = filled(0, 11), rest = filled(11, 30);
-  for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
+  Filling filling(scene, camera);
+  const Bins all = filling.filled();
+  const Bins first = filling.filled(0, 11, Cull::none, false);
+  const Bins rest = filling.filled(11, 30, Cull::none, false);
+  for (std::uint32_t tile = 0; tile < filling.grid.count(); ++tile) {
     std::multiset<std::uint32_t> parts;
     for (const Bins* bins : {&first, &rest}) {
       for (const std::uint32_t number : all_in_tile(*bins, tile)) {

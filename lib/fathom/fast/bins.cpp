@@ -123,15 +123,6 @@ bool is_certainly_unseen(const ImageObject& object, const CornerIndices& corners
       {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]});
 }
 
-/// The set-up of a triangle for the whole image where double-words tell that it is seen.
-std::optional<TriangleSetup> set_up_by_double_words(std::uint32_t number,
-                                                    const Bins::Context& context) {
-  if (context.cull != Cull::none) return std::nullopt;
-  const auto forms = context.referee.wide_forms(number);
-  if (!forms) return std::nullopt;
-  return wide_setup(*forms, number, {0, context.grid.width - 1, 0, context.grid.height - 1});
-}
-
 /// The pixels where a triangle can be visible; empty if none.
 PixelBox visible_box_exactly(const CornerIndices& corners, std::uint32_t number,
                              const Bins::Context& context) {
@@ -167,9 +158,12 @@ void Bins::add_exactly(const ImageObject& object, std::uint32_t number, const Co
   };
   if (!is_usable(object, corners)) {
     if (is_certainly_unseen(object, corners)) return;
-    if (const auto setup = set_up_by_double_words(number, context)) {
+    const PixelBox image{0, grid.width - 1, 0, grid.height - 1};
+    const auto setup =
+        context.cull == Cull::none ? wide_setup(context.referee, number, image) : std::nullopt;
+    if (setup) {
       ++context.statistics.facing.interval;
-      add_where_met(*setup, {0, grid.width - 1, 0, grid.height - 1});
+      add_where_met(*setup, image);
       return;
     }
   }

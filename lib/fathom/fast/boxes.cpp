@@ -7,9 +7,9 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <bit>
 
 #include "fathom/fast/counting_lanes-inl.h"
+#include "fathom/fast/each_bit.h"
 #include "fathom/fast/nearness-inl.h"
 #include "fathom/fast/setup-inl.h"
 #include "fathom/fast/tile.h"
@@ -117,9 +117,8 @@ HWY_INLINE void append(const Sorted& s, std::uint32_t first_number, BoxBatch& ou
     alignas(64) std::uint64_t nearest[8];
     hn::Store(s.nearest, du, nearest);
     const unsigned front = bits_of(s.front);
-    for (unsigned bits = bits_of(s.more_tiles); bits != 0; bits &= bits - 1) {
-      const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
-      out.number[out.in_more_tiles] = first_number + k;
+    for (const std::size_t k : EachBit(bits_of(s.more_tiles))) {
+      out.number[out.in_more_tiles] = first_number + static_cast<std::uint32_t>(k);
       out.nearest[out.in_more_tiles] = static_cast<std::uint32_t>(nearest[k]);
       out.side[out.in_more_tiles] = front >> k & 1 ? Side::front : Side::back;
       out.box[out.in_more_tiles++] = {
@@ -128,9 +127,8 @@ HWY_INLINE void append(const Sorted& s, std::uint32_t first_number, BoxBatch& ou
     }
   }
   if (HWY_UNLIKELY(!hn::AllFalse(d, s.unsettled))) {
-    for (unsigned bits = bits_of(s.unsettled); bits != 0; bits &= bits - 1) {
-      out.unsettled_number[out.unsettled++] =
-          first_number + static_cast<std::uint32_t>(std::countr_zero(bits));
+    for (const std::size_t k : EachBit(bits_of(s.unsettled))) {
+      out.unsettled_number[out.unsettled++] = first_number + static_cast<std::uint32_t>(k);
     }
   }
 }

@@ -23,7 +23,7 @@ template <class T>
 std::uint64_t copy(const VisibleRow& row, std::uint64_t wanted, const RoundedValues<T>& rounded,
                    T* target, RenderStatistics& statistics) {
   const std::uint64_t settled = wanted & rounded.settled;
-  for_each_bit(settled, [&](std::size_t k) { target[row.first_pixel + k] = rounded.values[k]; });
+  for (const std::size_t k : EachBit(settled)) target[row.first_pixel + k] = rounded.values[k];
   statistics.rounding.interval += static_cast<std::uint64_t>(std::popcount(settled));
   return wanted & ~settled;
 }
@@ -34,7 +34,7 @@ template <class T>
 std::uint64_t write_row(const MapRows& rows, const VisibleRow& row, RoundedValues<T>& rounded,
                         T background, T* target, RenderStatistics& statistics) {
   const std::uint64_t settled = row.surface & rounded.settled;
-  for_each_bit(row.all() & ~settled, [&](std::size_t k) { rounded.values[k] = background; });
+  for (const std::size_t k : EachBit(row.all() & ~settled)) rounded.values[k] = background;
   rows.write(rounded.values, row.columns, target + row.first_pixel);
   statistics.rounding.interval += static_cast<std::uint64_t>(std::popcount(settled));
   return row.surface & ~settled;
@@ -129,9 +129,9 @@ void CertifiedWriter::write_origins(const VisibleRow& row) const {
   if (values_.id) {
     MapRow<std::uint32_t> numbers;
     numbers.fill(no_surface);
-    for_each_bit(row.surface, [&](std::size_t k) {
+    for (const std::size_t k : EachBit(row.surface)) {
       numbers[k] = static_cast<std::uint32_t>(row.lanes.tags[k]);
-    });
+    }
     rows_.write(numbers, row.columns, values_.id + row.first_pixel);
   }
   if (!values_.wants_origins()) return;
@@ -140,11 +140,11 @@ void CertifiedWriter::write_origins(const VisibleRow& row) const {
   for (MapRow<std::uint32_t>& numbers : rows) numbers.fill(no_surface);
   std::uint32_t last = no_surface;
   std::array<std::uint32_t, OriginNumbers::count> numbers{};
-  for_each_bit(row.surface, [&](std::size_t k) {
+  for (const std::size_t k : EachBit(row.surface)) {
     const auto triangle = static_cast<std::uint32_t>(row.lanes.tags[k]);
     if (triangle != last) numbers = exact_.numbers_of(last = triangle).all();
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i][k] = numbers[i];
-  });
+  }
   const auto targets = values_.origins();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (targets[i]) rows_.write(rows[i], row.columns, targets[i] + row.first_pixel);
@@ -235,8 +235,7 @@ std::optional<EncodingFault> CertifiedWriter::write(const VisibleRow& row, Refer
                                                     RenderStatistics& statistics) {
   const Open open = write_settled(row, statistics);
   const WriterTarget target{values_, exact_, referee, statistics};
-  for (std::uint64_t bits = open.any(); bits != 0; bits &= bits - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+  for (const std::size_t k : EachBit(open.any())) {
     const auto is_open = [&](std::uint64_t samples) { return (samples >> k & 1) != 0; };
     const VisibleSurface surface = row.at(k);
     PixelWriter pixel(surface, facts(surface.triangle), frame_, target);

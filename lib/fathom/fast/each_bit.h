@@ -6,10 +6,30 @@
 
 namespace fathom::fast {
 
-/// Calls visit(k) for each bit k that is 1, from the lowest on.
-template <class Visit>
-void for_each_bit(std::uint64_t bits, const Visit& visit) {
-  for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
-}
+/// The numbers of the bits that are 1, from the lowest on: for (const std::size_t k : EachBit(bits)).
+class EachBit {
+ public:
+  class Iterator {
+   public:
+    explicit Iterator(std::uint64_t bits) : bits_(bits) {}
+    std::size_t operator*() const { return static_cast<std::size_t>(std::countr_zero(bits_)); }
+    Iterator& operator++() {
+      bits_ &= bits_ - 1;
+      return *this;
+    }
+    bool operator==(const Iterator&) const = default;
+
+   private:
+    std::uint64_t bits_;
+  };
+
+  explicit EachBit(std::uint64_t bits) : bits_(bits) {}
+  [[nodiscard]] Iterator begin() const { return Iterator(bits_); }
+  // Iterators tell their ends by what they have left, not by what they belong to.
+  [[nodiscard]] static Iterator end() { return Iterator(0); }
+
+ private:
+  std::uint64_t bits_;
+};
 
 }  // namespace fathom::fast

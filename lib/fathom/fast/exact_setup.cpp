@@ -6,6 +6,7 @@
 #include "fathom/fast/setup_bounds.h"
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/triangle/referee.h"
 
 // Setups from exact forms, or from double-words: every coefficient is exact and rounded once.
 namespace fathom::fast {
@@ -162,6 +163,12 @@ std::optional<TriangleSetup> wide_setup(const WideForms& forms, std::uint32_t nu
   if (!(S < 0x1p100 && of_words < 0x1p100)) return std::nullopt;
   setup.q_error = (setup_bounds::exact_q_error * S + (of_words + 0x1p-100)) * setup_bounds::q_room;
   return setup;
+}
+
+std::optional<TriangleSetup> wide_setup(Referee& referee, std::uint32_t number,
+                                        const PixelBox& box) {
+  const auto forms = referee.wide_forms(number);
+  return forms ? wide_setup(*forms, number, box) : std::nullopt;
 }
 
 // The constants become the values at the first sample of the part; all magnitudes are those of

@@ -16,8 +16,7 @@ class ExactSetups {
   explicit ExactSetups(const PixelBox& image) : image_(image) {}
   const TriangleSetup& of(std::uint32_t number, triangle::Referee& referee, bool perspective) {
     return remembered_.get(number, [&](TriangleSetup& setup) {
-      const auto forms = referee.wide_forms(number);
-      const auto wide = forms ? wide_setup(*forms, number, image_) : std::nullopt;
+      const auto wide = wide_setup(referee, number, image_);
       setup = wide ? *wide : exact_setup(referee.projected(number), perspective, image_);
     });
   }

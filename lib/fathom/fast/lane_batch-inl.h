@@ -36,6 +36,10 @@ using MF = hn::Mask<DF>;
 using DF8 = hn::CappedTag<float, 8>;
 using DI8 = hn::Rebind<std::int32_t, DF8>;
 
+HWY_INLINE VF constant32(float x) {
+  return hn::Set(DF(), x);
+}
+
 /// Column and row of the samples in the lanes, from one of a cell on.
 HWY_INLINE VF lane_columns(int first) {
   HWY_ALIGN static constexpr float columns[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};

@@ -185,9 +185,9 @@ RowBits write_depths(const Tile& tile, std::uint32_t row, float* depths, std::si
 void note_doubts(std::uint64_t open, const PixelBox& area, std::uint32_t row,
                  const Tile::Context& context) {
   if (!context.doubtful) return;
-  for_each_bit(open, [&](std::size_t k) {
+  for (const std::size_t k : EachBit(open)) {
     context.note_doubt(area.first_column + static_cast<std::uint32_t>(k), row);
-  });
+  }
 }
 
 }  // namespace

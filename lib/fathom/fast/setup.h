@@ -9,6 +9,10 @@
 #include "fathom/triangle/double_word_referee.h"
 #include "fathom/triangle/projected_triangle.h"
 
+namespace fathom::triangle {
+class Referee;
+}
+
 namespace fathom::fast {
 
 /// A triangle ready for sampling: affine functions on the image with bounds on their errors.
@@ -78,6 +82,9 @@ TriangleSetup exact_setup(const triangle::ProjectedTriangle& triangle, bool pers
 /// The same from double-words, under a perspective camera; nullopt where their bounds do not tell on
 /// which side of its plane the camera is, or are far from those of exact numbers.
 std::optional<TriangleSetup> wide_setup(const triangle::WideForms& forms, std::uint32_t number,
+                                        const PixelBox& box);
+/// The same of a triangle, where there are such forms of it.
+std::optional<TriangleSetup> wide_setup(triangle::Referee& referee, std::uint32_t number,
                                         const PixelBox& box);
 /// Such functions for the samples of a part of the box that they were made for.
 TriangleSetup moved_to(const TriangleSetup& exact_setup, const PixelBox& part);

@@ -1,7 +1,6 @@
 // Triangles drawn into a tile, as many samples at once as there are lanes of binary32.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fathom/fast/tile_lanes.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
@@ -9,7 +8,11 @@
 #include <bit>
 #include <limits>
 
+#include "fathom/fast/block_functions-inl.h"
+#include "fathom/fast/cell_spans-inl.h"
+#include "fathom/fast/each_bit.h"
 #include "fathom/fast/farthest-inl.h"
+#include "fathom/fast/fetch-inl.h"
 #include "fathom/fast/lane_batch-inl.h"
 #include "fathom/fast/setup-inl.h"
 #include "fathom/fast/tile.h"
@@ -28,10 +31,6 @@ struct Functions {
   VF error;
   VF q_a, q_b, q_c;
 };
-
-HWY_INLINE VF constant32(float x) {
-  return hn::Set(DF(), x);
-}
 
 HWY_INLINE Functions functions_of(const LaneBatch& batch, std::size_t k) {
   Functions f;
@@ -76,8 +75,8 @@ HWY_INLINE Drawn drawn(const SetupBatch& setups, const LaneBatch& batch, std::si
 HWY_NOINLINE void settle_samples(Tile& tile, const Drawn& t, unsigned samples, int column, int row,
                                  const Tile::Context& context) {
   const TriangleSetup setup = t.setups.get(t.lane);
-  for (; samples != 0; samples &= samples - 1) {
-    const int sample = std::countr_zero(samples);
+  for (const std::size_t number : EachBit(samples)) {
+    const int sample = static_cast<int>(number);
     const int x = column + sample % cell, y = row + sample / cell;
     // Cells reach beyond the box, where the triangle covers no sample.
     if (x < t.first_column || x > t.last_column || y < t.first_row || y > t.last_row) continue;
@@ -87,11 +86,6 @@ HWY_NOINLINE void settle_samples(Tile& tile, const Drawn& t, unsigned samples, i
   }
 }
 
-/// Columns of cells, by their first samples; none if the first is greater than the last.
-struct CellColumns {
-  int first, last;
-};
-
 /// Cells of the tile, by the columns and rows of their first samples.
 struct Cells {
   /// Whether whoever draws them counts their samples.
@@ -100,29 +94,6 @@ struct Cells {
 
   [[nodiscard]] HWY_INLINE CellColumns in_row(int /*row*/) const {
     return {first_column, last_column};
-  }
-};
-
-/// The same with columns that differ from row to row, by the rows' numbers, without blocks at their
-/// ends that are left out: those without a bit in the row of blocks.
-struct CellSpans {
-  static constexpr bool are_counted = false;
-  using Numbers = std::array<std::int32_t, Tile::size / Tile::cell>;
-  int first_row, last_row;
-  alignas(64) Numbers first_columns;
-  alignas(64) Numbers last_columns;
-  std::array<unsigned, Tile::blocks_of_row> open_blocks;
-
-  [[nodiscard]] HWY_INLINE CellColumns in_row(int row) const {
-    const auto number = static_cast<std::size_t>(row / cell);
-    const int first = first_columns[number], last = last_columns[number];
-    if (first > last) return {first, last};
-    const unsigned met = (2U << last / block) - (1U << first / block);
-    const unsigned open = met & open_blocks[static_cast<std::size_t>(row / block)];
-    if (open == 0) return {last, first - 1};
-    const int first_open = std::countr_zero(open) * block;
-    const int last_open = (std::bit_width(open) - 1) * block + (block - cell);
-    return {std::max(first, first_open), std::min(last, last_open)};
   }
 };
 
@@ -231,10 +202,6 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const SomeCells& cells,
                       : draw_cells<test_edges, false>(tile, t, cells, context);
 }
 
-HWY_INLINE int cell_of(int place) {
-  return place / cell * cell;
-}
-
 /// The cells of the whole box.
 HWY_INLINE void draw_box(Tile& tile, const Drawn& t, const Tile::Context& context) {
   const Cells cells{cell_of(t.first_column), cell_of(t.last_column), cell_of(t.first_row),
@@ -244,126 +211,9 @@ HWY_INLINE void draw_box(Tile& tile, const Drawn& t, const Tile::Context& contex
       (t.last_column - t.first_column + 1) * (t.last_row - t.first_row + 1));
 }
 
-/// Columns of cells of the tile as far as no edge function has excluded them, in rows of cells, one
-/// in each lane: the first ones, and the last ones with the other sign.
-struct SpanLanes {
-  VF first, minus_last;
-};
-
-/// For each edge function of the triangles of a batch: where rows of cells probably end, and how that
-/// is looked at.
-struct SpanGuesses {
-  using PerEdge = std::array<LaneBatch::Numbers, 3>;
-  /// The first cell that may not be left out, a function of the number of the row of cells, and the
-  /// greatest such number.
-  alignas(32) PerEdge at_first, by_row, end;
-  /// The place of the last sample that is left out, in the box: a function of the cell's number.
-  alignas(32) PerEdge by_cell, before;
-  /// In the first row of cells, the place of the row in which the function is greatest.
-  alignas(32) PerEdge lowest;
-};
-
-// Products and sums are rounded monotonically: where an edge function that grows to the right is
-// certainly negative in the last column of a cell and in that row of the cell in which it is greatest,
-// it is so at all samples of the cell and of those to the left of it. Which cell that may be, a
-// quotient says, whose roundings do not matter: that the function is negative there is looked at.
-// Where a function grows to the left, the same is said of columns 3 − column, among which the cells
-// have their numbers with the other sign. It is done without branches: signs of coefficients are hard
-// to foretell.
-HWY_INLINE void make_span_guesses(const LaneBatch& batch, SpanGuesses& guesses) {
-  // Scaled functions are below 2: nothing overflows, and a function of rows alone, with a slope of
-  // 0, leaves out all cells of a row or none.
-  constexpr float least_slope = 0x1p-60F;
-  const D32 d;
-  using V32 = hn::Vec<D32>;
-  const auto set = [](float x) HWY_ATTR { return hn::Set(D32(), x); };
-  const auto place = [](const LaneBatch::Places& places) HWY_ATTR {
-    return hn::ConvertTo(D32(), hn::Load(hn::Rebind<std::int32_t, D32>(), places.data()));
-  };
-  const V32 zero = set(0), one = set(1), side = set(cell), part = set(1.0F / cell);
-  const V32 origin = place(batch.first_column), top = place(batch.first_row);
-  const V32 first = hn::Floor(hn::Mul(origin, part));
-  const V32 last = hn::Floor(hn::Mul(place(batch.last_column), part));
-  const V32 left = hn::Sub(side, origin), right = hn::Add(origin, one);
-  const V32 minus_error = hn::Neg(hn::Load(d, batch.edge_error.data()));
-  for (std::size_t i = 0; i < 3; ++i) {
-    const V32 a = hn::Load(d, batch.edge_a[i].data()), b = hn::Load(d, batch.edge_b[i].data());
-    const V32 c = hn::Load(d, batch.edge_c[i].data());
-    const auto grows_right = hn::Gt(a, zero);
-    const auto by_side = [&](V32 x, V32 y) HWY_ATTR { return hn::IfThenElse(grows_right, x, y); };
-    const V32 lowest = hn::Sub(hn::IfThenElseZero(hn::Gt(b, zero), set(cell - 1)), top);
-    const V32 inverse = hn::Div(one, hn::Max(hn::Abs(a), set(least_slope)));
-    const V32 at_top = hn::Sub(minus_error, hn::MulAdd(b, lowest, c));
-    const V32 at_first = hn::MulAdd(at_top, inverse, by_side(right, left));
-    hn::Store(hn::Mul(at_first, part), d, guesses.at_first[i].data());
-    hn::Store(hn::Neg(hn::Mul(b, inverse)), d, guesses.by_row[i].data());
-    hn::Store(by_side(hn::Add(last, one), hn::Sub(one, first)), d, guesses.end[i].data());
-    hn::Store(by_side(side, hn::Neg(side)), d, guesses.by_cell[i].data());
-    hn::Store(by_side(hn::Neg(right), left), d, guesses.before[i].data());
-    hn::Store(lowest, d, guesses.lowest[i].data());
-  }
-}
-
-/// Rows of cells, `top` their first rows in the tile.
-HWY_INLINE void leave_out(const LaneBatch& f, const SpanGuesses& guesses, std::size_t i,
-                          std::size_t k, VF number, VF top, SpanLanes& spans) {
-  const auto of_lane = [&](const SpanGuesses::PerEdge& numbers)
-                           HWY_ATTR { return constant32(numbers[i][k]); };
-  const VF a = of_lane(f.edge_a);
-  const VF minus_error = constant32(-f.edge_error[k]);
-  const VF guess = hn::MulAdd(of_lane(guesses.by_row), number, of_lane(guesses.at_first));
-  const VF first = hn::Min(hn::Floor(guess), of_lane(guesses.end));
-  const VF y = hn::Add(top, of_lane(guesses.lowest));
-  const VF at_row = hn::MulAdd(of_lane(f.edge_b), y, of_lane(f.edge_c));
-  const VF x = hn::MulAdd(of_lane(guesses.by_cell), first, of_lane(guesses.before));
-  const MF is_missed = hn::Lt(hn::MulAdd(a, x, at_row), minus_error);
-  const MF grows_right = hn::Gt(a, constant32(0));
-  const MF right = hn::And(grows_right, is_missed), left = hn::AndNot(grows_right, is_missed);
-  spans.first = hn::IfThenElse(right, hn::Max(spans.first, first), spans.first);
-  spans.minus_last = hn::IfThenElse(left, hn::Max(spans.minus_last, first), spans.minus_last);
-}
-
-/// The cells of the box that may have a covered sample, row by row; returns how many there are at
-/// most.
-HWY_INLINE int make_cell_spans(const LaneBatch& f, const SpanGuesses& guesses, std::size_t k,
-                               CellSpans& cells) {
-  const DF d;
-  const hn::Rebind<std::int32_t, DF> di;
-  const VF one = constant32(1), side = constant32(cell), zero = constant32(0);
-  cells.first_row = cell_of(f.first_row[k]);
-  cells.last_row = cell_of(f.last_row[k]);
-  const VF first_row = constant32(static_cast<float>(cells.first_row));
-  const VF last_row = constant32(static_cast<float>(cells.last_row));
-  VF count = zero;
-  for (std::size_t part = 0; part < cells.first_columns.size(); part += hn::Lanes(d)) {
-    const VF number = counting_lanes(d, static_cast<float>(part));
-    const VF top = hn::Mul(number, side);
-    SpanLanes spans{constant32(static_cast<float>(f.first_column[k] / cell)),
-                    constant32(static_cast<float>(-(f.last_column[k] / cell)))};
-    for (std::size_t i = 0; i < 3; ++i) leave_out(f, guesses, i, k, number, top, spans);
-    const MF is_met = hn::And(hn::Ge(top, first_row), hn::Le(top, last_row));
-    const VF length = hn::Sub(one, hn::Add(spans.minus_last, spans.first));
-    count = hn::Add(count, hn::IfThenElseZero(is_met, hn::Max(length, zero)));
-    hn::Store(hn::ConvertTo(di, hn::Mul(spans.first, side)), di, cells.first_columns.data() + part);
-    hn::Store(hn::ConvertTo(di, hn::Mul(spans.minus_last, hn::Neg(side))), di,
-              cells.last_columns.data() + part);
-  }
-  return static_cast<int>(hn::GetLane(hn::SumOfLanes(d, count)));
-}
-
 /// What is certain about a row of blocks of a tile, a bit for each block.
 struct BlockRow {
   unsigned drawn, inside;
-};
-
-/// A function at the samples of the blocks of a tile where it is greatest and least: of a column of
-/// blocks what it is without b·y, and y from the top of a row of blocks.
-struct BlockFunction {
-  using Numbers = std::array<float, Tile::blocks_of_row>;
-  alignas(32) Numbers greatest;
-  alignas(32) Numbers least;
-  float b;
-  float greatest_y, least_y;
 };
 
 /// Those of a triangle; −∞ is the first one in columns that the box does not meet.
@@ -372,24 +222,6 @@ struct BlockFunctions {
   BlockFunction q;
   float q_moves;
 };
-
-HWY_INLINE void make_block_function(float a, float b, float c, float first_column,
-                                    BlockFunction& f) {
-  const DF8 d;
-  const auto at = [&](float x, std::size_t part) HWY_ATTR {
-    const auto left = hn::MulAdd(counting_lanes(d, static_cast<float>(part)), hn::Set(d, block),
-                                 hn::Set(d, x - first_column));
-    return hn::MulAdd(hn::Set(d, a), left, hn::Set(d, c));
-  };
-  constexpr float side = block - 1;
-  for (std::size_t part = 0; part < Tile::blocks_of_row; part += hn::Lanes(d)) {
-    hn::Store(at(a > 0 ? side : 0, part), d, f.greatest.data() + part);
-    hn::Store(at(a > 0 ? 0 : side, part), d, f.least.data() + part);
-  }
-  f.b = b;
-  f.greatest_y = b > 0 ? side : 0;
-  f.least_y = side - f.greatest_y;
-}
 
 HWY_INLINE void leave_out_columns(const Drawn& t, BlockFunction& f) {
   const DF8 d;
@@ -499,8 +331,8 @@ HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& con
   make_block_functions(t, functions);
   for (int row = t.first_row / block; row <= t.last_row / block; ++row) {
     const BlockRow certain = look_at_blocks(tile, t, functions, row, reject);
-    for (unsigned bits = certain.drawn; bits != 0; bits &= bits - 1) {
-      const int number = std::countr_zero(bits);
+    for (const std::size_t bit : EachBit(certain.drawn)) {
+      const int number = static_cast<int>(bit);
       const int column = number * block;
       const int left = std::max(column, t.first_column);
       const int right = std::min(column + block - 1, t.last_column);
@@ -535,8 +367,7 @@ HWY_NOINLINE void make_thin_lanes(Tile& tile, const LaneBatch& batch, unsigned l
   constexpr int most = 48;
   SpanGuesses guesses;
   make_span_guesses(batch, guesses);
-  for (unsigned bits = lanes; bits != 0; bits &= bits - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+  for (const std::size_t k : EachBit(lanes)) {
     CellSpans& cells = thin.cells[k];
     if (make_cell_spans(batch, guesses, k, cells) > most) continue;
     thin.lanes |= 1U << k;
@@ -603,8 +434,7 @@ HWY_INLINE void draw_sample_of_each(Tile& tile, const SetupBatch& setups, const 
   alignas(32) LaneBatch::Numbers q_of;
   hn::Store(to_binary32(value(setups.q_a, setups.q_b, setups.q_c)), D32(), q_of.data());
   std::uint64_t wins = 0;
-  for (unsigned bits = open; bits != 0; bits &= bits - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+  for (const std::size_t k : EachBit(open)) {
     const auto tile_column = static_cast<std::uint32_t>(batch.first_column[k] + column);
     const auto tile_row = static_cast<std::uint32_t>(batch.first_row[k] + row);
     const std::size_t i = Tile::index(tile_column, tile_row);
@@ -650,8 +480,7 @@ HWY_INLINE void draw_batch(Tile& tile, const SetupBatch& setups, unsigned lanes,
   const unsigned maybe_thin = are_scaled || large == 0 ? large : large & thin_lanes(setups);
   ThinLanes thin;
   if (maybe_thin != 0) make_thin_lanes(tile, batch, maybe_thin, context, thin);
-  for (unsigned bits = lanes & ~small; bits != 0; bits &= bits - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+  for (const std::size_t k : EachBit(lanes & ~small)) {
     const Drawn t = drawn(setups, batch, k, setups.test_range >> k & 1, tile.is_partial());
     if (large >> k & 1) {
       draw_large(tile, t, thin, context);
@@ -685,28 +514,6 @@ HWY_NOINLINE void add_exactly(Tile& tile, std::uint32_t number, const PixelBox& 
   if (++exact.count == hn::Lanes(D())) draw_exactly(tile, exact, context);
 }
 
-/// Triangles to draw, as many as there are lanes (the last one repeated if there are fewer).
-struct Triangles {
-  std::array<std::uint32_t, SetupBatch::most> number;
-  std::array<CornerIndices, SetupBatch::most> corners;
-};
-
-/// Reads those from `first` on, and prefetches those that come next: triangles of a tile may be
-/// anywhere in the mesh.
-HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> numbers,
-                      std::size_t first, Triangles& next) {
-  const std::size_t lanes = hn::Lanes(D());
-  const CornerIndices* triangles = object.mesh.triangles.data();
-  for (std::size_t k = 0; k < lanes; ++k) {
-    const std::size_t i = std::min(first + k, numbers.size() - 1);
-    const std::size_t later = std::min(i + 2 * lanes, numbers.size() - 1);
-    hwy::Prefetch(triangles + (numbers[later] - object.first_number));
-    next.number[k] = numbers[i];
-    next.corners[k] = triangles[numbers[i] - object.first_number];
-    for (const std::uint32_t vertex : next.corners[k]) hwy::Prefetch(&object.vertices[vertex]);
-  }
-}
-
 /// Edge functions without any error have no bound to widen.
 HWY_NOINLINE void widen(SetupBatch& batch, double factor) {
   for (std::size_t k = 0; k < hn::Lanes(D()); ++k) {
@@ -734,8 +541,7 @@ void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::
     const unsigned certain = drawn_lanes & ~batch.refused;
     context.statistics.grid_setups += static_cast<unsigned>(std::popcount(certain & batch.snapped));
     if (certain != 0) draw_batch<false>(tile, batch, certain, lane_batch, context);
-    for (unsigned bits = drawn_lanes & batch.refused; bits != 0; bits &= bits - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+    for (const std::size_t k : EachBit(drawn_lanes & batch.refused)) {
       add_exactly(tile, batch.number[k], batch.box(k), context, exact);
     }
   }

@@ -3,12 +3,12 @@
 #define HWY_TARGET_INCLUDE "fathom/fast/coverage/coverage_classes.cpp"
 #include "fathom/fast/coverage/coverage_classes.h"
 
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
 #include <algorithm>
 
+#include "fathom/fast/fetch-inl.h"
 #include "fathom/fast/setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -24,29 +24,15 @@ HWY_INLINE M certainly_miss(const DepthRange& range, const Corners& t) {
                 hn::Gt(least, constant(range.outside_greatest)));
 }
 
-/// Reads triangles from the `first` number on, and prefetches those that come next.
-HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> numbers,
-                      std::size_t first, std::array<CornerIndices, SetupBatch::most>& next) {
-  const std::size_t lanes = hn::Lanes(D());
-  const CornerIndices* triangles = object.mesh.triangles.data();
-  for (std::size_t k = 0; k < lanes; ++k) {
-    const std::size_t i = std::min(first + k, numbers.size() - 1);
-    hwy::Prefetch(triangles +
-                  (numbers[std::min(i + 2 * lanes, numbers.size() - 1)] - object.first_number));
-    next[k] = triangles[numbers[i] - object.first_number];
-    for (const std::uint32_t vertex : next[k]) hwy::Prefetch(&object.vertices[vertex]);
-  }
-}
-
 void classify(const ImageObject& object, std::span<const std::uint32_t> numbers,
               const DepthRange& range, const PixelBox& tile, CoverageTriangle* classes) {
   const std::size_t lanes = hn::Lanes(D());
-  std::array<CornerIndices, SetupBatch::most> next;
+  Triangles next{};
   fetch(object, numbers, 0, next);
   for (std::size_t first = 0; first < numbers.size(); first += lanes) {
-    const std::array<CornerIndices, SetupBatch::most> triangles = next;
+    const Triangles now = next;
     fetch(object, numbers, first + lanes, next);
-    const Corners t = load_corners(object.vertices.get(), triangles.data());
+    const Corners t = load_corners(object.vertices.get(), now.corners.data());
     const M usable = are_usable(t);
     const Orientation o = certified_orientation(t);
     const M simple = hn::AndNot(may_leave(range, t), usable);

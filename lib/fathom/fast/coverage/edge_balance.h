@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "fathom/fast/coverage/directed_edge.h"
+
 namespace fathom::fast {
 
 /// Directed edges, of which opposite ones cancel.
@@ -26,8 +28,8 @@ class EdgeBalance {
   /// Vertices must be less than 2³² − 1. Cancels edges from `to` to `from`, and keeps this one until
   /// its opposite comes.
   void add(std::uint32_t from, std::uint32_t to, std::uint32_t times = 1) {
-    const std::uint64_t edge = key(from, to), opposite = key(to, from);
-    for (std::size_t i = start_of(from, to);; i = (i + 1) & mask_) {
+    const std::uint64_t edge = word_of_edge(from, to), opposite = word_of_edge(to, from);
+    for (std::size_t i = place_of_edge(from, to, shift_);; i = (i + 1) & mask_) {
       if (slots_[i] == opposite) {
         cancel(i, edge, times);
         return;
@@ -55,18 +57,8 @@ class EdgeBalance {
  private:
   // Less than any edge.
   static constexpr std::uint64_t empty = 0, cancelled = 1;
-  static std::uint64_t key(std::uint32_t from, std::uint32_t to) {
-    return (std::uint64_t{from} + 1) << 32 | to;
-  }
-  [[nodiscard]] std::size_t start_of(std::uint32_t from, std::uint32_t to) const {
-    // The same for both directions (Fibonacci hashing, [Knu98] 6.4).
-    const std::uint64_t sum = std::uint64_t{from} + to, product = std::uint64_t{from} * to;
-    return static_cast<std::size_t>(((sum ^ product << 1) * 0x9E3779B97F4A7C15) >> shift_);
-  }
-
   [[nodiscard]] Edge edge_in(std::size_t i) const {
-    return {static_cast<std::uint32_t>((slots_[i] >> 32) - 1),
-            static_cast<std::uint32_t>(slots_[i]), 1 + (more_.empty() ? 0 : more_[i])};
+    return {start_of_edge(slots_[i]), end_of_edge(slots_[i]), 1 + (more_.empty() ? 0 : more_[i])};
   }
   void add_more(std::size_t i, std::uint32_t times) {
     if (more_.empty()) more_.resize(slots_.size());

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "fathom/fast/coverage/directed_edge.h"
+
 namespace fathom::fast {
 
 /// Directed edges, of which most opposite ones cancel: what EdgeBalance does, without its care. An
@@ -23,8 +25,8 @@ class EdgeSieve {
   }
   /// Vertices must be less than 2³² − 1.
   void add(std::uint32_t from, std::uint32_t to) {
-    const std::uint64_t edge = key(from, to), opposite = key(to, from);
-    std::uint64_t& slot = slots_[place_of(from, to)];
+    const std::uint64_t edge = word_of_edge(from, to), opposite = word_of_edge(to, from);
+    std::uint64_t& slot = slots_[place_of_edge(from, to, shift_)];
     const std::uint64_t other = slot;
     const bool cancels = other == opposite;
     slot = cancels ? none : edge;
@@ -34,9 +36,7 @@ class EdgeSieve {
   /// Calls visit(from, to) for each edge that is left: opposite ones may be among them.
   template <class Visit>
   void for_each_left(const Visit& visit) const {
-    const auto show = [&](std::uint64_t edge) {
-      visit(static_cast<std::uint32_t>((edge >> 32) - 1), static_cast<std::uint32_t>(edge));
-    };
+    const auto show = [&](std::uint64_t edge) { visit(start_of_edge(edge), end_of_edge(edge)); };
     std::for_each_n(left_.begin(), left_count_, show);
     for (const std::uint64_t slot : slots_) {
       if (slot != none) show(slot);
@@ -45,14 +45,6 @@ class EdgeSieve {
 
  private:
   static constexpr std::uint64_t none = 0;
-  static std::uint64_t key(std::uint32_t from, std::uint32_t to) {
-    return (std::uint64_t{from} + 1) << 32 | to;
-  }
-  /// The same for both directions (Fibonacci hashing, [Knu98] 6.4).
-  [[nodiscard]] std::size_t place_of(std::uint32_t from, std::uint32_t to) const {
-    const std::uint64_t sum = std::uint64_t{from} + to, product = std::uint64_t{from} * to;
-    return static_cast<std::size_t>(((sum ^ product << 1) * 0x9E3779B97F4A7C15) >> shift_);
-  }
 
   std::vector<std::uint64_t> slots_;
   /// Those that had to leave: the first so many.

@@ -112,12 +112,17 @@ void SquareEdges::enter(double low, double high) {
   }
 }
 
+// Item 4.
+bool SquareEdges::is_beyond_a_side(const Crossing& c) const {
+  const double margin = 4 * crossing_error();
+  return std::max(c.x_low, c.x_high) < -margin || std::min(c.x_low, c.x_high) > 1 + margin;
+}
+
 // On the way from x = 0 at the upper end to any point of the strip, each edge is passed at most once.
 SquareEdges::Strip SquareEdges::strip(double thickness) const {
-  const double margin = 4 * crossing_error();
   Strip strip{thickness, passed_, 0, 0};
   for (const Crossing& c : crossings_) {
-    if (std::max(c.x_low, c.x_high) < -margin || std::min(c.x_low, c.x_high) > 1 + margin) continue;
+    if (is_beyond_a_side(c)) continue;
     const std::int32_t change = c.is_left ? -c.tag : c.tag;
     strip.least += std::min(change, 0);
     strip.greatest += std::max(change, 0);
@@ -164,14 +169,11 @@ void SquareEdges::move_to(double height) {
 }
 
 void SquareEdges::add_errors(double heights) {
-  const double margin = 4 * crossing_error();
   const std::size_t slabs = 1 + cuts_.size();
   std::size_t met = 0;
   bool has_slope_bound = false;
   for (const Crossing& c : crossings_) {
-    const bool beyond =
-        std::max(c.x_low, c.x_high) < -margin || std::min(c.x_low, c.x_high) > 1 + margin;
-    if (beyond) continue;
+    if (is_beyond_a_side(c)) continue;
     ++met;
     has_slope_bound = std::abs(c.edge->slope) <= 0x1p20;
   }

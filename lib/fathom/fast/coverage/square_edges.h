@@ -116,6 +116,8 @@ class SquareEdges {
   };
   void start();
   void enter(double low, double high);
+  /// Whether no point of the edge between the last two breaks is in the square.
+  [[nodiscard]] bool is_beyond_a_side(const Crossing& crossing) const;
   [[nodiscard]] Strip strip(double thickness) const;
   void leave_undivided();
   void find_cuts(double low, double high);

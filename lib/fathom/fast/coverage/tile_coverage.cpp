@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "fathom/fast/coverage/area_bounds.h"
+#include "fathom/fast/each_bit.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom::fast {
@@ -52,9 +53,8 @@ void TileCoverage::settle_open(const Tile::Context& context) {
     context.statistics.coverage_rounding.interval +=
         static_cast<std::uint64_t>(std::popcount(met_[row]));
     shown_[row] |= met_[row];
-    for (std::uint64_t bits = open_[row]; bits != 0; bits &= bits - 1) {
-      const auto pixel = static_cast<std::uint32_t>(row) * size +
-                         static_cast<std::uint32_t>(std::countr_zero(bits));
+    for (const std::size_t column : EachBit(open_[row])) {
+      const auto pixel = static_cast<std::uint32_t>(row * size + column);
       settled_.push_back({pixel, settle_pixel(pixel, context)});
     }
   }

@@ -66,10 +66,9 @@ class TileCoverage {
   /// visit(object, first, end): indices of the numbers of an object that come after each other.
   template <class Visit>
   void for_each_object(std::span<const std::uint32_t> numbers, const Visit& visit) const;
-  void classify(std::span<const std::uint32_t> numbers, const Tile::Context& context,
-                std::vector<CoverageTriangle>& classes) const;
-  /// Those of the triangles of which bins do not say enough.
-  void classify_doubtful(const Tile::Context& context);
+  /// Calls take(the class of a triangle, the class that is found) for some, by indices of numbers_.
+  template <class Take>
+  void classify(std::span<const std::size_t> which, const Tile::Context& context, const Take& take);
   /// The boxes of all that are positive or negative, and whether they are large.
   void find_boxes(const Tile::Context& context);
   void look_at_open(std::size_t begin, const Tile::Context& context);
@@ -77,8 +76,8 @@ class TileCoverage {
   /// Finds pixels that front faces cover, whatever is behind them; returns whether all are covered.
   bool look_at_front();
   void mark_open();
-  /// Looks for pixels that large triangles cover, from `begin` on, as far as open pixels need it;
-  /// returns whether none is left.
+  /// Looks for pixels that large triangles cover, from `begin` on, as far as open pixels need it, and
+  /// takes the triangles for small from then on; returns whether none is left.
   bool fill_large(std::size_t begin);
   /// Whether any pixel of the box is open, and not covered wholly.
   [[nodiscard]] bool is_open(const TileBox& box) const;
@@ -125,10 +124,11 @@ class TileCoverage {
   /// The triangles of the tile, those of one object next to each other, and their classes.
   std::vector<std::uint32_t> numbers_;
   std::vector<CoverageTriangle> classes_;
-  /// Indices into numbers_, numbers, and classes of some.
-  std::vector<std::size_t> doubtful_;
-  std::vector<std::uint32_t> doubtful_numbers_;
-  std::vector<CoverageTriangle> doubtful_classes_;
+  /// Indices into numbers_ of those of which bins do not say enough, and of the others.
+  std::vector<std::size_t> doubtful_, without_box_;
+  // For classify():
+  std::vector<std::uint32_t> numbers_to_classify_;
+  std::vector<CoverageTriangle> classes_found_;
   /// For open triangles that may meet the tile, in the order of numbers_.
   std::vector<Shape> open_shapes_;
   TileOutlines outlines_;

@@ -2,6 +2,7 @@
 
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/coverage/tile_functions.h"
+#include "fathom/fast/each_bit.h"
 
 // How many triangles cover a point of an open pixel: from the outlines, along its row, where a pixel
 // of the row is covered by none; otherwise by looking at the triangles.
@@ -75,17 +76,15 @@ void TileCoverage::meet(const TileBox& box, const Shape& shape) {
   if (is_wide) find_pixels_met(shape.sides(), box, may_be_met);
   for (int top = box.top; top <= box.bottom; ++top) {
     const auto row = static_cast<std::size_t>(top);
-    std::uint64_t bits =
+    const std::uint64_t columns =
         open_[row] & (is_wide ? may_be_met[row] : columns_between(box.left, box.right));
-    for (; bits != 0; bits &= bits - 1) {
-      const int column = std::countr_zero(bits);
-      const auto [inside, outside] = is_pixel_of(shape, column, top);
+    for (const std::size_t column : EachBit(columns)) {
+      const auto [inside, outside] = is_pixel_of(shape, static_cast<int>(column), top);
       if (inside) {
         open_[row] &= ~(std::uint64_t{1} << column);
         met_[row] |= std::uint64_t{1} << column;
       } else if (!outside) {
-        shapes_at_.add(static_cast<std::uint32_t>(row) * size + static_cast<std::uint32_t>(column),
-                       shapes_.size() - 1);
+        shapes_at_.add(static_cast<std::uint32_t>(row * size + column), shapes_.size() - 1);
       }
     }
   }

@@ -33,6 +33,7 @@ void TileCoverage::for_each_object(std::span<const std::uint32_t> numbers,
 bool TileCoverage::find_open_pixels(std::uint32_t tile_number, const Tile::Context& context) {
   numbers_.clear();
   classes_.clear();
+  doubtful_.clear();
   open_shapes_.clear();
   outlines_.start(area_);
   full_.fill(0);
@@ -59,7 +60,7 @@ std::size_t TileCoverage::add_triangles(Side side, std::uint32_t tile_number,
       side == Side::front ? CoverageClass::negative : CoverageClass::positive;
   const double nearest =
       context.range.inside_least == -infinity ? context.range.inside_greatest : -infinity;
-  doubtful_.clear();
+  const std::size_t first_doubtful = doubtful_.size();
   for (const Bins& bins : scene_.bins) {
     for (const TileEntry& entry : bins.in_tile(tile_number, side)) {
       const bool is_in_range = std::bit_cast<float>(entry.nearness & nearness_of_q) <= nearest;
@@ -68,37 +69,43 @@ std::size_t TileCoverage::add_triangles(Side side, std::uint32_t tile_number,
     }
   }
   classes_.resize(numbers_.size(), {kind, false, {}});
-  classify_doubtful(context);
+  classify(std::span(doubtful_).subspan(first_doubtful), context,
+           [](CoverageTriangle& old, const CoverageTriangle& found) { old = found; });
   look_at_open(begin, context);
   return begin;
 }
 
-void TileCoverage::classify_doubtful(const Tile::Context& context) {
-  std::vector<std::uint32_t>& numbers = doubtful_numbers_;
-  numbers.clear();
-  for (const std::size_t i : doubtful_) numbers.push_back(numbers_[i]);
-  std::vector<CoverageTriangle>& classes = doubtful_classes_;
-  classify(numbers, context, classes);
-  for (std::size_t k = 0; k < doubtful_.size(); ++k) classes_[doubtful_[k]] = classes[k];
-}
-
-// Most tiles do not need them.
+// Most tiles do not need them. Those of the doubtful are known.
 void TileCoverage::find_boxes(const Tile::Context& context) {
-  std::vector<CoverageTriangle>& with_boxes = doubtful_classes_;
-  classify(numbers_, context, with_boxes);
+  std::vector<std::size_t>& others = without_box_;
+  others.clear();
+  auto next = doubtful_.begin();
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
-    classes_[i].is_large = with_boxes[i].is_large;
-    classes_[i].box = with_boxes[i].box;
+    if (next != doubtful_.end() && *next == i) {
+      ++next;
+    } else {
+      others.push_back(i);
+    }
   }
+  classify(others, context, [](CoverageTriangle& triangle, const CoverageTriangle& found) {
+    triangle.is_large = found.is_large;
+    triangle.box = found.box;
+  });
 }
 
-void TileCoverage::classify(std::span<const std::uint32_t> numbers, const Tile::Context& context,
-                            std::vector<CoverageTriangle>& classes) const {
+template <class Take>
+void TileCoverage::classify(std::span<const std::size_t> which, const Tile::Context& context,
+                            const Take& take) {
+  std::vector<std::uint32_t>& numbers = numbers_to_classify_;
+  numbers.clear();
+  for (const std::size_t i : which) numbers.push_back(numbers_[i]);
+  std::vector<CoverageTriangle>& classes = classes_found_;
   classes.resize(numbers.size());
   for_each_object(numbers, [&](const ImageObject& object, std::size_t first, std::size_t end) {
-    classify_for_coverage(object, numbers.subspan(first, end - first), context.range, area_,
-                          classes.data() + first);
+    classify_for_coverage(object, std::span(numbers).subspan(first, end - first), context.range,
+                          area_, classes.data() + first);
   });
+  for (std::size_t k = 0; k < which.size(); ++k) take(classes_[which[k]], classes[k]);
 }
 
 void TileCoverage::add_edges(std::size_t begin) {
@@ -166,6 +173,7 @@ bool TileCoverage::fill_large(std::size_t begin) {
   std::size_t filled = 0;
   for (std::size_t i = begin; i < numbers_.size(); ++i) {
     if (!classes_[i].is_large || !is_open(classes_[i].box)) continue;
+    classes_[i].is_large = false;  // no need to do it again
     add_pixels_inside(shape_of(object_at(i), i).sides(), classes_[i].box, full_);
     if (++filled % 8 == 0 && !is_open(whole_tile(area_))) return true;
   }

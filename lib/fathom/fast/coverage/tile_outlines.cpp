@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fathom/fast/coverage/area_bounds.h"
+#include "fathom/fast/each_bit.h"
 
 namespace fathom::fast {
 namespace {
@@ -202,10 +203,8 @@ void TileOutlines::list_edges(const TileRows& pixels) {
   for (std::uint32_t i = 0; i < edges_.size(); ++i) {
     for_each_row(edges_[i], [&](std::size_t row, std::uint64_t columns) {
       edges_in_row_[row].push_back(i);
-      for (std::uint64_t bits = columns & pixels[row]; bits != 0; bits &= bits - 1) {
-        edges_at_.add(static_cast<std::uint32_t>(row) * Tile::size +
-                          static_cast<std::uint32_t>(std::countr_zero(bits)),
-                      i);
+      for (const std::size_t column : EachBit(columns & pixels[row])) {
+        edges_at_.add(static_cast<std::uint32_t>(row * Tile::size + column), i);
       }
     });
   }

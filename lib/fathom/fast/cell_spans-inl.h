@@ -1,0 +1,168 @@
+// The cells of a tile that thin triangles may meet. Included once for every kind of vector
+// instructions, by the files that foreach_target.h compiles for each.
+#if defined(FATHOM_FAST_CELL_SPANS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef FATHOM_FAST_CELL_SPANS_INL_H
+#undef FATHOM_FAST_CELL_SPANS_INL_H
+#else
+#define FATHOM_FAST_CELL_SPANS_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "fathom/fast/counting_lanes-inl.h"
+#include "fathom/fast/lane_batch-inl.h"
+#include "fathom/fast/tile.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fathom::fast::HWY_NAMESPACE {
+namespace {
+
+HWY_INLINE int cell_of(int place) {
+  return place / cell * cell;
+}
+
+/// Columns of cells, by their first samples; none if the first is greater than the last.
+struct CellColumns {
+  int first, last;
+};
+
+/// Cells of the tile in rows whose columns differ, by the rows' numbers, without blocks at their ends
+/// that are left out: those without a bit in the row of blocks.
+struct CellSpans {
+  /// Whoever draws them has to count their samples.
+  static constexpr bool are_counted = false;
+  using Numbers = std::array<std::int32_t, Tile::size / Tile::cell>;
+  int first_row, last_row;
+  alignas(64) Numbers first_columns;
+  alignas(64) Numbers last_columns;
+  std::array<unsigned, Tile::blocks_of_row> open_blocks;
+
+  [[nodiscard]] HWY_INLINE CellColumns in_row(int row) const {
+    const auto number = static_cast<std::size_t>(row / cell);
+    const int first = first_columns[number], last = last_columns[number];
+    if (first > last) return {first, last};
+    const unsigned met = (2U << last / block) - (1U << first / block);
+    const unsigned open = met & open_blocks[static_cast<std::size_t>(row / block)];
+    if (open == 0) return {last, first - 1};
+    const int first_open = std::countr_zero(open) * block;
+    const int last_open = (std::bit_width(open) - 1) * block + (block - cell);
+    return {std::max(first, first_open), std::min(last, last_open)};
+  }
+};
+
+/// Columns of cells of the tile as far as no edge function has excluded them, in rows of cells, one
+/// in each lane: the first ones, and the last ones with the other sign.
+struct SpanLanes {
+  VF first, minus_last;
+};
+
+/// For each edge function of the triangles of a batch: where rows of cells probably end, and how that
+/// is looked at.
+struct SpanGuesses {
+  using PerEdge = std::array<LaneBatch::Numbers, 3>;
+  /// The first cell that may not be left out, a function of the number of the row of cells, and the
+  /// greatest such number.
+  alignas(32) PerEdge at_first, by_row, end;
+  /// The place of the last sample that is left out, in the box: a function of the cell's number.
+  alignas(32) PerEdge by_cell, before;
+  /// In the first row of cells, the place of the row in which the function is greatest.
+  alignas(32) PerEdge lowest;
+};
+
+// Products and sums are rounded monotonically: where an edge function that grows to the right is
+// certainly negative in the last column of a cell and in that row of the cell in which it is greatest,
+// it is so at all samples of the cell and of those to the left of it. Which cell that may be, a
+// quotient says, whose roundings do not matter: that the function is negative there is looked at.
+// Where a function grows to the left, the same is said of columns 3 − column, among which the cells
+// have their numbers with the other sign. It is done without branches: signs of coefficients are hard
+// to foretell.
+HWY_INLINE void make_span_guesses(const LaneBatch& batch, SpanGuesses& guesses) {
+  // Scaled functions are below 2: nothing overflows, and a function of rows alone, with a slope of
+  // 0, leaves out all cells of a row or none.
+  constexpr float least_slope = 0x1p-60F;
+  const D32 d;
+  using V32 = hn::Vec<D32>;
+  const auto set = [](float x) HWY_ATTR { return hn::Set(D32(), x); };
+  const auto place = [](const LaneBatch::Places& places) HWY_ATTR {
+    return hn::ConvertTo(D32(), hn::Load(hn::Rebind<std::int32_t, D32>(), places.data()));
+  };
+  const V32 zero = set(0), one = set(1), side = set(cell), part = set(1.0F / cell);
+  const V32 origin = place(batch.first_column), top = place(batch.first_row);
+  const V32 first = hn::Floor(hn::Mul(origin, part));
+  const V32 last = hn::Floor(hn::Mul(place(batch.last_column), part));
+  const V32 left = hn::Sub(side, origin), right = hn::Add(origin, one);
+  const V32 minus_error = hn::Neg(hn::Load(d, batch.edge_error.data()));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const V32 a = hn::Load(d, batch.edge_a[i].data()), b = hn::Load(d, batch.edge_b[i].data());
+    const V32 c = hn::Load(d, batch.edge_c[i].data());
+    const auto grows_right = hn::Gt(a, zero);
+    const auto by_side = [&](V32 x, V32 y) HWY_ATTR { return hn::IfThenElse(grows_right, x, y); };
+    const V32 lowest = hn::Sub(hn::IfThenElseZero(hn::Gt(b, zero), set(cell - 1)), top);
+    const V32 inverse = hn::Div(one, hn::Max(hn::Abs(a), set(least_slope)));
+    const V32 at_top = hn::Sub(minus_error, hn::MulAdd(b, lowest, c));
+    const V32 at_first = hn::MulAdd(at_top, inverse, by_side(right, left));
+    hn::Store(hn::Mul(at_first, part), d, guesses.at_first[i].data());
+    hn::Store(hn::Neg(hn::Mul(b, inverse)), d, guesses.by_row[i].data());
+    hn::Store(by_side(hn::Add(last, one), hn::Sub(one, first)), d, guesses.end[i].data());
+    hn::Store(by_side(side, hn::Neg(side)), d, guesses.by_cell[i].data());
+    hn::Store(by_side(hn::Neg(right), left), d, guesses.before[i].data());
+    hn::Store(lowest, d, guesses.lowest[i].data());
+  }
+}
+
+/// Rows of cells, `top` their first rows in the tile.
+HWY_INLINE void leave_out(const LaneBatch& f, const SpanGuesses& guesses, std::size_t i,
+                          std::size_t k, VF number, VF top, SpanLanes& spans) {
+  const auto of_lane = [&](const SpanGuesses::PerEdge& numbers)
+                           HWY_ATTR { return constant32(numbers[i][k]); };
+  const VF a = of_lane(f.edge_a);
+  const VF minus_error = constant32(-f.edge_error[k]);
+  const VF guess = hn::MulAdd(of_lane(guesses.by_row), number, of_lane(guesses.at_first));
+  const VF first = hn::Min(hn::Floor(guess), of_lane(guesses.end));
+  const VF y = hn::Add(top, of_lane(guesses.lowest));
+  const VF at_row = hn::MulAdd(of_lane(f.edge_b), y, of_lane(f.edge_c));
+  const VF x = hn::MulAdd(of_lane(guesses.by_cell), first, of_lane(guesses.before));
+  const MF is_missed = hn::Lt(hn::MulAdd(a, x, at_row), minus_error);
+  const MF grows_right = hn::Gt(a, constant32(0));
+  const MF right = hn::And(grows_right, is_missed), left = hn::AndNot(grows_right, is_missed);
+  spans.first = hn::IfThenElse(right, hn::Max(spans.first, first), spans.first);
+  spans.minus_last = hn::IfThenElse(left, hn::Max(spans.minus_last, first), spans.minus_last);
+}
+
+/// The cells of the box that may have a covered sample, row by row; returns how many there are at
+/// most.
+HWY_INLINE int make_cell_spans(const LaneBatch& f, const SpanGuesses& guesses, std::size_t k,
+                               CellSpans& cells) {
+  const DF d;
+  const hn::Rebind<std::int32_t, DF> di;
+  const VF one = constant32(1), side = constant32(cell), zero = constant32(0);
+  cells.first_row = cell_of(f.first_row[k]);
+  cells.last_row = cell_of(f.last_row[k]);
+  const VF first_row = constant32(static_cast<float>(cells.first_row));
+  const VF last_row = constant32(static_cast<float>(cells.last_row));
+  VF count = zero;
+  for (std::size_t part = 0; part < cells.first_columns.size(); part += hn::Lanes(d)) {
+    const VF number = counting_lanes(d, static_cast<float>(part));
+    const VF top = hn::Mul(number, side);
+    SpanLanes spans{constant32(static_cast<float>(f.first_column[k] / cell)),
+                    constant32(static_cast<float>(-(f.last_column[k] / cell)))};
+    for (std::size_t i = 0; i < 3; ++i) leave_out(f, guesses, i, k, number, top, spans);
+    const MF is_met = hn::And(hn::Ge(top, first_row), hn::Le(top, last_row));
+    const VF length = hn::Sub(one, hn::Add(spans.minus_last, spans.first));
+    count = hn::Add(count, hn::IfThenElseZero(is_met, hn::Max(length, zero)));
+    hn::Store(hn::ConvertTo(di, hn::Mul(spans.first, side)), di, cells.first_columns.data() + part);
+    hn::Store(hn::ConvertTo(di, hn::Mul(spans.minus_last, hn::Neg(side))), di,
+              cells.last_columns.data() + part);
+  }
+  return static_cast<int>(hn::GetLane(hn::SumOfLanes(d, count)));
+}
+
+}  // namespace
+}  // namespace fathom::fast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
