@@ -16,7 +16,7 @@
 /// with --keep render_into() a map of before, with memory of before:
 ///   engine_bench [SCENE…] [--size WxH] [--threads N] [--repeat N] [--engine fast|reference]
 ///                [--channels Z,id,…] [--depths binary32|binary64|scaled_unorm16] [--cull back|front|none]
-///                [--without simd,hierarchy,early-rejection] [--tiers] [--keep]
+///                [--without avx-512,simd,hierarchy,early-rejection] [--tiers] [--keep]
 /// The scenes are those of scenes.h, or mesh files. The first run of each is not counted. --tiers
 /// tells how many decisions and values were settled by which arithmetic.
 namespace {
@@ -87,10 +87,12 @@ void leave_out(const std::string& list, FastSwitches& switches) {
       switches.hierarchy = false;
     } else if (word == "early-rejection") {
       switches.early_rejection = false;
+    } else if (word == "avx-512") {
+      hwy::DisableTargets(HWY_AVX3 | HWY_AVX3_DL);
     } else if (word == "simd") {
       hwy::DisableTargets(~HWY_EMU128);  // what remains is compiled for every processor
     } else {
-      refuse_word("--without", word, "not one of simd, hierarchy and early-rejection");
+      refuse_word("--without", word, "not one of avx-512, simd, hierarchy and early-rejection");
     }
   }
 }

@@ -1,7 +1,9 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -11,7 +13,8 @@
 
 /// The stages of the fast engine one by one, in one thread, at 1920×1080, each on what the stages
 /// before it have left: build/…/bin/stages_bench [--benchmark_filter=…]. Rates: triangles per
-/// second, for writing the map pixels per second.
+/// second, for writing the map pixels per second. Besides, what reading and writing memory takes
+/// without anything else, in bytes per second.
 namespace {
 
 using namespace fathom;
@@ -125,6 +128,27 @@ void resolve(benchmark::State& state, const std::string& scene) {
   state.SetItemsProcessed(state.iterations() * std::int64_t{camera.width} * camera.height);
 }
 
+/// More than caches hold.
+constexpr std::size_t memory_words = std::size_t{1} << 27;
+
+void read_memory(benchmark::State& state) {
+  const std::vector<std::uint64_t> words(memory_words, 1);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(std::accumulate(words.begin(), words.end(), std::uint64_t{0}));
+  }
+  state.SetBytesProcessed(state.iterations() * std::int64_t{8 * memory_words});
+}
+
+/// So much at once goes past the caches, as rows of a map do.
+void write_memory(benchmark::State& state) {
+  std::vector<std::uint64_t> words(memory_words, 1);
+  for (auto _ : state) {
+    std::memset(words.data(), 2, 8 * words.size());
+    benchmark::ClobberMemory();
+  }
+  state.SetBytesProcessed(state.iterations() * std::int64_t{8 * memory_words});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -139,6 +163,8 @@ int main(int argc, char** argv) {
     add("draw", draw_tiles);
     add("resolve", resolve);
   }
+  benchmark::RegisterBenchmark("memory/read", read_memory)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("memory/write", write_memory)->Unit(benchmark::kMillisecond);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 
 #include "fathom/fast/counting_lanes-inl.h"
@@ -22,37 +21,31 @@ HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
-HWY_INLINE int cell_of(int place) {
-  return place / cell * cell;
-}
-
-/// Columns of cells, by their first samples; none if the first is greater than the last.
-struct CellColumns {
-  int first, last;
+/// The number of a cell in its tile, as cells lie in memory: row by row.
+struct CellPlace {
+  static constexpr std::uint32_t in_row = Tile::size / Tile::cell;
+  static std::uint32_t column(std::uint32_t number) { return number % in_row; }
+  static std::uint32_t row(std::uint32_t number) { return number / in_row; }
 };
 
-/// Cells of the tile in rows whose columns differ, by the rows' numbers, without blocks at their ends
-/// that are left out: those without a bit in the row of blocks.
-struct CellSpans {
-  /// Whoever draws them has to count their samples.
-  static constexpr bool are_counted = false;
-  using Numbers = std::array<std::int32_t, Tile::size / Tile::cell>;
-  int first_row, last_row;
-  alignas(64) Numbers first_columns;
-  alignas(64) Numbers last_columns;
-  std::array<unsigned, Tile::blocks_of_row> open_blocks;
+/// Cells of a tile, by their numbers.
+struct CellList {
+  static constexpr std::size_t most = 48;
+  std::size_t count = 0;
+  /// With room for the last vector that is written.
+  alignas(64) std::array<std::uint32_t, most + 16> numbers;
+};
 
-  [[nodiscard]] HWY_INLINE CellColumns in_row(int row) const {
-    const auto number = static_cast<std::size_t>(row / cell);
-    const int first = first_columns[number], last = last_columns[number];
-    if (first > last) return {first, last};
-    const unsigned met = (2U << last / block) - (1U << first / block);
-    const unsigned open = met & open_blocks[static_cast<std::size_t>(row / block)];
-    if (open == 0) return {last, first - 1};
-    const int first_open = std::countr_zero(open) * block;
-    const int last_open = (std::bit_width(open) - 1) * block + (block - cell);
-    return {std::max(first, first_open), std::min(last, last_open)};
-  }
+/// For each row of cells of a tile.
+using OfRows = std::array<std::uint32_t, CellPlace::in_row>;
+
+/// Cells of a tile, row by row: the columns of the first and the last one, none if the first is
+/// greater.
+struct CellSpans {
+  alignas(64) OfRows first;
+  alignas(64) OfRows last;
+  /// How many there are, in all and in a row at most.
+  int count, longest;
 };
 
 /// Columns of cells of the tile as far as no edge function has excluded them, in rows of cells, one
@@ -134,32 +127,62 @@ HWY_INLINE void leave_out(const LaneBatch& f, const SpanGuesses& guesses, std::s
   spans.minus_last = hn::IfThenElse(left, hn::Max(spans.minus_last, first), spans.minus_last);
 }
 
-/// The cells of the box that may have a covered sample, row by row; returns how many there are at
-/// most.
-HWY_INLINE int make_cell_spans(const LaneBatch& f, const SpanGuesses& guesses, std::size_t k,
-                               CellSpans& cells) {
+/// The cells of the box that may have a covered sample.
+HWY_INLINE void make_cell_spans(const LaneBatch& f, const SpanGuesses& guesses, std::size_t k,
+                                CellSpans& cells) {
   const DF d;
   const hn::Rebind<std::int32_t, DF> di;
-  const VF one = constant32(1), side = constant32(cell), zero = constant32(0);
-  cells.first_row = cell_of(f.first_row[k]);
-  cells.last_row = cell_of(f.last_row[k]);
-  const VF first_row = constant32(static_cast<float>(cells.first_row));
-  const VF last_row = constant32(static_cast<float>(cells.last_row));
-  VF count = zero;
-  for (std::size_t part = 0; part < cells.first_columns.size(); part += hn::Lanes(d)) {
+  const hn::Rebind<std::uint32_t, DF> du;
+  const VF zero = constant32(0), one = constant32(1), side = constant32(cell);
+  const VF first_row = constant32(static_cast<float>(f.first_row[k] / cell));
+  const VF last_row = constant32(static_cast<float>(f.last_row[k] / cell));
+  VF count = zero, longest = zero;
+  for (std::size_t part = 0; part < cells.first.size(); part += hn::Lanes(d)) {
     const VF number = counting_lanes(d, static_cast<float>(part));
-    const VF top = hn::Mul(number, side);
     SpanLanes spans{constant32(static_cast<float>(f.first_column[k] / cell)),
                     constant32(static_cast<float>(-(f.last_column[k] / cell)))};
-    for (std::size_t i = 0; i < 3; ++i) leave_out(f, guesses, i, k, number, top, spans);
-    const MF is_met = hn::And(hn::Ge(top, first_row), hn::Le(top, last_row));
-    const VF length = hn::Sub(one, hn::Add(spans.minus_last, spans.first));
-    count = hn::Add(count, hn::IfThenElseZero(is_met, hn::Max(length, zero)));
-    hn::Store(hn::ConvertTo(di, hn::Mul(spans.first, side)), di, cells.first_columns.data() + part);
-    hn::Store(hn::ConvertTo(di, hn::Mul(spans.minus_last, hn::Neg(side))), di,
-              cells.last_columns.data() + part);
+    for (std::size_t i = 0; i < 3; ++i) {
+      leave_out(f, guesses, i, k, number, hn::Mul(number, side), spans);
+    }
+    const MF is_met = hn::And(hn::Ge(number, first_row), hn::Le(number, last_row));
+    const VF minus_last = hn::IfThenElse(is_met, spans.minus_last, one);
+    const VF first = hn::IfThenElseZero(is_met, spans.first);
+    const VF length = hn::Max(hn::Sub(one, hn::Add(minus_last, first)), zero);
+    count = hn::Add(count, length);
+    longest = hn::Max(longest, length);
+    const auto store = [&](VF columns, OfRows& numbers) HWY_ATTR {
+      hn::Store(hn::BitCast(du, hn::ConvertTo(di, columns)), du, numbers.data() + part);
+    };
+    store(first, cells.first);
+    store(hn::Neg(minus_last), cells.last);
   }
-  return static_cast<int>(hn::GetLane(hn::SumOfLanes(d, count)));
+  cells.count = static_cast<int>(hn::GetLane(hn::SumOfLanes(d, count)));
+  cells.longest = static_cast<int>(hn::GetLane(hn::MaxOfLanes(d, longest)));
+}
+
+/// Those of them that lie in open blocks, of which rows have a bit each. First the first ones of all
+/// rows, then the second ones, …: there are hardly ever more than three in a row.
+/// Needs    at most CellList::most of them.
+HWY_INLINE void list_cells(const CellSpans& spans, const OfRows& open_blocks, CellList& list) {
+  static_assert(Tile::block == 2 * Tile::cell);
+  const hn::Rebind<std::uint32_t, DF> d;
+  const hn::Rebind<std::int32_t, DF> di;
+  const auto one = hn::Set(d, 1);
+  list.count = 0;
+  for (std::uint32_t part = 0; part < CellPlace::in_row; part += hn::Lanes(d)) {
+    const auto start = hn::Mul(counting_lanes(d, part), hn::Set(d, CellPlace::in_row));
+    const auto last = hn::BitCast(di, hn::Load(d, spans.last.data() + part));
+    const auto open = hn::Load(d, open_blocks.data() + part);
+    auto column = hn::Load(d, spans.first.data() + part);
+    for (int i = 0; i < spans.longest; ++i, column = hn::Add(column, one)) {
+      const auto is_out = hn::RebindMask(d, hn::Gt(hn::BitCast(di, column), last));
+      const auto is_open = hn::TestBit(hn::Shr(open, hn::ShiftRight<1>(column)), one);
+      const auto is_met = hn::AndNot(is_out, is_open);
+      // CompressStore() would be one slow instruction where there is AVX-512.
+      hn::StoreU(hn::Compress(hn::Add(start, column), is_met), d, list.numbers.data() + list.count);
+      list.count += hn::CountTrue(d, is_met);
+    }
+  }
 }
 
 }  // namespace

@@ -88,13 +88,7 @@ HWY_NOINLINE void settle_samples(Tile& tile, const Drawn& t, unsigned samples, i
 
 /// Cells of the tile, by the columns and rows of their first samples.
 struct Cells {
-  /// Whether whoever draws them counts their samples.
-  static constexpr bool are_counted = true;
   int first_column, last_column, first_row, last_row;
-
-  [[nodiscard]] HWY_INLINE CellColumns in_row(int /*row*/) const {
-    return {first_column, last_column};
-  }
 };
 
 /// The ends of the range of depths in binary32: q between the first two is within, beyond one of the
@@ -109,6 +103,39 @@ HWY_INLINE RangeEnds range_ends(const DepthRange& range) {
           constant32(not_less(range.outside_greatest))};
 }
 
+/// What draws a triangle's cells, the same in every lane.
+template <bool test_edges, bool test_range>
+struct Pen {
+  Tile& tile;
+  const Drawn& t;
+  const Tile::Context& context;
+  Functions f;
+  VF last_x, last_y;
+  VF minus_error;
+  hn::Vec<DT> tag;
+  RangeEnds ends;
+
+  HWY_INLINE std::size_t draw(VF x, VF y, const VF* edges_at_row, VF q_at_row, std::size_t at,
+                              int part, int column, int row) const;
+};
+
+template <bool test_edges, bool test_range>
+HWY_INLINE Pen<test_edges, test_range> pen(Tile& tile, const Drawn& t,
+                                           const Tile::Context& context) {
+  const Functions f = functions_of(t.batch, t.lane);
+  RangeEnds ends{};
+  if constexpr (test_range) ends = range_ends(context.range);
+  return {tile,
+          t,
+          context,
+          f,
+          constant32(static_cast<float>(t.last_column - t.first_column)),
+          constant32(static_cast<float>(t.last_row - t.first_row)),
+          hn::Neg(f.error),
+          hn::Set(DT(), t.batch.tag[t.lane]),
+          ends};
+}
+
 // At every sample the triangle is certainly the nearest surface so far ("wins"), or certainly not
 // ("loses"), or neither is certain. The third case is settled by binary64, or exactly.
 //
@@ -120,86 +147,129 @@ HWY_INLINE RangeEnds range_ends(const DepthRange& range) {
 // covers the rounding of the end (moved_q.gappa.in).
 // Samples of the cells beyond the box are not covered, unless the box ends where the area does: a
 // sample beyond the area counts for nothing.
-template <bool test_edges, bool test_range, class SomeCells>
-HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const SomeCells& cells,
-                           const Tile::Context& context) {
+/// The samples of a vector, `part` the number of the first one in the cell that begins at this column
+/// and row, `at` its place in the tile. Returns how many of them are won.
+template <bool test_edges, bool test_range>
+HWY_INLINE std::size_t Pen<test_edges, test_range>::draw(VF x, VF y, const VF* edges_at_row,
+                                                         VF q_at_row, std::size_t at, int part,
+                                                         int column, int row) const {
   const DF d;
   const DT dt;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  const Functions f = functions_of(t.batch, t.lane);
-  const VF last_x = constant32(static_cast<float>(t.last_column - t.first_column));
-  const VF last_y = constant32(static_cast<float>(t.last_row - t.first_row));
-  const VF minus_error = hn::Neg(f.error);
-  const auto tag = hn::Set(dt, t.batch.tag[t.lane]);
+  float* const q_at = tile.q() + at;
+  LaneTag* const tag_at = tile.tags() + at;
   const VF tag_error = hn::BitCast(d, tag);
-  RangeEnds ends{};
-  if constexpr (test_range) ends = range_ends(context.range);
-  std::size_t wins_in_all = 0;
-  int tested = 0;  // columns, in rows of cells
+  const VF q = hn::MulAdd(f.q_a, x, q_at_row);
+  const VF q_there = hn::Load(d, q_at);
+  const auto tag_there = hn::Load(dt, tag_at);
+  const VF difference = hn::Sub(q, q_there);
+  const VF sum = hn::Add(tag_error, hn::BitCast(d, tag_there));
+  MF open = hn::Not(hn::Lt(difference, hn::Neg(sum)));
+  MF wins = hn::Gt(difference, sum);
+  if constexpr (test_edges) {
+    const VF least = hn::Min(
+        hn::Min(hn::MulAdd(f.a[0], x, edges_at_row[0]), hn::MulAdd(f.a[1], x, edges_at_row[1])),
+        hn::MulAdd(f.a[2], x, edges_at_row[2]));
+    open = hn::And(open, hn::Ge(least, minus_error));
+    wins = hn::And(wins, hn::Gt(least, f.error));
+  }
+  if constexpr (test_range) {
+    const VF error = hn::Mul(constant32(setup_bounds::q_moves), tag_error);
+    const VF least = hn::Sub(q, error), greatest = hn::Add(q, error);
+    wins = hn::And(wins, hn::And(hn::Ge(least, ends.least), hn::Le(greatest, ends.greatest)));
+    open = hn::AndNot(
+        hn::Or(hn::Lt(greatest, ends.outside_least), hn::Gt(least, ends.outside_greatest)), open);
+  }
+  if (HWY_UNLIKELY(t.is_clipped)) {
+    open = hn::And(open, hn::And(hn::Le(x, last_x), hn::Le(y, last_y)));
+  }
+  // Without a branch: half of the cells have no sample that wins, but there is no telling which.
+  wins = hn::And(wins, open);
+  hn::Store(hn::IfThenElse(wins, q, q_there), d, q_at);
+  hn::Store(hn::IfThenElse(hn::RebindMask(dt, wins), tag, tag_there), dt, tag_at);
+  const MF doubtful = hn::AndNot(wins, open);
+  if (HWY_UNLIKELY(!hn::AllFalse(d, doubtful))) {
+    settle_samples(tile, t, lane_bits(d, doubtful) << part, column, row, context);
+  }
+  return hn::CountTrue(d, wins);
+}
+
+/// Returns whether any sample is won.
+template <bool test_edges, bool test_range>
+HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
+                           const Tile::Context& context) {
+  const int lanes = static_cast<int>(hn::Lanes(DF()));
+  const auto p = pen<test_edges, test_range>(tile, t, context);
+  const VF left = constant32(static_cast<float>(cells.first_column - t.first_column));
   const VF step = constant32(cell);
+  std::size_t wins = 0;
   for (int row = cells.first_row; row <= cells.last_row; row += cell) {
-    const auto [first_column, last_column] = cells.in_row(row);
-    if (first_column > last_column) continue;
-    if constexpr (!SomeCells::are_counted) tested += last_column - first_column + cell;
-    const VF left = constant32(static_cast<float>(first_column - t.first_column));
     const VF top = constant32(static_cast<float>(row - t.first_row));
-    const std::size_t start =
-        Tile::index(static_cast<std::uint32_t>(first_column), static_cast<std::uint32_t>(row));
+    const std::size_t start = Tile::index(static_cast<std::uint32_t>(cells.first_column),
+                                          static_cast<std::uint32_t>(row));
     for (int part = 0; part < cell * cell; part += lanes) {
       const VF y = hn::Add(lane_rows(part), top);
-      const VF e0 = hn::MulAdd(f.b[0], y, f.c[0]), e1 = hn::MulAdd(f.b[1], y, f.c[1]);
-      const VF e2 = hn::MulAdd(f.b[2], y, f.c[2]), q0 = hn::MulAdd(f.q_b, y, f.q_c);
-      float* q_at = tile.q() + start + part;
-      LaneTag* tag_at = tile.tags() + start + part;
+      const VF edges[] = {hn::MulAdd(p.f.b[0], y, p.f.c[0]), hn::MulAdd(p.f.b[1], y, p.f.c[1]),
+                          hn::MulAdd(p.f.b[2], y, p.f.c[2])};
+      const VF q = hn::MulAdd(p.f.q_b, y, p.f.q_c);
+      std::size_t at = start + static_cast<std::size_t>(part);
       VF x = hn::Add(lane_columns(part), left);
-      for (int column = first_column; column <= last_column;
-           column += cell, q_at += cell * cell, tag_at += cell * cell, x = hn::Add(x, step)) {
-        const VF q = hn::MulAdd(f.q_a, x, q0);
-        const VF q_there = hn::Load(d, q_at);
-        const auto tag_there = hn::Load(dt, tag_at);
-        const VF difference = hn::Sub(q, q_there);
-        const VF sum = hn::Add(tag_error, hn::BitCast(d, tag_there));
-        MF open = hn::Not(hn::Lt(difference, hn::Neg(sum)));
-        MF wins = hn::Gt(difference, sum);
-        if constexpr (test_edges) {
-          const VF least = hn::Min(hn::Min(hn::MulAdd(f.a[0], x, e0), hn::MulAdd(f.a[1], x, e1)),
-                                   hn::MulAdd(f.a[2], x, e2));
-          open = hn::And(open, hn::Ge(least, minus_error));
-          wins = hn::And(wins, hn::Gt(least, f.error));
-        }
-        if constexpr (test_range) {
-          const VF error = hn::Mul(constant32(setup_bounds::q_moves), tag_error);
-          const VF least = hn::Sub(q, error), greatest = hn::Add(q, error);
-          wins = hn::And(wins, hn::And(hn::Ge(least, ends.least), hn::Le(greatest, ends.greatest)));
-          open = hn::AndNot(
-              hn::Or(hn::Lt(greatest, ends.outside_least), hn::Gt(least, ends.outside_greatest)),
-              open);
-        }
-        if (HWY_UNLIKELY(t.is_clipped)) {
-          open = hn::And(open, hn::And(hn::Le(x, last_x), hn::Le(y, last_y)));
-        }
-        // Without a branch: half of the cells have no sample that wins, but there is no telling which.
-        wins = hn::And(wins, open);
-        hn::Store(hn::IfThenElse(wins, q, q_there), d, q_at);
-        hn::Store(hn::IfThenElse(hn::RebindMask(dt, wins), tag, tag_there), dt, tag_at);
-        wins_in_all += hn::CountTrue(d, wins);
-        const MF doubtful = hn::AndNot(wins, open);
-        if (HWY_UNLIKELY(!hn::AllFalse(d, doubtful))) {
-          settle_samples(tile, t, lane_bits(d, doubtful) << part, column, row, context);
-        }
+      for (int column = cells.first_column; column <= cells.last_column;
+           column += cell, at += cell * cell, x = hn::Add(x, step)) {
+        wins += p.draw(x, y, edges, q, at, part, column, row);
       }
     }
   }
-  context.statistics.samples_tested += static_cast<std::uint64_t>(tested * cell);
-  context.statistics.samples_covered += wins_in_all;
-  return wins_in_all != 0;
+  context.statistics.samples_covered += wins;
+  return wins != 0;
 }
 
-template <bool test_edges, class SomeCells>
-HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const SomeCells& cells,
+template <bool test_edges>
+HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
                            const Tile::Context& context) {
   return t.test_range ? draw_cells<test_edges, true>(tile, t, cells, context)
                       : draw_cells<test_edges, false>(tile, t, cells, context);
+}
+
+// One loop over all of them: where rows end the processor could not tell.
+template <bool test_range>
+HWY_INLINE void draw_list(Tile& tile, const Drawn& t, const CellList& cells,
+                          const Tile::Context& context) {
+  const int lanes = static_cast<int>(hn::Lanes(DF()));
+  const auto p = pen<true, test_range>(tile, t, context);
+  const VF first_x = constant32(static_cast<float>(t.first_column));
+  const VF first_y = constant32(static_cast<float>(t.first_row));
+  std::size_t wins = 0;
+  for (int part = 0; part < cell * cell; part += lanes) {
+    const VF x_in_cell = hn::Sub(lane_columns(part), first_x);
+    const VF y_in_cell = hn::Sub(lane_rows(part), first_y);
+    for (std::size_t i = 0; i < cells.count; ++i) {
+      const std::uint32_t number = cells.numbers[i];
+      const int column = static_cast<int>(CellPlace::column(number)) * cell;
+      const int row = static_cast<int>(CellPlace::row(number)) * cell;
+      const VF x = hn::Add(x_in_cell, constant32(static_cast<float>(column)));
+      const VF y = hn::Add(y_in_cell, constant32(static_cast<float>(row)));
+      const VF edges[] = {hn::MulAdd(p.f.b[0], y, p.f.c[0]), hn::MulAdd(p.f.b[1], y, p.f.c[1]),
+                          hn::MulAdd(p.f.b[2], y, p.f.c[2])};
+      const VF q = hn::MulAdd(p.f.q_b, y, p.f.q_c);
+      const std::size_t at = std::size_t{number} * (cell * cell) + static_cast<std::size_t>(part);
+      wins += p.draw(x, y, edges, q, at, part, column, row);
+    }
+  }
+  context.statistics.samples_tested += cells.count * (cell * cell);
+  context.statistics.samples_covered += wins;
+}
+
+HWY_INLINE void draw_list(Tile& tile, const Drawn& t, const CellList& cells,
+                          const Tile::Context& context) {
+  if (t.test_range) {
+    draw_list<true>(tile, t, cells, context);
+  } else {
+    draw_list<false>(tile, t, cells, context);
+  }
+}
+
+HWY_INLINE int cell_of(int place) {
+  return place / cell * cell;
 }
 
 /// The cells of the whole box.
@@ -298,30 +368,6 @@ HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, const BlockFuncti
   return row;
 }
 
-/// Leaves out the blocks in which the triangle is hidden, as above.
-HWY_INLINE void leave_out_hidden_blocks(Tile& tile, const LaneBatch& batch, std::size_t k,
-                                        CellSpans& cells) {
-  const DF8 d;
-  BlockFunction q;
-  make_block_function(batch.q_a[k], batch.q_b[k], batch.q_c[k],
-                      static_cast<float>(batch.first_column[k]), q);
-  const auto moves = hn::Set(d, setup_bounds::q_moves * batch.q_error[k]);
-  for (int row = batch.first_row[k] / block; row <= batch.last_row[k] / block; ++row) {
-    const auto y = static_cast<float>(row * block - batch.first_row[k]) + q.greatest_y;
-    const auto number = static_cast<std::size_t>(row);
-    unsigned open = 0;
-    for (std::size_t part = 0; part < Tile::blocks_of_row; part += hn::Lanes(d)) {
-      const auto greatest =
-          hn::MulAdd(hn::Set(d, q.b), hn::Set(d, y), hn::Load(d, q.greatest.data() + part));
-      const auto farthest =
-          hn::Load(d, tile.farthest().data() + number * Tile::blocks_of_row + part);
-      const auto hidden = hn::Lt(hn::Add(greatest, moves), farthest);
-      open |= (lane_bits(d, hidden) ^ ((1U << hn::Lanes(d)) - 1)) << part;
-    }
-    cells.open_blocks[number] = open;
-  }
-}
-
 /// Draws by rows of blocks: blocks without a covered sample and those behind everything that is
 /// already drawn are left out; in those that lie inside the triangle, edges are not tested.
 HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& context) {
@@ -354,28 +400,52 @@ HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& con
   }
 }
 
+/// The blocks in which a triangle is not hidden, as above, a bit for each, by rows of cells; others
+/// than those that its box meets do not count.
+HWY_INLINE void find_open_blocks(Tile& tile, const LaneBatch& batch, std::size_t k,
+                                 OfRows& open_blocks) {
+  const DF8 d;
+  BlockFunction q;
+  make_block_function(batch.q_a[k], batch.q_b[k], batch.q_c[k],
+                      static_cast<float>(batch.first_column[k]), q);
+  const auto moves = hn::Set(d, setup_bounds::q_moves * batch.q_error[k]);
+  for (int row = batch.first_row[k] / block; row <= batch.last_row[k] / block; ++row) {
+    const auto y = static_cast<float>(row * block - batch.first_row[k]) + q.greatest_y;
+    const auto number = static_cast<std::size_t>(row);
+    unsigned open = 0;
+    for (std::size_t part = 0; part < Tile::blocks_of_row; part += hn::Lanes(d)) {
+      const auto greatest =
+          hn::MulAdd(hn::Set(d, q.b), hn::Set(d, y), hn::Load(d, q.greatest.data() + part));
+      const auto farthest =
+          hn::Load(d, tile.farthest().data() + number * Tile::blocks_of_row + part);
+      const auto hidden = hn::Lt(hn::Add(greatest, moves), farthest);
+      open |= (lane_bits(d, hidden) ^ ((1U << hn::Lanes(d)) - 1)) << part;
+    }
+    open_blocks[2 * number] = open_blocks[2 * number + 1] = open;
+  }
+}
+
 /// The cells that thin triangles of a batch may meet, for those lanes of which they are few.
 struct ThinLanes {
   unsigned lanes = 0;
-  std::array<CellSpans, SetupBatch::most> cells;
+  std::array<CellList, SetupBatch::most> cells;
 };
 
 // For all triangles before the first is drawn: a triangle ends with jumps that the processor does
 // not foresee, after which it would have to wait for the cells of the next one.
 HWY_NOINLINE void make_thin_lanes(Tile& tile, const LaneBatch& batch, unsigned lanes,
                                   const Tile::Context& context, ThinLanes& thin) {
-  constexpr int most = 48;
   SpanGuesses guesses;
   make_span_guesses(batch, guesses);
+  CellSpans spans;
+  alignas(64) OfRows open_blocks;
+  open_blocks.fill(~0U);
   for (const std::size_t k : EachBit(lanes)) {
-    CellSpans& cells = thin.cells[k];
-    if (make_cell_spans(batch, guesses, k, cells) > most) continue;
+    make_cell_spans(batch, guesses, k, spans);
+    if (spans.count > static_cast<int>(CellList::most)) continue;
     thin.lanes |= 1U << k;
-    if (context.switches.early_rejection) {
-      leave_out_hidden_blocks(tile, batch, k, cells);
-    } else {
-      cells.open_blocks.fill(~0U);
-    }
+    if (context.switches.early_rejection) find_open_blocks(tile, batch, k, open_blocks);
+    list_cells(spans, open_blocks, thin.cells[k]);
   }
 }
 
@@ -383,7 +453,7 @@ HWY_NOINLINE void make_thin_lanes(Tile& tile, const LaneBatch& batch, unsigned l
 HWY_NOINLINE void draw_large(Tile& tile, const Drawn& t, const ThinLanes& thin,
                              const Tile::Context& context) {
   if (thin.lanes >> t.lane & 1) {
-    draw_cells<true>(tile, t, thin.cells[t.lane], context);
+    draw_list(tile, t, thin.cells[t.lane], context);
   } else {
     draw_blocks(tile, t, context);
   }
