@@ -121,12 +121,12 @@ TEST(RenderInto, WorksWithMemoryThatOtherThreadsHaveUsed) {
   CaseMaker cases(23, Kind::few_bits);
   RenderMemory memory;
   for (int i = 0; i < 12; ++i) {
-    const auto [scene, camera] = cases.make();
+    const testing::Case one = cases.make();
     RenderOptions options;
-    const DepthMap expected = render(scene, camera, options);
+    const DepthMap expected = render(one.scene, one.camera, options);
     options.kept = &memory;
     DepthMap map;
-    std::thread([&] { render_into(map, scene, camera, options); }).join();
+    std::thread([&] { render_into(map, one.scene, one.camera, options); }).join();
     expect_same_map(map, expected);
   }
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "fathom/triangle/sampling.h"
 #include "tests/effort.h"
 #include "tests/fast/image_triangles.h"
 #include "tests/numeric/error_shares.h"
@@ -234,6 +235,52 @@ TEST(LevelSetups, BoundsHoldForTheRoundingsOfQ) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fast, Setups, ::testing::Bool());
+
+/// Of triangles with corners on the grid, boxes have the samples from their least to before their
+/// greatest coordinates, and all that the triangles cover are among them.
+TEST(GridSetups, BoxesEndBeforeWhatTheTopLeftRuleMovesOut) {
+  Numbers n(72);
+  const Camera camera = bare_camera(false);
+  int at_samples = 0, covered = 0;
+  for (int i = 0; i < 4000 / effort; ++i) {
+    const int bits = 1 + n.below(8);
+    const auto place = [&] { return n.below(14 << bits) * std::ldexp(1, -bits) + 1; };
+    std::array<MeshPoint, 3> points;
+    for (MeshPoint& point : points) point = {place(), place(), 1};
+    const ImageTriangle t = project_both(points, camera);
+    if (t.exact.orientation == Sign::zero) continue;
+    SetupBatch batch;
+    constexpr CornerIndices corners{0, 1, 2};
+    certified_setups(t.vertices.data(), &corners, 1, {0, 15, 0, 15}, depth_range(camera), batch);
+    ASSERT_EQ(batch.snapped & 1, 1U);
+    const bool is_empty = (batch.empty & 1) != 0;
+    const auto [left, right] = std::minmax({points[0].x, points[1].x, points[2].x});
+    const auto [top, bottom] = std::minmax({points[0].y, points[1].y, points[2].y});
+    const double first_column = std::ceil(left - 0.5), last_column = std::ceil(right - 0.5) - 1;
+    const double first_row = std::ceil(top - 0.5), last_row = std::ceil(bottom - 0.5) - 1;
+    EXPECT_EQ(is_empty, first_column > last_column || first_row > last_row);
+    if (!is_empty) {
+      EXPECT_EQ(batch.first_column[0], first_column);
+      EXPECT_EQ(batch.last_column[0], last_column);
+      EXPECT_EQ(batch.first_row[0], first_row);
+      EXPECT_EQ(batch.last_row[0], last_row);
+    }
+    at_samples += std::ceil(right) != right && std::floor(right - 0.5) == right - 0.5;
+    TierCounts counts;
+    for (std::uint32_t pixel = 0; pixel < 256; ++pixel) {
+      const std::uint32_t column = pixel % 16, row = pixel / 16;
+      if (!covers(t.exact, centre_of_pixel(column, row), counts)) continue;
+      ++covered;
+      EXPECT_FALSE(is_empty);
+      EXPECT_GE(column, batch.first_column[0]);
+      EXPECT_LE(column, batch.last_column[0]);
+      EXPECT_GE(row, batch.first_row[0]);
+      EXPECT_LE(row, batch.last_row[0]);
+    }
+  }
+  EXPECT_GT(at_samples, 300 / effort);
+  EXPECT_GT(covered, 10000 / effort);
+}
 
 }  // namespace
 }  // namespace fathom

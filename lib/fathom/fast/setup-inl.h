@@ -244,18 +244,23 @@ HWY_INLINE V greatest_place(V high, V error) {
 HWY_INLINE V first_sample(V low, V error, double least) {
   return hn::Ceil(hn::Max(least_place(low, error), constant(least)));
 }
-HWY_INLINE V last_sample(V high, V error, double greatest) {
-  return hn::Floor(hn::Min(greatest_place(high, error), constant(greatest)));
+// The top-left rule moves samples to the right and down, by no step at all: out of a triangle where
+// it ends. On the grid that is known, and half a step less leaves out no other sample.
+HWY_INLINE V last_sample(V high, V error, M snapped, double greatest) {
+  const V place = hn::IfThenElse(snapped, hn::Sub(high, constant(0.5 + snap_step / 2)),
+                                 greatest_place(high, error));
+  return hn::Floor(hn::Min(place, constant(greatest)));
 }
 
 /// The pixels of the area whose samples the triangles can cover.
 /// Needs    usable corners.
 HWY_INLINE Boxes sample_boxes(const Corners& t, const PixelBox& area) {
   const V e = t.position_error;
+  const M snapped = are_snapped(t);
   return {first_sample(least_of(t.A.u, t.B.u, t.C.u), e, area.first_column),
-          last_sample(greatest_of(t.A.u, t.B.u, t.C.u), e, area.last_column),
+          last_sample(greatest_of(t.A.u, t.B.u, t.C.u), e, snapped, area.last_column),
           first_sample(least_of(t.A.v, t.B.v, t.C.v), e, area.first_row),
-          last_sample(greatest_of(t.A.v, t.B.v, t.C.v), e, area.last_row)};
+          last_sample(greatest_of(t.A.v, t.B.v, t.C.v), e, snapped, area.last_row)};
 }
 
 /// The pixels of the area that the triangles meet, by the same argument.

@@ -492,6 +492,7 @@ HWY_INLINE void draw_sample_of_each(Tile& tile, const SetupBatch& setups, const 
   const V x = constant(column), y = constant(row);
   const auto [columns, rows] = box_sizes(setups);
   const unsigned within = drawn & bits_of(hn::And(hn::Ge(columns, x), hn::Ge(rows, y)));
+  if (within == 0) return;
   const auto value =
       [&](const SetupBatch::Numbers& a, const SetupBatch::Numbers& b, const SetupBatch::Numbers& c)
           HWY_ATTR { return hn::MulAdd(load(b), y, hn::MulAdd(load(a), x, load(c))); };
