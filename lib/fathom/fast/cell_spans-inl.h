@@ -134,13 +134,17 @@ HWY_INLINE void make_cell_spans(const LaneBatch& f, const SpanGuesses& guesses, 
   const hn::Rebind<std::int32_t, DF> di;
   const hn::Rebind<std::uint32_t, DF> du;
   const VF zero = constant32(0), one = constant32(1), side = constant32(cell);
-  const VF first_row = constant32(static_cast<float>(f.first_row[k] / cell));
-  const VF last_row = constant32(static_cast<float>(f.last_row[k] / cell));
+  const auto number_of = [&](const LaneBatch::Places& places) HWY_ATTR {
+    const std::int32_t number = places[k] / cell;
+    return constant32(static_cast<float>(number));
+  };
+  const VF first_row = number_of(f.first_row), last_row = number_of(f.last_row);
+  const VF first_column = number_of(f.first_column);
+  const VF minus_last_column = hn::Neg(number_of(f.last_column));
   VF count = zero, longest = zero;
   for (std::size_t part = 0; part < cells.first.size(); part += hn::Lanes(d)) {
     const VF number = counting_lanes(d, static_cast<float>(part));
-    SpanLanes spans{constant32(static_cast<float>(f.first_column[k] / cell)),
-                    constant32(static_cast<float>(-(f.last_column[k] / cell)))};
+    SpanLanes spans{first_column, minus_last_column};
     for (std::size_t i = 0; i < 3; ++i) {
       leave_out(f, guesses, i, k, number, hn::Mul(number, side), spans);
     }
