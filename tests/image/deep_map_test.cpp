@@ -85,6 +85,16 @@ TEST_P(DeepMaps, AreReadBackByOpenExr) {
   }
 }
 
+TEST_P(DeepMaps, MayHaveNoSample) {
+  DeepMap map = three_pixels();
+  map.counts.assign(6, 0);
+  map.samples.clear();
+  const std::string file = folder_ / "deep.exr";
+  write_deep_map(map, file, GetParam());
+  std::vector<float> Z;
+  read(file, "Z", Imf::FLOAT, map.counts, Z);
+}
+
 INSTANTIATE_TEST_SUITE_P(Compressions, DeepMaps,
                          ::testing::Values(Compression::none, Compression::rle, Compression::zips));
 

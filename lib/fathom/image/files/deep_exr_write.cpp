@@ -37,6 +37,8 @@ const std::array<DeepChannel, 5> deep_channels{{{"A", Imf::FLOAT, offsetof(DeepS
 
 /// For each pixel, where the values of a channel begin.
 std::vector<const char*> beginnings(const DeepMap& map, std::size_t offset) {
+  // Nothing may be added to the pointer to no samples at all.
+  if (map.samples.empty()) return std::vector<const char*>(map.counts.size());
   std::vector<const char*> result;
   result.reserve(map.counts.size());
   const char* next = reinterpret_cast<const char*>(map.samples.data()) + offset;
