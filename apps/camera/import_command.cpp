@@ -19,7 +19,8 @@ namespace fathom::app {
 namespace {
 
 struct ImportArguments {
-  std::string input, image, output = "-";
+  std::string input, output = "-";
+  CameraChoice choice;
   std::optional<Size> size;
   bool list = false;
 };
@@ -38,23 +39,18 @@ struct Source {
 };
 
 /// All cameras as a path, or the one of an image, or the list of names.
-int write_imported(const Cameras& imported, const ImportArguments& arguments) {
+int write_imported(const Cameras& imported, const ImportArguments& arguments,
+                   const Console& console) {
   if (arguments.list) {
     std::string text;
-    for (const ImportedCamera& entry : imported) text += text::printable(entry.name) + "\n";
+    for (const ImportedCamera& entry : imported) text += text::printable(entry.camera.name) + "\n";
     write_text(arguments.output, text);
     return done;
   }
-  std::vector<Camera> cameras;
-  for (const ImportedCamera& entry : imported) {
-    if (arguments.image.empty() || entry.name == arguments.image) cameras.push_back(entry.camera);
-  }
-  if (cameras.empty()) {
-    throw InputError(arguments.image.empty()
-                         ? arguments.input + ": holds no camera"
-                         : fmt::format("{}: no image '{}'; --list shows the {} there are",
-                                       arguments.input, arguments.image, imported.size()));
-  }
+  Warnings warnings;
+  const std::vector<Camera> cameras =
+      chosen_cameras(imported, arguments.input, arguments.choice, warnings);
+  console.warn(warnings);
   write_text(arguments.output, to_json(cameras) + "\n");
   return done;
 }
@@ -67,12 +63,15 @@ void add_source(Command& parent, const Source& source) {
     command.option("--size", "WxH", into(arguments->size, parse_size),
                    "WIDTHxHEIGHT of the images in pixels");
   }
-  command.option("--image", "NAME", arguments->image, "Only the camera of this image");
+  command.option("--image", "NAME", arguments->choice.image, "Only the camera of this image");
+  command.flag(
+      "--ignore-distortion", arguments->choice.ignore_distortion,
+      "Take cameras with lens distortion as if they had none; without it they are left out");
   command.flag("--list", arguments->list, "Write the names of the images instead");
   command.option("-o,--output", "FILE", arguments->output,
                  "Camera file (default: standard output)");
   command.runs([arguments, read = source.read](const Console& console) {
-    return write_imported(read(*arguments, console), *arguments);
+    return write_imported(read(*arguments, console), *arguments, console);
   });
 }
 
@@ -105,7 +104,10 @@ void add_import(Command& camera) {
       "import", "Convert the cameras of other programs",
       "  fathom camera import colmap sparse/0 -o cameras.json\n"
       "  fathom camera import nerf transforms.json --size 800x800 -o cameras.json\n"
-      "\nA camera with lens distortion is refused; docs/conventions.md has the formulas.");
+      "\nCameras with lens distortion are left out with a warning; docs/conventions.md has the "
+      "formulas.\nEach camera has the name of its image: render -o 'maps/{stem}.exr' writes maps "
+      "of "
+      "the same names.");
   family.requires_command();
   add_source(
       family,

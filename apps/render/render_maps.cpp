@@ -156,7 +156,7 @@ int render_maps(const RenderArguments& arguments, MapPlan plan, const Console& c
   scene.place(arguments.motion);
   warn_of_missing_segments(scene.triangles(), plan.rendering.channels, console);
   check_cameras(cameras, plan, arguments.output);
-  RenderOutputs outputs(arguments, cameras.size());
+  RenderOutputs outputs(arguments, cameras);
   outputs.write_cameras(to_json(cameras) + "\n");
 
   RenderMemory memory;
@@ -199,7 +199,7 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
     require_size(MapFormat::exr, camera.width, camera.height, arguments.output);
     check_size(camera, options, 0);
   }
-  RenderOutputs outputs(arguments, cameras.size());
+  RenderOutputs outputs(arguments, cameras);
   outputs.write_cameras(to_json(cameras) + "\n");
   CameraWarnings warnings;
   {

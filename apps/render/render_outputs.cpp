@@ -1,10 +1,10 @@
 #include "apps/render/render_outputs.h"
 
-#include "apps/render/map_names.h"
+#include "apps/options/output_names.h"
 
 namespace fathom::app {
 
-RenderOutputs::RenderOutputs(const RenderArguments& arguments, std::size_t cameras)
+RenderOutputs::RenderOutputs(const RenderArguments& arguments, const std::vector<Camera>& cameras)
     : names_(names_of_outputs("-o", arguments.output, cameras)),
       maps_(names_.begin(), names_.end()),
       cameras_(arguments.save_camera),

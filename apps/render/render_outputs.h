@@ -15,7 +15,7 @@ namespace fathom::app {
 class RenderOutputs {
  public:
   /// Fails    UsageError where the names do not fit the number of cameras; as OutputFile.
-  RenderOutputs(const RenderArguments& arguments, std::size_t cameras);
+  RenderOutputs(const RenderArguments& arguments, const std::vector<Camera>& cameras);
 
   [[nodiscard]] const std::string& map_name(std::size_t camera) const { return names_[camera]; }
   [[nodiscard]] const OutputFile& map(std::size_t camera) const { return maps_[camera]; }

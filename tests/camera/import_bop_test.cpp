@@ -7,6 +7,7 @@
 
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/numeric/errors.h"
+#include "tests/camera/judged.h"
 #include "tests/camera/seen_points.h"
 #include "tests/places.h"
 #include "tests/scratch_folder.h"
@@ -52,9 +53,9 @@ TEST(ImportBop, OrdersByNumberAndDefaultsToTheCameraFrame) {
       parse_bop(std::string("{\"10\": {") + K + "}, \"9\": {" + K + "}, \"100\": {" + K + "}}",
                 "scene_camera.json", 6, 4);
   ASSERT_EQ(cameras.size(), 3U);
-  EXPECT_EQ(cameras[0].name, "9");
-  EXPECT_EQ(cameras[1].name, "10");
-  EXPECT_EQ(cameras[2].name, "100");
+  EXPECT_EQ(cameras[0].camera.name, "9");
+  EXPECT_EQ(cameras[1].camera.name, "10");
+  EXPECT_EQ(cameras[2].camera.name, "100");
   EXPECT_EQ(cameras[0].camera.world_to_camera, Camera().world_to_camera);
   EXPECT_EQ(cameras[0].camera.pixel_centre, 0);
 }

@@ -10,6 +10,7 @@
 
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/numeric/errors.h"
+#include "tests/camera/judged.h"
 #include "tests/camera/seen_points.h"
 #include "tests/places.h"
 #include "tests/scratch_folder.h"
@@ -24,7 +25,7 @@ using ::testing::HasSubstr;
 
 std::vector<ImportedCamera> colmap_text(const std::string& cameras, const std::string& images) {
   std::istringstream c(cameras), i(images);
-  return parse_colmap_text({c, "cameras.txt"}, {i, "images.txt"});
+  return judged(parse_colmap_text({c, "cameras.txt"}, {i, "images.txt"}));
 }
 
 class BinaryText {
@@ -40,7 +41,7 @@ class BinaryText {
 
 std::vector<ImportedCamera> colmap_binary(const std::string& cameras, const std::string& images) {
   std::istringstream c(cameras), i(images);
-  return parse_colmap_binary({c, "cameras.bin"}, {i, "images.bin"});
+  return judged(parse_colmap_binary({c, "cameras.bin"}, {i, "images.bin"}));
 }
 
 struct ColmapCase {
@@ -75,8 +76,8 @@ TEST(ImportColmap, ProjectsAsColmapDoes) {
         "# comment\n9 " + joined(one.q, " ") + " " + joined(one.t, " ") + " 7 a\n1 2 3\n");
     ASSERT_EQ(binary.size(), 1U);
     ASSERT_EQ(text.size(), 1U);
-    EXPECT_EQ(text[0].name, "a");
-    EXPECT_EQ(binary[0].name, "a");
+    EXPECT_EQ(text[0].camera.name, "a");
+    EXPECT_EQ(binary[0].camera.name, "a");
     EXPECT_EQ(text[0].camera.world_to_camera, binary[0].camera.world_to_camera);
     EXPECT_EQ(text[0].camera.width, 640U);
     EXPECT_EQ(text[0].camera.height, 480U);
@@ -96,7 +97,7 @@ TEST(ImportColmap, QuarterTurnsAreExactWhateverTheQuaternionsLength) {
     const std::array<std::array<double, 4>, 3> expected{
         {{0, -1, 0, 1}, {1, 0, 0, 2}, {0, 0, 1, 3}}};
     EXPECT_EQ(cameras[0].camera.world_to_camera, expected) << q;
-    EXPECT_EQ(cameras[0].name, "name with blanks.jpg");
+    EXPECT_EQ(cameras[0].camera.name, "name with blanks.jpg");
     EXPECT_EQ(cameras[0].camera.fx, 3);
     EXPECT_EQ(cameras[0].camera.fy, 3);
     EXPECT_EQ(cameras[0].camera.pixel_centre, 0.5);
@@ -109,27 +110,34 @@ TEST(ImportColmap, SortsByNameAndSharesCameras) {
                   "1 1 0 0 0 0 0 0 2 b.png\n1.5 2.5 -1\n2 1 0 0 0 0 0 0 1 c.png\n\n"
                   "3 1 0 0 0 0 0 0 2 a.png\n");
   ASSERT_EQ(cameras.size(), 3U);
-  EXPECT_EQ(cameras[0].name, "a.png");
-  EXPECT_EQ(cameras[1].name, "b.png");
-  EXPECT_EQ(cameras[2].name, "c.png");
+  EXPECT_EQ(cameras[0].camera.name, "a.png");
+  EXPECT_EQ(cameras[1].camera.name, "b.png");
+  EXPECT_EQ(cameras[2].camera.name, "c.png");
   EXPECT_EQ(cameras[1].camera.width, 8U);
   EXPECT_EQ(cameras[2].camera.width, 4U);
 }
 
-TEST(ImportColmap, DistortionIsRefusedUnlessItIsZero) {
+TEST(ImportColmap, DistortionIsToldUnlessItIsZero) {
   const std::string image = "1 1 0 0 0 0 0 0 1 a.png\n";
   for (const char* zero :
        {"SIMPLE_RADIAL 4 2 3 2 1 0", "RADIAL 4 2 3 2 1 0 -0.0", "OPENCV 4 2 3 3 2 1 0 0 0 0",
         "FULL_OPENCV 4 2 3 3 2 1 0 0 0 0 0 0 0 0", "FOV 4 2 3 3 2 1 0"})
-    EXPECT_EQ(colmap_text(std::string("1 ") + zero, image).at(0).camera.cx, 2) << zero;
+    EXPECT_TRUE(colmap_text(std::string("1 ") + zero, image).at(0).distortion.empty()) << zero;
   for (const char* not_zero :
        {"SIMPLE_RADIAL 4 2 3 2 1 1e-9", "RADIAL 4 2 3 2 1 0 1e-300", "OPENCV 4 2 3 3 2 1 0 0 0 0.1",
-        "FULL_OPENCV 4 2 3 3 2 1 0 0 0 0 0 0 0 -1", "FOV 4 2 3 3 2 1 0.1",
-        "OPENCV_FISHEYE 4 2 3 3 2 1 0 0 0 0", "SIMPLE_RADIAL_FISHEYE 4 2 3 2 1 0",
-        "RADIAL_FISHEYE 4 2 3 2 1 0 0", "THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0"})
-    EXPECT_THAT(message_of<InputError>([&] { colmap_text(std::string("1 ") + not_zero, image); }),
-                AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("undistort")))
+        "FULL_OPENCV 4 2 3 3 2 1 0 0 0 0 0 0 0 -1", "FOV 4 2 3 3 2 1 0.1"}) {
+    const ImportedCamera one = colmap_text(std::string("1 ") + not_zero, image).at(0);
+    EXPECT_THAT(one.distortion,
+                AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("lens distortion")))
         << not_zero;
+    EXPECT_EQ(one.camera.cx, 2) << not_zero;
+  }
+  for (const char* no_pinhole :
+       {"OPENCV_FISHEYE 4 2 3 3 2 1 0 0 0 0", "SIMPLE_RADIAL_FISHEYE 4 2 3 2 1 0",
+        "RADIAL_FISHEYE 4 2 3 2 1 0 0", "THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0"})
+    EXPECT_THAT(message_of<InputError>([&] { colmap_text(std::string("1 ") + no_pinhole, image); }),
+                AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("undistort")))
+        << no_pinhole;
 }
 
 TEST(ImportColmap, NamesLineAndFault) {
@@ -186,7 +194,7 @@ TEST(ImportColmap, TruncatedBinaryFilesAreRefusedAtEveryByte) {
 TEST(ImportColmap, ReadsTheModelInTheData) {
   const auto cameras = import_colmap(source_dir() / "data/cameras/colmap");
   ASSERT_EQ(cameras.size(), 2U);
-  EXPECT_EQ(cameras[0].name, "left.jpg");
+  EXPECT_EQ(cameras[0].camera.name, "left.jpg");
   const ScratchFolder folder;
   EXPECT_THAT(message_of<InputError>([&] { import_colmap(folder.path()); }),
               HasSubstr("expected a COLMAP model"));

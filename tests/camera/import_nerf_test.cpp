@@ -7,6 +7,7 @@
 
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/numeric/errors.h"
+#include "tests/camera/judged.h"
 #include "tests/camera/seen_points.h"
 #include "tests/places.h"
 #include "tests/scratch_folder.h"
@@ -20,7 +21,7 @@ using ::testing::HasSubstr;
 
 std::vector<ImportedCamera> nerf(const std::string& text, Warnings& warnings,
                                  std::uint32_t width = 0, std::uint32_t height = 0) {
-  return parse_nerf(text, "transforms.json", width, height, warnings);
+  return judged(parse_nerf(text, "transforms.json", width, height, warnings));
 }
 
 TEST(ImportNerf, ProjectsAsNerfDoes) {
@@ -51,7 +52,7 @@ TEST(ImportNerf, ProjectsAsNerfDoes) {
                                   R"(, "transform_matrix": [)" + rows + "[0,0,0,1]]}]}",
                               warnings);
     ASSERT_EQ(cameras.size(), 1U);
-    EXPECT_EQ(cameras[0].name, "./0001.png");
+    EXPECT_EQ(cameras[0].camera.name, "./0001.png");
     EXPECT_EQ(cameras[0].camera.width, 640U);
     // The other way round: a point that is given in the camera's own axes.
     for (int i = 0; i < 5; ++i) {
@@ -84,7 +85,7 @@ TEST(ImportNerf, ExactWhereTheInverseIs) {
   EXPECT_EQ(cameras.at(0).camera.cx, 320);
   EXPECT_EQ(cameras.at(0).camera.cy, 240);
   EXPECT_EQ(cameras.at(0).camera.pixel_centre, 0.5);
-  EXPECT_EQ(cameras.at(0).name, "0");
+  EXPECT_EQ(cameras.at(0).camera.name, "0");
 }
 
 TEST(ImportNerf, AnglesSpanTheImage) {

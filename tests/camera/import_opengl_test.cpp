@@ -11,6 +11,7 @@
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/numeric/errors.h"
+#include "tests/camera/judged.h"
 #include "tests/camera/seen_points.h"
 #include "tests/places.h"
 #include "tests/scratch_folder.h"
@@ -93,7 +94,7 @@ TEST(ImportOpengl, PerspectiveProjectsAsOpenglDoes) {
     const auto cameras = parse_opengl(by_rows, "gl.json");
     ASSERT_EQ(cameras.size(), 1U);
     const auto same = parse_opengl(by_columns, "gl.json");
-    EXPECT_EQ(same.at(0).name, "x");
+    EXPECT_EQ(same.at(0).camera.name, "x");
     EXPECT_EQ(same.at(0).camera.world_to_camera, cameras[0].camera.world_to_camera);
     EXPECT_EQ(same.at(0).camera.cx, cameras[0].camera.cx);
     const Camera& camera = cameras[0].camera;

@@ -85,7 +85,7 @@ int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const 
   const std::vector<Camera> cameras = arguments.camera.get(scene, console);
   Drawn drawn = drawn_from(std::move(scene), plan, arguments);
   const double time = plan.shutter ? plan.shutter->close : arguments.motion.time_or_start();
-  RenderOutputs outputs(arguments, cameras.size());
+  RenderOutputs outputs(arguments, cameras);
   if (pipeline::is_stretched(cameras[0], plan.stages)) {
     console.warn("the viewport's width : height is not the camera's: the picture is stretched");
   }

@@ -31,6 +31,8 @@ struct Camera {
   /// The range of planar depth that counts.
   double near = 0;
   double far = std::numeric_limits<double>::infinity();
+  /// What its image is called, in UTF-8; empty: it has no name. Says nothing about what is seen.
+  std::string name;
 };
 
 /// What is wrong with a camera, in one line, or nothing if width and height are at least 1, all

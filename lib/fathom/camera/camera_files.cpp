@@ -9,6 +9,7 @@
 #include "fathom/camera/pose.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/input_file.h"
+#include "fathom/text/json_text.h"
 #include "fathom/text/json_value.h"
 
 namespace fathom {
@@ -101,7 +102,7 @@ bool says_pixel_centre(const JsonValue& value) {
 Camera read_camera(const JsonValue& value) {
   value.expect_only({"width", "height", "projection", "fx", "fy", "cx", "cy", "skew", "K",
                      "pixel_centre", "pixel_center", "world_to_camera", "camera_to_world", "near",
-                     "far"});
+                     "far", "name"});
   constexpr auto largest_size = std::numeric_limits<std::uint32_t>::max();
   Camera camera;
   camera.width = static_cast<std::uint32_t>(value.at("width").integer(1, largest_size));
@@ -115,6 +116,7 @@ Camera read_camera(const JsonValue& value) {
   read_world_to_camera(value, camera);
   read_number(value, "near", camera.near);
   if (const auto far = value.find("far"); far && !far->is_null()) camera.far = far->number();
+  if (const auto name = value.find("name")) camera.name = name->string();
   if (const auto fault = find_fault(camera)) value.fail(*fault);
   return camera;
 }
@@ -169,6 +171,7 @@ std::string to_json(const Camera& camera) {
     text += (text.empty() ? "{\n" : ",\n") + ("  \"" + std::string(key) + "\": ") + value;
   };
   const bool perspective = camera.projection == Projection::perspective;
+  if (!camera.name.empty()) member("name", json_string(camera.name));
   member("width", std::to_string(camera.width));
   member("height", std::to_string(camera.height));
   member("projection", perspective ? "\"perspective\"" : "\"orthographic\"");

@@ -9,21 +9,42 @@
 #include "fathom/camera/camera.h"
 #include "fathom/text/warnings.h"
 
-/// Cameras of other programs, converted to ours; docs/conventions.md has the formulas. Only cameras
-/// that ours can express exactly are taken: lens distortion is refused, unless all its parameters
-/// are exactly 0. Entries that follow from a formula (quaternions, inverses, projection matrices)
+/// Cameras of other programs, converted to ours; docs/conventions.md has the formulas. Ours has no
+/// lens distortion: what an import leaves out of a lens it says, unless all its parameters are
+/// exactly 0. Entries that follow from a formula (quaternions, inverses, projection matrices)
 /// are computed as exact rationals and rounded to binary64 once; only NeRF's camera_angle_x and
 /// camera_angle_y go through a tangent in extended precision.
 ///
-/// All fail with InputError, one line that names the file and the line or key. The cameras that
-/// they return have passed find_fault().
+/// All fail with InputError, one line that names the file and the line or key, where the file as a
+/// whole cannot be followed. What is wrong with one camera is part of it: only who asks for that
+/// camera need know (chosen_cameras()).
 namespace fathom {
 
 struct ImportedCamera {
-  /// The image's name in the other program: COLMAP's NAME, NeRF's file_path, BOP's image id.
-  std::string name;
+  /// Its name is the image's in the other program: COLMAP's NAME, NeRF's file_path, BOP's image id.
+  /// Passes find_fault() if there is no `fault`.
   Camera camera;
+  /// Where `camera` is the pinhole part of a lens with distortion: which file, which lens.
+  std::string distortion;
+  /// Why there is no camera: the message of an InputError.
+  std::string fault;
 };
+
+struct CameraChoice {
+  /// Only that of this image; empty: all of them.
+  std::string image;
+  /// Takes the pinhole part of lenses with distortion.
+  bool ignore_distortion = false;
+};
+
+/// The cameras that are asked for, in their order. Those with distortion are left out with a warning that
+/// counts them, unless they are taken without it.
+/// `input` is the file's name for messages.
+/// Fails    InputError where one has a fault; where the image that is asked for is not there, or its
+///          lens has distortion; and where no camera is left.
+std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
+                                   const std::string& input, const CameraChoice& choice,
+                                   Warnings& warnings);
 
 /// A COLMAP model: the folder with cameras and images, .bin (preferred where both exist) or .txt.
 /// Sorted by image name. Takes SIMPLE_PINHOLE and PINHOLE, and SIMPLE_RADIAL, RADIAL, OPENCV,

@@ -45,7 +45,7 @@ constexpr std::array<Model, 11> models{{{"SIMPLE_PINHOLE", 3, 1, true},
                                         {"RADIAL_FISHEYE", 5, 1, false},
                                         {"THIN_PRISM_FISHEYE", 12, 2, false}}};
 
-using Cameras = std::map<std::uint32_t, Camera>;
+using Cameras = std::map<std::uint32_t, ImportedCamera>;
 
 /// What a file says about one camera.
 struct CameraRecord {
@@ -62,29 +62,31 @@ struct ImageRecord {
   std::string name;
 };
 
-/// The camera of a record, still at the origin. Throws InputError beginning with `where`.
-Camera make_camera(const CameraRecord& record, const Model& model, const std::string& where) {
-  const auto fail = [&](const std::string& what) {
-    throw InputError(where + ": camera " + std::to_string(record.id) + ": " + what);
-  };
-  if (!model.pinhole)
-    fail(std::string("the model ") + model.name +
-         " is no pinhole camera; undistort the images first (colmap image_undistorter)");
+/// The camera of a record, still at the origin. Messages begin with `where`.
+ImportedCamera make_camera(const CameraRecord& record, const Model& model,
+                           const std::string& where) {
+  const std::string about = where + ": camera " + std::to_string(record.id) + ": ";
+  ImportedCamera result;
+  constexpr std::uint64_t largest = std::numeric_limits<std::uint32_t>::max();
+  if (!model.pinhole) {
+    result.fault = about + "the model " + model.name +
+                   " is no pinhole camera; undistort the images (colmap image_undistorter)";
+  } else if (record.width > largest || record.height > largest) {
+    result.fault = about + "the image is too large";
+  }
+  if (!result.fault.empty()) return result;
   const auto distortion = record.parameters.begin() + static_cast<long>(model.focals) + 2;
   if (std::any_of(distortion, record.parameters.end(), [](double k) { return k != 0; }))
-    fail(std::string("the model ") + model.name +
-         " has lens distortion; undistort the images first (colmap image_undistorter)");
-  constexpr std::uint64_t largest = std::numeric_limits<std::uint32_t>::max();
-  if (record.width > largest || record.height > largest) fail("the image is too large");
-  Camera camera;
+    result.distortion = about + "the model " + model.name + " has lens distortion";
+  Camera& camera = result.camera;
   camera.width = static_cast<std::uint32_t>(record.width);
   camera.height = static_cast<std::uint32_t>(record.height);
   camera.fx = record.parameters[0];
   camera.fy = record.parameters[model.focals - 1];
   camera.cx = record.parameters[model.focals];
   camera.cy = record.parameters[model.focals + 1];
-  if (const auto fault = find_fault(camera)) fail(*fault);
-  return camera;
+  if (const auto fault = find_fault(camera)) result.fault = about + *fault;
+  return result;
 }
 
 /// The rotation of a Hamilton quaternion of any length but 0, each entry rounded once.
@@ -106,23 +108,27 @@ ImportedCamera place(const ImageRecord& image, const Cameras& cameras, const std
   if (camera == cameras.end())
     throw InputError(where + ": the image refers to camera " + std::to_string(image.camera) +
                      ", which the model does not have");
+  ImportedCamera result = camera->second;
+  result.camera.name = image.name;
+  if (!result.fault.empty()) return result;
   const auto finite = [](double x) { return std::isfinite(x); };
   if (!std::all_of(image.quaternion.begin(), image.quaternion.end(), finite) ||
-      !std::all_of(image.translation.begin(), image.translation.end(), finite))
-    throw InputError(where + ": the pose has a number that is not finite");
-  if (image.quaternion == std::array<double, 4>{})
-    throw InputError(where + ": the quaternion is zero");
-  const Matrix3 R = rotation_of(image.quaternion);
-  ImportedCamera result{image.name, camera->second};
-  for (int i = 0; i < 3; ++i)
-    result.camera.world_to_camera[i] = {R[i][0], R[i][1], R[i][2], image.translation[i]};
-  if (const auto fault = find_fault(result.camera)) throw InputError(where + ": " + *fault);
+      !std::all_of(image.translation.begin(), image.translation.end(), finite)) {
+    result.fault = where + ": the pose has a number that is not finite";
+  } else if (image.quaternion == std::array<double, 4>{}) {
+    result.fault = where + ": the quaternion is zero";
+  } else {
+    const Matrix3 R = rotation_of(image.quaternion);
+    for (int i = 0; i < 3; ++i)
+      result.camera.world_to_camera[i] = {R[i][0], R[i][1], R[i][2], image.translation[i]};
+    if (const auto fault = find_fault(result.camera)) result.fault = where + ": " + *fault;
+  }
   return result;
 }
 
 void sort_by_name(std::vector<ImportedCamera>& images) {
   std::stable_sort(images.begin(), images.end(),
-                   [](const auto& a, const auto& b) { return a.name < b.name; });
+                   [](const auto& a, const auto& b) { return a.camera.name < b.camera.name; });
 }
 
 void add_camera(Cameras& cameras, const CameraRecord& record, const Model& model,

@@ -30,17 +30,22 @@ struct Frame {
   }
 };
 
-void refuse_distortion(const Frame& frame) {
+/// Why the lens is not that of a pinhole camera, empty if it is.
+std::string distortion_of(const Frame& frame) {
+  std::string found;
+  const auto note = [&](const JsonValue& value, const char* what) {
+    if (found.empty()) found = value.where() + ": " + what;
+  };
   if (const auto model = frame.find("camera_model"))
     if (const std::string& name = model->string();
         name != "OPENCV" && name != "PINHOLE" && name != "SIMPLE_PINHOLE")
       model->fail("the camera model " + name +
                   " is no pinhole camera; expected OPENCV, PINHOLE or SIMPLE_PINHOLE");
   for (const char* key : {"k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"})
-    if (const auto k = frame.find(key); k && k->number() != 0)
-      k->fail("lens distortion cannot be expressed; undistort the images first");
+    if (const auto k = frame.find(key); k && k->number() != 0) note(*k, "lens distortion");
   if (const auto fisheye = frame.find("is_fisheye"); fisheye && fisheye->boolean())
     fisheye->fail("a fisheye lens cannot be expressed; undistort the images first");
+  return found;
 }
 
 std::uint32_t image_size(const Frame& frame, const char* key, std::uint32_t given) {
@@ -114,16 +119,17 @@ std::vector<ImportedCamera> camera::parse_nerf(std::string_view text, const std:
   warn_of_geometry(root, name, warnings);
   std::vector<ImportedCamera> cameras;
   for (const JsonValue& own : root.at("frames").elements()) {
-    const Frame frame{own, root};
-    refuse_distortion(frame);
-    Camera camera;
-    camera.width = image_size(frame, "w", width);
-    camera.height = image_size(frame, "h", height);
-    read_intrinsics(frame, camera);
-    camera.world_to_camera = world_to_camera(own.at("transform_matrix"));
-    if (const auto fault = find_fault(camera)) own.fail(*fault);
     const auto file_path = own.find("file_path");
-    cameras.push_back({file_path ? file_path->string() : std::to_string(cameras.size()), camera});
+    const std::string image = file_path ? file_path->string() : std::to_string(cameras.size());
+    cameras.push_back(imported_camera(image, [&](ImportedCamera& one) {
+      const Frame frame{own, root};
+      one.distortion = distortion_of(frame);
+      one.camera.width = image_size(frame, "w", width);
+      one.camera.height = image_size(frame, "h", height);
+      read_intrinsics(frame, one.camera);
+      one.camera.world_to_camera = world_to_camera(own.at("transform_matrix"));
+      if (const auto fault = find_fault(one.camera)) own.fail(*fault);
+    }));
   }
   if (cameras.empty()) root.at("frames").fail("there is no frame");
   return cameras;

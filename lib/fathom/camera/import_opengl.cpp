@@ -160,13 +160,11 @@ Camera camera_of(const OpenGlView& view) {
   return camera;
 }
 
-ImportedCamera read_camera(const JsonValue& entry, std::size_t index) {
+Camera read_camera(const JsonValue& entry) {
   entry.expect_only({"name", "projection", "modelview", "view", "viewport", "clip_depth"});
   const JsonValue projection = entry.at("projection");
   auto modelview = entry.find("modelview");
   const auto other = entry.find("view");
-  const auto name = entry.find("name");
-  const std::string known_as = name ? name->string() : std::to_string(index);
   OpenGlView view;
   view.projection = read_matrix(projection);
   read_viewport(entry.at("viewport"), view);
@@ -175,13 +173,19 @@ ImportedCamera read_camera(const JsonValue& entry, std::size_t index) {
   if (modelview) view.modelview = read_matrix(*modelview);
   if (const auto clip_depth = entry.find("clip_depth")) read_clip_depth(*clip_depth, view);
   try {
-    return {known_as, camera_of(view)};
+    return camera_of(view);
   } catch (const ViewFault& fault) {
     const JsonValue& part = fault.part() == Part::projection               ? projection
                             : fault.part() == Part::modelview && modelview ? *modelview
                                                                            : entry;
     part.fail(fault.what());
   }
+}
+
+ImportedCamera read_named(const JsonValue& entry, std::size_t index) {
+  const auto name = entry.find("name");
+  return imported_camera(name ? name->string() : std::to_string(index),
+                         [&](ImportedCamera& one) { one.camera = read_camera(entry); });
 }
 
 Matrix4 rows_of(const std::array<double, 16>& list) {
@@ -195,10 +199,10 @@ Matrix4 rows_of(const std::array<double, 16>& list) {
 std::vector<ImportedCamera> camera::parse_opengl(std::string_view text, const std::string& name) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
-  if (!root.is_list()) return {read_camera(root, 0)};
+  if (!root.is_list()) return {read_named(root, 0)};
   std::vector<ImportedCamera> cameras;
   for (const JsonValue& entry : root.elements())
-    cameras.push_back(read_camera(entry, cameras.size()));
+    cameras.push_back(read_named(entry, cameras.size()));
   if (cameras.empty()) root.fail("the list of cameras is empty");
   return cameras;
 }

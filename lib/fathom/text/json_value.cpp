@@ -79,8 +79,12 @@ JsonDocument::JsonDocument(std::string_view text, std::string file)
 
 JsonDocument::~JsonDocument() = default;
 
+std::string JsonValue::where() const {
+  return place_.empty() ? *file_ : *file_ + ": " + place_;
+}
+
 void JsonValue::fail(const std::string& message) const {
-  throw InputError(*file_ + ": " + (place_.empty() ? "" : place_ + ": ") + message);
+  throw InputError(where() + ": " + message);
 }
 
 void JsonValue::fail_type(const char* expected) const {

@@ -19,6 +19,8 @@ class JsonValue {
   JsonValue(const nlohmann::json& value, const std::string& file, std::string place)
       : value_(&value), file_(&file), place_(std::move(place)) {}
 
+  /// "FILE: PLACE"
+  [[nodiscard]] std::string where() const;
   /// Throws InputError "FILE: PLACE: message".
   [[noreturn]] void fail(const std::string& message) const;
 

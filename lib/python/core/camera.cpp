@@ -60,11 +60,17 @@ View make_view(double azimuth, double elevation, const Vector3& up) {
   return {azimuth, elevation, up};
 }
 
-Named named(const std::vector<ImportedCamera>& imported) {
+/// Cameras by name, and what is to be warned of.
+std::pair<Named, Warnings> named(const std::vector<ImportedCamera>& imported,
+                                 const std::filesystem::path& input, bool ignore_distortion,
+                                 Warnings warnings = {}) {
   Named cameras;
-  cameras.reserve(imported.size());
-  for (const ImportedCamera& each : imported) cameras.emplace_back(each.name, each.camera);
-  return cameras;
+  for (Camera& camera : chosen_cameras(imported, input.string(),
+                                       {.ignore_distortion = ignore_distortion}, warnings)) {
+    std::string name = camera.name;
+    cameras.emplace_back(std::move(name), std::move(camera));
+  }
+  return {std::move(cameras), std::move(warnings)};
 }
 
 void bind_making(py::module_& core) {
@@ -91,17 +97,18 @@ void bind_making(py::module_& core) {
 }
 
 void bind_importing(py::module_& core) {
-  core.def("import_colmap",
-           [](const std::filesystem::path& folder) { return named(import_colmap(folder)); });
-  core.def("import_nerf",
-           [](const std::filesystem::path& file, std::uint32_t width, std::uint32_t height) {
-             Warnings warnings;
-             auto cameras = named(import_nerf(file, width, height, warnings));
-             return std::pair(std::move(cameras), warnings);
-           });
+  core.def("import_colmap", [](const std::filesystem::path& folder, bool ignore_distortion) {
+    return named(import_colmap(folder), folder, ignore_distortion);
+  });
+  core.def("import_nerf", [](const std::filesystem::path& file, std::uint32_t width,
+                             std::uint32_t height, bool ignore_distortion) {
+    Warnings warnings;
+    const auto imported = import_nerf(file, width, height, warnings);
+    return named(imported, file, ignore_distortion, std::move(warnings));
+  });
   core.def("import_bop",
            [](const std::filesystem::path& file, std::uint32_t width, std::uint32_t height) {
-             return named(import_bop(file, width, height));
+             return named(import_bop(file, width, height), file, false);
            });
   core.def("camera_from_opengl", &camera_from_opengl);
   core.def("cameras_from_json", [](const std::string& text, const std::string& name) {
@@ -132,6 +139,7 @@ void bind_camera(py::module_& core) {
       .def_readonly("world_to_camera", &Camera::world_to_camera)
       .def_readonly("near", &Camera::near)
       .def_readonly("far", &Camera::far)
+      .def_readonly("name", &Camera::name)
       .def_property_readonly("camera_to_world",
                              [](const Camera& camera) { return camera_to_world(camera); });
   bind_making(core);

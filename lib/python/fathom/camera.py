@@ -257,25 +257,28 @@ class Camera:
     # Imported
 
     @classmethod
-    def from_colmap(cls, folder: Path) -> dict[str, Camera]:
-        """The cameras of a COLMAP model (cameras and images, .bin or .txt), by the names of their images."""
-        return {name: cls._of(camera) for name, camera in _core.import_colmap(os.fspath(folder))}
+    def from_colmap(cls, folder: Path, *, ignore_distortion: bool = False) -> dict[str, Camera]:
+        """The cameras of a COLMAP model (cameras and images, .bin or .txt), by the names of their images.
+
+        Those with lens distortion are left out with a ViewWarning, unless `ignore_distortion` takes their pinhole
+        part. Raises InputError where none is left.
+        """
+        return dict(cls._imported(_core.import_colmap(os.fspath(folder), ignore_distortion)))
 
     @classmethod
-    def from_nerf(cls, file: Path, size: Size | None = None) -> dict[str, Camera]:
+    def from_nerf(
+        cls, file: Path, size: Size | None = None, *, ignore_distortion: bool = False
+    ) -> dict[str, Camera]:
         """The cameras of a transforms.json, by their file_path; those of frames without one by their number. `size`,
-        (width, height) in pixels, is for files without w and h.
+        (width, height) in pixels, is for files without w and h. Lens distortion is as in from_colmap().
 
         Raises InputError, which names the frame, where two have one file_path, a focal length is negative (an angle
         beyond π radians gives such), or the file has another size than the one that is given.
         """
         width, height = (0, 0) if size is None else as_size(size)
-        cameras, notes = _core.import_nerf(os.fspath(file), width, height)
-        for note in notes:
-            warnings.warn(note, ViewWarning, stacklevel=2)
+        imported = _core.import_nerf(os.fspath(file), width, height, ignore_distortion)
         made: dict[str, Camera] = {}
-        for name, core in cameras:
-            camera = cls._of(core)
+        for name, camera in cls._imported(imported):
             fault = _fault_of_frame(camera, size is not None and (width, height))
             if name in made:
                 fault = "there are two frames with this file_path"
@@ -287,7 +290,14 @@ class Camera:
     @classmethod
     def from_bop(cls, file: Path, size: Size) -> dict[str, Camera]:
         """The cameras of a scene_camera.json of BOP, by image id. Lengths are millimetres, as in the file."""
-        return {name: cls._of(camera) for name, camera in _core.import_bop(os.fspath(file), *as_size(size))}
+        return dict(cls._imported(_core.import_bop(os.fspath(file), *as_size(size))))
+
+    @classmethod
+    def _imported(cls, imported: tuple[_core.Named, list[str]]) -> list[tuple[str, Camera]]:
+        cameras, notes = imported
+        for note in notes:
+            warnings.warn(note, ViewWarning, stacklevel=3)
+        return [(name, cls._of(core)) for name, core in cameras]
 
     @classmethod
     def from_json(cls, text: str) -> Camera:

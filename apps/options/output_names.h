@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fathom/camera/camera.h"
+
+namespace fathom::app {
+
+/// The name of a file for each camera, by a pattern: {index} is the camera's number from 0 on,
+/// {index:04} the same with leading zeros, {name} its name, {stem} the last part of its name without
+/// the suffix. A pattern without any of them is for a single camera.
+/// Fails    UsageError, naming the option, where the pattern is none or two cameras would share a name;
+///          InputError where a camera has no name, or one that would leave the folder.
+std::vector<std::string> names_of_outputs(const char* option, const std::string& pattern,
+                                          const std::vector<Camera>& cameras);
+
+/// A name as a place below a folder: "images/1.jpg". Fails with InputError, beginning with `where`,
+/// where it is absolute, has a part "..", or has none that names a file.
+std::string require_within_folder(const std::string& where, const std::string& name);
+
+}  // namespace fathom::app
