@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "apps/camera/camera_command.h"
+#include "apps/dataset/dataset_command.h"
 #include "apps/depth/depth_command.h"
 #include "apps/maps/map_commands.h"
 #include "apps/render/render_command.h"
@@ -42,8 +43,8 @@ std::vector<AddCommand> commands(const std::vector<std::string>& arguments) {
   const auto add_render_command = [arguments](Command& program) {
     add_render(program, render_exactly, by_textbook(arguments));
   };
-  return {add_render_command, add_probe,  add_info,    add_preview,  add_compare,
-          add_convert,        add_camera, add_visible, add_coplanar, add_depth};
+  return {add_render_command, add_probe,   add_info,    add_preview,  add_compare, add_convert,
+          add_camera,         add_dataset, add_visible, add_coplanar, add_depth};
 }
 
 }  // namespace

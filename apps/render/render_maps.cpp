@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "apps/render/camera_warnings.h"
 #include "apps/render/depth_buffer_channels.h"
 #include "apps/render/map_verification.h"
 #include "apps/render/render_input.h"
@@ -22,7 +23,6 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
 #include "fathom/scene/scene_segments.h"
-#include "fathom/scene/view_warnings.h"
 #include "fathom/text/counted.h"
 #include "fathom/triangle/segment_channels.h"
 
@@ -53,26 +53,6 @@ void warn_of_missing_segments(const TriangleSource& triangles, const std::vector
     console.warn(fmt::format("no triangle of the scene has a {}: channel {} is {} at all surfaces",
                              name, name, no_segment));
   }
-}
-
-/// What is probably not meant about the cameras, each kind of it once.
-class CameraWarnings {
- public:
-  /// Of a camera whose map shows the scene in so many pixels.
-  void note(const Scene& scene, const Camera& camera, std::uint64_t shown_pixels) {
-    of_cameras_.push_back(view_warnings(scene, camera, shown_pixels));
-  }
-  void tell(const Console& console) const { console.warn(told_once(of_cameras_)); }
-
- private:
-  std::vector<std::vector<ViewWarning>> of_cameras_;
-};
-
-/// Whether the map shows what triangles are called.
-bool needs_segments(const MapPlan& plan) {
-  const auto is_segmentation = [](const MatteKind& by) { return by.has_value(); };
-  return !segmentations_of(plan.rendering.channels).empty() ||
-         std::ranges::any_of(plan.mattes, is_segmentation);
 }
 
 /// Refuses cameras that the file, the memory or the depth format has no room for.
@@ -150,7 +130,7 @@ int render_maps(const RenderArguments& arguments, MapPlan plan, const Console& c
   Stopwatch stopwatch;
   const auto place = arguments.stream ? RenderInput::Place::files : RenderInput::Place::memory;
   RenderInput scene(arguments.scene, place,
-                    {.segments = needs_segments(plan), .normals = plan.needs_normals()}, console);
+                    {.segments = plan.needs_segments(), .normals = plan.needs_normals()}, console);
   const double seconds_reading = stopwatch.lap();
   const std::vector<Camera> cameras = arguments.camera.get(scene.outline(), console);
   scene.place(arguments.motion);

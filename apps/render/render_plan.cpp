@@ -9,6 +9,7 @@
 #include "apps/shell/about_option.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/triangle/segment_channels.h"
 
 namespace fathom::app {
 namespace {
@@ -115,6 +116,12 @@ void check_deep(const RenderArguments& a) {
 
 bool MapPlan::needs_normals() const {
   return rendering.normals == NormalSource::file && contains(rendering.channels, Channel::Ns);
+}
+
+bool MapPlan::needs_segments() const {
+  const auto is_segmentation = [](const MatteKind& by) { return by.has_value(); };
+  return !segmentations_of(rendering.channels).empty() ||
+         std::ranges::any_of(mattes, is_segmentation);
 }
 
 MapPlan plan_maps(const RenderArguments& a) {

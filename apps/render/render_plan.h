@@ -34,6 +34,8 @@ struct MapPlan {
 
   /// Whether the normals of files are interpolated.
   [[nodiscard]] bool needs_normals() const;
+  /// Whether the map shows what triangles are called.
+  [[nodiscard]] bool needs_segments() const;
 };
 
 /// How deep maps are made.

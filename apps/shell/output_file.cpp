@@ -116,10 +116,10 @@ void OutputFile::write(const std::function<void(const fs::path&)>& writer) const
   }
 }
 
-void OutputFile::write(const std::string& text) const {
+void OutputFile::write(text::ByteView bytes) const {
   const int file = staged_->descriptor();
   if (::ftruncate(file, 0) != 0 || ::lseek(file, 0, SEEK_SET) != 0) fail_with_errno(target_, errno);
-  write_all(file, text.data(), text.size(), target_);
+  write_all(file, reinterpret_cast<const char*>(bytes.data()), bytes.size(), target_);
 }
 
 /// The permissions of what it replaces, or those of a new file.

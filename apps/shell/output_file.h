@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "apps/shell/staged_file.h"
 #include "fathom/text/descriptor.h"
+#include "fathom/text/file_bytes.h"
 
 namespace fathom::app {
 
@@ -40,7 +42,8 @@ class OutputFile {
   /// Runs `writer` on the staged file, which exists and is empty. Where it fails with an Error, the
   /// message names the output as the user does.
   void write(const std::function<void(const std::filesystem::path&)>& writer) const;
-  void write(const std::string& text) const;
+  void write(text::ByteView bytes) const;
+  void write(const std::string& text) const { write(std::as_bytes(std::span(text))); }
 
   /// Puts the output in its place.
   void commit() { commit_together({this}); }

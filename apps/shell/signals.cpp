@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -27,8 +28,20 @@ std::array<struct sigaction, NSIG> action_before{};
 /// stack, which takes a lock: a signal within that very question would wait for ever.
 #define FATHOM_NOT_ADDRESS_SANITIZED __attribute__((no_sanitize("address")))
 
+/// Two, so that one is whole at any time. The second of them is written while the first is said.
+struct LastWords {
+  std::array<char, 256> texts[2]{};
+  std::atomic<int> current{0};
+};
+LastWords last_words;
+
+void say_at_once(const char* text) {
+  if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
+}
+
 extern "C" FATHOM_NOT_ADDRESS_SANITIZED void remove_and_exit(int) {
   remove_all_pending();
+  say_at_once(last_words.texts[last_words.current.load()].data());
   ::_exit(interrupted);
 }
 
@@ -37,10 +50,6 @@ extern "C" void remove_and_end(int signal) {
   remove_all_pending();
   sigaction(signal, &action_before[static_cast<std::size_t>(signal)], nullptr);
   ::raise(signal);
-}
-
-void say_at_once(const char* text) {
-  if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
 }
 
 extern "C" FATHOM_NOT_ADDRESS_SANITIZED void report_or_end(int signal, siginfo_t* info, void*) {
@@ -78,6 +87,13 @@ void make_stack() {
 }
 
 }  // namespace
+
+void say_when_interrupted(const std::string& text) {
+  const int other = 1 - last_words.current.load();
+  auto& place = last_words.texts[other];
+  place[text.copy(place.data(), place.size() - 1)] = '\0';
+  last_words.current.store(other);
+}
 
 void handle_signals() {
   make_stack();

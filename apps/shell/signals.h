@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace fathom::app {
 
 /// From now on
@@ -11,5 +13,9 @@ namespace fathom::app {
 ///   a closed pipe and a file that   are errors of writing, not signals.
 ///   grows beyond the limit
 void handle_signals();
+
+/// What the program says on standard error when it is interrupted, from now on: a text that ends with a
+/// line feed, or nothing ("").
+void say_when_interrupted(const std::string& text);
 
 }  // namespace fathom::app

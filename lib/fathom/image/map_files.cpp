@@ -73,24 +73,29 @@ void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
   }
 }
 
-void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat format,
-               const WriteOptions& options) {
+std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, MapFormat format,
+                                  const WriteOptions& options) {
   require_valid(map);
   require_thread_count(options.threads);
-  const std::string name = path.string();
   const auto one = [&]() -> const ImageChannel& { return channel_to_write(map, options.channel); };
   switch (format) {
     case MapFormat::exr:
-      return write_file(path, encode_exr(map, options.compression, options.threads, name));
+      return encode_exr(map, options.compression, options.threads, name);
     case MapFormat::pfm:
-      return write_file(path, encode_pfm(map, one(), name));
+      return encode_pfm(map, one(), name);
     case MapFormat::png:
-      return write_file(path, encode_png(map, one(), name));
+      return encode_png(map, one(), name);
     case MapFormat::npy:
-      return write_file(path, encode_npy(map, channels_to_write(map, options.channel), name));
+      return encode_npy(map, channels_to_write(map, options.channel), name);
     case MapFormat::npz:
-      return write_file(path, encode_npz(map, name));
+      return encode_npz(map, name);
   }
+  throw UsageError(name + ": there is no such format");
+}
+
+void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat format,
+               const WriteOptions& options) {
+  write_file(path, encode_map(map, path.string(), format, options));
 }
 
 namespace {

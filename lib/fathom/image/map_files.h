@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "fathom/image/depth_map.h"
 #include "fathom/memory/available_memory.h"
@@ -54,6 +55,10 @@ struct WriteOptions {
 ///          channel is missing or ambiguous, or the number of threads is out of range.
 void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat format,
                const WriteOptions& options = {});
+/// The bytes of such a file; `name` is its name for messages.
+/// Fails    as write_map(), but for the disk.
+std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, MapFormat format,
+                                  const WriteOptions& options = {});
 
 /// What a map may take in memory when it is read. A constant image is compressed a thousandfold, so
 /// what a small file unpacks to says nothing against it; but it is more than its reader may expect.

@@ -1,0 +1,38 @@
+#include "apps/dataset/dataset_arguments.h"
+
+#include "apps/options/cull_option.h"
+#include "apps/shell/values.h"
+
+namespace fathom::app {
+
+void DatasetArguments::add_to(Command& command, const std::string& what) {
+  command.argument("INPUT", input, what).required();
+  command
+      .option("-o,--out", "DIR", folder,
+              "The folder of the data set; it is made where it is missing")
+      .required();
+  render.scene.add_reading_to(command);
+  add_cull_option(command, render.cull);
+  command.option("--shard", "I/N", into(shard, parse_shard),
+                 "Make every Nth map, beginning with the Ith: N machines make them all, without "
+                 "knowing of each other");
+  command.flag("--overwrite", overwrites,
+               "Replace files that are there and that fathom has not made");
+}
+
+void DatasetArguments::add_scene_to(Command& command) {
+  command
+      .option_with_values("--mesh", "FILE", render.scene.files,
+                          "Mesh or scene file; may be given several times")
+      .required();
+}
+
+Job DatasetArguments::job() const {
+  Job job;
+  job.folder = folder;
+  job.shard = shard;
+  job.overwrites = overwrites;
+  return job;
+}
+
+}  // namespace fathom::app

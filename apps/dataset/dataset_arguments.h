@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "apps/jobs/job.h"
+#include "apps/render/render_arguments.h"
+
+namespace fathom::app {
+
+/// What every layout of `fathom dataset` takes. Of the arguments of `render`, whose plans are made for
+/// the maps, those count that the layout declares.
+struct DatasetArguments {
+  RenderArguments render;
+  std::string input, folder;
+  Shard shard;
+  bool overwrites = false, ignores_distortion = false;
+
+  /// INPUT, which `input` describes, --out, --threads, --shard, --overwrite and the like.
+  void add_to(Command& command, const std::string& input);
+  /// --mesh, where the scene is the same in every map.
+  void add_scene_to(Command& command);
+
+  /// A job with what these arguments say of any.
+  [[nodiscard]] Job job() const;
+};
+
+}  // namespace fathom::app

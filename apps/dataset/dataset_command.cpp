@@ -1,0 +1,19 @@
+#include "apps/dataset/dataset_command.h"
+
+#include "apps/dataset/layouts.h"
+
+namespace fathom::app {
+
+void add_dataset(Command& program) {
+  Command& family = program.command(
+      "dataset", "Maps of a whole data set, in its own layout; goes on where it was interrupted",
+      "  fathom camera import colmap sparse/0 -o cameras.json\n"
+      "  fathom dataset maps cameras.json --mesh room.ply --name 'depth/{stem}.npy' --out room\n"
+      "\nEach map is in its place as soon as it is finished; DIR/fathom-manifest.jsonl says which "
+      "are. The same command, given again, makes those that are missing, damaged, or of other "
+      "inputs. docs/data-sets.md has the layouts.");
+  family.requires_command();
+  add_maps_layout(family);
+}
+
+}  // namespace fathom::app

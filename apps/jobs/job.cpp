@@ -1,0 +1,199 @@
+#include "apps/jobs/job.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <system_error>
+
+#include "apps/jobs/job_progress.h"
+#include "apps/jobs/manifest.h"
+#include "apps/jobs/publisher.h"
+#include "apps/shell/folder.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/standard_streams.h"
+#include "apps/shell/values.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/counted.h"
+#include "fathom/text/input_file.h"
+#include "fathom/text/printable.h"
+#include "fathom/text/sha256.h"
+
+namespace fathom::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string key_of(const Task& task) {
+  return text::sha256(std::as_bytes(std::span(task.inputs)));
+}
+
+/// Whether the file is there as it was published.
+bool is_intact(const fs::path& folder, const PublishedFile& file) {
+  const fs::path path = folder / file.path;
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) != file.bytes || error) {
+    return false;
+  }
+  try {
+    const text::InputFile input(path, text::InputFile::Reading::copied);
+    return crc32_of(input.bytes()) == file.crc32;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// The record of a task whose files are there, unharmed, and made of the same inputs.
+const Record* record_of(const ManifestContent& content, const Job& job, const Task& task,
+                        const std::string& key) {
+  const auto found = content.records.find(task.files.front());
+  if (found == content.records.end()) return nullptr;
+  const Record& record = found->second;
+  const bool same_files = std::ranges::equal(record.files, task.files, {}, &PublishedFile::path);
+  if (record.key != key || !same_files) return nullptr;
+  const auto intact = [&](const PublishedFile& file) { return is_intact(job.folder, file); };
+  return std::ranges::all_of(record.files, intact) ? &record : nullptr;
+}
+
+/// The work on one part of a job.
+class Work {
+ public:
+  Work(const Job& job, const Console& console)
+      : job_(job), console_(console), manifest_(job.folder, job.shard) {}
+
+  void run() {
+    Warnings warnings;
+    content_ = manifest_.read(warnings);
+    console_.warn(warnings);
+    announce();
+    const std::size_t made = make_tasks();
+    const bool has_lists = write_lists();
+    tell(made, has_lists);
+  }
+
+ private:
+  std::vector<std::string> files() const {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < job_.tasks.size(); ++i) {
+      if (!job_.shard.has(i)) continue;
+      all.insert(all.end(), job_.tasks[i].files.begin(), job_.tasks[i].files.end());
+    }
+    for (const JobList& list : job_.lists) all.push_back(list.file);
+    return all;
+  }
+
+  /// Before the first file is made: those that are there already have to be the job's own.
+  void announce() {
+    std::vector<std::string> unannounced;
+    for (const std::string& file : files()) {
+      if (content_.owned.contains(file)) continue;
+      std::error_code error;
+      if (!job_.overwrites && fs::exists(fs::symlink_status(job_.folder / file, error))) {
+        throw UsageError(fmt::format(
+            "{}: is there already, and not made by this command; name another folder, or give "
+            "--overwrite",
+            (job_.folder / file).string()));
+      }
+      unannounced.push_back(file);
+    }
+    manifest_.announce(unannounced);
+  }
+
+  std::size_t make_tasks() {
+    std::size_t total = 0, made = 0;
+    for (std::size_t i = 0; i < job_.tasks.size(); ++i) total += job_.shard.has(i) ? 1 : 0;
+    JobProgress progress(console_, job_.noun, total);
+    Publisher publisher(job_.folder, manifest_,
+                        [&](std::size_t count) { progress.add_made(count); });
+    try {
+      for (std::size_t i = 0; i < job_.tasks.size(); ++i) {
+        if (!job_.shard.has(i)) continue;
+        const Task& task = job_.tasks[i];
+        std::string key = key_of(task);
+        if (record_of(content_, job_, task, key) != nullptr) {
+          progress.add_found();
+          continue;
+        }
+        publisher.add(task, std::move(key), job_.make(i));
+        ++made;
+      }
+      publisher.finish();
+    } catch (const OutputError& error) {
+      throw OutputError(error.what() + progress.so_far());
+    } catch (const InputError& error) {
+      throw InputError(error.what() + progress.so_far());
+    }
+    return made;
+  }
+
+  /// Where all tasks are finished, those of other shards too: writes the lists, and the manifest anew
+  /// where no shard has one of its own. Returns whether they are.
+  bool write_lists() {
+    Warnings told_before;
+    content_ = manifest_.read(told_before);
+    std::vector<Record> records;
+    std::vector<std::string> facts;
+    for (const Task& task : job_.tasks) {
+      const auto found = content_.records.find(task.files.front());
+      if (found == content_.records.end() || found->second.key != key_of(task)) return false;
+      records.push_back(found->second);
+      facts.push_back(found->second.facts);
+    }
+    for (const JobList& list : job_.lists) write_list(list, facts);
+    if (job_.shard.is_all()) manifest_.replace(records, content_.owned);
+    return true;
+  }
+
+  void write_list(const JobList& list, const std::vector<std::string>& facts) {
+    OutputFile output(job_.folder / list.file);
+    output.write(list.text(facts));
+    output.commit();
+  }
+
+  void tell(std::size_t made, bool has_lists) const {
+    std::size_t mine = 0;
+    for (std::size_t i = 0; i < job_.tasks.size(); ++i) mine += job_.shard.has(i) ? 1 : 0;
+    std::string line = fmt::format("{}: {}, {} made now", text::printable(job_.folder.string()),
+                                   text::counted(mine, job_.noun), made);
+    if (!job_.shard.is_all()) {
+      line += fmt::format(", of {} in {} shards", job_.tasks.size(), job_.shard.of);
+    }
+    if (!has_lists) {
+      line += job_.lists.empty()
+                  ? "; other shards are not finished"
+                  : fmt::format(
+                        "; {} is written when the other shards are finished, by the last "
+                        "of them",
+                        job_.lists.front().file);
+    }
+    print(line + "\n");
+  }
+
+  const Job& job_;
+  const Console& console_;
+  Manifest manifest_;
+  ManifestContent content_;
+};
+
+}  // namespace
+
+Shard parse_shard(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  Shard shard;
+  if (slash != std::string::npos) {
+    shard.number = parse_positive(text.substr(0, slash));
+    shard.of = parse_positive(text.substr(slash + 1));
+  }
+  if (slash == std::string::npos || shard.number > shard.of) {
+    throw UsageError("'" + text + "' is no part of a whole; the second of five is 2/5");
+  }
+  return shard;
+}
+
+void run_job(const Job& job, const Console& console) {
+  expect_standard_output();
+  make_folder(job.folder);
+  Work(job, console).run();
+}
+
+}  // namespace fathom::app

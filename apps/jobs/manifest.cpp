@@ -1,0 +1,208 @@
+#include "apps/jobs/manifest.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <libdeflate.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <nlohmann/json.hpp>
+
+#include "apps/shell/output_file.h"
+#include "apps/shell/write_all.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/input_file.h"
+
+namespace fathom::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* prefix = "fathom-manifest";
+constexpr int version = 1;
+
+std::string first_line() {
+  return Json{{"fathom-manifest", version}}.dump() + "\n";
+}
+
+std::string name_of(const Shard& shard) {
+  return shard.is_all() ? fmt::format("{}.jsonl", prefix)
+                        : fmt::format("{}-{}-of-{}.jsonl", prefix, shard.number, shard.of);
+}
+
+std::string dumped(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string announcement_of(const std::vector<std::string>& files) {
+  return dumped(Json{{"announced", files}}) + "\n";
+}
+
+Record record_of(const Json& json) {
+  Record record{json.at("key").get<std::string>(), {}, dumped(json.at("facts"))};
+  for (const Json& file : json.at("files")) {
+    record.files.push_back({file.at("path").get<std::string>(),
+                            file.at("bytes").get<std::uint64_t>(),
+                            file.at("crc32").get<std::uint32_t>()});
+  }
+  if (record.files.empty()) throw std::invalid_argument("no file");
+  return record;
+}
+
+void add_line(const std::string& line, const std::string& name, ManifestContent& content) {
+  const Json json = Json::parse(line);
+  if (json.contains("fathom-manifest")) {
+    if (json.at("fathom-manifest").get<int>() <= version) return;
+    throw InputError(name + ": is of a later version of fathom; use that one, or another folder");
+  }
+  if (json.contains("announced")) {
+    for (const Json& file : json.at("announced")) content.owned.insert(file.get<std::string>());
+    return;
+  }
+  Record record = record_of(json);
+  for (const PublishedFile& file : record.files) content.owned.insert(file.path);
+  std::string task = record.files.front().path;
+  content.records.insert_or_assign(std::move(task), std::move(record));
+}
+
+/// The manifests of a folder, in the order of their names.
+std::vector<fs::path> manifests_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(prefix) && name.ends_with(".jsonl")) found.push_back(entry.path());
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+bool is_still_at(int file, const fs::path& path) {
+  struct stat open {};
+  struct stat there {};
+  return ::fstat(file, &open) == 0 && ::stat(path.c_str(), &there) == 0 &&
+         open.st_dev == there.st_dev && open.st_ino == there.st_ino;
+}
+
+/// What follows the last complete line was being written when the power went.
+void cut_torn_line(int file, const fs::path& path) {
+  const off_t size = ::lseek(file, 0, SEEK_END);
+  off_t end = size;
+  for (char c = 0; end > 0; --end) {
+    if (::pread(file, &c, 1, end - 1) != 1) fail_with_errno(path, errno);
+    if (c == '\n') break;
+  }
+  if (end != size && ::ftruncate(file, end) != 0) fail_with_errno(path, errno);
+}
+
+}  // namespace
+
+std::uint32_t crc32_of(text::ByteView bytes) {
+  return libdeflate_crc32(0, bytes.data(), bytes.size());
+}
+
+std::string line_of(const Record& record) {
+  Json files = Json::array();
+  for (const PublishedFile& file : record.files) {
+    files.push_back({{"path", file.path}, {"bytes", file.bytes}, {"crc32", file.crc32}});
+  }
+  const Json json{{"key", record.key}, {"files", files}, {"facts", Json::parse(record.facts)}};
+  return dumped(json) + "\n";
+}
+
+void ManifestContent::add(const std::string& text, const std::string& name, Warnings& warnings) {
+  std::size_t number = 0, bad = 0, first_bad = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    ++number;
+    if (end == std::string::npos) break;
+    try {
+      add_line(text.substr(begin, end - begin), name, *this);
+    } catch (const nlohmann::json::exception&) {
+      if (bad++ == 0) first_bad = number;
+    } catch (const std::invalid_argument&) {
+      if (bad++ == 0) first_bad = number;
+    }
+    begin = end + 1;
+  }
+  if (bad == 0) return;
+  warnings.push_back(fmt::format(
+      "{}: line {} is no record of a finished task, {} of {} lines are none: what they were about "
+      "is made again",
+      name, first_bad, bad, number));
+}
+
+Manifest::Manifest(fs::path folder, const Shard& shard)
+    : folder_(std::move(folder)), path_(folder_ / name_of(shard)) {
+  open();
+  cut_torn_line(file_.get(), path_);
+  struct stat status {};
+  if (::fstat(file_.get(), &status) != 0) fail_with_errno(path_, errno);
+  if (status.st_size == 0) append(first_line());
+  const text::Descriptor in(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (in.is_open()) ::fsync(in.get());
+}
+
+/// The lock ends with this process. Whoever had it before may have put another file in its place.
+void Manifest::open() {
+  do {
+    file_ = text::Descriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+    if (!file_.is_open()) fail_with_errno(path_, errno);
+    if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      throw OutputError(path_.string() +
+                        ": another process is at this work; wait for it, or give each its --shard");
+    }
+  } while (!is_still_at(file_.get(), path_));
+}
+
+ManifestContent Manifest::read(Warnings& warnings) const {
+  ManifestContent content;
+  for (const fs::path& path : manifests_in(folder_)) {
+    const text::InputFile file(path, text::InputFile::Reading::copied);
+    content.add(std::string(file.text()), path.string(), warnings);
+  }
+  return content;
+}
+
+void Manifest::append(const std::string& lines) {
+  write_all(file_.get(), lines.data(), lines.size(), path_);
+  if (::fdatasync(file_.get()) != 0 && errno != EINVAL && errno != ENOSYS) {
+    fail_with_errno(path_, errno);
+  }
+}
+
+void Manifest::announce(const std::vector<std::string>& files) {
+  if (!files.empty()) append(announcement_of(files));
+}
+
+void Manifest::add(const std::vector<Record>& records) {
+  std::string lines;
+  for (const Record& record : records) lines += line_of(record);
+  append(lines);
+}
+
+void Manifest::replace(const std::vector<Record>& records, std::unordered_set<std::string> owned) {
+  std::string text;
+  for (const Record& record : records) {
+    for (const PublishedFile& file : record.files) owned.erase(file.path);
+    text += line_of(record);
+  }
+  std::vector<std::string> others(owned.begin(), owned.end());
+  std::ranges::sort(others);
+  text.insert(0, first_line() + (others.empty() ? "" : announcement_of(others)));
+  OutputFile output(path_);
+  output.write(text);
+  output.commit();
+  for (const fs::path& other : manifests_in(folder_)) {
+    if (other == path_) continue;
+    const text::Descriptor file(::open(other.c_str(), O_RDONLY | O_CLOEXEC));
+    const bool is_free = file.is_open() && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0;
+    if (is_free) ::unlink(other.c_str());
+  }
+}
+
+}  // namespace fathom::app

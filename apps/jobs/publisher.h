@@ -1,0 +1,61 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "apps/jobs/job.h"
+#include "apps/jobs/manifest.h"
+
+namespace fathom::app {
+
+/// Writes the results of tasks while the next ones are computed, by a thread of its own. Those that
+/// wait are written together, and wait for the disk once.
+class Publisher {
+ public:
+  /// `published` is called with the number of tasks that have been published just now, from the
+  /// publisher's thread.
+  Publisher(std::filesystem::path folder, Manifest& manifest,
+            std::function<void(std::size_t)> published);
+  Publisher(const Publisher&) = delete;
+  Publisher& operator=(const Publisher&) = delete;
+  /// Results that still wait are given up.
+  ~Publisher();
+
+  /// Waits where too much waits already.
+  /// Fails    as writing has failed since; nothing is published after that.
+  void add(const Task& task, std::string key, Result result);
+  /// Waits until all is published. Fails as add().
+  void finish();
+
+ private:
+  struct Waiting {
+    Task task;
+    std::string key;
+    Result result;
+  };
+
+  void run();
+  void publish(std::vector<Waiting> batch);
+  std::vector<Waiting> next_batch();
+  void rethrow_failure(std::unique_lock<std::mutex>& lock);
+
+  std::filesystem::path folder_;
+  Manifest& manifest_;
+  std::function<void(std::size_t)> published_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Waiting> waiting_;
+  std::size_t memory_ = 0;
+  bool busy_ = false, ended_ = false;
+  std::exception_ptr failure_;
+  std::thread thread_;
+};
+
+}  // namespace fathom::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "apps/shell/console.h"
+#include "fathom/scene/view_warnings.h"
+
+namespace fathom::app {
+
+/// What is probably not meant about the cameras of a path, each kind of it told once.
+class CameraWarnings {
+ public:
+  /// Of a camera whose map shows the scene in so many pixels.
+  void note(const Scene& scene, const Camera& camera, std::uint64_t shown_pixels) {
+    of_cameras_.push_back(view_warnings(scene, camera, shown_pixels));
+  }
+  void tell(const Console& console) const { console.warn(told_once(of_cameras_)); }
+
+ private:
+  std::vector<std::vector<ViewWarning>> of_cameras_;
+};
+
+}  // namespace fathom::app
