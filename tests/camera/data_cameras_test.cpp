@@ -37,20 +37,23 @@ TEST(DataCameras, AllSeeTheWholeCow) {
   std::vector<ImportedCamera> cameras;
   for (const char* name : {"look-at", "orthographic", "calibrated", "opencv", "orbit", "colmap"})
     for (const Camera& camera : read_cameras(folder / (std::string(name) + ".json")))
-      cameras.push_back({name, camera});
+      cameras.push_back({.camera = camera});
   Warnings warnings;
   for (const auto& list :
        {import_colmap(folder / "colmap"), import_nerf(folder / "transforms.json", 0, 0, warnings),
         import_bop(folder / "scene_camera.json", 640, 480), import_opengl(folder / "opengl.json")})
     cameras.insert(cameras.end(), list.begin(), list.end());
   EXPECT_EQ(cameras.size(), 4U + 4 + 2 + 2 + 2 + 2 + 2);
-  for (const auto& [name, camera] : cameras)
+  for (const ImportedCamera& one : cameras) {
+    const Camera& camera = one.camera;
+    EXPECT_EQ(one.fault + one.absence + one.distortion, "");
     for (const Vector& corner : corners) {
       const Seen at = seen(camera, corner);
-      ASSERT_GT(at.depth, 1) << name;
+      ASSERT_GT(at.depth, 1) << camera.name;
       ASSERT_TRUE(at.u > 0 && at.u < camera.width && at.v > 0 && at.v < camera.height)
-          << name << " " << at.u << " " << at.v;
+          << camera.name << " " << at.u << " " << at.v;
     }
+  }
 }
 
 TEST(DataCameras, TheSameCameraInFourFormatsIsTheSame) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "fathom/camera/camera_import_internal.h"
@@ -62,7 +64,7 @@ TEST(ImportBop, OrdersByNumberAndDefaultsToTheCameraFrame) {
 
 TEST(ImportBop, NamesFaults) {
   const auto fault = [](const std::string& text, std::uint32_t width = 6) {
-    return message_of<InputError>([&] { parse_bop(text, "scene_camera.json", width, 4); });
+    return message_of<InputError>([&] { judged(parse_bop(text, "scene_camera.json", width, 4)); });
   };
   const std::string K = R"("cam_K": [100,0,3,0,100,2,0,0,1])";
   EXPECT_THAT(fault("{}"), HasSubstr("no image"));
@@ -78,6 +80,24 @@ TEST(ImportBop, NamesFaults) {
   EXPECT_THAT(fault(std::string("{\"1\": {") + K +
                     R"(, "cam_R_w2c": [0,0,0,0,0,0,0,0,0], "cam_t_w2c": [1,2,3]}})"),
               HasSubstr("singular"));
+}
+
+TEST(ImportBop, TheImageSizeIsTheDataSets) {
+  const ScratchFolder folder;
+  const auto scene = folder.path() / "test" / "000001";
+  std::filesystem::create_directories(scene);
+  std::ofstream(scene / "scene_camera.json") << R"({"3": {"cam_K": [100,0,3,0,100,2,0,0,1]}})";
+  EXPECT_THAT(message_of<InputError>([&] { import_bop(scene, 0, 0); }),
+              HasSubstr("the image size is unknown: there is no camera.json"));
+  std::ofstream(folder.path() / "camera.json")
+      << R"({"cx": 3, "cy": 2, "fx": 1, "fy": 1, "depth_scale": 0.1, "width": 720, "height": 540})";
+  for (const auto& input : {scene, scene / "scene_camera.json"}) {
+    EXPECT_EQ(import_bop(input, 0, 0).at(0).camera.width, 720U);
+    EXPECT_EQ(import_bop(input, 0, 0).at(0).camera.height, 540U);
+  }
+  EXPECT_EQ(import_bop(scene, 8, 6).at(0).camera.width, 8U);
+  std::ofstream(scene / "camera.json") << R"({"width": 0, "height": 540})";
+  EXPECT_THAT(message_of<InputError>([&] { import_bop(scene, 0, 0); }), HasSubstr("width"));
 }
 
 TEST(ImportBop, ReadsTheFileInTheData) {

@@ -121,11 +121,13 @@ TEST(ImportColmap, DistortionIsToldUnlessItIsZero) {
   const std::string image = "1 1 0 0 0 0 0 0 1 a.png\n";
   for (const char* zero :
        {"SIMPLE_RADIAL 4 2 3 2 1 0", "RADIAL 4 2 3 2 1 0 -0.0", "OPENCV 4 2 3 3 2 1 0 0 0 0",
-        "FULL_OPENCV 4 2 3 3 2 1 0 0 0 0 0 0 0 0", "FOV 4 2 3 3 2 1 0"})
+        "FULL_OPENCV 4 2 3 3 2 1 0 0 0 0 0 0 0 0", "FOV 4 2 3 3 2 1 0",
+        "SIMPLE_DIVISION 4 2 3 2 1 0", "DIVISION 4 2 3 3 2 1 0", "EUCM 4 2 3 3 2 1 0 1"})
     EXPECT_TRUE(colmap_text(std::string("1 ") + zero, image).at(0).distortion.empty()) << zero;
   for (const char* not_zero :
        {"SIMPLE_RADIAL 4 2 3 2 1 1e-9", "RADIAL 4 2 3 2 1 0 1e-300", "OPENCV 4 2 3 3 2 1 0 0 0 0.1",
-        "FULL_OPENCV 4 2 3 3 2 1 0 0 0 0 0 0 0 -1", "FOV 4 2 3 3 2 1 0.1"}) {
+        "FULL_OPENCV 4 2 3 3 2 1 0 0 0 0 0 0 0 -1", "FOV 4 2 3 3 2 1 0.1",
+        "SIMPLE_DIVISION 4 2 3 2 1 0.1", "DIVISION 4 2 3 3 2 1 -0.1", "EUCM 4 2 3 3 2 1 0.1 1"}) {
     const ImportedCamera one = colmap_text(std::string("1 ") + not_zero, image).at(0);
     EXPECT_THAT(one.distortion,
                 AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("lens distortion")))
@@ -134,10 +136,30 @@ TEST(ImportColmap, DistortionIsToldUnlessItIsZero) {
   }
   for (const char* no_pinhole :
        {"OPENCV_FISHEYE 4 2 3 3 2 1 0 0 0 0", "SIMPLE_RADIAL_FISHEYE 4 2 3 2 1 0",
-        "RADIAL_FISHEYE 4 2 3 2 1 0 0", "THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0"})
+        "RADIAL_FISHEYE 4 2 3 2 1 0 0", "THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0",
+        "RAD_TAN_THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0 0 0 0 0",
+        "SIMPLE_FISHEYE 4 2 3 2 1", "FISHEYE 4 2 3 3 2 1", "EQUIRECTANGULAR 4 2 4 2"})
     EXPECT_THAT(message_of<InputError>([&] { colmap_text(std::string("1 ") + no_pinhole, image); }),
                 AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("undistort")))
         << no_pinhole;
+}
+
+/// In the order of their ids: each file has a camera of one model that no image uses, so that the
+/// file can only be followed where the number of its parameters is right.
+TEST(ImportColmap, KnowsTheLengthOfEveryModel) {
+  const std::array<std::size_t, 18> parameters{3, 4,  4,  5, 8, 8, 12, 5, 4,
+                                               5, 12, 16, 4, 5, 3, 4,  6, 2};
+  for (std::uint32_t model = 0; model < parameters.size(); ++model) {
+    BinaryText cameras, images;
+    cameras << std::uint64_t{2} << std::uint32_t{1} << model << std::uint64_t{4}
+            << std::uint64_t{2};
+    for (std::size_t k = 0; k < parameters[model]; ++k) cameras << 1.0;
+    cameras << std::uint32_t{2} << std::uint32_t{0} << std::uint64_t{4} << std::uint64_t{2} << 3.0
+            << 2.0 << 1.0;
+    images << std::uint64_t{1} << std::uint32_t{1} << 1.0 << 0.0 << 0.0 << 0.0 << 0.0 << 0.0 << 0.0
+           << std::uint32_t{2} << 'a' << '\0' << std::uint64_t{0};
+    EXPECT_EQ(colmap_binary(cameras.text, images.text).at(0).camera.fx, 3) << model;
+  }
 }
 
 TEST(ImportColmap, NamesLineAndFault) {

@@ -104,7 +104,7 @@ TEST(ImportNerf, AnglesSpanTheImage) {
               HasSubstr("no image size was given"));
 }
 
-TEST(ImportNerf, WarnsOfGeometryAndRefusesDistortion) {
+TEST(ImportNerf, WarnsOfGeometryTellsDistortionAndNamesFaults) {
   Warnings warnings;
   const std::string frames =
       std::string(R"("fl_x": 100, "w": 6, "h": 4, "frames": [{)") + nerf_pose + "}]}";
@@ -114,8 +114,15 @@ TEST(ImportNerf, WarnsOfGeometryAndRefusesDistortion) {
   const auto fault = [&](const std::string& text) {
     return message_of<InputError>([&] { nerf(text, warnings); });
   };
-  EXPECT_THAT(fault(R"({"k1": 1e-9, )" + frames), HasSubstr("k1: lens distortion"));
-  EXPECT_THAT(fault(R"({"p2": -1, )" + frames), HasSubstr("p2: lens distortion"));
+  const auto distortion = [&](const std::string& text) {
+    return nerf(text, warnings).at(0).distortion;
+  };
+  for (const char* pinhole : {"PINHOLE", "SIMPLE_PINHOLE", "OPENCV", "RADIAL", "SIMPLE_RADIAL"})
+    EXPECT_EQ(distortion(std::string(R"({"camera_model": ")") + pinhole + "\", " + frames), "");
+  EXPECT_EQ(distortion(R"({"k1": 1e-9, "p2": 1, )" + frames),
+            "transforms.json: k1: lens distortion");
+  EXPECT_EQ(distortion(R"({"p2": -1, )" + frames), "transforms.json: p2: lens distortion");
+  EXPECT_THAT(fault(R"({"equirectangular": true, )" + frames), HasSubstr("no pinhole camera"));
   EXPECT_THAT(fault(R"({"camera_model": "OPENCV_FISHEYE", )" + frames),
               HasSubstr("OPENCV_FISHEYE"));
   EXPECT_THAT(fault(R"({"is_fisheye": true, )" + frames), HasSubstr("is_fisheye"));

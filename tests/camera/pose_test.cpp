@@ -20,6 +20,16 @@ TEST(Pose, UnitVectorsAreRoundedOnce) {
   EXPECT_EQ(unit_vector({1e300, 1e300, -1e300}), (std::array<double, 3>{third, third, -third}));
 }
 
+TEST(Pose, RotationsOfQuaternionsAreRoundedOnce) {
+  // A third of a turn around (1, 1, 1), whatever the quaternion's length.
+  const Matrix3 third{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
+  EXPECT_EQ(rotation_of({1, 1, 1, 1}), third);
+  EXPECT_EQ(rotation_of({1e-200, 1e-200, 1e-200, 1e-200}), third);
+  // (w, x, y, z) = (3, 0, 0, 1): cos = 8/10, sin = 6/10 around z.
+  const Matrix3 around_z{{{0.8, -0.6, 0}, {0.6, 0.8, 0}, {0, 0, 1}}};
+  EXPECT_EQ(rotation_of({3, 0, 0, 1}), around_z);
+}
+
 /// Rounded to nearest: (e ± ½ ulp)² encloses the exact square vᵢ²/v·v.
 TEST(Pose, EntriesOfUnitVectorsAreTheNearest) {
   testing::Numbers n(91);

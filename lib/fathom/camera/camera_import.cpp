@@ -15,9 +15,20 @@ constexpr const char* what_to_do =
     "undistort the images and take the cameras of the result, or take the pinhole part with "
     "--ignore-distortion (ignore_distortion in Python)";
 
-void require_usable(const ImportedCamera& one) {
-  if (!one.fault.empty()) throw InputError(one.fault);
+void require_camera(const ImportedCamera& one) {
+  for (const std::string& reason : {one.fault, one.absence})
+    if (!reason.empty()) throw InputError(reason);
 }
+
+/// What is left out of a choice: how many, and the reason of the first.
+struct LeftOut {
+  std::size_t count = 0;
+  std::string first;
+
+  void add(const std::string& reason) {
+    if (count++ == 0) first = reason;
+  }
+};
 
 Camera the_one_of(const std::vector<ImportedCamera>& imported, const std::string& input,
                   const CameraChoice& choice) {
@@ -27,11 +38,17 @@ Camera the_one_of(const std::vector<ImportedCamera>& imported, const std::string
     throw InputError(fmt::format("{}: no image '{}'; --list shows the {} there are", input,
                                  text::printable(choice.image), imported.size()));
   }
-  require_usable(*found);
+  require_camera(*found);
   if (!found->distortion.empty() && !choice.ignore_distortion) {
     throw InputError(found->distortion + "; " + what_to_do);
   }
   return found->camera;
+}
+
+std::string of_all(const LeftOut& left_out, std::size_t all, const char* have, const char* has) {
+  return fmt::format("{} of {} {} and {} left out: {}", left_out.count,
+                     text::counted(all, "camera"), left_out.count == 1 ? has : have,
+                     left_out.count == 1 ? "is" : "are", left_out.first);
 }
 
 }  // namespace
@@ -42,22 +59,27 @@ std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
   if (imported.empty()) throw InputError(input + ": holds no camera");
   if (!choice.image.empty()) return {the_one_of(imported, input, choice)};
   std::vector<Camera> cameras;
-  const ImportedCamera* distorted = nullptr;
-  std::size_t left_out = 0;
+  LeftOut distorted, absent;
   for (const ImportedCamera& one : imported) {
-    if (!one.distortion.empty() && !choice.ignore_distortion) {
-      if (left_out++ == 0) distorted = &one;
-      continue;
+    if (!one.absence.empty()) {
+      absent.add(one.absence);
+    } else if (!one.distortion.empty() && !choice.ignore_distortion) {
+      distorted.add(one.distortion);
+    } else {
+      require_camera(one);
+      cameras.push_back(one.camera);
     }
-    require_usable(one);
-    cameras.push_back(one.camera);
   }
-  if (cameras.empty()) throw InputError(distorted->distortion + "; " + what_to_do);
-  if (left_out != 0) {
-    warnings.push_back(fmt::format("{} of {} {} lens distortion and {} left out: {}; {}", left_out,
-                                   text::counted(imported.size(), "camera"),
-                                   left_out == 1 ? "has" : "have", left_out == 1 ? "is" : "are",
-                                   distorted->distortion, what_to_do));
+  if (cameras.empty()) {
+    throw InputError(distorted.count != 0 ? distorted.first + "; " + what_to_do : absent.first);
+  }
+  if (distorted.count != 0) {
+    warnings.push_back(
+        of_all(distorted, imported.size(), "have lens distortion", "has lens distortion") + "; " +
+        what_to_do);
+  }
+  if (absent.count != 0) {
+    warnings.push_back(of_all(absent, imported.size(), "have no pose", "has no pose"));
   }
   return cameras;
 }

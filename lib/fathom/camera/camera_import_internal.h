@@ -2,12 +2,16 @@
 
 #include <cstdint>
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fathom/camera/camera_import.h"
+#include "fathom/camera/data_set_cameras.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/printable.h"
 
 /// The imports of camera_import.h from text and streams that are already open, for their own files,
 /// tests and fuzzers. `name` is the file's name for messages.
@@ -25,7 +29,9 @@ ImportedCamera imported_camera(std::string name, const Read& read) {
   ImportedCamera result;
   try {
     read(result);
-    if (const auto fault = find_fault(result.camera)) result.fault = name + ": " + *fault;
+    const bool has_camera = result.fault.empty() && result.absence.empty();
+    if (const auto fault = has_camera ? find_fault(result.camera) : std::nullopt)
+      result.fault = text::printable(name) + ": " + *fault;
   } catch (const InputError& error) {
     result.fault = error.what();
   }
@@ -42,5 +48,44 @@ std::vector<ImportedCamera> parse_nerf(std::string_view text, const std::string&
 std::vector<ImportedCamera> parse_bop(std::string_view text, const std::string& name,
                                       std::uint32_t width, std::uint32_t height);
 std::vector<ImportedCamera> parse_opengl(std::string_view text, const std::string& name);
+std::vector<ImportedCamera> parse_gltf_cameras(std::string_view bytes, const std::string& name,
+                                               std::uint32_t width, std::uint32_t height);
+/// The image size of a camera.json of BOP.
+std::pair<std::uint32_t, std::uint32_t> parse_bop_size(std::string_view text,
+                                                       const std::string& name);
+
+// Those of data_set_cameras.h. A file that is optional there is an empty text here.
+
+/// `stem` is the name of the pose of a file with a single one.
+std::vector<NamedPose> parse_poses(std::string_view text, const std::string& name,
+                                   const std::string& stem);
+std::vector<IntrinsicMatrix> parse_intrinsic_matrices(std::string_view text,
+                                                      const std::string& name);
+
+/// A text with the name of its file.
+struct NamedText {
+  std::string_view text;
+  std::string name;
+};
+
+std::vector<ImportedCamera> parse_tum(const NamedText& trajectory,
+                                      const std::optional<NamedText>& images,
+                                      const ImportedCamera& lens);
+/// A frame of 7-Scenes.
+ImportedCamera parse_7scenes(const NamedText& pose, const std::string& frame,
+                             const GivenLens& given);
+/// ScanNet's matrix of a stream, of which the upper left 3×3 is K.
+IntrinsicMatrix parse_scannet_intrinsics(const NamedText& file);
+/// A frame of ScanNet.
+ImportedCamera parse_scannet(const NamedText& pose, const std::string& frame, const Camera& lens);
+std::vector<ImportedCamera> parse_scannetpp(const NamedText& file, const GivenLens& given);
+std::vector<ImportedCamera> parse_replica(const NamedText& trajectory,
+                                          const std::optional<NamedText>& parameters,
+                                          const GivenLens& given);
+std::vector<ImportedCamera> parse_kitti(const NamedText& calibration,
+                                        const std::optional<NamedText>& poses,
+                                        std::optional<std::uint32_t> number,
+                                        const GivenLens& given);
+std::vector<ImportedCamera> parse_sfm_data(const NamedText& file);
 
 }  // namespace fathom::camera

@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <charconv>
+#include <limits>
+#include <tuple>
 
 #include "fathom/camera/camera_import_internal.h"
+#include "fathom/camera/posed_cameras.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/input_file.h"
@@ -10,6 +13,8 @@
 namespace fathom {
 using namespace camera;
 using namespace text;
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -22,14 +27,10 @@ std::uint64_t image_id(const std::string& key, const JsonValue& value) {
 }
 
 void read_intrinsics(const JsonValue& cam_K, Camera& camera) {
-  const auto K = cam_K.numbers(9);
-  if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1)
-    cam_K.fail("expected fx s cx, 0 fy cy, 0 0 1");
-  camera.fx = K[0];
-  camera.skew = K[1];
-  camera.cx = K[2];
-  camera.fy = K[4];
-  camera.cy = K[5];
+  const auto numbers = cam_K.numbers(9);
+  IntrinsicMatrix K;
+  std::copy(numbers.begin(), numbers.end(), K.begin());
+  set_intrinsics(camera, K, cam_K.where());
   camera.pixel_centre = 0;
 }
 
@@ -69,9 +70,40 @@ std::vector<ImportedCamera> camera::parse_bop(std::string_view text, const std::
   return result;
 }
 
-std::vector<ImportedCamera> import_bop(const std::filesystem::path& file, std::uint32_t width,
+std::pair<std::uint32_t, std::uint32_t> camera::parse_bop_size(std::string_view text,
+                                                               const std::string& name) {
+  const JsonDocument document(text, name);
+  const auto size = [&](const char* key) {
+    return static_cast<std::uint32_t>(
+        document.root().at(key).integer(1, std::numeric_limits<std::uint32_t>::max()));
+  };
+  return {size("width"), size("height")};
+}
+
+namespace {
+
+/// The camera.json of a data set, which lies two folders above those of its scenes.
+fs::path find_camera_json(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path start = folder.empty() ? fs::path(".") : folder;
+  for (const fs::path& place : {start, start / "..", start / ".." / ".."})
+    if (fs::exists(place / "camera.json", ignored)) return place / "camera.json";
+  throw InputError(folder.string() +
+                   ": the image size is unknown: there is no camera.json in this folder or the two "
+                   "above; give the size (--size)");
+}
+
+}  // namespace
+
+std::vector<ImportedCamera> import_bop(const fs::path& input, std::uint32_t width,
                                        std::uint32_t height) {
   const StandardArithmetic standard;
+  std::error_code ignored;
+  const fs::path file = fs::is_directory(input, ignored) ? input / "scene_camera.json" : input;
+  if (width == 0 && height == 0) {
+    const fs::path size = find_camera_json(file.parent_path());
+    std::tie(width, height) = parse_bop_size(InputFile(size).text(), size.string());
+  }
   return parse_bop(InputFile(file).text(), file.string(), width, height);
 }
 

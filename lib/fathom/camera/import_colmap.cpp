@@ -1,23 +1,19 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <map>
-#include <sstream>
 
 #include "fathom/camera/camera_import_internal.h"
+#include "fathom/camera/import_lines.h"
 #include "fathom/camera/pose.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/decimal.h"
 
 namespace fathom {
 using namespace camera;
-using namespace text;
 
 namespace {
 
@@ -32,8 +28,8 @@ struct Model {
   bool pinhole;
 };
 
-/// In the order of COLMAP's model ids.
-constexpr std::array<Model, 11> models{{{"SIMPLE_PINHOLE", 3, 1, true},
+/// In the order of COLMAP's model ids: those of COLMAP 4, of which 3.8 had the first eleven.
+constexpr std::array<Model, 18> models{{{"SIMPLE_PINHOLE", 3, 1, true},
                                         {"PINHOLE", 4, 2, true},
                                         {"SIMPLE_RADIAL", 4, 1, true},
                                         {"RADIAL", 5, 1, true},
@@ -43,7 +39,19 @@ constexpr std::array<Model, 11> models{{{"SIMPLE_PINHOLE", 3, 1, true},
                                         {"FOV", 5, 2, true},
                                         {"SIMPLE_RADIAL_FISHEYE", 4, 1, false},
                                         {"RADIAL_FISHEYE", 5, 1, false},
-                                        {"THIN_PRISM_FISHEYE", 12, 2, false}}};
+                                        {"THIN_PRISM_FISHEYE", 12, 2, false},
+                                        {"RAD_TAN_THIN_PRISM_FISHEYE", 16, 2, false},
+                                        {"SIMPLE_DIVISION", 4, 1, true},
+                                        {"DIVISION", 5, 2, true},
+                                        {"SIMPLE_FISHEYE", 3, 1, false},
+                                        {"FISHEYE", 4, 2, false},
+                                        {"EUCM", 6, 2, true},
+                                        {"EQUIRECTANGULAR", 2, 0, false}}};
+
+/// Of EUCM's two, alpha = 0 alone is a pinhole camera, whatever its beta.
+std::size_t distortion_parameters(const Model& model) {
+  return model.name == std::string_view("EUCM") ? 1 : model.parameters - model.focals - 2;
+}
 
 using Cameras = std::map<std::uint32_t, ImportedCamera>;
 
@@ -76,7 +84,8 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   }
   if (!result.fault.empty()) return result;
   const auto distortion = record.parameters.begin() + static_cast<long>(model.focals) + 2;
-  if (std::any_of(distortion, record.parameters.end(), [](double k) { return k != 0; }))
+  if (std::any_of(distortion, distortion + static_cast<long>(distortion_parameters(model)),
+                  [](double k) { return k != 0; }))
     result.distortion = about + "the model " + model.name + " has lens distortion";
   Camera& camera = result.camera;
   camera.width = static_cast<std::uint32_t>(record.width);
@@ -87,20 +96,6 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   camera.cy = record.parameters[model.focals + 1];
   if (const auto fault = find_fault(camera)) result.fault = about + *fault;
   return result;
-}
-
-/// The rotation of a Hamilton quaternion of any length but 0, each entry rounded once.
-Matrix3 rotation_of(const std::array<double, 4>& quaternion) {
-  const Dyadic w = quaternion[0], x = quaternion[1], y = quaternion[2], z = quaternion[3];
-  const Dyadic n = w * w + x * x + y * y + z * z;
-  const auto rounded = [&](const Dyadic& a) { return round_to_binary64(Ratio(a, n)); };
-  const auto twice = [](const Dyadic& a) { return a + a; };
-  return {{{rounded(w * w + x * x - y * y - z * z), rounded(twice(x * y - w * z)),
-            rounded(twice(x * z + w * y))},
-           {rounded(twice(x * y + w * z)), rounded(w * w - x * x + y * y - z * z),
-            rounded(twice(y * z - w * x))},
-           {rounded(twice(x * z - w * y)), rounded(twice(y * z + w * x)),
-            rounded(w * w - x * x - y * y + z * z)}}};
 }
 
 ImportedCamera place(const ImageRecord& image, const Cameras& cameras, const std::string& where) {
@@ -195,7 +190,8 @@ Cameras read_binary_cameras(BinaryReader file) {
     record.id = file.read<std::uint32_t>();
     const auto model = file.read<std::uint32_t>();
     if (model >= models.size())
-      throw InputError(where + ": unknown camera model " + std::to_string(model));
+      throw InputError(where + ": unknown camera model " + std::to_string(model) +
+                       "; convert the model to text or undistort it (colmap image_undistorter)");
     record.width = file.read<std::uint64_t>();
     record.height = file.read<std::uint64_t>();
     for (std::size_t k = 0; k < models[model].parameters; ++k)
@@ -225,52 +221,6 @@ std::vector<ImportedCamera> read_binary_images(BinaryReader file, const Cameras&
 }
 
 // Text files
-
-/// A line of a text file and where it is.
-struct Line {
-  std::istringstream words;
-  std::string where;
-};
-
-/// The next line that is neither empty nor a comment.
-bool next_line(NamedStream& file, std::size_t& number, Line& line) {
-  for (std::string text; std::getline(file.stream, text);) {
-    ++number;
-    if (!text.empty() && text.back() == '\r') text.pop_back();
-    const auto first = text.find_first_not_of(" \t");
-    if (first == std::string::npos || text[first] == '#') continue;
-    line = {std::istringstream(text), file.name + ": line " + std::to_string(number)};
-    return true;
-  }
-  return false;
-}
-
-std::string read_word(Line& line, const char* what) {
-  std::string word;
-  if (!(line.words >> word)) throw InputError(line.where + ": " + what + " is missing");
-  return word;
-}
-
-[[noreturn]] void refuse(const Line& line, const char* what, const std::string& word) {
-  throw InputError(line.where + ": expected " + what + ", found '" + word + "'");
-}
-
-template <class Integer>
-Integer read_integer(Line& line, const char* what) {
-  const std::string word = read_word(line, what);
-  Integer value{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size()) refuse(line, what, word);
-  return value;
-}
-
-double read_number(Line& line, const char* what) {
-  const std::string word = read_word(line, what);
-  const auto result = parse_decimal<double>(word.data(), word.data() + word.size());
-  if (result.fault != DecimalFault::none || result.end != word.data() + word.size())
-    refuse(line, what, word);
-  return result.value;
-}
 
 Cameras read_text_cameras(NamedStream file) {
   Cameras cameras;

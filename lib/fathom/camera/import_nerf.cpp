@@ -1,9 +1,11 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "fathom/camera/camera_import_internal.h"
-#include "fathom/camera/pose.h"
+#include "fathom/camera/posed_cameras.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/input_file.h"
@@ -30,6 +32,10 @@ struct Frame {
   }
 };
 
+/// Those of Nerfstudio that are a pinhole camera where k1, k2, … are 0.
+constexpr std::array<std::string_view, 5> pinhole_models{"OPENCV", "PINHOLE", "RADIAL",
+                                                         "SIMPLE_PINHOLE", "SIMPLE_RADIAL"};
+
 /// Why the lens is not that of a pinhole camera, empty if it is.
 std::string distortion_of(const Frame& frame) {
   std::string found;
@@ -38,9 +44,14 @@ std::string distortion_of(const Frame& frame) {
   };
   if (const auto model = frame.find("camera_model"))
     if (const std::string& name = model->string();
-        name != "OPENCV" && name != "PINHOLE" && name != "SIMPLE_PINHOLE")
-      model->fail("the camera model " + name +
-                  " is no pinhole camera; expected OPENCV, PINHOLE or SIMPLE_PINHOLE");
+        std::ranges::find(pinhole_models, name) == pinhole_models.end())
+      model->fail(
+          "the camera model " + name +
+          " is no pinhole camera; undistort the images, or expected OPENCV, PINHOLE, RADIAL, "
+          "SIMPLE_PINHOLE or SIMPLE_RADIAL");
+  // instant-ngp names its other lenses by keys of their own.
+  for (const char* key : {"ftheta_p0", "latlong", "equirectangular"})
+    if (const auto other = frame.find(key)) other->fail("the lens is no pinhole camera");
   for (const char* key : {"k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"})
     if (const auto k = frame.find(key); k && k->number() != 0) note(*k, "lens distortion");
   if (const auto fisheye = frame.find("is_fisheye"); fisheye && fisheye->boolean())
@@ -66,40 +77,30 @@ std::optional<double> angle_of(const Frame& frame, const char* key) {
   return angle;
 }
 
-/// ½·size / tan(angle/2) in extended precision, then rounded.
-double focal_of(std::uint32_t size, double angle) {
-  return static_cast<double>(0.5L * size / std::tan(0.5L * static_cast<long double>(angle)));
-}
-
 void read_intrinsics(const Frame& frame, Camera& camera) {
   const auto angle_x = angle_of(frame, "camera_angle_x"),
              angle_y = angle_of(frame, "camera_angle_y");
   const auto fl_x = frame.number("fl_x"), fl_y = frame.number("fl_y");
   if (!fl_x && !angle_x)
     frame.own.fail("the focal length is missing: expected fl_x or camera_angle_x");
-  camera.fx = fl_x ? *fl_x : focal_of(camera.width, *angle_x);
-  camera.fy = fl_y ? *fl_y : angle_y && !fl_x ? focal_of(camera.height, *angle_y) : camera.fx;
+  camera.fx = fl_x ? *fl_x : focal_of_angle(camera.width, *angle_x);
+  camera.fy = fl_y ? *fl_y : angle_y && !fl_x ? focal_of_angle(camera.height, *angle_y) : camera.fx;
   camera.cx = frame.number("cx").value_or(camera.width / 2.0);
   camera.cy = frame.number("cy").value_or(camera.height / 2.0);
 }
 
-/// World to camera, in our axes, of a camera-to-world matrix in OpenGL's. The other way round it is
-/// that matrix with its second and third column, up and backward, turned round: exact. Its inverse
-/// is rounded once.
+/// World to camera, in our axes, of a camera-to-world matrix in OpenGL's.
 Matrix34 world_to_camera(const JsonValue& matrix) {
   const auto rows = matrix.elements();
   if (rows.size() != 3 && rows.size() != 4)
     matrix.fail("expected a 4×4 matrix, found " + std::to_string(rows.size()) + " rows");
-  Matrix34 world_from_camera;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto row = rows[i].numbers(4);
-    world_from_camera[i] = {row[0], -row[1], -row[2], row[3]};
+  std::vector<double> numbers;
+  for (const JsonValue& each : rows) {
+    const auto row = each.numbers(4);
+    numbers.insert(numbers.end(), row.begin(), row.end());
   }
-  if (rows.size() == 4 && rows[3].numbers(4) != std::vector<double>{0, 0, 0, 1})
-    rows[3].fail("expected the last row to be 0 0 0 1");
-  const auto camera_from_world = inverse(world_from_camera);
-  if (!camera_from_world) matrix.fail("the matrix is singular");
-  return *camera_from_world;
+  return camera_from_world(pose_of_numbers(numbers, matrix.where()), PoseDirection::camera_to_world,
+                           CameraAxes::opengl, matrix.where());
 }
 
 void warn_of_geometry(const JsonValue& root, const std::string& file, Warnings& warnings) {

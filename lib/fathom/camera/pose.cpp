@@ -14,6 +14,19 @@ std::array<double, 3> unit_vector(const ExactVector3& v) {
   return {entry(0), entry(1), entry(2)};
 }
 
+Matrix3 rotation_of(const std::array<double, 4>& quaternion) {
+  const Dyadic w = quaternion[0], x = quaternion[1], y = quaternion[2], z = quaternion[3];
+  const Dyadic n = w * w + x * x + y * y + z * z;
+  const auto rounded = [&](const Dyadic& a) { return round_to_binary64(Ratio(a, n)); };
+  const auto twice = [](const Dyadic& a) { return a + a; };
+  return {{{rounded(w * w + x * x - y * y - z * z), rounded(twice(x * y - w * z)),
+            rounded(twice(x * z + w * y))},
+           {rounded(twice(x * y + w * z)), rounded(w * w - x * x + y * y - z * z),
+            rounded(twice(y * z - w * x))},
+           {rounded(twice(x * z - w * y)), rounded(twice(y * z + w * x)),
+            rounded(w * w - x * x - y * y + z * z)}}};
+}
+
 ExactVector3 rotate(const Matrix3& R, const ExactVector3& X) {
   const auto row = [&](int i) { return dot(ExactVector3{R[i][0], R[i][1], R[i][2]}, X); };
   return {row(0), row(1), row(2)};

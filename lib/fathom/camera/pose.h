@@ -15,6 +15,10 @@ using Matrix34 = std::array<std::array<double, 4>, 3>;
 /// `v` scaled to length 1, each entry the exact one rounded to nearest. v must not be zero.
 std::array<double, 3> unit_vector(const ExactVector3& v);
 
+/// The rotation of a Hamilton quaternion (w, x, y, z) of any length but 0, each entry the exact one
+/// rounded once.
+Matrix3 rotation_of(const std::array<double, 4>& quaternion);
+
 /// R·X, exactly.
 ExactVector3 rotate(const Matrix3& R, const ExactVector3& X);
 

@@ -1,0 +1,192 @@
+// fathom camera import matrices | tum | 7scenes | scannet | scannetpp | replica | kitti
+
+#include <filesystem>
+
+#include "apps/camera/import_sources.h"
+#include "apps/camera/number_arrays.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+using Cameras = std::vector<ImportedCamera>;
+
+constexpr Words<PoseDirection> directions{{"world-to-camera", PoseDirection::world_to_camera},
+                                          {"camera-to-world", PoseDirection::camera_to_world}};
+constexpr Words<CameraAxes> axes{{"opencv", CameraAxes::opencv}, {"opengl", CameraAxes::opengl}};
+constexpr Words<ScanNetStream> streams{{"depth", ScanNetStream::depth},
+                                       {"colour", ScanNetStream::colour}};
+constexpr Words<double> pixel_centres{{"0", 0.0}, {"0.5", 0.5}};
+
+bool is_npy(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".npy";
+}
+
+/// fx,fy,cx,cy; nothing where it is something else, as a file.
+std::optional<IntrinsicMatrix> parse_intrinsics(const std::string& text) {
+  const std::vector<std::string> parts = parse_list(text);
+  if (parts.size() != 4) return std::nullopt;
+  std::array<double, 4> numbers;
+  for (std::size_t i = 0; i < 4; ++i) numbers[i] = parse_number(parts[i]);
+  return IntrinsicMatrix{numbers[0], 0, numbers[2], 0, numbers[1], numbers[3], 0, 0, 1};
+}
+
+GivenLens given_lens(const ImportArguments& a) {
+  GivenLens given;
+  if (a.size) {
+    given.width = (*a.size)[0];
+    given.height = (*a.size)[1];
+  }
+  if (!a.K.empty()) {
+    given.K = parse_intrinsics(a.K);
+    if (!given.K) throw UsageError("--K: expected fx,fy,cx,cy in pixels, found '" + a.K + "'");
+  }
+  given.pixel_centre = a.pixel_centre;
+  return given;
+}
+
+void add_pixel_centre(Command& command, ImportArguments& a, const std::string& otherwise) {
+  command.option(
+      "--pixel-centre", "0|0.5",
+      into(a.pixel_centre, [](const std::string& text) { return parse_word(text, pixel_centres); }),
+      "What cx and cy count the first pixel's centre as" + otherwise);
+}
+
+void add_lens_options(Command& command, ImportArguments& a) {
+  command.option("--K", "fx,fy,cx,cy", a.K, "Other intrinsics than the data set's, in pixels");
+  add_size_option(command, a);
+  add_pixel_centre(command, a, " (default 0)");
+}
+
+void declare_matrices(Command& command, ImportArguments& a) {
+  command
+      .option("--K", "FILE", a.K,
+              "Intrinsics: 3x3 as .txt or .npy, one for each pose or for all; or fx,fy,cx,cy")
+      .required();
+  command
+      .option(
+          "--poses", "world-to-camera|camera-to-world",
+          into(a.direction, [](const std::string& text) { return parse_word(text, directions); }),
+          "Which way the matrices lead")
+      .required();
+  command
+      .option("--axes", "opencv|opengl",
+              into(a.axes, [](const std::string& text) { return parse_word(text, axes); }),
+              "The camera's axes: y down and z forward, or y up and z backward")
+      .required();
+  command
+      .option("--pixel-centre", "0|0.5",
+              into(a.pixel_centre,
+                   [](const std::string& text) { return parse_word(text, pixel_centres); }),
+              "What cx and cy count the first pixel's centre as")
+      .required();
+  command.option("--size", "WxH", into(a.size, parse_size), "WIDTHxHEIGHT of the images in pixels")
+      .required();
+}
+
+Cameras read_matrices(const ImportArguments& a, Warnings&) {
+  std::vector<IntrinsicMatrix> K;
+  if (const auto numbers = parse_intrinsics(a.K))
+    K = {*numbers};
+  else
+    K = is_npy(a.K) ? intrinsics_of_npy(a.K) : read_intrinsic_matrices(a.K);
+  const auto [width, height] = *a.size;
+  return import_matrices(is_npy(a.input) ? poses_of_npy(a.input) : read_poses(a.input), K,
+                         {*a.direction, *a.axes, *a.pixel_centre}, width, height, a.input);
+}
+
+void declare_tum(Command& command, ImportArguments& a) {
+  command
+      .option("--K", "LENS", a.K,
+              "fx,fy,cx,cy in pixels, or ros (for depth), freiburg1, freiburg2 or freiburg3 (for "
+              "colour)")
+      .required();
+  command.option("--images", "FILE", a.images,
+                 "rgb.txt or depth.txt: the cameras of its images, each with the pose nearest in "
+                 "time");
+  add_size_option(command, a);
+  add_pixel_centre(command, a, " (default 0)");
+}
+
+std::optional<std::filesystem::path> path_if(const std::string& file) {
+  return file.empty() ? std::nullopt : std::optional<std::filesystem::path>(file);
+}
+
+Cameras read_tum(const ImportArguments& a, Warnings&) {
+  std::optional<ImportedCamera> lens = tum_lens(a.K);
+  if (!lens) return import_tum(a.input, path_if(a.images), tum_lens(given_lens(a)));
+  if (a.size)
+    std::tie(lens->camera.width, lens->camera.height) = std::pair((*a.size)[0], (*a.size)[1]);
+  if (a.pixel_centre) lens->camera.pixel_centre = *a.pixel_centre;
+  return import_tum(a.input, path_if(a.images), *lens);
+}
+
+Cameras read_7scenes(const ImportArguments& a, Warnings&) {
+  return import_7scenes(a.input, given_lens(a));
+}
+
+void declare_scannet(Command& command, ImportArguments& a) {
+  command.option("--stream", "depth|colour",
+                 into(a.stream, [](const std::string& text) { return parse_word(text, streams); }),
+                 "Which images (default depth)");
+  add_lens_options(command, a);
+}
+
+Cameras read_scannet(const ImportArguments& a, Warnings&) {
+  return import_scannet(a.input, a.stream, given_lens(a));
+}
+
+Cameras read_scannetpp(const ImportArguments& a, Warnings&) {
+  return import_scannetpp(a.input, given_lens(a));
+}
+
+Cameras read_replica(const ImportArguments& a, Warnings&) {
+  return import_replica(a.input, given_lens(a));
+}
+
+void declare_kitti(Command& command, ImportArguments& a) {
+  command.option("--poses", "FILE", a.poses, "poses/NN.txt: camera 0 to world, a line per frame");
+  command.option("--camera", "N", into(a.number, parse_count),
+                 "With poses: which camera, 0 or 1 (grey), 2 or 3 (colour)");
+  add_size_option(command, a);
+  add_pixel_centre(command, a, " (default 0)");
+}
+
+Cameras read_kitti(const ImportArguments& a, Warnings&) {
+  return import_kitti(a.input, path_if(a.poses), a.number, given_lens(a));
+}
+
+}  // namespace
+
+std::vector<ImportSource> data_set_sources() {
+  return {
+      {"matrices", "K and poses as text or .npy", "A file or folder of matrices (.txt, .npy)",
+       "  fathom camera import matrices poses.npy --K K.txt --size 640x480 --poses "
+       "camera-to-world \\\n"
+       "    --axes opencv --pixel-centre 0 -o cameras.json\n"
+       "\nA text has one 3x4 or 4x4 matrix, or one on each line; a folder, a text for each image.",
+       declare_matrices, read_matrices},
+      {"tum", "TUM RGB-D: groundtruth.txt", "groundtruth.txt, or the folder with it",
+       "  fathom camera import tum groundtruth.txt --images depth.txt --K ros -o cameras.json",
+       declare_tum, read_tum},
+      {"7scenes", "7-Scenes: frame-XXXXXX.pose.txt", "The folder of a sequence",
+       "  fathom camera import 7scenes chess/seq-01 -o cameras.json", add_lens_options,
+       read_7scenes},
+      {"scannet", "ScanNet: pose/N.txt and intrinsic/", "The folder of a scene",
+       "  fathom camera import scannet scene0000_00 --stream colour -o cameras.json",
+       declare_scannet, read_scannet},
+      {"scannetpp", "ScanNet++: iphone/pose_intrinsic_imu.json", "pose_intrinsic_imu.json",
+       "  fathom camera import scannetpp iphone/pose_intrinsic_imu.json -o cameras.json\n"
+       "\nIts DSLR images have cameras for `import colmap` and `import nerf`.",
+       add_lens_options, read_scannetpp},
+      {"replica", "Replica (iMAP, NICE-SLAM): traj.txt", "The folder of a scene",
+       "  fathom camera import replica Replica/room0 -o cameras.json", add_lens_options,
+       read_replica},
+      {"kitti", "KITTI: calib.txt or calib_cam_to_cam.txt", "The calibration",
+       "  fathom camera import kitti sequences/00/calib.txt --poses poses/00.txt --camera 2 \\\n"
+       "    --size 1241x376 -o cameras.json\n"
+       "  fathom camera import kitti calib_cam_to_cam.txt --image image_02 -o camera.json",
+       declare_kitti, read_kitti}};
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,75 @@
+// fathom camera import colmap | nerf | bop | sfmdata | gltf | opengl
+
+#include "apps/camera/import_sources.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+using Cameras = std::vector<ImportedCamera>;
+
+void no_options(Command&, ImportArguments&) {}
+
+Cameras read_colmap(const ImportArguments& a, Warnings&) {
+  return import_colmap(a.input);
+}
+
+Cameras read_nerf(const ImportArguments& a, Warnings& warnings) {
+  const auto [width, height] = a.size.value_or(Size{});
+  return import_nerf(a.input, width, height, warnings);
+}
+
+Cameras read_bop(const ImportArguments& a, Warnings&) {
+  const auto [width, height] = a.size.value_or(Size{});
+  return import_bop(a.input, width, height);
+}
+
+Cameras read_sfm_data(const ImportArguments& a, Warnings&) {
+  return import_sfm_data(a.input);
+}
+
+Cameras read_gltf(const ImportArguments& a, Warnings&) {
+  if (!a.size) throw UsageError("gltf needs --size: glTF's cameras have no image size");
+  const auto [width, height] = *a.size;
+  return import_gltf(a.input, width, height);
+}
+
+Cameras read_opengl(const ImportArguments& a, Warnings&) {
+  return import_opengl(a.input);
+}
+
+}  // namespace
+
+void add_size_option(Command& command, ImportArguments& arguments) {
+  command.option("--size", "WxH", into(arguments.size, parse_size),
+                 "WIDTHxHEIGHT of the images in pixels");
+}
+
+std::vector<ImportSource> program_sources() {
+  return {
+      {"colmap", "COLMAP: cameras and images, .bin or .txt", "The folder of the model",
+       "  fathom camera import colmap sparse/0 --image IMG_0001.jpg -o camera.json", no_options,
+       read_colmap},
+      {"nerf", "NeRF, Nerfstudio, instant-ngp: transforms.json", "transforms.json",
+       "  fathom camera import nerf transforms.json --size 800x800 -o cameras.json",
+       add_size_option, read_nerf},
+      {"bop", "BOP: scene_camera.json", "The folder of a scene, or its scene_camera.json",
+       "  fathom camera import bop test/000001 -o cameras.json\n"
+       "  fathom camera import bop scene_camera.json --size 640x480 -o cameras.json\n"
+       "\nWithout --size it is that of the data set's camera.json, in the scene's folder or the "
+       "two "
+       "above.",
+       add_size_option, read_bop},
+      {"sfmdata", "AliceVision (Meshroom): sfmData as JSON", "cameras.sfm",
+       "  fathom camera import sfmdata cameras.sfm -o cameras.json\n"
+       "\nMeshroom's meshes have y and z the other way round than its cameras: docs/data-sets.md.",
+       no_options, read_sfm_data},
+      {"gltf", "glTF: the cameras of a scene", "model.gltf or model.glb",
+       "  fathom camera import gltf model.glb --size 1920x1080 -o cameras.json", add_size_option,
+       read_gltf},
+      {"opengl", "OpenGL: projection, modelview and viewport as JSON",
+       "A JSON file with projection, modelview and viewport",
+       "  fathom camera import opengl matrices.json -o camera.json", no_options, read_opengl}};
+}
+
+}  // namespace fathom::app

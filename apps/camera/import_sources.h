@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/shell/command.h"
+#include "apps/shell/values.h"
+#include "fathom/camera/data_set_cameras.h"
+
+namespace fathom::app {
+
+struct ImportArguments {
+  std::string input, output = "-";
+  CameraChoice choice;
+  std::optional<Size> size;
+  bool list = false;
+
+  // What only some kinds of files leave to say.
+
+  /// "fx,fy,cx,cy", a file, or the name of a lens.
+  std::string K;
+  std::optional<double> pixel_centre;
+  std::optional<PoseDirection> direction;
+  std::optional<CameraAxes> axes;
+  /// Files beside INPUT: a list of images, poses.
+  std::string images, poses;
+  std::optional<std::uint32_t> number;
+  ScanNetStream stream = ScanNetStream::depth;
+};
+
+/// One of the kinds of files that cameras are imported from.
+struct ImportSource {
+  const char* name;
+  const char* description;
+  /// What INPUT is.
+  const char* input;
+  const char* example;
+  /// Declares the options that it alone has; they write to `arguments`.
+  void (*declare)(Command& command, ImportArguments& arguments);
+  /// Fails    as camera_import.h; UsageError where an option is missing.
+  std::vector<ImportedCamera> (*read)(const ImportArguments& arguments, Warnings& warnings);
+};
+
+/// --size, for sources whose files may not have one.
+void add_size_option(Command& command, ImportArguments& arguments);
+
+/// Files that programs write.
+std::vector<ImportSource> program_sources();
+/// Layouts of data sets, and matrices of any origin.
+std::vector<ImportSource> data_set_sources();
+
+}  // namespace fathom::app

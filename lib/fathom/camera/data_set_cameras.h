@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fathom/camera/camera_import.h"
+
+/// The cameras of data sets, by the layouts in which these are handed out; docs/data-sets.md has the
+/// conventions and their sources. What holds for camera_import.h holds here: exact rationals, rounded
+/// once; what is wrong with one camera is part of it.
+///
+/// All fail with InputError, one line that names the file and the line or key, where the files as a
+/// whole cannot be followed, and where two images have one name.
+namespace fathom {
+
+/// Which way a matrix leads.
+enum class PoseDirection { world_to_camera, camera_to_world };
+
+/// x right in both; y down and z forward (OpenCV), or y up and z backward (OpenGL).
+enum class CameraAxes { opencv, opengl };
+
+/// What a list of matrices does not say.
+struct MatrixConvention {
+  PoseDirection direction;
+  CameraAxes axes;
+  /// The image coordinate of the first pixel's centre as K counts: 0 or ½.
+  double pixel_centre;
+};
+
+/// [fx s cx; 0 fy cy; 0 0 1], row by row, in pixels.
+using IntrinsicMatrix = std::array<double, 9>;
+
+/// What is given beside the files, in the place of what a data set has.
+struct GivenLens {
+  /// Of the images, in pixels; 0: as the data set has it.
+  std::uint32_t width = 0, height = 0;
+  std::optional<IntrinsicMatrix> K;
+  std::optional<double> pixel_centre;
+};
+
+/// A pose with its image's name: 3×4, [A | b].
+struct NamedPose {
+  std::string name;
+  std::array<std::array<double, 4>, 3> pose{};
+};
+
+/// K and poses at hand, in the order of the poses: one K for all of them, or one for each.
+/// `input` begins messages.
+/// Fails    InputError where there are as many K as neither.
+std::vector<ImportedCamera> import_matrices(const std::vector<NamedPose>& poses,
+                                            const std::vector<IntrinsicMatrix>& K,
+                                            const MatrixConvention& convention, std::uint32_t width,
+                                            std::uint32_t height, const std::string& input);
+
+/// Poses as text. A file holds one matrix of 3 or 4 rows of 4 numbers and is called by its stem, or
+/// has a matrix of 12 or 16 numbers on each line, which are called "0", "1", …. Of a folder, all *.txt
+/// in the order of their names. Numbers may have commas between them.
+std::vector<NamedPose> read_poses(const std::filesystem::path& file_or_folder);
+
+/// K as text: 3 rows of 3 numbers, or, of each camera, a line of 9.
+std::vector<IntrinsicMatrix> read_intrinsic_matrices(const std::filesystem::path& file);
+
+/// Poses of the TUM RGB-D benchmark: a trajectory, "time tx ty tz qx qy qz qw" on each line, or the
+/// folder with its groundtruth.txt. Camera to world, in metres. They are called by their times as the file writes
+/// them; with a list of images (rgb.txt, depth.txt: "time file") by the images' files, each with the
+/// pose nearest to it in time: one with none within 0.02 s is absent.
+/// `lens` is that of tum_lens(), or a given one (640×480 and pixel centre 0 where they are not given).
+std::vector<ImportedCamera> import_tum(const std::filesystem::path& trajectory,
+                                       const std::optional<std::filesystem::path>& images,
+                                       const ImportedCamera& lens);
+
+/// The published lenses of TUM's Kinects by name: "ros" (what the registered depth images are meant
+/// for), "freiburg1", "freiburg2", "freiburg3"; the lenses of the first two have distortion. Nothing for
+/// another name.
+std::optional<ImportedCamera> tum_lens(const std::string& name);
+/// A given lens in their place. Fails    UsageError where K is not given.
+ImportedCamera tum_lens(const GivenLens& given);
+
+/// 7-Scenes: a folder of frame-XXXXXX.pose.txt, in the order of their names and called
+/// "frame-XXXXXX". Camera to world, in metres. Where nothing else is given: 640×480, fx = fy = 585,
+/// (320, 240), pixel centre 0.
+std::vector<ImportedCamera> import_7scenes(const std::filesystem::path& folder,
+                                           const GivenLens& given);
+
+/// ScanNet's two streams.
+enum class ScanNetStream { depth, colour };
+
+/// ScanNet: a folder with pose/N.txt and intrinsic/intrinsic_depth.txt or intrinsic_color.txt, in the
+/// order of N, which is the name. Camera to world, in metres; frames with a pose of -inf are absent.
+/// Where nothing else is given: 640×480 or 1296×968, pixel centre 0.
+std::vector<ImportedCamera> import_scannet(const std::filesystem::path& folder,
+                                           ScanNetStream stream, const GivenLens& given);
+
+/// ScanNet++'s iphone/pose_intrinsic_imu.json, in the order of its frames: aligned_pose, camera to
+/// world with OpenCV's axes, in metres, and intrinsic. Where nothing else is given: 1920×1440, the
+/// video, and pixel centre 0.
+std::vector<ImportedCamera> import_scannetpp(const std::filesystem::path& file,
+                                             const GivenLens& given);
+
+/// Replica as rendered for iMAP and NICE-SLAM: a folder with traj.txt, a 4×4 matrix on each line,
+/// camera to world, in metres; and, beside it or in the folder above, cam_params.json. Called
+/// "frame000000", …. Pixel centre 0 where none is given.
+std::vector<ImportedCamera> import_replica(const std::filesystem::path& folder,
+                                           const GivenLens& given);
+
+/// KITTI's rectified cameras, of calib.txt (odometry: P0 to P3) or calib_cam_to_cam.txt (raw:
+/// P_rect_00 to P_rect_03 and their sizes S_rect). P = K·[I | t], so that camera i stands beside
+/// camera 0 by t, in metres.
+/// Without poses these cameras themselves in the frame of rectified camera 0, called "image_0" or
+/// "image_00", as their folders; with poses (3×4 on each line: camera 0 to world) camera `number` of
+/// each frame, called "000000", …. Pixel centre 0 where none is given.
+/// Fails    UsageError where the image size is neither given nor in the file, and where there are
+///          poses and no number.
+std::vector<ImportedCamera> import_kitti(const std::filesystem::path& calibration,
+                                         const std::optional<std::filesystem::path>& poses,
+                                         std::optional<std::uint32_t> number,
+                                         const GivenLens& given);
+
+/// AliceVision's (Meshroom's) sfmData as JSON (.sfm, .json), of version 1.0 to 1.2, in the order of
+/// its views; called by their paths below the folder that all have in common. Views without a pose
+/// are absent; those of rigs and lenses that have no pinhole part have a fault. Pixel centre 0.
+std::vector<ImportedCamera> import_sfm_data(const std::filesystem::path& file);
+
+}  // namespace fathom

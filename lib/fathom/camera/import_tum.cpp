@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fathom/camera/import_lines.h"
+#include "fathom/camera/posed_cameras.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/text/input_file.h"
+
+namespace fathom {
+using namespace camera;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uint32_t kinect_width = 640, kinect_height = 480;
+
+/// In seconds: what the benchmark's own associate.py takes for simultaneous.
+constexpr double largest_difference = 0.02;
+
+/// A lens that the benchmark publishes for colour images. Those with distortion are not the lenses of
+/// its depth images, which the driver has registered to a pinhole camera.
+struct PublishedLens {
+  const char* name;
+  double fx, fy, cx, cy;
+  bool distorted;
+};
+
+constexpr std::array<PublishedLens, 4> published{
+    {{"ros", 525, 525, 319.5, 239.5, false},
+     {"freiburg1", 517.3, 516.5, 318.6, 255.3, true},
+     {"freiburg2", 520.9, 521, 325.1, 249.7, true},
+     {"freiburg3", 535.4, 539.2, 320.1, 247.6, false}}};
+
+struct TimedPose {
+  double time = 0;
+  NamedPose pose;
+  /// "FILE: line N".
+  std::string where;
+  /// Why it is none.
+  std::string fault;
+};
+
+/// [R | t] of a position and a quaternion x, y, z, w.
+Matrix34 pose_of(const std::array<double, 7>& p) {
+  const Matrix3 R = rotation_of({p[6], p[3], p[4], p[5]});
+  Matrix34 pose;
+  for (std::size_t i = 0; i < 3; ++i) pose[i] = {R[i][0], R[i][1], R[i][2], p[i]};
+  return pose;
+}
+
+double read_time(Line& line, std::string& text) {
+  text = read_word(line, "a time in seconds");
+  const double time = number_of(text, line.where);
+  if (!std::isfinite(time)) refuse(line, "a time in seconds", text);
+  return time;
+}
+
+TimedPose read_timed_pose(Line& line) {
+  TimedPose result;
+  result.where = line.where;
+  result.time = read_time(line, result.pose.name);
+  const std::vector<double> numbers = rest_of(line);
+  if (numbers.size() != 7)
+    throw InputError(line.where + ": expected time tx ty tz qx qy qz qw, 8 numbers, found " +
+                     std::to_string(numbers.size() + 1));
+  std::array<double, 7> position_and_turn;
+  std::copy(numbers.begin(), numbers.end(), position_and_turn.begin());
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
+    result.fault = line.where + ": the pose has a number that is not finite";
+  else if (std::all_of(numbers.begin() + 3, numbers.end(), [](double x) { return x == 0; }))
+    result.fault = line.where + ": the quaternion is zero";
+  else
+    result.pose.pose = pose_of(position_and_turn);
+  return result;
+}
+
+ImportedCamera camera_at(const TimedPose& timed, const ImportedCamera& lens) {
+  ImportedCamera result = lens;
+  result.camera.name = timed.pose.name;
+  if (result.fault.empty()) result.fault = timed.fault;
+  if (!result.fault.empty()) return result;
+  return placed(lens, timed.pose, PoseDirection::camera_to_world, CameraAxes::opencv, timed.where);
+}
+
+/// The nearest in time; `poses` are in its order and not empty.
+const TimedPose& nearest(const std::vector<TimedPose>& poses, double time) {
+  const auto after = std::ranges::lower_bound(poses, time, {}, &TimedPose::time);
+  if (after == poses.begin()) return *after;
+  const auto before = std::prev(after);
+  if (after == poses.end()) return *before;
+  return time - before->time <= after->time - time ? *before : *after;
+}
+
+std::vector<ImportedCamera> of_images(std::vector<TimedPose> poses, const NamedText& images,
+                                      const ImportedCamera& lens) {
+  std::ranges::stable_sort(poses, {}, &TimedPose::time);
+  std::vector<ImportedCamera> cameras;
+  for (Line& line : lines_of(images.text, images.name)) {
+    std::string time_text, file;
+    const double time = read_time(line, time_text);
+    std::getline(line.words >> std::ws, file);
+    if (file.empty()) throw InputError(line.where + ": the image's file is missing");
+    TimedPose own = nearest(poses, time);
+    own.pose.name = file;
+    ImportedCamera camera = camera_at(own, lens);
+    if (std::abs(own.time - time) > largest_difference)
+      camera.absence = line.where + ": the trajectory has no pose within 0.02 s of " + time_text;
+    cameras.push_back(std::move(camera));
+  }
+  if (cameras.empty()) throw InputError(images.name + ": holds no image");
+  return cameras;
+}
+
+}  // namespace
+
+std::vector<ImportedCamera> camera::parse_tum(const NamedText& trajectory,
+                                              const std::optional<NamedText>& images,
+                                              const ImportedCamera& lens) {
+  std::vector<TimedPose> poses;
+  for (Line& line : lines_of(trajectory.text, trajectory.name))
+    poses.push_back(read_timed_pose(line));
+  if (poses.empty()) throw InputError(trajectory.name + ": holds no pose");
+  std::vector<ImportedCamera> cameras;
+  if (images) {
+    cameras = of_images(std::move(poses), *images, lens);
+  } else {
+    for (const TimedPose& each : poses) cameras.push_back(camera_at(each, lens));
+  }
+  require_different_names(cameras, images ? images->name : trajectory.name);
+  return cameras;
+}
+
+std::optional<ImportedCamera> tum_lens(const std::string& name) {
+  const auto* found = std::find_if(published.begin(), published.end(),
+                                   [&](const PublishedLens& lens) { return name == lens.name; });
+  if (found == published.end()) return std::nullopt;
+  ImportedCamera lens =
+      tum_lens(GivenLens{.K = intrinsic_matrix(found->fx, found->fy, found->cx, found->cy)});
+  if (found->distorted)
+    lens.distortion = name + ": its colour images have lens distortion (ros is for depth images)";
+  return lens;
+}
+
+ImportedCamera tum_lens(const GivenLens& given) {
+  if (!given.K)
+    throw UsageError(
+        "a trajectory has no intrinsics: give K, or one of ros, freiburg1, freiburg2 "
+        "and freiburg3");
+  ImportedCamera lens;
+  const GivenLens usual{.width = kinect_width, .height = kinect_height};
+  lens.camera = lens_of(given, usual, "K");
+  if (const auto fault = find_fault(lens.camera)) lens.fault = "K: " + *fault;
+  return lens;
+}
+
+std::vector<ImportedCamera> import_tum(const fs::path& trajectory,
+                                       const std::optional<fs::path>& images,
+                                       const ImportedCamera& lens) {
+  const StandardArithmetic standard;
+  std::error_code ignored;
+  const fs::path file =
+      fs::is_directory(trajectory, ignored) ? trajectory / "groundtruth.txt" : trajectory;
+  const text::InputFile poses(file);
+  const NamedText named{poses.text(), file.string()};
+  if (!images) return parse_tum(named, std::nullopt, lens);
+  const text::InputFile list(*images);
+  return parse_tum(named, NamedText{list.text(), images->string()}, lens);
+}
+
+}  // namespace fathom

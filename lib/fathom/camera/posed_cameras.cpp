@@ -1,0 +1,134 @@
+#include "fathom/camera/posed_cameras.h"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+#include <unordered_set>
+
+#include "fathom/camera/import_lines.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/printable.h"
+
+namespace fathom::camera {
+
+namespace fs = std::filesystem;
+
+void set_intrinsics(Camera& camera, const IntrinsicMatrix& K, const std::string& where) {
+  if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1)
+    throw InputError(where + ": expected fx s cx, 0 fy cy, 0 0 1");
+  camera.fx = K[0];
+  camera.skew = K[1];
+  camera.cx = K[2];
+  camera.fy = K[4];
+  camera.cy = K[5];
+}
+
+IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy) {
+  return {fx, 0, cx, 0, fy, cy, 0, 0, 1};
+}
+
+double focal_of_angle(std::uint32_t size, double angle) {
+  return static_cast<double>(0.5L * size / std::tan(0.5L * static_cast<long double>(angle)));
+}
+
+Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::string& where) {
+  Camera camera;
+  camera.width = given.width != 0 ? given.width : data_set.width;
+  camera.height = given.height != 0 ? given.height : data_set.height;
+  camera.pixel_centre = given.pixel_centre.value_or(data_set.pixel_centre.value_or(0));
+  if (const auto& K = given.K ? given.K : data_set.K) set_intrinsics(camera, *K, where);
+  return camera;
+}
+
+namespace {
+
+/// y and z of the camera turned round. A difference, so that no zero becomes negative.
+void turn_column(Matrix34& world_from_camera, std::size_t k) {
+  for (auto& row : world_from_camera) row[k] = 0.0 - row[k];
+}
+
+void turn_row(Matrix34& camera_from_world, std::size_t i) {
+  for (double& entry : camera_from_world[i]) entry = 0.0 - entry;
+}
+
+}  // namespace
+
+Matrix34 camera_from_world(const Matrix34& pose, PoseDirection direction, CameraAxes axes,
+                           const std::string& where) {
+  for (const auto& row : pose)
+    for (const double entry : row)
+      if (!std::isfinite(entry))
+        throw InputError(where + ": the pose has a number that is not finite");
+  Matrix34 turned = pose;
+  if (direction == PoseDirection::world_to_camera) {
+    if (axes == CameraAxes::opengl)
+      for (const std::size_t i : {1, 2}) turn_row(turned, i);
+    return turned;
+  }
+  if (axes == CameraAxes::opengl)
+    for (const std::size_t k : {1, 2}) turn_column(turned, k);
+  const auto inverted = inverse(turned);
+  if (!inverted) throw InputError(where + ": the matrix is singular");
+  return *inverted;
+}
+
+ImportedCamera placed(const ImportedCamera& lens, const NamedPose& pose, PoseDirection direction,
+                      CameraAxes axes, const std::string& where) {
+  ImportedCamera result = lens;
+  result.camera.name = pose.name;
+  if (!lens.fault.empty()) return result;
+  try {
+    result.camera.world_to_camera = camera_from_world(pose.pose, direction, axes, where);
+    if (const auto fault = find_fault(result.camera)) result.fault = where + ": " + *fault;
+  } catch (const InputError& error) {
+    result.fault = error.what();
+  }
+  return result;
+}
+
+void require_different_names(const std::vector<ImportedCamera>& cameras, const std::string& input) {
+  std::unordered_set<std::string_view> names;
+  for (const ImportedCamera& one : cameras)
+    if (!names.insert(one.camera.name).second)
+      throw InputError(input + ": two images have the name '" + text::printable(one.camera.name) +
+                       "'");
+}
+
+Matrix34 pose_of_numbers(const std::vector<double>& numbers, const std::string& where) {
+  if (numbers.size() != 12 && numbers.size() != 16)
+    throw InputError(where + ": expected a matrix of 3 or 4 rows of 4 numbers, found " +
+                     std::to_string(numbers.size()) + " numbers");
+  if (numbers.size() == 16 &&
+      !std::equal(numbers.begin() + 12, numbers.end(), std::array<double, 4>{0, 0, 0, 1}.begin()) &&
+      std::all_of(numbers.begin() + 12, numbers.end(), [](double x) { return std::isfinite(x); }))
+    throw InputError(where + ": expected the last row to be 0 0 0 1");
+  Matrix34 pose;
+  for (std::size_t i = 0; i < 12; ++i) pose[i / 4][i % 4] = numbers[i];
+  return pose;
+}
+
+Matrix34 parse_pose(std::string_view text, const std::string& name) {
+  std::vector<double> numbers;
+  for (Line& line : lines_of(text, name)) {
+    const std::vector<double> row = rest_of(line);
+    if (row.size() != 4)
+      throw InputError(line.where + ": expected a row of 4 numbers, found " +
+                       std::to_string(row.size()));
+    numbers.insert(numbers.end(), row.begin(), row.end());
+  }
+  return pose_of_numbers(numbers, name);
+}
+
+std::vector<fs::path> files_of(const fs::path& folder, const std::string& suffix) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->path().filename().string().ends_with(suffix)) files.push_back(at->path());
+  if (error) throw InputError(folder.string() + ": " + error.message());
+  if (files.empty())
+    throw InputError(folder.string() + ": has no file whose name ends with " + suffix);
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace fathom::camera

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fathom/camera/camera_import_internal.h"
+#include "fathom/camera/pose.h"
+
+/// From a lens and the poses of a data set to its cameras: what all layouts share. Only for .cpp files
+/// of this room.
+/// Fails    InputError, beginning with `where`.
+namespace fathom::camera {
+
+/// fx s cx, 0 fy cy, 0 0 1.
+void set_intrinsics(Camera& camera, const IntrinsicMatrix& K, const std::string& where);
+
+/// The intrinsic matrix of four numbers.
+IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy);
+
+/// The focal length in pixels with which an image of `size` pixels spans an angle in radians:
+/// ½·size / tan(½·angle) in extended precision, then rounded.
+double focal_of_angle(std::uint32_t size, double angle);
+
+/// A camera at the world's origin: what is given, and of the rest what the data set has. A size that
+/// neither has is 0.
+Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::string& where);
+
+/// World to camera, in our axes, of a pose [A | b]: exact, or each entry of the inverse rounded once.
+/// Fails where an entry is not finite, and where a pose that has to be inverted is singular.
+Matrix34 camera_from_world(const Matrix34& pose, PoseDirection direction, CameraAxes axes,
+                           const std::string& where);
+
+/// A lens in its place; what is wrong with either is its fault.
+ImportedCamera placed(const ImportedCamera& lens, const NamedPose& pose, PoseDirection direction,
+                      CameraAxes axes, const std::string& where);
+
+/// Refuses two images of one name.
+void require_different_names(const std::vector<ImportedCamera>& cameras, const std::string& input);
+
+/// A matrix of 3 or 4 rows by 4, in order; the last of four has to be 0 0 0 1. Entries that are not
+/// finite are let through.
+Matrix34 pose_of_numbers(const std::vector<double>& numbers, const std::string& where);
+
+/// A text with one matrix of 3 or 4 lines of 4 numbers. `name` is the file's.
+Matrix34 parse_pose(std::string_view text, const std::string& name);
+
+/// The files of a folder whose names end with `suffix`, by name. Fails where there is none.
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
+                                            const std::string& suffix);
+
+}  // namespace fathom::camera
