@@ -50,21 +50,24 @@ Json describe(const Camera& camera) {
 std::string describe_as_text(const Camera& camera) {
   const Pose pose = pose_of(camera);
   const bool perspective = camera.projection == Projection::perspective;
-  std::string text = fmt::format(
-      "  {} camera of {}x{} pixels\n"
+  std::string lines =
+      fmt::format("  {} camera of {}x{} pixels\n", perspective ? "perspective" : "orthographic",
+                  camera.width, camera.height);
+  if (!camera.name.empty())
+    lines += fmt::format("    name          {}\n", text::printable(camera.name));
+  lines += fmt::format(
       "    fx, fy        {}, {}\n    cx, cy        {}, {}   (the centre of the top left pixel is "
       "{})\n"
       "    skew          {}\n",
-      perspective ? "perspective" : "orthographic", camera.width, camera.height, camera.fx,
-      camera.fy, camera.cx, camera.cy, camera.pixel_centre, camera.skew);
+      camera.fx, camera.fy, camera.cx, camera.cy, camera.pixel_centre, camera.skew);
   if (perspective) {
-    text += fmt::format("    field of view {:.4f} x {:.4f} degrees\n",
-                        degrees_of(camera.width, camera.fx), degrees_of(camera.height, camera.fy));
+    lines += fmt::format("    field of view {:.4f} x {:.4f} degrees\n",
+                         degrees_of(camera.width, camera.fx), degrees_of(camera.height, camera.fy));
   }
   const auto vector = [](const std::array<double, 3>& v) {
     return fmt::format("({}, {}, {})", v[0], v[1], v[2]);
   };
-  return text +
+  return lines +
          fmt::format("    eye           {}\n    looks along   {}\n    near, far     {}, {}\n",
                      vector(pose.eye), vector(pose.forward), camera.near, camera.far);
 }

@@ -18,11 +18,15 @@ bool has(const std::string& pattern, const char* field) {
   return pattern.find(field) != std::string::npos;
 }
 
+std::string stem_of(const std::string& name) {
+  return fs::path(name).stem().string();
+}
+
 std::string formatted(const char* option, const std::string& pattern, std::size_t index,
                       const std::string& name) {
   try {
     return fmt::format(fmt::runtime(pattern), fmt::arg("index", index), fmt::arg("name", name),
-                       fmt::arg("stem", fs::path(name).stem().string()));
+                       fmt::arg("stem", stem_of(name)));
   } catch (const fmt::format_error& error) {
     throw UsageError(fmt::format("{}: '{}' is not a pattern like maps/{{index:04}}: {}", option,
                                  pattern, error.what()));
@@ -68,7 +72,10 @@ std::vector<std::string> names_of_outputs(const char* option, const std::string&
       throw InputError(fmt::format(
           "camera {} has no name for '{}': camera files say it as \"name\"", i, pattern));
     }
-    if (by_name) require_within_folder(fmt::format("camera {}", i), name);
+    // Of a stem alone it does not matter where the image lies.
+    const std::string where = fmt::format("camera {}", i);
+    if (has(pattern, "{name")) require_within_folder(where, name);
+    if (has(pattern, "{stem")) require_within_folder(where, stem_of(name));
     names.push_back(formatted(option, pattern, i, name));
   }
   require_different(option, names);

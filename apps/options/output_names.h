@@ -11,7 +11,7 @@ namespace fathom::app {
 /// {index:04} the same with leading zeros, {name} its name, {stem} the last part of its name without
 /// the suffix. A pattern without any of them is for a single camera.
 /// Fails    UsageError, naming the option, where the pattern is none or two cameras would share a name;
-///          InputError where a camera has no name, or one that would leave the folder.
+///          InputError where a camera has no name, or {name} would leave the folder.
 std::vector<std::string> names_of_outputs(const char* option, const std::string& pattern,
                                           const std::vector<Camera>& cameras);
 

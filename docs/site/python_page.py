@@ -35,7 +35,8 @@ def directive(name):
         return f".. autofunction:: fathom.{name}\n"
     if word.endswith(("Error", "Warning")):
         return f".. autoexception:: fathom.{name}\n   :show-inheritance:\n"
-    return f".. autoclass:: fathom.{name}\n   :members:\n   :undoc-members:\n"
+    inherited = "   :inherited-members:\n" if word == "Camera" else ""
+    return f".. autoclass:: fathom.{name}\n   :members:\n{inherited}   :undoc-members:\n"
 
 
 def text():

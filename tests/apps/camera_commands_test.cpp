@@ -13,6 +13,7 @@
 namespace fathom::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// Our camera file's formula (specification, section 2), as Python. Pixels are of the order of
@@ -216,14 +217,127 @@ for X in points:
 )");
 }
 
-TEST_F(CameraCommands, ImportRefusesDistortion) {
-  folder_.write("cameras.txt", "1 OPENCV 640 480 525 525 320 240 0.1 0 0 0\n");
-  folder_.write("images.txt", "1 1 0 0 0 0 0 3 1 a.jpg\n\n");
-  const Outcome outcome =
-      run_fathom({"camera", "import", "colmap", "."}, {.folder = folder_.path()});
-  EXPECT_EQ(outcome.status, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("distortion"));
-  EXPECT_EQ(outcome.out, "");
+TEST_F(CameraCommands, DistortedCamerasAreLeftOutUnlessTheyAreTaken) {
+  folder_.write("cameras.txt",
+                "1 OPENCV 640 480 525 525 320 240 0.1 0 0 0\n2 PINHOLE 640 480 525 525 320 240\n");
+  folder_.write("images.txt", "1 1 0 0 0 0 0 3 1 a.jpg\n\n2 1 0 0 0 0 0 3 2 b.jpg\n\n");
+  const std::vector<std::string> command{"camera", "import", "colmap", "."};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_fathom(arguments, {.folder = folder_.path()});
+  };
+  const Outcome rest = with({});
+  EXPECT_EQ(rest.status, 0);
+  EXPECT_THAT(rest.err, AllOf(HasSubstr("1 of 2 cameras has lens distortion and is left out"),
+                              HasSubstr("--ignore-distortion")));
+  EXPECT_EQ(nlohmann::json::parse(rest.out)["name"], "b.jpg");
+  const Outcome refused = with({"--image", "a.jpg"});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.err, HasSubstr("distortion"));
+  EXPECT_EQ(refused.out, "");
+  const Outcome taken = with({"--ignore-distortion"});
+  EXPECT_EQ(taken.status, 0);
+  EXPECT_EQ(taken.err, "");
+  EXPECT_EQ(nlohmann::json::parse(taken.out).size(), 2U);
+}
+
+TEST_F(CameraCommands, MapsHaveTheNamesOfTheirImages) {
+  folder_.write("square.obj", square_obj);
+  folder_.write("cameras.txt", "1 PINHOLE 16 12 10 10 8 6\n");
+  folder_.write("images.txt", "1 1 0 0 0 0 0 3 1 left/a.jpg\n\n2 1 0 0 0 0 0 4 1 b.jpg\n\n");
+  fathom({"camera", "import", "colmap", ".", "-o", "cameras.json"});
+  fathom({"render", "square.obj", "--camera", "cameras.json", "-o", "{stem}.exr"});
+  const Outcome info = run_fathom({"info", "a.exr", "--json"}, {.folder = folder_.path()});
+  EXPECT_THAT(info.out, HasSubstr("left/a.jpg"));
+  const Outcome camera = run_fathom({"info", "cameras.json"}, {.folder = folder_.path()});
+  EXPECT_THAT(camera.out, HasSubstr("camera of 16x12 pixels\n    name          b.jpg\n"));
+}
+
+TEST_F(CameraCommands, NamesAreShownWithoutWhatMovesTheCursor) {
+  folder_.write("named.json",
+                R"({"name": "\u001b[2Ja\nb", "width": 4, "height": 3, "fx": 1, "fy": 1,
+      "cx": 2, "cy": 1.5, "pixel_centre": 0.5,
+      "world_to_camera": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 4]]})");
+  const Outcome info = run_fathom({"info", "named.json"}, {.folder = folder_.path()});
+  EXPECT_THAT(info.out, HasSubstr("    name          ?[2Ja?b\n"));
+}
+
+/// The same camera, by each layout that says no more than K and a pose.
+TEST_F(CameraCommands, ImportMatrices) {
+  folder_.write("poses.txt", "0 0 1 3 1 0 0 0.5 0 1 0 0.25\n");
+  folder_.write("K.txt", "500 0 320\n0 501 240\n0 0 1\n");
+  fathom({"camera", "import", "matrices", "poses.txt", "--K", "K.txt", "--size", "640x480",
+          "--poses", "camera-to-world", "--axes", "opencv", "--pixel-centre", "0", "-o",
+          "text.json"});
+  run_python(R"(
+np.save('poses.npy', np.loadtxt('poses.txt').reshape(1, 3, 4))
+np.save('one.npy', np.vstack([np.loadtxt('poses.txt').reshape(3, 4), [0, 0, 0, 1]]))
+np.save('K.npy', np.loadtxt('K.txt')[None])
+np.save('wrong.npy', np.zeros((2, 3)))
+camera, = load('text.json')
+c2w = np.vstack([np.loadtxt('poses.txt').reshape(3, 4), [0, 0, 0, 1]])
+for p in ((0.1, 0.2, 3), (-0.4, 0.25, 2)):
+    X = (c2w @ np.append(p, 1))[:3]
+    # OpenCV's pixel centres are integers; Fathom's image begins half a pixel earlier.
+    close(ours(camera, X)[0], [320 + 500 * p[0] / p[2] + 0.5, 240 + 501 * p[1] / p[2] + 0.5])
+)");
+  for (const char* poses : {"poses.npy", "one.npy"})
+    for (const char* K : {"K.npy", "500,501,320,240"}) {
+      fathom({"camera", "import", "matrices", poses, "--K", K, "--size", "640x480", "--poses",
+              "camera-to-world", "--axes", "opencv", "--pixel-centre", "0", "-o", "array.json"});
+      auto text = nlohmann::json::parse(folder_.read("text.json")),
+           array = nlohmann::json::parse(folder_.read("array.json"));
+      EXPECT_EQ(text, array) << poses << " " << K;
+    }
+  const auto status = [&](const std::vector<std::string>& arguments) {
+    return run_fathom(arguments, {.folder = folder_.path()});
+  };
+  const Outcome wrong =
+      status({"camera", "import", "matrices", "wrong.npy", "--K", "1,1,1,1", "--size", "4x4",
+              "--poses", "camera-to-world", "--axes", "opencv", "--pixel-centre", "0"});
+  EXPECT_EQ(wrong.status, 3);
+  EXPECT_THAT(wrong.err, HasSubstr("wrong.npy: expected an array of the shape (N, 4, 4)"));
+  // What is not in the files has to be said.
+  const Outcome silent = status({"camera", "import", "matrices", "poses.txt", "--K", "1,1,1,1",
+                                 "--size", "4x4", "--axes", "opencv", "--pixel-centre", "0"});
+  EXPECT_EQ(silent.status, 2);
+  EXPECT_THAT(silent.err, HasSubstr("--poses"));
+}
+
+TEST_F(CameraCommands, ImportLayoutsOfDataSets) {
+  const auto names = [&](const std::vector<std::string>& arguments) {
+    std::vector<std::string> all{"camera", "import"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    all.emplace_back("--list");
+    const Outcome outcome = run_fathom(all, {.folder = folder_.path()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  folder_.write("groundtruth.txt", "1.5 0 0 0 0 0 0 1\n");
+  folder_.write("depth.txt", "1.51 depth/1.51.png\n");
+  EXPECT_EQ(names({"tum", "groundtruth.txt", "--K", "ros"}), "1.5\n");
+  EXPECT_EQ(names({"tum", ".", "--K", "525,525,319.5,239.5", "--images", "depth.txt"}),
+            "depth/1.51.png\n");
+  folder_.write("frame-000000.pose.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  EXPECT_EQ(names({"7scenes", "."}), "frame-000000\n");
+  folder_.write("traj.txt", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n");
+  EXPECT_EQ(names({"replica", ".", "--K", "600,600,599.5,339.5", "--size", "1200x680"}),
+            "frame000000\n");
+  folder_.write("calib.txt", "P0: 1 0 2 0 0 1 2 0 0 0 1 0\n");
+  EXPECT_EQ(names({"kitti", "calib.txt", "--size", "4x4"}), "image_0\n");
+  EXPECT_EQ(names({"kitti", "calib.txt", "--poses", "traj.txt", "--camera", "0", "--size", "4x4"}),
+            "000000\n");
+  folder_.write("a.gltf", R"({"cameras": [{"type": "perspective", "perspective":
+      {"yfov": 1, "znear": 1}}], "nodes": [{"name": "eye", "camera": 0}]})");
+  EXPECT_EQ(names({"gltf", "a.gltf", "--size", "4x4"}), "eye\n");
+  folder_.write("a.sfm", R"({"version": ["1", "2", "11"], "views": [{"viewId": "1",
+      "intrinsicId": "1", "path": "/x/a.jpg"}]})");
+  EXPECT_EQ(names({"sfmdata", "a.sfm"}), "a.jpg\n");
+  const Outcome no_lens = run_fathom(
+      {"camera", "import", "tum", "groundtruth.txt", "--K", "kinect"}, {.folder = folder_.path()});
+  EXPECT_EQ(no_lens.status, 2);
+  EXPECT_THAT(no_lens.err, HasSubstr("--K: expected fx,fy,cx,cy in pixels, found 'kinect'"));
 }
 
 TEST_F(CameraCommands, WhatLooksThroughOneCameraRefusesAPath) {

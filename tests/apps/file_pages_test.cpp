@@ -116,7 +116,8 @@ TEST_F(Pages, EveryKeyOfACameraFileHasAnExampleThatIsRead) {
                                      "world_to_camera",
                                      "camera_to_world",
                                      "near",
-                                     "far"};
+                                     "far",
+                                     "name"};
   EXPECT_THAT(names_of(keys), ElementsAreArray(all));
   const std::map<std::string, std::set<std::string>> excluded{
       {"K", {"fx", "fy", "cx", "cy", "skew"}},

@@ -130,6 +130,137 @@ def test_cameras_of_other_programs(tmp_path):
     (tmp_path / "scene_camera.json").write_text(json.dumps({"3": {"cam_K": [100, 0, 32, 0, 110, 24, 0, 0, 1]}}))
     bop = fathom.Camera.from_bop(tmp_path / "scene_camera.json", (64, 48))
     assert bop["3"].pixel_centre == 0 and bop["3"].size == (64, 48)
+    with pytest.raises(fathom.InputError, match="the image size is unknown"):
+        fathom.Camera.from_bop(tmp_path)
+    (tmp_path / "camera.json").write_text('{"width": 32, "height": 24}')
+    assert fathom.Camera.from_bop(tmp_path)["3"].size == (32, 24)
+
+
+def test_names_are_kept(tmp_path):
+    camera = make(name="left/0001.jpg")
+    assert camera.name == "left/0001.jpg" and make().name == ""
+    assert repr(camera).endswith("pixel_centre=0.5, name='left/0001.jpg')") and "name" not in repr(make())
+    for again in (fathom.Camera.from_json(camera.to_json()), pickle.loads(pickle.dumps(camera)), camera.with_size(2, 2)):
+        assert again.name == camera.name
+    assert fathom.Camera.from_json(camera.to_json()) == camera != make()
+    for name, error in ((3, TypeError), ("a\0b", ValueError), ("\ud800", ValueError)):
+        with pytest.raises(error, match="name: expected"):
+            make(name=name)
+    # A file's name may be any bytes; what is no UTF-8 is shown as such, here and in camera files.
+    (tmp_path / "cameras.txt").write_text("1 PINHOLE 64 48 100 110 32.5 24.5\n")
+    (tmp_path / "images.txt").write_bytes(b"1 1 0 0 0 0.5 0.25 4 1 a\xff.png\n\n")
+    (name, camera), = fathom.Camera.from_colmap(tmp_path).items()
+    assert name == camera.name == "a\ufffd.png" and fathom.Camera.from_json(camera.to_json()).name == name
+
+
+def test_distorted_cameras_are_left_out_with_a_warning(tmp_path):
+    (tmp_path / "cameras.txt").write_text("1 OPENCV 64 48 9 9 3 2 0.1 0 0 0\n2 PINHOLE 64 48 9 9 3 2\n")
+    (tmp_path / "images.txt").write_text("1 1 0 0 0 0 0 3 1 a\n\n2 1 0 0 0 0 0 3 2 b\n\n")
+    with pytest.warns(fathom.ViewWarning, match="1 of 2 cameras has lens distortion") as caught:
+        assert list(fathom.Camera.from_colmap(tmp_path)) == ["b"]
+    assert caught[0].filename == __file__
+    assert list(fathom.Camera.from_colmap(tmp_path, ignore_distortion=True)) == ["a", "b"]
+
+
+# The eye at (2, 3, 4), a quarter turn about y: camera x is world −z, and z is x.
+turned = np.array([(0, 0, 1, 2), (0, 1, 0, 3), (-1, 0, 0, 4), (0, 0, 0, 1)], float)
+K = np.array([(500, 0, 320), (0, 510, 240), (0, 0, 1)], float)
+
+
+def test_matrices():
+    def of(poses, K=K, **changes):
+        arguments = dict(size=(640, 480), direction="camera-to-world", axes="opencv", pixel_centre=0)
+        return fathom.Camera.from_matrices(K, poses, **{**arguments, **changes})
+
+    one = of([turned])["0"]
+    assert np.array_equal(one.camera_to_world, turned) and np.array_equal(one.K, K) and one.pixel_centre == 0
+    flip = np.diag((1, -1, -1, 1))
+    for camera in (of([turned @ flip], axes="opengl")["0"],
+                   of([np.linalg.inv(turned)], direction="world-to-camera")["0"],
+                   of([flip @ np.linalg.inv(turned)], direction="world-to-camera", axes="opengl")["0"]):
+        assert np.array_equal(camera.camera_to_world, turned)
+    two = of([turned, np.eye(4)], K=[K, 2 * K - K * (K == 1)], names=["a", "b"])
+    assert list(two) == ["a", "b"] and two["b"].fx == 1000 and two["b"].name == "b"
+    assert of(np.array([turned])[:, :3])["0"] == one
+    for poses, changes, words in (
+        (turned, {}, "poses: expected shape n×4×4 or n×3×4, found 4×4"),
+        ([2 * turned], {}, "the last rows to be 0 0 0 1"),
+        ([turned], {"K": K[:2]}, "K: expected shape 3×3"),
+        ([turned], {"K": [K, K]}, "2 matrices K and 1 poses"),
+        ([turned], {"names": []}, "names: expected 1, found 0"),
+        ([turned, turned], {"names": ["a", "a"]}, "two images have the name 'a'"),
+        ([np.zeros((3, 4))], {}, "pose 0: the matrix is singular"),
+        ([turned], {"direction": "world"}, "direction: expected"),
+        ([turned], {"axes": "blender"}, "axes: expected"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            of(poses, **changes)
+    with pytest.raises(TypeError):
+        fathom.Camera.from_matrices(K, [turned], (640, 480))
+
+
+def test_data_sets(tmp_path):
+    rows = "".join(" ".join(map(repr, row)) + "\n" for row in turned.tolist())
+    line = " ".join(map(repr, turned.ravel().tolist())) + "\n"
+
+    def write(name, text):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+        return tmp_path / name
+
+    # A quarter turn about y as a quaternion x y z w.
+    trajectory = write("groundtruth.txt", "1.5 2 3 4 0 0.5 0 0.5\n")
+    images = write("rgb.txt", "1.51 rgb/1.51.png\n9 rgb/9.png\n")
+    write("seq/frame-000007.pose.txt", rows)
+    write("scene/pose/0.txt", rows)
+    write("scene/pose/1.txt", "-inf -inf -inf -inf\n" * 4)
+    for stream, f in (("depth", 577), ("color", 1170)):
+        write(f"scene/intrinsic/intrinsic_{stream}.txt", f"{f} 0 319.5 0\n0 {f} 239.5 0\n0 0 1 0\n0 0 0 1\n")
+    write("room/traj.txt", line)
+    write("cam_params.json", json.dumps({"camera": dict(w=1200, h=680, fx=600, fy=600, cx=599.5, cy=339.5)}))
+    iphone = write("pose.json", json.dumps({"frame_0": {"intrinsic": K.tolist(), "aligned_pose": turned.tolist()}}))
+    calibration = write("calib.txt", "P2: 500 0 320 50 0 510 240 0 0 0 1 0\n")
+    poses = write("00.txt", " ".join(line.split()[:12]) + "\n")
+    tum = fathom.Camera.from_tum(tmp_path, "ros")
+    with pytest.warns(fathom.ViewWarning, match="1 of 2 cameras has no pose"):
+        of_images = fathom.Camera.from_tum(trajectory, (500, 510, 320, 240), images=images, pixel_centre=0.5)
+    with pytest.warns(fathom.ViewWarning, match="1 of 2 cameras has no pose"):
+        depth, colour = (fathom.Camera.from_scannet(tmp_path / "scene", stream) for stream in ("depth", "colour"))
+    found = [tum["1.5"], of_images["rgb/1.51.png"], fathom.Camera.from_7scenes(tmp_path / "seq")["frame-000007"],
+             depth["0"], colour["0"], fathom.Camera.from_replica(tmp_path / "room")["frame000000"],
+             fathom.Camera.from_scannetpp(iphone)["frame_0"]]
+    for camera in found:
+        assert np.array_equal(camera.camera_to_world, turned), camera
+    assert [camera.fx for camera in found] == [525, 500, 585, 577, 1170, 600, 500]
+    assert [camera.width for camera in found] == [640, 640, 640, 640, 1296, 1200, 1920]
+    assert [camera.pixel_centre for camera in found] == [0, 0.5, 0, 0, 0, 0, 0]
+    other = fathom.Camera.from_7scenes(tmp_path / "seq", K=K, size=(64, 48), pixel_centre=0.5)["frame-000007"]
+    assert np.array_equal(other.K, K) and other.size == (64, 48) and other.pixel_centre == 0.5
+    with pytest.raises(fathom.InputError, match="freiburg1: its colour images have lens distortion"):
+        fathom.Camera.from_tum(tmp_path, "freiburg1")
+    with pytest.raises(ValueError, match="give K, or one of ros, freiburg1"):
+        fathom.Camera.from_tum(tmp_path, "kinect")
+
+    beside = fathom.Camera.from_kitti(calibration, size=(1241, 376))["image_2"]
+    assert beside.world_to_camera[:3, 3].tolist() == [0.1, 0, 0]
+    along = fathom.Camera.from_kitti(calibration, poses=poses, camera=2, size=(1241, 376))["000000"]
+    assert np.array_equal(along.world_to_camera, beside.world_to_camera @ np.linalg.inv(turned))
+    with pytest.raises(ValueError, match="of which camera"):
+        fathom.Camera.from_kitti(calibration, poses=poses, size=(1241, 376))
+
+    lens = {"type": "orthographic", "orthographic": dict(xmag=4, ymag=3, znear=0, zfar=9)}
+    gltf = write("a.gltf", json.dumps({"cameras": [lens],
+                                       "nodes": [{"name": "eye", "camera": 0, "translation": [1, 2, 3]}]}))
+    eye = fathom.Camera.from_gltf(gltf, (640, 480))["eye"]
+    assert eye.projection == "orthographic" and eye.fx == 80 and eye.camera_to_world[:3, 3].tolist() == [1, 2, 3]
+    sfm = write("a.sfm", json.dumps({
+        "version": ["1", "2", "0"], "views": [{"viewId": "1", "poseId": "1", "intrinsicId": "1", "path": "/a/b.jpg"}],
+        "intrinsics": [{"intrinsicId": "1", "width": "640", "height": "480", "type": "pinhole",
+                        "pxFocalLength": ["500", "510"], "principalPoint": ["320", "240"]}],
+        "poses": [{"poseId": "1", "pose": {"transform": {
+            "rotation": turned[:3, :3].ravel().tolist(), "center": turned[:3, 3].tolist()}}}]}))
+    camera = fathom.Camera.from_sfm_data(sfm)["b.jpg"]
+    assert np.array_equal(camera.camera_to_world, turned) and np.array_equal(camera.K, K)
 
 
 def make(**changes):

@@ -9,6 +9,7 @@
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import.h"
 #include "fathom/camera/camera_making.h"
+#include "fathom/camera/data_set_cameras.h"
 #include "fathom/scene/framing.h"
 #include "running.h"
 #include "scene.h"
@@ -18,12 +19,21 @@ namespace py = pybind11;
 namespace fathom::python {
 namespace {
 
+using Path = std::filesystem::path;
 using Rows = std::array<std::array<double, 4>, 3>;
-using Named = std::vector<std::pair<std::string, Camera>>;
+using Named = std::vector<std::pair<py::str, Camera>>;
+
+/// Names of files may be any bytes: what is no UTF-8 becomes U+FFFD, as in camera files.
+py::str as_text(const std::string& name) {
+  PyObject* const text =
+      PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "replace");
+  if (text == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(text);
+}
 
 Camera make_camera(std::uint32_t width, std::uint32_t height, bool orthographic,
                    const std::array<double, 5>& intrinsics, double pixel_centre, const Rows& pose,
-                   double near, double far) {
+                   double near, double far, std::string name) {
   Camera camera;
   camera.width = width;
   camera.height = height;
@@ -37,6 +47,7 @@ Camera make_camera(std::uint32_t width, std::uint32_t height, bool orthographic,
   camera.world_to_camera = pose;
   camera.near = near;
   camera.far = far;
+  camera.name = std::move(name);
   require_valid(camera);
   return camera;
 }
@@ -61,13 +72,12 @@ View make_view(double azimuth, double elevation, const Vector3& up) {
 }
 
 /// Cameras by name, and what is to be warned of.
-std::pair<Named, Warnings> named(const std::vector<ImportedCamera>& imported,
-                                 const std::filesystem::path& input, bool ignore_distortion,
-                                 Warnings warnings = {}) {
+std::pair<Named, Warnings> named(const std::vector<ImportedCamera>& imported, const Path& input,
+                                 bool ignore_distortion, Warnings warnings = {}) {
   Named cameras;
   for (Camera& camera : chosen_cameras(imported, input.string(),
                                        {.ignore_distortion = ignore_distortion}, warnings)) {
-    std::string name = camera.name;
+    py::str name = as_text(camera.name);
     cameras.emplace_back(std::move(name), std::move(camera));
   }
   return {std::move(cameras), std::move(warnings)};
@@ -97,19 +107,24 @@ void bind_making(py::module_& core) {
 }
 
 void bind_importing(py::module_& core) {
-  core.def("import_colmap", [](const std::filesystem::path& folder, bool ignore_distortion) {
+  core.def("import_colmap", [](const Path& folder, bool ignore_distortion) {
     return named(import_colmap(folder), folder, ignore_distortion);
   });
-  core.def("import_nerf", [](const std::filesystem::path& file, std::uint32_t width,
-                             std::uint32_t height, bool ignore_distortion) {
-    Warnings warnings;
-    const auto imported = import_nerf(file, width, height, warnings);
-    return named(imported, file, ignore_distortion, std::move(warnings));
-  });
-  core.def("import_bop",
-           [](const std::filesystem::path& file, std::uint32_t width, std::uint32_t height) {
-             return named(import_bop(file, width, height), file, false);
+  core.def("import_nerf",
+           [](const Path& file, std::uint32_t width, std::uint32_t height, bool ignore_distortion) {
+             Warnings warnings;
+             const auto imported = import_nerf(file, width, height, warnings);
+             return named(imported, file, ignore_distortion, std::move(warnings));
            });
+  core.def("import_bop", [](const Path& file, std::uint32_t width, std::uint32_t height) {
+    return named(import_bop(file, width, height), file, false);
+  });
+  core.def("import_sfm_data", [](const Path& file, bool ignore_distortion) {
+    return named(import_sfm_data(file), file, ignore_distortion);
+  });
+  core.def("import_gltf", [](const Path& file, std::uint32_t width, std::uint32_t height) {
+    return named(import_gltf(file, width, height), file, false);
+  });
   core.def("camera_from_opengl", &camera_from_opengl);
   core.def("cameras_from_json", [](const std::string& text, const std::string& name) {
     Warnings warnings;
@@ -118,6 +133,61 @@ void bind_importing(py::module_& core) {
   });
   core.def("cameras_to_json", [](const std::vector<Camera>& cameras) { return to_json(cameras); });
   core.def("camera_to_json", [](const Camera& camera) { return to_json(camera); });
+}
+
+PoseDirection direction_of(bool camera_to_world) {
+  return camera_to_world ? PoseDirection::camera_to_world : PoseDirection::world_to_camera;
+}
+
+void bind_data_sets(py::module_& core) {
+  py::class_<GivenLens>(core, "GivenLens")
+      .def(py::init([](std::uint32_t width, std::uint32_t height, std::optional<IntrinsicMatrix> K,
+                       std::optional<double> pixel_centre) {
+        return GivenLens{width, height, K, pixel_centre};
+      }));
+  core.def("import_matrices",
+           [](const std::vector<std::pair<std::string, Rows>>& poses,
+              const std::vector<IntrinsicMatrix>& K, bool camera_to_world, bool opengl,
+              double pixel_centre, std::uint32_t width, std::uint32_t height) {
+             std::vector<NamedPose> named_poses;
+             named_poses.reserve(poses.size());
+             for (const auto& [name, pose] : poses) named_poses.push_back({name, pose});
+             const MatrixConvention convention{direction_of(camera_to_world),
+                                               opengl ? CameraAxes::opengl : CameraAxes::opencv,
+                                               pixel_centre};
+             return named(import_matrices(named_poses, K, convention, width, height, "poses"),
+                          "poses", false);
+           });
+  core.def("import_tum",
+           [](const Path& trajectory, const std::optional<Path>& images, const std::string& lens,
+              const GivenLens& given, bool ignore_distortion) {
+             std::optional<ImportedCamera> published = tum_lens(lens);
+             if (published && given.width != 0) {
+               published->camera.width = given.width;
+               published->camera.height = given.height;
+             }
+             if (published && given.pixel_centre)
+               published->camera.pixel_centre = *given.pixel_centre;
+             return named(import_tum(trajectory, images, published ? *published : tum_lens(given)),
+                          trajectory, ignore_distortion);
+           });
+  core.def("import_7scenes", [](const Path& folder, const GivenLens& given) {
+    return named(import_7scenes(folder, given), folder, false);
+  });
+  core.def("import_scannet", [](const Path& folder, bool colour, const GivenLens& given) {
+    const ScanNetStream stream = colour ? ScanNetStream::colour : ScanNetStream::depth;
+    return named(import_scannet(folder, stream, given), folder, false);
+  });
+  core.def("import_scannetpp", [](const Path& file, const GivenLens& given) {
+    return named(import_scannetpp(file, given), file, false);
+  });
+  core.def("import_replica", [](const Path& folder, const GivenLens& given) {
+    return named(import_replica(folder, given), folder, false);
+  });
+  core.def("import_kitti", [](const Path& calibration, const std::optional<Path>& poses,
+                              std::optional<std::uint32_t> number, const GivenLens& given) {
+    return named(import_kitti(calibration, poses, number, given), calibration, false);
+  });
 }
 
 }  // namespace
@@ -139,11 +209,12 @@ void bind_camera(py::module_& core) {
       .def_readonly("world_to_camera", &Camera::world_to_camera)
       .def_readonly("near", &Camera::near)
       .def_readonly("far", &Camera::far)
-      .def_readonly("name", &Camera::name)
+      .def_property_readonly("name", [](const Camera& camera) { return as_text(camera.name); })
       .def_property_readonly("camera_to_world",
                              [](const Camera& camera) { return camera_to_world(camera); });
   bind_making(core);
   bind_importing(core);
+  bind_data_sets(core);
 }
 
 }  // namespace fathom::python

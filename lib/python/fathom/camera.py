@@ -19,12 +19,14 @@ from ._arguments import (
     as_finite,
     as_number,
     as_size,
+    as_text,
     camera_handle,
     one_of,
     pose_of,
     scene_handle,
 )
 from ._files import Path, make_folder_of
+from ._importing import ImportedCameras, ViewWarning, intrinsics_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -37,12 +39,7 @@ Up = Union[Literal["x", "y", "z", "-x", "-y", "-z"], "npt.ArrayLike"]
 projections = ("perspective", "orthographic")
 
 
-class ViewWarning(UserWarning):
-    """What is probably not meant in the way that a camera looks at a scene. `warnings.simplefilter("error",
-    fathom.ViewWarning)` makes it an exception; "ignore" silences it."""
-
-
-class Camera:
+class Camera(ImportedCameras):
     """A pinhole or orthographic camera. Every number is taken as the real number that it denotes; a camera does not
     change.
 
@@ -53,6 +50,7 @@ class Camera:
                      NeRF) or 0 (OpenCV, BOP). It has no default, since half a pixel is what goes wrong most often.
     world_to_camera  4×4 or 3×4, [R | t]; x right, y down, z forward (OpenCV's axes). R need not be a rotation.
     near, far        the range of planar depth that counts, in scene units
+    name             what its image is called; it says nothing about what is seen
 
     >>> camera = Camera(640, 480, 500, 500, 320, 240, pixel_centre=0.5)
     >>> camera.K
@@ -81,15 +79,16 @@ class Camera:
         projection: Projection = "perspective",
         near: float = 0,
         far: float = math.inf,
+        name: str = "",
     ) -> None:
         size = as_size((width, height))
         intrinsics = [as_number(name, value) for name, value in
                       (("fx", fx), ("fy", fy), ("cx", cx), ("cy", cy), ("skew", skew))]
         pose = _identity if world_to_camera is None else pose_of("world_to_camera", world_to_camera)
-        self._set(size, projection, intrinsics, pixel_centre, pose, near, far)
+        self._set(size, projection, intrinsics, pixel_centre, pose, near, far, as_text("name", name))
 
     def _set(self, size: tuple[int, int], projection: object, intrinsics: list[float], pixel_centre: object,
-             pose: Rows, near: object, far: object) -> None:
+             pose: Rows, near: object, far: object, name: str = "") -> None:
         made = _core.Camera(
             *size,
             one_of("projection", projection, projections) == "orthographic",
@@ -98,6 +97,7 @@ class Camera:
             pose,
             as_number("near", near),
             as_number("far", far),
+            name,
         )
         object.__setattr__(self, "_handle", made)
 
@@ -254,50 +254,7 @@ class Camera:
         made = _core.orbit_scene(scene_handle(scene), view, as_count("count", count, 1, 1_000_000), lens)
         return [cls._of(each) for each in made]
 
-    # Imported
-
-    @classmethod
-    def from_colmap(cls, folder: Path, *, ignore_distortion: bool = False) -> dict[str, Camera]:
-        """The cameras of a COLMAP model (cameras and images, .bin or .txt), by the names of their images.
-
-        Those with lens distortion are left out with a ViewWarning, unless `ignore_distortion` takes their pinhole
-        part. Raises InputError where none is left.
-        """
-        return dict(cls._imported(_core.import_colmap(os.fspath(folder), ignore_distortion)))
-
-    @classmethod
-    def from_nerf(
-        cls, file: Path, size: Size | None = None, *, ignore_distortion: bool = False
-    ) -> dict[str, Camera]:
-        """The cameras of a transforms.json, by their file_path; those of frames without one by their number. `size`,
-        (width, height) in pixels, is for files without w and h. Lens distortion is as in from_colmap().
-
-        Raises InputError, which names the frame, where two have one file_path, a focal length is negative (an angle
-        beyond π radians gives such), or the file has another size than the one that is given.
-        """
-        width, height = (0, 0) if size is None else as_size(size)
-        imported = _core.import_nerf(os.fspath(file), width, height, ignore_distortion)
-        made: dict[str, Camera] = {}
-        for name, camera in cls._imported(imported):
-            fault = _fault_of_frame(camera, size is not None and (width, height))
-            if name in made:
-                fault = "there are two frames with this file_path"
-            if fault:
-                raise InputError(f"{os.fsdecode(file)}: frame {name}: {fault}")
-            made[name] = camera
-        return made
-
-    @classmethod
-    def from_bop(cls, file: Path, size: Size) -> dict[str, Camera]:
-        """The cameras of a scene_camera.json of BOP, by image id. Lengths are millimetres, as in the file."""
-        return dict(cls._imported(_core.import_bop(os.fspath(file), *as_size(size))))
-
-    @classmethod
-    def _imported(cls, imported: tuple[_core.Named, list[str]]) -> list[tuple[str, Camera]]:
-        cameras, notes = imported
-        for note in notes:
-            warnings.warn(note, ViewWarning, stacklevel=3)
-        return [(name, cls._of(core)) for name, core in cameras]
+    # Read and written
 
     @classmethod
     def from_json(cls, text: str) -> Camera:
@@ -369,6 +326,11 @@ class Camera:
         return self._handle.far
 
     @property
+    def name(self) -> str:
+        """What its image is called; "" where it has no name."""
+        return self._handle.name
+
+    @property
     def K(self) -> npt.NDArray[np.float64]:
         """3×3: fx skew cx / 0 fy cy / 0 0 1."""
         return np.array([[self.fx, self.skew, self.cx], [0, self.fy, self.cy], [0, 0, 1]], np.float64)
@@ -387,7 +349,7 @@ class Camera:
         """The same camera with another image size; the principal point stays where it is, in pixels."""
         return Camera(width, height, self.fx, self.fy, self.cx, self.cy, pixel_centre=self.pixel_centre,
                       skew=self.skew, world_to_camera=self.world_to_camera, projection=self.projection,
-                      near=self.near, far=self.far)
+                      near=self.near, far=self.far, name=self.name)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("a Camera does not change: make another one")
@@ -404,8 +366,9 @@ class Camera:
     def __repr__(self) -> str:
         numbers = " ".join(f"{name}={getattr(self, name):.10g}," for name in ("fx", "fy", "cx", "cy"))
         skew = f" skew={self.skew:.10g}," if self.skew else ""
+        name = f", name={self.name!r}" if self.name else ""
         return (f"Camera({self.width}×{self.height}, {self.projection}, {numbers}{skew} "
-                f"pixel_centre={self.pixel_centre:.10g})")
+                f"pixel_centre={self.pixel_centre:.10g}{name})")
 
 
 _identity: Rows = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0))
@@ -415,26 +378,8 @@ def _from_json(text: str) -> Camera:
     return Camera.from_json(text)
 
 
-def intrinsics_of(K: npt.ArrayLike) -> list[float]:
-    """fx, fy, cx, cy, skew of a 3×3 matrix."""
-    matrix = as_finite("K", K, (3, 3))
-    if matrix[1, 0] != 0 or matrix[2].tolist() != [0, 0, 1]:
-        raise ValueError("K: expected fx skew cx / 0 fy cy / 0 0 1; is it transposed?")
-    return [float(matrix[i]) for i in ((0, 0), (1, 1), (0, 2), (1, 2), (0, 1))]
-
-
 def _point(name: str, value: npt.ArrayLike) -> list[float]:
     return [float(each) for each in as_finite(name, value, (3,))]
-
-
-def _fault_of_frame(camera: Camera, size: tuple[int, int] | Literal[False]) -> str:
-    """What is wrong with a camera of a transforms.json; empty where nothing is."""
-    if size and camera.size != size:
-        return f"its size is {camera.width}×{camera.height} by w and h, {size[0]}×{size[1]} by the argument size"
-    if camera.fx < 0 or camera.fy < 0:
-        return (f"the focal lengths are {camera.fx:g} and {camera.fy:g} pixels; expected positive ones, "
-                "and angles from 0 to π radians")
-    return ""
 
 
 def _lens(size: Size, fov: float | None, focal: float | None, extent: float | None, projection: str, near: float,

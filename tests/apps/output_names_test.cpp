@@ -1,0 +1,82 @@
+// Patterns of outputs: {index}, {name} and {stem}.
+#include "apps/options/output_names.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fathom/numeric/errors.h"
+#include "tests/scratch_folder.h"
+
+namespace fathom::app {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<Camera> named(const std::vector<std::string>& names) {
+  std::vector<Camera> cameras(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) cameras[i].name = names[i];
+  return cameras;
+}
+
+std::vector<std::string> outputs(const std::string& pattern,
+                                 const std::vector<std::string>& names) {
+  return names_of_outputs("-o", pattern, named(names));
+}
+
+TEST(OutputNames, OfIndexNameAndStem) {
+  EXPECT_THAT(outputs("map.exr", {""}), ElementsAre("map.exr"));
+  EXPECT_THAT(outputs("{index}.exr", {"", ""}), ElementsAre("0.exr", "1.exr"));
+  EXPECT_THAT(outputs("m/{index:04}.exr", {"", "b"}), ElementsAre("m/0000.exr", "m/0001.exr"));
+  EXPECT_THAT(outputs("m/{name}.exr", {"images/a.jpg", "b"}),
+              ElementsAre("m/images/a.jpg.exr", "m/b.exr"));
+  EXPECT_THAT(outputs("m/{stem}.exr", {"./images/a.b.jpg", "b"}),
+              ElementsAre("m/a.b.exr", "m/b.exr"));
+  EXPECT_THAT(outputs("{stem}-{index}.exr", {"a.jpg", "b/a.jpg"}),
+              ElementsAre("a-0.exr", "a-1.exr"));
+  // A single camera, too, has its name.
+  EXPECT_THAT(outputs("{stem}.exr", {"a.jpg"}), ElementsAre("a.exr"));
+}
+
+TEST(OutputNames, WhereTheImageLiesDoesNotMatterToItsStem) {
+  EXPECT_THAT(outputs("m/{stem}.exr", {"/data/a.jpg", "../b.jpg"}),
+              ElementsAre("m/a.exr", "m/b.exr"));
+}
+
+TEST(OutputNames, NamesThatLeaveTheFolderAreRefused) {
+  const std::string nul("a\0b", 3);
+  for (const std::string& name :
+       {std::string("../a.jpg"), std::string("a/../../b.jpg"), std::string("/etc/a"),
+        std::string("a/"), std::string(".."), std::string("a/."), nul})
+    EXPECT_THAT(message_of<InputError>([&] { outputs("m/{name}.exr", {name}); }),
+                AllOf(HasSubstr("camera 0: the name"), HasSubstr("no place below a folder")))
+        << name;
+  for (const char* name : {"..", "a/..", "a/", "."})
+    EXPECT_THAT(message_of<InputError>([&] { outputs("m/{stem}.exr", {name}); }),
+                HasSubstr("no place below a folder"))
+        << name;
+  // What could move a terminal's cursor is not shown.
+  EXPECT_THAT(message_of<InputError>([&] { outputs("{name}.exr", {"/\x1b[2J\n"}); }),
+              HasSubstr("'/?[2J?'"));
+}
+
+TEST(OutputNames, PatternsThatDoNotFitAreRefused) {
+  const auto usage = [](const std::string& pattern, const std::vector<std::string>& names) {
+    return message_of<UsageError>([&] { outputs(pattern, names); });
+  };
+  EXPECT_THAT(usage("map.exr", {"a", "b"}),
+              HasSubstr("a path of 2 cameras: -o needs a pattern such as maps/{index:04}.exr"));
+  EXPECT_THAT(usage("{index:x}{nam}.exr", {"a", "b"}), HasSubstr("is not a pattern"));
+  EXPECT_THAT(usage("{name:9999999999}", {"a"}), HasSubstr("is not a pattern"));
+  EXPECT_EQ(usage("m/{stem}.exr", {"a.jpg", "c.jpg", "b/a.png"}),
+            "-o: cameras 0 and 2 would both be written as m/a.exr");
+  EXPECT_EQ(usage("{index:.0}", {"a", "b"}).find("-o: "), 0U);
+  EXPECT_EQ(message_of<InputError>([&] {
+              outputs("{stem}.exr", {"a", ""});
+            }),
+            "camera 1 has no name for '{stem}.exr': camera files say it as \"name\"");
+}
+
+}  // namespace
+}  // namespace fathom::app
