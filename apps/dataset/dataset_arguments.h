@@ -13,7 +13,7 @@ struct DatasetArguments {
   RenderArguments render;
   std::string input, folder;
   Shard shard;
-  bool overwrites = false, ignores_distortion = false;
+  bool overwrites = false;
 
   /// INPUT, which `input` describes, --out, --threads, --shard, --overwrite and the like.
   void add_to(Command& command, const std::string& input);

@@ -14,6 +14,7 @@ void add_dataset(Command& program) {
       "inputs. docs/data-sets.md has the layouts.");
   family.requires_command();
   add_maps_layout(family);
+  add_depth_image_layouts(family);
 }
 
 }  // namespace fathom::app

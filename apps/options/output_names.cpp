@@ -18,8 +18,12 @@ bool has(const std::string& pattern, const char* field) {
   return pattern.find(field) != std::string::npos;
 }
 
+/// Times have no suffix: ".160407" of "1305031102.160407" is part of the number.
 std::string stem_of(const std::string& name) {
-  return fs::path(name).stem().string();
+  const fs::path path(name);
+  const std::string suffix = path.extension().string();
+  const bool is_suffix = suffix.size() > 1 && !('0' <= suffix[1] && suffix[1] <= '9');
+  return (is_suffix ? path.stem() : path.filename()).string();
 }
 
 std::string formatted(const char* option, const std::string& pattern, std::size_t index,

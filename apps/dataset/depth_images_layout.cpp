@@ -1,0 +1,174 @@
+// fathom dataset tum | 7scenes | scannet | scannetpp | replica | kitti | nerf: depth images as 16-bit PNG.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "apps/camera/import_sources.h"
+#include "apps/dataset/layouts.h"
+#include "apps/dataset/nerf_list.h"
+#include "apps/dataset/view_maker.h"
+#include "apps/options/output_names.h"
+#include "apps/render/thread_limit.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/known_files.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+struct DepthImagesArguments : DatasetArguments {
+  ImportArguments cameras;
+};
+
+/// What makes a list of the images: its text from their cameras and the names of their files.
+using MakeList = std::string (*)(const DepthImagesArguments& arguments,
+                                 const std::vector<Camera>& cameras,
+                                 const std::vector<std::string>& files);
+
+/// A layout: where its depth images lie, and what their codes mean.
+struct DepthImages {
+  const char* name;
+  const char* description;
+  /// Of the files; output_names.h has the fields.
+  const char* pattern;
+  /// Codes of a unit of the scene, a metre.
+  double scale;
+  /// The code of a pixel without a surface.
+  std::uint16_t none;
+  /// The list of the images, where there is one.
+  const char* list;
+  MakeList make_list;
+  const char* example;
+};
+
+std::string tum_list(const DepthImagesArguments&, const std::vector<Camera>&,
+                     const std::vector<std::string>& files) {
+  std::string text = "# depth maps\n# timestamp filename\n";
+  for (const std::string& file : files) {
+    const std::string time = std::filesystem::path(file).stem().string();
+    text += fmt::format("{} {}\n", time, file);
+  }
+  return text;
+}
+
+std::string nerf_list(const DepthImagesArguments& arguments, const std::vector<Camera>& cameras,
+                      const std::vector<std::string>& files) {
+  return transforms_with_depths(arguments.input, cameras, files);
+}
+
+const std::vector<DepthImages>& all_depth_images() {
+  static const std::vector<DepthImages> all{
+      {"tum", "TUM RGB-D: depth/TIME.png, 5000 codes per metre, and depth.txt", "depth/{stem}.png",
+       5000, 0, "depth.txt", tum_list,
+       "  fathom dataset tum groundtruth.txt --images rgb.txt --K freiburg3 --mesh room.ply --out "
+       "exact"},
+      {"7scenes", "7-Scenes: NAME.depth.png in millimetres, 65535 for none", "{stem}.depth.png",
+       1000, 65535, nullptr, nullptr,
+       "  fathom dataset 7scenes chess/seq-01 --mesh chess.ply --out exact"},
+      {"scannet", "ScanNet: depth/N.png in millimetres", "depth/{stem}.png", 1000, 0, nullptr,
+       nullptr,
+       "  fathom dataset scannet scene0000_00 --mesh scene0000_00_vh_clean.ply --out exact"},
+      {"scannetpp", "ScanNet++: depth/NAME.png in millimetres", "depth/{stem}.png", 1000, 0,
+       nullptr, nullptr,
+       "  fathom dataset scannetpp iphone/pose_intrinsic_imu.json --mesh mesh_aligned_0.05.ply "
+       "--out exact"},
+      {"replica", "Replica (iMAP, NICE-SLAM): results/depthN.png, 6553.5 codes per metre",
+       "results/depth{index:06}.png", 6553.5, 0, nullptr, nullptr,
+       "  fathom dataset replica Replica/room0 --mesh Replica/room0_mesh.ply --out exact"},
+      {"kitti", "KITTI: NAME.png, 256 codes per metre", "{stem}.png", 256, 0, nullptr, nullptr,
+       "  fathom dataset kitti calib.txt --poses poses/00.txt --camera 2 --size 1241x376 --mesh "
+       "00.ply --out exact"},
+      {"nerf", "Nerfstudio: depth/NAME.png, 1000 codes per unit, and a transforms.json with them",
+       "depth/{stem}.png", 1000, 0, "transforms.json", nerf_list,
+       "  fathom dataset nerf transforms.json --mesh mesh.ply --out exact"}};
+  return all;
+}
+
+/// The codes as the layout has them.
+std::shared_ptr<const DepthMap> coded(const DepthImages& layout,
+                                      std::shared_ptr<const DepthMap> map) {
+  if (layout.none == 0) return map;
+  auto changed = std::make_shared<DepthMap>(*map);
+  Samples<std::uint16_t>* codes = changed->values<std::uint16_t>("Z");
+  if (std::ranges::find(*codes, layout.none) != codes->end()) {
+    throw OutputError(fmt::format("a depth has the code {}, which stands for none", layout.none));
+  }
+  std::ranges::replace(*codes, std::uint16_t{0}, layout.none);
+  return changed;
+}
+
+std::vector<Camera> read_cameras(const ImportSource& source, const DepthImagesArguments& arguments,
+                                 const Console& console) {
+  note_input(arguments.input);
+  Warnings warnings;
+  std::vector<Camera> cameras = chosen_cameras(source.read(arguments.cameras, warnings),
+                                               arguments.input, arguments.cameras.choice, warnings);
+  console.warn(warnings);
+  return cameras;
+}
+
+int run_depth_images(const DepthImages& layout, const ImportSource& source,
+                     DepthImagesArguments& arguments, const Console& console) {
+  const ThreadLimit limit(arguments.render.scene.threads);
+  arguments.cameras.input = arguments.input;
+  const std::vector<Camera> cameras = read_cameras(source, arguments, console);
+  const std::vector<std::string> names = names_of_outputs("the layout", layout.pattern, cameras);
+  arguments.render.output = layout.pattern;
+  arguments.render.storage.png_scale = layout.scale;
+  ViewMaker maker(arguments.render.scene.read(console, {.hash = true}), cameras,
+                  plan_maps(arguments.render));
+  Job job = arguments.job();
+  job.noun = "depth image";
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    job.tasks.push_back({fmt::format("none {}\n", layout.none) + maker.inputs_of(i), {names[i]}});
+  }
+  job.make = [&](std::size_t i) {
+    const std::string name = (job.folder / names[i]).string();
+    Result result;
+    result.files.push_back([map = maker.make(i, name), name, &layout, &maker] {
+      return encode_map(*coded(layout, map), name, MapFormat::png, maker.plan().writing);
+    });
+    result.memory = maker.memory_of(i);
+    return result;
+  };
+  job.lists.push_back({"cameras.json", [&](const auto&) { return to_json(cameras) + "\n"; }});
+  if (layout.list != nullptr) {
+    job.lists.push_back(
+        {layout.list, [&](const auto&) { return layout.make_list(arguments, cameras, names); }});
+  }
+  run_job(job, console);
+  maker.warn(console);
+  return done;
+}
+
+void add_depth_images(Command& family, const DepthImages& layout, const ImportSource& source) {
+  const auto arguments = std::make_shared<DepthImagesArguments>();
+  Command& command = family.command(layout.name, layout.description, layout.example);
+  arguments->add_to(command, source.input);
+  arguments->add_scene_to(command);
+  source.declare(command, arguments->cameras);
+  command.flag(
+      "--ignore-distortion", arguments->cameras.choice.ignore_distortion,
+      "Take cameras with lens distortion as if they had none; without it they are left out");
+  command.runs([arguments, &layout, source](const Console& console) {
+    return run_depth_images(layout, source, *arguments, console);
+  });
+}
+
+}  // namespace
+
+void add_depth_image_layouts(Command& family) {
+  std::vector<ImportSource> sources = data_set_sources();
+  for (const ImportSource& source : program_sources()) sources.push_back(source);
+  for (const DepthImages& layout : all_depth_images()) {
+    const auto source = std::ranges::find_if(sources, [&](const ImportSource& one) {
+      return std::string_view(one.name) == layout.name;
+    });
+    add_depth_images(family, layout, *source);
+  }
+}
+
+}  // namespace fathom::app
