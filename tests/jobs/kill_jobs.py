@@ -32,7 +32,8 @@ def kill_once(given, cameras, out, draw, longest):
     status = process.wait()
     if status == 0:
         return None
-    if status not in (-signal.SIGKILL, 130):
+    # Before the program has begun to listen to it, SIGINT ends it.
+    if status not in (-signal.SIGKILL, -signal.SIGINT, 130):
         sys.exit(f"exit status {status}: {said}")
     return status, said
 
@@ -44,6 +45,7 @@ def main():
     parser.add_argument("--maps", type=int, default=60)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
+    given.program = pathlib.Path(given.program).resolve()
     draw = random.Random(given.seed)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

@@ -19,16 +19,22 @@ using namespace text;
 
 namespace {
 
+WorldFromMesh placement_of(const BopInstance& instance) {
+  WorldFromMesh placement;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 4; ++k) placement.rows[i][k] = instance.pose[i][k];
+  return placement;
+}
+
 BopInstance read_instance(const JsonValue& value) {
   BopInstance instance;
   instance.model = static_cast<std::uint32_t>(
       value.at("obj_id").integer(0, std::numeric_limits<std::uint32_t>::max()));
   const auto R = value.at("cam_R_m2c").numbers(9), t = value.at("cam_t_m2c").numbers(3);
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) instance.pose.rows[i][k] = R[3 * i + k];
-    instance.pose.rows[i][3] = t[i];
+    instance.pose[i] = {R[3 * i], R[3 * i + 1], R[3 * i + 2], t[i]};
   }
-  if (const auto fault = find_fault(instance.pose)) value.fail(*fault);
+  if (const auto fault = find_fault(placement_of(instance))) value.fail(*fault);
   return instance;
 }
 
@@ -99,8 +105,8 @@ const Scene& BopModels::scene_of(std::span<const BopInstance> instances) {
   for (const BopInstance& instance : instances) {
     const auto at = std::ranges::lower_bound(numbers_, instance.model) - numbers_.begin();
     Object& object = scene_.objects.emplace_back(models_[static_cast<std::size_t>(at)]);
-    object.world_from_mesh = instance.pose;
-    object.placed_as_is = instance.pose.rows == WorldFromMesh().rows;
+    object.world_from_mesh = placement_of(instance);
+    object.placed_as_is = object.world_from_mesh.rows == WorldFromMesh().rows;
     object.name = fmt::format("{} obj_{:06}", scene_.objects.size() - 1, instance.model);
   }
   return scene_;

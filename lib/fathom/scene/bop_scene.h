@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -7,7 +8,6 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
-#include "fathom/geometry/frames.h"
 #include "fathom/mesh_files/read_options.h"
 #include "fathom/scene/scene.h"
 #include "fathom/text/warnings.h"
@@ -17,7 +17,7 @@ namespace fathom {
 /// An instance of a model in an image of BOP: [cam_R_m2c | cam_t_m2c], lengths in millimetres.
 struct BopInstance {
   std::uint32_t model = 0;
-  WorldFromMesh pose;
+  std::array<std::array<double, 4>, 3> pose{};
 };
 
 /// An image of a BOP scene. The world is the camera's frame, in which the file has its poses.
@@ -33,7 +33,7 @@ struct BopImage {
 
 /// The images of scene_camera.json and scene_gt.json in a folder, in the order of their ids; those that one
 /// of the files lacks are not there.
-/// `width` and `height` are in pixels: the files do not have them.
+/// `width` and `height` are in pixels; 0: those of the data set's camera.json (import_bop()).
 /// Fails    InputError, one line that names the file and the key.
 std::vector<BopImage> read_bop_images(const std::filesystem::path& folder, std::uint32_t width,
                                       std::uint32_t height);

@@ -1,0 +1,182 @@
+#include "apps/dataset/bop_image.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "fathom/area/visible_areas.h"
+#include "fathom/image/map_files.h"
+#include "fathom/image/mask_picture.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/render.h"
+
+namespace fathom::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Mask = std::vector<std::uint8_t>;
+
+/// A mask with the pixels that it has, and their box.
+struct CountedMask {
+  Mask mask;
+  std::uint64_t count = 0;
+  long left = 0, top = 0, right = -1, bottom = -1;
+
+  /// As calc_gt_info.py writes it, with the place of the image's corner in this mask.
+  [[nodiscard]] Json box(long x, long y) const {
+    return {left - x, top - y, right - left, bottom - top};
+  }
+};
+
+template <class IsIn>
+CountedMask mask_of(const Samples<std::uint32_t>& objects, std::uint32_t width, const IsIn& is_in) {
+  CountedMask result;
+  result.mask.resize(objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (!is_in(objects[i])) continue;
+    const long x = static_cast<long>(i % width), y = static_cast<long>(i / width);
+    if (result.count++ == 0) result.left = x, result.top = y;
+    result.mask[i] = 1;
+    result.left = std::min(result.left, x);
+    result.right = std::max(result.right, x);
+    result.bottom = y;
+  }
+  return result;
+}
+
+/// The camera of an image three times as wide and as high, in whose middle the image is.
+Camera around(Camera camera) {
+  camera.cx += camera.width;
+  camera.cy += camera.height;
+  camera.width *= 3;
+  camera.height *= 3;
+  return camera;
+}
+
+/// The part of a mask that the image has.
+Mask middle_of(const Mask& wide, std::uint32_t width, std::uint32_t height) {
+  Mask mask;
+  mask.reserve(std::size_t{width} * height);
+  for (std::size_t y = height; y < 2 * std::size_t{height}; ++y) {
+    const auto row = wide.begin() + static_cast<long>(y * 3 * width + width);
+    mask.insert(mask.end(), row, row + width);
+  }
+  return mask;
+}
+
+double fraction(double part, double whole) {
+  return whole == 0 ? 0 : part / whole;
+}
+
+std::function<text::Bytes()> as_png(Mask mask, const BopImage& image, const std::string& name) {
+  return [mask = std::move(mask), width = image.camera.width, height = image.camera.height, name] {
+    return encode_mask(mask, width, height, name);
+  };
+}
+
+std::string file_of(const char* folder, const BopImage& image, std::size_t instance) {
+  return fmt::format("{}/{}_{:06}.png", folder, image.camera.name, instance);
+}
+
+}  // namespace
+
+std::vector<std::string> files_of(const BopImage& image) {
+  std::vector<std::string> files{fmt::format("depth/{}.png", image.camera.name)};
+  for (std::size_t k = 0; k < image.instances.size(); ++k) {
+    files.push_back(file_of("mask", image, k));
+    files.push_back(file_of("mask_visib", image, k));
+  }
+  return files;
+}
+
+struct BopImageMaker::Silhouette {
+  CountedMask whole;
+  /// Within the image.
+  Mask mask;
+  double area = 0;
+};
+
+RenderOptions BopImageMaker::rendering(std::vector<Channel> channels) const {
+  RenderOptions options;
+  options.channels = std::move(channels);
+  options.cull = options_.cull;
+  options.threads = options_.threads;
+  return options;
+}
+
+BopImageMaker::Silhouette BopImageMaker::silhouette_of(const BopImage& image,
+                                                       std::size_t instance) {
+  const Scene& scene = models_.scene_of(std::span(image.instances).subspan(instance, 1));
+  const Camera wide = around(image.camera);
+  RenderOptions options = rendering({Channel::object});
+  options.kept = &memory_of_silhouettes_;
+  const DepthMap map = render(scene, wide, options);
+  Silhouette silhouette;
+  silhouette.whole = mask_of(*map.values<std::uint32_t>("object"), wide.width,
+                             [](std::uint32_t object) { return object != no_surface; });
+  silhouette.mask = middle_of(silhouette.whole.mask, image.camera.width, image.camera.height);
+  silhouette.whole.mask = {};
+  if (options_.areas) {
+    silhouette.area = visible_areas(scene, wide, rendering({Channel::Z})).objects[0].unoccluded;
+  }
+  return silhouette;
+}
+
+Result BopImageMaker::make(const BopImage& image, const std::filesystem::path& folder) {
+  std::vector<Silhouette> silhouettes;
+  for (std::size_t k = 0; k < image.instances.size(); ++k) {
+    silhouettes.push_back(silhouette_of(image, k));
+  }
+  const Scene& scene = models_.scene_of(image.instances);
+  RenderOptions options = rendering({Channel::Z, Channel::object});
+  options.kept = &memory_;
+  options.depth_encoding.type = DepthEncoding::Type::scaled_unorm16;
+  options.depth_encoding.scale = 1 / image.depth_scale;
+  const std::string name = (folder / files_of(image).front()).string();
+  auto map = std::make_shared<DepthMap>();
+  try {
+    *map = render(scene, image.camera, options);
+  } catch (const OutputError& error) {
+    throw OutputError(name + ": " + error.what());
+  }
+  VisibleAreas areas;
+  if (options_.areas) areas = visible_areas(scene, image.camera, rendering({Channel::Z}));
+
+  Result result;
+  result.files.push_back([map, name, threads = options_.threads] {
+    return encode_map(*map, name, MapFormat::png, {.threads = threads, .channel = "Z"});
+  });
+  Json facts = Json::array();
+  const long width = image.camera.width, height = image.camera.height;
+  const Samples<std::uint32_t>& objects = *map->values<std::uint32_t>("object");
+  for (std::size_t k = 0; k < silhouettes.size(); ++k) {
+    Silhouette& alone = silhouettes[k];
+    CountedMask visible =
+        mask_of(objects, image.camera.width, [&](std::uint32_t object) { return object == k; });
+    const Json none{-1, -1, -1, -1};
+    Json fact{{"bbox_obj", visible.count == 0 ? none : alone.whole.box(width, height)},
+              {"bbox_visib", visible.count == 0 ? none : visible.box(0, 0)},
+              {"px_count_all", alone.whole.count},
+              {"px_count_valid", std::ranges::count(alone.mask, 1)},
+              {"px_count_visib", visible.count},
+              {"visib_fract", fraction(static_cast<double>(visible.count),
+                                       static_cast<double>(alone.whole.count))}};
+    if (options_.areas) {
+      fact["area_all"] = alone.area;
+      fact["area_visib"] = areas.objects[k].visible;
+      fact["visib_area_fract"] = fraction(areas.objects[k].visible, alone.area);
+    }
+    facts.push_back(std::move(fact));
+    result.files.push_back(as_png(std::move(alone.mask), image, file_of("mask", image, k)));
+    result.files.push_back(as_png(std::move(visible.mask), image, file_of("mask_visib", image, k)));
+  }
+  result.facts = facts.dump();
+  result.memory =
+      std::size_t{image.camera.width} * image.camera.height * (6 + 2 * image.instances.size());
+  return result;
+}
+
+}  // namespace fathom::app
