@@ -11,7 +11,7 @@ using namespace text;
 
 namespace {
 
-constexpr std::array<std::string_view, 4> channels{"object", "material", "group", "part"};
+constexpr std::array<std::string_view, 4> named_channels{"object", "material", "group", "part"};
 
 std::string text_name_of(std::string_view channel) {
   return "fathom." + std::string(channel) + "s";
@@ -20,8 +20,8 @@ std::string text_name_of(std::string_view channel) {
 /// The channel whose names a text has.
 std::optional<std::string_view> channel_of_text(std::string_view text_name) {
   const auto found = std::ranges::find_if(
-      channels, [&](std::string_view channel) { return text_name_of(channel) == text_name; });
-  if (found == channels.end()) return std::nullopt;
+      named_channels, [&](std::string_view channel) { return text_name_of(channel) == text_name; });
+  if (found == named_channels.end()) return std::nullopt;
   return *found;
 }
 
@@ -46,7 +46,7 @@ const std::vector<std::string>* names_of_channel(const DepthMap& map, const std:
 
 std::map<std::string, std::string> name_tables(const DepthMap& map) {
   std::map<std::string, std::string> texts;
-  for (const std::string_view channel : channels)
+  for (const std::string_view channel : named_channels)
     if (const auto* names = names_of_channel(map, std::string(channel)))
       texts[text_name_of(channel)] = as_json(*names);
   return texts;
