@@ -129,10 +129,11 @@ typedef struct {
 FATHOM_API fathom_status fathom_render(const fathom_scene* scene, const fathom_camera* camera,
                                        const char* channels, const fathom_options* options,
                                        fathom_map** map);
-/* EXR, PFM, PNG or NPY; what it is, is told by its content. */
+/* EXR, NPZ, PFM, PNG, NPY or a dense map of COLMAP's; what it is, is told by its content. */
 FATHOM_API fathom_status fathom_map_read(const char* file, fathom_map** map);
-/* In the format that the suffix names: .exr has all channels; the others the one that is named, or, where `channel` is
- * NULL, the only one. */
+/* In the format that the suffix names: .exr, .npz and .tif have all channels; .pfm, .png, .npy and .bin (COLMAP's) the
+ * one that is named, or, where `channel` is NULL, the only one. A .tif needs an orthographic camera that looks along the
+ * world's z axis. */
 FATHOM_API fathom_status fathom_map_write(const fathom_map* map, const char* file,
                                           const char* channel);
 FATHOM_API void fathom_map_free(fathom_map* map);

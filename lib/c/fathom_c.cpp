@@ -12,6 +12,7 @@
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/image/map_files.h"
+#include "fathom/map_description.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"
@@ -326,9 +327,14 @@ fathom_status fathom_map_write(const fathom_map* map, const char* file, const ch
     const auto format = map_format_of(file);
     if (!format)
       throw UsageError(std::string(file) +
-                       ": expected a name that ends in .exr, .pfm, .png or .npy");
+                       ": expected a name that ends in .exr, .npz, .pfm, .png, .npy, .bin or .tif");
     WriteOptions options;
     if (channel) options.channel = channel;
+    if (*format == MapFormat::tiff && !map->map.world_from_image) {
+      DepthMap placed = map->map;
+      add_world_from_image(placed, file);
+      return write_map(placed, file, *format, options);
+    }
     write_map(map->map, file, *format, options);
   });
 }

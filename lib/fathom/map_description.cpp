@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fathom/camera/camera_files.h"
+#include "fathom/camera/world_from_image.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/json_text.h"
 #include "fathom/triangle/segment_channels.h"
@@ -83,11 +84,19 @@ void describe_map(const Scene& scene, const Camera& camera, std::string_view eng
   map.world_to_camera = exr_camera_from_world(camera);
   map.world_to_ndc = exr_ndc_from_world(camera);
   describe_screen_window(camera, map);
+  map.world_from_image = world_from_image(camera);
   for (const Object& object : scene.objects) map.object_names.push_back(object.name);
   add_tables(scene, map);
   map.texts["fathom.camera"] = to_json(camera);
   map.texts["fathom.sources"] = sources_as_json(scene.sources);
   map.texts["fathom.engine"] = engine;
+}
+
+void add_world_from_image(DepthMap& map, const std::string& name) {
+  const auto text = map.texts.find("fathom.camera");
+  if (text == map.texts.end()) return;
+  const std::vector<Camera> cameras = read_cameras(text->second, name + ": fathom.camera");
+  if (cameras.size() == 1) map.world_from_image = world_from_image(cameras[0]);
 }
 
 MapView view_of(const Camera& camera) {

@@ -4,7 +4,7 @@
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/errors.h"
 
-/// Readers of EXR, PFM, PNG and NPY: any bytes are a map or an InputError. A map that was read has
+/// Readers of EXR, PFM, PNG, NPY, NPZ and COLMAP's maps: any bytes are a map or an InputError. A map that was read has
 /// as many values as pixels.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

@@ -49,6 +49,7 @@ std::vector<Bytes> one_of_each() {
   DepthMap codes = map_of(5, 4, "Z", random_bits<std::uint16_t>(20, 1));
   codes.png_scale = 1000;
   const DepthMap floats = map_of(5, 4, "Z", random_bits<float>(20, 2));
+  const DepthMap depths = map_of(5, 4, "Z", Samples<float>(20, 2.5f));
   return {small_exr(Compression::none),
           small_exr(Compression::rle),
           small_exr(Compression::zip),
@@ -56,7 +57,8 @@ std::vector<Bytes> one_of_each() {
           encode_png(codes, codes.channels[0], "a.png"),
           encode_pfm(floats, floats.channels[0], "a.pfm"),
           encode_npy(floats, {&floats.channels[0]}, "a.npy"),
-          encode_npz(full_map(6, 20), "a.npz")};
+          encode_npz(full_map(6, 20), "a.npz"),
+          encode_colmap(depths, {&depths.channels[0]}, "a.bin")};
 }
 
 TEST(BadFiles, AreRefusedWhereverTheyAreCutOff) {
@@ -197,9 +199,9 @@ TEST(BadFiles, OfOtherKindsAreNamed) {
     append(bytes, text);
     return refusal_of(bytes);
   };
-  EXPECT_EQ(refusal(""), "map: not a map: expected an OpenEXR, PFM, PNG, NPY or NPZ file");
+  EXPECT_EQ(refusal(""), "map: not a map: expected an OpenEXR, PFM, PNG, NPY, NPZ or COLMAP file");
   EXPECT_EQ(refusal("P5\n3 3\n255\n"),
-            "map: not a map: expected an OpenEXR, PFM, PNG, NPY or NPZ file");
+            "map: not a map: expected an OpenEXR, PFM, PNG, NPY, NPZ or COLMAP file");
   EXPECT_THAT(refusal("Pf\n0 3\n-1\n"), HasSubstr("a width and height of at least 1"));
   EXPECT_THAT(refusal("Pf\n-3 3\n-1\n"), HasSubstr("a width from 1"));
   EXPECT_THAT(refusal("Pf\n1 1\nnan\nabcd"), HasSubstr("a finite scale"));

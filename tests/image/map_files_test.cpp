@@ -269,6 +269,9 @@ TEST(MapFormats, AreNamedBySuffixAndToldByContent) {
   EXPECT_EQ(map_format_of("b.pfm"), MapFormat::pfm);
   EXPECT_EQ(map_format_of("b.Png"), MapFormat::png);
   EXPECT_EQ(map_format_of("b.npy"), MapFormat::npy);
+  EXPECT_EQ(map_format_of("image.jpg.geometric.bin"), MapFormat::colmap);
+  EXPECT_EQ(map_format_of("b.tif"), MapFormat::tiff);
+  EXPECT_EQ(map_format_of("b.TIFF"), MapFormat::tiff);
   EXPECT_EQ(map_format_of("b.exr.jpg"), std::nullopt);
   EXPECT_EQ(map_format_of("exr"), std::nullopt);
   const Folder folder;

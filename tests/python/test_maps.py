@@ -117,6 +117,49 @@ def test_single_channels(map, tmp_path, suffix):
         map.write(file)
 
 
+def test_maps_of_colmaps(spot, camera, tmp_path):
+    map = spot.render(camera, channels=("Z", "Nc"))
+    map.write(tmp_path / "depth.bin", channel="Z")
+    map.write(tmp_path / "normal.bin", channel="Nc")
+    depth, normal = fathom.read_map(tmp_path / "depth.bin"), fathom.read_map(tmp_path / "normal.bin")
+    assert depth["Z"].tobytes() == map["Z"].tobytes() and np.array_equal(normal["Nc"], map["Nc"])
+    assert np.array_equal(depth.mask(), map.mask()) and fathom.compare(map, depth).within_tolerance
+    fathom.Map({"Z": map["Z"]}).write(tmp_path / "again.bin")
+    assert (tmp_path / "again.bin").read_bytes() == (tmp_path / "depth.bin").read_bytes()
+    with pytest.raises(fathom.OutputError, match="a COLMAP map holds planar depth"):
+        map.to_distance().write(tmp_path / "distance.bin")
+    (tmp_path / "bad.bin").write_bytes(b"1&1&1&" + np.float32(-1).tobytes())
+    with pytest.raises(fathom.InputError, match="expected a finite number above 0"):
+        fathom.read_map(tmp_path / "bad.bin")
+
+
+def test_geotiff(spot, camera, tmp_path):
+    down = fathom.Camera(40, 30, 16, 16, 20, 15, projection="orthographic", pixel_centre=0.5,
+                         world_to_camera=[[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 10]])
+    plan = spot.render(down, channels=("Z", "P"))
+    plan.write(tmp_path / "plan.tif")
+    # A map of one's own, and one that was read.
+    fathom.Map(dict(plan), down).write(tmp_path / "own.tif")
+    plan.write(tmp_path / "plan.exr")
+    fathom.read_map(tmp_path / "plan.exr").write(tmp_path / "read.tiff")
+    code = ("import sys; from osgeo import gdal; gdal.UseExceptions(); file = gdal.Open(sys.argv[1]);"
+            "print(file.GetGeoTransform(), file.GetRasterBand(4).GetDescription());"
+            "file.GetRasterBand(4).ReadAsArray().tofile(sys.argv[2])")
+    assert plan.mask().any() and not plan.mask().all()
+    for name in ("plan.tif", "own.tif", "read.tiff"):
+        said = subprocess.run(["/usr/bin/python3", "-c", code, tmp_path / name, tmp_path / "raw"], check=True,
+                              capture_output=True, text=True).stdout
+        assert said == f"{(-20 / 16, 1 / 16, 0.0, 15 / 16, 0.0, -1 / 16)} P.Z\n"
+        height = np.fromfile(tmp_path / "raw", np.float32).reshape(30, 40)
+        assert np.array_equal(height, plan["P"][..., 2], equal_nan=True)
+    with pytest.raises(fathom.OutputError, match="a GeoTIFF needs an orthographic camera"):
+        spot.render(camera).write(tmp_path / "view.tif")
+    with pytest.raises(fathom.OutputError, match="a GeoTIFF needs an orthographic camera"):
+        fathom.Map({"Z": plan["Z"]}).write(tmp_path / "nowhere.tif")
+    with pytest.raises(fathom.InputError, match="TIFF is written, not read"):
+        fathom.read_map(tmp_path / "plan.tif")
+
+
 def test_codes(spot, camera, tmp_path):
     codes = spot.render(camera, dtype=np.uint16, scale=2000)
     codes.write(tmp_path / "codes.png")

@@ -36,6 +36,9 @@ struct DepthMap {
 
   /// For 16-bit codes: code = round-half-even(scale·D), 0 where there is no surface.
   std::optional<double> png_scale;
+  /// How many pixels show a surface whose code would be above 65535 and that has 0 instead, as if it
+  /// showed none; nullopt where such a depth is refused.
+  std::optional<std::uint64_t> codes_beyond;
 
   /// Names of the objects that channel `object` numbers.
   std::vector<std::string> object_names;
@@ -53,6 +56,11 @@ struct DepthMap {
   double pixel_aspect_ratio = 1;
   std::array<double, 2> screen_window_centre{0, 0};
   double screen_window_width = 1;
+  /// What a GeoTIFF needs, where the camera has it: image to world for an orthographic camera that
+  /// looks along the world's z axis, in the order of GDAL's geotransform g. With u to the right and v
+  /// downwards from the top left corner of the image, in pixels, x = g[0] + g[1]·u + g[2]·v and
+  /// y = g[3] + g[4]·u + g[5]·v, whatever the depth. Each is the exact number rounded once.
+  std::optional<std::array<double, 6>> world_from_image;
 
   /// nullptr if there is no such channel.
   [[nodiscard]] const ImageChannel* find(const std::string& name) const;

@@ -56,6 +56,8 @@ std::optional<MapFormat> map_format_of(const std::filesystem::path& path) {
   if (suffix == ".png") return MapFormat::png;
   if (suffix == ".npy") return MapFormat::npy;
   if (suffix == ".npz") return MapFormat::npz;
+  if (suffix == ".bin") return MapFormat::colmap;
+  if (suffix == ".tif" || suffix == ".tiff") return MapFormat::tiff;
   return std::nullopt;
 }
 
@@ -71,6 +73,17 @@ void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
   if (format == MapFormat::npz && std::uint64_t{width} * height >= (std::uint64_t{1} << 30)) {
     throw OutputError(name + ": an NPZ holds less than 4 GiB; .exr holds more");
   }
+  if (format == MapFormat::tiff && std::uint64_t{width} * height >= (std::uint64_t{1} << 30)) {
+    throw OutputError(name + ": a GeoTIFF holds less than 4 GiB; .exr holds more");
+  }
+}
+
+void require_world_from_image(const std::optional<std::array<double, 6>>& world_from_image,
+                              const std::string& name) {
+  if (world_from_image) return;
+  throw OutputError(name +
+                    ": a GeoTIFF needs an orthographic camera that looks straight down or up the "
+                    "world's z axis; .exr holds the map of any camera");
 }
 
 std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, MapFormat format,
@@ -89,6 +102,10 @@ std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, 
       return encode_npy(map, channels_to_write(map, options.channel), name);
     case MapFormat::npz:
       return encode_npz(map, name);
+    case MapFormat::colmap:
+      return encode_colmap(map, channels_to_write(map, options.channel), name);
+    case MapFormat::tiff:
+      return encode_geotiff(map, options.threads, name);
   }
   throw UsageError(name + ": there is no such format");
 }
@@ -106,7 +123,11 @@ DepthMap decode_as_stored(ByteView bytes, const std::string& name, const MapMemo
   if (starts_with(bytes, "\x93NUMPY")) return decode_npy(bytes, name);
   if (starts_with(bytes, "PK\x03\x04")) return decode_npz(bytes, name, memory);
   if (starts_with(bytes, "Pf") || starts_with(bytes, "PF")) return decode_pfm(bytes, name);
-  throw InputError(name + ": not a map: expected an OpenEXR, PFM, PNG, NPY or NPZ file");
+  if (is_colmap(bytes)) return decode_colmap(bytes, name);
+  if (starts_with(bytes, std::string_view("II*\0", 4)) ||
+      starts_with(bytes, std::string_view("MM\0*", 4)))
+    throw InputError(name + ": TIFF is written, not read: give the map as EXR, NPZ or NPY");
+  throw InputError(name + ": not a map: expected an OpenEXR, PFM, PNG, NPY, NPZ or COLMAP file");
 }
 
 }  // namespace

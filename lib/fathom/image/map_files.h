@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -12,12 +13,27 @@
 
 namespace fathom {
 
-enum class MapFormat { exr, pfm, png, npy, npz };
+enum class MapFormat { exr, pfm, png, npy, npz, colmap, tiff };
 
 /// Whether files of the format hold all channels of a map and all of its texts; the others hold one
 /// channel.
 constexpr bool holds_all_channels(MapFormat format) {
+  return format == MapFormat::exr || format == MapFormat::npz || format == MapFormat::tiff;
+}
+
+/// Whether read_map() gives them back under their names; a GeoTIFF is for other programs alone.
+constexpr bool keeps_all_channels(MapFormat format) {
   return format == MapFormat::exr || format == MapFormat::npz;
+}
+
+/// Whether the one channel may have several parts: N.X, N.Y and N.Z.
+constexpr bool holds_parts(MapFormat format) {
+  return format == MapFormat::npy || format == MapFormat::colmap;
+}
+
+/// Whether depths are 0 where no surface is, and nothing else.
+constexpr bool has_zero_for_none(MapFormat format) {
+  return format == MapFormat::png || format == MapFormat::colmap;
 }
 
 /// The format that a path's suffix names (in any case); nullopt if none.
@@ -25,9 +41,15 @@ std::optional<MapFormat> map_format_of(const std::filesystem::path& path);
 
 /// Refuses images with more pixels on a side than the format holds, before any work is done.
 /// Fails    OutputError "NAME: EXR holds fewer than 2^30 pixels a side", "NAME: an NPZ holds less than
-///          4 GiB".
+///          4 GiB" or the like.
 void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
                   const std::string& name);
+
+/// Refuses to write the map of a camera that has no world_from_image as a GeoTIFF, before any work is
+/// done.
+/// Fails    OutputError "NAME: a GeoTIFF needs an orthographic camera that …".
+void require_world_from_image(const std::optional<std::array<double, 6>>& world_from_image,
+                              const std::string& name);
 
 /// Lossless EXR compressions.
 enum class Compression { none, rle, zips, zip, piz };
@@ -36,8 +58,8 @@ struct WriteOptions {
   Compression compression = Compression::zip;
   /// Threads to compress with; 0: all.
   int threads = 0;
-  /// The channel to write as PFM, PNG or NPY; if empty, the map's only channel. As NPY also a
-  /// channel of several parts, "N" for N.X, N.Y and N.Z.
+  /// The channel to write as PFM, PNG, NPY or for COLMAP; if empty, the map's only channel. As NPY also
+  /// a channel of several parts, "N" for N.X, N.Y and N.Z; for COLMAP "Nc".
   std::string channel;
 };
 
@@ -50,6 +72,9 @@ struct WriteOptions {
 ///         type, has shape (height, width, parts).
 ///   NPZ   every channel as such an array, in a ZIP archive without compression, of less than 4 GiB;
 ///         the texts and the names of objects as a JSON object in an array `fathom` that is a text.
+///   COLMAP  a dense map: Z, 0 where no surface is; or Nc; both binary32 (files/colmap_file.cpp).
+///   TIFF  a GeoTIFF of less than 4 GiB, for others to read: a band of binary32 for every channel, with
+///         DEFLATE, and world_from_image, which it needs (files/geotiff_write.cpp).
 /// Fails    OutputError: "PATH: why" (disk full, not writable), or if the format cannot hold what
 ///          the map has; InputError where the map has a fault (find_fault); UsageError if the
 ///          channel is missing or ambiguous, or the number of threads is out of range.
@@ -74,7 +99,7 @@ struct MapMemory {
 /// Reads a map back, recognising its format by content. Channels have their own names, whatever
 /// with_channel_names() has called them. Parts of an array of pixels with several are called as those
 /// of the channel of its name, or NAME.0, NAME.1, …; an NPY has no names: "Z", "id" (32-bit integers)
-/// or "vector". Also EXR files of other programs: HALF
+/// or "vector"; a map of COLMAP's "Z", +∞ where it has 0, or "Nc". Also EXR files of other programs: HALF
 /// channels are widened to binary32; a layered name is kept in full. Nothing is allocated for a
 /// size that the file cannot fill, or that takes more than `memory`. "-" is standard input.
 /// Fails    InputError: "PATH: what is wrong and what was expected".

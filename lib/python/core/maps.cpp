@@ -11,6 +11,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "fathom/camera/world_from_image.h"
 #include "fathom/image/background.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/compare.h"
@@ -84,13 +85,16 @@ SharedMap read(const std::filesystem::path& path) {
 
 MapFormat format_of(const std::filesystem::path& path) {
   if (const auto format = map_format_of(path)) return *format;
-  throw UsageError(path.string() + ": expected a name that ends in .exr, .npz, .npy, .pfm or .png");
+  throw UsageError(path.string() +
+                   ": expected a name that ends in .exr, .npz, .npy, .pfm, .png, .bin or .tif");
 }
 
 void write(const SharedMap& map, const std::filesystem::path& path, const std::string& channel,
            const std::string& compression, int threads,
-           const std::vector<std::pair<std::string, std::string>>& names) {
+           const std::vector<std::pair<std::string, std::string>>& names,
+           const std::optional<Camera>& camera) {
   const MapFormat format = format_of(path);
+  if (camera) map->world_from_image = world_from_image(*camera);
   WriteOptions options;
   options.channel = channel;
   options.threads = threads;

@@ -135,7 +135,8 @@ class Map:
 def read_map(file: str) -> Map: ...
 def require_map_name(file: str) -> None: ...
 def write_map(
-    map: Map, file: str, channel: str, compression: str, threads: int, names: list[tuple[str, str]]
+    map: Map, file: str, channel: str, compression: str, threads: int, names: list[tuple[str, str]],
+    camera: Camera | None,
 ) -> None: ...
 def convert_quantity(
     map: Map,

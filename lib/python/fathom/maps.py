@@ -87,7 +87,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
     @classmethod
     def read(cls, file: Path) -> Map:
-        """Reads EXR (also of other programs), NPZ, NPY, PFM or 16-bit PNG, which is told by its content."""
+        """Reads EXR (also of other programs), NPZ, NPY, PFM, 16-bit PNG or a dense map of COLMAP's (.bin), which is
+        told by its content."""
         return cls._of(_core.read_map(os.fspath(file)))
 
     @classmethod
@@ -109,6 +110,9 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         .exr, .npz        all channels, with camera and metadata
         .npy, .pfm, .png  one channel, `channel` where the map has several: .npy also those of several parts, .png
                           codes of uint16 and identifiers
+        .bin              a dense map of COLMAP's: Z, or Nc if it is the channel; 0 where no surface is
+        .tif              a GeoTIFF, for others to read: a band for each channel. The camera has to be orthographic and
+                          to look straight along the world's z axis
 
         names  what channels are called in an EXR: {"Z": "Y"} is for cv2.imread(), which shows R, G, B and Y alone
         """
@@ -123,7 +127,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         _core.require_map_name(os.fspath(file))
         make_folder_of(file)
         _core.write_map(handle, os.fspath(file), asked, compressed,
-                        as_threads(threads), others)
+                        as_threads(threads), others, None if self.camera is None else camera_handle(self.camera))
 
     @property
     def cameras(self) -> list[Camera]:

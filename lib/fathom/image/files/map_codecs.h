@@ -9,7 +9,7 @@
 #include "fathom/text/file_bytes.h"
 
 /// The formats as pure functions between maps and bytes, for map_files.cpp, tests and fuzzers.
-/// `name` is the file's name for messages. PFM and NPY take as much as their files; the others may
+/// `name` is the file's name for messages. PFM, NPY and COLMAP's take as much as their files; the others may
 /// take many times that, within `memory`. Decoders throw InputError, encoders OutputError.
 namespace fathom::image {
 
@@ -30,6 +30,16 @@ DepthMap decode_npy(text::ByteView bytes, const std::string& name);
 
 text::Bytes encode_npz(const DepthMap& map, const std::string& name);
 DepthMap decode_npz(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});
+
+/// One channel, Z, or the three of Nc.
+text::Bytes encode_colmap(const DepthMap& map, const std::vector<const ImageChannel*>& channels,
+                          const std::string& name);
+/// Whether a file begins as COLMAP's maps do, with a number that is ended by "&".
+bool is_colmap(text::ByteView bytes);
+DepthMap decode_colmap(text::ByteView bytes, const std::string& name);
+
+/// Fails    OutputError where the map has no world_from_image, or a channel does not fit.
+text::Bytes encode_geotiff(const DepthMap& map, int threads, const std::string& name);
 
 /// Recognises the format by the first bytes and decodes.
 DepthMap decode_map(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});

@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "fathom/image/files/map_codecs.h"
+#include "fathom/image/surface.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/byte_order.h"
+
+/// The dense maps of COLMAP ([SZPF16], src/colmap/mvs/mat.h and .cc): width, height and channels in
+/// decimal, each ended by "&", then binary32, little endian: one channel after the other, row by row
+/// from the top, each row from the left.
+///   1 channel   planar depth; what is not above 0 is none (fusion.cc). COLMAP itself writes 0 there,
+///               and only 0 is taken here: a negative depth is more likely another convention
+///   3 channels  the normal in the camera frame, x right, y down, z forward, on the side of the camera
+///               (patch_match_cuda.cu: its product with the viewing ray is not positive); 0 0 0 where
+///               there is none (normal_map.cc)
+namespace fathom::image {
+using namespace text;
+
+namespace {
+
+constexpr std::array<const char*, 3> normal_channels{"Nc.X", "Nc.Y", "Nc.Z"};
+
+std::string colmap_pixel(const std::string& name, std::size_t k, std::uint32_t width) {
+  return name + ": pixel (" + std::to_string(k % width) + ", " + std::to_string(k / width) + "): ";
+}
+
+std::string as_decimal(float value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+struct ColmapHeader {
+  std::uint32_t width = 0, height = 0, channels = 0;
+  std::size_t size = 0;  // bytes
+};
+
+/// What std::from_chars takes of the front, and the "&" behind it.
+bool take_count(std::string_view& text, std::uint32_t& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end == text.data() + text.size() || *end != '&') return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()) + 1);
+  return true;
+}
+
+ColmapHeader colmap_header(ByteView bytes, const std::string& name) {
+  // Three numbers of ten digits each at most.
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                              std::min<std::size_t>(bytes.size(), 33));
+  std::string_view rest = text;
+  ColmapHeader header;
+  if (!take_count(rest, header.width) || !take_count(rest, header.height) ||
+      !take_count(rest, header.channels) || header.width == 0 || header.height == 0) {
+    throw InputError(name +
+                     ": not a usable COLMAP map: expected a width, a height and a number of "
+                     "channels, from 1 to 4294967295, each ended by &");
+  }
+  if (header.channels != 1 && header.channels != 3) {
+    throw InputError(name + ": a COLMAP map of " + std::to_string(header.channels) +
+                     " channels: expected 1, of depths, or 3, of normals");
+  }
+  header.size = text.size() - rest.size();
+  return header;
+}
+
+void require_data(const ColmapHeader& header, ByteView data, const std::string& name) {
+  const std::size_t pixel_bytes = sizeof(float) * header.channels;
+  const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
+  if (data.size() / pixel_bytes == pixels && data.size() % pixel_bytes == 0) return;
+  throw InputError(name + ": truncated or overlong COLMAP map: expected " +
+                   std::to_string(header.width) + "×" + std::to_string(header.height) +
+                   " pixels of " + std::to_string(pixel_bytes) + " bytes, found " +
+                   std::to_string(data.size()) + " bytes");
+}
+
+float depth_from(float stored, std::size_t k, std::uint32_t width, const std::string& name) {
+  if (stored == 0) return std::numeric_limits<float>::infinity();
+  if (stored > 0 && std::isfinite(stored)) return stored;
+  throw InputError(colmap_pixel(name, k, width) + "depth " + as_decimal(stored) +
+                   " in a COLMAP map: expected a finite number above 0, or 0 for none");
+}
+
+float normal_from(float stored, std::size_t k, std::uint32_t width, const std::string& name) {
+  if (std::isfinite(stored)) return stored;
+  throw InputError(colmap_pixel(name, k, width) + "a normal with " + as_decimal(stored) +
+                   " in a COLMAP map: expected finite numbers");
+}
+
+float depth_to(float depth, std::size_t k, std::uint32_t width, const std::string& name) {
+  if (depth > 0 && std::isfinite(depth)) return depth;
+  throw OutputError(
+      colmap_pixel(name, k, width) + "depth " + as_decimal(depth) +
+      " cannot be in a COLMAP map, which holds finite numbers above 0; .exr holds all");
+}
+
+float normal_to(float component, std::size_t k, std::uint32_t width, const std::string& name) {
+  if (std::isfinite(component)) return component;
+  throw OutputError(colmap_pixel(name, k, width) + "a normal with " + as_decimal(component) +
+                    " cannot be in a COLMAP map, which holds finite numbers; .exr holds all");
+}
+
+/// Whether these are what COLMAP has: Z, or the parts of Nc in order.
+bool are_of_colmap(const std::vector<const ImageChannel*>& channels) {
+  if (channels.size() == 1) return channels[0]->name == "Z";
+  return std::ranges::equal(channels, normal_channels, {}, &ImageChannel::name);
+}
+
+}  // namespace
+
+bool is_colmap(ByteView bytes) {
+  // As many digits as a 64-bit number has, so that one that is too large is told as such.
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                              std::min<std::size_t>(bytes.size(), 21));
+  const std::size_t end = text.find_first_not_of("0123456789");
+  return end != 0 && end != std::string_view::npos && text[end] == '&';
+}
+
+Bytes encode_colmap(const DepthMap& map, const std::vector<const ImageChannel*>& channels,
+                    const std::string& name) {
+  if (!are_of_colmap(channels)) {
+    throw OutputError(
+        name +
+        ": a COLMAP map holds planar depth, channel Z, or normals in the camera frame, "
+        "channel Nc, not '" +
+        channels[0]->name + "'");
+  }
+  Bytes bytes;
+  append(bytes, std::to_string(map.width) + "&" + std::to_string(map.height) + "&" +
+                    std::to_string(channels.size()) + "&");
+  std::size_t position = bytes.size();
+  const std::size_t pixels = std::size_t{map.width} * map.height;
+  bytes.resize(position + sizeof(float) * pixels * channels.size());
+  const auto checked = channels.size() == 1 ? depth_to : normal_to;
+  for (const ImageChannel* channel : channels) {
+    const auto* values = std::get_if<Samples<float>>(&channel->values);
+    if (!values)
+      throw OutputError(name + ": a COLMAP map holds binary32 numbers, and channel '" +
+                        channel->name + "' is stored otherwise");
+    const std::vector<std::uint8_t> surface = surface_mask(map, *channel);
+    for (std::size_t k = 0; k < pixels; ++k, position += sizeof(float)) {
+      const float value = surface[k] ? checked((*values)[k], k, map.width, name) : 0;
+      store(&bytes[position], value, std::endian::little);
+    }
+  }
+  return bytes;
+}
+
+DepthMap decode_colmap(ByteView bytes, const std::string& name) {
+  const ColmapHeader header = colmap_header(bytes, name);
+  const ByteView data = bytes.subspan(header.size);
+  require_data(header, data, name);
+  DepthMap map;
+  map.width = header.width;
+  map.height = header.height;
+  const std::size_t pixels = std::size_t{map.width} * map.height;
+  const auto checked = header.channels == 1 ? depth_from : normal_from;
+  for (std::size_t c = 0; c < header.channels; ++c) {
+    Samples<float> values(pixels);
+    const std::byte* stored = data.data() + sizeof(float) * pixels * c;
+    for (std::size_t k = 0; k < pixels; ++k)
+      values[k] =
+          checked(load<float>(stored + sizeof(float) * k, std::endian::little), k, map.width, name);
+    map.channels.push_back({header.channels == 1 ? "Z" : normal_channels[c], std::move(values)});
+  }
+  return map;
+}
+
+}  // namespace fathom::image

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fathom/text/file_bytes.h"
+
+/// The directory of a little-endian TIFF: what there is to know of its image, as tagged values
+/// ([TIFF92], section 2). Not its task: what the tags mean.
+namespace fathom::image {
+
+class TiffDirectory {
+ public:
+  void add_short(std::uint16_t tag, std::span<const std::uint16_t> values);
+  void add_long(std::uint16_t tag, std::span<const std::uint32_t> values);
+  void add_double(std::uint16_t tag, std::span<const double> values);
+  /// With the zero byte that ends it; the text has none.
+  void add_text(std::uint16_t tag, const std::string& text);
+
+  void add_short(std::uint16_t tag, std::uint16_t value) { add_short(tag, std::span(&value, 1)); }
+  void add_long(std::uint16_t tag, std::uint32_t value) { add_long(tag, std::span(&value, 1)); }
+
+  /// The directory as it lies at `at`, with the values that do not fit into its entries behind it;
+  /// another directory does not follow. Its length depends on the number of values alone.
+  [[nodiscard]] text::Bytes encoded_at(std::uint32_t at) const;
+
+ private:
+  struct Entry {
+    std::uint16_t tag, type;
+    std::uint32_t count;
+    text::Bytes values;
+  };
+  template <class T>
+  void add(std::uint16_t tag, std::uint16_t type, std::span<const T> values);
+
+  std::vector<Entry> entries_;
+};
+
+}  // namespace fathom::image
