@@ -1,5 +1,6 @@
 #include "fathom/render.h"
 
+#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -30,6 +31,28 @@ void describe(const Scene& scene, const Camera& camera, const RenderOptions& opt
   if (options.normals != NormalSource::file && map.find("Ns.X")) {
     map.texts["fathom.normals"] = name_of(options.normals);
   }
+}
+
+/// Surfaces that have no code where one that is too deep is as none: all others have a code above 0.
+void count_codes_beyond(const RenderOptions& options, const RenderStatistics& statistics,
+                        DepthMap& map) {
+  const DepthEncoding& encoding = options.depth_encoding;
+  if (encoding.type != StoredType::scaled_unorm16 || !encoding.beyond_is_none) return;
+  std::uint64_t beyond = 0;
+  for (const ImageChannel& channel : map.channels) {
+    const auto* codes = std::get_if<Samples<std::uint16_t>>(&channel.values);
+    if (!codes) continue;
+    const auto none = static_cast<std::uint64_t>(std::count(codes->begin(), codes->end(), 0));
+    beyond = std::max(beyond, statistics.pixels_with_surface + none - codes->size());
+  }
+  map.codes_beyond = beyond;
+}
+
+/// The same options, with statistics in any case.
+RenderOptions counted(const RenderOptions& options, RenderStatistics& statistics) {
+  RenderOptions all = options;
+  if (!all.statistics) all.statistics = &statistics;
+  return all;
 }
 
 std::vector<std::uint32_t> ids_of(const std::vector<std::string>& names) {
@@ -89,9 +112,12 @@ void render_into(DepthMap& map, const Scene& scene, const Camera& camera,
                  const RenderOptions& options) {
   const StandardArithmetic standard;
   DepthMap before = std::exchange(map, {});
+  RenderStatistics statistics;
+  const RenderOptions all = counted(options, statistics);
   DepthMap now = options.engine == Engine::fast
-                     ? render_fast(scene, camera, options, std::move(before))
-                     : render_reference(scene, camera, options, std::move(before));
+                     ? render_fast(scene, camera, all, std::move(before))
+                     : render_reference(scene, camera, all, std::move(before));
+  count_codes_beyond(options, *all.statistics, now);
   describe(scene, camera, options, now);
   map = std::move(now);
 }
@@ -102,7 +128,10 @@ DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOp
   if (options.engine != Engine::fast) {
     throw UsageError("only the fast engine renders a scene that stays in its files");
   }
-  DepthMap map = render_streamed(scene, camera, options, limits);
+  RenderStatistics statistics;
+  const RenderOptions all = counted(options, statistics);
+  DepthMap map = render_streamed(scene, camera, all, limits);
+  count_codes_beyond(options, *all.statistics, map);
   describe(outline_of(scene), camera, options, map);
   return map;
 }

@@ -37,6 +37,20 @@ TEST(Encoding, CodesRoundHalfToEven) {
   EXPECT_EQ(code(65535.49, 1), 65535);
 }
 
+TEST(Encoding, ADepthBeyondTheCodesIsNoneWhereThatIsAskedFor) {
+  const auto code_or_none = [](double z) {
+    RenderOptions options = scaled(1);
+    options.depth_encoding.beyond_is_none = true;
+    const DepthMap map = testing::render_tested(wall(z), testing::camera_of(1, 1, 1), options);
+    return map.values<std::uint16_t>("Z")->at(0);
+  };
+  // Half way to 65536, which is even.
+  EXPECT_EQ(code_or_none(std::nextafter(65535.5, 0)), 65535);
+  EXPECT_EQ(code_or_none(65535.5), 0);
+  EXPECT_EQ(code_or_none(1e300), 0);
+  EXPECT_THROW(code_or_none(0.5), OutputError);
+}
+
 TEST(Encoding, ADepthThatDoesNotFitIsAnErrorThatNamesThePixel) {
   const auto message = [](double z, double scale) -> std::string {
     try {

@@ -5,6 +5,7 @@
 
 #include "fathom/camera/camera_making.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/render.h"
 #include "fathom/threads/threads.h"
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
@@ -297,6 +298,31 @@ TEST(Fast, TheSamePixelIsNamedWhereAnEncodingCannotHoldADepth) {
   }
   EXPECT_NE(messages[0], "");
   EXPECT_EQ(messages[1], messages[0]);
+}
+
+TEST(Fast, TheSamePixelsAreNoneWhereDepthsBeyondTheCodesAre) {
+  const Scene scene = two_spheres(24);
+  const Camera camera = look_at({3, 1, 2}, {0.4, 0, 0.1}, {0, 1, 0}, {.width = 150, .height = 130});
+  RenderOptions options;
+  options.channels = {Channel::Z, Channel::distance, Channel::id};
+  options.depth_encoding = {DepthEncoding::Type::scaled_unorm16, 20000, true};
+  expect_same(scene, camera, options);
+  options.engine = Engine::reference;
+  const DepthMap truth = render(scene, camera, options);
+  options.engine = Engine::fast;
+  const DepthMap fast = render(scene, camera, options);
+  std::uint64_t surfaces = 0, codes = 0;
+  for (const std::uint32_t id : *truth.values<std::uint32_t>("id")) surfaces += id != no_surface;
+  for (const std::uint16_t code : *truth.values<std::uint16_t>("distance")) codes += code != 0;
+  EXPECT_GT(codes, 0U);
+  EXPECT_GT(surfaces, codes);
+  EXPECT_EQ(truth.codes_beyond, surfaces - codes);
+  EXPECT_EQ(fast.codes_beyond, surfaces - codes);
+  // Where nothing lies beyond, that is said too.
+  options.depth_encoding.scale = 1000;
+  EXPECT_EQ(render(scene, camera, options).codes_beyond, 0U);
+  options.depth_encoding.beyond_is_none = false;
+  EXPECT_EQ(render(scene, camera, options).codes_beyond, std::nullopt);
 }
 
 TEST(Fast, AnEmptySceneAndAnImageOfOnePixel) {

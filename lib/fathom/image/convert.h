@@ -67,12 +67,13 @@ DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity
 ///   to binary32           rounded to nearest even; from codes, code / scale
 ///   to binary64           widened; from codes, code / scale rounded once
 ///   to scaled_unorm16     code = round-half-even(scale·D), computed exactly; background is 0.
-///                         `scale` is required.
+///                         `scale` is required. Where `beyond_is_none`, a surface whose code would be
+///                         above 65535 gets 0, and codes_beyond counts it.
 /// Fails    OutputError, naming the pixel, if a depth's code would be 0 or above 65535 (as for an
 ///          overflowed depth); UsageError if the channel is missing or ambiguous or does not hold
 ///          depth, or scale is not a positive number; InputError if the map has a fault or codes
 ///          carry no scale.
 DepthMap with_storage(const DepthMap& map, const std::string& channel, StoredType type,
-                      std::optional<double> scale = std::nullopt);
+                      std::optional<double> scale = std::nullopt, bool beyond_is_none = false);
 
 }  // namespace fathom

@@ -54,7 +54,9 @@ Samples<T> as_floating_point(const DepthMap& map, const ImageChannel& channel) {
       channel.values);
 }
 
-Samples<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, double scale) {
+/// How many surfaces lie beyond the codes is counted where that is no fault.
+Samples<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, double scale,
+                              std::uint64_t* beyond) {
   const Samples<double> depths = as_floating_point<double>(map, channel);
   const std::vector<std::uint8_t> surface = surface_mask(map, channel);
   Samples<std::uint16_t> codes(depths.size());
@@ -62,6 +64,10 @@ Samples<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, 
     if (!surface[k]) continue;
     std::optional<std::uint64_t> code;
     if (std::isfinite(depths[k])) code = round_to_integer(Dyadic(scale) * Dyadic(depths[k]), 65535);
+    if (!code && beyond && depths[k] > 0) {
+      ++*beyond;
+      continue;
+    }
     if (!code || *code == 0)
       throw OutputError("pixel (" + std::to_string(k % map.width) + ", " +
                         std::to_string(k / map.width) + "): depth " + std::to_string(depths[k]) +
@@ -75,13 +81,14 @@ Samples<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, 
 }  // namespace
 
 DepthMap with_storage(const DepthMap& map, const std::string& asked, StoredType type,
-                      std::optional<double> scale) {
+                      std::optional<double> scale, bool beyond_is_none) {
   const StandardArithmetic standard;
   require_valid(map);
   const ImageChannel& channel = depth_channel(map, asked);
   DepthMap result = map;
   result.channels.clear();
   result.png_scale.reset();
+  result.codes_beyond.reset();
   // That of codes is 0, and +∞ where they become depths.
   const bool from_codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
   if (from_codes || type == StoredType::scaled_unorm16) result.texts.erase(background_text);
@@ -102,7 +109,10 @@ DepthMap with_storage(const DepthMap& map, const std::string& asked, StoredType 
       if (kind_of(channel) != ChannelKind::depth)
         throw UsageError("channel '" + channel.name +
                          "' is not one of depth: it has no 16-bit codes");
-      result.channels.push_back({channel.name, encode(map, channel, *scale)});
+      if (beyond_is_none) result.codes_beyond = 0;
+      result.channels.push_back(
+          {channel.name,
+           encode(map, channel, *scale, beyond_is_none ? &*result.codes_beyond : nullptr)});
       result.png_scale = scale;
       break;
   }

@@ -68,7 +68,7 @@ ImageChannel channel_of_kind(const std::string& name, const ChannelDescription& 
 
 /// Stores a non-negative quantity x, or √x where `root`, in the channel's type.
 std::optional<std::string> store(const EncodedValues& values, std::size_t pixel, const Ratio& x,
-                                 bool root, double scale) {
+                                 bool root, const DepthEncoding& encoding) {
   if (values.binary32) {
     values.binary32[pixel] = root ? round_sqrt_to_binary32(x) : round_to_binary32(x);
     return std::nullopt;
@@ -77,12 +77,12 @@ std::optional<std::string> store(const EncodedValues& values, std::size_t pixel,
     values.binary64[pixel] = root ? round_sqrt_to_binary64(x) : round_to_binary64(x);
     return std::nullopt;
   }
-  const Dyadic factor(scale);
+  const Dyadic factor(encoding.scale);
   const auto code = root ? round_sqrt_to_integer(x * Ratio(factor * factor), 65535)
                          : round_to_integer(x * Ratio(factor), 65535);
-  if (!code) return "above 65535";
-  if (*code == 0) return "0, which means no surface";
-  values.codes[pixel] = static_cast<std::uint16_t>(*code);
+  if (!code && !encoding.beyond_is_none) return "above 65535";
+  if (code == 0U) return "0, which means no surface";
+  values.codes[pixel] = static_cast<std::uint16_t>(code.value_or(0));
   return std::nullopt;
 }
 
@@ -239,7 +239,7 @@ void ChannelWriter::write_low_part(std::size_t pixel, const ProjectedTriangle& t
 }
 
 std::optional<EncodingFault> ChannelWriter::write_depth(std::size_t pixel, const Ratio& depth) {
-  if (auto why = store(values_.depth, pixel, depth, false, encoding_.scale)) {
+  if (auto why = store(values_.depth, pixel, depth, false, encoding_)) {
     return EncodingFault{pixel, "depth " + to_decimal(depth, 6) + " would be the code " + *why};
   }
   return std::nullopt;
@@ -259,7 +259,7 @@ std::optional<EncodingFault> ChannelWriter::write_distance(std::size_t pixel,
     value = {x.numerator * x.numerator + y.numerator * y.numerator + z.numerator * z.numerator,
              z.denominator * z.denominator};
   }
-  if (auto why = store(values_.distance, pixel, value, perspective_, encoding_.scale)) {
+  if (auto why = store(values_.distance, pixel, value, perspective_, encoding_)) {
     return EncodingFault{pixel, "the ray distance would be the code " + *why};
   }
   return std::nullopt;

@@ -28,6 +28,9 @@ struct DepthEncoding {
   /// For scaled_unorm16: codes per scene unit; code = round-half-even(scale·D), 0 for no surface. A
   /// depth whose code would be 0 or above 65535 is an OutputError that names the pixel.
   double scale = 1000;
+  /// But one above 65535 gets the code 0, as if no surface were there; DepthMap::codes_beyond counts
+  /// them.
+  bool beyond_is_none = false;
 };
 
 /// How decisions were made. The fast engine asks fewer questions: triangles that reach behind the

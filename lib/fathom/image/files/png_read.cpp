@@ -172,6 +172,14 @@ DepthMap decode_png(ByteView bytes, const std::string& name, const MapMemory& me
                        "': expected a positive number");
     map.png_scale = scale;
   }
+  if (const auto text = take_text(map, "fathom:beyond")) {
+    std::uint64_t beyond = 0;
+    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), beyond);
+    if (error != std::errc() || end != text->data() + text->size() || beyond > pixels)
+      throw InputError(name + ": its fathom:beyond is '" + text->substr(0, 40) +
+                       "': expected a number of pixels");
+    map.codes_beyond = beyond;
+  }
   take_name_tables(map);
   map.channels.push_back(channel_from(std::move(codes), map));
   return map;

@@ -8,6 +8,7 @@
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/name_tables.h"
 #include "fathom/image/files/png_stream.h"
+#include "fathom/image/mask_picture.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
@@ -130,6 +131,8 @@ void add_texts(Picture& picture, const DepthMap& map, const ImageChannel& channe
     picture.texts.emplace_back("fathom:type", "identifier");
   else if (map.png_scale)
     picture.texts.emplace_back("fathom:scale", to_shortest(*map.png_scale));
+  if (map.codes_beyond && std::holds_alternative<Samples<std::uint16_t>>(channel.values))
+    picture.texts.emplace_back("fathom:beyond", std::to_string(*map.codes_beyond));
   for (const auto& [key, text] : name_tables(map)) picture.texts.emplace_back(key, text);
   for (const auto& [key, text] : map.texts) {
     if (key == "Software" || key == "software" || key.starts_with("fathom:")) continue;
@@ -173,6 +176,22 @@ void write_png(const RgbImage& image, const std::filesystem::path& path) {
   image::Picture picture{image.width, image.height, 8, PNG_COLOR_TYPE_RGB, {}, {}};
   const auto bytes = std::as_bytes(std::span(image.pixels));
   picture.pixels.assign(bytes.begin(), bytes.end());
+  picture.texts = {{"Software", "Fathom " FATHOM_VERSION}};
+  text::write_file(path, image::encode(picture, path.string()));
+}
+
+void write_mask(std::span<const std::uint8_t> mask, std::uint32_t width, std::uint32_t height,
+                const std::filesystem::path& path) {
+  if (width == 0 || height == 0 || std::max(width, height) > PNG_UINT_31_MAX ||
+      mask.size() != std::size_t{width} * height) {
+    throw InputError(
+        "mask: expected a value for each of its pixels, at least one and fewer than 2^31 a side");
+  }
+  image::Picture picture{width, height, 8, PNG_COLOR_TYPE_GRAY, {}, {}};
+  picture.pixels.resize(mask.size());
+  std::ranges::transform(mask, picture.pixels.begin(), [](std::uint8_t shown) {
+    return shown != 0 ? std::byte{255} : std::byte{0};
+  });
   picture.texts = {{"Software", "Fathom " FATHOM_VERSION}};
   text::write_file(path, image::encode(picture, path.string()));
 }

@@ -1,0 +1,48 @@
+#include "fathom/image/png_sidecar.h"
+
+#include <charconv>
+
+#include "fathom/numeric/errors.h"
+#include "fathom/text/json_text.h"
+
+namespace fathom {
+using namespace text;
+
+namespace {
+
+std::string json_member(const char* name, const std::string& json) {
+  return json_string(name) + ": " + json;
+}
+
+const ImageChannel& channel_in_png(const DepthMap& map, const std::string& name) {
+  if (name.empty() && map.channels.size() == 1) return map.channels.front();
+  if (const ImageChannel* channel = map.find(name)) return *channel;
+  throw UsageError(name.empty() ? "the map has several channels: name the one in the PNG"
+                                : "the map has no channel '" + name + "'");
+}
+
+std::string scale_as_json(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+}  // namespace
+
+std::string png_sidecar(const DepthMap& map, const std::string& name) {
+  require_valid(map);
+  const ImageChannel& channel = channel_in_png(map, name);
+  const bool identifiers = std::holds_alternative<Samples<std::uint32_t>>(channel.values);
+  std::string json = "{" + json_member("channel", json_string(channel.name));
+  if (!identifiers && map.png_scale) {
+    json += ", " + json_member("unit", json_string("codes per scene unit")) + ", " +
+            json_member("scale", scale_as_json(*map.png_scale));
+  }
+  json += ", " + json_member("none", identifiers ? "65535" : "0");
+  if (!identifiers)
+    json += ", " + json_member("beyond", std::to_string(map.codes_beyond.value_or(0)));
+  json += ", " + json_member("width", std::to_string(map.width)) + ", " +
+          json_member("height", std::to_string(map.height));
+  return json + "}\n";
+}
+
+}  // namespace fathom
