@@ -11,8 +11,10 @@
 #include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
+#include "fathom/camera/world_from_image.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
+#include "fathom/image/png_sidecar.h"
 #include "fathom/image/point_cloud.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
@@ -55,8 +57,9 @@ int write_points(const DepthMap& map, const ConvertArguments& arguments, const C
   if (arguments.to || !arguments.channel.empty()) {
     throw UsageError("--to and --channel do not go with a point cloud");
   }
-  if (arguments.storage.compression || arguments.storage.png_scale) {
-    throw UsageError("--compression and --png-scale do not go with a point cloud");
+  if (arguments.storage.compression || arguments.storage.has_png_options()) {
+    throw UsageError(
+        "--compression, --png-scale, --png-beyond and --png-sidecar do not go with a point cloud");
   }
   if (arguments.storage.background || !arguments.storage.channel_names.empty()) {
     throw UsageError("--background and --channel-name do not go with a point cloud");
@@ -143,7 +146,30 @@ DepthMap stored(DepthMap map, const ConvertArguments& arguments, MapFormat forma
   // A PNG that is written again as it was keeps its scale.
   const bool keeps_scale = codes && !arguments.storage.png_scale;
   return with_storage(map, arguments.channel, StoredType::scaled_unorm16,
-                      keeps_scale ? map.png_scale : encoding.scale);
+                      keeps_scale ? map.png_scale : encoding.scale, encoding.beyond_is_none);
+}
+
+/// The map with what a GeoTIFF needs of its camera.
+DepthMap placed_in_world(DepthMap map, const ConvertArguments& arguments, const Console& console) {
+  map.world_from_image =
+      world_from_image(camera_for(map, arguments.map, arguments.camera, console));
+  require_world_from_image(map.world_from_image, arguments.output);
+  return map;
+}
+
+/// The map and, where one is asked for, what its codes mean.
+void write_outputs(const DepthMap& map, const ConvertArguments& arguments, MapFormat format) {
+  OutputFile output(arguments.output);
+  std::vector<OutputFile*> outputs{&output};
+  std::optional<OutputFile> sidecar;
+  if (arguments.storage.png_sidecar) {
+    sidecar.emplace(arguments.storage.sidecar_of(arguments.output));
+    sidecar->write(png_sidecar(map));
+    outputs.push_back(&*sidecar);
+  }
+  output.write(
+      [&](const auto& path) { write_map(map, path, format, arguments.storage.write_options(0)); });
+  OutputFile::commit_together(outputs);
 }
 
 int run_convert(const ConvertArguments& arguments, const Console& console) {
@@ -154,13 +180,12 @@ int run_convert(const ConvertArguments& arguments, const Console& console) {
   StorageOptions dress = arguments.storage;
   // A conversion has made the background already, from what it knew of the map that it was.
   if (arguments.to) dress.background.reset();
-  const DepthMap map = dress.dressed(
+  DepthMap map = dress.dressed(
       stored(converted(read_map_argument(arguments.map), arguments, console), arguments, format),
       arguments.output);
-  OutputFile output(arguments.output);
-  output.write(
-      [&](const auto& path) { write_map(map, path, format, arguments.storage.write_options(0)); });
-  output.commit();
+  if (format == MapFormat::tiff) map = placed_in_world(std::move(map), arguments, console);
+  write_outputs(map, arguments, format);
+  warn_of_codes_beyond(map, arguments.output, console);
   return done;
 }
 
@@ -176,13 +201,21 @@ void add_convert(Command& program) {
       "  fathom convert spot.exr --background 0 --channel-name Z=Y -o for-opencv.exr\n"
       "  fathom convert spot.exr -o spot.npz                     # every channel, for numpy\n"
       "  fathom convert spot.exr -o points.ply\n"
+      "  fathom convert plan.exr -o plan.tif                     # GeoTIFF, of a view straight "
+      "down\n"
+      "  fathom convert image.jpg.geometric.bin -o theirs.exr    # a dense map of COLMAP's\n"
       "\nConversions start from the stored values, which are rounded already; 'fathom render "
       "--channels\ndistance' gives the exact ray distance, and render to .png or .npy rounds "
       "once.");
-  command.argument("MAP", arguments->map, "The map: EXR, PFM, PNG, NPY or NPZ").required();
   command
-      .option("-o,--output", "FILE", arguments->output,
-              "A map (.exr, .pfm, .png, .npy, .npz) or a point cloud (.ply)")
+      .argument("MAP", arguments->map,
+                "The map: EXR, PFM, PNG, NPY, NPZ or a dense map of COLMAP's (.bin)")
+      .required();
+  command
+      .option(
+          "-o,--output", "FILE", arguments->output,
+          "A map (.exr, .pfm, .png, .npy, .npz, .bin for COLMAP, .tif for GIS) or a point cloud "
+          "(.ply)")
       .required();
   command.option("--channel", "NAME", arguments->channel,
                  "The channel to convert (default Z, or the only one)");

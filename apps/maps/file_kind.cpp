@@ -18,13 +18,24 @@ bool is_npz(std::string_view content) {
   return content.substr(name_at, length).ends_with(".npy");
 }
 
+/// A number that is ended by "&", as COLMAP's dense maps begin.
+bool is_colmap_map(std::string_view content) {
+  const std::size_t end = content.substr(0, 21).find_first_not_of("0123456789");
+  return end != 0 && end != std::string_view::npos && content[end] == '&';
+}
+
 }  // namespace
 
 FileKind kind_of(std::string_view content) {
   for (const std::string_view magic : {"\x76\x2f\x31\x01", "\x89PNG", "\x93NUMPY", "Pf", "PF"}) {
     if (content.starts_with(magic)) return FileKind::map;
   }
-  if (is_npz(content)) return FileKind::map;
+  // TIFF, of which the reader of maps says that it is not read.
+  for (const std::string_view magic :
+       {std::string_view("II*\0", 4), std::string_view("MM\0*", 4)}) {
+    if (content.starts_with(magic)) return FileKind::map;
+  }
+  if (is_npz(content) || is_colmap_map(content)) return FileKind::map;
   const std::string_view text = text::TextCursor::without_mark(content);
   const std::size_t first = text.substr(0, 16).find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos || (text[first] != '{' && text[first] != '['))

@@ -21,7 +21,7 @@ std::optional<Camera> camera_of(const DepthMap& map, const std::string& file) {
 }
 
 /// The one camera of a file, of the size of the map.
-Camera camera_for(const DepthMap& map, const std::string& file, const Console& console) {
+Camera camera_in(const std::string& file, const DepthMap& map, const Console& console) {
   note_input(file);
   Warnings warnings;
   const std::vector<Camera> cameras = read_cameras(file, warnings);
@@ -38,12 +38,17 @@ Camera camera_for(const DepthMap& map, const std::string& file, const Console& c
 
 }  // namespace
 
-MapView view_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file,
-                 const Console& console) {
-  if (!camera_file.empty()) return view_of(camera_for(map, camera_file, console));
+Camera camera_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file,
+                  const Console& console) {
+  if (!camera_file.empty()) return camera_in(camera_file, map, console);
   const std::optional<Camera> camera = camera_of(map, map_file);
   if (!camera) throw InputError(map_file + ": carries no camera; expected --camera FILE");
-  return view_of(*camera);
+  return *camera;
+}
+
+MapView view_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file,
+                 const Console& console) {
+  return view_of(camera_for(map, map_file, camera_file, console));
 }
 
 }  // namespace fathom::app

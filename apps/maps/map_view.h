@@ -10,10 +10,13 @@
 
 namespace fathom::app {
 
-/// The view of a map: that of the camera file where one is named, else of the camera that the map
+/// The camera of a map: that of the camera file where one is named, else the one that the map
 /// carries in `fathom.camera`. `map_file` is named in messages; warnings of the file go to the
 /// console.
 /// Fails    InputError where there is no camera, or none for this map; UsageError for a path.
+Camera camera_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file,
+                  const Console& console);
+/// The same as conversions of maps need it.
 MapView view_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file,
                  const Console& console);
 

@@ -43,7 +43,10 @@ void add_preview(Command& program) {
       "  fathom preview spot.exr -o spot.png\n"
       "  fathom preview spot.exr --channel id -o triangles.png\n"
       "  fathom preview spot.exr --colormap magma --range 2,5 --unit m -o spot.png");
-  command.argument("MAP", arguments->map, "The map: EXR, PFM, PNG, NPY or NPZ").required();
+  command
+      .argument("MAP", arguments->map,
+                "The map: EXR, PFM, PNG, NPY, NPZ or a dense map of COLMAP's")
+      .required();
   command
       .option("-o,--output", "FILE", into(arguments->output, parse_png_name),
               "The picture (PNG, 8 bit)")

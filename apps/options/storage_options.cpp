@@ -1,5 +1,8 @@
 #include "apps/options/storage_options.h"
 
+#include <fmt/core.h>
+
+#include <filesystem>
 #include <limits>
 
 #include "apps/shell/about_option.h"
@@ -7,6 +10,7 @@
 #include "apps/shell/values.h"
 #include "fathom/image/background.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::app {
 namespace {
@@ -21,6 +25,11 @@ Compression parse_compression(const std::string& text) {
                                         {"zips", Compression::zips},
                                         {"zip", Compression::zip},
                                         {"piz", Compression::piz}});
+}
+
+/// Whether it is none.
+bool parse_beyond(const std::string& text) {
+  return parse_word<bool>(text, {{"error", false}, {"none", true}});
 }
 
 StorageOptions::Float parse_dtype(const std::string& text) {
@@ -55,6 +64,12 @@ void StorageOptions::add_to(Command& command) {
                  "Compression of an EXR, always lossless: zip (default), zips, rle, piz or none");
   command.option("--png-scale", "N", into(png_scale, parse_scale),
                  "Codes per unit of a PNG (default 1000)");
+  command.option(
+      "--png-beyond", "NAME", into(png_beyond_is_none, parse_beyond),
+      "Depths of a PNG above 65535 codes: error (default), or none: they are stored as 0, "
+      "as where no surface is, and counted");
+  command.flag("--png-sidecar", png_sidecar,
+               "Beside a PNG, write a JSON file of its name that says what the codes mean");
   command.option("--dtype", "NAME", into(dtype, parse_dtype),
                  "Of an NPY or NPZ: float32 (default) or float64");
   command.option(
@@ -67,24 +82,33 @@ MapFormat StorageOptions::format_of(const std::string& target) const {
   std::optional<MapFormat> format = map_format_of(target);
   if (!format && is_written_through(target)) format = MapFormat::exr;
   if (!format) {
-    throw UsageError(target + ": the suffix of a map is one of .exr, .pfm, .png, .npy and .npz");
+    throw UsageError(target +
+                     ": the suffix of a map is one of .exr, .pfm, .png, .npy, .npz, .bin and .tif");
   }
   if (compression && *format != MapFormat::exr) {
     throw UsageError("--compression is for .exr, not for " + target);
   }
-  if (png_scale && *format != MapFormat::png) {
-    throw UsageError("--png-scale is for .png, not for " + target);
-  }
+  check_png_options(target, *format);
   if (dtype && *format != MapFormat::npy && *format != MapFormat::npz) {
     throw UsageError("--dtype is for .npy and .npz, not for " + target);
   }
-  if (!channel_names.empty() && !holds_all_channels(*format)) {
+  if (!channel_names.empty() && !keeps_all_channels(*format)) {
     throw UsageError("--channel-name is for .exr and .npz: no channel has a name in " + target);
   }
-  if (background && *background != 0 && *format == MapFormat::png) {
-    throw UsageError("--background: it is always 0 in a .png, which " + target + " is");
+  if (background && *background != 0 && has_zero_for_none(*format)) {
+    throw UsageError(std::string("--background: it is always 0 in a ") +
+                     (*format == MapFormat::png ? ".png" : ".bin") + ", which " + target + " is");
   }
   return *format;
+}
+
+void StorageOptions::check_png_options(const std::string& target, MapFormat format) const {
+  if (format == MapFormat::png) return;
+  const char* given = png_scale            ? "--png-scale"
+                      : png_beyond_is_none ? "--png-beyond"
+                      : png_sidecar        ? "--png-sidecar"
+                                           : nullptr;
+  if (given != nullptr) throw UsageError(std::string(given) + " is for .png, not for " + target);
 }
 
 DepthEncoding StorageOptions::encoding_for(MapFormat format) const {
@@ -92,6 +116,7 @@ DepthEncoding StorageOptions::encoding_for(MapFormat format) const {
   if (format == MapFormat::png) {
     encoding.type = DepthEncoding::Type::scaled_unorm16;
     encoding.scale = png_scale.value_or(encoding.scale);
+    encoding.beyond_is_none = png_beyond_is_none.value_or(false);
   }
   if (dtype == Float::binary64) encoding.type = DepthEncoding::Type::binary64;
   return encoding;
@@ -110,6 +135,20 @@ DepthMap StorageOptions::dressed(DepthMap map, const std::string& target,
   if (channel_names.empty()) return map;
   return about_option("--channel-name",
                       [&] { return with_channel_names(std::move(map), channel_names); });
+}
+
+std::string StorageOptions::sidecar_of(const std::string& target) const {
+  if (!png_sidecar) return "";
+  return std::filesystem::path(target).replace_extension(".json");
+}
+
+void warn_of_codes_beyond(const DepthMap& map, const std::string& target, const Console& console) {
+  if (map.codes_beyond.value_or(0) == 0) return;
+  const std::size_t pixels = std::size_t{map.width} * map.height;
+  console.warn(fmt::format("{}: {} of {} {} deeper than {} and {} stored as 0", target,
+                           *map.codes_beyond, text::counted(pixels, "pixel"),
+                           *map.codes_beyond == 1 ? "lies" : "lie", 65535 / *map.png_scale,
+                           *map.codes_beyond == 1 ? "is" : "are"));
 }
 
 WriteOptions StorageOptions::write_options(int threads) const {

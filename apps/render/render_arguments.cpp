@@ -44,9 +44,9 @@ std::vector<MatteKind> parse_mattes(const std::string& list) {
 void add_outputs(Command& command, RenderArguments& arguments) {
   command
       .option("-o,--output", "FILE", arguments.output,
-              "The map; its suffix decides the format: .exr, .pfm, .png (16 bit), .npy or .npz; a "
-              "folder that is "
-              "missing is made")
+              "The map; its suffix decides the format: .exr, .pfm, .png (16 bit), .npy, .npz, "
+              ".bin (COLMAP's) or .tif (GeoTIFF, of a camera that looks straight down); a folder "
+              "that is missing is made")
       .required();
   arguments.camera.add_to(command);
   command.option("--save-camera", "FILE", arguments.save_camera,
@@ -130,7 +130,8 @@ void RenderArguments::add_background(Command& command) {
         }
       },
       "What depth channels hold where no surface is: inf (default), 0, nan or a number that no "
-      "surface has (codes of a PNG: 0). R,G,B, from 0 to 1, is the background of --image (default "
+      "surface has (codes of a PNG and COLMAP's maps: 0). R,G,B, from 0 to 1, is the background of "
+      "--image (default "
       "0,0,0)");
 }
 

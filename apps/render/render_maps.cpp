@@ -19,7 +19,9 @@
 #include "apps/shell/stopwatch.h"
 #include "fathom/area/sampled_coverage.h"
 #include "fathom/camera/camera_files.h"
+#include "fathom/camera/world_from_image.h"
 #include "fathom/image/deep_map.h"
+#include "fathom/image/png_sidecar.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
 #include "fathom/scene/scene_segments.h"
@@ -62,6 +64,7 @@ void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
       (plan.depth_buffer ? plan.depth_buffer->most_channels() : 0) + (plan.samples ? 1 : 0);
   for (const Camera& camera : cameras) {
     require_size(plan.format, camera.width, camera.height, output);
+    if (plan.format == MapFormat::tiff) require_world_from_image(world_from_image(camera), output);
     check_size(camera, plan.rendering, more);
     if (plan.depth_buffer) (void)format_for(*plan.depth_buffer, camera);
   }
@@ -93,8 +96,9 @@ DepthMap render_map(const std::string& name, const MapPlan& plan, const RenderIn
 
 /// Makes the map of a camera, checks it where that is asked for, and writes it.
 MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOptions& motion,
-                   const Camera& camera, const std::string& name, const OutputFile& output,
+                   const Camera& camera, RenderOutputs& outputs, std::size_t number,
                    const std::function<void(double)>& progress, const Console& console) {
+  const std::string& name = outputs.map_name(number);
   MapReport report{.map = name, .engine = plan.rendering.engine};
   RenderOptions options = plan.rendering;
   options.statistics = &report.statistics;
@@ -120,7 +124,10 @@ MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOp
   report.seconds.verify = stopwatch.lap();
   if (plan.depth_buffer) drop_helpers(map, *plan.depth_buffer);
   map = plan.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity());
-  output.write([&](const auto& path) { write_map(map, path, plan.format, plan.writing); });
+  outputs.map(number).write(
+      [&](const auto& path) { write_map(map, path, plan.format, plan.writing); });
+  if (plan.storage.png_sidecar) outputs.sidecar(number).write(png_sidecar(map));
+  warn_of_codes_beyond(map, name, console);
   report.seconds.write = stopwatch.lap();
   return report;
 }
@@ -148,8 +155,8 @@ int render_maps(const RenderArguments& arguments, MapPlan plan, const Console& c
   {
     Progress progress(console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-      reports.push_back(make_map(plan, scene, arguments.motion, cameras[i], outputs.map_name(i),
-                                 outputs.map(i), progress.reporter(i, cameras.size()), console));
+      reports.push_back(make_map(plan, scene, arguments.motion, cameras[i], outputs, i,
+                                 progress.reporter(i, cameras.size()), console));
       MapReport& report = reports.back();
       report.seconds.read = seconds_reading;
       if (i == 0) warn_of(report.statistics, console);

@@ -9,6 +9,10 @@ RenderOutputs::RenderOutputs(const RenderArguments& arguments, const std::vector
       maps_(names_.begin(), names_.end()),
       cameras_(arguments.save_camera),
       statistics_(arguments.statistics) {
+  if (arguments.storage.png_sidecar) {
+    for (const std::string& name : names_)
+      sidecars_.emplace_back(arguments.storage.sidecar_of(name));
+  }
   if (arguments.image.empty()) return;
   for (const std::string& name : names_of_outputs("--image", arguments.image, cameras)) {
     pictures_.emplace_back(name);
@@ -21,6 +25,7 @@ void RenderOutputs::commit() {
     if (text->file() != nullptr) files.push_back(text->file());
   }
   for (OutputFile& output : pictures_) files.push_back(&output);
+  for (OutputFile& output : sidecars_) files.push_back(&output);
   for (OutputFile& output : maps_) files.push_back(&output);
   cameras_.print();
   statistics_.print();

@@ -9,8 +9,8 @@
 
 namespace fathom::app {
 
-/// The outputs of `render`: for each camera a map and, where one is asked for, a picture; the
-/// cameras; the statistics. All are opened before the work and put in their places together, when
+/// The outputs of `render`: for each camera a map and, where they are asked for, a picture and
+/// what codes mean; the cameras; the statistics. All are opened before the work and put in their places together, when
 /// every one of them is written.
 class RenderOutputs {
  public:
@@ -20,6 +20,7 @@ class RenderOutputs {
   [[nodiscard]] const std::string& map_name(std::size_t camera) const { return names_[camera]; }
   [[nodiscard]] const OutputFile& map(std::size_t camera) const { return maps_[camera]; }
   [[nodiscard]] const OutputFile& picture(std::size_t camera) const { return pictures_[camera]; }
+  [[nodiscard]] const OutputFile& sidecar(std::size_t camera) const { return sidecars_[camera]; }
 
   void write_cameras(const std::string& json) { cameras_.write(json); }
   void write_statistics(const std::string& json) { statistics_.write(json); }
@@ -29,7 +30,7 @@ class RenderOutputs {
 
  private:
   std::vector<std::string> names_;
-  std::vector<OutputFile> maps_, pictures_;
+  std::vector<OutputFile> maps_, pictures_, sidecars_;
   TextOutput cameras_, statistics_;
 };
 

@@ -22,7 +22,7 @@ bool contains(const std::vector<Channel>& channels, Channel channel) {
 /// written, or triangles do not stay in memory for it.
 std::vector<Channel> channels_of(const RenderArguments& a, MapFormat format) {
   if (a.channels) return *a.channels;
-  if (holds_all_channels(format) && !a.stream) return {Channel::Z, Channel::A};
+  if (keeps_all_channels(format) && !a.stream) return {Channel::Z, Channel::A};
   return {Channel::Z};
 }
 
@@ -56,12 +56,17 @@ void check_single_channel(const RenderArguments& a, MapFormat format,
   if (format == MapFormat::exr) return;
   if (!a.mattes().empty()) throw UsageError("--cryptomatte is for .exr, not for " + a.output);
   if (holds_all_channels(format)) return;
+  if (format == MapFormat::colmap && channels != std::vector{Channel::Z} &&
+      channels != std::vector{Channel::Nc}) {
+    throw UsageError(fmt::format("{}: a COLMAP map holds Z or Nc, not '{}'; .exr and .npz hold all",
+                                 a.output, text_of(channels)));
+  }
   if (a.samples) throw UsageError(a.output + " holds one channel; --samples needs an .exr or .npz");
   if (a.depth_buffer.storage) {
     throw UsageError(a.output + " holds one channel; --depth-format needs an .exr or .npz");
   }
   // The parts of one are an array of pixels with several.
-  if (format == MapFormat::npy && channels.size() == 1) return;
+  if (holds_parts(format) && channels.size() == 1) return;
   if (count_parts(channels) != 1) {
     throw UsageError(fmt::format("{} holds one channel, not '{}'; .exr and .npz hold them all",
                                  a.output, text_of(channels)));

@@ -75,7 +75,8 @@ void ValidateArguments::add_to(Command& command) {
                  "Seconds after which a renderer is ended (default 300)");
   command.option("--render", "NAME", into(render, parse_renderer), "Only draw, with this renderer");
   command.option("-o,--output", "MAP", output, "Where --render puts its map");
-  command.option("--map", "MAP", map, "The map of another renderer (EXR, PFM, PNG, NPY, NPZ)");
+  command.option("--map", "MAP", map,
+                 "The map of another renderer (EXR, PFM, PNG, NPY, NPZ, COLMAP's)");
   command.option("--channel", "NAME", channel, "Its channel of depths (default: detected)");
   command.option("--png-scale", "N", into(png_scale, parse_scale),
                  "Codes per unit of a map of integers that does not say it itself");

@@ -9,6 +9,7 @@
 #include "apps/validate/scenes_to_draw.h"
 #include "fathom/attribution/other_map.h"
 #include "fathom/camera/camera_files.h"
+#include "fathom/camera/world_from_image.h"
 #include "fathom/image/map_files.h"
 #include "fathom/numeric/errors.h"
 #include "validation/peers/drawing.h"
@@ -35,7 +36,8 @@ int validate_render(const ValidateArguments& arguments, const Console& console) 
   if (arguments.output.empty()) throw UsageError("-o MAP is missing: where the map goes");
   const auto format = map_format_of(arguments.output);
   if (!format)
-    throw UsageError("-o: '" + arguments.output + "' does not end in .exr, .pfm, .npy or .npz");
+    throw UsageError("-o: '" + arguments.output +
+                     "' does not end in .exr, .pfm, .npy, .npz, .bin or .tif");
   if (arguments.scenes.empty()) throw UsageError("SCENE is missing: what is rendered");
   const SceneToMake scene = scenes_of(arguments, console).front();
   const Peer peer = peer_to_render(arguments);
@@ -44,6 +46,7 @@ int validate_render(const ValidateArguments& arguments, const Console& console) 
   if (!drawing.drawn) throw InputError(drawing.failure);
   DepthMap map = attribution::as_depth_map(drawing.drawn->map);
   map.texts["fathom.camera"] = to_json(scene.make().camera);
+  map.world_from_image = world_from_image(scene.make().camera);
   map.texts["fathom.engine"] = drawing.drawn->version;
   output.write([&](const std::filesystem::path& path) {
     write_map(map, path, *format, {.channel = holds_all_channels(*format) ? "" : "Z"});

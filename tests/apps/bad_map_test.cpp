@@ -55,6 +55,22 @@ std::vector<BadMap> bad_maps() {
       {"PngSignatureOnly", "bad.png", [](std::string good) { return good.substr(0, 8); }},
       {"PngCorrupt", "bad.png",
        [](std::string good) { return with_bytes(std::move(good), "IDAT", "IDAX"); }},
+      {"ColmapTruncated", "bad.bin", half},
+      {"ColmapOverlong", "bad.bin", [](std::string good) { return good + "abcd"; }},
+      {"ColmapHuge", "bad.bin",
+       [](std::string good) {
+         return with_bytes(std::move(good), "8&6&", "4000000000&4000000000&");
+       }},
+      {"ColmapTwoChannels", "bad.bin",
+       [](std::string good) { return with_bytes(std::move(good), "6&1&", "6&2&"); }},
+      {"ColmapNegative", "bad.bin",
+       [](std::string good) {
+         good.back() = '\xbf';
+         return good;
+       }},
+      {"ColmapNaN", "bad.bin",
+       [](std::string good) { return good.substr(0, good.size() - 4) + "\xff\xff\xff\x7f"; }},
+      {"TiffIsNotRead", "bad.npy", [](std::string) { return std::string("II*\0abcdefgh", 12); }},
       {"NpyTruncated", "bad.npy", half},
       {"NpyHuge", "bad.npy",
        [](std::string good) {

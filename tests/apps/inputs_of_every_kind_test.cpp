@@ -28,6 +28,7 @@ class Inputs : public ::testing::Test {
     ASSERT_EQ(bash("convert map.exr -o map.npy").status, 0);
     ASSERT_EQ(bash("convert map.exr -o map.pfm").status, 0);
     ASSERT_EQ(bash("convert map.exr -o map.png").status, 0);
+    ASSERT_EQ(bash("convert map.exr -o map.bin").status, 0);
   }
 
   /// A command line of fathom, as bash reads it; `before` comes before the program, as in "cat |".
@@ -57,6 +58,7 @@ TEST_F(Inputs, InfoTellsTheKindOfWhatComesThroughAPipe) {
                                        "map.npy",
                                        "map.pfm",
                                        "map.png",
+                                       "map.bin",
                                        meshes + "cube.stl",
                                        meshes + "cube-ascii.stl",
                                        meshes + "cube-big-endian.ply",

@@ -21,7 +21,8 @@ void check_possible(const RenderArguments& a, MapFormat format) {
   }
   if (format == MapFormat::png) {
     throw UsageError(
-        "the pipeline writes its map as .exr, .pfm, .npy or .npz; --image is for the picture");
+        "the pipeline writes its map as .exr, .pfm, .npy, .npz, .bin or .tif; --image is for the "
+        "picture");
   }
   if (a.storage.encoding_for(format).type != DepthEncoding::Type::binary32) {
     throw UsageError("--dtype: the pipeline's depths are float32");
