@@ -1,7 +1,7 @@
 # Tests of a renderer's depth maps, for ctest: docs/validation.md, "In your own test suite".
 #
 #   fathom_add_depth_test(NAME name SCENE file… CAMERA file MODEL model COMMAND program argument…
-#                         [MAP_FORMAT exr|pfm|png|npy] [CHANNEL channel] [PNG_SCALE codes-per-unit]
+#                         [MAP_FORMAT exr|pfm|png|npy|bin] [CHANNEL channel] [PNG_SCALE codes-per-unit]
 #                         [BASELINE report.json] [TIMEOUT seconds] [LABELS label…] [WORKING_DIRECTORY folder])
 #
 # The test runs COMMAND, which draws SCENE as CAMERA sees it into {map}, and has the map judged by
@@ -87,8 +87,8 @@ function(fathom_add_depth_test)
   endif()
   if(NOT DEFINED TEST_MAP_FORMAT)
     set(TEST_MAP_FORMAT exr)
-  elseif(NOT TEST_MAP_FORMAT MATCHES "^(exr|pfm|png|npy)$")
-    message(FATAL_ERROR "fathom_add_depth_test: MAP_FORMAT: '${TEST_MAP_FORMAT}' is not exr, pfm, png or npy")
+  elseif(NOT TEST_MAP_FORMAT MATCHES "^(exr|pfm|png|npy|bin)$")
+    message(FATAL_ERROR "fathom_add_depth_test: MAP_FORMAT: '${TEST_MAP_FORMAT}' is not exr, pfm, png, npy or bin")
   endif()
   if(NOT DEFINED TEST_TIMEOUT)
     set(TEST_TIMEOUT 300)

@@ -86,7 +86,7 @@ refuses("MODEL: there is no model 'voxel'; there are gl-unorm16, " NAME a SCENE 
         COMMAND draw {map})
 refuses("CAMERA: there is no file ${WORK}/depth_test_arguments/none.json" NAME a SCENE "${scene}" CAMERA none.json
         MODEL float32-ray COMMAND draw {map})
-refuses("MAP_FORMAT: 'tiff' is not exr, pfm, png or npy" NAME a ${most} COMMAND draw {map} MAP_FORMAT tiff)
+refuses("MAP_FORMAT: 'tiff' is not exr, pfm, png, npy or bin" NAME a ${most} COMMAND draw {map} MAP_FORMAT tiff)
 refuses("TIMEOUT: '0' is not a number of seconds" NAME a ${most} COMMAND draw {map} TIMEOUT 0)
 refuses("CHANNEL has no value" NAME a ${most} COMMAND draw {map} CHANNEL)
 refuses("'more' belongs to none of its keywords" more NAME a ${most} COMMAND draw {map})
