@@ -26,8 +26,8 @@ std::string list_of(const std::vector<Camera>& cameras) {
 int run_colmap(ColmapArguments& arguments, const Console& console) {
   const ThreadLimit limit(arguments.render.scene.threads);
   Warnings warnings;
-  const std::vector<Camera> cameras = chosen_cameras(
-      import_colmap(arguments.input), arguments.input, arguments.choice, warnings);
+  const std::vector<Camera> cameras =
+      chosen_cameras(import_colmap(arguments.input), arguments.input, arguments.choice, warnings);
   console.warn(warnings);
   const auto depths =
       names_of_outputs("the layout", "stereo/depth_maps/{name}.geometric.bin", cameras);
@@ -69,7 +69,8 @@ void add_colmap_layout(Command& family) {
   Command& command = family.command(
       "colmap", "COLMAP: stereo/depth_maps and stereo/normal_maps of a dense workspace",
       "  fathom dataset colmap dense/sparse --mesh mesh.ply --out exact\n"
-      "\nWith links to dense/images and dense/sparse in it, 'colmap stereo_fusion' takes the folder "
+      "\nWith links to dense/images and dense/sparse in it, 'colmap stereo_fusion' takes the "
+      "folder "
       "as its workspace.");
   arguments->add_to(command, "The folder of the model");
   arguments->add_scene_to(command);

@@ -14,7 +14,9 @@ void add_dataset(Command& program) {
       "inputs. docs/data-sets.md has the layouts.");
   family.requires_command();
   add_maps_layout(family);
+  add_colmap_layout(family);
   add_depth_image_layouts(family);
+  add_bop_layout(family);
 }
 
 }  // namespace fathom::app

@@ -12,6 +12,7 @@
 #include "apps/shell/exit_status.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/camera_files.h"
+#include "fathom/image/png_sidecar.h"
 
 namespace fathom::app {
 namespace {
@@ -41,14 +42,24 @@ int run_maps(MapsArguments& arguments, const Console& console) {
                   cameras, plan);
   Job job = arguments.job();
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    job.tasks.push_back({maker.inputs_of(i), {names[i]}});
+    Task task{maker.inputs_of(i), {names[i]}};
+    if (plan.storage.png_sidecar) task.files.push_back(plan.storage.sidecar_of(names[i]));
+    job.tasks.push_back(std::move(task));
   }
   job.make = [&](std::size_t i) {
     const std::string name = (job.folder / names[i]).string();
+    const auto map = maker.make(i, name);
     Result result;
-    result.files.push_back([map = maker.make(i, name), name, &maker] {
+    result.files.push_back([map, name, &maker] {
       return encode_map(*map, name, maker.plan().format, maker.plan().writing);
     });
+    if (plan.storage.png_sidecar) {
+      result.files.push_back([map] {
+        text::Bytes bytes;
+        text::append(bytes, png_sidecar(*map));
+        return bytes;
+      });
+    }
     result.memory = maker.memory_of(i);
     return result;
   };

@@ -8,8 +8,10 @@
 #include "apps/options/channel_list.h"
 #include "apps/render/render_memory.h"
 #include "fathom/camera/camera_files.h"
+#include "fathom/camera/world_from_image.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::app {
 namespace {
@@ -27,6 +29,7 @@ std::string description_of(const Scene& scene, const MapPlan& plan) {
                   rendering.depth_encoding.scale, static_cast<int>(rendering.normals));
   text += fmt::format("format {} compression {}", static_cast<int>(plan.format),
                       static_cast<int>(plan.writing.compression));
+  if (rendering.depth_encoding.beyond_is_none) text += " beyond none";
   if (plan.storage.background) text += fmt::format(" background {:a}", *plan.storage.background);
   for (const ChannelName& name : plan.storage.channel_names) {
     text += fmt::format(" {}={}", name.channel, name.in_file);
@@ -42,6 +45,8 @@ ViewMaker::ViewMaker(Scene scene, std::vector<Camera> cameras, MapPlan plan)
   plan_.rendering.kept = &memory_;
   for (const Camera& camera : cameras_) {
     require_size(plan_.format, camera.width, camera.height, "a map");
+    if (plan_.format == MapFormat::tiff)
+      require_world_from_image(world_from_image(camera), "a map");
     check_size(camera, plan_.rendering, 0);
   }
 }
@@ -65,11 +70,23 @@ std::shared_ptr<const DepthMap> ViewMaker::make(std::size_t camera, const std::s
   try {
     DepthMap map = render(scene_, cameras_[camera], options);
     warnings_.note(scene_, cameras_[camera], statistics.pixels_with_surface);
+    if (map.codes_beyond.value_or(0) != 0) {
+      codes_beyond_ += *map.codes_beyond;
+      ++maps_with_codes_beyond_;
+    }
     return std::make_shared<const DepthMap>(
         plan_.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity()));
   } catch (const OutputError& error) {
     throw OutputError(name + ": " + error.what());
   }
+}
+
+void ViewMaker::warn(const Console& console) const {
+  warnings_.tell(console);
+  if (codes_beyond_ == 0) return;
+  console.warn(fmt::format("{} in {} lie beyond the last code and are stored as 0",
+                           text::counted(codes_beyond_, "pixel"),
+                           text::counted(maps_with_codes_beyond_, "map")));
 }
 
 }  // namespace fathom::app

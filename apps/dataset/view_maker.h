@@ -26,8 +26,9 @@ class ViewMaker {
 
   [[nodiscard]] const MapPlan& plan() const { return plan_; }
   [[nodiscard]] const std::vector<Camera>& cameras() const { return cameras_; }
-  /// Warns of what is probably not meant by the cameras whose maps have been made.
-  void warn(const Console& console) const { warnings_.tell(console); }
+  /// Warns of what is probably not meant by the cameras whose maps have been made, and of depths that
+  /// lie beyond their codes.
+  void warn(const Console& console) const;
 
  private:
   Scene scene_;
@@ -36,6 +37,7 @@ class ViewMaker {
   std::string inputs_;
   RenderMemory memory_;
   CameraWarnings warnings_;
+  std::uint64_t codes_beyond_ = 0, maps_with_codes_beyond_ = 0;
 };
 
 }  // namespace fathom::app

@@ -64,10 +64,7 @@ void StorageOptions::add_to(Command& command) {
                  "Compression of an EXR, always lossless: zip (default), zips, rle, piz or none");
   command.option("--png-scale", "N", into(png_scale, parse_scale),
                  "Codes per unit of a PNG (default 1000)");
-  command.option(
-      "--png-beyond", "NAME", into(png_beyond_is_none, parse_beyond),
-      "Depths of a PNG above 65535 codes: error (default), or none: they are stored as 0, "
-      "as where no surface is, and counted");
+  add_beyond_to(command);
   command.flag("--png-sidecar", png_sidecar,
                "Beside a PNG, write a JSON file of its name that says what the codes mean");
   command.option("--dtype", "NAME", into(dtype, parse_dtype),
@@ -76,6 +73,13 @@ void StorageOptions::add_to(Command& command) {
       "--channel-name", "NAME=AS", into(channel_names, parse_channel_names),
       "Call channels otherwise in an EXR or NPZ: Z=Y for OpenCV; Z=Y,distance=D for two. "
       "fathom reads them by their own names");
+}
+
+void StorageOptions::add_beyond_to(Command& command) {
+  command.option(
+      "--png-beyond", "NAME", into(png_beyond_is_none, parse_beyond),
+      "Depths of a PNG above 65535 codes: error (default), or none: they are stored as 0, "
+      "as where no surface is, and counted");
 }
 
 MapFormat StorageOptions::format_of(const std::string& target) const {

@@ -26,6 +26,8 @@ struct StorageOptions {
   std::vector<ChannelName> channel_names;  ///< of an EXR or NPZ
 
   void add_to(Command& command);
+  /// `--png-beyond` alone, for commands that know all else.
+  void add_beyond_to(Command& command);
   /// The format that the suffix of `target` names; that of a device or a pipe is EXR. Fails with
   /// UsageError where there is none, or an option does not belong to it.
   [[nodiscard]] MapFormat format_of(const std::string& target) const;

@@ -180,8 +180,8 @@ void write_png(const RgbImage& image, const std::filesystem::path& path) {
   text::write_file(path, image::encode(picture, path.string()));
 }
 
-void write_mask(std::span<const std::uint8_t> mask, std::uint32_t width, std::uint32_t height,
-                const std::filesystem::path& path) {
+std::vector<std::byte> encode_mask(std::span<const std::uint8_t> mask, std::uint32_t width,
+                                   std::uint32_t height, const std::string& name) {
   if (width == 0 || height == 0 || std::max(width, height) > PNG_UINT_31_MAX ||
       mask.size() != std::size_t{width} * height) {
     throw InputError(
@@ -193,7 +193,12 @@ void write_mask(std::span<const std::uint8_t> mask, std::uint32_t width, std::ui
     return shown != 0 ? std::byte{255} : std::byte{0};
   });
   picture.texts = {{"Software", "Fathom " FATHOM_VERSION}};
-  text::write_file(path, image::encode(picture, path.string()));
+  return image::encode(picture, name);
+}
+
+void write_mask(std::span<const std::uint8_t> mask, std::uint32_t width, std::uint32_t height,
+                const std::filesystem::path& path) {
+  text::write_file(path, encode_mask(mask, width, height, path.string()));
 }
 
 }  // namespace fathom
