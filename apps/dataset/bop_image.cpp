@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "apps/dataset/counted_mask.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/mask_picture.h"
@@ -19,34 +21,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Mask = std::vector<std::uint8_t>;
 
-/// A mask with the pixels that it has, and their box.
-struct CountedMask {
-  Mask mask;
-  std::uint64_t count = 0;
-  long left = 0, top = 0, right = -1, bottom = -1;
-
-  /// As calc_gt_info.py writes it, with the place of the image's corner in this mask.
-  [[nodiscard]] Json box(long x, long y) const {
-    return {left - x, top - y, right - left, bottom - top};
-  }
-};
-
-template <class IsIn>
-CountedMask mask_of(const Samples<std::uint32_t>& objects, std::uint32_t width, const IsIn& is_in) {
-  CountedMask result;
-  result.mask.resize(objects.size());
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (!is_in(objects[i])) continue;
-    const long x = static_cast<long>(i % width), y = static_cast<long>(i / width);
-    if (result.count++ == 0) result.left = x, result.top = y;
-    result.mask[i] = 1;
-    result.left = std::min(result.left, x);
-    result.right = std::max(result.right, x);
-    result.bottom = y;
-  }
-  return result;
-}
-
 /// The camera of an image three times as wide and as high, in whose middle the image is.
 Camera around(Camera camera) {
   camera.cx += camera.width;
@@ -54,17 +28,6 @@ Camera around(Camera camera) {
   camera.width *= 3;
   camera.height *= 3;
   return camera;
-}
-
-/// The part of a mask that the image has.
-Mask middle_of(const Mask& wide, std::uint32_t width, std::uint32_t height) {
-  Mask mask;
-  mask.reserve(std::size_t{width} * height);
-  for (std::size_t y = height; y < 2 * std::size_t{height}; ++y) {
-    const auto row = wide.begin() + static_cast<long>(y * 3 * width + width);
-    mask.insert(mask.end(), row, row + width);
-  }
-  return mask;
 }
 
 double fraction(double part, double whole) {
@@ -115,8 +78,7 @@ BopImageMaker::Silhouette BopImageMaker::silhouette_of(const BopImage& image,
   options.kept = &memory_of_silhouettes_;
   const DepthMap map = render(scene, wide, options);
   Silhouette silhouette;
-  silhouette.whole = mask_of(*map.values<std::uint32_t>("object"), wide.width,
-                             [](std::uint32_t object) { return object != no_surface; });
+  silhouette.whole = mask_of(*map.values<std::uint32_t>("object"), wide.width, std::nullopt);
   silhouette.mask = middle_of(silhouette.whole.mask, image.camera.width, image.camera.height);
   silhouette.whole.mask = {};
   if (options_.areas) {
@@ -154,9 +116,8 @@ Result BopImageMaker::make(const BopImage& image, const std::filesystem::path& f
   const Samples<std::uint32_t>& objects = *map->values<std::uint32_t>("object");
   for (std::size_t k = 0; k < silhouettes.size(); ++k) {
     Silhouette& alone = silhouettes[k];
-    CountedMask visible =
-        mask_of(objects, image.camera.width, [&](std::uint32_t object) { return object == k; });
-    const Json none{-1, -1, -1, -1};
+    CountedMask visible = mask_of(objects, image.camera.width, static_cast<std::uint32_t>(k));
+    const std::array<long, 4> none{-1, -1, -1, -1};
     Json fact{{"bbox_obj", visible.count == 0 ? none : alone.whole.box(width, height)},
               {"bbox_visib", visible.count == 0 ? none : visible.box(0, 0)},
               {"px_count_all", alone.whole.count},
