@@ -84,7 +84,16 @@ void declare_matrices(Command& command, ImportArguments& a) {
       .required();
 }
 
+void refuse_npz(const std::string& file) {
+  if (std::filesystem::path(file).extension() == ".npz")
+    throw InputError(file +
+                     ": holds several arrays: save them as .npy, or give them to "
+                     "fathom.Camera.from_matrices() in Python");
+}
+
 Cameras read_matrices(const ImportArguments& a, Warnings&) {
+  refuse_npz(a.input);
+  refuse_npz(a.K);
   std::vector<IntrinsicMatrix> K;
   if (const auto numbers = parse_intrinsics(a.K))
     K = {*numbers};

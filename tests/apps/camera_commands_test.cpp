@@ -298,6 +298,11 @@ for p in ((0.1, 0.2, 3), (-0.4, 0.25, 2)):
               "--poses", "camera-to-world", "--axes", "opencv", "--pixel-centre", "0"});
   EXPECT_EQ(wrong.status, 3);
   EXPECT_THAT(wrong.err, HasSubstr("wrong.npy: expected an array of the shape (N, 4, 4)"));
+  const Outcome archive =
+      status({"camera", "import", "matrices", "a.npz", "--K", "1,1,1,1", "--size", "4x4", "--poses",
+              "camera-to-world", "--axes", "opencv", "--pixel-centre", "0"});
+  EXPECT_EQ(archive.status, 3);
+  EXPECT_THAT(archive.err, HasSubstr("a.npz: holds several arrays: save them as .npy"));
   // What is not in the files has to be said.
   const Outcome silent = status({"camera", "import", "matrices", "poses.txt", "--K", "1,1,1,1",
                                  "--size", "4x4", "--axes", "opencv", "--pixel-centre", "0"});

@@ -9,8 +9,9 @@
 """
 
 from ._core import Error, InputError, OutputError, UsageError
+from ._importing import ViewWarning
 from ._render import render
-from .camera import Camera, ViewWarning, read_cameras, write_cameras
+from .camera import Camera, read_cameras, write_cameras
 from .clipping import clip
 from .deep import DeepMap, render_deep
 from .depth_formats import DepthFormat

@@ -22,7 +22,8 @@ from ._arguments import (
     require_one_matrix,
     scene_handle,
 )
-from .camera import Camera, ViewWarning
+from ._importing import ViewWarning
+from .camera import Camera
 from .maps import Map, rendered
 
 if TYPE_CHECKING:
