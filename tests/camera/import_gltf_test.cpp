@@ -37,22 +37,25 @@ TEST(ImportGltf, PerspectiveProjectsAsGltfDoes) {
   Draws draw(7);
   for (int round = 0; round < 100; ++round) {
     // A parent that turns and moves, and a scaled camera below it.
-    const std::array<double, 4> q{draw(-1, 1), draw(-1, 1), draw(-1, 1), draw(0.25, 1)};
+    const std::array<double, 4> q{draw(-1, 1), draw(-1, 1), draw(-1, 1), draw(0.25, 1)},
+        own_q{draw(-1, 1), draw(-1, 1), draw(0.25, 1), draw(-1, 1)};
     const std::array<double, 3> t{draw(-5, 5), draw(-5, 5), draw(-5, 5)},
         own_t{draw(-5, 5), draw(-5, 5), draw(-5, 5)};
-    const auto cameras = gltf("{" + lens + R"(, "nodes": [{"children": [1], "rotation": [)" +
-                              joined(q, ",") + R"(], "translation": [)" + joined(t, ",") +
-                              R"(]}, {"name": "eye", "camera": 0, "scale": [2, 3, 4],
-                              "translation": [)" +
-                              joined(own_t, ",") + "]}]}");
+    const auto cameras =
+        gltf("{" + lens + R"(, "nodes": [{"children": [1], "rotation": [)" + joined(q, ",") +
+             R"(], "translation": [)" + joined(t, ",") +
+             R"(]}, {"name": "eye", "camera": 0, "scale": [2, 3, 4],
+                              "rotation": [)" +
+             joined(own_q, ",") + R"(], "translation": [)" + joined(own_t, ",") + "]}]}");
     ASSERT_EQ(cameras.size(), 1U);
     EXPECT_EQ(cameras[0].camera.name, "eye");
     EXPECT_EQ(cameras[0].camera.near, 0.5);
     EXPECT_EQ(cameras[0].camera.far, std::numeric_limits<double>::infinity());
     for (int i = 0; i < 5; ++i) {
       const Vector own{draw(-5, 5), draw(-5, 5), draw(-30, -10)};
-      Vector X = turned({q[3], q[0], q[1], q[2]},
-                        {own[0] + own_t[0], own[1] + own_t[1], own[2] + own_t[2]});
+      Vector X = turned({own_q[3], own_q[0], own_q[1], own_q[2]}, own);
+      for (std::size_t k = 0; k < 3; ++k) X[k] += own_t[k];
+      X = turned({q[3], q[0], q[1], q[2]}, X);
       for (std::size_t k = 0; k < 3; ++k) X[k] = static_cast<double>(X[k] + t[k]);
       const Real f = 1 / std::tan(0.375L), aspect = 4.0L / 3, depth = -own[2];
       expect_same(seen(cameras[0].camera, X),
