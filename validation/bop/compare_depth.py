@@ -3,9 +3,9 @@
 
     compare_depth.py FOLDER --bop-toolkit CHECKOUT
 
-First, which pixel centre the renderer has: how far its depths are from exact ones with the first pixel's centre at 0 and
-at 0.5, in millimetres, where both see the model, how many pixels one alone sees, and what fathom.validate() finds wrong
-with the centre at 0. Then the class that it gives to each pixel with the centre at 0.5, by its model of an OpenGL depth
+First, which pixel centre the renderer has: how far its depths are from exact ones with the first pixel's centre at 0
+and at 0.5, in millimetres, where both see the model, how many pixels one alone sees, and what fathom.validate() finds
+wrong with the centre at 0. Then the class that it gives to each pixel with the centre at 0.5, by its model of an OpenGL depth
 buffer of 16 bits. Pixels that it leaves unexplained are listed; the exit status is 1 if there is one.
 """
 

@@ -37,7 +37,8 @@ def main():
         for image in read_images(folder).values():
             scene = exact.scene(image, models)
             for formula in (misc.depth_im_to_dist_im, misc.depth_im_to_dist_im_fast):
-                zero, half = (formula_error(formula, scene, exact.camera(image, centre), image.K) for centre in (0, 0.5))
+                zero, half = (formula_error(formula, scene, exact.camera(image, centre), image.K)
+                              for centre in (0, 0.5))
                 print(f"{int(folder.name):5}  {formula.__name__:26}{np.nanmax(abs(zero)):22.1e}"
                       f"{np.nanmin(half):23.3f}{np.nanmedian(half):9.3f}{np.nanmax(half):11.3f}")
     print("\nat a depth of 1000 mm, corners of the image: top left, top right, bottom left, bottom right, mm")

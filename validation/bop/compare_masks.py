@@ -4,10 +4,12 @@
     compare_masks.py FOLDER --bop-toolkit CHECKOUT
 
 What scripts/calc_gt_info.py computes for an instance is computed by the toolkit's own functions (its renderer on a
-canvas of three by three images, its distances, visibility and boxes), with delta = 15 mm, once for depth images with
-the first pixel's centre at 0, once for those with it at 0.5. The exact fraction is the visible area over the area of
-the whole silhouette; the other one counts pixels of the exact map. See mask_steps.py for the reasons. The exit status
-is 1 if a pixel has none.
+canvas of three by three images, its distances and visibility), with delta = 15 mm: for depth images with the first
+pixel's centre at 0, for those with it at 0.5, and for the former with half a pixel added to the principal point that
+its renderer is given. Of visib_fract there are four: the exact area that no other instance hides, over that of the
+whole silhouette (the border of the image hides nothing there); pixels of the exact partition; pixels by BOP's rule for
+exact distances; and the toolkit's. See mask_steps.py for the reasons why a pixel differs. The exit status is 1 if one
+has none.
 """
 
 import collections
@@ -27,29 +29,32 @@ DELTA = 15
 
 
 def toolkits_masks(renderers, instance, image, codes):
-    """(silhouette on the canvas, visible, depth on the image) as calc_gt_info.py has them."""
+    """As calc_gt_info.py has them: silhouette on the canvas and what is visible, depths on the image; then the planes
+    that the renderer had, and distances on the image."""
     from bop_toolkit_lib import misc, visibility
 
     width, height = image.size
     large, planes = renderers["canvas"].depth(instance, image.K, (width, height))
     depth = large[height:2 * height, width:2 * width]
     model, measured = (misc.depth_im_to_dist_im_fast(each, image.K) for each in (depth, codes))
-    return large > 0, visibility.estimate_visib_mask_gt(measured, model, DELTA, visib_mode="bop19"), depth, planes, model
+    visible = visibility.estimate_visib_mask_gt(measured, model, DELTA, visib_mode="bop19")
+    return large > 0, visible, depth, planes, model
 
 
 def main():
     asked = toolkit.arguments(__doc__)
     models, edge = read_models(asked.folder), fathom.validation.CLASSES.index("edge")
     faulty = 0
-    for kind, centre in (("depth", 0), ("depth_corner", 0.5)):
-        print(f"\ndepth image with the first pixel's centre at {centre}\n\nscene instance   visib_fract: area  exact   "
-              "by delta  toolkit   px_count_all: exact toolkit   boxes off by   mask_visib differs in, because of")
+    for kind, centre, shift in (("depth", 0, 0), ("depth_corner", 0.5, 0), ("depth", 0, 0.5)):
+        print(f"\ndepth image with the first pixel's centre at {centre}; {shift} added to cx and cy for the renderer"
+              "\n\nscene instance   visib_fract: area  exact   by delta  toolkit   px_count_all: exact toolkit"
+              "   boxes off by   mask_visib differs in, because of")
         totals, canvas, several = collections.Counter(), 0, collections.Counter()
         for folder in scene_folders(asked.folder):
             for im_id, image in read_images(folder).items():
                 width, height = image.size
-                renderers = {"canvas": toolkit.Renderer(asked.folder, (3 * width, 3 * height)),
-                             "image": toolkit.Renderer(asked.folder, image.size)}
+                renderers = {"canvas": toolkit.Renderer(asked.folder, (3 * width, 3 * height), shift),
+                             "image": toolkit.Renderer(asked.folder, image.size, shift)}
                 codes = read_depth(folder, im_id, image.depth_scale, kind)
                 measured = Measured(image, models, codes, centre)
                 areas = fathom.visible(exact.scene(image, models), exact.camera(image, centre)).objects
@@ -58,8 +63,8 @@ def main():
                 shown = collections.Counter()
                 for number, instance in enumerate(image.instances):
                     large, visible, depth, planes, model = toolkits_masks(renderers, instance, image, codes)
-                    masks, by_formula = exact_masks(image, models, number, measured, DELTA)
-                    found = judge(depth, planes, exact.alone(instance, models), image, 0.5)
+                    masks, by_formula = exact_masks(image, models, number, measured, DELTA, 0.5 - shift)
+                    found = judge(depth, planes, exact.alone(instance, models), image, 0.5 - shift)
                     why = name_last_step(masks, visible, found.classes, edge, model, by_formula)
                     totals.update(count(why))
                     faulty += count(why)["unexplained"]

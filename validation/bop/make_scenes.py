@@ -8,8 +8,9 @@
     FOLDER/test/00000N/depth/000000.png                 exact depths, with the first pixel's centre at 0
     FOLDER/test/00000N/depth_corner/000000.png          the same with it at 0.5, for the sake of comparison
 
-Scene 0 is that of docs/guides/bop.md. In scenes 1 to 3 six objects lie in a heap whose boxes do not meet, before the
-cameras of LM-O, YCB-V and T-LESS. In scene 4 things touch or nearly touch, and one is cut off by the image.
+Scene 0 is that of docs/guides/bop.md. In scenes 1 to 3 six objects lie in a heap before the cameras of LM-O, YCB-V and
+T-LESS. In scene 4 things touch or nearly touch, and one is cut off by the image. In none of these do the boxes of two
+objects share more than a face.
 """
 
 import json
@@ -79,7 +80,7 @@ def scenes():
     yield LMO, [
         Instance(5, tilt, plate),
         Instance(3, tilt, plate + (4 + 55) * on + tilt @ (-25, 5, 0)),          # stands on the plate
-        Instance(5, tilt @ rotation_about((0, 0, 1), 35), plate + (8 + 10) * on + tilt @ (60, 10, 0)),  # 10 mm above it
+        Instance(5, tilt @ rotation_about((0, 0, 1), 10), plate + (8 + 10) * on + tilt @ (95, 10, 0)),  # 10 mm above it
         Instance(4, tilt, plate + 80 * on + tilt @ (40, -40, 0)),
         Instance(1, upright, np.array([-330.0, 40, 650])),                      # cut off on the left
     ]

@@ -13,8 +13,8 @@ from gt_info import is_visible
 STEPS = {
     "delta": "hidden by something less than delta in front of it: visible by BOP's rule",
     "codes": "the depth image has codes of depth_scale mm",
-    "half pixel": "the renderer samples half a pixel right of and below where K has the pixel's centre",
-    "formula": "the distance formula takes the pixel's centre to be where K has it",
+    "half pixel": "the renderer samples half a pixel right of and below the pixel's centre",
+    "formula": "the distance formula takes the pixel's ray half a pixel from where its depth was sampled",
     "edge": "closer to a projected edge than the rasterizer resolves",
     "16 bits": "the depth buffer's 16 bits take it across delta",
     "unexplained": "none of these",
@@ -32,16 +32,17 @@ class Measured:
         self.by_formula = exact.distances_of(codes, image.K, 0)
 
 
-def exact_masks(image, models, number, measured, delta):
-    """The masks that lead to the toolkit's, with the name of the step that each takes; the last is short of its renderer."""
+def exact_masks(image, models, number, measured, delta, drawn_at=0.5):
+    """The masks that lead to the toolkit's, with the name of the step that each takes, and the distances of the last
+    one, which is short of its renderer alone. `drawn_at` is the pixel centre that the renderer has."""
     one = exact.alone(image.instances[number], models)
-    at_image, at_half = exact.camera(image, measured.pixel_centre), exact.camera(image, 0.5)
+    at_image, as_drawn = exact.camera(image, measured.pixel_centre), exact.camera(image, drawn_at)
     model = exact.distances(one, at_image)
-    by_formula = exact.distances_of(exact.depths(one, at_half), image.K, 0)
+    by_formula = exact.distances_of(exact.depths(one, as_drawn), image.K, 0)
     return [("exact", measured.objects == number),
             ("delta", is_visible(model, measured.exact, delta)),
             ("codes", is_visible(model, measured.stored, delta)),
-            ("half pixel", is_visible(exact.distances(one, at_half), measured.stored, delta)),
+            ("half pixel", is_visible(exact.distances(one, as_drawn), measured.stored, delta)),
             ("formula", is_visible(by_formula, measured.by_formula, delta))], by_formula
 
 

@@ -15,7 +15,8 @@ def estimates(instance, vertices):
     found = [("none", instance)]
     for name, axis in (("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))):
         for length in TRANSLATIONS:
-            found.append((f"{length} mm {name}", Instance(instance.obj_id, instance.R, instance.t + length * np.array(axis))))
+            t = instance.t + length * np.array(axis)
+            found.append((f"{length} mm {name}", Instance(instance.obj_id, instance.R, t)))
     for name, axis in (("x", (1, 0, 0)), ("z", (0, 0, 1))):
         for angle in ROTATIONS:
             R = rotation_about(axis, angle) @ instance.R

@@ -2,9 +2,9 @@
 
 Three things are supplied from outside, so that it runs with Debian bookworm's packages and without a display:
 
-- `imageio.v2`, which its inout.py imports, is imageio itself where the imageio installed (2.4.1) is older than that name;
-- EGL_PLATFORM=surfaceless, unless it is set: vispy asks EGL for the default display, and Mesa gives none without one;
-- set_current() before each drawing: the toolkit keeps a canvas for each size of image, and draws into the last one made.
+- `imageio.v2`, which its inout.py imports, is imageio itself where the one installed (2.4.1) is older than that name;
+- EGL_PLATFORM=surfaceless, unless it is set: vispy asks EGL for the default display, and Mesa has none without it;
+- set_current() before each drawing: the toolkit keeps a canvas for each size of image, and draws into the one made last.
 
 Its renderer decides PYOPENGL_PLATFORM and vispy's backends itself.
 """
@@ -42,11 +42,13 @@ def versions(renderer):
 
 
 class Renderer:
-    """The toolkit's vispy renderer with the models of a folder, for images of one size."""
+    """The toolkit's vispy renderer with the models of a folder, for images of one size. `shift` is added to the
+    principal point that it is given."""
 
-    def __init__(self, folder, size):
+    def __init__(self, folder, size, shift=0):
         from bop_toolkit_lib.rendering import renderer
 
+        self.shift = shift
         self.own = renderer.create_renderer(*size, "vispy", mode="depth")
         for file in sorted(pathlib.Path(folder).glob("models/obj_*.ply")):
             if int(file.stem[4:]) not in self.own.models:         # it keeps one instance for each size
@@ -55,8 +57,9 @@ class Renderer:
     def depth(self, instance, K, offset=(0, 0)):
         """H×W float32 millimetres, 0 for none; then also (near, far) as it has chosen them."""
         self.own.set_current()
-        drawn = self.own.render_object(instance.obj_id, instance.R, instance.t.reshape(3, 1), K[0, 0], K[1, 1],
-                                       K[0, 2] + offset[0], K[1, 2] + offset[1])["depth"]
+        cx, cy = K[0, 2] + offset[0] + self.shift, K[1, 2] + offset[1] + self.shift
+        drawn = self.own.render_object(instance.obj_id, instance.R, instance.t.reshape(3, 1), K[0, 0], K[1, 1], cx, cy)
+        drawn = drawn["depth"]
         return drawn.copy(), (float(self.own.clip_near), float(self.own.clip_far))
 
 

@@ -1,4 +1,4 @@
-"""Visible Surface Discrepancy, from its definition [Hodan18, section 2.2; BOP Challenge 2019].
+"""Visible Surface Discrepancy, by its definition in [HMB18], with the parameters of [HSD20].
 
     e_VSD = the mean over the pixels p of V̂ ∪ V of  0 if p is in V̂ ∩ V and |Ŝ(p) - S(p)| < τ, else 1
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from gt_info import is_visible
 
-TAUS = np.arange(1, 11) * 0.05           # of the diameter; also the thresholds θ of the recall
+TAUS = np.arange(1, 11) / 20             # τ, of the diameter; and θ, below which a pose counts as right
 
 
 def visibilities(true, estimated, measured, delta):
@@ -25,5 +25,5 @@ def vsd(true, estimated, measured, *, delta, taus):
     both, either = V & V_hat, V | V_hat
     if not either.any():
         return np.ones(len(taus))
-    apart = np.abs(estimated - true)[both]
-    return np.array([1 - (apart < tau).sum() / either.sum() for tau in taus])
+    apart, union = np.abs(estimated - true)[both], int(either.sum())
+    return np.array([(union - int((apart < tau).sum())) / union for tau in taus])      # rounded once
