@@ -20,6 +20,7 @@ import numpy as np
 import pytest
 
 import fathom
+from fathom.validation import CLASSES
 
 folder = pathlib.Path(os.environ["FATHOM_SOURCE"]) / "validation/bop"
 sys.path.insert(0, str(folder))
@@ -94,14 +95,15 @@ def test_delta_makes_two_plates_visible_in_one_pixel():
     masks, by_formula = exact_masks(close, MODELS, 0, measured, 15)
     assert [name for name, _ in masks] == ["exact", "delta", "codes", "half pixel", "formula"]
     final = masks[2][1].copy()
-    final[20, 20] = False                                                       # as if its renderer had not drawn it
-    final[21, 20] = False
-    edges = np.zeros(final.shape, int)
-    edges[20, 20] = 3
-    drawn = np.where(final, by_formula, 0)
-    why = name_last_step(masks[:3], final, edges, 3, drawn, by_formula)
-    assert {name: n for name, n in count(why).items() if n} == {"delta": 400, "edge": 1, "unexplained": 1}
-    assert why["edge"][20, 20] and why["unexplained"][21, 20] and why["delta"][14:34, 32:52].all()
+    final[20:23, 20] = False                                                    # as if its renderer had these wrong
+    classes = np.zeros(final.shape, int)
+    classes[20, 20], classes[21, 20] = map(CLASSES.index, ("edge", "unexplained"))
+    drawn = by_formula.copy()
+    drawn[20, 20] = 0
+    why = name_last_step(masks[:3], final, classes, drawn, by_formula)
+    assert {name: n for name, n in count(why).items() if n} == {"delta": 400, "edge": 1, "16 bits": 1, "unexplained": 1}
+    assert why["edge"][20, 20] and why["unexplained"][21, 20] and why["16 bits"][22, 20]
+    assert why["delta"][14:34, 32:52].all()
 
 
 def read_codes(image):

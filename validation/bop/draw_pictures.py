@@ -11,7 +11,6 @@ import pathlib
 
 import matplotlib
 import numpy as np
-import fathom
 
 import exact
 import toolkit
@@ -36,15 +35,15 @@ def save(figure, name):
 
 def reasons(folder, scene_folder, image, models):
     """H×W: which reason the first differing mask has there, numbered from 1 in the order of SHOWN; 0 for none."""
-    renderers = {"canvas": toolkit.Renderer(folder, tuple(3 * each for each in image.size))}
+    canvas = toolkit.Renderer(folder, tuple(3 * each for each in image.size))
     codes = read_depth(scene_folder, 0, image.depth_scale)
-    measured, edge = Measured(image, models, codes, 0), fathom.validation.CLASSES.index("edge")
+    measured = Measured(image, models, codes, 0)
     found = np.zeros(image.size[::-1], int)
     for number, instance in enumerate(image.instances):
-        _, visible, depth, planes, model = toolkits_masks(renderers, instance, image, codes)
+        drawn = toolkits_masks(canvas, instance, image, codes)
         masks, by_formula = exact_masks(image, models, number, measured, DELTA)
-        classes = judge(depth, planes, exact.alone(instance, models), image, 0.5).classes
-        why = name_last_step(masks, visible, classes, edge, model, by_formula)
+        classes = judge(drawn.depth, drawn.planes, exact.alone(instance, models), image, 0.5).classes
+        why = name_last_step(masks, drawn.visible, classes, drawn.distance, by_formula)
         for rank, name in enumerate(SHOWN, 1):
             found[(found == 0) & why[name]] = rank
     return measured.objects, found

@@ -6,6 +6,7 @@ Each pixel in which the two differ is put down to the step at which it took its 
 import collections
 
 import numpy as np
+from fathom.validation import CLASSES
 
 import exact
 from gt_info import is_visible
@@ -46,11 +47,11 @@ def exact_masks(image, models, number, measured, delta, drawn_at=0.5):
             ("formula", is_visible(by_formula, measured.by_formula, delta))], by_formula
 
 
-def name_last_step(masks, final, classes, edge, drawn, by_formula):
+def name_last_step(masks, final, classes, drawn, by_formula):
     """For each step, the pixels (H×W of bool) in which `final` differs from the first mask because of it.
 
-    classes, edge   fathom.validate()'s of the depths that were drawn, and the number of its class of edges
-    drawn           distances of these depths by the formula, 0 for none; by_formula those of exact depths
+    classes     fathom.validate()'s, of the depths that were drawn
+    drawn       distances of these depths by the formula, 0 for none; by_formula those of exact depths
     """
     found, differ = {}, masks[0][1] != final
     last = np.full(final.shape, "", object)
@@ -59,8 +60,8 @@ def name_last_step(masks, final, classes, edge, drawn, by_formula):
     turned = masks[-1][1] != final
     both = (drawn > 0) & (by_formula > 0)
     last[turned] = "unexplained"
-    last[turned & (classes == edge)] = "edge"
-    last[turned & both & (classes != edge)] = "16 bits"
+    last[turned & both & (classes != CLASSES.index("unexplained"))] = "16 bits"
+    last[turned & (classes == CLASSES.index("edge"))] = "edge"
     for name in STEPS:
         found[name] = differ & (last == name)
     return found
