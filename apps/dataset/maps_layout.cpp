@@ -63,7 +63,10 @@ int run_maps(MapsArguments& arguments, const Console& console) {
     result.memory = maker.memory_of(i);
     return result;
   };
-  job.lists.push_back({"cameras.json", [&](const auto&) { return to_json(cameras) + "\n"; }});
+  std::error_code error;
+  if (!std::filesystem::equivalent(arguments.input, job.folder / "cameras.json", error)) {
+    job.lists.push_back({"cameras.json", [&](const auto&) { return to_json(cameras) + "\n"; }});
+  }
   run_job(job, console);
   maker.warn(console);
   return done;

@@ -5,6 +5,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "fathom/text/input_file.h"
+#include "fathom/text/parse_json.h"
 
 namespace fathom::app {
 
@@ -16,7 +17,11 @@ std::string transforms_with_depths(const std::string& file, const std::vector<Ca
   for (std::size_t i = 0; i < cameras.size(); ++i) depth_of[cameras[i].name] = depths[i];
   Json json;
   try {
-    json = Json::parse(text::InputFile(file).text());
+    const text::InputFile input(file);
+    // Refuses what is nested too deeply to be written again.
+    nlohmann::json checked;
+    text::parse_json(input.text(), checked);
+    json = Json::parse(input.text());
     Json frames = Json::array();
     std::size_t number = 0;
     for (Json& frame : json.at("frames")) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <system_error>
+#include <unordered_set>
 
 #include "apps/jobs/job_progress.h"
 #include "apps/jobs/manifest.h"
@@ -85,7 +86,12 @@ class Work {
   /// Before the first file is made: those that are there already have to be the job's own.
   void announce() {
     std::vector<std::string> unannounced;
+    std::unordered_set<std::string> known;
     for (const std::string& file : files()) {
+      if (!known.insert(file).second) {
+        throw UsageError((job_.folder / file).string() +
+                         ": would be written twice; every output needs its own name");
+      }
       if (content_.owned.contains(file)) continue;
       std::error_code error;
       if (!job_.overwrites && fs::exists(fs::symlink_status(job_.folder / file, error))) {

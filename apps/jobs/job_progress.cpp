@@ -45,8 +45,8 @@ std::string JobProgress::so_far() const {
 
 void JobProgress::tell() {
   say_when_interrupted(fmt::format(
-      "fathom: interrupted: {} of {} {}s are finished; the same command goes on from there\n",
-      made_ + found_, total_, noun_));
+      "{}fathom: interrupted: {} of {} {}s are finished; the same command goes on from there\n",
+      shown_ ? "\r\033[K" : "", made_ + found_, total_, noun_));
   const auto now = steady_clock::now();
   if (!shows_ || now < next_) return;
   next_ = now + std::chrono::milliseconds(100);

@@ -15,6 +15,7 @@
 #include "apps/shell/write_all.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/input_file.h"
+#include "fathom/text/parse_json.h"
 
 namespace fathom::app {
 namespace {
@@ -54,6 +55,9 @@ Record record_of(const Json& json) {
 }
 
 void add_line(const std::string& line, const std::string& name, ManifestContent& content) {
+  // Refuses what is nested too deeply to be written again.
+  nlohmann::json checked;
+  text::parse_json(line, checked);
   const Json json = Json::parse(line);
   if (json.contains("fathom-manifest")) {
     if (json.at("fathom-manifest").get<int>() <= version) return;
@@ -123,6 +127,8 @@ void ManifestContent::add(const std::string& text, const std::string& name, Warn
     try {
       add_line(text.substr(begin, end - begin), name, *this);
     } catch (const nlohmann::json::exception&) {
+      if (bad++ == 0) first_bad = number;
+    } catch (const text::JsonFault&) {
       if (bad++ == 0) first_bad = number;
     } catch (const std::invalid_argument&) {
       if (bad++ == 0) first_bad = number;

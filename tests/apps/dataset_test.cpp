@@ -152,6 +152,28 @@ TEST_F(DataSets, FilesOfOthersAreLeftAlone) {
   EXPECT_NE(read("out/2.npy"), "mine");
 }
 
+TEST_F(DataSets, TheFolderMayBeThatOfTheCameras) {
+  const Outcome made = run_fathom(
+      {"dataset", "maps", "cameras.json", "--mesh", spot_, "--out", ".", "--name", "{stem}.npy"},
+      {.folder = folder_.path()});
+  EXPECT_EQ(made.out, ".: 2 maps, 2 made now\n") << made.err;
+}
+
+TEST_F(DataSets, TwoOutputsOfOneNameAreRefused) {
+  write("cameras.json", path_of({camera("cameras", 0)}));
+  const Outcome refused = make({"--png-sidecar"}, "{stem}.png");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("out/cameras.json: would be written twice"));
+}
+
+TEST_F(DataSets, ASidecarIsBesideEachPng) {
+  EXPECT_EQ(
+      make({"--png-sidecar", "--png-scale", "20000", "--png-beyond", "none"}, "{stem}.png").out,
+      "out: 2 maps, 2 made now\n");
+  EXPECT_THAT(read("out/1.json"), HasSubstr("\"scale\":20000"));
+  EXPECT_THAT(read("out/2.json"), HasSubstr("\"beyond\":"));
+}
+
 TEST_F(DataSets, OneProcessAtATimeIsAtOneFolder) {
   ASSERT_EQ(make().status, 0);
   const fs::path manifest = folder_.path() / "out/fathom-manifest.jsonl";
@@ -215,9 +237,10 @@ TEST(Manifests, SayWhatWasSaidLast) {
   EXPECT_EQ(content.records.at("a").files.at(0).crc32, 4U);
   EXPECT_EQ(content.records.at("a").facts, "{\"n\":1}");
   EXPECT_TRUE(content.owned.contains("b"));
+  const std::string deep = std::string(200, '[') + std::string(200, ']');
   for (const char* wrong : {"[]", "{}", "{\"key\":1}", "{\"key\":\"\",\"files\":[],\"facts\":{}}",
                             "{\"key\":\"\",\"files\":[{\"path\":\"a\"}],\"facts\":{}}", "\xff",
-                            "{\"announced\":3}", "{\"fathom-manifest\":\"x\"}", ""}) {
+                            deep.c_str(), "{\"announced\":3}", "{\"fathom-manifest\":\"x\"}", ""}) {
     Warnings told;
     content.add(std::string(wrong) + "\n" + app::line_of(first), "m", told);
     EXPECT_EQ(told.size(), 1U) << wrong;
