@@ -126,7 +126,7 @@ std::vector<Usage> wrong_usages() {
       {"LookAtItself", {"camera", "look-at", "--eye", "1,2,3", "--target", "1,2,3"}, ""},
       {"OrbitNothing", {"camera", "orbit", "--views", "3"}, "SCENE"},
       {"OrbitNoViews", {"camera", "orbit", "square.obj", "--views", "0"}, "--views"},
-      {"BopWithoutSize", {"camera", "import", "bop", "scene_camera.json"}, "--size"},
+      {"GltfWithoutSize", {"camera", "import", "gltf", "model.gltf"}, "--size"},
   };
 }
 

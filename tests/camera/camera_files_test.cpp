@@ -315,5 +315,19 @@ TEST(CameraJson, ASingleCameraIsWrittenAsAnObject) {
   EXPECT_TRUE(same_bits(read(text).at(0), camera));
 }
 
+TEST(CameraJson, NamesAreKeptAsText) {
+  Camera camera;
+  camera.width = camera.height = 4;
+  for (const char* name : {"left/0001.jpg", "a \"b\"\n\x01", "é"}) {
+    camera.name = name;
+    EXPECT_EQ(read_cameras(to_json(camera), "camera").at(0).name, name);
+  }
+  // What is no UTF-8 becomes U+FFFD: a camera file is text.
+  camera.name = "a\xff";
+  EXPECT_EQ(read_cameras(to_json(camera), "camera").at(0).name, "a\xef\xbf\xbd");
+  camera.name.clear();
+  EXPECT_EQ(to_json(camera).find("name"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace fathom
