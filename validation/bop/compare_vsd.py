@@ -104,6 +104,8 @@ def main():
         own = np.array([[found[way] for found in everything] for way in ("exact", "toolkit")])
         recall = decisions(own).mean(axis=(1, 2, 3))
         print(f"mean recall over taus and thetas: exact {recall[0]:.4f}, toolkit {recall[1]:.4f}")
+        print(f"mean difference of VSD {np.abs(own[0] - own[1]).mean():.5f}; "
+              f"{len({each[:3] for each in flips})} of {len(everything)} estimates have a decision that differs")
         print("decisions that differ between exact and toolkit: scene, instance, error, tau, theta, VSD of each")
         for each in flips:
             print("{:5}{:4}  {:8}{:6.2f}{:6.2f}{:9.5f}{:9.5f}".format(*each))

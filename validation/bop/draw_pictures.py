@@ -25,7 +25,7 @@ from matplotlib import pyplot as plt  # noqa: E402
 
 images = pathlib.Path(__file__).resolve().parents[2] / "docs/images"
 SHOWN = {"half pixel": "#1f5fbf", "delta": "#e07b00", "codes": "#7a3fa0", "edge": "#c00020"}
-CROP = slice(185, 345), slice(250, 490)
+CROP = slice(185, 365), slice(250, 490)
 
 
 def save(figure, name):
@@ -50,7 +50,7 @@ def reasons(folder, scene_folder, image, models):
 
 
 def draw_masks(objects, found, count):
-    figure, axes = plt.subplots(1, 2, figsize=(8.4, 3.3), constrained_layout=True)
+    figure, axes = plt.subplots(1, 2, figsize=(8.4, 3.6), constrained_layout=True)
     seen = np.where(objects < count, objects, -1.0)
     seen[seen < 0] = np.nan
     extent = CROP[1].start - 0.5, CROP[1].stop - 0.5, CROP[0].stop - 0.5, CROP[0].start - 0.5
