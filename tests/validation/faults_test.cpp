@@ -67,10 +67,10 @@ TEST_P(FaultGroups, AreFoundAndRightlyNamed) {
 INSTANTIATE_TEST_SUITE_P(
     All, FaultGroups,
     ::testing::Values(Group{"background", "gl-unorm24"}, Group{"storage", "gl-unorm24"},
-                    Group{"units", "gl-unorm24"}, Group{"decoding", "gl-unorm24"},
-                    Group{"camera", "gl-unorm24"}, Group{"camera", "float32-ray"},
-                    Group{"image", "float32-ray"}, Group{"surfaces", "gl-unorm24"},
-                    Group{"pixels", "float32-ray"}),
+                      Group{"units", "gl-unorm24"}, Group{"decoding", "gl-unorm24"},
+                      Group{"camera", "gl-unorm24"}, Group{"camera", "float32-ray"},
+                      Group{"image", "float32-ray"}, Group{"surfaces", "gl-unorm24"},
+                      Group{"pixels", "float32-ray"}),
     [](const auto& g) {
       return g.param.first + (g.param.second == "gl-unorm24" ? "OfARasterizer" : "OfARayTracer");
     });
