@@ -17,11 +17,7 @@ std::string transforms_with_depths(const std::string& file, const std::vector<Ca
   for (std::size_t i = 0; i < cameras.size(); ++i) depth_of[cameras[i].name] = depths[i];
   Json json;
   try {
-    const text::InputFile input(file);
-    // Refuses what is nested too deeply to be written again.
-    nlohmann::json checked;
-    text::parse_json(input.text(), checked);
-    json = Json::parse(input.text());
+    json = text::parse_json<Json>(text::InputFile(file).text());
     Json frames = Json::array();
     std::size_t number = 0;
     for (Json& frame : json.at("frames")) {

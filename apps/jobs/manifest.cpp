@@ -55,10 +55,7 @@ Record record_of(const Json& json) {
 }
 
 void add_line(const std::string& line, const std::string& name, ManifestContent& content) {
-  // Refuses what is nested too deeply to be written again.
-  nlohmann::json checked;
-  text::parse_json(line, checked);
-  const Json json = Json::parse(line);
+  const Json json = text::parse_json<Json>(line);
   if (json.contains("fathom-manifest")) {
     if (json.at("fathom-manifest").get<int>() <= version) return;
     throw InputError(name + ": is of a later version of fathom; use that one, or another folder");
@@ -114,7 +111,8 @@ std::string line_of(const Record& record) {
   for (const PublishedFile& file : record.files) {
     files.push_back({{"path", file.path}, {"bytes", file.bytes}, {"crc32", file.crc32}});
   }
-  const Json json{{"key", record.key}, {"files", files}, {"facts", Json::parse(record.facts)}};
+  const Json json{
+      {"key", record.key}, {"files", files}, {"facts", text::parse_json<Json>(record.facts)}};
   return dumped(json) + "\n";
 }
 

@@ -16,6 +16,7 @@ import subprocess
 import sys
 import zlib
 
+import cv2
 import numpy as np
 import pytest
 
@@ -215,3 +216,19 @@ def test_a_folder_in_bops_layout(tmp_path):
     mask, visible = (pixels_of(scene / name / "000000_000000.png") for name in ("mask", "mask_visib"))
     assert mask.shape == (48, 64) and mask.sum() == 800 * 255 and visible.sum() == 400 * 255
     assert (visible[14:34, 12:32] == 255).all()
+
+
+def test_the_program_makes_the_same(tmp_path):
+    (tmp_path / "models").mkdir()
+    for obj_id, mesh in MODELS.items():
+        write_ply(tmp_path / f"models/obj_{obj_id:06}.ply", *mesh)
+    scene, out = tmp_path / "test/000000", tmp_path / "out"
+    tilted = Instance(PLATE, rotation_about((1, 2, 3), 40), np.array([5, -3, 800.0]))
+    write_scene(scene, ((64, 48), (1000, 1000, 31.5, 23.5), 0.1), [*half_hidden.instances, tilted], MODELS)
+    subprocess.run([sys.executable, "-B", folder / "gt_info.py", tmp_path, "--partition"], check=True)
+    subprocess.run([os.environ["FATHOM_PROGRAM"], "dataset", "bop", scene, "--models", tmp_path / "models", "--size",
+                    "64x48", "--out", out], check=True)
+    assert json.loads((out / "scene_gt_info.json").read_text()) == json.loads((scene / "scene_gt_info.json").read_text())
+    for kind in ("mask", "mask_visib"):
+        for png in (scene / kind).iterdir():
+            assert (pixels_of(png) == cv2.imread(str(out / kind / png.name), -1)).all(), png
