@@ -170,8 +170,8 @@ TEST_F(DataSets, ASidecarIsBesideEachPng) {
   EXPECT_EQ(
       make({"--png-sidecar", "--png-scale", "20000", "--png-beyond", "none"}, "{stem}.png").out,
       "out: 2 maps, 2 made now\n");
-  EXPECT_THAT(read("out/1.json"), HasSubstr("\"scale\":20000"));
-  EXPECT_THAT(read("out/2.json"), HasSubstr("\"beyond\":"));
+  EXPECT_THAT(read("out/1.json"), HasSubstr("\"scale\": 20000"));
+  EXPECT_THAT(read("out/2.json"), HasSubstr("\"beyond\": "));
 }
 
 TEST_F(DataSets, OneProcessAtATimeIsAtOneFolder) {

@@ -83,7 +83,8 @@ LAST_WORDS = [
     ("fathom convert --to di", ["distance", "disparity"]),
     ("fathom completion ", ["bash", "zsh", "fish"]),
     ("fathom help camera ", ["look-at", "orbit", "import"]),
-    ("fathom --quiet camera import ", ["colmap", "nerf", "bop", "opengl"]),
+    ("fathom --quiet camera import ", ["colmap", "nerf", "bop", "sfmdata", "gltf", "opengl", "matrices", "tum", "7scenes",
+                                       "scannet", "scannetpp", "replica", "kitti"]),
     ("fathom render --texture chec", ["checker"]),
 ]
 

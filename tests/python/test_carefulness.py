@@ -156,7 +156,7 @@ def test_r_and_t_by_themselves_are_told_from_a_matrix(K=np.array([[40, 0, 32], [
     (lambda m, s: m.write("x.exr", channel=3), TypeError, "channel: expected a string, found 3"),
     (lambda m, s: m.write("x.exr", compression=None), TypeError, "compression: expected a string"),
     (lambda m, s: m.write("x.exr", names=[("Z", "Y")]), TypeError, "names: expected a dict"),
-    (lambda m, s: m.write("newdir/x.tif"), ValueError, "ends in .exr"),
+    (lambda m, s: m.write("newdir/x.bmp"), ValueError, "ends in .exr"),
     (lambda m, s: m.stored_as("foo"), TypeError, "dtype: expected float32, float64 or uint16, found 'foo'"),
     (lambda m, s: m.stored_as("float64", channel=None), TypeError, "channel: expected a string"),
     (lambda m, s: s.render(camera, channels=None), TypeError, "channels: expected a sequence of names"),
