@@ -101,6 +101,7 @@ class Work {
             (job_.folder / file).string()));
       }
       unannounced.push_back(file);
+      content_.owned.insert(file);
     }
     manifest_.announce(unannounced);
   }
@@ -109,8 +110,11 @@ class Work {
     std::size_t total = 0, made = 0;
     for (std::size_t i = 0; i < job_.tasks.size(); ++i) total += job_.shard.has(i) ? 1 : 0;
     JobProgress progress(console_, job_.noun, total);
-    Publisher publisher(job_.folder, manifest_,
-                        [&](std::size_t count) { progress.add_made(count); });
+    std::vector<Record> published;
+    Publisher publisher(job_.folder, manifest_, [&](const std::vector<Record>& records) {
+      published.insert(published.end(), records.begin(), records.end());
+      progress.add_made(records.size());
+    });
     try {
       for (std::size_t i = 0; i < job_.tasks.size(); ++i) {
         if (!job_.shard.has(i)) continue;
@@ -129,6 +133,7 @@ class Work {
     } catch (const InputError& error) {
       throw InputError(error.what() + progress.so_far());
     }
+    for (Record& record : published) content_.add(std::move(record));
     return made;
   }
 
@@ -136,7 +141,7 @@ class Work {
   /// where no shard has one of its own. Returns whether they are.
   bool write_lists() {
     Warnings told_before;
-    content_ = manifest_.read(told_before);
+    if (!job_.shard.is_all()) content_ = manifest_.read(told_before);
     std::vector<Record> records;
     std::vector<std::string> facts;
     for (const Task& task : job_.tasks) {

@@ -64,20 +64,19 @@ void add_line(const std::string& line, const std::string& name, ManifestContent&
     for (const Json& file : json.at("announced")) content.owned.insert(file.get<std::string>());
     return;
   }
-  Record record = record_of(json);
-  for (const PublishedFile& file : record.files) content.owned.insert(file.path);
-  std::string task = record.files.front().path;
-  content.records.insert_or_assign(std::move(task), std::move(record));
+  content.add(record_of(json));
 }
 
 /// The manifests of a folder, in the order of their names.
 std::vector<fs::path> manifests_in(const fs::path& folder) {
   std::vector<fs::path> found;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(prefix) && name.ends_with(".jsonl")) found.push_back(entry.path());
+  fs::directory_iterator next(folder, error);
+  for (; !error && next != fs::directory_iterator(); next.increment(error)) {
+    const std::string name = next->path().filename().string();
+    if (name.starts_with(prefix) && name.ends_with(".jsonl")) found.push_back(next->path());
   }
+  if (error) throw InputError(folder.string() + ": cannot be listed: " + error.message());
   std::ranges::sort(found);
   return found;
 }
@@ -85,8 +84,10 @@ std::vector<fs::path> manifests_in(const fs::path& folder) {
 bool is_still_at(int file, const fs::path& path) {
   struct stat open {};
   struct stat there {};
-  return ::fstat(file, &open) == 0 && ::stat(path.c_str(), &there) == 0 &&
-         open.st_dev == there.st_dev && open.st_ino == there.st_ino;
+  if (::fstat(file, &open) != 0) fail_with_errno(path, errno);
+  const bool is_there = ::stat(path.c_str(), &there) == 0;
+  if (!is_there && errno != ENOENT) fail_with_errno(path, errno);
+  return is_there && open.st_dev == there.st_dev && open.st_ino == there.st_ino;
 }
 
 /// What follows the last complete line was being written when the power went.
@@ -114,6 +115,12 @@ std::string line_of(const Record& record) {
   const Json json{
       {"key", record.key}, {"files", files}, {"facts", text::parse_json<Json>(record.facts)}};
   return dumped(json) + "\n";
+}
+
+void ManifestContent::add(Record record) {
+  for (const PublishedFile& file : record.files) owned.insert(file.path);
+  std::string task = record.files.front().path;
+  records.insert_or_assign(std::move(task), std::move(record));
 }
 
 void ManifestContent::add(const std::string& text, const std::string& name, Warnings& warnings) {

@@ -48,6 +48,7 @@ struct ManifestContent {
   /// `name` is the manifest's for messages.
   /// Fails    InputError where a later version of this program has written it.
   void add(const std::string& text, const std::string& name, Warnings& warnings);
+  void add(Record record);
 };
 
 /// The list of what is finished, in a file beside it: fathom-manifest.jsonl, or one for each shard. A

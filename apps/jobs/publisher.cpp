@@ -15,7 +15,7 @@ constexpr std::size_t most_files = 128;
 }  // namespace
 
 Publisher::Publisher(std::filesystem::path folder, Manifest& manifest,
-                     std::function<void(std::size_t)> published)
+                     std::function<void(const std::vector<Record>&)> published)
     : folder_(std::move(folder)),
       manifest_(manifest),
       published_(std::move(published)),
@@ -105,7 +105,7 @@ void Publisher::publish(std::vector<Waiting> batch) {
   for (OutputFile& output : outputs) together.push_back(&output);
   OutputFile::commit_together(together);
   manifest_.add(records);
-  published_(records.size());
+  published_(records);
 }
 
 }  // namespace fathom::app

@@ -19,10 +19,10 @@ namespace fathom::app {
 /// wait are written together, and wait for the disk once.
 class Publisher {
  public:
-  /// `published` is called with the number of tasks that have been published just now, from the
+  /// `published` is called with the records of the tasks that have been published just now, from the
   /// publisher's thread.
   Publisher(std::filesystem::path folder, Manifest& manifest,
-            std::function<void(std::size_t)> published);
+            std::function<void(const std::vector<Record>&)> published);
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
   /// Results that still wait are given up.
@@ -48,7 +48,7 @@ class Publisher {
 
   std::filesystem::path folder_;
   Manifest& manifest_;
-  std::function<void(std::size_t)> published_;
+  std::function<void(const std::vector<Record>&)> published_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Waiting> waiting_;
