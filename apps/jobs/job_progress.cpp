@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -55,8 +56,7 @@ void JobProgress::tell() {
   if (made_ != 0) {
     const double rate =
         static_cast<double>(made_) / std::chrono::duration<double>(now - start_).count();
-    const auto left =
-        static_cast<std::uint64_t>(static_cast<double>(total_ - made_ - found_) / rate + 0.5);
+    const long left = std::lround(static_cast<double>(total_ - made_ - found_) / rate);
     fmt::print(stderr, ", {:.3g} {}s/s, {}:{:02}:{:02} left", rate, noun_, left / 3600,
                left / 60 % 60, left % 60);
   }

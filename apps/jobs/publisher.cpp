@@ -102,6 +102,7 @@ void Publisher::publish(std::vector<Waiting> batch) {
     one.result = {};
   }
   std::vector<OutputFile*> together;
+  together.reserve(outputs.size());
   for (OutputFile& output : outputs) together.push_back(&output);
   OutputFile::commit_together(together);
   manifest_.add(records);

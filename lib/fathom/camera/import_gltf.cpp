@@ -55,7 +55,7 @@ ExactTransform of_matrix(const JsonValue& matrix) {
 
 /// T·R·S; R of a quaternion x, y, z, w of any length but 0, over the square of its length.
 ExactTransform of_parts(const JsonValue& node) {
-  const auto numbers = [&](const char* key, std::vector<double> otherwise) {
+  const auto numbers = [&](const char* key, const std::vector<double>& otherwise) {
     const auto value = node.find(key);
     return value ? value->numbers(otherwise.size()) : otherwise;
   };

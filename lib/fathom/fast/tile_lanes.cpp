@@ -53,8 +53,9 @@ struct BlockFunctions {
 
 HWY_INLINE void leave_out_columns(const Drawn& t, BlockFunction& f) {
   const DF8 d;
-  const auto first_met = hn::Set(d, static_cast<float>(t.first_column / block));
-  const auto last_met = hn::Set(d, static_cast<float>(t.last_column / block));
+  const int first = t.first_column / block, last = t.last_column / block;
+  const auto first_met = hn::Set(d, static_cast<float>(first));
+  const auto last_met = hn::Set(d, static_cast<float>(last));
   const auto none = hn::Set(d, -std::numeric_limits<float>::infinity());
   for (std::size_t part = 0; part < Tile::blocks_of_row; part += hn::Lanes(d)) {
     const auto number = counting_lanes(d, static_cast<float>(part));

@@ -91,6 +91,7 @@ BopModels::BopModels(const std::filesystem::path& folder, const std::vector<BopI
   for (const BopImage& image : images)
     for (const BopInstance& instance : image.instances) wanted.insert(instance.model);
   std::vector<std::filesystem::path> files;
+  files.reserve(wanted.size());
   for (const std::uint32_t number : wanted)
     files.push_back(folder / fmt::format("obj_{:06}.ply", number));
   if (!files.empty()) scene_ = read_scene(files, options, warnings);

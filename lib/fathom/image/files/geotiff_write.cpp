@@ -37,13 +37,14 @@ namespace {
 
 /// Numbers of tags and values, under their names in the specifications.
 namespace tag {
-constexpr std::uint16_t ImageWidth = 256, ImageLength = 257, BitsPerSample = 258, Compression = 259,
-                        PhotometricInterpretation = 262, StripOffsets = 273, SamplesPerPixel = 277,
-                        RowsPerStrip = 278, StripByteCounts = 279, PlanarConfiguration = 284,
-                        Software = 305, Predictor = 317, ExtraSamples = 338, SampleFormat = 339,
-                        ModelPixelScale = 33550, ModelTiepoint = 33922, ModelTransformation = 34264,
-                        GeoKeyDirectory = 34735, GeoAsciiParams = 34737, GDAL_METADATA = 42112,
-                        GDAL_NODATA = 42113;
+constexpr std::uint16_t image_width = 256, image_length = 257, bits_per_sample = 258,
+                        compression = 259, photometric_interpretation = 262, strip_offsets = 273,
+                        samples_per_pixel = 277, rows_per_strip = 278, strip_byte_counts = 279,
+                        planar_configuration = 284, software = 305, predictor = 317,
+                        extra_samples = 338, sample_format = 339, model_pixel_scale = 33550,
+                        model_tiepoint = 33922, model_transformation = 34264,
+                        geo_key_directory = 34735, geo_ascii_params = 34737, gdal_metadata = 42112,
+                        gdal_nodata = 42113;
 }  // namespace tag
 constexpr std::uint16_t by_deflate = 8, black_is_zero = 1, separate_planes = 2, floating_point = 3,
                         floating_point_predictor = 3, unspecified = 0;
@@ -167,24 +168,24 @@ TiffStrips compressed_strips(const DepthMap& map, float none, int threads,
 void add_place(TiffDirectory& directory, const std::array<double, 6>& g) {
   // North up, as most programs expect it: they know scales better than a matrix.
   if (g[1] > 0 && g[5] < 0 && g[2] == 0 && g[4] == 0) {
-    directory.add_double(tag::ModelPixelScale, std::array{g[1], -g[5], 0.0});
-    directory.add_double(tag::ModelTiepoint, std::array{0.0, 0.0, 0.0, g[0], g[3], 0.0});
+    directory.add_double(tag::model_pixel_scale, std::array{g[1], -g[5], 0.0});
+    directory.add_double(tag::model_tiepoint, std::array{0.0, 0.0, 0.0, g[0], g[3], 0.0});
   } else {
-    directory.add_double(tag::ModelTransformation, std::array{g[1], g[2], 0.0, g[0],  //
-                                                              g[4], g[5], 0.0, g[3],  //
-                                                              0.0, 0.0, 0.0, 0.0,     //
-                                                              0.0, 0.0, 0.0, 1.0});
+    directory.add_double(tag::model_transformation, std::array{g[1], g[2], 0.0, g[0],  //
+                                                               g[4], g[5], 0.0, g[3],  //
+                                                               0.0, 0.0, 0.0, 0.0,     //
+                                                               0.0, 0.0, 0.0, 1.0});
   }
   const std::string citation = "scene coordinates|";
-  constexpr std::uint16_t GTModelType = 1024, GTRasterType = 1025, GTCitation = 1026;
+  constexpr std::uint16_t gt_model_type = 1024, gt_raster_type = 1025, gt_citation = 1026;
   constexpr std::uint16_t user_defined = 32767, pixel_is_area = 1;
-  directory.add_short(tag::GeoKeyDirectory, std::array<std::uint16_t, 16>{
-                                                1, 1, 0, 3,  // version, revision, keys
-                                                GTModelType, 0, 1, user_defined,    //
-                                                GTRasterType, 0, 1, pixel_is_area,  //
-                                                GTCitation, tag::GeoAsciiParams,
-                                                static_cast<std::uint16_t>(citation.size()), 0});
-  directory.add_text(tag::GeoAsciiParams, citation);
+  directory.add_short(tag::geo_key_directory, std::array<std::uint16_t, 16>{
+                                                  1, 1, 0, 3,  // version, revision, keys
+                                                  gt_model_type, 0, 1, user_defined,    //
+                                                  gt_raster_type, 0, 1, pixel_is_area,  //
+                                                  gt_citation, tag::geo_ascii_params,
+                                                  static_cast<std::uint16_t>(citation.size()), 0});
+  directory.add_text(tag::geo_ascii_params, citation);
 }
 
 void require_printable(const std::string& text, const std::string& what, const std::string& name) {
@@ -240,21 +241,21 @@ TiffDirectory directory_of(const DepthMap& map, float none, std::uint32_t rows,
   const auto bands = static_cast<std::uint16_t>(map.channels.size());
   using Shorts = std::vector<std::uint16_t>;
   TiffDirectory directory;
-  directory.add_long(tag::ImageWidth, map.width);
-  directory.add_long(tag::ImageLength, map.height);
-  directory.add_short(tag::BitsPerSample, Shorts(bands, 8 * sizeof(float)));
-  directory.add_short(tag::Compression, by_deflate);
-  directory.add_short(tag::PhotometricInterpretation, black_is_zero);
-  directory.add_short(tag::SamplesPerPixel, bands);
-  directory.add_long(tag::RowsPerStrip, rows);
-  directory.add_short(tag::PlanarConfiguration, separate_planes);
-  directory.add_text(tag::Software, "Fathom " FATHOM_VERSION);
-  directory.add_short(tag::Predictor, floating_point_predictor);
-  if (bands > 1) directory.add_short(tag::ExtraSamples, Shorts(bands - 1U, unspecified));
-  directory.add_short(tag::SampleFormat, Shorts(bands, floating_point));
+  directory.add_long(tag::image_width, map.width);
+  directory.add_long(tag::image_length, map.height);
+  directory.add_short(tag::bits_per_sample, Shorts(bands, 8 * sizeof(float)));
+  directory.add_short(tag::compression, by_deflate);
+  directory.add_short(tag::photometric_interpretation, black_is_zero);
+  directory.add_short(tag::samples_per_pixel, bands);
+  directory.add_long(tag::rows_per_strip, rows);
+  directory.add_short(tag::planar_configuration, separate_planes);
+  directory.add_text(tag::software, "Fathom " FATHOM_VERSION);
+  directory.add_short(tag::predictor, floating_point_predictor);
+  if (bands > 1) directory.add_short(tag::extra_samples, Shorts(bands - 1U, unspecified));
+  directory.add_short(tag::sample_format, Shorts(bands, floating_point));
   add_place(directory, *map.world_from_image);
-  directory.add_text(tag::GDAL_METADATA, gdal_metadata(map, name));
-  directory.add_text(tag::GDAL_NODATA, none_as_text(none));
+  directory.add_text(tag::gdal_metadata, gdal_metadata(map, name));
+  directory.add_text(tag::gdal_nodata, none_as_text(none));
   return directory;
 }
 
@@ -265,8 +266,8 @@ Bytes assembled_tiff(const TiffDirectory& description, const std::vector<Bytes>&
   std::vector<std::uint32_t> offsets(strips.size()), sizes(strips.size());
   const auto with_strips = [&] {
     TiffDirectory directory = description;
-    directory.add_long(tag::StripOffsets, offsets);
-    directory.add_long(tag::StripByteCounts, sizes);
+    directory.add_long(tag::strip_offsets, offsets);
+    directory.add_long(tag::strip_byte_counts, sizes);
     return directory.encoded_at(header_size);
   };
   std::uint64_t at = header_size + with_strips().size();
