@@ -12,6 +12,7 @@ GROUPS = {
     "Maps": ["Map", "read_map", "compare", "NO_SURFACE"],
     "Questions": ["probe", "questions.CoveringTriangle", "visible", "questions.VisibleAreas", "questions.Areas",
                   "render_deep", "DeepMap", "verify", "questions.Verification", "questions.Disagreement"],
+    "Evaluation": ["evaluate", "evaluation.Evaluation", "evaluation.Depth", "evaluation.Distances"],
     "Depth formats": ["DepthFormat"],
     "Validation": ["validate", "Validation", "testing.assert_depth"],
     "Studies": ["studies.run", "studies.names", "studies.Study", "studies.Description"],

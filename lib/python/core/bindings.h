@@ -11,6 +11,7 @@ void bind_scene(pybind11::module_& core);
 void bind_maps(pybind11::module_& core);
 void bind_render(pybind11::module_& core);
 void bind_questions(pybind11::module_& core);
+void bind_evaluation(pybind11::module_& core);
 void bind_deep(pybind11::module_& core);
 void bind_depth_formats(pybind11::module_& core);
 void bind_clipping(pybind11::module_& core);

@@ -10,6 +10,7 @@ PYBIND11_MODULE(_core, core) {
   bind_maps(core);
   bind_render(core);
   bind_questions(core);
+  bind_evaluation(core);
   bind_deep(core);
   bind_depth_formats(core);
   bind_clipping(core);

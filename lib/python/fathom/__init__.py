@@ -15,6 +15,7 @@ from .camera import Camera, read_cameras, write_cameras
 from .clipping import clip
 from .deep import DeepMap, render_deep
 from .depth_formats import DepthFormat
+from .evaluation import evaluate
 from .maps import NO_SEGMENT, NO_SURFACE, Map, compare, read_map
 from .questions import probe, verify, visible
 from .scene import Scene
@@ -36,6 +37,7 @@ __all__ = [
     "ViewWarning",
     "clip",
     "compare",
+    "evaluate",
     "probe",
     "read_cameras",
     "read_map",

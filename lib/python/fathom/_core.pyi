@@ -241,6 +241,15 @@ def probe(scene: Scene, camera: Camera, x: int, y: int, cull: str) -> list[tuple
 def visible(
     scene: Scene, camera: Camera, cull: str, threads: int
 ) -> tuple[tuple[Floats, Floats, Floats], tuple[Floats, Floats, Floats]]: ...
+def evaluate(
+    reconstruction: Scene,
+    truth: Scene,
+    cameras: list[Camera],
+    within: list[float],
+    points: int,
+    cull: str,
+    threads: int,
+) -> tuple[tuple[Any, ...] | None, tuple[Any, ...], tuple[Any, ...], tuple[float, ...]]: ...
 def deep(scene: Scene, camera: Camera, cull: str, threads: int) -> tuple[dict[str, npt.NDArray[Any]], Map]: ...
 def write_deep(
     description: Map,

@@ -1,0 +1,85 @@
+// fathom evaluate SCENE… --truth SCENE [--camera FILE]
+
+#include <memory>
+
+#include "apps/options/camera_options.h"
+#include "apps/options/cull_option.h"
+#include "apps/options/scene_options.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/progress.h"
+#include "apps/shell/text_output.h"
+#include "apps/shell/values.h"
+#include "apps/surfaces/evaluation_report.h"
+#include "apps/surfaces/surface_commands.h"
+#include "fathom/evaluate.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+struct EvaluateArguments {
+  SceneOptions scene;
+  std::string truth, camera, output = "-";
+  SurfaceComparisonOptions comparison;
+  bool json = false;
+};
+
+/// Thresholds, "0.05" or "0.01,0.05".
+std::vector<double> parse_thresholds(const std::string& text) {
+  std::vector<double> thresholds;
+  for (const std::string& part : parse_list(text)) thresholds.push_back(parse_scale(part));
+  return thresholds;
+}
+
+Scene read_truth(const EvaluateArguments& arguments, const Console& console) {
+  SceneOptions options = arguments.scene;
+  options.files = {arguments.truth};
+  return options.read(console);
+}
+
+int run_evaluate(const EvaluateArguments& arguments, const Console& console) {
+  const Scene reconstruction = arguments.scene.read(console);
+  const Scene truth = read_truth(arguments, console);
+  std::vector<Camera> cameras;
+  if (!arguments.camera.empty()) cameras = read_camera_file(arguments.camera, console);
+  TextOutput output(arguments.output);
+  SurfaceComparisonOptions options = arguments.comparison;
+  options.threads = arguments.scene.threads;
+  Evaluation evaluation;
+  {
+    Progress progress(console, "evaluating");
+    options.progress = progress.reporter();
+    evaluation = evaluate(reconstruction, truth, cameras, options);
+  }
+  output.finish(arguments.json ? as_json(evaluation, options.within)
+                               : as_text(evaluation, options.within));
+  return done;
+}
+
+}  // namespace
+
+void add_evaluate(Command& program) {
+  const auto arguments = std::make_shared<EvaluateArguments>();
+  Command& command = program.command(
+      "evaluate",
+      "Measure a reconstructed mesh against the true one: Depth L1, accuracy, completeness",
+      "  fathom evaluate mesh.ply --truth room.ply --camera cameras.json --within 0.05\n"
+      "  fathom evaluate mesh.ply --truth scan.ply --within 0.01,0.02,0.05 --json");
+  arguments->scene.add_to(command);
+  command.option("--truth", "SCENE", arguments->truth, "The true mesh, in the same world and unit")
+      .required();
+  command.option("--camera", "FILE", arguments->camera,
+                 "The views: only what these cameras see counts, of each mesh by itself (default: "
+                 "the whole surfaces, and no depths)");
+  command.option("--within", "D,…", into(arguments->comparison.within, parse_thresholds),
+                 "Distances: which share of the points is nearer than each");
+  command.option("--points", "N", into(arguments->comparison.points, parse_positive),
+                 "Points on each surface (default 200000)");
+  add_cull_option(command, arguments->comparison.cull);
+  command.flag("--json", arguments->json, "Answer in JSON");
+  command.option("-o,--output", "FILE", arguments->output,
+                 "Write the answer to this file (default -, standard output)");
+  command.runs([arguments](const Console& console) { return run_evaluate(*arguments, console); });
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,57 @@
+#include "fathom/evaluate.h"
+
+#include <functional>
+
+#include "fathom/fast/render_memory.h"
+#include "fathom/render.h"
+
+namespace fathom {
+namespace {
+
+/// Reports a part of the work, from `first` to `last` of the whole.
+std::function<void(double)> part_of(const std::function<void(double)>& progress, double first,
+                                    double last) {
+  if (!progress) return {};
+  return [&progress, first, last](double share) { progress(first + share * (last - first)); };
+}
+
+DepthAgreement compare_depths(const Scene& reconstruction, const Scene& truth,
+                              const std::vector<Camera>& cameras,
+                              const SurfaceComparisonOptions& options, double end) {
+  RenderMemory of_truth, of_reconstruction;
+  RenderOptions rendering;
+  rendering.cull = options.cull;
+  rendering.threads = options.threads;
+  DepthAgreementSum sum;
+  DepthMap true_map, map;
+  const double step = end / (2 * static_cast<double>(cameras.size()));
+  double done = 0;
+  for (const Camera& camera : cameras) {
+    rendering.kept = &of_truth;
+    rendering.progress = part_of(options.progress, done, done + step);
+    render_into(true_map, truth, camera, rendering);
+    rendering.kept = &of_reconstruction;
+    rendering.progress = part_of(options.progress, done + step, done + 2 * step);
+    render_into(map, reconstruction, camera, rendering);
+    sum.add(true_map, map);
+    done += 2 * step;
+  }
+  return sum.result();
+}
+
+}  // namespace
+
+Evaluation evaluate(const Scene& reconstruction, const Scene& truth,
+                    const std::vector<Camera>& cameras, const SurfaceComparisonOptions& options) {
+  require_meaningful(options);
+  const double depths_end = cameras.empty() ? 0 : 0.5;
+  Evaluation evaluation;
+  if (!cameras.empty())
+    evaluation.depth = compare_depths(reconstruction, truth, cameras, options, depths_end);
+  SurfaceComparisonOptions rest = options;
+  rest.progress = part_of(options.progress, depths_end, 1);
+  evaluation.surfaces = compare_surfaces(reconstruction, truth, cameras, rest);
+  return evaluation;
+}
+
+}  // namespace fathom

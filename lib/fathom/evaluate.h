@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fathom/evaluation/depth_agreement.h"
+#include "fathom/evaluation/surface_distances.h"
+
+/// The front door to the evaluation of reconstructed surfaces.
+namespace fathom {
+
+/// How a reconstruction compares with the truth.
+struct Evaluation {
+  /// Of the exact depth maps of all cameras; nothing without cameras.
+  std::optional<DepthAgreement> depth;
+  SurfaceComparison surfaces;
+};
+
+/// Renders both scenes as each camera sees them and compares the depths, and compares the surfaces
+/// (compare_surfaces). The options count for both: culling, threads, progress.
+/// Fails    as render() and compare_surfaces()
+Evaluation evaluate(const Scene& reconstruction, const Scene& truth,
+                    const std::vector<Camera>& cameras,
+                    const SurfaceComparisonOptions& options = {});
+
+}  // namespace fathom

@@ -1,0 +1,67 @@
+#include "fathom/evaluation/placed_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fathom/numeric/rounding.h"
+#include "fathom/threads/threads.h"
+
+namespace fathom::evaluation {
+namespace {
+
+/// The t with |x| < 2^t of a number that is not 0.
+long top(const Dyadic& x) {
+  return x.top();
+}
+long top(double x) {
+  return std::ilogb(x) + 1L;
+}
+
+template <class Point>
+long greatest_top(const Point& p, long greatest) {
+  for (const auto* x : {&p.x, &p.y, &p.z})
+    if (!(*x == 0)) greatest = std::max(greatest, top(*x));
+  return greatest;
+}
+
+Vector rounded(const Object& object, const MeshPoint& p, long power) {
+  if (object.placed_as_is) {
+    const int exponent = static_cast<int>(-power);
+    return {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+  }
+  const WorldPoint X = object.world_from_mesh(p);
+  const auto round = [&](const Dyadic& x) { return round_to_binary64(Ratio(x.scaled(-power))); };
+  return {round(X.x), round(X.y), round(X.z)};
+}
+
+/// The least power of a double that is not 0.
+constexpr long least_power = -1100;
+
+}  // namespace
+
+long power_of_unit(const TriangleSource& triangles) {
+  long power = least_power;
+  triangles.for_each_part(0, [&](const TriangleSource::Part& part) {
+    for (const MeshPoint& p : part.mesh.vertices)
+      power = part.object.placed_as_is ? greatest_top(p, power)
+                                       : greatest_top(part.object.world_from_mesh(p), power);
+  });
+  return power;
+}
+
+PlacedTriangles::PlacedTriangles(const TriangleSource& triangles, long power)
+    : power_(power), corners_(triangles.count()) {
+  triangles.for_each_part(0, [&](const TriangleSource::Part& part) {
+    const Mesh& mesh = part.mesh;
+    std::vector<Vector> vertices(mesh.vertices.size());
+    parallel_for(std::size_t{0}, vertices.size(), [&](std::size_t i) {
+      vertices[i] = rounded(part.object, mesh.vertices[i], power);
+    });
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i)
+        corners_[part.first_number + t][i] = vertices[mesh.triangles[t][i]];
+    }
+  });
+}
+
+}  // namespace fathom::evaluation

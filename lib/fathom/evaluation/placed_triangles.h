@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "fathom/scene/triangle_source.h"
+
+namespace fathom::evaluation {
+
+using Vector = std::array<double, 3>;
+
+/// Powers of two to measure in: every corner of the scene has coordinates of less than 2 to this
+/// power, exactly.
+long power_of_unit(const TriangleSource& triangles);
+
+/// The triangles of a scene in the world, in binary64 and in a unit in which all coordinates are
+/// below 1: bounds on errors are plain numbers then, and nothing overflows.
+class PlacedTriangles {
+ public:
+  /// How far a coordinate of a corner may be from the exact one. Corners that are placed as they are
+  /// lose nothing but what lies below 2⁻¹⁰⁷⁴, others are rounded once.
+  static constexpr double error = 0x1p-54;
+
+  using Corners = std::array<Vector, 3>;
+
+  /// The unit is 2 to the power of `power`, at least power_of_unit().
+  PlacedTriangles(const TriangleSource& triangles, long power);
+
+  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(corners_.size()); }
+  [[nodiscard]] const Corners& operator[](std::uint32_t number) const { return corners_[number]; }
+  [[nodiscard]] long power() const { return power_; }
+
+ private:
+  long power_;
+  std::vector<Corners> corners_;
+};
+
+}  // namespace fathom::evaluation

@@ -1,0 +1,197 @@
+#include "fathom/evaluation/surface_distances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "fathom/evaluation/nearest_surface.h"
+#include "fathom/evaluation/point_sight.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/numeric/rounding.h"
+#include "fathom/scene/scene_fault.h"
+#include "fathom/threads/threads.h"
+
+namespace fathom {
+namespace {
+
+using namespace evaluation;
+
+/// A surface, and what is needed to measure to it and to see points of it.
+struct Surface {
+  Surface(const TriangleSource& the_source, long power)
+      : source(the_source), triangles(source, power), tree(triangles) {}
+  Surface(const Surface&) = delete;
+  Surface& operator=(const Surface&) = delete;
+
+  const TriangleSource& source;
+  PlacedTriangles triangles;
+  TriangleTree tree;
+};
+
+/// What is known of a point that counts.
+struct Distance {
+  double value = 0;
+  /// How many of the thresholds, from the largest on, are greater.
+  std::size_t thresholds = 0;
+};
+
+/// Distances of one surface's points from another surface.
+class Measurement {
+ public:
+  Measurement(const Surface& from, const Surface& to, const std::vector<Camera>& cameras,
+              const SurfaceComparisonOptions& options)
+      : from_(from), nearest_(to.source, to.triangles, to.tree) {
+    for (const Camera& camera : cameras)
+      sights_.emplace_back(from.source, from.triangles, from.tree, camera, options.cull);
+    for (const double within : options.within)
+      squared_thresholds_.push_back(Dyadic(within) * Dyadic(within));
+    std::sort(squared_thresholds_.begin(), squared_thresholds_.end());
+  }
+
+  [[nodiscard]] std::optional<Distance> of(const SurfacePoint& point,
+                                           std::size_t& last_sight) const {
+    const PlacedPoint p = placed(point, from_.source, from_.triangles);
+    if (!is_seen(point.triangle, p, last_sight)) return std::nullopt;
+    const Ratio squared = nearest_.squared_distance(p);
+    Distance distance{round_sqrt_to_binary64(squared)};
+    for (const Dyadic& threshold : squared_thresholds_)
+      distance.thresholds += squared < Ratio(threshold);
+    return distance;
+  }
+
+ private:
+  /// Neighbours are mostly seen by the same camera, so the one that saw the last point is asked first.
+  [[nodiscard]] bool is_seen(std::uint32_t triangle, const PlacedPoint& p,
+                             std::size_t& last_sight) const {
+    if (sights_.empty()) return true;
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      const std::size_t sight = (last_sight + i) % sights_.size();
+      if (!sights_[sight].sees(triangle, p)) continue;
+      last_sight = sight;
+      return true;
+    }
+    return false;
+  }
+
+  const Surface& from_;
+  NearestSurface nearest_;
+  std::vector<PointSight> sights_;
+  std::vector<Dyadic> squared_thresholds_;
+};
+
+constexpr std::size_t points_at_once = 256;
+
+std::size_t parts_of(std::size_t points) {
+  return (points + points_at_once - 1) / points_at_once;
+}
+
+std::vector<std::optional<Distance>> distances_of(const std::vector<SurfacePoint>& points,
+                                                  const Measurement& measurement,
+                                                  Progress& progress) {
+  std::vector<std::optional<Distance>> distances(points.size());
+  parallel_for(std::size_t{0}, parts_of(points.size()), [&](std::size_t part) {
+    const std::size_t end = std::min(points.size(), (part + 1) * points_at_once);
+    std::size_t last_sight = 0;
+    for (std::size_t i = part * points_at_once; i < end; ++i)
+      distances[i] = measurement.of(points[i], last_sight);
+    progress.part_done();
+  });
+  return distances;
+}
+
+/// `within` are the thresholds in the order in which they were asked for.
+SurfaceDistances summary_of(const std::vector<std::optional<Distance>>& distances,
+                            const std::vector<double>& within) {
+  SurfaceDistances summary;
+  summary.points = distances.size();
+  std::vector<double> values;
+  // How many points have exactly so many thresholds above them.
+  std::vector<std::uint64_t> counts(within.size() + 1);
+  double sum = 0, squares = 0;
+  for (const auto& distance : distances) {
+    if (!distance) continue;
+    values.push_back(distance->value);
+    sum += distance->value;
+    squares += distance->value * distance->value;
+    ++counts[distance->thresholds];
+  }
+  summary.seen = values.size();
+  summary.shares.assign(within.size(), 0);
+  if (values.empty()) return summary;
+  const auto n = static_cast<double>(values.size());
+  summary.mean = sum / n;
+  summary.rms = std::sqrt(squares / n);
+  std::sort(values.begin(), values.end());
+  const auto percentile = [&](std::size_t hundredths) {
+    const std::size_t rank = (values.size() * hundredths + 99) / 100;
+    return values[rank - 1];
+  };
+  summary.median = percentile(50);
+  summary.p90 = percentile(90);
+  summary.p99 = percentile(99);
+  summary.max = values.back();
+  for (std::size_t i = 0; i < within.size(); ++i) {
+    const auto greater = static_cast<std::size_t>(
+        std::count_if(within.begin(), within.end(), [&](double w) { return w >= within[i]; }));
+    std::uint64_t below = 0;
+    for (std::size_t k = greater; k < counts.size(); ++k) below += counts[k];
+    summary.shares[i] = static_cast<double>(below) / n;
+  }
+  return summary;
+}
+
+std::vector<SurfacePoint> points_on(const Surface& surface, const char* name, std::uint32_t count) {
+  try {
+    return surface_points(surface.triangles, count);
+  } catch (const InputError& error) {
+    throw InputError(std::string(name) + ": " + error.what());
+  }
+}
+
+SurfaceComparison compare_in_arena(const TriangleSource& reconstruction,
+                                   const TriangleSource& truth, const std::vector<Camera>& cameras,
+                                   const SurfaceComparisonOptions& options) {
+  const long power = std::max(power_of_unit(reconstruction), power_of_unit(truth));
+  const Surface made(reconstruction, power), real(truth, power);
+  const std::vector<SurfacePoint> on_made = points_on(made, "the reconstruction", options.points);
+  const std::vector<SurfacePoint> on_real = points_on(real, "the truth", options.points);
+  Progress progress(options.progress, 2 * parts_of(options.points));
+  const auto measure = [&](const Surface& from, const Surface& to,
+                           const std::vector<SurfacePoint>& points) {
+    return summary_of(distances_of(points, Measurement(from, to, cameras, options), progress),
+                      options.within);
+  };
+  SurfaceComparison comparison{measure(made, real, on_made), measure(real, made, on_real), {}};
+  for (std::size_t i = 0; i < options.within.size(); ++i) {
+    const double precision = comparison.accuracy.shares[i];
+    const double recall = comparison.completeness.shares[i];
+    const double sum = precision + recall;
+    comparison.f_scores.push_back(sum == 0 ? 0 : 2 * precision * recall / sum);
+  }
+  return comparison;
+}
+
+}  // namespace
+
+void require_meaningful(const SurfaceComparisonOptions& options) {
+  if (options.points == 0) throw UsageError(Setting{"points"}, "expected at least 1");
+  for (const double within : options.within) {
+    if (!(within > 0) || std::isinf(within))
+      throw UsageError(Setting{"within"}, "expected a positive number");
+  }
+  require_thread_count(options.threads);
+}
+
+SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& truth,
+                                   const std::vector<Camera>& cameras,
+                                   const SurfaceComparisonOptions& options) {
+  require_meaningful(options);
+  return with_threads(options.threads, [&] {
+    require_valid(reconstruction);
+    require_valid(truth);
+    for (const Camera& camera : cameras) require_valid(camera);
+    return compare_in_arena(reconstruction, truth, cameras, options);
+  });
+}
+
+}  // namespace fathom

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "fathom/camera/camera.h"
+#include "fathom/scene/scene.h"
+#include "fathom/triangle/options.h"
+
+namespace fathom {
+
+/// How far the points of one surface are from another, over the points that count.
+struct SurfaceDistances {
+  /// Points that were put on the surface, and those of them that count: the ones that a camera sees.
+  std::uint64_t points = 0, seen = 0;
+  /// Scene units; all 0 if no point counts.
+  double mean = 0, rms = 0;
+  /// By nearest rank.
+  double median = 0, p90 = 0, p99 = 0, max = 0;
+  /// For each threshold, the share of the points whose distance is less.
+  std::vector<double> shares;
+};
+
+struct SurfaceComparisonOptions {
+  /// On each of the two surfaces.
+  std::uint32_t points = 200000;
+  /// Thresholds, in scene units.
+  std::vector<double> within;
+  /// Of what the cameras see.
+  Cull cull = Cull::none;
+  /// Threads to use; 0: all.
+  int threads = 0;
+  /// Called now and then, never from two threads at once, with the fraction done, in [0, 1].
+  std::function<void(double)> progress;
+};
+
+/// Refuses options that mean nothing.
+/// Fails    UsageError for no points, a threshold that is not a positive number, and threads that
+///          cannot be asked for.
+void require_meaningful(const SurfaceComparisonOptions& options);
+
+/// The figures by which reconstructions are ranked beside Depth L1.
+struct SurfaceComparison {
+  /// From the reconstruction to the truth; `shares` are known as precision.
+  SurfaceDistances accuracy;
+  /// From the truth to the reconstruction; `shares` are known as completion ratio or recall.
+  SurfaceDistances completeness;
+  /// For each threshold the harmonic mean of precision and recall; 0 where both are.
+  std::vector<double> f_scores;
+};
+
+/// Compares two surfaces in the same world. Points stand on each of them in proportion to area,
+/// always the same ones for the same surface; of these, those count that one of `cameras` sees
+/// of the surface on which they are, whatever the other is like; all of them if there are no cameras.
+/// A distance is that from the nearest point of the whole other surface, not from points on it.
+///
+/// Exact    what is seen, each distance (rounded once to binary64), and which are below a threshold.
+///          Means are sums in binary64 in the order of the points. The same on every machine.
+/// Fails    InputError where a scene or a camera has a fault (find_fault), or a surface has no area;
+///          UsageError as require_meaningful().
+/// Source   [KPZK17] for precision, recall and F-score
+SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& truth,
+                                   const std::vector<Camera>& cameras,
+                                   const SurfaceComparisonOptions& options = {});
+
+}  // namespace fathom

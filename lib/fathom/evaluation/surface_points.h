@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fathom/evaluation/placed_triangles.h"
+#include "fathom/geometry/frames.h"
+
+namespace fathom::evaluation {
+
+/// The point A + u·(B − A) + v·(C − A) of a triangle ABC, exactly, with u, v ≥ 0 and u + v ≤ 1, which
+/// are multiples of 2⁻²⁵.
+struct SurfacePoint {
+  std::uint32_t triangle = 0;
+  double u = 0, v = 0;
+};
+
+/// `count` points of a surface, as many on one part as on another of the same area, without chance: they
+/// stand at equal distances in the running sum of the triangles' areas, and within their triangles
+/// where the R₂ sequence puts them. They depend on the surface and `count` only.
+/// Exact    a point is on its triangle; the areas by which they are dealt out are rounded
+/// Fails    InputError where the triangles have no area that binary64 can tell from 0
+/// Source   [Rob18]
+std::vector<SurfacePoint> surface_points(const PlacedTriangles& triangles, std::uint32_t count);
+
+/// A point in the world.
+struct PlacedPoint {
+  /// How far a coordinate of `near` may be from the exact one, in the unit of the triangles.
+  static constexpr double error = 0x1p-49;
+
+  WorldPoint exact;
+  Vector near;
+};
+PlacedPoint placed(const SurfacePoint& point, const TriangleSource& source,
+                   const PlacedTriangles& triangles);
+
+}  // namespace fathom::evaluation

@@ -1,0 +1,111 @@
+"""A reconstructed surface against the true one: the figures by which reconstructions are ranked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+from . import _core
+from ._arguments import as_count, as_number, as_threads, camera_handle, culls, one_of, scene_handle
+from ._render import Cull
+from .camera import Camera
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+
+class Depth(NamedTuple):
+    """How the exact depths of the reconstruction agree with the true ones, over all views; lengths in scene units."""
+
+    views: int
+    #: Pixels that show both surfaces, or only one of them.
+    both: int
+    only_truth: int
+    only_reconstruction: int
+    #: Depth L1: the mean of |d − t| over the pixels that show both, as are the next seven.
+    l1: float
+    rmse: float
+    rmse_log: float
+    abs_rel: float
+    sq_rel: float
+    #: Shares with max(d / t, t / d) below 1.25, 1.25², 1.25³.
+    delta_1: float
+    delta_2: float
+    delta_3: float
+    #: Depth L1 with no surface as depth 0 and all views alike: over all pixels, as NICE-SLAM computes it; over those
+    #: that show the truth in views with more than 100 of them, as neural_slam_eval does.
+    l1_of_all_pixels: float
+    l1_of_truth_pixels: float
+    views_of_truth: int
+
+
+class Distances(NamedTuple):
+    """Distances of points of one surface from the other, in scene units, each exact and rounded once; 0 if no point
+    is seen."""
+
+    #: Points that were put on the surface, and those that a camera sees and that count.
+    points: int
+    seen: int
+    mean: float
+    rms: float
+    median: float
+    p90: float
+    p99: float
+    max: float
+    #: For each threshold, the share of the points that are nearer.
+    shares: tuple[float, ...]
+
+
+class Evaluation(NamedTuple):
+    #: None without cameras.
+    depth: Depth | None
+    #: From the reconstruction to the truth; its `shares` are the precision.
+    accuracy: Distances
+    #: From the truth to the reconstruction; its `shares` are the completion ratio, or recall.
+    completeness: Distances
+    #: For each threshold the harmonic mean of precision and recall.
+    f_scores: tuple[float, ...]
+
+
+def evaluate(reconstruction: Scene, truth: Scene, cameras: Camera | Iterable[Camera] = (), *,
+             within: Iterable[float] = (), points: int = 200_000, cull: Cull = "none", threads: int = 0) -> Evaluation:
+    """Compares a reconstructed surface with the true one, in the same world and unit: Depth L1 and its like from exact
+    depth maps of every camera, and distances of `points` points on each surface from the other.
+
+    Points stand in proportion to area, always the same ones. With cameras, those count that one of them sees of the
+    surface on which they are; without, all of them count and there are no depths. `within` are thresholds.
+
+    >>> import fathom
+    >>> square = [(-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)]
+    >>> truth, scan = fathom.Scene(), fathom.Scene()
+    >>> _ = truth.add_mesh(square, [(0, 1, 2), (0, 2, 3)])
+    >>> _ = scan.add_mesh([(x, y, 2.25) for x, y, _ in square], [(0, 1, 2), (0, 2, 3)])
+    >>> camera = fathom.Camera(64, 64, 32, 32, 32, 32, pixel_centre=0.5)
+    >>> found = fathom.evaluate(scan, truth, camera, within=[0.5], points=1000)
+    >>> found.depth.l1, found.accuracy.mean, found.f_scores
+    (0.25, 0.25, (1.0,))
+    """
+    depth, accuracy, completeness, f_scores = _core.evaluate(
+        scene_handle(reconstruction), scene_handle(truth), _handles(cameras), _thresholds(within),
+        as_count("points", points, 1, 2**32 - 1), one_of("cull", cull, culls), as_threads(threads))
+    return Evaluation(None if depth is None else Depth(*depth), Distances(*accuracy), Distances(*completeness), f_scores)
+
+
+def _handles(cameras: object) -> list[_core.Camera]:
+    if isinstance(cameras, Camera):
+        return [camera_handle(cameras)]
+    if isinstance(cameras, Mapping):
+        raise TypeError("cameras: expected a Camera or a sequence of them, found a dict: take its values()")
+    if not isinstance(cameras, Iterable):
+        raise TypeError(f"cameras: expected a Camera or a sequence of them, found {cameras!r}")
+    return [camera_handle(each) for each in cameras]
+
+
+def _thresholds(within: object) -> list[float]:
+    if isinstance(within, (str, bytes)) or not isinstance(within, Iterable):
+        raise TypeError(f"within: expected numbers, found {within!r}")
+    thresholds = [as_number("within", each) for each in within]
+    for each in thresholds:
+        if not 0 < each < float("inf"):
+            raise ValueError(f"within: expected positive numbers, found {each!r}")
+    return thresholds

@@ -1,0 +1,74 @@
+"""evaluate: plates whose distances are plain, and the figures of its maps by NumPy."""
+
+import numpy as np
+import pytest
+
+import fathom
+
+SQUARE = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], float)
+FACES = [(0, 1, 2), (0, 2, 3)]
+
+
+def plates(*depths):
+    scene = fathom.Scene()
+    for depth in depths:
+        scene.add_mesh(SQUARE + (0, 0, depth), FACES)
+    return scene
+
+
+@pytest.fixture(scope="module")
+def camera():
+    return fathom.Camera(64, 48, 40, 40, 32, 24, pixel_centre=0.5)
+
+
+def test_plates_are_as_far_apart_as_they_stand():
+    found = fathom.evaluate(plates(2.25), plates(2), within=[0.25, 0.5], points=500)
+    assert found.depth is None
+    assert found.accuracy == (500, 500, 0.25, 0.25, 0.25, 0.25, 0.25, 0.25, (0, 1))
+    assert found.completeness == found.accuracy and found.f_scores == (0, 1)
+
+
+def test_only_what_is_seen_counts(camera):
+    found = fathom.evaluate(plates(2, 9), plates(2, 5), camera, points=1000)
+    assert found.accuracy.seen == found.completeness.seen == 500
+    assert found.accuracy.max == found.completeness.max == found.depth.l1 == 0
+
+
+def test_depths_agree_as_numpy_says(spot):
+    cameras = [fathom.Camera.frame(spot, size=(60, 44), azimuth=azimuth) for azimuth in (30, 200)]
+    flat = plates(0)
+    found = fathom.evaluate(flat, spot, cameras, points=100)
+    sums, alone, pixels, all_pixels, truth_pixels = 0.0, 0.0, 0, [], []
+    for each in cameras:
+        t = spot.render(each)["Z"].astype(float)
+        d = flat.render(each)["Z"].astype(float)
+        both = np.isfinite(t) & np.isfinite(d)
+        sums += np.abs(d[both] - t[both]).sum()
+        pixels += both.sum()
+        alone += (np.isfinite(t) & ~np.isfinite(d)).sum()
+        t, d = np.where(np.isfinite(t), t, 0), np.where(np.isfinite(d), d, 0)
+        all_pixels.append(np.abs(d - t).mean())
+        truth_pixels.append(np.abs(d - t)[t > 0].mean())
+    depth = found.depth
+    assert depth.views == depth.views_of_truth == 2 and depth.both == pixels and depth.only_truth == alone
+    assert depth.l1 == pytest.approx(sums / pixels, rel=1e-12)
+    assert depth.l1_of_all_pixels == pytest.approx(np.mean(all_pixels), rel=1e-12)
+    assert depth.l1_of_truth_pixels == pytest.approx(np.mean(truth_pixels), rel=1e-12)
+
+
+def test_arguments_are_checked(camera):
+    scene = plates(2)
+    for wrong in (0, -1, float("inf"), float("nan")):
+        with pytest.raises(ValueError, match="within: expected positive"):
+            fathom.evaluate(scene, scene, within=[wrong])
+    for wrong in (0.5, "0.5"):
+        with pytest.raises(TypeError, match="within: expected numbers"):
+            fathom.evaluate(scene, scene, within=wrong)
+    with pytest.raises(ValueError, match="points: expected 1 to"):
+        fathom.evaluate(scene, scene, points=0)
+    with pytest.raises(TypeError, match="cameras: expected a Camera or a sequence"):
+        fathom.evaluate(scene, scene, {"a": camera})
+    with pytest.raises(TypeError, match="camera: expected a Camera"):
+        fathom.evaluate(scene, scene, [3])
+    with pytest.raises(fathom.InputError, match="the truth: the surface has no area"):
+        fathom.evaluate(scene, fathom.Scene())
