@@ -18,10 +18,6 @@ constexpr Words<ScanNetStream> streams{{"depth", ScanNetStream::depth},
                                        {"colour", ScanNetStream::colour}};
 constexpr Words<double> pixel_centres{{"0", 0.0}, {"0.5", 0.5}};
 
-bool is_npy(const std::string& file) {
-  return std::filesystem::path(file).extension() == ".npy";
-}
-
 /// fx,fy,cx,cy; nothing where it is something else, as a file.
 std::optional<IntrinsicMatrix> parse_intrinsics(const std::string& text) {
   const std::vector<std::string> parts = parse_list(text);
@@ -61,7 +57,7 @@ void add_lens_options(Command& command, ImportArguments& a) {
 void declare_matrices(Command& command, ImportArguments& a) {
   command
       .option("--K", "FILE", a.K,
-              "Intrinsics: 3x3 as .txt or .npy, one for each pose or for all; or fx,fy,cx,cy")
+              "Intrinsics: 3x3 as .txt, .npy or .npz, one for each pose or for all; or fx,fy,cx,cy")
       .required();
   command
       .option(
@@ -84,23 +80,14 @@ void declare_matrices(Command& command, ImportArguments& a) {
       .required();
 }
 
-void refuse_npz(const std::string& file) {
-  if (std::filesystem::path(file).extension() == ".npz")
-    throw InputError(file +
-                     ": holds several arrays: save them as .npy, or give them to "
-                     "fathom.Camera.from_matrices() in Python");
-}
-
 Cameras read_matrices(const ImportArguments& a, Warnings&) {
-  refuse_npz(a.input);
-  refuse_npz(a.K);
   std::vector<IntrinsicMatrix> K;
   if (const auto numbers = parse_intrinsics(a.K))
     K = {*numbers};
   else
-    K = is_npy(a.K) ? intrinsics_of_npy(a.K) : read_intrinsic_matrices(a.K);
+    K = names_array(a.K) ? intrinsics_of_array(a.K) : read_intrinsic_matrices(a.K);
   const auto [width, height] = *a.size;
-  return import_matrices(is_npy(a.input) ? poses_of_npy(a.input) : read_poses(a.input), K,
+  return import_matrices(names_array(a.input) ? poses_of_array(a.input) : read_poses(a.input), K,
                          {*a.direction, *a.axes, *a.pixel_centre}, width, height, a.input);
 }
 
@@ -169,7 +156,8 @@ Cameras read_kitti(const ImportArguments& a, Warnings&) {
 
 std::vector<ImportSource> data_set_sources() {
   return {
-      {"matrices", "K and poses as text or .npy", "A file or folder of matrices (.txt, .npy)",
+      {"matrices", "K and poses as text, .npy or .npz",
+       "A file or folder of matrices: .txt, .npy, .npz or .npz:ARRAY",
        "  fathom camera import matrices poses.npy --K K.txt --size 640x480 --poses "
        "camera-to-world \\\n"
        "    --axes opencv --pixel-centre 0 -o cameras.json\n"

@@ -1,5 +1,7 @@
 #include "apps/camera/number_arrays.h"
 
+#include <filesystem>
+#include <optional>
 #include <type_traits>
 #include <variant>
 
@@ -22,8 +24,25 @@ double number_at(const ImageChannel& channel, std::size_t i) {
                     channel.values);
 }
 
+constexpr std::string_view archive_suffix = ".npz";
+
+/// An array in an archive.
+struct ArchivedArray {
+  std::string file, name;
+};
+
+/// Nothing where the text names no archive.
+std::optional<ArchivedArray> archived_array(const std::string& text) {
+  if (text.ends_with(archive_suffix)) return ArchivedArray{text, ""};
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || !text.substr(0, colon).ends_with(archive_suffix))
+    return std::nullopt;
+  return ArchivedArray{text.substr(0, colon), text.substr(colon + 1)};
+}
+
 NumberArray read_array(const std::string& file) {
-  const DepthMap map = read_map(file);
+  const auto archived = archived_array(file);
+  const DepthMap map = archived ? read_npz_array(archived->file, archived->name) : read_map(file);
   NumberArray array;
   if (map.channels.size() == 1) {
     array.rows = map.height;
@@ -40,7 +59,11 @@ NumberArray read_array(const std::string& file) {
 
 }  // namespace
 
-std::vector<NamedPose> poses_of_npy(const std::string& file) {
+bool names_array(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".npy" || archived_array(file);
+}
+
+std::vector<NamedPose> poses_of_array(const std::string& file) {
   const NumberArray array = read_array(file);
   if (array.columns != 4 || (array.rows != 3 && array.rows != 4))
     throw InputError(file + ": expected an array of the shape (N, 4, 4) or (N, 3, 4)");
@@ -57,7 +80,7 @@ std::vector<NamedPose> poses_of_npy(const std::string& file) {
   return poses;
 }
 
-std::vector<IntrinsicMatrix> intrinsics_of_npy(const std::string& file) {
+std::vector<IntrinsicMatrix> intrinsics_of_array(const std::string& file) {
   const NumberArray array = read_array(file);
   if (array.columns != 3 || array.rows != 3)
     throw InputError(file + ": expected an array of the shape (3, 3) or (N, 3, 3)");

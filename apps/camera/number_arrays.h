@@ -7,12 +7,15 @@
 
 namespace fathom::app {
 
-/// Matrices of an NPY file of floating point numbers: N×4×4 or N×3×4, or one of them. They are called
+/// Whether a text names a file of NumPy's arrays: FILE.npy, FILE.npz or FILE.npz:ARRAY.
+bool names_array(const std::string& file);
+
+/// Matrices of such an array of floating point numbers: N×4×4 or N×3×4, or one of them. They are called
 /// "0", "1", ….
 /// Fails    InputError, naming the file.
-std::vector<NamedPose> poses_of_npy(const std::string& file);
+std::vector<NamedPose> poses_of_array(const std::string& file);
 
 /// The same of N×3×3 or 3×3.
-std::vector<IntrinsicMatrix> intrinsics_of_npy(const std::string& file);
+std::vector<IntrinsicMatrix> intrinsics_of_array(const std::string& file);
 
 }  // namespace fathom::app

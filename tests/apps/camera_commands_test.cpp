@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "run_program.h"
@@ -275,6 +277,8 @@ np.save('poses.npy', np.loadtxt('poses.txt').reshape(1, 3, 4))
 np.save('one.npy', np.vstack([np.loadtxt('poses.txt').reshape(3, 4), [0, 0, 0, 1]]))
 np.save('K.npy', np.loadtxt('K.txt')[None])
 np.save('wrong.npy', np.zeros((2, 3)))
+np.savez('one.npz', poses=np.load('poses.npy'))
+np.savez_compressed('both.npz', poses=np.load('poses.npy'), K=np.load('K.npy'), names=np.array(['a']))
 camera, = load('text.json')
 c2w = np.vstack([np.loadtxt('poses.txt').reshape(3, 4), [0, 0, 0, 1]])
 for p in ((0.1, 0.2, 3), (-0.4, 0.25, 2)):
@@ -282,8 +286,8 @@ for p in ((0.1, 0.2, 3), (-0.4, 0.25, 2)):
     # OpenCV's pixel centres are integers; Fathom's image begins half a pixel earlier.
     close(ours(camera, X)[0], [320 + 500 * p[0] / p[2] + 0.5, 240 + 501 * p[1] / p[2] + 0.5])
 )");
-  for (const char* poses : {"poses.npy", "one.npy"})
-    for (const char* K : {"K.npy", "500,501,320,240"}) {
+  for (const char* poses : {"poses.npy", "one.npy", "one.npz", "both.npz:poses"})
+    for (const char* K : {"K.npy", "500,501,320,240", "both.npz:K"}) {
       fathom({"camera", "import", "matrices", poses, "--K", K, "--size", "640x480", "--poses",
               "camera-to-world", "--axes", "opencv", "--pixel-centre", "0", "-o", "array.json"});
       auto text = nlohmann::json::parse(folder_.read("text.json")),
@@ -298,11 +302,19 @@ for p in ((0.1, 0.2, 3), (-0.4, 0.25, 2)):
               "--poses", "camera-to-world", "--axes", "opencv", "--pixel-centre", "0"});
   EXPECT_EQ(wrong.status, 3);
   EXPECT_THAT(wrong.err, HasSubstr("wrong.npy: expected an array of the shape (N, 4, 4)"));
-  const Outcome archive =
-      status({"camera", "import", "matrices", "a.npz", "--K", "1,1,1,1", "--size", "4x4", "--poses",
-              "camera-to-world", "--axes", "opencv", "--pixel-centre", "0"});
-  EXPECT_EQ(archive.status, 3);
-  EXPECT_THAT(archive.err, HasSubstr("a.npz: holds several arrays: save them as .npy"));
+  for (const auto& [file, message] : std::map<std::string, std::string>{
+           {"both.npz",
+            "both.npz: holds several arrays, poses, K, names: say which, as in both.npz:poses"},
+           {"both.npz:c2w", "both.npz: has no array 'c2w', but poses, K, names"},
+           {"both.npz:names", "both.npz: 'names': "},
+           {"none.npz", "none.npz: "}}) {
+    const Outcome archive =
+        status({"camera", "import", "matrices", file, "--K", "1,1,1,1", "--size", "4x4", "--poses",
+                "camera-to-world", "--axes", "opencv", "--pixel-centre", "0"});
+    EXPECT_EQ(archive.status, 3);
+    EXPECT_THAT(archive.err, HasSubstr(message));
+    EXPECT_EQ(std::count(archive.err.begin(), archive.err.end(), '\n'), 1) << archive.err;
+  }
   // What is not in the files has to be said.
   const Outcome silent = status({"camera", "import", "matrices", "poses.txt", "--K", "1,1,1,1",
                                  "--size", "4x4", "--axes", "opencv", "--pixel-centre", "0"});

@@ -77,9 +77,9 @@ TEST_F(Evaluate, DepthsAreThoseThatCompareCompares) {
   const Json found = figures({"--camera", "camera.json"})["depth"];
   for (const char* name : {"truth", "scan"}) {
     const std::string file = name;
-    const Outcome made =
-        run_fathom({"render", file + ".obj", "--camera", "camera.json", "-o", file + ".exr"},
-                   {.folder = folder_.path()});
+    const Outcome made = run_fathom({"render", file + ".obj", "--camera", "camera.json",
+                                     "--channels", "Z", "-o", file + ".exr"},
+                                    {.folder = folder_.path()});
     ASSERT_EQ(made.status, 0) << made.err;
   }
   run_fathom({"compare", "truth.exr", "scan.exr", "--metrics", "--json", "compared.json"},

@@ -104,6 +104,22 @@ TEST(ImportNerf, AnglesSpanTheImage) {
               HasSubstr("no image size was given"));
 }
 
+// instant-ngp: degrees, before all other keys; one of the two is that of both axes.
+TEST(ImportNerf, DegreesSpanTheImage) {
+  Warnings warnings;
+  const std::string frames = std::string(R"("frames": [{)") + nerf_pose + "}]}";
+  const auto focal_lengths = [&](const std::string& keys) {
+    const Camera camera = nerf("{" + keys + frames, warnings, 800, 600).at(0).camera;
+    return std::array{camera.fx, camera.fy};
+  };
+  EXPECT_EQ(focal_lengths(R"("x_fov": 90, )"), (std::array{400.0, 400.0}));
+  EXPECT_EQ(focal_lengths(R"("y_fov": 90, )"), (std::array{300.0, 300.0}));
+  EXPECT_EQ(focal_lengths(R"("x_fov": 90, "y_fov": 90, "fl_x": 7, )"), (std::array{400.0, 300.0}));
+  EXPECT_EQ(focal_lengths(R"("x_fov": 90, "fl_x": 7, "fl_y": 8, )"), (std::array{400.0, 8.0}));
+  EXPECT_THAT(message_of<InputError>([&] { focal_lengths(R"("x_fov": 180, )"); }),
+              HasSubstr("x_fov: expected an angle in degrees between 0 and 180"));
+}
+
 TEST(ImportNerf, WarnsOfGeometryTellsDistortionAndNamesFaults) {
   Warnings warnings;
   const std::string frames =

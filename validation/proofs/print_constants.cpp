@@ -2,6 +2,7 @@
 // check-proofs proves with.
 #include <cstdio>
 
+#include "fathom/evaluation/bounds.h"
 #include "fathom/fast/coverage/area_bounds.h"
 #include "fathom/fast/resolve_bounds.h"
 #include "fathom/fast/setup_bounds.h"
@@ -55,6 +56,13 @@ int main() {
 
   print("far", fast::area_bounds::far);
   print("rounding_room", fast::area_bounds::rounding_room);
+
+  print("corner_error", evaluation::bounds::corner_error);
+  print("point_error", evaluation::bounds::point_error);
+  print("difference_error", evaluation::bounds::difference_error);
+  print("distance_error", evaluation::bounds::distance_error);
+  print("line_margin", evaluation::bounds::line_margin);
+  print("cross_margin", evaluation::bounds::cross_margin);
 
   print("end_room", fast::resolve_bounds::end_room);
   print("spread_room", fast::resolve_bounds::spread_room);

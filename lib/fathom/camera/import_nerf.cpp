@@ -77,14 +77,31 @@ std::optional<double> angle_of(const Frame& frame, const char* key) {
   return angle;
 }
 
+/// The focal length by the angle in degrees that the image spans, which instant-ngp asks for first.
+std::optional<double> focal_of_degrees(const Frame& frame, const char* key, std::uint32_t size) {
+  const auto angle = frame.number(key);
+  if (!angle) return std::nullopt;
+  if (!(*angle > 0 && *angle < 180))
+    frame.find(key)->fail("expected an angle in degrees between 0 and 180");
+  return focal_of_angle(size, *angle * (std::numbers::pi_v<long double> / 180));
+}
+
 void read_intrinsics(const Frame& frame, Camera& camera) {
+  const auto fov_x = focal_of_degrees(frame, "x_fov", camera.width),
+             fov_y = focal_of_degrees(frame, "y_fov", camera.height);
   const auto angle_x = angle_of(frame, "camera_angle_x"),
              angle_y = angle_of(frame, "camera_angle_y");
   const auto fl_x = frame.number("fl_x"), fl_y = frame.number("fl_y");
-  if (!fl_x && !angle_x)
-    frame.own.fail("the focal length is missing: expected fl_x or camera_angle_x");
-  camera.fx = fl_x ? *fl_x : focal_of_angle(camera.width, *angle_x);
-  camera.fy = fl_y ? *fl_y : angle_y && !fl_x ? focal_of_angle(camera.height, *angle_y) : camera.fx;
+  if (!fov_x && !fl_x && !angle_x && !fov_y)
+    frame.own.fail("the focal length is missing: expected fl_x, camera_angle_x or x_fov");
+  camera.fx = fov_x     ? *fov_x
+              : fl_x    ? *fl_x
+              : angle_x ? focal_of_angle(camera.width, *angle_x)
+                        : *fov_y;
+  camera.fy = fov_y              ? *fov_y
+              : fl_y             ? *fl_y
+              : angle_y && !fl_x ? focal_of_angle(camera.height, *angle_y)
+                                 : camera.fx;
   camera.cx = frame.number("cx").value_or(camera.width / 2.0);
   camera.cy = frame.number("cy").value_or(camera.height / 2.0);
 }

@@ -19,7 +19,7 @@ IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy);
 
 /// The focal length in pixels with which an image of `size` pixels spans an angle in radians:
 /// ½·size / tan(½·angle) in extended precision, then rounded.
-double focal_of_angle(std::uint32_t size, double angle);
+double focal_of_angle(std::uint32_t size, long double angle);
 
 /// A camera at the world's origin: what is given, and of the rest what the data set has. A size that
 /// neither has is 0.

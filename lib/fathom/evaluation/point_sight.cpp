@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "fathom/evaluation/bounds.h"
 #include "fathom/numeric/ratio.h"
 #include "fathom/triangle/projected_triangle.h"
 
@@ -53,8 +54,8 @@ struct PointSight::Line {
   Vector middle, half;
   double margin, cross_margin;
 
-  /// False only if the line certainly misses the box, in which exact triangles lie within 2⁻⁵⁴: one
-  /// of six directions separates them.
+  /// False only if the line certainly misses the exact triangles in the box: one of six directions
+  /// separates them.
   /// Source   [Eri05] 5.3.3
   [[nodiscard]] bool may_meet(const Box& box) const {
     Vector m, h;
@@ -116,7 +117,7 @@ bool PointSight::is_kept(Sign turn) const {
 bool PointSight::shows_a_side(std::uint32_t triangle) const {
   std::array<Image, 3> corners;
   for (std::size_t i = 0; i < 3; ++i)
-    corners[i] = image_of(view_of(triangles_[triangle][i], PlacedTriangles::error));
+    corners[i] = image_of(view_of(triangles_[triangle][i], bounds::corner_error));
   const auto turn = sign_of(determinant(corners[0], corners[1], corners[2]));
   if (turn) return *turn != Sign::zero && is_kept(*turn);
   TierCounts counts;
@@ -154,12 +155,10 @@ bool PointSight::is_in_image(const PlacedPoint& p, const View& view) const {
          U <= exact_W * Dyadic(camera_.width) && V <= exact_W * Dyadic(camera_.height);
 }
 
-// The point errs by at most 2⁻⁴⁹ in each coordinate and the other end, at most M ≥ 1 in each, by
-// 2⁻⁵⁰·M: to a camera at infinity the line is long enough to leave the cube in which the scene lies.
-// The middle of a box and half its size, below 1, err by less than 2⁻⁵². In m and d, at most 2·M and
-// M, that makes less than 2⁻⁴⁸·M with their roundings, and in a difference of products less than
-// 2·(2·M + M)·2⁻⁴⁸·M + 2⁻⁵⁰·M² < 2⁻⁴⁵·M²; what stands on the other side errs less. Where something is
-// not finite, every test says that the line may meet the box.
+// The point errs by at most bounds::point_error in each coordinate and the other end, at most M ≥ 1 in
+// each, by 2⁻⁵⁰·M: to a camera at infinity the line is long enough to leave the cube in which the scene
+// lies. The margins are what the tests lose by that and by rounding (validation/proofs, evaluation_line
+// and evaluation_cross). Where something is not finite, every test says that the line may meet the box.
 PointSight::Line PointSight::line_to(const PlacedPoint& p) const {
   Vector end = eye_;
   if (camera_.projection == Projection::orthographic) {
@@ -174,8 +173,8 @@ PointSight::Line PointSight::line_to(const PlacedPoint& p) const {
     // Written so that NaN stays.
     M = std::abs(end[k]) <= M ? M : std::abs(end[k]);
   }
-  line.margin = 0x1p-46 * M;
-  line.cross_margin = 0x1p-43 * M * M;
+  line.margin = bounds::line_margin * M;
+  line.cross_margin = bounds::cross_margin * M * M;
   return line;
 }
 
@@ -185,7 +184,7 @@ std::optional<bool> PointSight::hides_certainly(std::uint32_t number, const View
   std::array<View, 3> corners;
   std::array<Image, 3> q;
   for (std::size_t i = 0; i < 3; ++i) {
-    corners[i] = view_of(triangles_[number][i], PlacedTriangles::error);
+    corners[i] = view_of(triangles_[number][i], bounds::corner_error);
     q[i] = image_of(corners[i]);
   }
   const Image p = image_of(view);
@@ -258,7 +257,7 @@ bool PointSight::is_hidden(std::uint32_t triangle, const PlacedPoint& p, const V
 }
 
 bool PointSight::sees(std::uint32_t triangle, const PlacedPoint& p) const {
-  const View view = view_of(p.near, PlacedPoint::error);
+  const View view = view_of(p.near, bounds::point_error);
   return is_in_range(p, view) && is_in_image(p, view) && shows_a_side(triangle) &&
          !is_hidden(triangle, p, view);
 }

@@ -53,9 +53,6 @@ std::vector<SurfacePoint> surface_points(const PlacedTriangles& triangles, std::
   return points;
 }
 
-// With all coordinates below 1, B − A is below 2 and rounded by at most 2⁻⁵³; times u ≤ 1, and the
-// same of v, summed up to at most 5: fewer than 6 roundings of at most 2⁻⁵¹ each, and the corners'
-// own errors, at most 3·2⁻⁵⁴.
 PlacedPoint placed(const SurfacePoint& point, const TriangleSource& source,
                    const PlacedTriangles& triangles) {
   const std::array<WorldPoint, 3> world = source.world_corners(point.triangle);

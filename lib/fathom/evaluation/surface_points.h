@@ -23,11 +23,9 @@ struct SurfacePoint {
 /// Source   [Rob18]
 std::vector<SurfacePoint> surface_points(const PlacedTriangles& triangles, std::uint32_t count);
 
-/// A point in the world.
+/// A point in the world, and in the unit of the triangles, where each coordinate is within
+/// bounds::point_error of the exact one.
 struct PlacedPoint {
-  /// How far a coordinate of `near` may be from the exact one, in the unit of the triangles.
-  static constexpr double error = 0x1p-49;
-
   WorldPoint exact;
   Vector near;
 };

@@ -142,12 +142,26 @@ DepthMap image::decode_map(ByteView bytes, const std::string& name, const MapMem
   return map;
 }
 
-DepthMap read_map(const std::filesystem::path& path, const MapMemory& memory) {
+namespace {
+
+InputFile open_copied(const std::filesystem::path& path, const MapMemory& memory) {
   std::error_code unknown;
   const auto size = std::filesystem::file_size(path, unknown);
   if (!unknown) require_memory(path.string() + ": this file", 1.0 * size, memory.allowance);
-  const InputFile input(path, InputFile::Reading::copied);
+  return InputFile(path, InputFile::Reading::copied);
+}
+
+}  // namespace
+
+DepthMap read_map(const std::filesystem::path& path, const MapMemory& memory) {
+  const InputFile input = open_copied(path, memory);
   return decode_map(input.bytes(), path.string(), memory);
+}
+
+DepthMap read_npz_array(const std::filesystem::path& path, const std::string& array,
+                        const MapMemory& memory) {
+  const InputFile input = open_copied(path, memory);
+  return decode_npz_array(input.bytes(), array, path.string(), memory);
 }
 
 DepthMap read_map(std::span<const std::byte> bytes, const std::string& name,

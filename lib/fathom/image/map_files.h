@@ -108,4 +108,11 @@ DepthMap read_map(const std::filesystem::path& path, const MapMemory& memory = {
 DepthMap read_map(std::span<const std::byte> bytes, const std::string& name,
                   const MapMemory& memory = {});
 
+/// One array of an NPZ, as read_map() reads an NPY, whatever the others are like: `array` is its name;
+/// empty: there is only one.
+/// Fails    InputError as read_map(), and where there is no such array or, without a name, more than
+///          one.
+DepthMap read_npz_array(const std::filesystem::path& path, const std::string& array,
+                        const MapMemory& memory = {});
+
 }  // namespace fathom

@@ -30,6 +30,9 @@ DepthMap decode_npy(text::ByteView bytes, const std::string& name);
 
 text::Bytes encode_npz(const DepthMap& map, const std::string& name);
 DepthMap decode_npz(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});
+/// What decode_npy() makes of one of its arrays; without a name, of the only one.
+DepthMap decode_npz_array(text::ByteView bytes, const std::string& array, const std::string& name,
+                          const MapMemory& memory);
 
 /// One channel, Z, or the three of Nc.
 text::Bytes encode_colmap(const DepthMap& map, const std::vector<const ImageChannel*>& channels,

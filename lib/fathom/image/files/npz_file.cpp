@@ -95,6 +95,13 @@ void add_channels(DepthMap& map, std::vector<ImageChannel> channels, const Image
   for (ImageChannel& channel : channels) map.channels.push_back(std::move(channel));
 }
 
+bool is_array(const ZipEntry& entry) {
+  return entry.name.ends_with(suffix) && entry.size >= 12;
+}
+std::string array_name(const ZipEntry& entry) {
+  return entry.name.substr(0, entry.name.size() - suffix.size());
+}
+
 }  // namespace
 
 Bytes encode_npz(const DepthMap& map, const std::string& name) {
@@ -130,8 +137,8 @@ DepthMap decode_npz(ByteView bytes, const std::string& name, const MapMemory& me
   std::set<std::string> names;
   Bytes room;
   for (const ZipEntry& entry : entries) {
-    if (!entry.name.ends_with(suffix) || entry.size < 12) continue;
-    const std::string array = entry.name.substr(0, entry.name.size() - suffix.size());
+    if (!is_array(entry)) continue;
+    const std::string array = array_name(entry);
     const std::string place = name + ": '" + printable(array) + "'";
     const ByteView content = unpack(entry, room, name);
     if (array == texts_array) {
@@ -149,6 +156,28 @@ DepthMap decode_npz(ByteView bytes, const std::string& name, const MapMemory& me
   if (map.channels.empty())
     throw InputError(name + ": not a map: expected arrays of two dimensions in this NPZ file");
   return map;
+}
+
+DepthMap decode_npz_array(ByteView bytes, const std::string& array, const std::string& name,
+                          const MapMemory& memory) {
+  std::vector<ZipEntry> entries = read_zip_directory(bytes, name);
+  std::erase_if(entries, [](const ZipEntry& entry) { return !is_array(entry); });
+  std::string names;
+  for (const ZipEntry& entry : entries)
+    names += (names.empty() ? "" : ", ") + printable(array_name(entry));
+  std::erase_if(
+      entries, [&](const ZipEntry& entry) { return !array.empty() && array_name(entry) != array; });
+  if (entries.empty() && array.empty()) throw InputError(name + ": holds no array");
+  if (entries.empty())
+    throw InputError(name + ": has no array '" + printable(array) + "', but " +
+                     (names.empty() ? "none at all" : names));
+  if (entries.size() > 1)
+    throw InputError(name + ": holds several arrays, " + names + ": say which, as in " + name +
+                     ":" + printable(array_name(entries.front())));
+  require_array_memory(entries, bytes.size(), memory, name);
+  Bytes room;
+  return decode_npy(unpack(entries.front(), room, name),
+                    name + ": '" + printable(array_name(entries.front())) + "'");
 }
 
 }  // namespace fathom::image
