@@ -47,13 +47,11 @@ bool is_intact(const fs::path& folder, const PublishedFile& file) {
 /// The record of a task whose files are there, unharmed, and made of the same inputs.
 const Record* record_of(const ManifestContent& content, const Job& job, const Task& task,
                         const std::string& key) {
-  const auto found = content.records.find(task.files.front());
-  if (found == content.records.end()) return nullptr;
-  const Record& record = found->second;
-  const bool same_files = std::ranges::equal(record.files, task.files, {}, &PublishedFile::path);
-  if (record.key != key || !same_files) return nullptr;
+  const Record* const record = content.find(task.files.front(), key);
+  if (record == nullptr) return nullptr;
+  if (!std::ranges::equal(record->files, task.files, {}, &PublishedFile::path)) return nullptr;
   const auto intact = [&](const PublishedFile& file) { return is_intact(job.folder, file); };
-  return std::ranges::all_of(record.files, intact) ? &record : nullptr;
+  return std::ranges::all_of(record->files, intact) ? record : nullptr;
 }
 
 /// The work on one part of a job.
@@ -145,10 +143,10 @@ class Work {
     std::vector<Record> records;
     std::vector<std::string> facts;
     for (const Task& task : job_.tasks) {
-      const auto found = content_.records.find(task.files.front());
-      if (found == content_.records.end() || found->second.key != key_of(task)) return false;
-      records.push_back(found->second);
-      facts.push_back(found->second.facts);
+      const Record* const found = content_.find(task.files.front(), key_of(task));
+      if (found == nullptr) return false;
+      records.push_back(*found);
+      facts.push_back(found->facts);
     }
     for (const JobList& list : job_.lists) write_list(list, facts);
     if (job_.shard.is_all()) manifest_.replace(records, content_.owned);

@@ -54,7 +54,9 @@ Record record_of(const Json& json) {
   return record;
 }
 
-void add_line(const std::string& line, const std::string& name, ManifestContent& content) {
+/// Adds a line of a manifest to what it says of each task, and to the files of the content.
+void add_line(const std::string& line, const std::string& name,
+              std::unordered_map<std::string, Record>& said, ManifestContent& content) {
   const Json json = text::parse_json<Json>(line);
   if (json.contains("fathom-manifest")) {
     if (json.at("fathom-manifest").get<int>() <= version) return;
@@ -64,7 +66,10 @@ void add_line(const std::string& line, const std::string& name, ManifestContent&
     for (const Json& file : json.at("announced")) content.owned.insert(file.get<std::string>());
     return;
   }
-  content.add(record_of(json));
+  Record record = record_of(json);
+  for (const PublishedFile& file : record.files) content.owned.insert(file.path);
+  std::string task = record.files.front().path;
+  said.insert_or_assign(std::move(task), std::move(record));
 }
 
 /// The manifests of a folder, in the order of their names.
@@ -119,18 +124,27 @@ std::string line_of(const Record& record) {
 
 void ManifestContent::add(Record record) {
   for (const PublishedFile& file : record.files) owned.insert(file.path);
-  std::string task = record.files.front().path;
-  records.insert_or_assign(std::move(task), std::move(record));
+  std::vector<Record>& all = records[record.files.front().path];
+  all.clear();
+  all.push_back(std::move(record));
+}
+
+const Record* ManifestContent::find(const std::string& file, const std::string& key) const {
+  const auto found = records.find(file);
+  if (found == records.end()) return nullptr;
+  const auto record = std::ranges::find(found->second, key, &Record::key);
+  return record == found->second.end() ? nullptr : &*record;
 }
 
 void ManifestContent::add(const std::string& text, const std::string& name, Warnings& warnings) {
+  std::unordered_map<std::string, Record> said;
   std::size_t number = 0, bad = 0, first_bad = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = text.find('\n', begin);
     ++number;
     if (end == std::string::npos) break;
     try {
-      add_line(text.substr(begin, end - begin), name, *this);
+      add_line(text.substr(begin, end - begin), name, said, *this);
     } catch (const nlohmann::json::exception&) {
       if (bad++ == 0) first_bad = number;
     } catch (const text::JsonFault&) {
@@ -140,6 +154,7 @@ void ManifestContent::add(const std::string& text, const std::string& name, Warn
     }
     begin = end + 1;
   }
+  for (auto& [task, record] : said) records[task].push_back(std::move(record));
   if (bad == 0) return;
   warnings.push_back(fmt::format(
       "{}: line {} is no record of a finished task, {} of {} lines are none: what they were about "
@@ -210,7 +225,8 @@ void Manifest::replace(const std::vector<Record>& records, std::unordered_set<st
   output.commit();
   for (const fs::path& other : manifests_in(folder_)) {
     if (other == path_) continue;
-    const text::Descriptor file(::open(other.c_str(), O_RDONLY | O_CLOEXEC));
+    // NFS grants such a lock on files that are open for writing alone.
+    const text::Descriptor file(::open(other.c_str(), O_RDWR | O_CLOEXEC));
     const bool is_free = file.is_open() && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0;
     if (is_free) ::unlink(other.c_str());
   }

@@ -39,15 +39,19 @@ std::string line_of(const Record& record);
 
 /// What the manifests in a folder say, of all shards.
 struct ManifestContent {
-  /// By the first file of each task; what was said last counts.
-  std::unordered_map<std::string, Record> records;
+  /// By the first file of each task: of each manifest what it says last. Which of the manifests has said
+  /// it last is not known: one may be of an earlier mesh.
+  std::unordered_map<std::string, std::vector<Record>> records;
   /// Files that jobs have made or may have made.
   std::unordered_set<std::string> owned;
 
-  /// A line that is no record is passed over, with a warning where it is not the last.
+  /// What is said of the task of this first file with this key; null where nothing is.
+  [[nodiscard]] const Record* find(const std::string& file, const std::string& key) const;
+  /// A manifest. A line that is no record is passed over, with a warning where it is not the last.
   /// `name` is the manifest's for messages.
   /// Fails    InputError where a later version of this program has written it.
   void add(const std::string& text, const std::string& name, Warnings& warnings);
+  /// What has been published just now: no other record of its task counts.
   void add(Record record);
 };
 

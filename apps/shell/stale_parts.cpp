@@ -24,10 +24,11 @@ struct CloseFolder {
 };
 
 /// Removes a part unless someone holds its lock. Its owner locks it and only then looks whether it
-/// still has a name, so that a part is lost only before anything is in it.
+/// still has a name, so that a part is lost only before anything is in it. NFS grants such a lock on
+/// files that are open for writing alone.
 void remove_if_stale(int folder, const char* name) {
   const text::Descriptor file(
-      ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+      ::openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   struct stat opened {
   }, named{};
   if (!file.is_open() || ::fstat(file.get(), &opened) != 0) return;

@@ -141,6 +141,23 @@ TEST_F(DataSets, ShardsMakeTheWholeBetweenThem) {
   }
 }
 
+TEST_F(DataSets, ShardsOfAnotherOptionLeaveNothingToTheRunThatEndsThem) {
+  ASSERT_EQ(make().status, 0);
+  for (const char* made : {"1", "0"}) {
+    for (const char* shard : {"1/2", "2/2"}) {
+      const Outcome part = make({"--background", "0", "--shard", shard});
+      EXPECT_THAT(part.out, StartsWith("out: 1 map, " + std::string(made) + " made now")) << shard;
+    }
+  }
+  EXPECT_EQ(make({"--background", "0", "--shard", "1/3"}).out,
+            "out: 1 map, 0 made now, of 2 in 3 shards\n");
+  EXPECT_EQ(make({"--background", "0"}).out, "out: 2 maps, 0 made now\n");
+  const auto resumed = all("out");
+  fs::remove_all(folder_.path() / "out");
+  ASSERT_EQ(make({"--background", "0"}).status, 0);
+  EXPECT_EQ(all("out"), resumed);
+}
+
 TEST_F(DataSets, FilesOfOthersAreLeftAlone) {
   write("out/2.npy", "mine");
   const Outcome refused = make();
@@ -206,6 +223,18 @@ TEST_F(DataSets, CamerasMayDifferInSize) {
   EXPECT_EQ(read("out/2.npy").size(), 128 + 4 * 32 * 32U);
 }
 
+TEST_F(DataSets, ACameraThatIsTooLargeIsRefusedBeforeTheFirstMap) {
+  for (const bool last : {false, true}) {
+    std::vector<std::string> cameras{camera("1.jpg", 0), camera("2.jpg", 0)};
+    cameras.insert(last ? cameras.end() : cameras.begin(), camera("3.jpg", 0, 2000000));
+    write("cameras.json", path_of(cameras));
+    const Outcome refused = make();
+    EXPECT_EQ(refused.status, 3);
+    EXPECT_THAT(refused.err, HasSubstr("an image of 2000000x2000000 pixels needs"));
+    EXPECT_FALSE(fs::exists(folder_.path() / "out"));
+  }
+}
+
 TEST_F(DataSets, AFullDiskLosesNothingThatIsFinished) {
   write("cameras.json", path_of({camera("1.jpg", 0, 16), camera("2.jpg", 0, 64)}));
   RunOptions options{.folder = folder_.path()};
@@ -232,11 +261,18 @@ TEST(Manifests, SayWhatWasSaidLast) {
   content.add(app::line_of(first) + "{\"announced\":[\"b\"]}\n" + app::line_of(second), "m",
               warnings);
   EXPECT_THAT(warnings, IsEmpty());
-  ASSERT_EQ(content.records.size(), 1U);
-  EXPECT_EQ(content.records.at("a").key, "key 2");
-  EXPECT_EQ(content.records.at("a").files.at(0).crc32, 4U);
-  EXPECT_EQ(content.records.at("a").facts, "{\"n\":1}");
+  ASSERT_NE(content.find("a", "key 2"), nullptr);
+  EXPECT_EQ(content.find("a", "key 1"), nullptr);
+  EXPECT_EQ(content.find("b", "key 2"), nullptr);
+  EXPECT_EQ(content.find("a", "key 2")->files.at(0).crc32, 4U);
+  EXPECT_EQ(content.find("a", "key 2")->facts, "{\"n\":1}");
   EXPECT_TRUE(content.owned.contains("b"));
+  // One manifest does not know what another one says, nor when; what is published now is known.
+  content.add(app::line_of(first), "n", warnings);
+  EXPECT_NE(content.find("a", "key 1"), nullptr);
+  EXPECT_NE(content.find("a", "key 2"), nullptr);
+  content.add(first);
+  EXPECT_EQ(content.find("a", "key 2"), nullptr);
   const std::string deep = std::string(200, '[') + std::string(200, ']');
   for (const char* wrong : {"[]", "{}", "{\"key\":1}", "{\"key\":\"\",\"files\":[],\"facts\":{}}",
                             "{\"key\":\"\",\"files\":[{\"path\":\"a\"}],\"facts\":{}}", "\xff",
