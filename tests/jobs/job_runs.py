@@ -34,6 +34,12 @@ def is_part(name):
     return name.startswith(".fathom-") and name.endswith(".part")
 
 
+def is_manifest(name):
+    """Whether it is the manifest, or that of a shard."""
+    return name == MANIFEST or name.startswith("fathom-manifest-") and name.endswith(".jsonl")
+
+
 def half_written(there, whole):
-    """Names of outputs whose bytes are not those of an undisturbed run. The manifest grows line by line."""
-    return [name for name, data in there.items() if name != MANIFEST and not is_part(name) and data != whole[name]]
+    """Names of outputs whose bytes are not those of an undisturbed run. Manifests grow line by line."""
+    return [name for name, data in there.items()
+            if not is_manifest(name) and not is_part(name) and data != whole.get(name)]
