@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The maps of a data set, by an array of Slurm jobs; in the folder of the data set, not by sbatch:
+# The maps of a data set, by an array of Slurm jobs; in the folder of the data set:
 #   ./slurm-array.sh
 # submits the array, and a last job behind it. The same command, given again when they have ended, goes on where they
 # were interrupted. docs/farms.md says more.

@@ -2,7 +2,7 @@
 
 import sys
 
-from conftest import KILLED, source
+from farm_runs import KILLED, source
 
 COMMAND = (sys.executable, "-B", source / "docs/farms/dask_bag.py")
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from conftest import source
+from farm_runs import source
 
 SCRIPT = source / "docs/farms/parallel.sh"
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from conftest import source
+from farm_runs import source
 
 SCRIPT = source / "docs/farms/slurm-array.sh"
 # Jobs have what sbatch gives them: a copy of the script under another name, SLURM_…, and a file for what they print.

@@ -1,6 +1,6 @@
 """docs/farms/Snakefile, by Snakemake on this machine."""
 
-from conftest import source
+from farm_runs import source
 
 COMMAND = ("snakemake", "--cores", "2", "--snakefile", source / "docs/farms/Snakefile")
 
