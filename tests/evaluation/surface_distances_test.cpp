@@ -1,5 +1,6 @@
 #include "fathom/evaluation/surface_distances.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "fathom/evaluation/depth_agreement.h"
@@ -126,6 +127,10 @@ TEST(SurfaceDistances, NeedSurfacesAndPoints) {
   const Scene line = testing::scene_of({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}});
   EXPECT_EQ(message(plate(1), line, few_points()), "the truth: the surface has no area");
   EXPECT_NE(message(plate(1), plate(1), few_points({0})), "");
+  SurfaceComparisonOptions many;
+  many.points = 0xFFFFFFFF;
+  EXPECT_THAT(message(plate(1), plate(1), many),
+              ::testing::StartsWith("comparing 4294967295 points of each surface needs 3"));
   SurfaceComparisonOptions none;
   none.points = 0;
   EXPECT_NE(message(plate(1), plate(1), none), "");

@@ -6,9 +6,11 @@
 
 #include "fathom/evaluation/nearest_surface.h"
 #include "fathom/evaluation/point_sight.h"
+#include "fathom/memory/available_memory.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/scene/scene_fault.h"
+#include "fathom/text/counted.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
@@ -148,9 +150,24 @@ std::vector<SurfacePoint> points_on(const Surface& surface, const char* name, st
   }
 }
 
+/// Of a triangle: its corners, its place in the tree's order, at most one node for each, its share of the area.
+constexpr double bytes_of_triangle = sizeof(PlacedTriangles::Corners) + sizeof(std::uint32_t) +
+                                     sizeof(TriangleTree::Node) + sizeof(double);
+/// Of a point: its place on each surface, its distance from one of them, and that once more to be sorted.
+constexpr double bytes_of_point =
+    2 * sizeof(SurfacePoint) + sizeof(std::optional<Distance>) + sizeof(double);
+
+void require_room(const TriangleSource& reconstruction, const TriangleSource& truth,
+                  std::uint32_t points) {
+  const auto triangles = static_cast<double>(reconstruction.count() + truth.count());
+  require_memory("comparing " + text::counted(points, "point") + " of each surface",
+                 triangles * bytes_of_triangle + points * bytes_of_point, available_memory());
+}
+
 SurfaceComparison compare_in_arena(const TriangleSource& reconstruction,
                                    const TriangleSource& truth, const std::vector<Camera>& cameras,
                                    const SurfaceComparisonOptions& options) {
+  require_room(reconstruction, truth, options.points);
   const long power = std::max(power_of_unit(reconstruction), power_of_unit(truth));
   const Surface made(reconstruction, power), real(truth, power);
   const std::vector<SurfacePoint> on_made = points_on(made, "the reconstruction", options.points);

@@ -57,7 +57,8 @@ struct SurfaceComparison {
 ///
 /// Exact    what is seen, each distance (rounded once to binary64), and which are below a threshold.
 ///          Means are sums in binary64 in the order of the points. The same on every machine.
-/// Fails    InputError where a scene or a camera has a fault (find_fault), or a surface has no area;
+/// Fails    InputError where a scene or a camera has a fault (find_fault), or a surface has no area, or
+///          memory does not hold so many points;
 ///          UsageError as require_meaningful().
 /// Source   [KPZK17] for precision, recall and F-score
 SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& truth,
