@@ -1,11 +1,14 @@
 // fathom evaluate SCENE… --truth SCENE [--camera FILE]
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "apps/options/camera_options.h"
 #include "apps/options/cull_option.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
+#include "apps/shell/output_file.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/text_output.h"
 #include "apps/shell/values.h"
@@ -20,6 +23,7 @@ namespace {
 struct EvaluateArguments {
   SceneOptions scene;
   std::string truth, camera, output = "-";
+  std::string accuracy_points, completeness_points;
   SurfaceComparisonOptions comparison;
   bool json = false;
 };
@@ -37,13 +41,34 @@ Scene read_truth(const EvaluateArguments& arguments, const Console& console) {
   return options.read(console);
 }
 
+/// A point cloud that was asked for.
+class Cloud {
+ public:
+  /// "" for none.
+  explicit Cloud(const std::string& name) {
+    if (!name.empty()) file_.emplace(name);
+  }
+  void write(const SurfaceDistances& distances) {
+    if (file_) file_->write(ply_of(distances.measured));
+  }
+  void add_to(std::vector<OutputFile*>& outputs) {
+    if (file_) outputs.push_back(&*file_);
+  }
+
+ private:
+  std::optional<OutputFile> file_;
+};
+
 int run_evaluate(const EvaluateArguments& arguments, const Console& console) {
   const Scene reconstruction = arguments.scene.read(console);
   const Scene truth = read_truth(arguments, console);
   std::vector<Camera> cameras;
   if (!arguments.camera.empty()) cameras = read_camera_file(arguments.camera, console);
   TextOutput output(arguments.output);
+  Cloud accuracy(arguments.accuracy_points), completeness(arguments.completeness_points);
   SurfaceComparisonOptions options = arguments.comparison;
+  options.keep_points =
+      !arguments.accuracy_points.empty() || !arguments.completeness_points.empty();
   options.threads = arguments.scene.threads;
   Evaluation evaluation;
   {
@@ -51,8 +76,16 @@ int run_evaluate(const EvaluateArguments& arguments, const Console& console) {
     options.progress = progress.reporter();
     evaluation = evaluate(reconstruction, truth, cameras, options);
   }
-  output.finish(arguments.json ? as_json(evaluation, options.within)
-                               : as_text(evaluation, options.within));
+  output.write(arguments.json ? as_json(evaluation, options.within)
+                              : as_text(evaluation, options.within));
+  accuracy.write(evaluation.surfaces.accuracy);
+  completeness.write(evaluation.surfaces.completeness);
+  std::vector<OutputFile*> outputs;
+  accuracy.add_to(outputs);
+  completeness.add_to(outputs);
+  if (output.file()) outputs.push_back(output.file());
+  OutputFile::commit_together(outputs);
+  output.print();
   return done;
 }
 
@@ -76,6 +109,11 @@ void add_evaluate(Command& program) {
   command.option("--points", "N", into(arguments->comparison.points, parse_positive),
                  "Points on each surface (default 200000)");
   add_cull_option(command, arguments->comparison.cull);
+  command.option(
+      "--accuracy-points", "PLY", arguments->accuracy_points,
+      "Write the points of the reconstruction that count, with their distances as `quality`");
+  command.option("--completeness-points", "PLY", arguments->completeness_points,
+                 "The same of the truth");
   command.flag("--json", arguments->json, "Answer in JSON");
   command.option("-o,--output", "FILE", arguments->output,
                  "Write the answer to this file (default -, standard output)");

@@ -101,6 +101,23 @@ TEST_F(Evaluate, IsATableToo) {
   EXPECT_THAT(outcome.out, HasSubstr("   100.000 %\n"));
 }
 
+TEST_F(Evaluate, PointsAreACloudThatOthersRead) {
+  const Outcome outcome = evaluate(
+      {"--camera", "camera.json", "--accuracy-points", "a.ply", "--completeness-points", "c.ply"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const Outcome read = run({python, "-c", R"(
+import numpy as np
+for name, z in (("a.ply", 2.25), ("c.ply", 2)):
+    head, _, body = open(name, "rb").read().partition(b"end_header\n")
+    assert head.startswith(b"ply\nformat binary_little_endian 1.0\n") and b"element vertex 500\n" in head
+    assert head.split(b"element vertex 500\n")[1].split() == b"property double x property double y property double z property double quality".split()
+    points = np.frombuffer(body, "<f8").reshape(500, 4)
+    assert (points[:, 2] == z).all() and (points[:, 3] == 0.25).all()
+)"},
+                           {.folder = folder_.path()});
+  EXPECT_EQ(read.status, 0) << read.err;
+}
+
 TEST_F(Evaluate, RefusesWhatMakesNoSense) {
   const auto refused = [&](const std::vector<std::string>& more, int status, const char* message) {
     const Outcome outcome = evaluate(more);

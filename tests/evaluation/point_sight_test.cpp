@@ -17,15 +17,16 @@ Camera some_camera(std::mt19937& random, int size) {
   const auto from = [&](int least, int greatest) {
     return static_cast<double>(least + static_cast<int>(random() % (greatest - least + 1)));
   };
+  const double far_away = random() % 5 == 0 ? 0x1p20 : 1;
   do {
     for (auto& row : camera.world_to_camera) {
       for (std::size_t k = 0; k < 3; ++k) row[k] = from(-1, 1);
-      row[3] = from(-2 * size, 2 * size);
+      row[3] = far_away * from(-2 * size, 2 * size);
     }
   } while (find_fault(camera));
   if (random() % 3 == 0) camera.projection = Projection::orthographic;
-  if (random() % 3 == 0) camera.near = from(0, size);
-  if (random() % 3 == 0) camera.far = camera.near + from(1, 2 * size);
+  if (random() % 3 == 0) camera.near = far_away * from(0, size);
+  if (random() % 3 == 0) camera.far = camera.near + far_away * from(1, 2 * size);
   if (random() % 4 == 0) camera.fx = -camera.fx;
   if (random() % 4 == 0) camera.skew = from(-1, 1);
   return camera;

@@ -130,7 +130,7 @@ TEST(SurfaceDistances, NeedSurfacesAndPoints) {
   SurfaceComparisonOptions many;
   many.points = 0xFFFFFFFF;
   EXPECT_THAT(message(plate(1), plate(1), many),
-              ::testing::StartsWith("comparing 4294967295 points of each surface needs 3"));
+              ::testing::StartsWith("comparing 4294967295 points of each surface needs "));
   SurfaceComparisonOptions none;
   none.points = 0;
   EXPECT_NE(message(plate(1), plate(1), none), "");

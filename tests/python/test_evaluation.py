@@ -24,7 +24,7 @@ def camera():
 def test_plates_are_as_far_apart_as_they_stand():
     found = fathom.evaluate(plates(2.25), plates(2), within=[0.25, 0.5], points=500)
     assert found.depth is None
-    assert found.accuracy == (500, 500, 0.25, 0.25, 0.25, 0.25, 0.25, 0.25, (0, 1))
+    assert found.accuracy == (500, 500, 0.25, 0.25, 0.25, 0.25, 0.25, 0.25, (0, 1), None, None)
     assert found.completeness == found.accuracy and found.f_scores == (0, 1)
 
 
@@ -32,6 +32,13 @@ def test_only_what_is_seen_counts(camera):
     found = fathom.evaluate(plates(2, 9), plates(2, 5), camera, points=1000)
     assert found.accuracy.seen == found.completeness.seen == 500
     assert found.accuracy.max == found.completeness.max == found.depth.l1 == 0
+
+
+def test_points_are_kept_on_demand(camera):
+    found = fathom.evaluate(plates(2.25, 9), plates(2), camera, points=1000, keep_points=True).accuracy
+    assert found.positions.shape == (found.seen, 3) and found.distances.shape == (found.seen,)
+    assert (found.positions[:, 2] == 2.25).all() and (found.distances == 0.25).all()
+    assert np.abs(found.positions[:, :2]).max() <= 1 and len(np.unique(found.positions, axis=0)) == found.seen
 
 
 def test_depths_agree_as_numpy_says(spot):

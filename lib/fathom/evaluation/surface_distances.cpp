@@ -32,10 +32,15 @@ struct Surface {
 
 /// What is known of a point that counts.
 struct Distance {
-  double value = 0;
+  MeasuredPoint point;
   /// How many of the thresholds, from the largest on, are greater.
   std::size_t thresholds = 0;
 };
+
+std::array<double, 3> rounded(const WorldPoint& p) {
+  return {round_to_binary64(Ratio(p.x)), round_to_binary64(Ratio(p.y)),
+          round_to_binary64(Ratio(p.z))};
+}
 
 /// Distances of one surface's points from another surface.
 class Measurement {
@@ -55,7 +60,7 @@ class Measurement {
     const PlacedPoint p = placed(point, from_.source, from_.triangles);
     if (!is_seen(point.triangle, p, last_sight)) return std::nullopt;
     const Ratio squared = nearest_.squared_distance(p);
-    Distance distance{round_sqrt_to_binary64(squared)};
+    Distance distance{{rounded(p.exact), round_sqrt_to_binary64(squared)}};
     for (const Dyadic& threshold : squared_thresholds_)
       distance.thresholds += squared < Ratio(threshold);
     return distance;
@@ -101,9 +106,9 @@ std::vector<std::optional<Distance>> distances_of(const std::vector<SurfacePoint
   return distances;
 }
 
-/// `within` are the thresholds in the order in which they were asked for.
 SurfaceDistances summary_of(const std::vector<std::optional<Distance>>& distances,
-                            const std::vector<double>& within) {
+                            const SurfaceComparisonOptions& options) {
+  const std::vector<double>& within = options.within;
   SurfaceDistances summary;
   summary.points = distances.size();
   std::vector<double> values;
@@ -112,10 +117,11 @@ SurfaceDistances summary_of(const std::vector<std::optional<Distance>>& distance
   double sum = 0, squares = 0;
   for (const auto& distance : distances) {
     if (!distance) continue;
-    values.push_back(distance->value);
-    sum += distance->value;
-    squares += distance->value * distance->value;
+    values.push_back(distance->point.distance);
+    sum += distance->point.distance;
+    squares += distance->point.distance * distance->point.distance;
     ++counts[distance->thresholds];
+    if (options.keep_points) summary.measured.push_back(distance->point);
   }
   summary.seen = values.size();
   summary.shares.assign(within.size(), 0);
@@ -156,18 +162,22 @@ constexpr double bytes_of_triangle = sizeof(PlacedTriangles::Corners) + sizeof(s
 /// Of a point: its place on each surface, its distance from one of them, and that once more to be sorted.
 constexpr double bytes_of_point =
     2 * sizeof(SurfacePoint) + sizeof(std::optional<Distance>) + sizeof(double);
+/// Of a point that is kept, of each surface, while its list grows.
+constexpr double bytes_of_kept_point = 2 * 2 * sizeof(MeasuredPoint);
 
 void require_room(const TriangleSource& reconstruction, const TriangleSource& truth,
-                  std::uint32_t points) {
+                  const SurfaceComparisonOptions& options) {
+  const std::uint32_t points = options.points;
+  const double bytes = bytes_of_point + (options.keep_points ? bytes_of_kept_point : 0);
   const auto triangles = static_cast<double>(reconstruction.count() + truth.count());
   require_memory("comparing " + text::counted(points, "point") + " of each surface",
-                 triangles * bytes_of_triangle + points * bytes_of_point, available_memory());
+                 triangles * bytes_of_triangle + points * bytes, available_memory());
 }
 
 SurfaceComparison compare_in_arena(const TriangleSource& reconstruction,
                                    const TriangleSource& truth, const std::vector<Camera>& cameras,
                                    const SurfaceComparisonOptions& options) {
-  require_room(reconstruction, truth, options.points);
+  require_room(reconstruction, truth, options);
   const long power = std::max(power_of_unit(reconstruction), power_of_unit(truth));
   const Surface made(reconstruction, power), real(truth, power);
   const std::vector<SurfacePoint> on_made = points_on(made, "the reconstruction", options.points);
@@ -176,7 +186,7 @@ SurfaceComparison compare_in_arena(const TriangleSource& reconstruction,
   const auto measure = [&](const Surface& from, const Surface& to,
                            const std::vector<SurfacePoint>& points) {
     return summary_of(distances_of(points, Measurement(from, to, cameras, options), progress),
-                      options.within);
+                      options);
   };
   SurfaceComparison comparison{measure(made, real, on_made), measure(real, made, on_real), {}};
   for (std::size_t i = 0; i < options.within.size(); ++i) {

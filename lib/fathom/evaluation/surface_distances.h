@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
+#include "fathom/evaluation/measured_points.h"
 #include "fathom/scene/scene.h"
 #include "fathom/triangle/options.h"
 
@@ -20,6 +21,8 @@ struct SurfaceDistances {
   double median = 0, p90 = 0, p99 = 0, max = 0;
   /// For each threshold, the share of the points whose distance is less.
   std::vector<double> shares;
+  /// The points that count, in their order, where they are kept (SurfaceComparisonOptions).
+  std::vector<MeasuredPoint> measured;
 };
 
 struct SurfaceComparisonOptions {
@@ -29,6 +32,8 @@ struct SurfaceComparisonOptions {
   std::vector<double> within;
   /// Of what the cameras see.
   Cull cull = Cull::none;
+  /// Keep every point that counts with its distance.
+  bool keep_points = false;
   /// Threads to use; 0: all.
   int threads = 0;
   /// Called now and then, never from two threads at once, with the fraction done, in [0, 1].

@@ -1,5 +1,8 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
+#include "arrays.h"
 #include "bindings.h"
 #include "fathom/evaluate.h"
 #include "render_options.h"
@@ -21,27 +24,43 @@ py::object tuple_of(const std::optional<DepthAgreement>& depth) {
                         depth->views_of_truth);
 }
 
+/// (N, 3) positions and (N,) distances.
+py::tuple arrays_of(const std::vector<MeasuredPoint>& points) {
+  Samples<double> positions(3 * points.size()), distances(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::copy(points[i].at.begin(), points[i].at.end(), positions.begin() + 3 * i);
+    distances[i] = points[i].distance;
+  }
+  const auto count = static_cast<py::ssize_t>(points.size());
+  return py::make_tuple(array_of(std::move(positions), {count, 3}),
+                        array_of(std::move(distances), {count}));
+}
+
 /// The fields of evaluation.Distances, in order.
-py::tuple tuple_of(const SurfaceDistances& d) {
+py::tuple tuple_of(const SurfaceDistances& d, bool keep_points) {
+  const py::tuple arrays =
+      keep_points ? arrays_of(d.measured) : py::make_tuple(py::none(), py::none());
   return py::make_tuple(d.points, d.seen, d.mean, d.rms, d.median, d.p90, d.p99, d.max,
-                        py::tuple(py::cast(d.shares)));
+                        py::tuple(py::cast(d.shares)), arrays[0], arrays[1]);
 }
 
 py::tuple evaluate_scenes(const SharedScene& made, const SharedScene& real,
                           const std::vector<Camera>& cameras, const std::vector<double>& within,
-                          std::uint32_t points, const std::string& cull, int threads) {
+                          std::uint32_t points, bool keep_points, const std::string& cull,
+                          int threads) {
   const std::shared_ptr<const Scene> reconstruction = made.scene, truth = real.scene;
   SurfaceComparisonOptions options;
   options.points = points;
   options.within = within;
+  options.keep_points = keep_points;
   options.cull = cull_named(cull);
   options.threads = threads;
   const Evaluation found = run([&](const auto& progress) {
     options.progress = progress;
     return evaluate(*reconstruction, *truth, cameras, options);
   });
-  return py::make_tuple(tuple_of(found.depth), tuple_of(found.surfaces.accuracy),
-                        tuple_of(found.surfaces.completeness),
+  return py::make_tuple(tuple_of(found.depth), tuple_of(found.surfaces.accuracy, keep_points),
+                        tuple_of(found.surfaces.completeness, keep_points),
                         py::tuple(py::cast(found.surfaces.f_scores)));
 }
 

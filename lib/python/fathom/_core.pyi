@@ -247,6 +247,7 @@ def evaluate(
     cameras: list[Camera],
     within: list[float],
     points: int,
+    keep_points: bool,
     cull: str,
     threads: int,
 ) -> tuple[tuple[Any, ...] | None, tuple[Any, ...], tuple[Any, ...], tuple[float, ...]]: ...

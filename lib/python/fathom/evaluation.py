@@ -11,6 +11,9 @@ from ._render import Cull
 from .camera import Camera
 
 if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
     from .scene import Scene
 
 
@@ -54,6 +57,9 @@ class Distances(NamedTuple):
     max: float
     #: For each threshold, the share of the points that are nearer.
     shares: tuple[float, ...]
+    #: With `keep_points`, the points that count, (seen, 3), and their distances, (seen,); else None.
+    positions: npt.NDArray[np.float64] | None
+    distances: npt.NDArray[np.float64] | None
 
 
 class Evaluation(NamedTuple):
@@ -68,12 +74,14 @@ class Evaluation(NamedTuple):
 
 
 def evaluate(reconstruction: Scene, truth: Scene, cameras: Camera | Iterable[Camera] = (), *,
-             within: Iterable[float] = (), points: int = 200_000, cull: Cull = "none", threads: int = 0) -> Evaluation:
+             within: Iterable[float] = (), points: int = 200_000, keep_points: bool = False, cull: Cull = "none",
+             threads: int = 0) -> Evaluation:
     """Compares a reconstructed surface with the true one, in the same world and unit: Depth L1 and its like from exact
     depth maps of every camera, and distances of `points` points on each surface from the other.
 
     Points stand in proportion to area, always the same ones. With cameras, those count that one of them sees of the
-    surface on which they are; without, all of them count and there are no depths. `within` are thresholds.
+    surface on which they are; without, all of them count and there are no depths. `within` are thresholds; `keep_points`
+    returns every point that counts with its distance.
 
     >>> import fathom
     >>> square = [(-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)]
@@ -87,7 +95,7 @@ def evaluate(reconstruction: Scene, truth: Scene, cameras: Camera | Iterable[Cam
     """
     depth, accuracy, completeness, f_scores = _core.evaluate(
         scene_handle(reconstruction), scene_handle(truth), _handles(cameras), _thresholds(within),
-        as_count("points", points, 1, 2**32 - 1), one_of("cull", cull, culls), as_threads(threads))
+        as_count("points", points, 1, 2**32 - 1), bool(keep_points), one_of("cull", cull, culls), as_threads(threads))
     return Evaluation(None if depth is None else Depth(*depth), Distances(*accuracy), Distances(*completeness), f_scores)
 
 

@@ -1,0 +1,29 @@
+#include "fathom/evaluation/measured_points.h"
+
+#include <string>
+
+#include "fathom/text/byte_order.h"
+
+namespace fathom {
+using namespace text;
+
+Bytes ply_of(const std::vector<MeasuredPoint>& points) {
+  std::string header = "ply\nformat binary_little_endian 1.0\ncomment distances by Fathom\n";
+  header += "element vertex " + std::to_string(points.size()) + "\n";
+  for (const char* name : {"x", "y", "z", "quality"})
+    header += std::string("property double ") + name + "\n";
+  header += "end_header\n";
+  Bytes file;
+  append(file, header);
+  std::size_t at = file.size();
+  file.resize(at + points.size() * 4 * sizeof(double));
+  for (const auto& [place, distance] : points) {
+    for (const double number : {place[0], place[1], place[2], distance}) {
+      store(&file[at], number, std::endian::little);
+      at += sizeof(double);
+    }
+  }
+  return file;
+}
+
+}  // namespace fathom
