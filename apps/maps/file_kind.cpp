@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "fathom/image/map_files.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/text_cursor.h"
 
@@ -18,12 +20,6 @@ bool is_npz(std::string_view content) {
   return content.substr(name_at, length).ends_with(".npy");
 }
 
-/// A number that is ended by "&", as COLMAP's dense maps begin.
-bool is_colmap_map(std::string_view content) {
-  const std::size_t end = content.substr(0, 21).find_first_not_of("0123456789");
-  return end != 0 && end != std::string_view::npos && content[end] == '&';
-}
-
 }  // namespace
 
 FileKind kind_of(std::string_view content) {
@@ -35,7 +31,7 @@ FileKind kind_of(std::string_view content) {
        {std::string_view("II*\0", 4), std::string_view("MM\0*", 4)}) {
     if (content.starts_with(magic)) return FileKind::map;
   }
-  if (is_npz(content) || is_colmap_map(content)) return FileKind::map;
+  if (is_npz(content) || is_colmap_map(std::as_bytes(std::span(content)))) return FileKind::map;
   const std::string_view text = text::TextCursor::without_mark(content);
   const std::size_t first = text.substr(0, 16).find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos || (text[first] != '{' && text[first] != '['))

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -32,8 +33,7 @@ void fill_background(const DepthMap& map, const std::string& name, Samples<T>& v
     if (surface[k] == 0) {
       values[k] = stored;
     } else if (std::isfinite(stored) && values[k] == stored) {
-      throw OutputError("pixel (" + std::to_string(k % map.width) + ", " +
-                        std::to_string(k / map.width) + "): a surface has the value " +
+      throw OutputError(image::place_of_pixel(k, map.width) + "a surface has the value " +
                         background_as_text(value) + " in channel '" + name +
                         "', so that it cannot be the background: choose another");
     }

@@ -3,6 +3,7 @@
 
 #include "fathom/image/background.h"
 #include "fathom/image/convert.h"
+#include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
@@ -69,8 +70,7 @@ Samples<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, 
       continue;
     }
     if (!code || *code == 0)
-      throw OutputError("pixel (" + std::to_string(k % map.width) + ", " +
-                        std::to_string(k / map.width) + "): depth " + std::to_string(depths[k]) +
+      throw OutputError(image::place_of_pixel(k, map.width) + "depth " + std::to_string(depths[k]) +
                         " times the scale " + std::to_string(scale) +
                         " does not fit the codes 1 to 65535");
     codes[k] = static_cast<std::uint16_t>(*code);

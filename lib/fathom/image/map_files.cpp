@@ -61,6 +61,14 @@ std::optional<MapFormat> map_format_of(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
+bool is_colmap_map(ByteView bytes) {
+  // As many digits as a 64-bit number has, so that one that is too large is told as such.
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                              std::min<std::size_t>(bytes.size(), 21));
+  const std::size_t end = text.find_first_not_of("0123456789");
+  return end != 0 && end != std::string_view::npos && text[end] == '&';
+}
+
 void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
                   const std::string& name) {
   if (format == MapFormat::exr && std::max(width, height) > 0x3FFFFFFF) {
@@ -123,7 +131,7 @@ DepthMap decode_as_stored(ByteView bytes, const std::string& name, const MapMemo
   if (starts_with(bytes, "\x93NUMPY")) return decode_npy(bytes, name);
   if (starts_with(bytes, "PK\x03\x04")) return decode_npz(bytes, name, memory);
   if (starts_with(bytes, "Pf") || starts_with(bytes, "PF")) return decode_pfm(bytes, name);
-  if (is_colmap(bytes)) return decode_colmap(bytes, name);
+  if (is_colmap_map(bytes)) return decode_colmap(bytes, name);
   if (starts_with(bytes, std::string_view("II*\0", 4)) ||
       starts_with(bytes, std::string_view("MM\0*", 4)))
     throw InputError(name + ": TIFF is written, not read: give the map as EXR, NPZ or NPY");

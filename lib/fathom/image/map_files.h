@@ -39,6 +39,9 @@ constexpr bool has_zero_for_none(MapFormat format) {
 /// The format that a path's suffix names (in any case); nullopt if none.
 std::optional<MapFormat> map_format_of(const std::filesystem::path& path);
 
+/// Whether a file begins as COLMAP's dense maps do, with a number that is ended by "&".
+bool is_colmap_map(std::span<const std::byte> bytes);
+
 /// Refuses images with more pixels on a side than the format holds, before any work is done.
 /// Fails    OutputError "NAME: EXR holds fewer than 2^30 pixels a side", "NAME: an NPZ holds less than
 ///          4 GiB" or the like.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/image/pixel_place.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/threads/threads.h"
@@ -121,8 +122,7 @@ std::shared_ptr<const SceneSegments> segments_for(const ChannelValues& values,
 }  // namespace
 
 void fail(const EncodingFault& fault, const DepthMap& map) {
-  throw OutputError("pixel (" + std::to_string(fault.pixel % map.width) + ", " +
-                    std::to_string(fault.pixel / map.width) + "): " + fault.why +
+  throw OutputError(image::place_of_pixel(fault.pixel, map.width) + fault.why +
                     "; choose another scale");
 }
 

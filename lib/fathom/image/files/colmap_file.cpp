@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "fathom/image/files/map_codecs.h"
+#include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
@@ -24,10 +25,6 @@ using namespace text;
 namespace {
 
 constexpr std::array<const char*, 3> normal_channels{"Nc.X", "Nc.Y", "Nc.Z"};
-
-std::string colmap_pixel(const std::string& name, std::size_t k, std::uint32_t width) {
-  return name + ": pixel (" + std::to_string(k % width) + ", " + std::to_string(k / width) + "): ";
-}
 
 std::string as_decimal(float value) {
   char text[32];
@@ -80,26 +77,27 @@ void require_data(const ColmapHeader& header, ByteView data, const std::string& 
 float depth_from(float stored, std::size_t k, std::uint32_t width, const std::string& name) {
   if (stored == 0) return std::numeric_limits<float>::infinity();
   if (stored > 0 && std::isfinite(stored)) return stored;
-  throw InputError(colmap_pixel(name, k, width) + "depth " + as_decimal(stored) +
+  throw InputError(name + ": " + place_of_pixel(k, width) + "depth " + as_decimal(stored) +
                    " in a COLMAP map: expected a finite number above 0, or 0 for none");
 }
 
 float normal_from(float stored, std::size_t k, std::uint32_t width, const std::string& name) {
   if (std::isfinite(stored)) return stored;
-  throw InputError(colmap_pixel(name, k, width) + "a normal with " + as_decimal(stored) +
+  throw InputError(name + ": " + place_of_pixel(k, width) + "a normal with " + as_decimal(stored) +
                    " in a COLMAP map: expected finite numbers");
 }
 
 float depth_to(float depth, std::size_t k, std::uint32_t width, const std::string& name) {
   if (depth > 0 && std::isfinite(depth)) return depth;
   throw OutputError(
-      colmap_pixel(name, k, width) + "depth " + as_decimal(depth) +
+      name + ": " + place_of_pixel(k, width) + "depth " + as_decimal(depth) +
       " cannot be in a COLMAP map, which holds finite numbers above 0; .exr holds all");
 }
 
 float normal_to(float component, std::size_t k, std::uint32_t width, const std::string& name) {
   if (std::isfinite(component)) return component;
-  throw OutputError(colmap_pixel(name, k, width) + "a normal with " + as_decimal(component) +
+  throw OutputError(name + ": " + place_of_pixel(k, width) + "a normal with " +
+                    as_decimal(component) +
                     " cannot be in a COLMAP map, which holds finite numbers; .exr holds all");
 }
 
@@ -110,14 +108,6 @@ bool are_of_colmap(const std::vector<const ImageChannel*>& channels) {
 }
 
 }  // namespace
-
-bool is_colmap(ByteView bytes) {
-  // As many digits as a 64-bit number has, so that one that is too large is told as such.
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
-                              std::min<std::size_t>(bytes.size(), 21));
-  const std::size_t end = text.find_first_not_of("0123456789");
-  return end != 0 && end != std::string_view::npos && text[end] == '&';
-}
 
 Bytes encode_colmap(const DepthMap& map, const std::vector<const ImageChannel*>& channels,
                     const std::string& name) {

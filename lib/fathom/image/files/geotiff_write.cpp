@@ -11,6 +11,7 @@
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/name_tables.h"
 #include "fathom/image/files/tiff_directory.h"
+#include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
@@ -65,10 +66,6 @@ std::string none_as_text(float value) {
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
-std::string place_of_pixel(const DepthMap& map, std::size_t k) {
-  return "pixel (" + std::to_string(k % map.width) + ", " + std::to_string(k / map.width) + "): ";
-}
-
 /// A channel as a band: `none` where it shows no surface.
 std::vector<float> band_of(const DepthMap& map, const ImageChannel& channel, float none,
                            const std::string& name) {
@@ -85,13 +82,13 @@ std::vector<float> band_of(const DepthMap& map, const ImageChannel& channel, flo
   for (std::size_t k = 0; k < band.size(); ++k) {
     if (!is_quantity && surface[k] == 0) continue;
     if (numbers && (*numbers)[k] > greatest_whole)
-      refuse_tiff(name, place_of_pixel(map, k) + "channel '" + channel.name + "' has the number " +
-                            std::to_string((*numbers)[k]) +
+      refuse_tiff(name, place_of_pixel(k, map.width) + "channel '" + channel.name +
+                            "' has the number " + std::to_string((*numbers)[k]) +
                             ", and binary32 holds those up to 16777216; .exr holds all");
     band[k] = numbers ? static_cast<float>((*numbers)[k]) : (*floats)[k];
     if (!is_quantity && band[k] == none)
-      refuse_tiff(name, place_of_pixel(map, k) + "a surface has the value " + none_as_text(none) +
-                            " in channel '" + channel.name +
+      refuse_tiff(name, place_of_pixel(k, map.width) + "a surface has the value " +
+                            none_as_text(none) + " in channel '" + channel.name +
                             "', which stands for none: choose another background");
   }
   return band;

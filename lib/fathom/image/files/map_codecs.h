@@ -37,8 +37,6 @@ DepthMap decode_npz_array(text::ByteView bytes, const std::string& array, const 
 /// One channel, Z, or the three of Nc.
 text::Bytes encode_colmap(const DepthMap& map, const std::vector<const ImageChannel*>& channels,
                           const std::string& name);
-/// Whether a file begins as COLMAP's maps do, with a number that is ended by "&".
-bool is_colmap(text::ByteView bytes);
 DepthMap decode_colmap(text::ByteView bytes, const std::string& name);
 
 /// Fails    OutputError where the map has no world_from_image, or a channel does not fit.
