@@ -37,9 +37,7 @@ void add_source(Command& parent, const ImportSource& source) {
   command.argument("INPUT", arguments->input, source.input).required();
   source.declare(command, *arguments);
   command.option("--image", "NAME", arguments->choice.image, "Only the camera of this image");
-  command.flag(
-      "--ignore-distortion", arguments->choice.ignore_distortion,
-      "Take cameras with lens distortion as if they had none; without it they are left out");
+  add_distortion_option(command, arguments->choice);
   command.flag("--list", arguments->list, "Write the names of the images instead");
   command.option("-o,--output", "FILE", arguments->output,
                  "Camera file (default: standard output)");

@@ -45,6 +45,12 @@ void add_size_option(Command& command, ImportArguments& arguments) {
                  "WIDTHxHEIGHT of the images in pixels");
 }
 
+void add_distortion_option(Command& command, CameraChoice& choice) {
+  command.flag(
+      "--ignore-distortion", choice.ignore_distortion,
+      "Take cameras with lens distortion as if they had none; without it they are left out");
+}
+
 std::vector<ImportSource> program_sources() {
   return {
       {"colmap", "COLMAP: cameras and images, .bin or .txt", "The folder of the model",

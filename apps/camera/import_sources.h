@@ -44,6 +44,8 @@ struct ImportSource {
 
 /// --size, for sources whose files may not have one.
 void add_size_option(Command& command, ImportArguments& arguments);
+/// --ignore-distortion.
+void add_distortion_option(Command& command, CameraChoice& choice);
 
 /// Files that programs write.
 std::vector<ImportSource> program_sources();

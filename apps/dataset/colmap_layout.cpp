@@ -74,9 +74,7 @@ void add_colmap_layout(Command& family) {
       "as its workspace.");
   arguments->add_to(command, "The folder of the model");
   arguments->add_scene_to(command);
-  command.flag(
-      "--ignore-distortion", arguments->choice.ignore_distortion,
-      "Take cameras with lens distortion as if they had none; without it they are left out");
+  add_distortion_option(command, arguments->choice);
   command.runs([arguments](const Console& console) { return run_colmap(*arguments, console); });
 }
 

@@ -151,9 +151,7 @@ void add_depth_images(Command& family, const DepthImages& layout, const ImportSo
   arguments->add_scene_to(command);
   source.declare(command, arguments->cameras);
   arguments->render.storage.add_beyond_to(command);
-  command.flag(
-      "--ignore-distortion", arguments->cameras.choice.ignore_distortion,
-      "Take cameras with lens distortion as if they had none; without it they are left out");
+  add_distortion_option(command, arguments->cameras.choice);
   command.runs([arguments, &layout, source](const Console& console) {
     return run_depth_images(layout, source, *arguments, console);
   });
