@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "apps/dataset/counted_mask.h"
+#include "apps/shell/about_output.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/mask_picture.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/render.h"
 
 namespace fathom::app {
@@ -98,12 +98,8 @@ Result BopImageMaker::make(const BopImage& image, const std::filesystem::path& f
   options.depth_encoding.type = DepthEncoding::Type::scaled_unorm16;
   options.depth_encoding.scale = 1 / image.depth_scale;
   const std::string name = (folder / files_of(image).front()).string();
-  auto map = std::make_shared<DepthMap>();
-  try {
-    *map = render(scene, image.camera, options);
-  } catch (const OutputError& error) {
-    throw OutputError(name + ": " + error.what());
-  }
+  const auto map = std::make_shared<const DepthMap>(
+      about_output(name, [&] { return render(scene, image.camera, options); }));
   VisibleAreas areas;
   if (options_.areas) areas = visible_areas(scene, image.camera, rendering({Channel::Z}));
 

@@ -7,9 +7,9 @@
 
 #include "apps/options/channel_list.h"
 #include "apps/render/render_memory.h"
+#include "apps/shell/about_output.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/world_from_image.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/render.h"
 #include "fathom/text/counted.h"
 
@@ -72,18 +72,14 @@ std::shared_ptr<const DepthMap> ViewMaker::make(std::size_t camera, const std::s
   RenderStatistics statistics;
   RenderOptions options = plan_.rendering;
   options.statistics = &statistics;
-  try {
-    DepthMap map = render(scene_, cameras_[camera], options);
-    warnings_.note(scene_, cameras_[camera], statistics.pixels_with_surface);
-    if (map.codes_beyond.value_or(0) != 0) {
-      codes_beyond_ += *map.codes_beyond;
-      ++maps_with_codes_beyond_;
-    }
-    return std::make_shared<const DepthMap>(
-        plan_.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity()));
-  } catch (const OutputError& error) {
-    throw OutputError(name + ": " + error.what());
+  DepthMap map = about_output(name, [&] { return render(scene_, cameras_[camera], options); });
+  warnings_.note(scene_, cameras_[camera], statistics.pixels_with_surface);
+  if (map.codes_beyond.value_or(0) != 0) {
+    codes_beyond_ += *map.codes_beyond;
+    ++maps_with_codes_beyond_;
   }
+  return std::make_shared<const DepthMap>(
+      plan_.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity()));
 }
 
 void ViewMaker::warn(const Console& console) const {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "apps/shell/about_option.h"
+#include "apps/shell/about_output.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/image/background.h"
@@ -129,12 +130,10 @@ DepthEncoding StorageOptions::encoding_for(MapFormat format) const {
 DepthMap StorageOptions::dressed(DepthMap map, const std::string& target,
                                  std::optional<double> now) const {
   if (background && !map.png_scale) {
-    try {
-      map = about_option("--background",
-                         [&] { return with_background(std::move(map), *background, now); });
-    } catch (const OutputError& error) {
-      throw OutputError(target + ": " + error.what());
-    }
+    map = about_output(target, [&] {
+      return about_option("--background",
+                          [&] { return with_background(std::move(map), *background, now); });
+    });
   }
   if (channel_names.empty()) return map;
   return about_option("--channel-name",

@@ -14,6 +14,7 @@
 #include "apps/render/render_plan.h"
 #include "apps/render/render_report.h"
 #include "apps/render/thread_limit.h"
+#include "apps/shell/about_output.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/stopwatch.h"
@@ -22,7 +23,6 @@
 #include "fathom/camera/world_from_image.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/png_sidecar.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/render.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/counted.h"
@@ -70,20 +70,11 @@ void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
   }
 }
 
-/// A depth that the file cannot hold is told with the name of its map.
-DepthMap render_named(const std::string& name, const RenderInput& scene, const Camera& camera,
-                      const RenderOptions& options) {
-  try {
-    return scene.render(camera, options);
-  } catch (const OutputError& error) {
-    throw OutputError(name + ": " + error.what());
-  }
-}
-
 /// The map with everything in it that the plan asks for but the depth buffer.
 DepthMap render_map(const std::string& name, const MapPlan& plan, const RenderInput& scene,
                     const Camera& camera, const RenderOptions& options) {
-  DepthMap map = render_named(name, scene, camera, options);
+  // A depth that the file cannot hold is told with the name of its map.
+  DepthMap map = about_output(name, [&] { return scene.render(camera, options); });
   for (const MatteKind& by : plan.mattes) {
     add_cryptomatte(map, scene.outline(), camera, options, by);
   }
