@@ -8,12 +8,10 @@
 #include "apps/camera/import_sources.h"
 #include "apps/dataset/layouts.h"
 #include "apps/dataset/nerf_list.h"
-#include "apps/dataset/view_maker.h"
+#include "apps/dataset/views.h"
 #include "apps/options/output_names.h"
-#include "apps/render/thread_limit.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/known_files.h"
-#include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -87,17 +85,18 @@ const std::vector<DepthImages>& all_depth_images() {
   return all;
 }
 
-/// The codes as the layout has them.
-std::shared_ptr<const DepthMap> coded(const DepthImages& layout,
-                                      std::shared_ptr<const DepthMap> map) {
-  if (layout.none == 0) return map;
-  auto changed = std::make_shared<DepthMap>(*map);
-  Samples<std::uint16_t>* codes = changed->values<std::uint16_t>("Z");
+/// The depth image of a map, with codes as the layout has them.
+text::Bytes encoded(const DepthImages& layout, const DepthMap& map, const MapPlan& plan,
+                    const std::string& name) {
+  if (layout.none == 0) return encode_map(map, name, MapFormat::png, plan.writing);
+  DepthMap changed = map;
+  Samples<std::uint16_t>* codes = changed.values<std::uint16_t>("Z");
   if (std::ranges::find(*codes, layout.none) != codes->end()) {
-    throw OutputError(fmt::format("a depth has the code {}, which stands for none", layout.none));
+    throw OutputError(
+        fmt::format("{}: a depth has the code {}, which stands for none", name, layout.none));
   }
   std::ranges::replace(*codes, std::uint16_t{0}, layout.none);
-  return changed;
+  return encode_map(changed, name, MapFormat::png, plan.writing);
 }
 
 std::vector<Camera> read_cameras(const ImportSource& source, const DepthImagesArguments& arguments,
@@ -112,35 +111,24 @@ std::vector<Camera> read_cameras(const ImportSource& source, const DepthImagesAr
 
 int run_depth_images(const DepthImages& layout, const ImportSource& source,
                      DepthImagesArguments& arguments, const Console& console) {
-  const ThreadLimit limit(arguments.render.scene.threads);
   arguments.cameras.input = arguments.input;
-  const std::vector<Camera> cameras = read_cameras(source, arguments, console);
-  const std::vector<std::string> names = names_of_outputs("the layout", layout.pattern, cameras);
+  Views views;
+  views.cameras = read_cameras(source, arguments, console);
+  views.noun = "depth image";
+  views.inputs = fmt::format("none {}\n", layout.none);
+  const std::vector<std::string> names =
+      names_of_outputs("the layout", layout.pattern, views.cameras);
+  views.files.push_back({names, [&](const auto& map, const auto& plan, const auto& name) {
+                           return encoded(layout, map, plan, name);
+                         }});
+  if (layout.list != nullptr) {
+    views.lists.push_back({layout.list, [&](const auto&) {
+                             return layout.make_list(arguments, views.cameras, names);
+                           }});
+  }
   arguments.render.output = layout.pattern;
   arguments.render.storage.png_scale = layout.scale;
-  ViewMaker maker(arguments.render.scene.read(console, {.hash = true}), cameras,
-                  plan_maps(arguments.render));
-  Job job = arguments.job();
-  job.noun = "depth image";
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    job.tasks.push_back({fmt::format("none {}\n", layout.none) + maker.inputs_of(i), {names[i]}});
-  }
-  job.make = [&](std::size_t i) {
-    const std::string name = (job.folder / names[i]).string();
-    Result result;
-    result.files.push_back([map = maker.make(i, name), name, &layout, &maker] {
-      return encode_map(*coded(layout, map), name, MapFormat::png, maker.plan().writing);
-    });
-    result.memory = maker.memory_of(i);
-    return result;
-  };
-  job.lists.push_back({"cameras.json", [&](const auto&) { return to_json(cameras) + "\n"; }});
-  if (layout.list != nullptr) {
-    job.lists.push_back(
-        {layout.list, [&](const auto&) { return layout.make_list(arguments, cameras, names); }});
-  }
-  run_job(job, console);
-  maker.warn(console);
+  make_views(arguments, views, console);
   return done;
 }
 

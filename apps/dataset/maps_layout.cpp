@@ -4,14 +4,12 @@
 #include <memory>
 
 #include "apps/dataset/layouts.h"
-#include "apps/dataset/view_maker.h"
+#include "apps/dataset/views.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/channel_list.h"
 #include "apps/options/output_names.h"
-#include "apps/render/thread_limit.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/values.h"
-#include "fathom/camera/camera_files.h"
 #include "fathom/image/png_sidecar.h"
 
 namespace fathom::app {
@@ -27,48 +25,33 @@ std::string default_pattern(const std::vector<Camera>& cameras) {
   return named ? "{stem}.exr" : "{index:06}.exr";
 }
 
+text::Bytes encoded_sidecar(const DepthMap& map, const MapPlan&, const std::string&) {
+  text::Bytes bytes;
+  text::append(bytes, png_sidecar(map));
+  return bytes;
+}
+
 int run_maps(MapsArguments& arguments, const Console& console) {
-  const ThreadLimit limit(arguments.render.scene.threads);
-  const std::vector<Camera> cameras = read_camera_file(arguments.input, console);
-  const std::string pattern =
-      arguments.pattern.empty() ? default_pattern(cameras) : arguments.pattern;
-  const std::vector<std::string> names = names_of_outputs("--name", pattern, cameras);
+  Views views;
+  views.cameras = read_camera_file(arguments.input, console);
+  views.noun = "map";
+  arguments.render.output =
+      arguments.pattern.empty() ? default_pattern(views.cameras) : arguments.pattern;
+  const std::vector<std::string> names =
+      names_of_outputs("--name", arguments.render.output, views.cameras);
   for (const std::string& name : names) require_within_folder("--name", name);
-  arguments.render.output = pattern;
-  const MapPlan plan = plan_maps(arguments.render);
-  ViewMaker maker(arguments.render.scene.read(console, {.hash = true,
-                                                        .attributes = plan.needs_normals(),
-                                                        .segments = plan.needs_segments()}),
-                  cameras, plan);
-  Job job = arguments.job();
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    Task task{maker.inputs_of(i), {names[i]}};
-    if (plan.storage.png_sidecar) task.files.push_back(plan.storage.sidecar_of(names[i]));
-    job.tasks.push_back(std::move(task));
+  views.files.push_back({names, [](const auto& map, const auto& plan, const auto& name) {
+                           return encode_map(map, name, plan.format, plan.writing);
+                         }});
+  const StorageOptions& storage = arguments.render.storage;
+  if (storage.png_sidecar) {
+    FileOfView& sidecar = views.files.emplace_back(FileOfView{{}, encoded_sidecar});
+    for (const std::string& name : names) sidecar.names.push_back(storage.sidecar_of(name));
   }
-  job.make = [&](std::size_t i) {
-    const std::string name = (job.folder / names[i]).string();
-    const auto map = maker.make(i, name);
-    Result result;
-    result.files.push_back([map, name, &maker] {
-      return encode_map(*map, name, maker.plan().format, maker.plan().writing);
-    });
-    if (plan.storage.png_sidecar) {
-      result.files.push_back([map] {
-        text::Bytes bytes;
-        text::append(bytes, png_sidecar(*map));
-        return bytes;
-      });
-    }
-    result.memory = maker.memory_of(i);
-    return result;
-  };
   std::error_code error;
-  if (!std::filesystem::equivalent(arguments.input, job.folder / "cameras.json", error)) {
-    job.lists.push_back({"cameras.json", [&](const auto&) { return to_json(cameras) + "\n"; }});
-  }
-  run_job(job, console);
-  maker.warn(console);
+  views.has_camera_list = !std::filesystem::equivalent(
+      arguments.input, std::filesystem::path(arguments.folder) / "cameras.json", error);
+  make_views(arguments, views, console);
   return done;
 }
 

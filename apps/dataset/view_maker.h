@@ -25,7 +25,6 @@ class ViewMaker {
   [[nodiscard]] std::size_t memory_of(std::size_t camera) const;
 
   [[nodiscard]] const MapPlan& plan() const { return plan_; }
-  [[nodiscard]] const std::vector<Camera>& cameras() const { return cameras_; }
   /// Warns of what is probably not meant by the cameras whose maps have been made, and of depths that
   /// lie beyond their codes.
   void warn(const Console& console) const;
