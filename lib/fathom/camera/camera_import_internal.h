@@ -11,7 +11,6 @@
 #include "fathom/camera/camera_import.h"
 #include "fathom/camera/data_set_cameras.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/text/printable.h"
 
 /// The imports of camera_import.h from text and streams that are already open, for their own files,
 /// tests and fuzzers. `name` is the file's name for messages.
@@ -23,15 +22,16 @@ struct NamedStream {
   std::string name;
 };
 
-/// A camera as `read` fills it in; where that fails, with its fault.
+/// A camera as `read` fills it in; where that fails, with its fault. `where` is the place of what is wrong
+/// with the camera as a whole.
 template <class Read>
-ImportedCamera imported_camera(std::string name, const Read& read) {
+ImportedCamera imported_camera(std::string name, const std::string& where, const Read& read) {
   ImportedCamera result;
   try {
     read(result);
     const bool has_camera = result.fault.empty() && result.absence.empty();
     if (const auto fault = has_camera ? find_fault(result.camera) : std::nullopt)
-      result.fault = text::printable(name) + ": " + *fault;
+      result.fault = where + ": " + *fault;
   } catch (const InputError& error) {
     result.fault = error.what();
   }

@@ -15,7 +15,7 @@ ImportedCamera camera::parse_7scenes(const NamedText& pose, const std::string& f
                                      const GivenLens& given) {
   // The intrinsics with which KinectFusion made the poses; the camera was not calibrated.
   const GivenLens kinect{.width = 640, .height = 480, .K = intrinsic_matrix(585, 585, 320, 240)};
-  return imported_camera(frame, [&](ImportedCamera& one) {
+  return imported_camera(frame, pose.name, [&](ImportedCamera& one) {
     one.camera = lens_of(given, kinect, "K");
     one = placed(one, {frame, parse_pose(pose.text, pose.name)}, PoseDirection::camera_to_world,
                  CameraAxes::opencv, pose.name);

@@ -53,13 +53,13 @@ std::vector<ImportedCamera> camera::parse_bop(std::string_view text, const std::
   std::vector<std::pair<std::uint64_t, ImportedCamera>> cameras;
   for (const auto& [key, entry] : root.members()) {
     const JsonValue& own = entry;
-    cameras.push_back({image_id(key, entry), imported_camera(key, [&](ImportedCamera& one) {
-                         one.camera.width = width;
-                         one.camera.height = height;
-                         read_intrinsics(own.at("cam_K"), one.camera);
-                         read_pose(own, one.camera);
-                         if (const auto fault = find_fault(one.camera)) own.fail(*fault);
-                       })});
+    cameras.push_back(
+        {image_id(key, entry), imported_camera(key, own.where(), [&](ImportedCamera& one) {
+           one.camera.width = width;
+           one.camera.height = height;
+           read_intrinsics(own.at("cam_K"), one.camera);
+           read_pose(own, one.camera);
+         })});
   }
   if (cameras.empty()) root.fail("there is no image");
   std::stable_sort(cameras.begin(), cameras.end(),

@@ -212,13 +212,13 @@ std::vector<ImportedCamera> camera::parse_gltf_cameras(std::string_view bytes,
     if (!index) continue;
     if (definitions.empty()) index->fail("the file has no cameras");
     const JsonValue& definition = definitions[index->integer(0, definitions.size() - 1)];
-    cameras.push_back(imported_camera(name_of(node, definition, i), [&](ImportedCamera& one) {
-      one.camera.width = width;
-      one.camera.height = height;
-      read_lens(definition, one.camera);
-      one.camera.world_to_camera = view_of(nodes.world_from(i), node);
-      if (const auto fault = find_fault(one.camera)) node.fail(*fault);
-    }));
+    cameras.push_back(
+        imported_camera(name_of(node, definition, i), node.where(), [&](ImportedCamera& one) {
+          one.camera.width = width;
+          one.camera.height = height;
+          read_lens(definition, one.camera);
+          one.camera.world_to_camera = view_of(nodes.world_from(i), node);
+        }));
   }
   if (cameras.empty()) root.fail("no node has a camera");
   require_different_names(cameras, name);

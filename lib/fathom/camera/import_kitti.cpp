@@ -93,7 +93,7 @@ ImportedCamera lens_of(const RectifiedCamera& camera, const GivenLens& given) {
   if (given.K) throw UsageError("the calibration has K: another one cannot be given");
   if (given.width == 0 && camera.width == 0)
     throw UsageError("the calibration has no image size: give one, as 1241x376");
-  return imported_camera(camera.name, [&](ImportedCamera& one) {
+  return imported_camera(camera.name, camera.where, [&](ImportedCamera& one) {
     const IntrinsicMatrix K{P[0][0], P[0][1], P[0][2], P[1][0], P[1][1],
                             P[1][2], P[2][0], P[2][1], P[2][2]};
     one.camera = camera::lens_of(given, {.width = camera.width, .height = camera.height, .K = K},
@@ -101,7 +101,6 @@ ImportedCamera lens_of(const RectifiedCamera& camera, const GivenLens& given) {
     for (const auto& row : P)
       for (const double entry : row)
         if (!std::isfinite(entry)) throw InputError(camera.where + ": a number is not finite");
-    if (const auto fault = find_fault(one.camera)) throw InputError(camera.where + ": " + *fault);
   });
 }
 
@@ -138,13 +137,12 @@ std::vector<ImportedCamera> of_frames(const RectifiedCamera& camera, const Named
   std::vector<ImportedCamera> cameras;
   for (Line& line : lines_of(poses.text, poses.name)) {
     const std::string frame = fmt::format("{:06}", cameras.size());
-    cameras.push_back(imported_camera(frame, [&](ImportedCamera& one) {
+    cameras.push_back(imported_camera(frame, line.where, [&](ImportedCamera& one) {
       one = lens;
       if (!one.fault.empty()) return;
       const std::vector<double> numbers = rest_of(line);
       one.camera.world_to_camera =
           beside(pose_of_numbers(numbers, line.where), offset_of(camera.P), line.where);
-      if (const auto fault = find_fault(one.camera)) throw InputError(line.where + ": " + *fault);
     }));
   }
   if (cameras.empty()) throw InputError(poses.name + ": holds no pose");

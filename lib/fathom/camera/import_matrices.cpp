@@ -70,12 +70,11 @@ std::vector<ImportedCamera> import_matrices(const std::vector<NamedPose>& poses,
   cameras.reserve(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string where = input + ": pose " + poses[i].name;
-    const ImportedCamera lens = imported_camera("", [&](ImportedCamera& one) {
+    const ImportedCamera lens = imported_camera("", where, [&](ImportedCamera& one) {
       one.camera.width = width;
       one.camera.height = height;
       one.camera.pixel_centre = convention.pixel_centre;
       set_intrinsics(one.camera, K[K.size() == 1 ? 0 : i], where + ": K");
-      if (const auto fault = find_fault(one.camera)) throw InputError(where + ": " + *fault);
     });
     cameras.push_back(placed(lens, poses[i], convention.direction, convention.axes, where));
   }

@@ -139,14 +139,13 @@ std::vector<ImportedCamera> camera::parse_nerf(std::string_view text, const std:
   for (const JsonValue& own : root.at("frames").elements()) {
     const auto file_path = own.find("file_path");
     const std::string image = file_path ? file_path->string() : std::to_string(cameras.size());
-    cameras.push_back(imported_camera(image, [&](ImportedCamera& one) {
+    cameras.push_back(imported_camera(image, own.where(), [&](ImportedCamera& one) {
       const Frame frame{own, root};
       one.distortion = distortion_of(frame);
       one.camera.width = image_size(frame, "w", width);
       one.camera.height = image_size(frame, "h", height);
       read_intrinsics(frame, one.camera);
       one.camera.world_to_camera = world_to_camera(own.at("transform_matrix"));
-      if (const auto fault = find_fault(one.camera)) own.fail(*fault);
     }));
   }
   if (cameras.empty()) root.at("frames").fail("there is no frame");

@@ -184,7 +184,7 @@ Camera read_camera(const JsonValue& entry) {
 
 ImportedCamera read_named(const JsonValue& entry, std::size_t index) {
   const auto name = entry.find("name");
-  return imported_camera(name ? name->string() : std::to_string(index),
+  return imported_camera(name ? name->string() : std::to_string(index), entry.where(),
                          [&](ImportedCamera& one) { one.camera = read_camera(entry); });
 }
 

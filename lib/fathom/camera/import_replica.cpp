@@ -40,7 +40,7 @@ std::vector<ImportedCamera> camera::parse_replica(const NamedText& trajectory,
   std::vector<ImportedCamera> cameras;
   for (Line& line : lines_of(trajectory.text, trajectory.name)) {
     const std::string frame = fmt::format("frame{:06}", cameras.size());
-    cameras.push_back(imported_camera(frame, [&](ImportedCamera& one) {
+    cameras.push_back(imported_camera(frame, line.where, [&](ImportedCamera& one) {
       one = placed(lens, {frame, pose_of_numbers(rest_of(line), line.where)},
                    PoseDirection::camera_to_world, CameraAxes::opencv, line.where);
     }));

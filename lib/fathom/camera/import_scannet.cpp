@@ -68,7 +68,7 @@ IntrinsicMatrix camera::parse_scannet_intrinsics(const NamedText& file) {
 
 ImportedCamera camera::parse_scannet(const NamedText& pose, const std::string& frame,
                                      const Camera& lens) {
-  return imported_camera(frame, [&](ImportedCamera& one) {
+  return imported_camera(frame, pose.name, [&](ImportedCamera& one) {
     one.camera = lens;
     const Matrix34 matrix = parse_pose(pose.text, pose.name);
     if (!is_finite(matrix)) {
@@ -108,7 +108,7 @@ std::vector<ImportedCamera> camera::parse_scannetpp(const NamedText& file, const
   for (const auto& [frame, entry] : root.members()) {
     const text::JsonValue& own = entry;
     const std::string& name = frame;
-    cameras.push_back(imported_camera(name, [&](ImportedCamera& one) {
+    cameras.push_back(imported_camera(name, own.where(), [&](ImportedCamera& one) {
       GivenLens iphone = video;
       if (!given.K) iphone.K = intrinsics_of_rows(own.at("intrinsic"));
       one.camera = lens_of(given, iphone, own.where());

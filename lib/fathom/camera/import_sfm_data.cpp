@@ -130,7 +130,7 @@ void read_focal_lengths(const JsonValue& intrinsic, Version version, Camera& cam
 }
 
 ImportedCamera read_intrinsic(const JsonValue& intrinsic, Version version) {
-  return imported_camera("intrinsic", [&](ImportedCamera& one) {
+  return imported_camera("intrinsic", intrinsic.where(), [&](ImportedCamera& one) {
     Camera& camera = one.camera;
     const auto size = [&](const char* key) {
       return static_cast<std::uint32_t>(
@@ -148,7 +148,6 @@ ImportedCamera read_intrinsic(const JsonValue& intrinsic, Version version) {
       camera.cx = round_to_binary64(Ratio(Dyadic(principal[0]) + Dyadic(camera.width / 2.0)));
       camera.cy = round_to_binary64(Ratio(Dyadic(principal[1]) + Dyadic(camera.height / 2.0)));
     }
-    if (const auto fault = find_fault(camera)) intrinsic.fail(*fault);
   });
 }
 
@@ -244,7 +243,7 @@ std::vector<ImportedCamera> camera::parse_sfm_data(const NamedText& file) {
   std::vector<ImportedCamera> cameras;
   for (const JsonValue& view : views) {
     const std::string& name = names[cameras.size()];
-    cameras.push_back(imported_camera(name, [&](ImportedCamera& one) {
+    cameras.push_back(imported_camera(name, view.where(), [&](ImportedCamera& one) {
       const JsonValue intrinsic = view.at("intrinsicId");
       const auto pose_id = view.find("poseId");
       const auto pose = pose_id ? poses.find(id_in(*pose_id)) : poses.end();
