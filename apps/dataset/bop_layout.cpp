@@ -67,7 +67,7 @@ int run_bop(BopArguments& arguments, const Console& console) {
   Job job = arguments.job();
   job.noun = "image";
   for (const BopImage& image : images) {
-    job.tasks.push_back({inputs_of(image, models, arguments), files_of(image)});
+    job.tasks.push_back({key_of(inputs_of(image, models, arguments)), files_of(image)});
   }
   job.make = [&](std::size_t i) { return maker.make(images[i], job.folder); };
   job.lists.push_back(

@@ -16,7 +16,7 @@ void make_views(const DatasetArguments& arguments, const Views& views, const Con
   Job job = arguments.job();
   job.noun = views.noun;
   for (std::size_t i = 0; i < views.cameras.size(); ++i) {
-    Task task{views.inputs + maker.inputs_of(i), {}};
+    Task task{key_of(views.inputs + maker.inputs_of(i)), {}};
     for (const FileOfView& file : views.files) task.files.push_back(file.names[i]);
     job.tasks.push_back(std::move(task));
   }

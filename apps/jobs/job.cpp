@@ -25,10 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string key_of(const Task& task) {
-  return text::sha256(std::as_bytes(std::span(task.inputs)));
-}
-
 /// Whether the file is there as it was published.
 bool is_intact(const fs::path& folder, const PublishedFile& file) {
   const fs::path path = folder / file.path;
@@ -45,9 +41,8 @@ bool is_intact(const fs::path& folder, const PublishedFile& file) {
 }
 
 /// The record of a task whose files are there, unharmed, and made of the same inputs.
-const Record* record_of(const ManifestContent& content, const Job& job, const Task& task,
-                        const std::string& key) {
-  const Record* const record = content.find(task.files.front(), key);
+const Record* record_of(const ManifestContent& content, const Job& job, const Task& task) {
+  const Record* const record = content.find(task.files.front(), task.key);
   if (record == nullptr) return nullptr;
   if (!std::ranges::equal(record->files, task.files, {}, &PublishedFile::path)) return nullptr;
   const auto intact = [&](const PublishedFile& file) { return is_intact(job.folder, file); };
@@ -105,9 +100,8 @@ class Work {
   }
 
   std::size_t make_tasks() {
-    std::size_t total = 0, made = 0;
-    for (std::size_t i = 0; i < job_.tasks.size(); ++i) total += job_.shard.has(i) ? 1 : 0;
-    JobProgress progress(console_, job_.noun, total);
+    std::size_t made = 0;
+    JobProgress progress(console_, job_.noun, job_.shard.count_of(job_.tasks.size()));
     std::vector<Record> published;
     Publisher publisher(job_.folder, manifest_, [&](const std::vector<Record>& records) {
       published.insert(published.end(), records.begin(), records.end());
@@ -117,12 +111,11 @@ class Work {
       for (std::size_t i = 0; i < job_.tasks.size(); ++i) {
         if (!job_.shard.has(i)) continue;
         const Task& task = job_.tasks[i];
-        std::string key = key_of(task);
-        if (record_of(content_, job_, task, key) != nullptr) {
+        if (record_of(content_, job_, task) != nullptr) {
           progress.add_found();
           continue;
         }
-        publisher.add(task, std::move(key), job_.make(i));
+        publisher.add(task, job_.make(i));
         ++made;
       }
       publisher.finish();
@@ -143,7 +136,7 @@ class Work {
     std::vector<Record> records;
     std::vector<std::string> facts;
     for (const Task& task : job_.tasks) {
-      const Record* const found = content_.find(task.files.front(), key_of(task));
+      const Record* const found = content_.find(task.files.front(), task.key);
       if (found == nullptr) return false;
       records.push_back(*found);
       facts.push_back(found->facts);
@@ -160,10 +153,9 @@ class Work {
   }
 
   void tell(std::size_t made, bool has_lists) const {
-    std::size_t mine = 0;
-    for (std::size_t i = 0; i < job_.tasks.size(); ++i) mine += job_.shard.has(i) ? 1 : 0;
-    std::string line = fmt::format("{}: {}, {} made now", text::printable(job_.folder.string()),
-                                   text::counted(mine, job_.noun), made);
+    std::string line =
+        fmt::format("{}: {}, {} made now", text::printable(job_.folder.string()),
+                    text::counted(job_.shard.count_of(job_.tasks.size()), job_.noun), made);
     if (!job_.shard.is_all()) {
       line += fmt::format(", of {} in {} shards", job_.tasks.size(), job_.shard.of);
     }
@@ -197,6 +189,10 @@ Shard parse_shard(const std::string& text) {
     throw UsageError("'" + text + "' is no part of a whole; the second of five is 2/5");
   }
   return shard;
+}
+
+std::string key_of(const std::string& inputs) {
+  return text::sha256(std::as_bytes(std::span(inputs)));
 }
 
 void run_job(const Job& job, const Console& console) {

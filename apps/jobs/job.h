@@ -21,17 +21,22 @@ struct Shard {
 
   [[nodiscard]] bool has(std::size_t task) const { return task % of == number - 1; }
   [[nodiscard]] bool is_all() const { return of == 1; }
+  /// How many of so many tasks it has.
+  [[nodiscard]] std::size_t count_of(std::size_t tasks) const { return (tasks + of - number) / of; }
 };
 /// "2/5". Fails with UsageError.
 Shard parse_shard(const std::string& text);
 
 /// What is computed in one go and published together.
 struct Task {
-  /// All that its files depend on, as text; whoever changes it has the files made anew.
-  std::string inputs;
+  /// Of all that its files depend on; another key has the files made anew.
+  std::string key;
   /// The files that it makes, below the folder of the job; at least one.
   std::vector<std::string> files;
 };
+
+/// The key of a task whose files depend on this text and on nothing else.
+std::string key_of(const std::string& inputs);
 
 /// What a task has computed.
 struct Result {

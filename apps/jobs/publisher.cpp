@@ -38,13 +38,13 @@ void Publisher::rethrow_failure(std::unique_lock<std::mutex>& lock) {
   std::rethrow_exception(failure);
 }
 
-void Publisher::add(const Task& task, std::string key, Result result) {
+void Publisher::add(const Task& task, Result result) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock,
                 [&] { return failure_ || memory_ == 0 || memory_ + result.memory <= most_memory; });
   rethrow_failure(lock);
   memory_ += result.memory;
-  waiting_.push_back({task, std::move(key), std::move(result)});
+  waiting_.push_back({task, std::move(result)});
   changed_.notify_all();
 }
 
@@ -90,7 +90,7 @@ void Publisher::publish(std::vector<Waiting> batch) {
   std::deque<OutputFile> outputs;
   std::vector<Record> records;
   for (Waiting& one : batch) {
-    Record record{one.key, {}, one.result.facts};
+    Record record{one.task.key, {}, one.result.facts};
     for (std::size_t k = 0; k < one.task.files.size(); ++k) {
       const std::string& path = one.task.files[k];
       OutputFile& output = outputs.emplace_back(folder_ / path);

@@ -30,14 +30,13 @@ class Publisher {
 
   /// Waits where too much waits already.
   /// Fails    as writing has failed since; nothing is published after that.
-  void add(const Task& task, std::string key, Result result);
+  void add(const Task& task, Result result);
   /// Waits until all is published. Fails as add().
   void finish();
 
  private:
   struct Waiting {
     Task task;
-    std::string key;
     Result result;
   };
 
