@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <istream>
 #include <optional>
 #include <string>
@@ -11,6 +12,10 @@
 #include "fathom/camera/camera_import.h"
 #include "fathom/camera/data_set_cameras.h"
 #include "fathom/numeric/errors.h"
+
+namespace fathom::text {
+class JsonValue;
+}
 
 /// The imports of camera_import.h from text and streams that are already open, for their own files,
 /// tests and fuzzers. `name` is the file's name for messages.
@@ -47,9 +52,18 @@ std::vector<ImportedCamera> parse_nerf(std::string_view text, const std::string&
                                        Warnings& warnings);
 std::vector<ImportedCamera> parse_bop(std::string_view text, const std::string& name,
                                       std::uint32_t width, std::uint32_t height);
+/// The same of a document that has been parsed.
+std::vector<ImportedCamera> parse_bop(const text::JsonValue& root, std::uint32_t width,
+                                      std::uint32_t height);
 std::vector<ImportedCamera> parse_opengl(std::string_view text, const std::string& name);
 std::vector<ImportedCamera> parse_gltf_cameras(std::string_view bytes, const std::string& name,
                                                std::uint32_t width, std::uint32_t height);
+/// The scene_camera.json of the folder of a scene. Fails with InputError where there is none.
+std::filesystem::path bop_camera_file(const std::filesystem::path& folder);
+/// The image size of the scenes in a folder, as the camera.json of their data set has it, unless one is
+/// given. Fails with InputError.
+std::pair<std::uint32_t, std::uint32_t> bop_image_size(const std::filesystem::path& folder,
+                                                       std::uint32_t width, std::uint32_t height);
 /// The image size of a camera.json of BOP.
 std::pair<std::uint32_t, std::uint32_t> parse_bop_size(std::string_view text,
                                                        const std::string& name);

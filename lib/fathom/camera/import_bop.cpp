@@ -48,8 +48,11 @@ void read_pose(const JsonValue& entry, Camera& camera) {
 
 std::vector<ImportedCamera> camera::parse_bop(std::string_view text, const std::string& name,
                                               std::uint32_t width, std::uint32_t height) {
-  const JsonDocument document(text, name);
-  const JsonValue root = document.root();
+  return parse_bop(JsonDocument(text, name).root(), width, height);
+}
+
+std::vector<ImportedCamera> camera::parse_bop(const JsonValue& root, std::uint32_t width,
+                                              std::uint32_t height) {
   std::vector<std::pair<std::uint64_t, ImportedCamera>> cameras;
   for (const auto& [key, entry] : root.members()) {
     const JsonValue& own = entry;
@@ -88,23 +91,37 @@ fs::path find_camera_json(const fs::path& folder) {
   const fs::path start = folder.empty() ? fs::path(".") : folder;
   for (const fs::path& place : {start, start / "..", start / ".." / ".."})
     if (fs::exists(place / "camera.json", ignored)) return place / "camera.json";
-  throw InputError(folder.string() +
+  throw InputError(start.string() +
                    ": the image size is unknown: there is no camera.json in this folder or the two "
                    "above; give the size (--size)");
 }
 
 }  // namespace
 
+fs::path camera::bop_camera_file(const fs::path& folder) {
+  fs::path file = folder / "scene_camera.json";
+  std::error_code ignored;
+  if (fs::exists(file, ignored)) return file;
+  throw InputError(folder.string() +
+                   ": has no scene_camera.json: give the folder of a scene, as test/000001");
+}
+
+std::pair<std::uint32_t, std::uint32_t> camera::bop_image_size(const fs::path& folder,
+                                                               std::uint32_t width,
+                                                               std::uint32_t height) {
+  if (width != 0 || height != 0) return {width, height};
+  const fs::path file = find_camera_json(folder);
+  return parse_bop_size(InputFile(file).text(), file.string());
+}
+
 std::vector<ImportedCamera> import_bop(const fs::path& input, std::uint32_t width,
                                        std::uint32_t height) {
   const StandardArithmetic standard;
   std::error_code ignored;
-  const fs::path file = fs::is_directory(input, ignored) ? input / "scene_camera.json" : input;
-  if (width == 0 && height == 0) {
-    const fs::path size = find_camera_json(file.parent_path());
-    std::tie(width, height) = parse_bop_size(InputFile(size).text(), size.string());
-  }
-  return parse_bop(InputFile(file).text(), file.string(), width, height);
+  const fs::path file = fs::is_directory(input, ignored) ? bop_camera_file(input) : input;
+  const InputFile cameras(file);
+  std::tie(width, height) = bop_image_size(file.parent_path(), width, height);
+  return parse_bop(cameras.text(), file.string(), width, height);
 }
 
 }  // namespace fathom

@@ -6,8 +6,9 @@
 #include <charconv>
 #include <limits>
 #include <set>
+#include <tuple>
 
-#include "fathom/camera/camera_import.h"
+#include "fathom/camera/camera_import_internal.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/read_scene.h"
@@ -65,13 +66,13 @@ BopImage image_of(const ImportedCamera& imported, const std::string& file) {
 std::vector<BopImage> read_bop_images(const std::filesystem::path& folder, std::uint32_t width,
                                       std::uint32_t height) {
   const StandardArithmetic standard;
-  const std::filesystem::path camera_file = folder / "scene_camera.json",
+  const std::filesystem::path camera_file = camera::bop_camera_file(folder),
                               poses_file = folder / "scene_gt.json";
-  const std::vector<ImportedCamera> cameras = import_bop(camera_file, width, height);
   const JsonDocument camera_document(InputFile(camera_file).text(), camera_file.string());
   const JsonDocument poses_document(InputFile(poses_file).text(), poses_file.string());
+  std::tie(width, height) = camera::bop_image_size(folder, width, height);
   std::vector<BopImage> images;
-  for (const ImportedCamera& imported : cameras) {
+  for (const ImportedCamera& imported : camera::parse_bop(camera_document.root(), width, height)) {
     const auto poses = poses_document.root().find(imported.camera.name);
     if (!poses) continue;
     BopImage image = image_of(imported, camera_file.string());
