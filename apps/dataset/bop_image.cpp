@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -32,6 +31,13 @@ Camera around(Camera camera) {
 
 double fraction(double part, double whole) {
   return whole == 0 ? 0 : part / whole;
+}
+
+/// The pixels of a mask whose codes stand for a depth.
+std::size_t count_with_depth(const Mask& mask, const Samples<std::uint16_t>& codes) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < mask.size(); ++i) count += mask[i] != 0 && codes[i] != 0 ? 1 : 0;
+  return count;
 }
 
 std::function<text::Bytes()> as_png(Mask mask, const BopImage& image, const std::string& name) {
@@ -97,9 +103,11 @@ Result BopImageMaker::make(const BopImage& image, const std::filesystem::path& f
   options.kept = &memory_;
   options.depth_encoding.type = DepthEncoding::Type::scaled_unorm16;
   options.depth_encoding.scale = 1 / image.depth_scale;
+  options.depth_encoding.beyond_is_none = options_.beyond_is_none;
   const std::string name = (folder / files_of(image).front()).string();
   const auto map = std::make_shared<const DepthMap>(
       about_output(name, [&] { return render(scene, image.camera, options); }));
+  codes_beyond_.note(*map);
   VisibleAreas areas;
   if (options_.areas) areas = visible_areas(scene, image.camera, rendering({Channel::Z}));
 
@@ -117,7 +125,7 @@ Result BopImageMaker::make(const BopImage& image, const std::filesystem::path& f
     Json fact{{"bbox_obj", visible.count == 0 ? none : alone.whole.box(width, height)},
               {"bbox_visib", visible.count == 0 ? none : visible.box(0, 0)},
               {"px_count_all", alone.whole.count},
-              {"px_count_valid", std::ranges::count(alone.mask, 1)},
+              {"px_count_valid", count_with_depth(alone.mask, *map->values<std::uint16_t>("Z"))},
               {"px_count_visib", visible.count},
               {"visib_fract", fraction(static_cast<double>(visible.count),
                                        static_cast<double>(alone.whole.count))}};

@@ -20,12 +20,17 @@ struct BopArguments : DatasetArguments {
   std::string models;
   std::optional<Size> size;
   bool areas = false;
+
+  [[nodiscard]] bool beyond_is_none() const {
+    return render.storage.png_beyond_is_none.value_or(false);
+  }
 };
 
 /// All that the files of an image depend on.
 std::string inputs_of(const BopImage& image, const BopModels& models, const BopArguments& a) {
-  std::string text = fmt::format("bop 1 areas {} cull {} scale {:a}\n", a.areas,
-                                 static_cast<int>(a.render.cull), image.depth_scale);
+  std::string text =
+      fmt::format("bop 1 areas {} cull {} scale {:a}{}\n", a.areas, static_cast<int>(a.render.cull),
+                  image.depth_scale, a.beyond_is_none() ? " beyond none" : "");
   for (const Source& source : models.sources()) {
     text += fmt::format("source {} {}\n", source.sha256, source.path);
   }
@@ -63,7 +68,8 @@ int run_bop(BopArguments& arguments, const Console& console) {
 
   BopImageMaker maker(models, {.cull = arguments.render.cull,
                                .threads = arguments.render.scene.threads,
-                               .areas = arguments.areas});
+                               .areas = arguments.areas,
+                               .beyond_is_none = arguments.beyond_is_none()});
   Job job = arguments.job();
   job.noun = "image";
   for (const BopImage& image : images) {
@@ -73,6 +79,7 @@ int run_bop(BopArguments& arguments, const Console& console) {
   job.lists.push_back(
       {"scene_gt_info.json", [&](const auto& facts) { return info_of(images, facts); }});
   run_job(job, console);
+  maker.warn(console);
   return done;
 }
 
@@ -91,6 +98,7 @@ void add_bop_layout(Command& family) {
       .required();
   command.option("--size", "WxH", into(arguments->size, parse_size),
                  "WIDTHxHEIGHT of the images in pixels");
+  arguments->render.storage.add_beyond_to(command);
   command.flag("--areas", arguments->areas,
                "Exact areas beside the counts of pixels: area_all, area_visib, visib_area_fract");
   command.runs([arguments](const Console& console) { return run_bop(*arguments, console); });

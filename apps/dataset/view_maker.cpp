@@ -11,7 +11,6 @@
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/world_from_image.h"
 #include "fathom/render.h"
-#include "fathom/text/counted.h"
 
 namespace fathom::app {
 namespace {
@@ -74,20 +73,14 @@ std::shared_ptr<const DepthMap> ViewMaker::make(std::size_t camera, const std::s
   options.statistics = &statistics;
   DepthMap map = about_output(name, [&] { return render(scene_, cameras_[camera], options); });
   warnings_.note(scene_, cameras_[camera], statistics.pixels_with_surface);
-  if (map.codes_beyond.value_or(0) != 0) {
-    codes_beyond_ += *map.codes_beyond;
-    ++maps_with_codes_beyond_;
-  }
+  codes_beyond_.note(map);
   return std::make_shared<const DepthMap>(
       plan_.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity()));
 }
 
 void ViewMaker::warn(const Console& console) const {
   warnings_.tell(console);
-  if (codes_beyond_ == 0) return;
-  console.warn(fmt::format("{} in {} lie beyond the last code and are stored as 0",
-                           text::counted(codes_beyond_, "pixel"),
-                           text::counted(maps_with_codes_beyond_, "map")));
+  codes_beyond_.tell(console);
 }
 
 }  // namespace fathom::app

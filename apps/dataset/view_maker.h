@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/dataset/codes_beyond.h"
 #include "apps/render/camera_warnings.h"
 #include "apps/render/render_plan.h"
 #include "fathom/fast/render_memory.h"
@@ -36,7 +37,7 @@ class ViewMaker {
   std::string inputs_;
   RenderMemory memory_;
   CameraWarnings warnings_;
-  std::uint64_t codes_beyond_ = 0, maps_with_codes_beyond_ = 0;
+  CodesBeyond codes_beyond_;
 };
 
 }  // namespace fathom::app
