@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -32,6 +33,23 @@ assert (codes[~seen] == none).all()
 assert np.abs(codes[seen] - scale * Z[seen]).max() <= 0.5 + 1e-9
 )";
 
+/// What the layouts below say of their two cameras, worked out by hand: 4 units from the origin, looking at
+/// it, the second one beside the first.
+using Views = std::array<std::string, 2>;
+const Views along_z{"[[1,0,0,0],[0,1,0,0],[0,0,1,4]]", "[[1,0,0,-0.25],[0,1,0,0],[0,0,1,4]]"};
+const Views against_z{"[[1,0,0,0],[0,-1,0,0],[0,0,-1,4]]", "[[1,0,0,-0.25],[0,-1,0,0],[0,0,-1,4]]"};
+
+std::string camera_file(const Views& world_to_camera) {
+  std::string text;
+  for (const std::string& matrix : world_to_camera) {
+    text += (text.empty() ? "[" : ",") +
+            (R"({"width":64,"height":48,"fx":60,"fy":60,"cx":31.5,"cy":23.5,"pixel_centre":0,)"
+             R"("world_to_camera":)" +
+             matrix + "}");
+  }
+  return text + "]";
+}
+
 struct Layout {
   std::string name;
   /// Files below the folder: names and texts.
@@ -43,6 +61,8 @@ struct Layout {
   std::string scale, none;
   /// A list, and what stands in it.
   std::string list, words;
+  /// World to camera.
+  Views views = along_z;
 };
 
 void PrintTo(const Layout& layout, std::ostream* stream) {
@@ -78,10 +98,7 @@ TEST_P(DepthImages, HoldExactDepthsInTheirPlaces) {
       {"dataset", layout.name, layout.input, "--mesh", spot_, "--out", "exact"}, layout.options);
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_EQ(made.out, "exact: 2 depth images, 2 made now\n");
-  ASSERT_EQ(
-      fathom({"camera", "import", layout.name, layout.input, "-o", "cameras.json"}, layout.options)
-          .status,
-      0);
+  std::ofstream(folder_.path() / "cameras.json") << camera_file(layout.views);
   ASSERT_EQ(fathom({"render", spot_, "--camera", "cameras.json", "--dtype", "float64", "-o",
                     "{index}.npy"})
                 .status,
@@ -132,6 +149,19 @@ INSTANTIATE_TEST_SUITE_P(
             "0",
             "",
             ""},
+        Layout{"scannetpp",
+               {{"iphone/pose_intrinsic_imu.json",
+                 R"({"frame_000010":{"aligned_pose":[[1,0,0,0.25],[0,1,0,0],[0,0,1,-4],[0,0,0,1]],)"
+                 R"("intrinsic":[[60,0,31.5],[0,60,23.5],[0,0,1]]},)"
+                 R"("frame_000000":{"aligned_pose":[[1,0,0,0],[0,1,0,0],[0,0,1,-4],[0,0,0,1]],)"
+                 R"("intrinsic":[[60,0,31.5],[0,60,23.5],[0,0,1]]}})"}},
+               "iphone/pose_intrinsic_imu.json",
+               {"--size", "64x48"},
+               {"depth/frame_000000.png", "depth/frame_000010.png"},
+               "1000",
+               "0",
+               "",
+               ""},
         Layout{"replica",
                {{"r/traj.txt",
                  "1 0 0 0 0 1 0 0 0 0 1 -4 0 0 0 1\n1 0 0 0.25 0 1 0 0 0 0 1 -4 0 0 "
@@ -153,7 +183,9 @@ INSTANTIATE_TEST_SUITE_P(
                "256",
                "0",
                "",
-               ""},
+               "",
+               // Camera 1 is 6/60 beside camera 0, whose poses these are.
+               {"[[1,0,0,-0.1],[0,1,0,0],[0,0,1,4]]", "[[1,0,0,-0.35],[0,1,0,0],[0,0,1,4]]"}},
         Layout{"nerf",
                {{"transforms.json",
                  R"({"w":64,"h":48,"fl_x":60,"fl_y":60,"cx":32,"cy":24,"frames":[)"
@@ -166,7 +198,8 @@ INSTANTIATE_TEST_SUITE_P(
                "1000",
                "0",
                "transforms.json",
-               "\"depth_file_path\": \"depth/b.png\""}),
+               "\"depth_file_path\": \"depth/b.png\"",
+               against_z}),
     [](const auto& layout) { return "of_" + layout.param.name; });
 
 /// A plate of 4 by 4 millimetres around the origin, z = 0.
@@ -297,6 +330,46 @@ TEST_F(BopScenes, WhatIsWrongIsToldInOneLine) {
   told("obj_000001.ply");
   fs::remove(folder_.path() / "000001/scene_camera.json");
   told("scene_camera.json");
+}
+
+TEST_F(BopScenes, AFolderWithoutCamerasIsToldSo) {
+  fs::remove(folder_.path() / "000001/scene_camera.json");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"dataset", "bop", "000001", "--models", "models", "--out",
+                                 "exact"},
+        {"dataset", "bop", "nowhere", "--models", "models", "--out", "exact"},
+        {"camera", "import", "bop", "000001"}}) {
+    const Outcome refused = run_fathom(command, {.folder = folder_.path()});
+    EXPECT_EQ(refused.status, 3) << refused.err;
+    EXPECT_EQ(refused.err, "fathom: error: " + command[command[0] == "camera" ? 3 : 2] +
+                               ": has no scene_camera.json: give the folder of a scene, as "
+                               "test/000001\n");
+  }
+}
+
+// With 0.001 millimetres a code, 65535 codes reach to 65.535: the second plate at 50 has the code 50000, and
+// those at 100 and 200 have none.
+TEST_F(BopScenes, DepthsBeyondTheLastCodeAreAnErrorOrNone) {
+  write("000001/scene_camera.json",
+        R"({"7": {"cam_K": [100,0,9.5, 0,100,4.5, 0,0,1], "depth_scale": 0.001}})");
+  const Outcome refused = make({});
+  EXPECT_EQ(refused.status, 4);
+  EXPECT_THAT(refused.err, HasSubstr("exact/depth/000007.png: pixel (18, 3): "));
+  const Outcome made = make({"--png-beyond", "none"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(made.err,
+            "fathom: warning: 8 pixels in 1 map lie beyond the last code and are stored as 0\n");
+  const json info =
+      json::parse(text::InputFile(folder_.path() / "exact/scene_gt_info.json").text()).at("7");
+  EXPECT_EQ(info[0].at("px_count_valid"), 16);  // where the second is before it
+  EXPECT_EQ(info[1].at("px_count_valid"), 64);
+  EXPECT_EQ(info[2].at("px_count_valid"), 0);
+  EXPECT_EQ(info[2].at("px_count_visib"), 8);
+  const Outcome depths =
+      run({python, "-c",
+           "import cv2; d = cv2.imread('exact/depth/000007.png', -1); print(d[5, 10], d[4, 19])"},
+          {.folder = folder_.path()});
+  EXPECT_EQ(depths.out, "50000 0\n") << depths.err;
 }
 
 TEST_F(BopScenes, AnImageWithoutInstancesIsBackground) {
