@@ -65,6 +65,24 @@ TYPED_TEST(ParseJson, RefusesWhatNlohmannAccepts) {
   EXPECT_EQ(fault_of("\"\xff\"", root).kind(), JsonFault::Kind::syntax);
 }
 
+TYPED_TEST(ParseJson, RefusesNulWhereverItStands) {
+  using namespace std::string_view_literals;
+  const std::pair<std::string_view, std::size_t> texts[] = {
+      {"{}\0"sv, 3},     {"[1]\0[2]"sv, 4}, {"{\"a\": 1}\0\0"sv, 9}, {"\0{}"sv, 1},
+      {"[1,\0 2]"sv, 4}, {"[12\0]"sv, 4},   {"{\"a\0\": 1}"sv, 4},   {"[tr\0ue]"sv, 4}};
+  for (const auto& [text, byte] : texts) {
+    TypeParam root;
+    const JsonFault fault = fault_of(text, root);
+    EXPECT_EQ(fault.kind(), JsonFault::Kind::syntax) << byte;
+    EXPECT_EQ(fault.byte(), byte);
+    EXPECT_STREQ(fault.what(), "a NUL character");
+  }
+  // What is wrong before it comes first.
+  TypeParam root;
+  EXPECT_EQ(fault_of("[1 2]\0"sv, root).byte(), 4U);
+  EXPECT_EQ(fault_of("{\"a\":1,\"a\":2}\0"sv, root).kind(), JsonFault::Kind::key_twice);
+}
+
 TYPED_TEST(ParseJson, NestsAHundredDeep) {
   const auto lists = [](std::size_t depth) {
     return std::string(depth, '[') + std::string(depth, ']');

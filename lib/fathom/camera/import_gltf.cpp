@@ -11,6 +11,7 @@
 #include "fathom/text/byte_order.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
+#include "fathom/text/text_ends.h"
 
 namespace fathom {
 using namespace camera;
@@ -192,7 +193,7 @@ std::string_view json_of(std::string_view bytes, const std::string& name) {
   if (bytes.size() < before_json || number_at(4) != 2 ||
       number_at(12) > bytes.size() - before_json || bytes.substr(16, 4) != "JSON")
     throw InputError(name + ": not a GLB file of glTF 2.0, or truncated");
-  return bytes.substr(before_json, number_at(12));
+  return text::without_zeros(bytes.substr(before_json, number_at(12)));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "fathom/mesh_files/named_files.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/counted.h"
+#include "fathom/text/text_ends.h"
 
 namespace fathom::mesh_files {
 using namespace text;
@@ -81,7 +82,7 @@ GltfContainer split_gltf(Bytes file, const std::string& name) {
     if (size > file.size() - at - 8) fail(at, "a chunk reaches beyond the end of the file");
     const Bytes chunk = file.subspan(at + 8, size);
     if (first && type != json_chunk) fail(at + 4, "expected the first chunk to be JSON");
-    if (first) container.json = as_text(chunk);
+    if (first) container.json = text::without_zeros(as_text(chunk));
     if (type == binary_chunk && !container.binary) container.binary = chunk;
     at += 8 + size;
   }

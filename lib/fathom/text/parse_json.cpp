@@ -144,12 +144,23 @@ void build(Json& root, const Parse& parse) {
 
 template <class Json>
 void parse_json(std::string_view text, Json& root) {
-  // Json::sax_parse() does the same, but compiles all binary formats with it.
-  build(root, [&](auto& builder) {
-    const auto input = nlohmann::detail::input_adapter(text.begin(), text.end());
-    using Input = std::remove_const_t<decltype(input)>;
-    nlohmann::detail::parser<Json, Input>(Input(input)).sax_parse(&builder);
-  });
+  // NUL is no character of JSON; the parser would take it for the end of the text.
+  const std::size_t nul = text.find('\0');
+  const std::string_view before = text.substr(0, nul);
+  std::vector<JsonStep> path;
+  try {
+    // Json::sax_parse() does the same, but compiles all binary formats with it.
+    build(root, [&](auto& builder) {
+      const auto input = nlohmann::detail::input_adapter(before.begin(), before.end());
+      using Input = std::remove_const_t<decltype(input)>;
+      nlohmann::detail::parser<Json, Input>(Input(input)).sax_parse(&builder);
+    });
+  } catch (const JsonFault& fault) {
+    const bool is_at_end = fault.kind() == JsonFault::Kind::syntax && fault.byte() > before.size();
+    if (nul == text.npos || !is_at_end) throw;
+    path = fault.path();
+  }
+  if (nul != text.npos) throw JsonFault(JsonFault::Kind::syntax, "a NUL character", nul + 1, path);
 }
 
 template void parse_json(std::string_view, json&);

@@ -48,7 +48,7 @@ class JsonFault : public InputError {
 /// `root` holds what had been read by then.
 ///
 /// Cost     n log n of n bytes, whatever they are.
-/// Fails    JsonFault where the text is no JSON, and for what nlohmann would accept: a key twice in
+/// Fails    JsonFault where the text is no JSON, NUL behind it included, and for what nlohmann would accept: a key twice in
 ///          one object, a number beyond binary64, more than `deepest_json` levels.
 template <class Json>
 void parse_json(std::string_view text, Json& root);

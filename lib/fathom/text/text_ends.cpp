@@ -28,6 +28,10 @@ std::string_view without_padding(std::string_view text) {
   return whole_line || text.size() - words.size() == 1 ? words : text;
 }
 
+std::string_view without_zeros(std::string_view text) {
+  return text.substr(0, text.find_last_not_of('\0') + 1);
+}
+
 void expect_no_utf16(std::string_view text, const std::string& file) {
   const bool marked = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
   const std::string_view words = marked ? text.substr(2) : text;
