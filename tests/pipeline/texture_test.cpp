@@ -339,6 +339,35 @@ TEST(TextureFiles, ColoursAndPalettes) {
             (std::vector<Rgb>{{40, 50, 60}, {1, 2, 3}}));
 }
 
+TEST(TextureFiles, AnIndexBeyondThePaletteIsRefused) {
+  const std::array<png_color, 3> palette{{{1, 2, 3}, {40, 50, 60}, {70, 80, 90}}};
+  const auto why = [&](int depth, std::vector<std::vector<png_byte>> rows, int colours) {
+    const auto bytes = png_of(
+        4, 2, depth, PNG_COLOR_TYPE_PALETTE, std::move(rows), [&](png_structp png, png_infop info) {
+          png_set_PLTE(png, info, palette.data(), colours);
+          png_set_check_for_invalid_index(png, -1);  // libpng would not write it
+        });
+    try {
+      decode_rgb_png(bytes, "texture.png");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  const std::string begin = "texture.png: broken PNG file: pixel ";
+  EXPECT_EQ(why(8, {{0, 1, 2, 0}, {0, 2, 2, 1}}, 3), "none");
+  EXPECT_EQ(why(8, {{0, 1, 2, 0}, {0, 3, 2, 1}}, 3),
+            begin + "(1, 1): the index 3 is beyond the palette, which has 3 colours");
+  EXPECT_EQ(why(8, {{0, 1, 2, 255}, {0, 3, 2, 1}}, 3),
+            begin + "(3, 0): the index 255 is beyond the palette, which has 3 colours");
+  EXPECT_EQ(why(4, {{0x00, 0x0f}, {0x00, 0x00}}, 2),
+            begin + "(3, 0): the index 15 is beyond the palette, which has 2 colours");
+  EXPECT_EQ(why(2, {{0b00011011}, {0}}, 3),
+            begin + "(3, 0): the index 3 is beyond the palette, which has 3 colours");
+  EXPECT_EQ(why(1, {{0b00010000}, {0}}, 1),
+            begin + "(3, 0): the index 1 is beyond the palette, which has 1 colour");
+}
+
 TEST(TextureFiles, AlphaIsOverBlack) {
   // Opaque: the colour. Nothing: black. 128/255 of white, in linear light: 255·(128/255)^(1/2.2) is
   // 186.4.

@@ -3,10 +3,14 @@
 #include <png.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
+#include "fathom/image/pixel_place.h"
 #include "fathom/image/png_chunks.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/input_file.h"
 
 namespace fathom::pipeline {
@@ -141,6 +145,27 @@ std::array<std::uint32_t, 2> stated_size(std::span<const std::byte> bytes) {
   return {png_get_uint_32(bytes_of(bytes) + 16), png_get_uint_32(bytes_of(bytes) + 20)};
 }
 
+/// What is wrong with the texels of a picture whose palette has so many colours: libpng would draw an index
+/// beyond them black.
+std::optional<std::string> fault_of_palette(std::span<const std::byte> bytes,
+                                            std::uint32_t colours) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) return png.message;
+  png.format = PNG_FORMAT_RGB_COLORMAP;
+  const png_color black{0, 0, 0};
+  std::vector<png_byte> indices(PNG_IMAGE_SIZE(png));
+  std::array<png_color, 256> palette;
+  if (png_image_finish_read(&png, &black, indices.data(), 0, palette.data()) == 0)
+    return png.message;
+  const auto beyond =
+      std::ranges::find_if(indices, [&](png_byte index) { return index >= colours; });
+  if (beyond == indices.end()) return std::nullopt;
+  const auto k = static_cast<std::size_t>(beyond - indices.begin());
+  return image::place_of_pixel(k, png.width) + "the index " + std::to_string(*beyond) +
+         " is beyond the palette, which has " + text::counted(colours, "colour");
+}
+
 }  // namespace
 
 RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& name) {
@@ -165,6 +190,10 @@ RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& nam
   if (std::uint64_t{png.width} * png.height / 8 > 1032 * std::uint64_t{bytes.size()})
     fail("broken PNG file: too short for " + std::to_string(png.width) + "x" +
          std::to_string(png.height) + " texels");
+  if (const auto fault = (png.format & PNG_FORMAT_FLAG_COLORMAP) != 0
+                             ? fault_of_palette(bytes, png.colormap_entries)
+                             : std::nullopt)
+    fail("broken PNG file: " + *fault);
   png.format = PNG_FORMAT_RGB;
   // Without a gamma in the file, 16 bits mean what 8 bits do; libpng would take them as linear.
   png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
