@@ -49,7 +49,7 @@ ViewMaker::ViewMaker(Scene scene, std::vector<Camera> cameras, MapPlan plan)
       require_world_from_image(world_from_image(camera), "a map");
     // To ask the system how much memory there is takes longer than to read a camera.
     if (before == nullptr || before->width != camera.width || before->height != camera.height) {
-      check_size(camera, plan_.rendering, 0);
+      check_size(camera, plan_);
     }
     before = &camera;
   }

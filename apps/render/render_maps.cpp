@@ -60,12 +60,10 @@ void warn_of_missing_segments(const TriangleSource& triangles, const std::vector
 /// Refuses cameras that the file, the memory or the depth format has no room for.
 void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
                    const std::string& output) {
-  const std::size_t more =
-      (plan.depth_buffer ? plan.depth_buffer->most_channels() : 0) + (plan.samples ? 1 : 0);
   for (const Camera& camera : cameras) {
     require_size(plan.format, camera.width, camera.height, output);
     if (plan.format == MapFormat::tiff) require_world_from_image(world_from_image(camera), output);
-    check_size(camera, plan.rendering, more);
+    check_size(camera, plan);
     if (plan.depth_buffer) (void)format_for(*plan.depth_buffer, camera);
   }
 }
@@ -175,7 +173,7 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
   scene = arguments.motion.placed(std::move(scene));
   for (const Camera& camera : cameras) {
     require_size(MapFormat::exr, camera.width, camera.height, arguments.output);
-    check_size(camera, options, 0);
+    check_size(camera, plan);
   }
   RenderOutputs outputs(arguments, cameras);
   outputs.write_cameras(to_json(cameras) + "\n");

@@ -19,11 +19,23 @@ double size_of_map(const Camera& camera, const RenderOptions& options,
   return 1.0 * camera.width * camera.height * channels * bytes_per_value;
 }
 
+void require_room(const Camera& camera, double bytes) {
+  require_memory(fmt::format("an image of {}x{} pixels", camera.width, camera.height), bytes,
+                 memory_allowance());
+}
+
 }  // namespace
 
-void check_size(const Camera& camera, const RenderOptions& options, std::size_t more_channels) {
-  require_memory(fmt::format("an image of {}x{} pixels", camera.width, camera.height),
-                 size_of_map(camera, options, more_channels), memory_allowance());
+void check_size(const Camera& camera, const MapPlan& plan) {
+  const std::size_t more =
+      (plan.depth_buffer ? plan.depth_buffer->most_channels() : 0) + (plan.samples ? 1 : 0);
+  const double map = size_of_map(camera, plan.rendering, more);
+  require_room(camera,
+               map + memory_to_encode(plan.format, plan.writing.compression, camera.height, map));
+}
+
+void check_size(const Camera& camera, const DeepMapPlan& plan) {
+  require_room(camera, size_of_map(camera, plan.rendering));
 }
 
 StreamLimits stream_limits(const Camera& camera, const RenderOptions& options) {

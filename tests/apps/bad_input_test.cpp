@@ -72,6 +72,8 @@ std::string binary_stl(std::uint32_t declared, float first) {
 const float nan = std::numeric_limits<float>::quiet_NaN();
 const float infinity = std::numeric_limits<float>::infinity();
 
+const std::string nul(1, '\0');
+
 std::vector<BadInput> bad_meshes() {
   const std::string points = "v 0 0 2\nv 1 0 2\nv 0 1 2\n";
   return {
@@ -122,6 +124,8 @@ std::vector<BadInput> bad_meshes() {
       {"SceneUnknownKey", "bad.json", R"({"meshes": [{"file": "square.obj", "scale": 2}]})",
        "scale"},
       {"SceneMissingFile", "bad.json", R"({"meshes": [{"file": "nowhere.obj"}]})", "nowhere.obj"},
+      {"SceneWithNulBehindIt", "bad.json", R"({"meshes": [{"file": "square.obj"}]})" + nul,
+       "bad.json: line 1: not JSON: a NUL character"},
       {"SceneNoJson", "bad.json", R"({"meshes": [)", "bad.json"},
       {"SceneTransformTooShort", "bad.json",
        R"({"meshes": [{"file": "square.obj", "transform": [[1,0,0,0],[0,1,0,0]]}]})", "transform"},
@@ -149,6 +153,10 @@ std::vector<BadInput> bad_cameras() {
       {"NegativeNear", "bad.json", camera_with("near", "-1"), "near"},
       {"UnknownProjection", "bad.json", camera_with("projection", "\"fisheye\""), "projection"},
       {"NoJson", "bad.json", "{\"width\": 8,", "bad.json"},
+      {"NulBehindIt", "bad.json", camera_with("cx", "4") + nul + "{",
+       "bad.json: line 1: not JSON: a NUL character"},
+      {"NulWithinIt", "bad.json", "{\n\"width\": 8," + nul + "}",
+       "bad.json: line 2: not JSON: a NUL character"},
       {"Empty", "bad.json", "", "bad.json"},
       {"EmptyList", "bad.json", "[]", "bad.json"},
   };
@@ -225,6 +233,17 @@ TEST(BadInput, ImageBeyondMemory) {
   camera.replace(camera.find("\"height\":6"), 10, "\"height\":1000000000");
   folder.write("huge.json", camera);
   expect_refusal(folder, {"render", "square.obj", "--camera", "huge.json", "-o", "map.exr"}, "GB");
+}
+
+// The map takes 480 MB; its six rows are compressed together.
+TEST(BadInput, WhatIsNeededToWriteAnImageCounts) {
+  const TestFolder folder;
+  folder.write("square.obj", square_obj);
+  folder.write("wide.json", camera_with("width", "10000000"));
+  expect_refusal(
+      folder,
+      {"render", "square.obj", "--camera", "wide.json", "--max-memory", "1G", "-o", "map.exr"},
+      "an image of 10000000x6 pixels needs 1.9 GB; --max-memory allows 1.1 GB");
 }
 
 TEST(BadInput, SecondOfTwoMeshesIsNamed) {

@@ -100,13 +100,17 @@ TEST_F(Memory, MaxMemoryDecidesWhatAMapMayTake) {
 }
 
 TEST_F(Memory, MaxMemoryDecidesHowLargeAnImageIsRendered) {
-  const std::string said =
-      "an image of 8000x8000 pixels needs 512.0 MB; --max-memory allows 104.9 MB";
+  // Z and A, and 16 rows of them three times for ZIP.
   expect_refusal(
-      {"render", "square.obj", "--size", "8000x8000", "--max-memory", "100M", "-o", "a.exr"}, said);
+      {"render", "square.obj", "--size", "8000x8000", "--max-memory", "100M", "-o", "a.exr"},
+      "an image of 8000x8000 pixels needs 515.1 MB; --max-memory allows 104.9 MB");
+  // Z, and a file as large.
+  expect_refusal(
+      {"render", "square.obj", "--size", "8000x8000", "--max-memory", "100M", "-o", "a.npy"},
+      "an image of 8000x8000 pixels needs 512.0 MB; --max-memory allows 104.9 MB");
   expect_refusal({"render", "square.obj", "--size", "8000x8000", "--max-memory", "100M", "--deep",
                   "-o", "a.exr"},
-                 said);
+                 "an image of 8000x8000 pixels needs 512.0 MB; --max-memory allows 104.9 MB");
   const Outcome outcome =
       fathom({"render", "square.obj", "--size", "64x48", "--max-memory", "100M", "-o", "a.exr"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;

@@ -94,6 +94,13 @@ void require_world_from_image(const std::optional<std::array<double, 6>>& world_
                     "world's z axis; .exr holds the map of any camera");
 }
 
+double memory_to_encode(MapFormat format, Compression compression, std::uint32_t height,
+                        double bytes_of_map) {
+  if (format == MapFormat::png || format == MapFormat::tiff) return 0;
+  return format == MapFormat::exr ? memory_to_encode_exr(compression, height, bytes_of_map)
+                                  : bytes_of_map;
+}
+
 std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, MapFormat format,
                                   const WriteOptions& options) {
   require_valid(map);

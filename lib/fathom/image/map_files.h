@@ -66,6 +66,12 @@ struct WriteOptions {
   std::string channel;
 };
 
+/// How many bytes encode_map() takes at least beside a map of so many: for an EXR that is compressed what a
+/// chunk of its rows needs, which is all of a map with few rows; for PNG and GeoTIFF, whose rows are
+/// compressed a few at a time, nothing; for others a file as large as the map.
+double memory_to_encode(MapFormat format, Compression compression, std::uint32_t height,
+                        double bytes_of_map);
+
 /// Writes a map to `path` itself, in place; writing elsewhere and renaming is up to the caller.
 ///   EXR   every channel, all attributes (docs/reading-maps.md).
 ///   PFM   one binary32 channel, bottom row first, little endian, scale −1.

@@ -35,6 +35,10 @@ Source source_of(const ImageChannel& channel, const std::string& name) {
                     channel.name + "' is stored otherwise");
 }
 
+bool is_zipped(Compression compression) {
+  return compression == Compression::zip || compression == Compression::zips;
+}
+
 /// An EXR up to its table of chunks, whose entries are zeros, in which it ends.
 Bytes header_bytes(const Imf::Header& header, const std::string& name) {
   ByteOutput stream(name);
@@ -74,6 +78,12 @@ std::string exr_reason(const std::exception& failure) {
   return reason;
 }
 
+double memory_to_encode_exr(Compression compression, std::uint32_t height, double bytes_of_map) {
+  if (compression == Compression::none) return bytes_of_map;
+  const double of_chunk = bytes_of_map * std::min(height, rows_of_a_chunk(compression)) / height;
+  return is_zipped(compression) ? copies_of_zip_chunk * of_chunk : of_chunk;
+}
+
 Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
                  const std::string& name) {
   require_size(MapFormat::exr, map.width, map.height, name);
@@ -90,8 +100,7 @@ Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
       pixels.insert(channel.name, Imf::Slice(source.type, const_cast<char*>(source.values), 4,
                                              std::size_t{4} * map.width));
     }
-    const bool zipped = compression == Compression::zip || compression == Compression::zips;
-    if (zipped && !map.channels.empty()) {
+    if (is_zipped(compression) && !map.channels.empty()) {
       Bytes file = header_bytes(header, name);
       append_zip_chunks(file, planes_of(pixels), map.width, map.height,
                         rows_of_a_chunk(compression), threads);

@@ -10,6 +10,9 @@ namespace fathom::image {
 /// The values of a channel, four bytes each, row after row.
 using ExrPlane = const std::byte*;
 
+/// The pixels of a chunk that is being compressed, their differences, and what becomes of them.
+inline constexpr double copies_of_zip_chunk = 3;
+
 /// Appends the pixels of an EXR to its header, in chunks of so many rows, compressed by ZIP: OpenEXR
 /// reads them as it reads its own. libdeflate compresses in half the time that OpenEXR 3.1 takes with
 /// zlib, and to no more bytes. The same for any number of threads (0: all).

@@ -15,6 +15,8 @@ namespace fathom::image {
 
 text::Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
                        const std::string& name);
+/// As memory_to_encode().
+double memory_to_encode_exr(Compression compression, std::uint32_t height, double bytes_of_map);
 DepthMap decode_exr(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 
 text::Bytes encode_pfm(const DepthMap& map, const ImageChannel& channel, const std::string& name);
