@@ -206,7 +206,8 @@ TEST(BadFiles, OfOtherKindsAreNamed) {
   EXPECT_THAT(refusal("Pf\n-3 3\n-1\n"), HasSubstr("a width from 1"));
   EXPECT_THAT(refusal("Pf\n1 1\nnan\nabcd"), HasSubstr("a finite scale"));
   EXPECT_THAT(refusal("Pf\n1 1\n0\nabcd"), HasSubstr("a finite scale"));
-  EXPECT_THAT(refusal("Pf\n1 1\n-1\nabcde"), HasSubstr("found 5 bytes"));
+  EXPECT_THAT(refusal("Pf\n1 1\n-1\nabcde"), HasSubstr("pixels of 4 bytes, found 5 bytes"));
+  EXPECT_THAT(refusal("Pf\n1 1\n-1\na"), ::testing::EndsWith("pixels of 4 bytes, found 1 byte"));
 }
 
 DepthMap decode(Bytes bytes) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "fathom/image/files/map_codecs.h"
+#include "fathom/image/files/raw_pixels.h"
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
@@ -62,16 +63,6 @@ ColmapHeader colmap_header(ByteView bytes, const std::string& name) {
   }
   header.size = text.size() - rest.size();
   return header;
-}
-
-void require_data(const ColmapHeader& header, ByteView data, const std::string& name) {
-  const std::size_t pixel_bytes = sizeof(float) * header.channels;
-  const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
-  if (data.size() / pixel_bytes == pixels && data.size() % pixel_bytes == 0) return;
-  throw InputError(name + ": truncated or overlong COLMAP map: expected " +
-                   std::to_string(header.width) + "×" + std::to_string(header.height) +
-                   " pixels of " + std::to_string(pixel_bytes) + " bytes, found " +
-                   std::to_string(data.size()) + " bytes");
 }
 
 float depth_from(float stored, std::size_t k, std::uint32_t width, const std::string& name) {
@@ -142,7 +133,8 @@ Bytes encode_colmap(const DepthMap& map, const std::vector<const ImageChannel*>&
 DepthMap decode_colmap(ByteView bytes, const std::string& name) {
   const ColmapHeader header = colmap_header(bytes, name);
   const ByteView data = bytes.subspan(header.size);
-  require_data(header, data, name);
+  require_raw_pixels(data, header.width, header.height, sizeof(float) * header.channels,
+                     "COLMAP map", name);
   DepthMap map;
   map.width = header.width;
   map.height = header.height;

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "fathom/image/files/map_codecs.h"
+#include "fathom/image/files/raw_pixels.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
 
@@ -88,11 +89,7 @@ DepthMap decode_pfm(ByteView bytes, const std::string& name) {
   const ByteView data = header.rest();
   const std::uint64_t pixels = std::uint64_t{map.width} * map.height;
   const std::size_t pixel_bytes = channels * sizeof(float);
-  if (data.size() / pixel_bytes != pixels || data.size() % pixel_bytes != 0)
-    throw InputError(name + ": truncated or overlong PFM file: expected " +
-                     std::to_string(map.width) + "×" + std::to_string(map.height) + " pixels of " +
-                     std::to_string(pixel_bytes) + " bytes, found " + std::to_string(data.size()) +
-                     " bytes");
+  require_raw_pixels(data, map.width, map.height, pixel_bytes, "PFM file", name);
   const std::endian order = scale < 0 ? std::endian::little : std::endian::big;
   for (std::size_t c = 0; c < channels; ++c) {
     Samples<float> values(pixels);
