@@ -8,6 +8,7 @@
 #include "apps/render/camera_warnings.h"
 #include "apps/render/depth_buffer_channels.h"
 #include "apps/render/map_verification.h"
+#include "apps/render/map_warnings.h"
 #include "apps/render/render_input.h"
 #include "apps/render/render_memory.h"
 #include "apps/render/render_outputs.h"
@@ -30,32 +31,6 @@
 
 namespace fathom::app {
 namespace {
-
-void warn_of(const RenderStatistics& statistics, const Console& console) {
-  if (statistics.triangles == 0) {
-    console.warn("the scene has no triangle: the map is background");
-  } else if (statistics.degenerate_triangles > 0) {
-    console.warn(fmt::format("{} of {} {}", statistics.degenerate_triangles,
-                             text::counted(statistics.triangles, "triangle"),
-                             statistics.degenerate_triangles == 1
-                                 ? "is degenerate or seen edge on and covers nothing"
-                                 : "are degenerate or seen edge on and cover nothing"));
-  }
-}
-
-/// Of channels that will show nothing but that there is none.
-void warn_of_missing_segments(const TriangleSource& triangles, const std::vector<Channel>& channels,
-                              const Console& console) {
-  const std::vector<Segmentation> wanted = segmentations_of(channels);
-  if (wanted.empty()) return;
-  const SceneSegments segments(triangles, wanted);
-  for (const Segmentation by : wanted) {
-    if (!segments.is_empty(by)) continue;
-    const std::string_view name = description_of(channel_of(by)).name;
-    console.warn(fmt::format("no triangle of the scene has a {}: channel {} is {} at all surfaces",
-                             name, name, no_segment));
-  }
-}
 
 /// Refuses cameras that the file, the memory or the depth format has no room for.
 void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,

@@ -19,6 +19,8 @@ namespace {
 
 std::atomic<pid_t> speaker{0};
 std::atomic<int> outcome{-1};  ///< the exit status, once it is known
+std::atomic<bool> silent{false};
+std::atomic<std::atomic<int>*> said_by_any{nullptr};
 
 /// A line on standard error, without stdio, which might need memory or hold a lock.
 void say(const char* text) noexcept {
@@ -32,6 +34,7 @@ void say(const char* text) noexcept {
 }
 
 ExitStatus report_unexpected(const char* what) noexcept {
+  if (!may_speak()) return internal_error;
   say("fathom: error: unexpected: ");
   say(what);
   say("\n");
@@ -87,8 +90,23 @@ void have_the_last_word() noexcept {
   ::_exit(unusable_input);
 }
 
+void speak_of_failures(bool speaks) noexcept {
+  silent = !speaks;
+}
+
+void share_last_word(std::atomic<int>* said) noexcept {
+  said_by_any = said;
+}
+
+bool may_speak() noexcept {
+  if (silent) return false;
+  std::atomic<int>* const said = said_by_any;
+  return said == nullptr || said->exchange(1) == 0;
+}
+
 ExitStatus report_out_of_memory() noexcept {
   have_the_last_word();
+  if (!may_speak()) return unusable_input;
   say("fathom: error: out of memory: the input or the image is too large");
   say(memory_limit.data());
   say("\n");
@@ -106,6 +124,7 @@ int outcome_is(int status) noexcept {
 
 ExitStatus report_lack_of_threads() noexcept {
   have_the_last_word();
+  if (!may_speak()) return unusable_input;
   say("fathom: error: the system starts no more threads; --threads N asks for fewer\n");
   return unusable_input;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+
 #include "apps/shell/exit_status.h"
 
 namespace fathom::app {
@@ -7,6 +9,15 @@ namespace fathom::app {
 /// From now on only the calling thread speaks of failures; another one that would, waits for
 /// the end.
 void have_the_last_word() noexcept;
+
+/// Of processes that work together and end together, one speaks of it: whether this is it. At first
+/// it is.
+void speak_of_failures(bool speaks) noexcept;
+/// Such processes, on one machine, share this number, which is 0 and becomes 1 when one of them
+/// speaks: the others are silent from then on. nullptr: it is shared no longer.
+void share_last_word(std::atomic<int>* said) noexcept;
+/// Whether this process may say why it ends; asked once, just before. Safe in a signal handler.
+bool may_speak() noexcept;
 
 /// Says "fathom: error: out of memory: …" and returns the exit status; takes no memory for it.
 ExitStatus report_out_of_memory() noexcept;

@@ -23,7 +23,7 @@ namespace {
 
 int report(ExitStatus status, const std::string& message) {
   have_the_last_word();
-  Console::error(message);
+  if (may_speak()) Console::error(message);
   return status;
 }
 

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "apps/shell/exit_status.h"
+#include "apps/shell/last_resort.h"
 #include "apps/shell/pending_files.h"
 #include "fathom/text/mapped_file.h"
 
@@ -41,7 +42,8 @@ void say_at_once(const char* text) {
 
 extern "C" FATHOM_NOT_ADDRESS_SANITIZED void remove_and_exit(int) {
   remove_all_pending();
-  say_at_once(last_words.texts[last_words.current.load()].data());
+  const char* const text = last_words.texts[last_words.current.load()].data();
+  if (*text != '\0' && may_speak()) say_at_once(text);
   ::_exit(interrupted);
 }
 
@@ -56,9 +58,11 @@ extern "C" FATHOM_NOT_ADDRESS_SANITIZED void report_or_end(int signal, siginfo_t
   const char* const file = info->si_code > 0 ? text::mapped_file_at(info->si_addr) : nullptr;
   if (file == nullptr) return remove_and_end(signal);
   remove_all_pending();
-  say_at_once("fathom: error: ");
-  say_at_once(file);
-  say_at_once(": has been cut short while it was read\n");
+  if (may_speak()) {
+    say_at_once("fathom: error: ");
+    say_at_once(file);
+    say_at_once(": has been cut short while it was read\n");
+  }
   ::_exit(unusable_input);
 }
 

@@ -117,9 +117,14 @@ void render_into(DepthMap& map, const Scene& scene, const Camera& camera,
   DepthMap now = options.engine == Engine::fast
                      ? render_fast(scene, camera, all, std::move(before))
                      : render_reference(scene, camera, all, std::move(before));
-  count_codes_beyond(options, *all.statistics, now);
-  describe(scene, camera, options, now);
+  finish_map(now, scene, camera, options, *all.statistics);
   map = std::move(now);
+}
+
+void finish_map(DepthMap& map, const Scene& scene, const Camera& camera,
+                const RenderOptions& options, const RenderStatistics& statistics) {
+  count_codes_beyond(options, statistics, map);
+  describe(scene, camera, options, map);
 }
 
 DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options,
@@ -131,8 +136,7 @@ DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOp
   RenderStatistics statistics;
   const RenderOptions all = counted(options, statistics);
   DepthMap map = render_streamed(scene, camera, all, limits);
-  count_codes_beyond(options, *all.statistics, map);
-  describe(outline_of(scene), camera, options, map);
+  finish_map(map, outline_of(scene), camera, options, *all.statistics);
   return map;
 }
 

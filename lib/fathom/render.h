@@ -36,6 +36,12 @@ void render_into(DepthMap& map, const Scene& scene, const Camera& camera,
 DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options = {},
                 const StreamLimits& limits = {});
 
+/// Adds to a map whose channels have been put together from parts (fast/some_tiles.h) what render()
+/// adds to its own. Of the scene, objects, sources and segments count; of the statistics, the pixels
+/// with a surface.
+void finish_map(DepthMap& map, const Scene& scene, const Camera& camera,
+                const RenderOptions& options, const RenderStatistics& statistics);
+
 /// The visible fragments of every pixel with their exact areas (specification, section 8). Of the
 /// options culling, threads and progress count.
 /// Fails    InputError and UsageError as render().

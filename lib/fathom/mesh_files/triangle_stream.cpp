@@ -71,4 +71,19 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
   return stream;
 }
 
+bool is_streamable(const std::filesystem::path& path, const ReadOptions& options) {
+  try {
+    const RandomAccessFile file(path);
+    if (kind_of(file, path, options) == FileFormat::stl)
+      return is_binary_stl(beginning_of(file, 512), file.size());
+    const std::vector<std::byte> head = beginning_of(file, longest_ply_header);
+    Warnings warnings;
+    return read_ply_header({reinterpret_cast<const char*>(head.data()), head.size()}, file.name(),
+                           warnings)
+               .encoding != PlyHeader::Encoding::ascii;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 }  // namespace fathom

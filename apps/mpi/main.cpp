@@ -1,0 +1,91 @@
+// fathom-mpi: renders a scene by several processes, on one machine or on many, that MPI starts:
+//   mpirun -n 8 fathom-mpi render SCENE… -o map.exr
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "apps/mpi/mpi_arguments.h"
+#include "apps/mpi/ranks.h"
+#include "apps/mpi/render_together.h"
+#include "apps/mpi/together.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/last_resort.h"
+#include "apps/shell/program.h"
+#include "apps/shell/signals.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+/// Whether this rank has come as far as others wait for it.
+bool work_has_begun = false;
+
+void add_render_together(Command& program) {
+  const auto arguments = std::make_shared<MpiArguments>();
+  Command& command = program.command(
+      "render", "Render an exact depth map of a scene by the ranks of an MPI run",
+      "  mpirun -n 8 fathom-mpi render city.stl --camera camera.json -o city.exr\n"
+      "  mpirun -n 2 fathom-mpi render room.json --channels Z,A,id,N --partition rows -o room.exr\n"
+      "\nThe map is that of 'fathom render', byte for byte, whatever the number of ranks.");
+  arguments->add_to(command);
+  command.runs([arguments](const Console& console) {
+    const Ranks ranks;
+    work_has_begun = true;
+    together(ranks, [] {});
+    speak_of_failures(true);
+    say_when_interrupted(ranks.count() == 1 ? ""
+                                            : "fathom: error: a rank of the run has ended, or all "
+                                              "were told to: nothing is written\n");
+    return render_together(*arguments, console);
+  });
+}
+
+/// Refuses ranks that were started with other arguments than the first: what they would do next
+/// does not fit together.
+std::vector<AddCommand> commands(const std::vector<std::string>& arguments) {
+  std::string text;
+  for (const std::string& argument : arguments) text += argument + '\0';
+  require_same<UsageError>(Ranks(), text, "the ranks were started with different arguments");
+  return {add_render_together};
+}
+
+/// Answers come from the first rank.
+void close_standard_output() {
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
+}
+
+/// A rank that ends before the work has begun tells those that wait for it there. If all end, as they do
+/// where arguments are wrong or ask for help, the first has said why.
+void leave_before_work(const Ranks& ranks, int status) {
+  try {
+    together(ranks, [&] {
+      if (status != done) throw UsageError("a rank cannot use these arguments");
+    });
+  } catch (const UsageError& error) {
+    if (!ranks.is_first() && may_speak()) Console::error(error.what());
+  }
+}
+
+int run(int argc, char** argv) {
+  const Ranks ranks;
+  speak_of_failures(ranks.is_first());
+  if (!ranks.is_first()) close_standard_output();
+  const int status = program_main(argc, argv, commands);
+  if (!work_has_begun) {
+    leave_before_work(ranks, status);
+  } else if (status != done && !failed_together()) {
+    ranks.abort(status);
+  }
+  return status;
+}
+
+}  // namespace
+}  // namespace fathom::app
+
+int main(int argc, char** argv) {
+  const fathom::app::MpiSession session(argc, argv);
+  return fathom::app::run(argc, argv);
+}

@@ -1,0 +1,175 @@
+#include "apps/mpi/ranks.h"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "apps/shell/last_resort.h"
+
+namespace fathom::app {
+using namespace text;
+
+namespace {
+
+/// The most bytes of one message of MPI, whose counts are ints.
+constexpr std::size_t most_at_once = std::size_t{1} << 30;
+
+std::uint64_t reduced(std::uint64_t value, MPI_Op how) {
+  std::uint64_t result = 0;
+  MPI_Allreduce(&value, &result, 1, MPI_UINT64_T, how, MPI_COMM_WORLD);
+  return result;
+}
+
+/// What of a message of `size` bytes goes in a round.
+struct Piece {
+  std::size_t offset = 0;
+  int count = 0;
+};
+
+Piece piece_of(std::size_t size, std::size_t round, std::size_t most) {
+  const std::size_t offset = std::min(size, round * most);
+  return {offset, static_cast<int>(std::min(size - offset, most))};
+}
+
+/// A number in memory that is shared with the ranks on this machine, 0 at first; it stays until the
+/// end.
+std::atomic<int>* shared_number() {
+  using Number = std::atomic<int>;
+  static_assert(Number::is_always_lock_free);
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  int self = 0;
+  MPI_Comm_rank(machine, &self);
+  Number* number = nullptr;
+  MPI_Win window = MPI_WIN_NULL;
+  MPI_Win_allocate_shared(self == 0 ? sizeof(Number) : 0, sizeof(Number), MPI_INFO_NULL, machine,
+                          &number, &window);
+  MPI_Aint size = 0;
+  int unit = 0;
+  MPI_Win_shared_query(window, 0, &size, &unit, &number);
+  if (self == 0) new (number) Number(0);
+  MPI_Barrier(machine);
+  return number;
+}
+
+}  // namespace
+
+MpiSession::MpiSession(int& argc, char**& argv) {
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  share_last_word(shared_number());
+}
+
+MpiSession::~MpiSession() {
+  share_last_word(nullptr);
+  MPI_Finalize();
+}
+
+Ranks::Ranks() {
+  MPI_Comm_size(MPI_COMM_WORLD, &count_);
+  MPI_Comm_rank(MPI_COMM_WORLD, &self_);
+}
+
+std::uint64_t Ranks::least(std::uint64_t value) const {
+  return reduced(value, MPI_MIN);
+}
+
+std::uint64_t Ranks::greatest(std::uint64_t value) const {
+  return reduced(value, MPI_MAX);
+}
+
+std::uint64_t Ranks::sum(std::uint64_t value) const {
+  return reduced(value, MPI_SUM);
+}
+
+void Ranks::add_up(std::span<std::uint64_t> values) const {
+  constexpr std::size_t most = most_at_once / sizeof(std::uint64_t);
+  for (; !values.empty(); values = values.subspan(std::min(values.size(), most))) {
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(std::min(values.size(), most)),
+                  MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  }
+}
+
+std::string Ranks::broadcast(const std::string& text, int from) const {
+  std::uint64_t size = text.size();
+  MPI_Bcast(&size, 1, MPI_UINT64_T, from, MPI_COMM_WORLD);
+  std::string result = self_ == from ? text : std::string(size, '\0');
+  for (std::size_t at = 0; at < size; at += most_at_once) {
+    MPI_Bcast(result.data() + at, static_cast<int>(std::min(size - at, most_at_once)), MPI_BYTE,
+              from, MPI_COMM_WORLD);
+  }
+  return result;
+}
+
+std::vector<Bytes> Ranks::exchange(std::vector<Bytes> messages) const {
+  const auto ranks = static_cast<std::size_t>(count_);
+  std::vector<std::uint64_t> sizes(ranks), sizes_to_come(ranks);
+  std::uint64_t longest = 0;
+  for (std::size_t rank = 0; rank < ranks; ++rank) {
+    sizes[rank] = messages[rank].size();
+    longest = std::max(longest, sizes[rank]);
+  }
+  MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, sizes_to_come.data(), 1, MPI_UINT64_T,
+               MPI_COMM_WORLD);
+  // Of all messages of a rank in a round, the bytes are counted by an int; they are gathered, so they
+  // take memory, too.
+  const std::size_t most = std::max<std::size_t>(1, (std::size_t{1} << 26) / ranks);
+  const std::size_t rounds = (greatest(longest) + most - 1) / most;
+  std::vector<Bytes> received(ranks);
+  for (std::size_t rank = 0; rank < ranks; ++rank) received[rank].reserve(sizes_to_come[rank]);
+  std::vector<int> counts(ranks), places(ranks), counts_to_come(ranks), places_to_come(ranks);
+  Bytes out, in;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    out.clear();
+    std::size_t to_come = 0;
+    for (std::size_t rank = 0; rank < ranks; ++rank) {
+      const Piece piece = piece_of(sizes[rank], round, most);
+      places[rank] = static_cast<int>(out.size());
+      counts[rank] = piece.count;
+      append(out,
+             ByteView(messages[rank]).subspan(piece.offset, static_cast<std::size_t>(piece.count)));
+      places_to_come[rank] = static_cast<int>(to_come);
+      counts_to_come[rank] = piece_of(sizes_to_come[rank], round, most).count;
+      to_come += static_cast<std::size_t>(counts_to_come[rank]);
+    }
+    in.resize(to_come);
+    MPI_Alltoallv(out.data(), counts.data(), places.data(), MPI_BYTE, in.data(),
+                  counts_to_come.data(), places_to_come.data(), MPI_BYTE, MPI_COMM_WORLD);
+    for (std::size_t rank = 0; rank < ranks; ++rank) {
+      append(received[rank], ByteView(in).subspan(static_cast<std::size_t>(places_to_come[rank]),
+                                                  static_cast<std::size_t>(counts_to_come[rank])));
+      if (messages[rank].size() <= (round + 1) * most) messages[rank] = {};
+    }
+  }
+  return received;
+}
+
+void Ranks::send_to_first(ByteView bytes) const {
+  std::uint64_t size = bytes.size();
+  MPI_Send(&size, 1, MPI_UINT64_T, 0, 0, MPI_COMM_WORLD);
+  for (std::size_t at = 0; at < bytes.size(); at += most_at_once) {
+    MPI_Send(bytes.data() + at, static_cast<int>(std::min(bytes.size() - at, most_at_once)),
+             MPI_BYTE, 0, 0, MPI_COMM_WORLD);
+  }
+}
+
+Bytes Ranks::receive_from(int rank) const {
+  std::uint64_t size = 0;
+  MPI_Recv(&size, 1, MPI_UINT64_T, rank, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  Bytes bytes(size);
+  for (std::size_t at = 0; at < bytes.size(); at += most_at_once) {
+    MPI_Recv(bytes.data() + at, static_cast<int>(std::min(bytes.size() - at, most_at_once)),
+             MPI_BYTE, rank, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  }
+  return bytes;
+}
+
+void Ranks::abort(int status) const {
+  MPI_Abort(MPI_COMM_WORLD, status);
+  std::_Exit(status);
+}
+
+}  // namespace fathom::app

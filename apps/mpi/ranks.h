@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fathom/text/file_bytes.h"
+
+/// The processes of a run, numbered from 0. All that is said to MPI is said in ranks.cpp.
+namespace fathom::app {
+
+/// MPI, from the start of the program to its end. Of the ranks that share memory, one speaks where
+/// they end without having agreed on why (shell/last_resort.h).
+class MpiSession {
+ public:
+  MpiSession(int& argc, char**& argv);
+  MpiSession(const MpiSession&) = delete;
+  MpiSession& operator=(const MpiSession&) = delete;
+  ~MpiSession();
+};
+
+/// What the processes of a run tell each other. Every function is called by all of them, in the same
+/// order, by the thread that has the MpiSession; it returns when all have what they wait for. Bytes
+/// and counts may be more than an int holds: they go in rounds.
+class Ranks {
+ public:
+  Ranks();
+
+  [[nodiscard]] int count() const { return count_; }
+  [[nodiscard]] int self() const { return self_; }
+  /// The first of them reads standard input, answers and writes files.
+  [[nodiscard]] bool is_first() const { return self_ == 0; }
+
+  [[nodiscard]] std::uint64_t least(std::uint64_t value) const;
+  [[nodiscard]] std::uint64_t greatest(std::uint64_t value) const;
+  [[nodiscard]] std::uint64_t sum(std::uint64_t value) const;
+  /// Element by element, of lists of equal length.
+  void add_up(std::span<std::uint64_t> values) const;
+  /// What rank `from` has.
+  [[nodiscard]] std::string broadcast(const std::string& text, int from) const;
+  /// Sends messages[r] to rank r and returns what rank r has sent. The messages are taken away as
+  /// they are sent.
+  [[nodiscard]] std::vector<text::Bytes> exchange(std::vector<text::Bytes> messages) const;
+
+  /// What rank 0 does with bytes of the others: they come in the order of the ranks, in pieces.
+  /// Only rank 0 calls receive(), the others send(); each number of calls must match.
+  void send_to_first(text::ByteView bytes) const;
+  [[nodiscard]] text::Bytes receive_from(int rank) const;
+
+  /// Ends all processes with this status, now, where no agreement with them is possible any more.
+  [[noreturn]] void abort(int status) const;
+
+ private:
+  int count_ = 1, self_ = 0;
+};
+
+}  // namespace fathom::app

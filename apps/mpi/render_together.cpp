@@ -1,0 +1,234 @@
+#include "apps/mpi/render_together.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "apps/mpi/image_rows.h"
+#include "apps/mpi/shared_scene.h"
+#include "apps/mpi/together.h"
+#include "apps/mpi/triangle_messages.h"
+#include "apps/render/camera_warnings.h"
+#include "apps/render/map_warnings.h"
+#include "apps/render/render_memory.h"
+#include "apps/render/render_outputs.h"
+#include "apps/render/render_plan.h"
+#include "apps/render/thread_limit.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/progress.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/camera/world_from_image.h"
+#include "fathom/image/png_sidecar.h"
+#include "fathom/mesh/vertex_normals.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/render.h"
+
+// How to read this file: MapTogether::make() is the whole story. Each rank has a part of the
+// triangles, finds the tiles of the image that they may touch, and sends them to the ranks that draw
+// these tiles (sort-middle [MCEF94]). What has been drawn goes to the rank that writes it.
+//
+// Whatever is said to other ranks is said between calls of together(), within which a rank works by
+// itself and may fail.
+namespace fathom::app {
+namespace {
+
+/// What a run is asked for, and what all its maps are made from.
+struct Job {
+  const MpiArguments& arguments;
+  const Ranks& ranks;
+  const Console& console;
+  MapPlan plan;
+  const SharedScene& scene;
+  const ScenePart& part;
+};
+
+/// One map, from the triangles of all ranks to a file.
+class MapTogether {
+ public:
+  MapTogether(const Job& job, const Camera& camera)
+      : job_(job), camera_(camera), tiles_(tiles_of(camera)) {}
+
+  /// Returns the sums of the statistics of all ranks, in all of them. `outputs`: in the first.
+  RenderStatistics make(std::optional<RenderOutputs>& outputs, std::size_t number,
+                        const std::function<void(double)>& progress) {
+    const Ranks& ranks = job_.ranks;
+    together(ranks, [&] { find_tiles(); });
+    deal_out_tiles();
+    std::vector<text::Bytes> messages;
+    together(ranks, [&] { messages = messages_of(job_.part, touches_, owners_, ranks.count()); });
+    touches_ = {};
+    messages = ranks.exchange(std::move(messages));
+    together(ranks, [&] { draw(std::move(messages), progress); });
+    const std::vector<int> writer(tiles_.rows, 0);
+    send_rows(ranks, {tiles_, camera_.width, camera_.height, owners_, writer}, map_);
+    sum_up();
+    together(ranks, [&] {
+      if (ranks.is_first()) write(*outputs, number);
+    });
+    return statistics_;
+  }
+
+ private:
+  [[nodiscard]] RenderOptions options(RenderStatistics& statistics) const {
+    RenderOptions options = job_.plan.rendering;
+    options.statistics = &statistics;
+    return options;
+  }
+
+  void find_tiles() { touches_ = tiles_touched(job_.part.scene, camera_, options(statistics_)); }
+
+  void deal_out_tiles() {
+    std::vector<std::uint64_t> triangles(tiles_.count(), 0);
+    for (const TileTouch& touch : touches_) ++triangles[touch.tile];
+    job_.ranks.add_up(triangles);
+    owners_ = owners_of_tiles(job_.arguments.partition, tiles_.columns, tiles_.rows, triangles,
+                              job_.ranks.count());
+  }
+
+  void draw(std::vector<text::Bytes> messages, const std::function<void(double)>& progress) {
+    std::vector<std::uint32_t> own;
+    for (std::uint32_t tile = 0; tile < owners_.size(); ++tile)
+      if (owners_[tile] == job_.ranks.self()) own.push_back(tile);
+    const ReceivedScene received = received_scene(std::move(messages), job_.scene);
+    RenderStatistics drawn;
+    RenderOptions how = options(drawn);
+    how.progress = progress;
+    map_ = render_tiles(received.scene, camera_, how, own);
+    statistics_.pixels_with_surface = drawn.pixels_with_surface;
+    number_triangles(received.numbers, own);
+  }
+
+  /// Gives the triangles that are seen the numbers that they have in the whole scene.
+  void number_triangles(std::span<const std::uint32_t> numbers,
+                        std::span<const std::uint32_t> own_tiles) {
+    auto* const ids = map_.values<std::uint32_t>("id");
+    if (ids == nullptr) return;
+    for (const std::uint32_t tile : own_tiles) {
+      const std::uint32_t left = tile % tiles_.columns * tiles_.side;
+      const std::uint32_t top = tile / tiles_.columns * tiles_.side;
+      const std::uint32_t columns = std::min(tiles_.side, camera_.width - left);
+      const std::uint32_t rows = std::min(tiles_.side, camera_.height - top);
+      for (std::uint32_t row = top; row - top < rows; ++row) {
+        std::uint32_t* const pixels = ids->data() + std::size_t{row} * camera_.width + left;
+        for (std::uint32_t i = 0; i < columns; ++i)
+          if (pixels[i] != no_surface) pixels[i] = numbers[pixels[i]];
+      }
+    }
+  }
+
+  void sum_up() {
+    const Ranks& ranks = job_.ranks;
+    statistics_.triangles = job_.scene.first_numbers().back();
+    statistics_.degenerate_triangles = ranks.sum(statistics_.degenerate_triangles);
+    statistics_.pixels_with_surface = ranks.sum(statistics_.pixels_with_surface);
+  }
+
+  void write(RenderOutputs& outputs, std::size_t number) {
+    const MapPlan& plan = job_.plan;
+    const std::string& name = outputs.map_name(number);
+    finish_map(map_, job_.scene.outline(), camera_, plan.rendering, statistics_);
+    const MotionOptions& motion = job_.arguments.render.motion;
+    motion.describe(map_, motion.time_or_start());
+    map_ = plan.storage.dressed(std::move(map_), name, std::numeric_limits<double>::infinity());
+    outputs.map(number).write(
+        [&](const auto& path) { write_map(map_, path, plan.format, plan.writing); });
+    if (plan.storage.png_sidecar) outputs.sidecar(number).write(png_sidecar(map_));
+    warn_of_codes_beyond(map_, name, job_.console);
+  }
+
+  const Job& job_;
+  const Camera& camera_;
+  ImageTiles tiles_;
+  std::vector<TileTouch> touches_;
+  /// The rank of each tile.
+  std::vector<int> owners_;
+  DepthMap map_;
+  RenderStatistics statistics_;
+};
+
+/// Refuses cameras that the file or the memory has no room for.
+void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
+                   const std::string& output) {
+  for (const Camera& camera : cameras) {
+    require_size(plan.format, camera.width, camera.height, output);
+    if (plan.format == MapFormat::tiff) require_world_from_image(world_from_image(camera), output);
+    check_size(camera, plan.rendering, 0);
+  }
+}
+
+/// Channel Ns of sums over the triangles at a vertex, of which ranks may have some.
+void check_normals(const SharedScene& scene, const MapPlan& plan) {
+  const auto& channels = plan.rendering.channels;
+  if (std::ranges::count(channels, Channel::Ns) == 0) return;
+  const bool sums = std::ranges::any_of(scene.outline().meshes, [&](const Mesh& mesh) {
+    return mesh::needs_sums(mesh, plan.rendering.normals);
+  });
+  if (sums) {
+    throw UsageError(
+        "--channels: Ns of normals that are sums over triangles is not for fathom-mpi yet; 'fathom "
+        "render' has it");
+  }
+}
+
+}  // namespace
+
+int render_together(const MpiArguments& arguments, const Console& for_all) {
+  const Ranks ranks;
+  const RenderArguments& render = arguments.render;
+  Console console = for_all;
+  console.quiet = console.quiet || !ranks.is_first();
+
+  MapPlan plan;
+  together(ranks, [&] {
+    refuse_what_is_missing(render);
+    plan = plan_maps(render);
+  });
+  const ThreadLimit limit(plan.rendering.threads);
+  std::optional<SharedScene> scene;
+  std::vector<Camera> cameras;
+  together(ranks, [&] {
+    const bool normals = std::ranges::count(plan.rendering.channels, Channel::Ns) != 0;
+    scene.emplace(render.scene, SharedScene::Kept{plan.needs_segments(), normals, ranks.is_first()},
+                  console);
+    cameras = render.camera.get(scene->outline(), console);
+    scene->place(render.motion);
+    warn_of_missing_segments(scene->triangles(), plan.rendering.channels, console);
+    check_normals(*scene, plan);
+    check_cameras(cameras, plan, render.output);
+  });
+  require_same<InputError>(ranks, scene->description() + to_json(cameras),
+                           "the ranks read different files");
+  std::optional<RenderOutputs> outputs;
+  together(ranks, [&] {
+    if (!ranks.is_first()) return;
+    outputs.emplace(render, cameras);
+    outputs->write_cameras(to_json(cameras) + "\n");
+  });
+
+  ScenePart part;
+  together(ranks, [&] {
+    const std::uint64_t count = scene->first_numbers().back();
+    const auto first_of = [&](int rank) {
+      return count * static_cast<std::uint64_t>(rank) / static_cast<std::uint64_t>(ranks.count());
+    };
+    part = scene->part(first_of(ranks.self()), first_of(ranks.self() + 1));
+  });
+  const Job job{arguments, ranks, console, plan, *scene, part};
+  CameraWarnings warnings;
+  {
+    Progress progress(console, "rendering");
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      const RenderStatistics statistics =
+          MapTogether(job, cameras[i]).make(outputs, i, progress.reporter(i, cameras.size()));
+      if (i == 0) warn_of(statistics, console);
+      warnings.note(scene->outline(), cameras[i], statistics.pixels_with_surface);
+    }
+  }
+  warnings.tell(console);
+  together(ranks, [&] {
+    if (outputs) outputs->commit();
+  });
+  return done;
+}
+
+}  // namespace fathom::app

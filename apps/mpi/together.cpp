@@ -1,0 +1,103 @@
+#include "apps/mpi/together.h"
+
+#include <fmt/core.h>
+
+#include <atomic>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <system_error>
+
+#include "apps/shell/last_resort.h"
+#include "fathom/numeric/errors.h"
+#include "fathom/text/sha256.h"
+#include "fathom/threads/threads.h"
+
+namespace fathom::app {
+namespace {
+
+/// What all ranks can be told of a failure, so that each of them fails as the first did.
+enum class Kind : char { none = '0', usage, input, output, other };
+
+struct Fault {
+  Kind kind = Kind::none;
+  std::string message;
+};
+
+/// What an error says, the setting that it begins with as the option of that name.
+std::string message_of(const Error& error) {
+  return (error.setting().empty() ? "" : "--") + std::string(error.what());
+}
+
+Fault fault_of(const std::function<void()>& work) {
+  try {
+    work();
+    return {};
+  } catch (const UsageError& error) {
+    return {Kind::usage, message_of(error)};
+  } catch (const InputError& error) {
+    return {Kind::input, message_of(error)};
+  } catch (const OutputError& error) {
+    return {Kind::output, message_of(error)};
+  } catch (const std::bad_alloc&) {
+    return {Kind::input, "out of memory: the input or the image is too large"};
+  } catch (const std::filesystem::filesystem_error& error) {
+    return {Kind::input, error.path1().string() + ": " + error.code().message()};
+  } catch (const std::exception& error) {
+    if (is_lack_of_threads(error))
+      return {Kind::input, "the system starts no more threads; --threads N asks for fewer"};
+    return {Kind::other, error.what()};
+  }
+}
+
+std::atomic<bool> all_fail{false};
+
+[[noreturn]] void fail_as(const Fault& fault) {
+  switch (fault.kind) {
+    case Kind::usage:
+      throw UsageError(fault.message);
+    case Kind::input:
+      throw InputError(fault.message);
+    case Kind::output:
+      throw OutputError(fault.message);
+    default:
+      throw std::runtime_error(fault.message);
+  }
+}
+
+}  // namespace
+
+void together(const Ranks& ranks, const std::function<void()>& work) {
+  Fault fault = fault_of(work);
+  const auto count = static_cast<std::uint64_t>(ranks.count());
+  const bool failed = fault.kind != Kind::none;
+  const auto first = ranks.least(failed ? static_cast<std::uint64_t>(ranks.self()) : count);
+  if (first == count) return;
+  const bool all_failed = ranks.sum(failed ? 1 : 0) == count;
+  const int speaker = static_cast<int>(first);
+  std::string said = ranks.broadcast(static_cast<char>(fault.kind) + fault.message, speaker);
+  fault = {static_cast<Kind>(said.front()), said.substr(1)};
+  if (!all_failed && speaker != 0)
+    fault.message += fmt::format(" (rank {} of {})", speaker, ranks.count());
+  speak_of_failures(ranks.self() == speaker);
+  all_fail = true;
+  fail_as(fault);
+}
+
+bool failed_together() noexcept {
+  return all_fail;
+}
+
+int first_that_differs(const Ranks& ranks, const std::string& text) {
+  const std::string own = text::sha256(std::as_bytes(std::span(text)));
+  const bool differs = ranks.broadcast(own, 0) != own;
+  const auto first = static_cast<int>(
+      ranks.least(static_cast<std::uint64_t>(differs ? ranks.self() : ranks.count())));
+  if (first < ranks.count()) {
+    speak_of_failures(ranks.is_first());
+    all_fail = true;
+  }
+  return first;
+}
+
+}  // namespace fathom::app
