@@ -10,7 +10,8 @@
 
 namespace fathom::app {
 
-/// Which rank has drawn each tile of an image, and which one gets each row of tiles.
+/// Which rank has drawn each tile of an image, and which one gets each row of tiles: a band of
+/// neighbouring rows, or none. The bands are in the order of the ranks.
 struct TilesAndRows {
   ImageTiles tiles;
   std::uint32_t width = 0, height = 0;
@@ -18,9 +19,12 @@ struct TilesAndRows {
   std::span<const int> of_rows;
 };
 
-/// Tiles travel: afterwards the map of each rank holds all pixels of the rows that it gets, of every
-/// channel, whatever it holds elsewhere. A channel after the other, so that what travels at a time is
-/// a rank's share of one.
-void send_rows(const Ranks& ranks, const TilesAndRows& where, DepthMap& map);
+/// About as many rows of tiles for each rank, the first of them for rank 0.
+std::vector<int> equal_bands(std::uint32_t rows, int ranks);
+
+/// Tiles travel: returns the map of the rows that this rank gets, 0 rows where it gets none, with the
+/// channels of `drawn`, in which it has drawn its tiles. A channel after the other, so that what
+/// travels at a time is a rank's share of one.
+DepthMap with_own_rows(const Ranks& ranks, const TilesAndRows& where, DepthMap drawn);
 
 }  // namespace fathom::app

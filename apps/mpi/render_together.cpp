@@ -1,9 +1,11 @@
 #include "apps/mpi/render_together.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <optional>
 
+#include "apps/mpi/banded_exr.h"
 #include "apps/mpi/image_rows.h"
 #include "apps/mpi/shared_scene.h"
 #include "apps/mpi/together.h"
@@ -16,8 +18,10 @@
 #include "apps/render/thread_limit.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/progress.h"
+#include "apps/shell/signals.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/world_from_image.h"
+#include "fathom/image/exr_bands.h"
 #include "fathom/image/png_sidecar.h"
 #include "fathom/mesh/vertex_normals.h"
 #include "fathom/numeric/errors.h"
@@ -25,10 +29,11 @@
 
 // How to read this file: MapTogether::make() is the whole story. Each rank has a part of the
 // triangles, finds the tiles of the image that they may touch, and sends them to the ranks that draw
-// these tiles (sort-middle [MCEF94]). What has been drawn goes to the rank that writes it.
+// these tiles (sort-middle [MCEF94]). What has been drawn goes to the ranks that compress bands of
+// rows, and from there to the file.
 //
 // Whatever is said to other ranks is said between calls of together(), within which a rank works by
-// itself and may fail.
+// itself and may fail; but for write_banded_exr(), which fails only when all has been said.
 namespace fathom::app {
 namespace {
 
@@ -59,12 +64,17 @@ class MapTogether {
     touches_ = {};
     messages = ranks.exchange(std::move(messages));
     together(ranks, [&] { draw(std::move(messages), progress); });
-    const std::vector<int> writer(tiles_.rows, 0);
-    send_rows(ranks, {tiles_, camera_.width, camera_.height, owners_, writer}, map_);
+    deal_out_rows();
+    map_ = with_own_rows(ranks, {tiles_, camera_.width, camera_.height, owners_, of_rows_},
+                         std::move(map_));
     sum_up();
-    together(ranks, [&] {
-      if (ranks.is_first()) write(*outputs, number);
-    });
+    if (rows_of_chunk_) {
+      write_in_bands(outputs, number);
+    } else {
+      together(ranks, [&] {
+        if (ranks.is_first()) write_whole(*outputs, number);
+      });
+    }
     return statistics_;
   }
 
@@ -123,17 +133,56 @@ class MapTogether {
     statistics_.pixels_with_surface = ranks.sum(statistics_.pixels_with_surface);
   }
 
-  void write(RenderOutputs& outputs, std::size_t number) {
+  /// Bands, where the file can be put together from them; or else all rows go to the first rank.
+  void deal_out_rows() {
+    if (job_.plan.format == MapFormat::exr)
+      rows_of_chunk_ = rows_of_exr_chunk(job_.plan.writing.compression);
+    of_rows_ = rows_of_chunk_ ? equal_bands(tiles_.rows, job_.ranks.count())
+                              : std::vector<int>(tiles_.rows, 0);
+  }
+
+  /// Adds what is said of the map to the rows of the first rank, and to all what is asked for.
+  void dress(const std::string& name) {
+    if (map_.height == 0) return;  // a rank without rows
+    if (job_.ranks.is_first()) {
+      finish_map(map_, job_.scene.outline(), camera_, job_.plan.rendering, statistics_);
+      const MotionOptions& motion = job_.arguments.render.motion;
+      motion.describe(map_, motion.time_or_start());
+    }
+    map_ =
+        job_.plan.storage.dressed(std::move(map_), name, std::numeric_limits<double>::infinity());
+  }
+
+  void write_whole(RenderOutputs& outputs, std::size_t number) {
     const MapPlan& plan = job_.plan;
     const std::string& name = outputs.map_name(number);
-    finish_map(map_, job_.scene.outline(), camera_, plan.rendering, statistics_);
-    const MotionOptions& motion = job_.arguments.render.motion;
-    motion.describe(map_, motion.time_or_start());
-    map_ = plan.storage.dressed(std::move(map_), name, std::numeric_limits<double>::infinity());
+    dress(name);
     outputs.map(number).write(
         [&](const auto& path) { write_map(map_, path, plan.format, plan.writing); });
     if (plan.storage.png_sidecar) outputs.sidecar(number).write(png_sidecar(map_));
     warn_of_codes_beyond(map_, name, job_.console);
+  }
+
+  void write_in_bands(std::optional<RenderOutputs>& outputs, std::size_t number) {
+    const Ranks& ranks = job_.ranks;
+    const WriteOptions& writing = job_.plan.writing;
+    const std::string name = outputs ? outputs->map_name(number) : job_.arguments.render.output;
+    text::Bytes beginning;
+    std::vector<text::Bytes> chunks;
+    together(ranks, [&] {
+      dress(name);
+      if (ranks.is_first())
+        beginning = exr_beginning(map_, camera_.height, writing.compression, name);
+      chunks = exr_chunks(map_, writing.compression, writing.threads, name);
+    });
+    map_ = {};
+    std::vector<int> of_chunks;
+    for (std::uint32_t row = 0; row < camera_.height; row += *rows_of_chunk_)
+      of_chunks.push_back(of_rows_[row / tiles_.side]);
+    const auto write_to = [&](const std::filesystem::path& path) {
+      write_banded_exr(ranks, path, beginning, of_chunks, *rows_of_chunk_, std::move(chunks));
+    };
+    together(ranks, [&] { outputs ? outputs->map(number).write(write_to) : write_to({}); });
   }
 
   const Job& job_;
@@ -142,6 +191,11 @@ class MapTogether {
   std::vector<TileTouch> touches_;
   /// The rank of each tile.
   std::vector<int> owners_;
+  /// Of an EXR that is written in bands.
+  std::optional<std::uint32_t> rows_of_chunk_;
+  /// The rank of each row of tiles.
+  std::vector<int> of_rows_;
+  /// At first of the whole image, in which this rank has drawn its tiles, then of its rows.
   DepthMap map_;
   RenderStatistics statistics_;
 };
@@ -228,6 +282,7 @@ int render_together(const MpiArguments& arguments, const Console& for_all) {
   together(ranks, [&] {
     if (outputs) outputs->commit();
   });
+  say_when_interrupted("");
   return done;
 }
 

@@ -107,7 +107,7 @@ void add_attributes(const Mesh& whole, std::span<const std::uint32_t> numbers, M
     }
     mesh.segments.push_back(std::move(some));
   }
-  if (whole.normals.empty()) return;
+  if (whole.normals.empty() || numbers.empty()) return;
   mesh.normals = whole.normals;
   for (const std::uint32_t number : numbers) {
     CornerIndices corners{};

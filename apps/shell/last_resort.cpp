@@ -99,7 +99,7 @@ void share_last_word(std::atomic<int>* said) noexcept {
 }
 
 bool may_speak() noexcept {
-  if (silent) return false;
+  if (silent.exchange(true)) return false;
   std::atomic<int>* const said = said_by_any;
   return said == nullptr || said->exchange(1) == 0;
 }

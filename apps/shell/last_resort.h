@@ -16,7 +16,8 @@ void speak_of_failures(bool speaks) noexcept;
 /// Such processes, on one machine, share this number, which is 0 and becomes 1 when one of them
 /// speaks: the others are silent from then on. nullptr: it is shared no longer.
 void share_last_word(std::atomic<int>* said) noexcept;
-/// Whether this process may say why it ends; asked once, just before. Safe in a signal handler.
+/// Whether this process may say why it ends, which it does then, so that the answer is true once at
+/// most. Safe in a signal handler.
 bool may_speak() noexcept;
 
 /// Says "fathom: error: out of memory: …" and returns the exit status; takes no memory for it.

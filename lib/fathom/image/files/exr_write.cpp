@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "fathom/image/exr_bands.h"
 #include "fathom/image/files/exr_attributes.h"
 #include "fathom/image/files/exr_streams.h"
 #include "fathom/image/files/exr_zip.h"
@@ -54,6 +55,42 @@ std::vector<ExrPlane> planes_of(const Imf::FrameBuffer& pixels) {
   return planes;
 }
 
+/// The file's header, and where its pixels are.
+struct Layout {
+  Imf::Header header;
+  Imf::FrameBuffer pixels;
+};
+
+Layout layout_of(const DepthMap& map, std::uint32_t height, Compression compression,
+                 const std::string& name) {
+  Layout layout{Imf::Header(static_cast<int>(map.width), static_cast<int>(height)), {}};
+  layout.header.compression() = compression_of(compression);
+  set_attributes(layout.header, map);
+  for (const ImageChannel& channel : map.channels) {
+    const Source source = source_of(channel, name);
+    if (layout.header.channels().findChannel(channel.name))
+      throw OutputError(name + ": two channels of the name '" + channel.name + "'");
+    layout.header.channels().insert(channel.name, Imf::Channel(source.type));
+    layout.pixels.insert(channel.name, Imf::Slice(source.type, const_cast<char*>(source.values), 4,
+                                                  std::size_t{4} * map.width));
+  }
+  return layout;
+}
+
+/// work(), and failures of OpenEXR's as ours.
+template <class Work>
+Bytes as_output_error(const std::string& name, const Work& work) {
+  try {
+    return work();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {
+    throw OutputError(name + ": cannot be written as EXR: " + exr_reason(failure));
+  }
+}
+
 }  // namespace
 
 int reserve_exr_threads(int threads) {
@@ -87,19 +124,8 @@ double memory_to_encode_exr(Compression compression, std::uint32_t height, doubl
 Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
                  const std::string& name) {
   require_size(MapFormat::exr, map.width, map.height, name);
-  try {
-    Imf::Header header(static_cast<int>(map.width), static_cast<int>(map.height));
-    header.compression() = compression_of(compression);
-    set_attributes(header, map);
-    Imf::FrameBuffer pixels;
-    for (const ImageChannel& channel : map.channels) {
-      const Source source = source_of(channel, name);
-      if (header.channels().findChannel(channel.name))
-        throw OutputError(name + ": two channels of the name '" + channel.name + "'");
-      header.channels().insert(channel.name, Imf::Channel(source.type));
-      pixels.insert(channel.name, Imf::Slice(source.type, const_cast<char*>(source.values), 4,
-                                             std::size_t{4} * map.width));
-    }
+  return as_output_error(name, [&] {
+    const auto [header, pixels] = layout_of(map, map.height, compression, name);
     if (is_zipped(compression) && !map.channels.empty()) {
       Bytes file = header_bytes(header, name);
       append_zip_chunks(file, planes_of(pixels), map.width, map.height,
@@ -116,13 +142,35 @@ Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
     const std::uint32_t rows = rows_of_a_chunk(compression);
     stream.require_chunks((map.height + rows - 1) / rows);
     return stream.take();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& failure) {
-    throw OutputError(name + ": cannot be written as EXR: " + exr_reason(failure));
-  }
+  });
 }
 
 }  // namespace fathom::image
+
+namespace fathom {
+using namespace image;
+
+std::optional<std::uint32_t> rows_of_exr_chunk(Compression compression) {
+  if (compression != Compression::zip && compression != Compression::zips) return std::nullopt;
+  return rows_of_a_chunk(compression);
+}
+
+text::Bytes exr_beginning(const DepthMap& band, std::uint32_t height, Compression compression,
+                          const std::string& name) {
+  require_size(MapFormat::exr, band.width, height, name);
+  return as_output_error(
+      name, [&] { return header_bytes(layout_of(band, height, compression, name).header, name); });
+}
+
+std::vector<text::Bytes> exr_chunks(const DepthMap& band, Compression compression, int threads,
+                                    const std::string& name) {
+  Imf::FrameBuffer pixels;  // sorts channels as the file does
+  for (const ImageChannel& channel : band.channels) {
+    const Source source = source_of(channel, name);
+    pixels.insert(channel.name, Imf::Slice(source.type, const_cast<char*>(source.values)));
+  }
+  return zip_chunks(planes_of(pixels), band.width, band.height, rows_of_a_chunk(compression),
+                    threads);
+}
+
+}  // namespace fathom

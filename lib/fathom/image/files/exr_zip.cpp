@@ -72,8 +72,8 @@ Bytes compressed(Bytes pixels, Workplace& place) {
 
 }  // namespace
 
-void append_zip_chunks(Bytes& file, std::span<const ExrPlane> planes, std::uint32_t width,
-                       std::uint32_t height, std::uint32_t rows, int threads) {
+std::vector<Bytes> zip_chunks(std::span<const ExrPlane> planes, std::uint32_t width,
+                              std::uint32_t height, std::uint32_t rows, int threads) {
   std::vector<Bytes> chunks((height + rows - 1) / rows);
   run_with_threads(threads, [&] {
     PerThread<Workplace> places;
@@ -83,6 +83,12 @@ void append_zip_chunks(Bytes& file, std::span<const ExrPlane> planes, std::uint3
           pixels_of(planes, width, first, first + std::min(rows, height - first)), places.local());
     });
   });
+  return chunks;
+}
+
+void append_zip_chunks(Bytes& file, std::span<const ExrPlane> planes, std::uint32_t width,
+                       std::uint32_t height, std::uint32_t rows, int threads) {
+  const std::vector<Bytes> chunks = zip_chunks(planes, width, height, rows, threads);
   std::size_t size = file.size();
   for (const Bytes& chunk : chunks) size += 2 * sizeof(std::uint32_t) + chunk.size();
   std::size_t entry = file.size() - sizeof(std::uint64_t) * chunks.size();

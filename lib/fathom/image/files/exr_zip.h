@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "fathom/text/file_bytes.h"
 
@@ -12,6 +13,11 @@ using ExrPlane = const std::byte*;
 
 /// The pixels of a chunk that is being compressed, their differences, and what becomes of them.
 inline constexpr double copies_of_zip_chunk = 3;
+
+/// The pixels of rows of an EXR, in chunks of so many rows, as append_zip_chunks() has them in the file.
+/// Fails    std::bad_alloc.
+std::vector<text::Bytes> zip_chunks(std::span<const ExrPlane> planes, std::uint32_t width,
+                                    std::uint32_t height, std::uint32_t rows, int threads);
 
 /// Appends the pixels of an EXR to its header, in chunks of so many rows, compressed by ZIP: OpenEXR
 /// reads them as it reads its own. libdeflate compresses in half the time that OpenEXR 3.1 takes with

@@ -1,0 +1,92 @@
+#include "apps/mpi/banded_exr.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "apps/shell/write_all.h"
+#include "fathom/text/byte_order.h"
+#include "fathom/text/descriptor.h"
+
+namespace fathom::app {
+using namespace text;
+
+namespace {
+
+/// Writes an EXR from its beginning to its end; at last, the table of where its chunks are.
+class ExrFile {
+ public:
+  ExrFile(const std::filesystem::path& path, const Bytes& beginning, std::size_t chunks)
+      : path_(path),
+        file_(::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC)),
+        table_(chunks * sizeof(std::uint64_t)),
+        table_at_(beginning.size() - table_.size()) {
+    if (!file_.is_open()) fail_with_errno(path_, errno);
+    write(beginning);
+  }
+
+  void add(std::uint32_t first_row, ByteView chunk) {
+    store<std::uint64_t>(&table_[next_++ * sizeof(std::uint64_t)], size_, std::endian::little);
+    Bytes head(2 * sizeof(std::uint32_t));
+    store(&head[0], first_row, std::endian::little);
+    store(&head[sizeof first_row], static_cast<std::uint32_t>(chunk.size()), std::endian::little);
+    write(head);
+    write(chunk);
+  }
+
+  void finish() {
+    if (::lseek(file_.get(), static_cast<off_t>(table_at_), SEEK_SET) < 0)
+      fail_with_errno(path_, errno);
+    write(table_);
+    if (!file_.close()) fail_with_errno(path_, errno);
+  }
+
+ private:
+  void write(ByteView bytes) {
+    write_all(file_.get(), reinterpret_cast<const char*>(bytes.data()), bytes.size(), path_);
+    size_ += bytes.size();
+  }
+
+  std::filesystem::path path_;
+  Descriptor file_;
+  Bytes table_;
+  std::size_t table_at_;
+  std::size_t next_ = 0;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace
+
+void write_banded_exr(const Ranks& ranks, const std::filesystem::path& path, const Bytes& beginning,
+                      std::span<const int> of_chunks, std::uint32_t rows_of_chunk,
+                      std::vector<Bytes> own_chunks) {
+  if (!ranks.is_first()) {
+    for (Bytes& chunk : own_chunks) ranks.send_to_first(std::exchange(chunk, {}));
+    return;
+  }
+  std::exception_ptr failure;
+  const auto unless_failed = [&](const auto& work) {
+    if (failure) return;
+    try {
+      work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  };
+  std::optional<ExrFile> file;
+  unless_failed([&] { file.emplace(path, beginning, of_chunks.size()); });
+  std::size_t next_own = 0;
+  for (std::size_t i = 0; i < of_chunks.size(); ++i) {
+    const Bytes chunk = of_chunks[i] == 0 ? std::exchange(own_chunks[next_own++], {})
+                                          : ranks.receive_from(of_chunks[i]);
+    unless_failed([&] { file->add(static_cast<std::uint32_t>(i) * rows_of_chunk, chunk); });
+  }
+  unless_failed([&] { file->finish(); });
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,104 @@
+"""A run of several ranks fails as one: with one line, its exit status, and nothing of its outputs left."""
+
+import os
+import signal
+import subprocess
+import time
+
+import pytest
+
+from mpi_runs import environment, is_long, mpi_program, mpirun, run, said, source
+
+spot = source / "data/meshes/spot.obj"
+
+
+def render_in(folders, *arguments):
+    """One rank for each of these working directories."""
+    command = list(mpirun)
+    for i, folder in enumerate(folders):
+        command += [*([":"] if i else []), "-n", "1", "--wdir", folder, mpi_program, "render", *arguments]
+    return run(command)
+
+
+def expect_failure(outcome, status, text, folder):
+    assert outcome.returncode == status, outcome.stderr
+    lines = said(outcome)
+    assert len(lines) == 1 and text in lines[0], outcome.stderr
+    assert not list(folder.glob("*.exr")) and not list(folder.glob(".fathom*"))
+
+
+@pytest.mark.parametrize("arguments, status, text", [
+    (["nothing.obj"], 3, "nothing.obj: cannot be opened"),
+    ([spot, "--chanels", "Z"], 2, "did you mean '--channels'?"),
+    ([spot, "--partition", "row"], 2, "did you mean 'rows'?"),
+    ([spot, "--deep"], 2, "--deep is not for fathom-mpi yet; 'fathom render' has it"),
+    ([spot, "--stream"], 2, "leaves binary STL and PLY in their files anyway"),
+    ([spot, "--engine", "reference"], 2, "the fast one alone"),
+    (["-"], 2, "standard input, reaches one rank only"),
+    ([spot, "--channels", "Ns"], 2, "sums over triangles"),
+    ([spot, "--size", "100000x100000", "--max-memory", "1G"], 3, "an image of 100000x100000 pixels"),
+], ids=lambda value: "-".join(str(part) for part in value if part != spot) if isinstance(value, list) else None)
+def test_what_all_ranks_refuse(tmp_path, arguments, status, text):
+    expect_failure(render_in([tmp_path] * 3, *arguments, "-o", tmp_path / "map.exr"), status, text, tmp_path)
+
+
+def test_a_file_that_one_rank_does_not_have(tmp_path):
+    here, there = tmp_path / "here", tmp_path / "there"
+    for folder in (here, there):
+        folder.mkdir()
+    (here / "mesh.obj").write_bytes(spot.read_bytes())
+    outcome = render_in([here, there, here], "mesh.obj", "-o", tmp_path / "map.exr")
+    expect_failure(outcome, 3, "mesh.obj: cannot be opened: No such file or directory (rank 1 of 3)", tmp_path)
+
+
+def test_another_file_of_the_same_name(tmp_path):
+    here, there = tmp_path / "here", tmp_path / "there"
+    for folder in (here, there):
+        folder.mkdir()
+    (here / "mesh.obj").write_bytes(spot.read_bytes())
+    (there / "mesh.obj").write_bytes(spot.read_bytes() + b"f 1 2 3\n")
+    outcome = render_in([here, there], "mesh.obj", "-o", tmp_path / "map.exr")
+    expect_failure(outcome, 3, "the ranks read different files (rank 1 of 2", tmp_path)
+
+
+def test_different_arguments(tmp_path):
+    one = ["-n", "1", mpi_program, "render", spot, "-o", tmp_path / "map.exr"]
+    outcome = run([*mpirun, *one, ":", *one, "--channels", "Z"])
+    expect_failure(outcome, 2, "the ranks were started with different arguments (rank 1 of 2", tmp_path)
+
+
+def test_a_disk_that_is_full(tmp_path):
+    expect_failure(render_in([tmp_path] * 2, spot, "--size", "64x48", "-o", "/dev/full"), 4,
+                   "/dev/full: No space left on device", tmp_path)
+
+
+def test_help_is_said_once(tmp_path):
+    outcome = run([*mpirun, "-n", "3", mpi_program, "--version"])
+    assert outcome.returncode == 0 and outcome.stdout.count("fathom") == 1
+
+
+def processes_of(run_of_ranks, count):
+    """The ranks that mpirun has started, once they are that many."""
+    for _ in range(300):
+        listed = subprocess.run(["pgrep", "-P", str(run_of_ranks.pid), "fathom-mpi"], capture_output=True, text=True)
+        pids = sorted(map(int, listed.stdout.split()))
+        if len(pids) == count:
+            return pids
+        time.sleep(0.02)
+    raise AssertionError("the ranks do not start")
+
+
+@pytest.mark.parametrize("attempt", range(50 if is_long else 4))
+def test_a_rank_that_is_killed(tmp_path, attempt):
+    command = [*mpirun, "-n", "3", mpi_program, "render", spot, "--size", "6000x6000", "--channels", "Z,A,id,N,P", "-o",
+               tmp_path / "map.exr"]
+    process = subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               env=environment())
+    victim = processes_of(process, 3)[attempt % 3]
+    time.sleep(0.8 + attempt % 5 * 0.4)
+    os.kill(victim, signal.SIGKILL)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 128 + signal.SIGKILL, err
+    lines = [line for line in err.splitlines() if line.startswith("fathom: ")]
+    assert lines == ["fathom: error: a rank of the run has ended, or all were told to: nothing is written"], err
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,15 @@
+"""However many ranks render a scene, and however its tiles are dealt out to them, the file is that of one process, byte
+for byte: every channel, and what the file says of itself. Here by every number of ranks and every partition."""
+
+import pytest
+
+from mpi_runs import channels, expect_same_for, partitions, ranks, segments, source
+
+data = source / "data"
+
+
+@pytest.mark.parametrize("count", ranks)
+@pytest.mark.parametrize("partition", partitions)
+def test_every_number_of_ranks_and_every_partition(tmp_path, count, partition):
+    expect_same_for((count, partition), tmp_path, data / "meshes/spot.obj", data / "scenes/pair.json", data / "meshes/house.glb",
+                    "--size", "500x300", "--view", "30,20", "--channels", channels + segments)
