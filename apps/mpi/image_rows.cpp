@@ -53,7 +53,7 @@ struct Band {
 };
 
 Band band_of(const TilesAndRows& where, int rank) {
-  const auto [first, end] = std::ranges::equal_range(where.of_rows, rank);
+  const auto [first, end] = std::equal_range(where.of_rows.begin(), where.of_rows.end(), rank);
   const auto row_at = [&](auto tile_row) {
     const auto rows = static_cast<std::uint32_t>(tile_row - where.of_rows.begin());
     return rows == where.tiles.rows ? where.height : rows * where.tiles.side;
