@@ -23,6 +23,15 @@ std::uint64_t reduced(std::uint64_t value, MPI_Op how) {
   return result;
 }
 
+template <class T>
+void reduce_all(std::span<T> values, MPI_Datatype type, MPI_Op how) {
+  constexpr std::size_t most = most_at_once / sizeof(T);
+  for (; !values.empty(); values = values.subspan(std::min(values.size(), most))) {
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(std::min(values.size(), most)),
+                  type, how, MPI_COMM_WORLD);
+  }
+}
+
 /// What of a message of `size` bytes goes in a round.
 struct Piece {
   std::size_t offset = 0;
@@ -86,11 +95,11 @@ std::uint64_t Ranks::sum(std::uint64_t value) const {
 }
 
 void Ranks::add_up(std::span<std::uint64_t> values) const {
-  constexpr std::size_t most = most_at_once / sizeof(std::uint64_t);
-  for (; !values.empty(); values = values.subspan(std::min(values.size(), most))) {
-    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(std::min(values.size(), most)),
-                  MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
-  }
+  reduce_all(values, MPI_UINT64_T, MPI_SUM);
+}
+
+void Ranks::take_least(std::span<double> values) const {
+  reduce_all(values, MPI_DOUBLE, MPI_MIN);
 }
 
 std::string Ranks::broadcast(const std::string& text, int from) const {

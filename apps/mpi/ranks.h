@@ -38,6 +38,8 @@ class Ranks {
   [[nodiscard]] std::uint64_t sum(std::uint64_t value) const;
   /// Element by element, of lists of equal length.
   void add_up(std::span<std::uint64_t> values) const;
+  /// The same, taking the least; no number is NaN.
+  void take_least(std::span<double> values) const;
   /// What rank `from` has.
   [[nodiscard]] std::string broadcast(const std::string& text, int from) const;
   /// Sends messages[r] to rank r and returns what rank r has sent. The messages are taken away as

@@ -224,6 +224,47 @@ void check_normals(const SharedScene& scene, const MapPlan& plan) {
   }
 }
 
+ScenePart own_part(const SharedScene& scene, const Ranks& ranks) {
+  const std::uint64_t count = scene.first_numbers().back();
+  const auto first_of = [&](int rank) {
+    return count * static_cast<std::uint64_t>(rank) / static_cast<std::uint64_t>(ranks.count());
+  };
+  return scene.part(first_of(ranks.self()), first_of(ranks.self() + 1));
+}
+
+/// What is rendered, and how it is seen.
+struct Input {
+  SharedScene scene;
+  ScenePart part;
+  std::vector<Camera> cameras;
+};
+
+Input read_input(const Ranks& ranks, const RenderArguments& arguments, const MapPlan& plan,
+                 const Console& console) {
+  const bool normals = std::ranges::count(plan.rendering.channels, Channel::Ns) != 0;
+  const SharedScene::Kept kept{plan.needs_segments(), normals, ranks.is_first()};
+  std::optional<SharedScene> opened;
+  together(ranks, [&] { opened.emplace(arguments.scene, kept, console); });
+  require_same<InputError>(ranks, opened->description(), "the ranks read different files");
+  Input input{std::move(*opened), {}, {}};
+  SharedScene& scene = input.scene;
+  // What stays in files is read before cameras, which need its bounds; what moves, after it has moved.
+  together(ranks, [&] {
+    if (!scene.is_whole()) input.part = own_part(scene, ranks);
+  });
+  scene.find_bounds(ranks, input.part);
+  together(ranks, [&] {
+    input.cameras = arguments.camera.get(scene.outline(), console);
+    scene.place(arguments.motion);
+    if (scene.is_whole()) input.part = own_part(scene, ranks);
+    warn_of_missing_segments(scene.triangles(), plan.rendering.channels, console);
+    check_normals(scene, plan);
+    check_cameras(input.cameras, plan, arguments.output);
+  });
+  require_same<InputError>(ranks, to_json(input.cameras), "the ranks have different cameras");
+  return input;
+}
+
 }  // namespace
 
 int render_together(const MpiArguments& arguments, const Console& for_all) {
@@ -238,20 +279,8 @@ int render_together(const MpiArguments& arguments, const Console& for_all) {
     plan = plan_maps(render);
   });
   const ThreadLimit limit(plan.rendering.threads);
-  std::optional<SharedScene> scene;
-  std::vector<Camera> cameras;
-  together(ranks, [&] {
-    const bool normals = std::ranges::count(plan.rendering.channels, Channel::Ns) != 0;
-    scene.emplace(render.scene, SharedScene::Kept{plan.needs_segments(), normals, ranks.is_first()},
-                  console);
-    cameras = render.camera.get(scene->outline(), console);
-    scene->place(render.motion);
-    warn_of_missing_segments(scene->triangles(), plan.rendering.channels, console);
-    check_normals(*scene, plan);
-    check_cameras(cameras, plan, render.output);
-  });
-  require_same<InputError>(ranks, scene->description() + to_json(cameras),
-                           "the ranks read different files");
+  const Input input = read_input(ranks, render, plan, console);
+  const std::vector<Camera>& cameras = input.cameras;
   std::optional<RenderOutputs> outputs;
   together(ranks, [&] {
     if (!ranks.is_first()) return;
@@ -259,15 +288,7 @@ int render_together(const MpiArguments& arguments, const Console& for_all) {
     outputs->write_cameras(to_json(cameras) + "\n");
   });
 
-  ScenePart part;
-  together(ranks, [&] {
-    const std::uint64_t count = scene->first_numbers().back();
-    const auto first_of = [&](int rank) {
-      return count * static_cast<std::uint64_t>(rank) / static_cast<std::uint64_t>(ranks.count());
-    };
-    part = scene->part(first_of(ranks.self()), first_of(ranks.self() + 1));
-  });
-  const Job job{arguments, ranks, console, plan, *scene, part};
+  const Job job{arguments, ranks, console, plan, input.scene, input.part};
   CameraWarnings warnings;
   {
     Progress progress(console, "rendering");
@@ -275,7 +296,7 @@ int render_together(const MpiArguments& arguments, const Console& for_all) {
       const RenderStatistics statistics =
           MapTogether(job, cameras[i]).make(outputs, i, progress.reporter(i, cameras.size()));
       if (i == 0) warn_of(statistics, console);
-      warnings.note(scene->outline(), cameras[i], statistics.pixels_with_surface);
+      warnings.note(input.scene.outline(), cameras[i], statistics.pixels_with_surface);
     }
   }
   warnings.tell(console);

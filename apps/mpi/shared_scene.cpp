@@ -1,7 +1,10 @@
 #include "apps/mpi/shared_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <limits>
+#include <utility>
 
 #include "apps/mpi/picked_triangles.h"
 #include "apps/shell/known_files.h"
@@ -49,6 +52,7 @@ SharedScene::SharedScene(const SceneOptions& options, const Kept& kept, const Co
     Warnings warnings;
     ReadOptions reading = options.read_options();
     reading.hash = kept.hash;
+    reading.check_when_opened = false;
     streamed_ = stream_scene({options.files.begin(), options.files.end()}, reading, warnings);
     console.warn(warnings);
     for (const std::string& file : options.files) note_input(file);
@@ -88,6 +92,30 @@ ScenePart SharedScene::part(std::uint64_t first, std::uint64_t end) const {
     part.from.push_back({i, first_of_mesh});
   }
   return part;
+}
+
+void SharedScene::find_bounds(const Ranks& ranks, const ScenePart& part) {
+  if (!streamed_) return;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  constexpr std::size_t size = 6;
+  // The least coordinates, and the greatest with the other sign: both are found as the least.
+  std::vector<double> least(size * scene_.objects.size(), none);
+  for (std::size_t i = 0; i < part.from.size(); ++i) {
+    double* const of_object = &least[size * part.from[i].object];
+    for (const MeshPoint& p : std::as_const(part.scene.meshes[i].vertices)) {
+      const std::array<double, size> candidates{p.x, p.y, p.z, -p.x, -p.y, -p.z};
+      for (std::size_t k = 0; k < size; ++k) of_object[k] = std::min(of_object[k], candidates[k]);
+    }
+  }
+  ranks.take_least(least);
+  for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+    Mesh& mesh = scene_.meshes[scene_.objects[i].mesh];
+    const double* const b = &least[size * i];
+    if (!mesh.triangles.empty() || b[0] == none) continue;
+    mesh.vertices = {MeshPoint{b[0], b[1], b[2]}, MeshPoint{-b[3], -b[4], -b[5]}};
+    mesh.triangles = {{0, 1, 1}};
+    mesh.face_count = 1;
+  }
 }
 
 std::string SharedScene::description() const {

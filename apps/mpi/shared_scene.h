@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/mpi/ranks.h"
 #include "apps/options/motion_options.h"
 #include "apps/options/scene_options.h"
 #include "fathom/scene/scene.h"
@@ -25,8 +26,8 @@ struct ScenePart {
 };
 
 /// A scene of which all ranks know objects and sources, and whose triangles they share out. Binary
-/// STL and PLY stay in their files, of which a rank keeps nothing but its part. Of other formats,
-/// every rank has all.
+/// STL and PLY stay in their files, of which a rank keeps nothing but its part; of an STL it reads no
+/// more. Of other formats, every rank has all.
 class SharedScene {
  public:
   struct Kept {
@@ -41,7 +42,11 @@ class SharedScene {
   /// Places the objects that move.
   /// Fails    as MotionOptions::placed; UsageError where triangles stay in their files.
   void place(const MotionOptions& motion);
-  /// The scene; of one that stays in its files its bounds, objects and sources.
+  /// Completes the outline by the bounds of what only parts have seen; called by all ranks, with the
+  /// parts that together are the scene.
+  void find_bounds(const Ranks& ranks, const ScenePart& part);
+  /// The scene; of one that stays in its files its objects and sources and, after find_bounds(), its
+  /// bounds.
   [[nodiscard]] const Scene& outline() const { return scene_; }
   /// Whether the outline is the whole scene.
   [[nodiscard]] bool is_whole() const { return !streamed_; }

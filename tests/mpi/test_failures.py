@@ -1,7 +1,9 @@
 """A run of several ranks fails as one: with one line, its exit status, and nothing of its outputs left."""
 
+import math
 import os
 import signal
+import struct
 import subprocess
 import time
 
@@ -59,6 +61,19 @@ def test_another_file_of_the_same_name(tmp_path):
     (there / "mesh.obj").write_bytes(spot.read_bytes() + b"f 1 2 3\n")
     outcome = render_in([here, there], "mesh.obj", "-o", tmp_path / "map.exr")
     expect_failure(outcome, 3, "the ranks read different files (rank 1 of 2", tmp_path)
+
+
+@pytest.mark.parametrize("view", [[], ["--camera", source / "data/cameras/look-at.json"]], ids=["framed", "camera"])
+def test_a_triangle_that_only_one_rank_reads(tmp_path, view):
+    mesh = tmp_path / "mesh.stl"
+    records = [struct.pack("<12fH", 0, 0, 0, *(math.nan if i == 500 and k == 4 else i % 7 + k % 5 for k in range(9)), 0)
+               for i in range(900)]
+    mesh.write_bytes(bytes(80) + struct.pack("<I", len(records)) + b"".join(records))
+    outcome = render_in([tmp_path] * 3, mesh, *view, "-o", tmp_path / "map.exr")
+    expect_failure(outcome, 3, "triangle 500", tmp_path)
+    assert outcome.stderr.count("(rank 1 of 3)") == 1
+    mesh.write_bytes(mesh.read_bytes()[:-1])
+    expect_failure(render_in([tmp_path] * 3, mesh, *view, "-o", tmp_path / "map.exr"), 3, "mesh.stl: ", tmp_path)
 
 
 def test_different_arguments(tmp_path):

@@ -24,6 +24,9 @@ struct ReadOptions {
   /// Keep what triangles are called: OBJ's usemtl, g and o; the materials, meshes and nodes of glTF;
   /// a PLY's labels. At most 4 bytes for each triangle and segmentation, beside the names.
   bool segments = false;
+  /// Of a binary STL that stays in its file: look at all of it when it is opened. Or else each triangle is
+  /// looked at when it is read, and the stream does not know its bounds.
+  bool check_when_opened = true;
   /// Compute Source::sha256.
   bool hash = true;
   /// Files that are named by other files (a scene file's meshes, a glTF asset's buffers) must lie in

@@ -25,9 +25,9 @@ std::array<MeshPoint, 3> corners_of(const std::array<float, 12>& values) {
 
 class StlStream : public TriangleStream {
  public:
-  StlStream(std::unique_ptr<RandomAccessFile> file, std::uint32_t count)
+  StlStream(std::unique_ptr<RandomAccessFile> file, std::uint32_t count, bool check_now)
       : file_(std::move(file)), count_(count) {
-    check();
+    if (check_now) check();
   }
 
   [[nodiscard]] std::uint32_t triangle_count() const override { return count_; }
@@ -98,14 +98,14 @@ class StlStream : public TriangleStream {
 
 }  // namespace
 
-std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<RandomAccessFile> file,
+std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<RandomAccessFile> file, bool check,
                                                 Warnings& warnings) {
   std::vector<std::byte> head(
       static_cast<std::size_t>(std::min<std::uint64_t>(stl_header_size, file->size())));
   file->read(0, head);
   const std::uint64_t count = count_binary_stl(head, file->size(), file->name(), warnings);
   expect_countable(count, "triangles", file->name());
-  return std::make_unique<StlStream>(std::move(file), static_cast<std::uint32_t>(count));
+  return std::make_unique<StlStream>(std::move(file), static_cast<std::uint32_t>(count), check);
 }
 
 }  // namespace fathom::mesh_files

@@ -9,8 +9,9 @@
 /// The streams of the two formats; open_triangle_stream() chooses between them.
 namespace fathom::mesh_files {
 
+/// `check`: read through the file, and find the bounds.
 std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<text::RandomAccessFile> file,
-                                                Warnings& warnings);
+                                                bool check, Warnings& warnings);
 
 /// `header` is that of the file, and binary. Labels are found where `segments` are wanted.
 std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<text::RandomAccessFile> file,

@@ -38,17 +38,17 @@ FileFormat kind_of(const RandomAccessFile& file, const std::filesystem::path& pa
 }
 
 std::unique_ptr<TriangleStream> open(std::unique_ptr<RandomAccessFile> file, FileFormat kind,
-                                     bool segments, Warnings& warnings) {
+                                     const ReadOptions& options, Warnings& warnings) {
   const std::string name = file->name();
   if (kind == FileFormat::stl) {
     if (!is_binary_stl(beginning_of(*file, 512), file->size())) fail_format(name);
-    return open_stl_stream(std::move(file), warnings);
+    return open_stl_stream(std::move(file), options.check_when_opened, warnings);
   }
   const std::vector<std::byte> head = beginning_of(*file, longest_ply_header);
   const PlyHeader header =
       read_ply_header({reinterpret_cast<const char*>(head.data()), head.size()}, name, warnings);
   if (header.encoding == PlyHeader::Encoding::ascii) fail_format(name);
-  return open_ply_stream(std::move(file), header, segments, warnings);
+  return open_ply_stream(std::move(file), header, options.segments, warnings);
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
     hash = std::async(std::launch::async | std::launch::deferred,
                       [&path] { return sha256(RandomAccessFile(path)); });
   }
-  std::unique_ptr<TriangleStream> stream = open(std::move(file), kind, options.segments, warnings);
+  std::unique_ptr<TriangleStream> stream = open(std::move(file), kind, options, warnings);
   stream->source.path = path.string();
   if (hash.valid()) stream->source.sha256 = hash.get();
   return stream;

@@ -42,7 +42,7 @@ class TriangleStream {
   [[nodiscard]] virtual std::uint64_t face_count() const = 0;
 
   /// Least and greatest coordinates of all corners, in the file's own frame and unit; nullopt if
-  /// there is no triangle.
+  /// there is no triangle, or they are not known (ReadOptions::check_when_opened).
   struct Bounds {
     MeshPoint lower, upper;
   };
@@ -70,8 +70,8 @@ class TriangleStream {
   Source source;
 };
 
-/// Opens and checks a binary STL or PLY file. Of the options, only `format`, `hash` and `segments`
-/// matter.
+/// Opens and checks a binary STL or PLY file. Of the options, only `format`, `hash`, `segments` and
+/// `check_when_opened` matter.
 /// Fails    InputError, as read_scene() does, and if the file is of another format or a pipe.
 std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path& path,
                                                      const ReadOptions& options,
