@@ -113,7 +113,7 @@ std::string Ranks::broadcast(const std::string& text, int from) const {
   return result;
 }
 
-std::vector<Bytes> Ranks::exchange(std::vector<Bytes> messages) const {
+std::vector<Bytes> Ranks::exchange(std::vector<Bytes> messages, std::size_t most_in_a_round) const {
   const auto ranks = static_cast<std::size_t>(count_);
   std::vector<std::uint64_t> sizes(ranks), sizes_to_come(ranks);
   std::uint64_t longest = 0;
@@ -123,9 +123,7 @@ std::vector<Bytes> Ranks::exchange(std::vector<Bytes> messages) const {
   }
   MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, sizes_to_come.data(), 1, MPI_UINT64_T,
                MPI_COMM_WORLD);
-  // Of all messages of a rank in a round, the bytes are counted by an int; they are gathered, so they
-  // take memory, too.
-  const std::size_t most = std::max<std::size_t>(1, (std::size_t{1} << 26) / ranks);
+  const std::size_t most = std::max<std::size_t>(1, most_in_a_round / ranks);
   const std::size_t rounds = (greatest(longest) + most - 1) / most;
   std::vector<Bytes> received(ranks);
   for (std::size_t rank = 0; rank < ranks; ++rank) received[rank].reserve(sizes_to_come[rank]);
@@ -150,7 +148,6 @@ std::vector<Bytes> Ranks::exchange(std::vector<Bytes> messages) const {
     for (std::size_t rank = 0; rank < ranks; ++rank) {
       append(received[rank], ByteView(in).subspan(static_cast<std::size_t>(places_to_come[rank]),
                                                   static_cast<std::size_t>(counts_to_come[rank])));
-      if (messages[rank].size() <= (round + 1) * most) messages[rank] = {};
     }
   }
   return received;

@@ -43,8 +43,10 @@ class Ranks {
   /// What rank `from` has.
   [[nodiscard]] std::string broadcast(const std::string& text, int from) const;
   /// Sends messages[r] to rank r and returns what rank r has sent. The messages are taken away as
-  /// they are sent.
-  [[nodiscard]] std::vector<text::Bytes> exchange(std::vector<text::Bytes> messages) const;
+  /// they are sent, in rounds in which a rank sends so many bytes at most, or one to each.
+  [[nodiscard]] std::vector<text::Bytes> exchange(std::vector<text::Bytes> messages,
+                                                  std::size_t most_at_once = std::size_t{1}
+                                                                             << 26) const;
 
   /// What rank 0 does with bytes of the others: they come in the order of the ranks, in pieces.
   /// Only rank 0 calls receive(), the others send(); each number of calls must match.
