@@ -1,7 +1,5 @@
 #include "apps/render/render_maps.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -25,9 +23,6 @@
 #include "fathom/image/deep_map.h"
 #include "fathom/image/png_sidecar.h"
 #include "fathom/render.h"
-#include "fathom/scene/scene_segments.h"
-#include "fathom/text/counted.h"
-#include "fathom/triangle/segment_channels.h"
 
 namespace fathom::app {
 namespace {

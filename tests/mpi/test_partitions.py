@@ -11,5 +11,6 @@ data = source / "data"
 @pytest.mark.parametrize("count", ranks)
 @pytest.mark.parametrize("partition", partitions)
 def test_every_number_of_ranks_and_every_partition(tmp_path, count, partition):
-    expect_same_for((count, partition), tmp_path, data / "meshes/spot.obj", data / "scenes/pair.json", data / "meshes/house.glb",
-                    "--size", "500x300", "--view", "30,20", "--channels", channels + segments)
+    scene = [data / "meshes/spot.obj", data / "scenes/pair.json", data / "meshes/house.glb"]
+    expect_same_for((count, partition), tmp_path, *scene, "--size", "500x300", "--view", "30,20",
+                    "--channels", channels + segments)

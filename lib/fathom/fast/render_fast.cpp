@@ -1,6 +1,8 @@
 #include "fathom/fast/render_fast.h"
 
 #include <algorithm>
+#include <optional>
+#include <span>
 
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/frame.h"

@@ -30,7 +30,7 @@ struct TileTouch {
   std::uint32_t tile, triangle;
 };
 /// For each triangle the tiles in which it may be visible; those that it may meet, where channel A is
-/// asked for. Tiles that are not among them, it certainly does not touch. In no order; none twice.
+/// asked for. It certainly touches no others. In no order, and perhaps some twice.
 /// Fails    as render_fast(), but never with an OutputError. Of the statistics, those of triangles
 ///          and of facing are filled in.
 std::vector<TileTouch> tiles_touched(const Scene& scene, const Camera& camera,
