@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -7,7 +8,6 @@
 
 #include "fathom/image/depth_map.h"
 #include "fathom/image/map_files.h"
-#include "fathom/text/file_bytes.h"
 
 /// An EXR that is put together from bands of rows, each of which is compressed where it is: the same
 /// bytes as write_map() writes of the whole map, which need not be in one place.
@@ -25,13 +25,13 @@ std::optional<std::uint32_t> rows_of_exr_chunk(Compression compression);
 /// What comes before the chunks of a map of this height, of which `band` has the width, the channels
 /// and all that the file says of it.
 /// Fails    as write_map(); `name` is the file's for messages.
-text::Bytes exr_beginning(const DepthMap& band, std::uint32_t height, Compression compression,
-                          const std::string& name);
+std::vector<std::byte> exr_beginning(const DepthMap& band, std::uint32_t height,
+                                     Compression compression, const std::string& name);
 
 /// The bytes of the chunks of a band, whose first row begins one. The same for any number of threads
 /// (0: all).
 /// Fails    OutputError where a channel is stored otherwise than EXR has it.
-std::vector<text::Bytes> exr_chunks(const DepthMap& band, Compression compression, int threads,
-                                    const std::string& name);
+std::vector<std::vector<std::byte>> exr_chunks(const DepthMap& band, Compression compression,
+                                               int threads, const std::string& name);
 
 }  // namespace fathom
