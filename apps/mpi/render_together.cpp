@@ -206,7 +206,7 @@ void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
   for (const Camera& camera : cameras) {
     require_size(plan.format, camera.width, camera.height, output);
     if (plan.format == MapFormat::tiff) require_world_from_image(world_from_image(camera), output);
-    check_size(camera, plan.rendering, 0);
+    check_size(camera, plan);
   }
 }
 

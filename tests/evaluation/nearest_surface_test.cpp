@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "fathom/evaluation/bounds.h"
+#include "fathom/evaluation/distance_bounds.h"
 #include "fathom/evaluation/exact_distance.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/effort.h"
@@ -21,6 +23,39 @@ TEST(ExactDistance, OfTrianglesWithoutArea) {
   EXPECT_TRUE(is(squared_distance(p, {c, a, b}), 4));
   EXPECT_TRUE(is(squared_distance(p, {a, a, c}), 8));
   EXPECT_TRUE(is(squared_distance(p, {a, a, a}), 13));
+}
+
+// Triangles of all shapes, thin ones and ones without area among them, and points anywhere, on corners, edges and in the
+// plane too. The bounds hold, and mostly lie as near to each other as rounding lets them.
+TEST(DistanceBounds, HoldAndAreTight) {
+  std::mt19937 random(10);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const auto coordinate = [&](int kind) {
+    return kind == 0   ? any(random)
+           : kind == 1 ? std::round(2 * any(random)) / 2
+                       : 1e-6 * any(random);
+  };
+  int all = 0, wide = 0;
+  for (int i = 0; i < 20000 / testing::effort; ++i) {
+    const int kind = static_cast<int>(random() % 3);
+    PlacedTriangles::Corners corners;
+    for (Vector& corner : corners)
+      for (double& x : corner) x = coordinate(kind);
+    if (i % 4 == 0) corners[2] = corners[1];
+    Vector p;
+    for (double& x : p) x = coordinate(random() % 2 == 0 ? kind : 0);
+    std::array<WorldPoint, 3> exact;
+    for (std::size_t k = 0; k < 3; ++k) exact[k] = {corners[k][0], corners[k][1], corners[k][2]};
+    const Ratio squared = squared_distance({p[0], p[1], p[2]}, exact);
+    const double distance = round_sqrt_to_binary64(squared);
+    const DistanceBounds found = distance_bounds(corners, p);
+    ASSERT_LE(found.lower, distance);
+    ASSERT_GE(found.upper, distance);
+    if (distance < 1e-3) continue;
+    ++all;
+    wide += found.upper - found.lower > 4 * bounds::distance_error;
+  }
+  EXPECT_LT(wide, all / 50);
 }
 
 /// Of `points` points on one scene, the distance from another.

@@ -3,11 +3,12 @@
 #include <string>
 
 #include "fathom/text/byte_order.h"
+#include "fathom/text/file_bytes.h"
 
 namespace fathom {
 using namespace text;
 
-Bytes ply_of(const std::vector<MeasuredPoint>& points) {
+std::vector<std::byte> ply_of(const std::vector<MeasuredPoint>& points) {
   std::string header = "ply\nformat binary_little_endian 1.0\ncomment distances by Fathom\n";
   header += "element vertex " + std::to_string(points.size()) + "\n";
   for (const char* name : {"x", "y", "z", "quality"})

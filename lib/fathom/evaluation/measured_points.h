@@ -1,9 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
-
-#include "fathom/text/file_bytes.h"
 
 namespace fathom {
 
@@ -16,6 +15,6 @@ struct MeasuredPoint {
 
 /// The points as a PLY file, binary little endian: x y z and the distance as `quality`, the name that MeshLab and
 /// CloudCompare know, all double.
-text::Bytes ply_of(const std::vector<MeasuredPoint>& points);
+std::vector<std::byte> ply_of(const std::vector<MeasuredPoint>& points);
 
 }  // namespace fathom

@@ -2,16 +2,9 @@
 
 #include <utility>
 
-#include "fathom/evaluation/placed_triangles.h"
+#include "fathom/evaluation/distance_bounds.h"
 
 namespace fathom::evaluation {
-
-inline Vector minus(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-inline double dot(const Vector& a, const Vector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /// About the place of the nearest point of a triangle, as A + v·(B − A) + w·(C − A). Not
 /// bounded: what it is for holds for any v and w, and is tight for good ones.

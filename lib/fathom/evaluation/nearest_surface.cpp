@@ -1,23 +1,16 @@
 #include "fathom/evaluation/nearest_surface.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "fathom/evaluation/bounds.h"
+#include "fathom/evaluation/distance_bounds.h"
 #include "fathom/evaluation/exact_distance.h"
-#include "fathom/evaluation/nearest_place.h"
 
 namespace fathom::evaluation {
 namespace {
-
-using bounds::distance_error;
-
-double length(const Vector& v) {
-  return std::sqrt(dot(v, v));
-}
 
 /// Not more than the distance of the exact point from the exact triangles in the box: each gap errs by
 /// at most bounds::difference_error (validation/proofs, evaluation_gap).
@@ -25,41 +18,7 @@ double least_distance(const Box& box, const Vector& p) {
   Vector gap;
   for (std::size_t k = 0; k < 3; ++k)
     gap[k] = std::max({box.lower[k] - p[k], p[k] - box.upper[k], 0.0});
-  return length(gap) - distance_error;
-}
-
-/// Numbers in [0, 1] whose sum is at most 1 + 2⁻⁵³; NaN becomes 0.
-std::pair<double, double> made_weights(double v, double w) {
-  if (!(v > 0)) v = 0;
-  if (v > 1) v = 1;
-  const double rest = 1 - v;
-  if (!(w > 0)) w = 0;
-  if (w > rest) w = rest;
-  return {v, w};
-}
-
-struct Bounds {
-  double lower, upper;
-};
-
-/// From above: the distance from a point of the triangle. Divided by their sum, if that is above 1, the
-/// weights are those of such a point, and q is near it (validation/proofs, evaluation_place).
-/// From below: the triangle lies wholly beyond a plane across g = p − q if its corners do; for any g,
-///   distance ≥ min over the corners X of g·(p − X)/|g|
-/// (evaluation_plane).
-Bounds bounds_of_distance(const PlacedTriangles::Corners& corners, const Vector& p) {
-  const auto [v0, w0] = nearest_place(corners, p);
-  const auto [v, w] = made_weights(v0, w0);
-  Vector q;
-  for (std::size_t k = 0; k < 3; ++k)
-    q[k] =
-        corners[0][k] + v * (corners[1][k] - corners[0][k]) + w * (corners[2][k] - corners[0][k]);
-  const Vector g = minus(p, q);
-  const double distance = length(g);
-  if (!(distance > distance_error)) return {0, distance + distance_error};
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vector& corner : corners) least = std::min(least, dot(g, minus(p, corner)));
-  return {least / distance - distance_error, distance + distance_error};
+  return length(gap) - bounds::distance_error;
 }
 
 struct Candidate {
@@ -73,7 +32,7 @@ struct Candidates {
   /// The surface is not farther away.
   double upper = std::numeric_limits<double>::infinity();
 
-  void add(std::uint32_t number, const Bounds& bounds) {
+  void add(std::uint32_t number, const DistanceBounds& bounds) {
     if (bounds.lower > upper) return;
     upper = std::min(upper, bounds.upper);
     list.push_back({number, bounds.lower});
@@ -99,7 +58,7 @@ Candidates candidates_for(const Vector& p, const PlacedTriangles& triangles,
     if (node.count != 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
         const std::uint32_t triangle = tree.order()[i];
-        candidates.add(triangle, bounds_of_distance(triangles[triangle], p));
+        candidates.add(triangle, distance_bounds(triangles[triangle], p));
       }
       continue;
     }

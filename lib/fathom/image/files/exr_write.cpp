@@ -151,7 +151,7 @@ namespace fathom {
 using namespace image;
 
 std::optional<std::uint32_t> rows_of_exr_chunk(Compression compression) {
-  if (compression != Compression::zip && compression != Compression::zips) return std::nullopt;
+  if (!is_zipped(compression)) return std::nullopt;
   return rows_of_a_chunk(compression);
 }
 
