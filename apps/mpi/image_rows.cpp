@@ -63,7 +63,7 @@ Band band_of(const TilesAndRows& where, int rank) {
 
 /// From the channel that this rank has drawn to that of its band.
 void move_channel(const Ranks& ranks, const TilesAndRows& where, const Plane& drawn,
-                  const Plane& band) {
+                  const Plane& band, Traffic& traffic) {
   std::vector<Bytes> messages(static_cast<std::size_t>(ranks.count()));
   // What stays goes the same way, to itself.
   for (std::uint32_t tile = 0; tile < where.of_tiles.size(); ++tile) {
@@ -73,6 +73,7 @@ void move_channel(const Ranks& ranks, const TilesAndRows& where, const Plane& dr
       append(messages[to], ByteView(pixels, bytes));
     });
   }
+  traffic.add(messages, ranks.self());
   messages = ranks.exchange(std::move(messages));
   std::vector<std::size_t> next(messages.size(), 0);
   for (std::uint32_t tile = 0; tile < where.of_tiles.size(); ++tile) {
@@ -95,7 +96,8 @@ std::vector<int> equal_bands(std::uint32_t rows, int ranks) {
   return owners;
 }
 
-DepthMap with_own_rows(const Ranks& ranks, const TilesAndRows& where, DepthMap drawn) {
+DepthMap with_own_rows(const Ranks& ranks, const TilesAndRows& where, DepthMap drawn,
+                       Traffic& traffic) {
   if (ranks.count() == 1) return drawn;
   const Band rows = band_of(where, ranks.self());
   std::vector<ImageChannel> channels = std::move(drawn.channels);
@@ -104,7 +106,8 @@ DepthMap with_own_rows(const Ranks& ranks, const TilesAndRows& where, DepthMap d
   band.channels.clear();
   for (ImageChannel& channel : channels) {
     band.channels.push_back(channel_like(channel, std::size_t{band.width} * band.height));
-    move_channel(ranks, where, plane_of(channel, 0), plane_of(band.channels.back(), rows.first));
+    move_channel(ranks, where, plane_of(channel, 0), plane_of(band.channels.back(), rows.first),
+                 traffic);
     channel = {};  // its memory goes back
   }
   return band;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/mpi/ranks.h"
+#include "apps/mpi/traffic.h"
 #include "fathom/fast/some_tiles.h"
 #include "fathom/image/depth_map.h"
 
@@ -24,7 +25,8 @@ std::vector<int> equal_bands(std::uint32_t rows, int ranks);
 
 /// Tiles travel: returns the map of the rows that this rank gets, 0 rows where it gets none, with the
 /// channels of `drawn`, in which it has drawn its tiles. A channel after the other, so that what
-/// travels at a time is a rank's share of one.
-DepthMap with_own_rows(const Ranks& ranks, const TilesAndRows& where, DepthMap drawn);
+/// travels at a time is a rank's share of one. `traffic` counts what this rank sends.
+DepthMap with_own_rows(const Ranks& ranks, const TilesAndRows& where, DepthMap drawn,
+                       Traffic& traffic);
 
 }  // namespace fathom::app

@@ -9,6 +9,10 @@ void MpiArguments::add_to(Command& command) {
   command.option("--partition", "NAME", into(partition, parse_partition),
                  "How tiles are dealt out to the ranks: load (default: runs of neighbours of about "
                  "the same work), rows or round-robin. The map is the same");
+  command.option(
+      "--traffic", "FILE", traffic,
+      "Write what the ranks have sent to each other and how long they have drawn, a line of "
+      "JSON for each map; '-' is standard output");
 }
 
 void refuse_what_is_missing(const RenderArguments& a) {

@@ -9,6 +9,7 @@ namespace fathom::app {
 struct MpiArguments {
   RenderArguments render;
   Partition partition = Partition::load;
+  std::string traffic;
 
   void add_to(Command& command);
 };

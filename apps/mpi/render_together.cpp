@@ -9,6 +9,7 @@
 #include "apps/mpi/image_rows.h"
 #include "apps/mpi/shared_scene.h"
 #include "apps/mpi/together.h"
+#include "apps/mpi/traffic.h"
 #include "apps/mpi/triangle_messages.h"
 #include "apps/render/camera_warnings.h"
 #include "apps/render/map_warnings.h"
@@ -19,6 +20,8 @@
 #include "apps/shell/exit_status.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/signals.h"
+#include "apps/shell/stopwatch.h"
+#include "apps/shell/text_output.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/world_from_image.h"
 #include "fathom/image/exr_bands.h"
@@ -54,6 +57,7 @@ class MapTogether {
       : job_(job), camera_(camera), tiles_(tiles_of(camera)) {}
 
   /// Returns the sums of the statistics of all ranks, in all of them. `outputs`: in the first.
+  /// traffic() then has what it took.
   RenderStatistics make(std::optional<RenderOutputs>& outputs, std::size_t number,
                         const std::function<void(double)>& progress) {
     const Ranks& ranks = job_.ranks;
@@ -62,11 +66,12 @@ class MapTogether {
     std::vector<text::Bytes> messages;
     together(ranks, [&] { messages = messages_of(job_.part, touches_, owners_, ranks.count()); });
     touches_ = {};
+    traffic_.of_triangles.add(messages, ranks.self());
     messages = ranks.exchange(std::move(messages));
     together(ranks, [&] { draw(std::move(messages), progress); });
     deal_out_rows();
     map_ = with_own_rows(ranks, {tiles_, camera_.width, camera_.height, owners_, of_rows_},
-                         std::move(map_));
+                         std::move(map_), traffic_.of_pixels);
     sum_up();
     if (rows_of_chunk_) {
       write_in_bands(outputs, number);
@@ -75,8 +80,12 @@ class MapTogether {
         if (ranks.is_first()) write_whole(*outputs, number);
       });
     }
+    app::sum_up(traffic_, ranks);
     return statistics_;
   }
+
+  /// The sums of all ranks, in all of them.
+  [[nodiscard]] const MapTraffic& traffic() const { return traffic_; }
 
  private:
   [[nodiscard]] RenderOptions options(RenderStatistics& statistics) const {
@@ -103,7 +112,10 @@ class MapTogether {
     RenderStatistics drawn;
     RenderOptions how = options(drawn);
     how.progress = progress;
+    Stopwatch stopwatch;
     map_ = render_tiles(received.scene, camera_, how, own);
+    traffic_.drawing = stopwatch.lap();
+    traffic_.drawn = traffic_.most_drawn = received.numbers.size();
     statistics_.pixels_with_surface = drawn.pixels_with_surface;
     number_triangles(received.numbers, own);
   }
@@ -128,7 +140,7 @@ class MapTogether {
 
   void sum_up() {
     const Ranks& ranks = job_.ranks;
-    statistics_.triangles = job_.scene.first_numbers().back();
+    statistics_.triangles = traffic_.triangles = job_.scene.first_numbers().back();
     statistics_.degenerate_triangles = ranks.sum(statistics_.degenerate_triangles);
     statistics_.pixels_with_surface = ranks.sum(statistics_.pixels_with_surface);
   }
@@ -156,6 +168,7 @@ class MapTogether {
   void write_whole(RenderOutputs& outputs, std::size_t number) {
     const MapPlan& plan = job_.plan;
     const std::string& name = outputs.map_name(number);
+    traffic_.map = name;
     dress(name);
     outputs.map(number).write(
         [&](const auto& path) { write_map(map_, path, plan.format, plan.writing); });
@@ -176,6 +189,13 @@ class MapTogether {
       chunks = exr_chunks(map_, writing.compression, writing.threads, name);
     });
     map_ = {};
+    traffic_.map = name;
+    if (!ranks.is_first()) {
+      for (const text::Bytes& chunk : chunks) {
+        ++traffic_.of_chunks.messages;
+        traffic_.of_chunks.bytes += chunk.size();
+      }
+    }
     std::vector<int> of_chunks;
     for (std::uint32_t row = 0; row < camera_.height; row += *rows_of_chunk_)
       of_chunks.push_back(of_rows_[row / tiles_.side]);
@@ -198,6 +218,7 @@ class MapTogether {
   /// At first of the whole image, in which this rank has drawn its tiles, then of its rows.
   DepthMap map_;
   RenderStatistics statistics_;
+  MapTraffic traffic_;
 };
 
 /// Refuses cameras that the file or the memory has no room for.
@@ -282,19 +303,24 @@ int render_together(const MpiArguments& arguments, const Console& for_all) {
   const Input input = read_input(ranks, render, plan, console);
   const std::vector<Camera>& cameras = input.cameras;
   std::optional<RenderOutputs> outputs;
+  std::optional<TextOutput> report;
   together(ranks, [&] {
     if (!ranks.is_first()) return;
+    report.emplace(arguments.traffic);
     outputs.emplace(render, cameras);
     outputs->write_cameras(to_json(cameras) + "\n");
   });
 
   const Job job{arguments, ranks, console, plan, input.scene, input.part};
+  std::vector<MapTraffic> traffic;
   CameraWarnings warnings;
   {
     Progress progress(console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
+      MapTogether map(job, cameras[i]);
       const RenderStatistics statistics =
-          MapTogether(job, cameras[i]).make(outputs, i, progress.reporter(i, cameras.size()));
+          map.make(outputs, i, progress.reporter(i, cameras.size()));
+      traffic.push_back(map.traffic());
       if (i == 0) warn_of(statistics, console);
       warnings.note(input.scene.outline(), cameras[i], statistics.pixels_with_surface);
     }
@@ -302,6 +328,7 @@ int render_together(const MpiArguments& arguments, const Console& for_all) {
   warnings.tell(console);
   together(ranks, [&] {
     if (outputs) outputs->commit();
+    if (report) report->finish(as_json(traffic, ranks.count()));
   });
   say_when_interrupted("");
   return done;

@@ -1,6 +1,7 @@
 #include "apps/shell/program.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -54,6 +55,13 @@ std::string said_by(const std::system_error& error) {
   return "the system refuses: " + why;
 }
 
+/// Says so and ends the program as it stands. What was to be written has been taken back on the way here;
+/// threads that oneTBB could start, when the system refused it another one, may still be running, and what
+/// a program does when it leaves, destroying what they use, would bring them down with a line of their own.
+[[noreturn]] void leave_without_threads() {
+  std::_Exit(report_lack_of_threads());
+}
+
 int run_reporting(const std::function<int()>& run) {
   try {
     open_missing_streams();
@@ -71,11 +79,11 @@ int run_reporting(const std::function<int()>& run) {
   } catch (const std::length_error&) {
     throw;
   } catch (const std::system_error& error) {  // filesystem_error is one
-    if (is_lack_of_threads(error)) return report_lack_of_threads();
+    if (is_lack_of_threads(error)) leave_without_threads();
     if (error.code() == std::errc::not_enough_memory) return report_out_of_memory();
     return report(status_of(error.code()), said_by(error));
   } catch (const std::exception& error) {
-    if (is_lack_of_threads(error)) return report_lack_of_threads();
+    if (is_lack_of_threads(error)) leave_without_threads();
     return report(internal_error, std::string("unexpected: ") + error.what());
   }
 }

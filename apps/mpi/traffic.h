@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/mpi/ranks.h"
+
+namespace fathom::app {
+
+/// What ranks send to each other: a message is what one rank sends to another one at a time, whatever
+/// pieces MPI makes of it.
+struct Traffic {
+  std::uint64_t messages = 0, bytes = 0;
+
+  /// What `self` sends of these, to all ranks but itself.
+  void add(std::span<const text::Bytes> messages_to_ranks, int self);
+};
+
+/// What it took to make a map, of all ranks.
+struct MapTraffic {
+  std::string map;  ///< the name of the file
+  /// Triangles of the scene; those that ranks had to draw, in all and the most of a rank.
+  std::uint64_t triangles = 0, drawn = 0, most_drawn = 0;
+  /// Triangles to those who draw them, pixels to those who compress them, and these to the file.
+  Traffic of_triangles, of_pixels, of_chunks;
+  /// Seconds of drawing: of all ranks together, and of the slowest one.
+  double drawing = 0, slowest = 0;
+};
+
+/// Puts together what each rank knows of itself: sums, and the greatest of `most_drawn` and `slowest`.
+/// Called by all ranks.
+void sum_up(MapTraffic& traffic, const Ranks& ranks);
+
+/// A line of JSON for each map.
+std::string as_json(const std::vector<MapTraffic>& maps, int ranks);
+
+}  // namespace fathom::app
