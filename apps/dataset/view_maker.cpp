@@ -9,7 +9,6 @@
 #include "apps/render/render_memory.h"
 #include "apps/shell/about_output.h"
 #include "fathom/camera/camera_files.h"
-#include "fathom/camera/world_from_image.h"
 #include "fathom/render.h"
 
 namespace fathom::app {
@@ -42,17 +41,7 @@ ViewMaker::ViewMaker(Scene scene, std::vector<Camera> cameras, MapPlan plan)
     : scene_(std::move(scene)), cameras_(std::move(cameras)), plan_(std::move(plan)) {
   inputs_ = description_of(scene_, plan_);
   plan_.rendering.kept = &memory_;
-  const Camera* before = nullptr;
-  for (const Camera& camera : cameras_) {
-    require_size(plan_.format, camera.width, camera.height, "a map");
-    if (plan_.format == MapFormat::tiff)
-      require_world_from_image(world_from_image(camera), "a map");
-    // To ask the system how much memory there is takes longer than to read a camera.
-    if (before == nullptr || before->width != camera.width || before->height != camera.height) {
-      check_size(camera, plan_);
-    }
-    before = &camera;
-  }
+  check_cameras(cameras_, plan_, "a map");
 }
 
 std::string ViewMaker::inputs_of(std::size_t camera) const {

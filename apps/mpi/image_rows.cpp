@@ -4,6 +4,8 @@
 #include <cstring>
 #include <variant>
 
+#include "apps/mpi/tile_rows.h"
+
 namespace fathom::app {
 using namespace text;
 
@@ -36,15 +38,11 @@ ImageChannel channel_like(const ImageChannel& other, std::size_t pixels) {
 template <class Visit>
 void for_each_row(const TilesAndRows& where, std::uint32_t tile, const Plane& plane,
                   const Visit& visit) {
-  const std::uint32_t side = where.tiles.side;
-  const std::uint32_t left = tile % where.tiles.columns * side;
-  const std::uint32_t top = tile / where.tiles.columns * side;
-  const std::uint32_t columns = std::min(side, where.width - left);
-  const std::uint32_t rows = std::min(side, where.height - top);
-  for (std::uint32_t row = top; row - top < rows; ++row) {
+  const auto visit_row = [&](std::uint32_t row, std::uint32_t left, std::uint32_t columns) {
     const std::size_t pixel = std::size_t{row - plane.first_row} * where.width + left;
     visit(plane.values + pixel * plane.value_size, columns * plane.value_size);
-  }
+  };
+  for_each_row_of_tile(where.tiles, tile, where.width, where.height, visit_row);
 }
 
 /// The rows of pixels first ≤ row < end.

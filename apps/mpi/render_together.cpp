@@ -8,6 +8,7 @@
 #include "apps/mpi/banded_exr.h"
 #include "apps/mpi/image_rows.h"
 #include "apps/mpi/shared_scene.h"
+#include "apps/mpi/tile_rows.h"
 #include "apps/mpi/together.h"
 #include "apps/mpi/traffic.h"
 #include "apps/mpi/triangle_messages.h"
@@ -23,7 +24,6 @@
 #include "apps/shell/stopwatch.h"
 #include "apps/shell/text_output.h"
 #include "fathom/camera/camera_files.h"
-#include "fathom/camera/world_from_image.h"
 #include "fathom/image/exr_bands.h"
 #include "fathom/image/png_sidecar.h"
 #include "fathom/mesh/vertex_normals.h"
@@ -125,17 +125,13 @@ class MapTogether {
                         std::span<const std::uint32_t> own_tiles) {
     auto* const ids = map_.values<std::uint32_t>("id");
     if (ids == nullptr) return;
-    for (const std::uint32_t tile : own_tiles) {
-      const std::uint32_t left = tile % tiles_.columns * tiles_.side;
-      const std::uint32_t top = tile / tiles_.columns * tiles_.side;
-      const std::uint32_t columns = std::min(tiles_.side, camera_.width - left);
-      const std::uint32_t rows = std::min(tiles_.side, camera_.height - top);
-      for (std::uint32_t row = top; row - top < rows; ++row) {
-        std::uint32_t* const pixels = ids->data() + std::size_t{row} * camera_.width + left;
-        for (std::uint32_t i = 0; i < columns; ++i)
-          if (pixels[i] != no_surface) pixels[i] = numbers[pixels[i]];
-      }
-    }
+    const auto number_row = [&](std::uint32_t row, std::uint32_t left, std::uint32_t columns) {
+      std::uint32_t* const pixels = ids->data() + std::size_t{row} * camera_.width + left;
+      for (std::uint32_t i = 0; i < columns; ++i)
+        if (pixels[i] != no_surface) pixels[i] = numbers[pixels[i]];
+    };
+    for (const std::uint32_t tile : own_tiles)
+      for_each_row_of_tile(tiles_, tile, camera_.width, camera_.height, number_row);
   }
 
   void sum_up() {
@@ -220,16 +216,6 @@ class MapTogether {
   RenderStatistics statistics_;
   MapTraffic traffic_;
 };
-
-/// Refuses cameras that the file or the memory has no room for.
-void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
-                   const std::string& output) {
-  for (const Camera& camera : cameras) {
-    require_size(plan.format, camera.width, camera.height, output);
-    if (plan.format == MapFormat::tiff) require_world_from_image(world_from_image(camera), output);
-    check_size(camera, plan);
-  }
-}
 
 /// Channel Ns of sums over the triangles at a vertex, of which ranks may have some.
 void check_normals(const SharedScene& scene, const MapPlan& plan) {

@@ -19,7 +19,6 @@
 #include "apps/shell/stopwatch.h"
 #include "fathom/area/sampled_coverage.h"
 #include "fathom/camera/camera_files.h"
-#include "fathom/camera/world_from_image.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/png_sidecar.h"
 #include "fathom/render.h"
@@ -28,14 +27,11 @@ namespace fathom::app {
 namespace {
 
 /// Refuses cameras that the file, the memory or the depth format has no room for.
-void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
-                   const std::string& output) {
-  for (const Camera& camera : cameras) {
-    require_size(plan.format, camera.width, camera.height, output);
-    if (plan.format == MapFormat::tiff) require_world_from_image(world_from_image(camera), output);
-    check_size(camera, plan);
-    if (plan.depth_buffer) (void)format_for(*plan.depth_buffer, camera);
-  }
+void check_cameras_and_format(const std::vector<Camera>& cameras, const MapPlan& plan,
+                              const std::string& output) {
+  check_cameras(cameras, plan, output);
+  if (!plan.depth_buffer) return;
+  for (const Camera& camera : cameras) (void)format_for(*plan.depth_buffer, camera);
 }
 
 /// The map with everything in it that the plan asks for but the depth buffer.
@@ -101,7 +97,7 @@ int render_maps(const RenderArguments& arguments, MapPlan plan, const Console& c
   const std::vector<Camera> cameras = arguments.camera.get(scene.outline(), console);
   scene.place(arguments.motion);
   warn_of_missing_segments(scene.triangles(), plan.rendering.channels, console);
-  check_cameras(cameras, plan, arguments.output);
+  check_cameras_and_format(cameras, plan, arguments.output);
   RenderOutputs outputs(arguments, cameras);
   outputs.write_cameras(to_json(cameras) + "\n");
 

@@ -6,6 +6,7 @@
 
 #include "apps/options/channel_list.h"
 #include "apps/shell/max_memory.h"
+#include "fathom/camera/world_from_image.h"
 
 namespace fathom::app {
 namespace {
@@ -24,14 +25,27 @@ void require_room(const Camera& camera, double bytes) {
                  memory_allowance());
 }
 
-}  // namespace
-
 void check_size(const Camera& camera, const MapPlan& plan) {
   const std::size_t more =
       (plan.depth_buffer ? plan.depth_buffer->most_channels() : 0) + (plan.samples ? 1 : 0);
   const double map = size_of_map(camera, plan.rendering, more);
   require_room(camera,
                map + memory_to_encode(plan.format, plan.writing.compression, camera.height, map));
+}
+
+}  // namespace
+
+void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
+                   const std::string& output) {
+  const Camera* before = nullptr;
+  for (const Camera& camera : cameras) {
+    require_size(plan.format, camera.width, camera.height, output);
+    if (plan.format == MapFormat::tiff) require_world_from_image(world_from_image(camera), output);
+    // To ask the system how much memory there is takes longer than to read a camera.
+    if (before == nullptr || before->width != camera.width || before->height != camera.height)
+      check_size(camera, plan);
+    before = &camera;
+  }
 }
 
 void check_size(const Camera& camera, const DeepMapPlan& plan) {

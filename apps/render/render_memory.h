@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "apps/render/render_plan.h"
 #include "fathom/camera/camera.h"
 #include "fathom/fast/stream.h"
@@ -7,10 +10,12 @@
 
 namespace fathom::app {
 
-/// Refuses an image that takes more memory than there is or --max-memory allows, before it tries: its map,
-/// and what is needed to write it. Fails with InputError.
-void check_size(const Camera& camera, const MapPlan& plan);
-/// The same of a deep map, whose size is known when it is there.
+/// Refuses cameras whose maps the file cannot hold, or that take more memory than there is or
+/// --max-memory allows, before any is tried: a map, and what is needed to write it. `output` is their name for
+/// messages. Fails with OutputError and InputError.
+void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
+                   const std::string& output);
+/// The memory of a deep map, whose size is known when it is there. Fails with InputError.
 void check_size(const Camera& camera, const DeepMapPlan& plan);
 
 /// Of the memory that the map leaves over of what is allowed, a quarter for tiles, a sixteenth for
