@@ -23,8 +23,7 @@ std::string to_text(const DepthAgreement& d) {
                       d.only_reconstruction);
   text += fmt::format(
       "  with these as depth 0, the mean of the views: {:.6g} over all pixels, {:.6g} over those "
-      "of "
-      "the truth\n",
+      "of the truth\n",
       d.l1_of_all_pixels, d.l1_of_truth_pixels);
   return text;
 }

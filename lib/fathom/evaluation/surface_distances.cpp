@@ -6,6 +6,7 @@
 
 #include "fathom/evaluation/nearest_surface.h"
 #include "fathom/evaluation/point_sight.h"
+#include "fathom/image/nearest_rank.h"
 #include "fathom/memory/available_memory.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
@@ -32,6 +33,7 @@ struct Surface {
 
 /// What is known of a point that counts.
 struct Distance {
+  /// Where it is, if points are kept.
   MeasuredPoint point;
   /// How many of the thresholds, from the largest on, are greater.
   std::size_t thresholds = 0;
@@ -47,7 +49,7 @@ class Measurement {
  public:
   Measurement(const Surface& from, const Surface& to, const std::vector<Camera>& cameras,
               const SurfaceComparisonOptions& options)
-      : from_(from), nearest_(to.source, to.triangles, to.tree) {
+      : from_(from), nearest_(to.source, to.triangles, to.tree), keep_points_(options.keep_points) {
     for (const Camera& camera : cameras)
       sights_.emplace_back(from.source, from.triangles, from.tree, camera, options.cull);
     for (const double within : options.within)
@@ -60,7 +62,8 @@ class Measurement {
     const PlacedPoint p = placed(point, from_.source, from_.triangles);
     if (!is_seen(point.triangle, p, last_sight)) return std::nullopt;
     const Ratio squared = nearest_.squared_distance(p);
-    Distance distance{{rounded(p.exact), round_sqrt_to_binary64(squared)}};
+    Distance distance{{{}, round_sqrt_to_binary64(squared)}};
+    if (keep_points_) distance.point.at = rounded(p.exact);
     for (const Dyadic& threshold : squared_thresholds_)
       distance.thresholds += squared < Ratio(threshold);
     return distance;
@@ -82,6 +85,7 @@ class Measurement {
 
   const Surface& from_;
   NearestSurface nearest_;
+  bool keep_points_;
   std::vector<PointSight> sights_;
   std::vector<Dyadic> squared_thresholds_;
 };
@@ -130,13 +134,9 @@ SurfaceDistances summary_of(const std::vector<std::optional<Distance>>& distance
   summary.mean = sum / n;
   summary.rms = std::sqrt(squares / n);
   std::sort(values.begin(), values.end());
-  const auto percentile = [&](std::size_t hundredths) {
-    const std::size_t rank = (values.size() * hundredths + 99) / 100;
-    return values[rank - 1];
-  };
-  summary.median = percentile(50);
-  summary.p90 = percentile(90);
-  summary.p99 = percentile(99);
+  summary.median = image::nearest_rank(values, 500);
+  summary.p90 = image::nearest_rank(values, 900);
+  summary.p99 = image::nearest_rank(values, 990);
   summary.max = values.back();
   for (std::size_t i = 0; i < within.size(); ++i) {
     const auto greater = static_cast<std::size_t>(

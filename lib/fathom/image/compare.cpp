@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fathom/image/compare_internal.h"
+#include "fathom/image/nearest_rank.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
@@ -117,15 +118,10 @@ struct Differences {
     for (const double v : values) sum += v;
     s.mean = sum / static_cast<double>(values.size());
     std::sort(values.begin(), values.end());
-    // Nearest rank: the ⌈n·p⌉-th value; p in thousandths, so that n·p is an integer.
-    const auto percentile = [&](std::size_t thousandths) {
-      const std::size_t rank = (values.size() * thousandths + 999) / 1000;
-      return values[std::max<std::size_t>(rank, 1) - 1];
-    };
-    s.p50 = percentile(500);
-    s.p90 = percentile(900);
-    s.p99 = percentile(990);
-    s.p99_9 = percentile(999);
+    s.p50 = image::nearest_rank(values, 500);
+    s.p90 = image::nearest_rank(values, 900);
+    s.p99 = image::nearest_rank(values, 990);
+    s.p99_9 = image::nearest_rank(values, 999);
     return s;
   }
 };

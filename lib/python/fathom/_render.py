@@ -138,12 +138,17 @@ def checked_out(
     return array
 
 
-def list_of_cameras(cameras: Sequence[Camera]) -> list[Camera]:
+def several_cameras(name: str, cameras: object) -> list[Camera]:
+    """What is in a sequence that may be one of cameras."""
     if isinstance(cameras, Mapping):
-        raise TypeError("camera: expected a Camera or a sequence of them, found a dict: take its values()")
+        raise TypeError(f"{name}: expected a Camera or a sequence of them, found a dict: take its values()")
     if not isinstance(cameras, Iterable):
-        raise TypeError(f"camera: expected a Camera or a sequence of them, found {cameras!r}")
-    listed = list(cameras)
+        raise TypeError(f"{name}: expected a Camera or a sequence of them, found {cameras!r}")
+    return list(cameras)
+
+
+def list_of_cameras(cameras: Sequence[Camera]) -> list[Camera]:
+    listed = several_cameras("camera", cameras)
     if not listed:
         raise ValueError("camera: expected at least one")
     for each in listed:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
 from ._arguments import as_count, as_number, as_threads, camera_handle, culls, one_of, scene_handle
-from ._render import Cull
+from ._render import Cull, several_cameras
 from .camera import Camera
 
 if TYPE_CHECKING:
@@ -100,13 +100,8 @@ def evaluate(reconstruction: Scene, truth: Scene, cameras: Camera | Iterable[Cam
 
 
 def _handles(cameras: object) -> list[_core.Camera]:
-    if isinstance(cameras, Camera):
-        return [camera_handle(cameras)]
-    if isinstance(cameras, Mapping):
-        raise TypeError("cameras: expected a Camera or a sequence of them, found a dict: take its values()")
-    if not isinstance(cameras, Iterable):
-        raise TypeError(f"cameras: expected a Camera or a sequence of them, found {cameras!r}")
-    return [camera_handle(each) for each in cameras]
+    listed = [cameras] if isinstance(cameras, Camera) else several_cameras("cameras", cameras)
+    return [camera_handle(each) for each in listed]
 
 
 def _thresholds(within: object) -> list[float]:
