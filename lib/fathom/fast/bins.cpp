@@ -32,13 +32,15 @@ void transform_finite(const VertexTransform& transform, std::span<const MeshPoin
 }  // namespace
 
 ImageObject::ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
-                         std::uint32_t first_triangle, VertexMemory* where_kept)
+                         std::uint32_t first_triangle, VertexMemory* where_kept,
+                         std::span<const std::uint32_t> numbers)
     : mesh(its_mesh),
       first_number(first_triangle),
       transform(object, camera),
       vertices(where_kept ? where_kept->take(mesh.vertices.size())
                           : std::make_unique_for_overwrite<ImageVertex[]>(mesh.vertices.size())),
-      kept(where_kept) {
+      kept(where_kept),
+      scene_numbers(numbers.empty() ? nullptr : numbers.data()) {
   constexpr std::size_t part = 4096;
   const std::size_t count = mesh.vertices.size();
   in_parallel((count + part - 1) / part, [&](std::size_t i) {
@@ -132,7 +134,8 @@ PixelBox visible_box_exactly(const ImageObject& object, const CornerIndices& cor
   ++statistics.facing.exact;
   // Exact numbers would say the same of points that are equal, in a thousand times the time.
   const bool distinct = a != b && b != c && c != a;
-  const ProjectedTriangle* t = distinct ? &context.referee.projected(number) : nullptr;
+  const ProjectedTriangle* t =
+      distinct ? &context.referee.projected(object.number_in_scene(number)) : nullptr;
   if (!t || t->orientation == Sign::zero) {
     ++statistics.degenerate_triangles;
     return {};
@@ -161,8 +164,9 @@ void Bins::add_exactly(const ImageObject& object, std::uint32_t number, const Co
   if (!is_usable(object, corners)) {
     if (is_certainly_unseen(object, corners)) return;
     const PixelBox image{0, grid.width - 1, 0, grid.height - 1};
-    const auto setup =
-        context.cull == Cull::none ? wide_setup(context.referee, number, image) : std::nullopt;
+    const auto setup = context.cull == Cull::none
+                           ? wide_setup(context.referee, object.number_in_scene(number), image)
+                           : std::nullopt;
     if (setup) {
       ++context.statistics.facing.interval;
       add_where_met(*setup, image);
@@ -177,7 +181,8 @@ void Bins::add_exactly(const ImageObject& object, std::uint32_t number, const Co
     return;
   }
   const bool perspective = context.camera.projection == Projection::perspective;
-  add_where_met(exact_setup(context.referee.projected(number), perspective, box), box);
+  const ProjectedTriangle& projected = context.referee.projected(object.number_in_scene(number));
+  add_where_met(exact_setup(projected, perspective, box), box);
 }
 
 void Bins::add_object(const ImageObject& object, const Context& context) {

@@ -35,27 +35,36 @@ class VertexMemory {
 
 /// One object with its vertices in the image.
 struct ImageObject {
-  /// For an object or a part of one; its first triangle is number `first_triangle` in the scene.
+  /// For an object or a part of one; its first triangle is number `first_triangle` of the objects
+  /// that are drawn together. That is its number in the scene, too, or else `scene_numbers` has those
+  /// of all its triangles, and outlives it.
   ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
-              std::uint32_t first_triangle, VertexMemory* kept = nullptr);
+              std::uint32_t first_triangle, VertexMemory* kept = nullptr,
+              std::span<const std::uint32_t> scene_numbers = {});
   ~ImageObject();
   ImageObject(const ImageObject&) = delete;
   ImageObject& operator=(const ImageObject&) = delete;
 
   const Mesh& mesh;
-  /// Number of its first triangle in the scene.
+  /// Number of its first triangle.
   std::uint32_t first_number;
   VertexTransform transform;
   /// One for each vertex of the mesh.
   std::unique_ptr<ImageVertex[]> vertices;
   /// Where the vertices are given back to; may be null.
   VertexMemory* kept;
+  /// The numbers of its triangles in the scene; null where they have the same ones here.
+  const std::uint32_t* scene_numbers;
 
   [[nodiscard]] std::uint32_t end_number() const {
     return first_number + static_cast<std::uint32_t>(mesh.triangles.size());
   }
+  /// What the scene calls one of its triangles, and so tiles and the referee do.
+  [[nodiscard]] std::uint32_t number_in_scene(std::uint32_t number) const {
+    return scene_numbers ? scene_numbers[number - first_number] : number;
+  }
 };
-/// In the order of the scene, so that the numbers of their triangles are consecutive.
+/// The numbers of their triangles are consecutive.
 using ImageObjects = std::deque<ImageObject>;
 
 /// The object that a triangle belongs to.
@@ -74,10 +83,10 @@ struct TileGrid {
   std::uint32_t columns, rows;
 };
 
-/// Consecutive triangles, and for each tile those that can be visible in it, or that meet it.
+/// Consecutive triangles of some objects, and for each tile those that can be visible in it, or that meet it.
 class Bins {
  public:
-  /// For the triangles first ≤ number < end of the scene.
+  /// For the triangles first ≤ number < end of the objects.
   Bins(std::uint32_t first, std::uint32_t end) : first_(first), end_(end) {}
   /// For others; keeps the memory.
   void restart(std::uint32_t first, std::uint32_t end) {

@@ -24,7 +24,7 @@ namespace {
 
 /// As many triangles as there are lanes of binary64 (the last one repeated if there are fewer).
 struct Triangles {
-  std::array<std::uint32_t, SetupBatch::most> number;
+  std::array<std::uint32_t, SetupBatch::most> number;  // in the scene
   std::array<CornerIndices, SetupBatch::most> corners;
 };
 
@@ -38,7 +38,7 @@ HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> 
     const std::size_t i = std::min(first + k, numbers.size() - 1);
     const std::size_t later = std::min(i + 2 * lanes, numbers.size() - 1);
     hwy::Prefetch(triangles + (numbers[later] - object.first_number));
-    next.number[k] = numbers[i];
+    next.number[k] = object.number_in_scene(numbers[i]);
     next.corners[k] = triangles[numbers[i] - object.first_number];
     for (const std::uint32_t vertex : next.corners[k]) hwy::Prefetch(&object.vertices[vertex]);
   }

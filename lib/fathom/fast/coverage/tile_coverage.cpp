@@ -104,7 +104,8 @@ std::pair<SquarePoint, SquarePoint> TileCoverage::exact_ends(const OutlineEdge& 
                                                              const SquarePoint& local,
                                                              const SquarePoint& corner) const {
   const TriangleSource& triangles = scene_.frame.triangles;
-  const Object& object = triangles.objects()[triangles.origin(edge.object->first_number).object];
+  const std::uint32_t number = edge.object->number_in_scene(edge.object->first_number);
+  const Object& object = triangles.objects()[triangles.origin(number).object];
   const auto exact = [&](std::uint32_t vertex) {
     const Camera& camera = scene_.frame.camera;
     const auto [U, V, W] =

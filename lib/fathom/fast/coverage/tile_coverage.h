@@ -84,7 +84,9 @@ class TileCoverage {
   [[nodiscard]] bool misses_tile(const Shape& shape) const;
   [[nodiscard]] const ImageObject& object_at(std::size_t i);
   [[nodiscard]] Shape shape_of(const ImageObject& object, std::size_t i) const;
-  [[nodiscard]] Shape exact_shape(std::size_t i, const Tile::Context& context) const;
+  [[nodiscard]] Shape exact_shape(std::size_t i, const Tile::Context& context);
+  /// Of numbers_[i], which is what bins call it.
+  [[nodiscard]] std::uint32_t number_in_scene(std::size_t i);
 
   // tile_coverage_counts.cpp: how many triangles cover a point of an open pixel.
   /// Prepares to count: finds columns to count from, and in other rows the triangles of each pixel.

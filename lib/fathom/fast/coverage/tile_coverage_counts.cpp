@@ -115,7 +115,7 @@ std::span<const std::uint32_t> TileCoverage::triangles_at(std::uint32_t pixel) {
   triangles_at_.clear();
   if (reference_[pixel / size] < 0) {
     for (const std::uint32_t i : shapes_at_.at(pixel)) {
-      triangles_at_.push_back(numbers_[shapes_[i].triangle]);
+      triangles_at_.push_back(number_in_scene(shapes_[i].triangle));
     }
     return triangles_at_;
   }
@@ -127,7 +127,7 @@ std::span<const std::uint32_t> TileCoverage::triangles_at(std::uint32_t pixel) {
       continue;
     }
     if (!is_pixel_of(shape_of(object_at(i), i), column, row).outside) {
-      triangles_at_.push_back(numbers_[i]);
+      triangles_at_.push_back(number_in_scene(i));
     }
   }
   return triangles_at_;

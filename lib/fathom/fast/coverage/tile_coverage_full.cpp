@@ -199,9 +199,13 @@ TileCoverage::Shape TileCoverage::shape_of(const ImageObject& object, std::size_
   return shape;
 }
 
-TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context& context) const {
+std::uint32_t TileCoverage::number_in_scene(std::size_t i) {
+  return object_at(i).number_in_scene(numbers_[i]);
+}
+
+TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context& context) {
   const TriangleSetup setup =
-      exact_setup(context.referee.projected(numbers_[i]), context.perspective, area_);
+      exact_setup(context.referee.projected(number_in_scene(i)), context.perspective, area_);
   const auto [functions, count] = functions_over_tile(setup, context.range);
   return {static_cast<std::uint32_t>(i), true, functions, count};
 }

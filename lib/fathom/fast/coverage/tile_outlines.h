@@ -33,7 +33,7 @@ struct OutlineEdge {
 class TileOutlines {
  public:
   void start(const PixelBox& area);
-  /// Adds triangles of an object, given by their numbers in the scene.
+  /// Adds triangles of an object, given by their numbers.
   void add(const ImageObject& object, std::span<const std::uint32_t> numbers,
            std::span<const CoverageTriangle> classes);
   /// How many edges that may meet the tile have no opposite; those with ends at the same place of
