@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <exception>
 #include <optional>
-#include <utility>
 
 #include "apps/shell/write_all.h"
 #include "fathom/text/byte_order.h"
@@ -63,11 +62,7 @@ class ExrFile {
 
 void write_banded_exr(const Ranks& ranks, const std::filesystem::path& path, const Bytes& beginning,
                       std::span<const int> of_chunks, std::uint32_t rows_of_chunk,
-                      std::vector<Bytes> own_chunks) {
-  if (!ranks.is_first()) {
-    for (Bytes& chunk : own_chunks) ranks.send_to_first(std::exchange(chunk, {}));
-    return;
-  }
+                      WaitingChunks& own_chunks) {
   std::exception_ptr failure;
   const auto unless_failed = [&](const auto& work) {
     if (failure) return;
@@ -78,14 +73,19 @@ void write_banded_exr(const Ranks& ranks, const std::filesystem::path& path, con
     }
   };
   std::optional<ExrFile> file;
-  unless_failed([&] { file.emplace(path, beginning, of_chunks.size()); });
-  std::size_t next_own = 0;
+  if (ranks.is_first()) unless_failed([&] { file.emplace(path, beginning, of_chunks.size()); });
   for (std::size_t i = 0; i < of_chunks.size(); ++i) {
-    const Bytes chunk = of_chunks[i] == 0 ? std::exchange(own_chunks[next_own++], {})
-                                          : ranks.receive_from(of_chunks[i]);
+    Bytes chunk;
+    const bool is_own = of_chunks[i] == ranks.self();
+    if (is_own) unless_failed([&] { chunk = own_chunks.take(); });
+    if (!ranks.is_first()) {
+      if (is_own) ranks.send_to_first(chunk);
+      continue;
+    }
+    if (!is_own) chunk = ranks.receive_from(of_chunks[i]);
     unless_failed([&] { file->add(static_cast<std::uint32_t>(i) * rows_of_chunk, chunk); });
   }
-  unless_failed([&] { file->finish(); });
+  if (file) unless_failed([&] { file->finish(); });
   if (failure) std::rethrow_exception(failure);
 }
 

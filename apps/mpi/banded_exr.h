@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/mpi/ranks.h"
+#include "apps/mpi/waiting_chunks.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/map_files.h"
 #include "fathom/text/file_bytes.h"
@@ -12,13 +13,13 @@
 namespace fathom::app {
 
 /// An EXR that the first rank writes, chunk by chunk, as they come from the ranks that have the rows
-/// (image/exr_bands.h): it never holds more of the image than its own band and one chunk. Called by all
-/// ranks, with the chunks of their bands, which are used up.
+/// (image/exr_bands.h): it never holds more of the image than its own chunks and one other. Called by
+/// all ranks, with the chunks of their bands, which are used up.
 /// `path`       in the first rank, where the file is; `beginning`: what it begins with
 /// `of_chunks`  the rank of each chunk
-/// Fails    OutputError in the first rank, after all others have sent what they have.
+/// Fails    after all has been sent: in the first rank OutputError; InputError where own chunks cannot be taken.
 void write_banded_exr(const Ranks& ranks, const std::filesystem::path& path,
                       const text::Bytes& beginning, std::span<const int> of_chunks,
-                      std::uint32_t rows_of_chunk, std::vector<text::Bytes> own_chunks);
+                      std::uint32_t rows_of_chunk, WaitingChunks& own_chunks);
 
 }  // namespace fathom::app

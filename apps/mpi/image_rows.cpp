@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 #include <variant>
 
 #include "apps/mpi/tile_rows.h"
@@ -11,17 +12,16 @@ using namespace text;
 
 namespace {
 
-/// The values of a channel, whatever they are, of an image or of a band that begins with this row.
+/// The values of a channel, whatever they are, as bytes.
 struct Plane {
   std::byte* values;
   std::size_t value_size;
-  std::uint32_t first_row = 0;
 };
 
-Plane plane_of(ImageChannel& channel, std::uint32_t first_row) {
+Plane plane_of(ImageChannel& channel) {
   return std::visit(
-      [&](auto& values) {
-        return Plane{reinterpret_cast<std::byte*>(values.data()), sizeof *values.data(), first_row};
+      [](auto& values) {
+        return Plane{reinterpret_cast<std::byte*>(values.data()), sizeof *values.data()};
       },
       channel.values);
 }
@@ -34,81 +34,118 @@ ImageChannel channel_like(const ImageChannel& other, std::size_t pixels) {
       other.values);
 }
 
-/// Calls visit(where its pixels are, how many bytes they take) for each row of a tile, from the top.
+/// Calls visit(where its pixels are, how many bytes they take) for each row of each channel of a tile,
+/// in a map that has rows of tiles from `first_row` on.
 template <class Visit>
-void for_each_row(const TilesAndRows& where, std::uint32_t tile, const Plane& plane,
-                  const Visit& visit) {
-  const auto visit_row = [&](std::uint32_t row, std::uint32_t left, std::uint32_t columns) {
-    const std::size_t pixel = std::size_t{row - plane.first_row} * where.width + left;
-    visit(plane.values + pixel * plane.value_size, columns * plane.value_size);
-  };
-  for_each_row_of_tile(where.tiles, tile, where.width, where.height, visit_row);
+void for_each_row_of_pixels(const DrawnTiles& where, std::uint32_t tile, std::uint32_t first_row,
+                            DepthMap& map, const Visit& visit) {
+  for (ImageChannel& channel : map.channels) {
+    const Plane plane = plane_of(channel);
+    const auto visit_row = [&](std::uint32_t row, std::uint32_t left, std::uint32_t columns) {
+      const std::size_t pixel =
+          std::size_t{row - first_row * where.tiles.side} * where.width + left;
+      visit(plane.values + pixel * plane.value_size, columns * plane.value_size);
+    };
+    for_each_row_of_tile(where.tiles, tile, where.width, where.height, visit_row);
+  }
 }
 
-/// The rows of pixels first ≤ row < end.
-struct Band {
-  std::uint32_t first = 0, end = 0;
-};
-
-Band band_of(const TilesAndRows& where, int rank) {
-  const auto [first, end] = std::equal_range(where.of_rows.begin(), where.of_rows.end(), rank);
-  const auto row_at = [&](auto tile_row) {
-    const auto rows = static_cast<std::uint32_t>(tile_row - where.of_rows.begin());
-    return rows == where.tiles.rows ? where.height : rows * where.tiles.side;
-  };
-  return {row_at(first), row_at(end)};
+/// Calls visit(tile) for tiles of these rows, in ascending order.
+template <class Visit>
+void for_each_tile(const DrawnTiles& where, const TileRows& rows, const Visit& visit) {
+  const std::uint32_t columns = where.tiles.columns;
+  for (std::uint32_t tile = rows.first * columns; tile < rows.end * columns; ++tile) visit(tile);
 }
 
-/// From the channel that this rank has drawn to that of its band.
-void move_channel(const Ranks& ranks, const TilesAndRows& where, const Plane& drawn,
-                  const Plane& band, Traffic& traffic) {
-  std::vector<Bytes> messages(static_cast<std::size_t>(ranks.count()));
-  // What stays goes the same way, to itself.
-  for (std::uint32_t tile = 0; tile < where.of_tiles.size(); ++tile) {
-    if (where.of_tiles[tile] != ranks.self()) continue;
-    const auto to = static_cast<std::size_t>(where.of_rows[tile / where.tiles.columns]);
-    for_each_row(where, tile, drawn, [&](const std::byte* pixels, std::size_t bytes) {
-      append(messages[to], ByteView(pixels, bytes));
-    });
-  }
-  traffic.add(messages, ranks.self());
-  messages = ranks.exchange(std::move(messages));
-  std::vector<std::size_t> next(messages.size(), 0);
-  for (std::uint32_t tile = 0; tile < where.of_tiles.size(); ++tile) {
-    if (where.of_rows[tile / where.tiles.columns] != ranks.self()) continue;
-    const auto from = static_cast<std::size_t>(where.of_tiles[tile]);
-    for_each_row(where, tile, band, [&](std::byte* pixels, std::size_t bytes) {
-      std::memcpy(pixels, &messages[from].at(next[from]), bytes);
-      next[from] += bytes;
-    });
-  }
+bool has_drawn_any(const DrawnTiles& where, const TileRows& rows, int rank) {
+  bool any = false;
+  for_each_tile(where, rows, [&](std::uint32_t tile) { any |= where.of_tiles[tile] == rank; });
+  return any;
 }
 
 }  // namespace
 
-std::vector<int> equal_bands(std::uint32_t rows, int ranks) {
-  std::vector<int> owners(rows);
-  for (std::uint32_t row = 0; row < rows; ++row) {
-    owners[row] = static_cast<int>(std::uint64_t{row} * static_cast<std::uint64_t>(ranks) / rows);
-  }
-  return owners;
+std::vector<TileRows> equal_bands(std::uint32_t rows, int ranks) {
+  const auto first_of = [&](int rank) {
+    const std::uint64_t share = std::uint64_t{rows} * static_cast<std::uint64_t>(rank);
+    const auto count = static_cast<std::uint64_t>(ranks);
+    return static_cast<std::uint32_t>((share + count - 1) / count);
+  };
+  std::vector<TileRows> bands;
+  for (int rank = 0; rank < ranks; ++rank) bands.push_back({first_of(rank), first_of(rank + 1)});
+  return bands;
 }
 
-DepthMap with_own_rows(const Ranks& ranks, const TilesAndRows& where, DepthMap drawn,
-                       Traffic& traffic) {
-  if (ranks.count() == 1) return drawn;
-  const Band rows = band_of(where, ranks.self());
-  std::vector<ImageChannel> channels = std::move(drawn.channels);
-  DepthMap band = std::move(drawn);
-  band.height = rows.end - rows.first;
-  band.channels.clear();
-  for (ImageChannel& channel : channels) {
-    band.channels.push_back(channel_like(channel, std::size_t{band.width} * band.height));
-    move_channel(ranks, where, plane_of(channel, 0), plane_of(band.channels.back(), rows.first),
-                 traffic);
-    channel = {};  // its memory goes back
+std::vector<TileRows> all_for_first(std::uint32_t rows, int ranks) {
+  std::vector<TileRows> bands(static_cast<std::size_t>(ranks), {rows, rows});
+  bands.front() = {0, rows};
+  return bands;
+}
+
+std::vector<TileRows> parts_of(std::span<const TileRows> bands, std::uint32_t from,
+                               std::uint32_t most) {
+  std::vector<TileRows> parts;
+  for (const TileRows& band : bands) {
+    const std::uint32_t first = band.first + std::min(from, band.count());
+    parts.push_back({first, first + std::min(most, band.end - first)});
   }
-  return band;
+  return parts;
+}
+
+std::vector<Bytes> pixels_for_others(const Ranks& ranks, const DrawnTiles& where,
+                                     std::span<const TileRows> of_ranks, const RowsDrawn& drawn) {
+  std::vector<Bytes> messages(of_ranks.size());
+  for (std::size_t to = 0; to < of_ranks.size(); ++to) {
+    const TileRows& rows = of_ranks[to];
+    if (static_cast<int>(to) == ranks.self() || !has_drawn_any(where, rows, ranks.self())) continue;
+    DepthMap map = drawn(rows);
+    for_each_tile(where, rows, [&](std::uint32_t tile) {
+      if (where.of_tiles[tile] != ranks.self()) return;
+      for_each_row_of_pixels(where, tile, rows.first, map,
+                             [&](const std::byte* pixels, std::size_t bytes) {
+                               append(messages[to], ByteView(pixels, bytes));
+                             });
+    });
+  }
+  return messages;
+}
+
+DepthMap rows_from_all(const Ranks& ranks, const DrawnTiles& where, const TileRows& own,
+                       const RowsDrawn& drawn, const std::vector<Bytes>& from_others) {
+  if (own.count() == 0) return {};
+  DepthMap map = drawn(own);
+  std::vector<std::size_t> next(from_others.size(), 0);
+  for_each_tile(where, own, [&](std::uint32_t tile) {
+    const auto from = static_cast<std::size_t>(where.of_tiles[tile]);
+    if (static_cast<int>(from) == ranks.self()) return;
+    for_each_row_of_pixels(where, tile, own.first, map, [&](std::byte* pixels, std::size_t bytes) {
+      std::memcpy(pixels, &from_others[from].at(next[from]), bytes);
+      next[from] += bytes;
+    });
+  });
+  return map;
+}
+
+WholeMap::WholeMap(DepthMap first_rows, std::uint32_t height) : map_(std::move(first_rows)) {
+  const std::vector<ImageChannel> channels = std::exchange(map_.channels, {});
+  map_.height = height;
+  for (const ImageChannel& channel : channels)
+    map_.channels.push_back(channel_like(channel, std::size_t{map_.width} * height));
+  add(channels);
+}
+
+void WholeMap::add(const std::vector<ImageChannel>& rows) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::visit(
+        [&]<class T>(Samples<T>& values) {
+          const auto& more = std::get<Samples<T>>(rows[i].values);
+          std::ranges::copy(more, values.begin() + static_cast<std::ptrdiff_t>(pixels_));
+          count = more.size();
+        },
+        map_.channels[i].values);
+  }
+  pixels_ += count;
 }
 
 }  // namespace fathom::app

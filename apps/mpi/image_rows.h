@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "apps/mpi/ranks.h"
@@ -11,22 +13,55 @@
 
 namespace fathom::app {
 
-/// Which rank has drawn each tile of an image, and which one gets each row of tiles: a band of
-/// neighbouring rows, or none. The bands are in the order of the ranks.
-struct TilesAndRows {
+/// Rows first ≤ row < end of tiles.
+struct TileRows {
+  std::uint32_t first = 0, end = 0;
+  [[nodiscard]] std::uint32_t count() const { return end - first; }
+};
+
+/// About as many rows of tiles for each rank, the first of them for rank 0; for some perhaps none.
+std::vector<TileRows> equal_bands(std::uint32_t rows, int ranks);
+/// All of them for rank 0.
+std::vector<TileRows> all_for_first(std::uint32_t rows, int ranks);
+
+/// The parts of the ranks' bands that begin `from` rows after them and have `most` rows, or what is
+/// left.
+std::vector<TileRows> parts_of(std::span<const TileRows> bands, std::uint32_t from,
+                               std::uint32_t most);
+
+/// Which rank has drawn each tile of an image.
+struct DrawnTiles {
   ImageTiles tiles;
   std::uint32_t width = 0, height = 0;
   std::span<const int> of_tiles;
-  std::span<const int> of_rows;
 };
 
-/// About as many rows of tiles for each rank, the first of them for rank 0.
-std::vector<int> equal_bands(std::uint32_t rows, int ranks);
+/// Makes the map of rows of tiles with values where this rank has drawn.
+using RowsDrawn = std::function<DepthMap(const TileRows&)>;
 
-/// Tiles travel: returns the map of the rows that this rank gets, 0 rows where it gets none, with the
-/// channels of `drawn`, in which it has drawn its tiles. A channel after the other, so that what
-/// travels at a time is a rank's share of one. `traffic` counts what this rank sends.
-DepthMap with_own_rows(const Ranks& ranks, const TilesAndRows& where, DepthMap drawn,
-                       Traffic& traffic);
+/// Of the rows that each rank is to get, what this rank has drawn of them goes to the others:
+/// messages, one for each.
+/// Fails    as `drawn` does.
+std::vector<text::Bytes> pixels_for_others(const Ranks& ranks, const DrawnTiles& where,
+                                           std::span<const TileRows> of_ranks,
+                                           const RowsDrawn& drawn);
+/// The map of the rows that this rank gets, from what it has drawn of them and what has come from the
+/// others.
+DepthMap rows_from_all(const Ranks& ranks, const DrawnTiles& where, const TileRows& own,
+                       const RowsDrawn& drawn, const std::vector<text::Bytes>& from_others);
+
+/// A map that is put together from rows, one after another.
+class WholeMap {
+ public:
+  /// Of an image of this height, of which these are the first rows.
+  WholeMap(DepthMap first_rows, std::uint32_t height);
+  /// Those that follow; the same channels.
+  void add(const std::vector<ImageChannel>& rows);
+  [[nodiscard]] DepthMap take() { return std::move(map_); }
+
+ private:
+  DepthMap map_;
+  std::size_t pixels_ = 0;
+};
 
 }  // namespace fathom::app

@@ -1,15 +1,21 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <string>
+
 #include "apps/mpi/partition.h"
 #include "apps/render/render_arguments.h"
 
 namespace fathom::app {
 
-/// The arguments of `fathom-mpi render`: those of `fathom render`, and one more.
+/// The arguments of `fathom-mpi render`: those of `fathom render`, and more.
 struct MpiArguments {
   RenderArguments render;
   Partition partition = Partition::load;
   std::string traffic;
+  /// In bytes, for each rank.
+  std::optional<std::uint64_t> memory;
 
   void add_to(Command& command);
 };

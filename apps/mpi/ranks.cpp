@@ -43,13 +43,18 @@ Piece piece_of(std::size_t size, std::size_t round, std::size_t most) {
   return {offset, static_cast<int>(std::min(size - offset, most))};
 }
 
+MPI_Comm ranks_on_this_machine() {
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  return machine;
+}
+
 /// A number in memory that is shared with the ranks on this machine, 0 at first; it stays until the
 /// end.
 std::atomic<int>* shared_number() {
   using Number = std::atomic<int>;
   static_assert(Number::is_always_lock_free);
-  MPI_Comm machine = MPI_COMM_NULL;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  MPI_Comm machine = ranks_on_this_machine();
   int self = 0;
   MPI_Comm_rank(machine, &self);
   Number* number = nullptr;
@@ -80,6 +85,9 @@ MpiSession::~MpiSession() {
 Ranks::Ranks() {
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
   MPI_Comm_rank(MPI_COMM_WORLD, &self_);
+  MPI_Comm machine = ranks_on_this_machine();
+  MPI_Comm_size(machine, &count_here_);
+  MPI_Comm_free(&machine);
 }
 
 std::uint64_t Ranks::least(std::uint64_t value) const {

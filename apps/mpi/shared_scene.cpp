@@ -4,9 +4,11 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "apps/mpi/picked_triangles.h"
+#include "apps/mpi/together.h"
 #include "apps/shell/known_files.h"
 #include "fathom/numeric/errors.h"
 
@@ -20,18 +22,17 @@ bool can_be_streamed(const SceneOptions& options) {
 }
 
 /// A part of a mesh that is in memory, or of one in a file.
-Mesh part_of(const Scene& scene, const StreamedScene* streamed, std::uint32_t object,
-             std::uint32_t first, std::uint32_t count) {
-  if (!streamed) {
-    std::vector<std::uint32_t> numbers(count);
-    for (std::uint32_t i = 0; i < count; ++i) numbers[i] = first + i;
-    return TrianglePicker(scene.meshes[scene.objects[object].mesh]).picked(numbers);
+Mesh mesh_part(const Scene& scene, const StreamedScene* streamed, std::uint32_t object,
+               std::uint32_t first, std::uint32_t count) {
+  if (streamed) {
+    Mesh mesh =
+        std::move(streamed->streams[streamed->objects[object].mesh]->read(first, count).mesh);
+    mesh.face_of_triangle = {};
+    return mesh;
   }
-  TriangleChunk chunk = streamed->streams[streamed->objects[object].mesh]->read(first, count);
-  if (chunk.mesh.face_of_triangle.empty()) {
-    for (std::uint32_t i = 0; i < count; ++i) chunk.mesh.face_of_triangle.push_back(first + i);
-  }
-  return std::move(chunk.mesh);
+  std::vector<std::uint32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), first);
+  return TrianglePicker(scene.meshes[scene.objects[object].mesh]).picked(numbers);
 }
 
 }  // namespace
@@ -45,7 +46,7 @@ SharedScene::SharedScene(const SceneOptions& options, const Kept& kept, const Co
     if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none))
       throw UsageError("SCENE: " + file + " is no regular file, which all ranks could read");
   }
-  if (kept.segments || kept.normals || !can_be_streamed(options)) {
+  if (kept.segments || kept.normals || kept.motion || !can_be_streamed(options)) {
     scene_ = options.read(
         console, {.hash = kept.hash, .attributes = kept.normals, .segments = kept.segments});
   } else {
@@ -66,9 +67,6 @@ SharedScene::SharedScene(const SceneOptions& options, const Kept& kept, const Co
 }
 
 void SharedScene::place(const MotionOptions& motion) {
-  if (streamed_ && motion.is_given()) {
-    throw UsageError("--motion is not for binary STL and PLY, which stay in their files");
-  }
   scene_ = motion.placed(std::move(scene_));
 }
 
@@ -76,42 +74,66 @@ TriangleSource SharedScene::triangles() const {
   return streamed_ ? TriangleSource(*streamed_) : TriangleSource(scene_);
 }
 
-ScenePart SharedScene::part(std::uint64_t first, std::uint64_t end) const {
-  ScenePart part;
-  part.scene.sources = scene_.sources;
-  for (std::uint32_t i = 0; i < scene_.objects.size(); ++i) {
-    const std::uint64_t from = std::max(first, first_numbers_[i]);
-    const std::uint64_t to = std::min(end, first_numbers_[i + 1]);
-    if (from >= to) continue;
-    const auto first_of_mesh = static_cast<std::uint32_t>(from - first_numbers_[i]);
-    Object object = scene_.objects[i];
-    object.mesh = part.scene.meshes.size();
-    part.scene.objects.push_back(std::move(object));
-    part.scene.meshes.push_back(part_of(scene_, streamed_ ? &*streamed_ : nullptr, i, first_of_mesh,
-                                        static_cast<std::uint32_t>(to - from)));
-    part.from.push_back({i, first_of_mesh});
-  }
-  return part;
+TriangleRange SharedScene::part_of(const Ranks& ranks) const {
+  const auto count = static_cast<std::uint64_t>(ranks.count());
+  const auto self = static_cast<std::uint64_t>(ranks.self());
+  const std::uint64_t triangles = first_numbers_.back();
+  return {triangles * self / count, triangles * (self + 1) / count};
 }
 
-void SharedScene::find_bounds(const Ranks& ranks, const ScenePart& part) {
-  if (!streamed_) return;
-  constexpr double none = std::numeric_limits<double>::infinity();
-  constexpr std::size_t size = 6;
-  // The least coordinates, and the greatest with the other sign: both are found as the least.
-  std::vector<double> least(size * scene_.objects.size(), none);
-  for (std::size_t i = 0; i < part.from.size(); ++i) {
-    double* const of_object = &least[size * part.from[i].object];
-    for (const MeshPoint& p : std::as_const(part.scene.meshes[i].vertices)) {
-      const std::array<double, size> candidates{p.x, p.y, p.z, -p.x, -p.y, -p.z};
-      for (std::size_t k = 0; k < size; ++k) of_object[k] = std::min(of_object[k], candidates[k]);
-    }
+std::vector<SomeTriangles> SharedScene::read(const TriangleRange& range) const {
+  std::vector<SomeTriangles> lists;
+  for (std::uint32_t i = 0; i < scene_.objects.size(); ++i) {
+    const std::uint64_t from = std::max(range.first, first_numbers_[i]);
+    const std::uint64_t to = std::min(range.end, first_numbers_[i + 1]);
+    if (from >= to) continue;
+    lists.push_back({i,
+                     mesh_part(scene_, streamed_ ? &*streamed_ : nullptr, i,
+                               static_cast<std::uint32_t>(from - first_numbers_[i]),
+                               static_cast<std::uint32_t>(to - from)),
+                     static_cast<std::uint32_t>(from),
+                     {}});
   }
+  return lists;
+}
+
+namespace {
+
+/// Of an object of which nothing has been seen.
+constexpr double no_coordinate = std::numeric_limits<double>::infinity();
+
+/// The least coordinates, and the greatest with the other sign: both are found as the least.
+using LeastCoordinates = std::array<double, 6>;
+
+void look_at(const Mesh& mesh, LeastCoordinates& least) {
+  for (const MeshPoint& p : mesh.vertices) {
+    const LeastCoordinates candidates{p.x, p.y, p.z, -p.x, -p.y, -p.z};
+    for (std::size_t k = 0; k < least.size(); ++k) least[k] = std::min(least[k], candidates[k]);
+  }
+}
+
+}  // namespace
+
+void SharedScene::find_bounds(const Ranks& ranks, std::uint32_t triangles_at_once) {
+  if (!streamed_) return;
+  constexpr std::size_t size = LeastCoordinates().size();
+  std::vector<double> least(size * scene_.objects.size(), no_coordinate);
+  together(ranks, [&] {
+    const TriangleRange own = part_of(ranks);
+    for (std::uint64_t from = 0; from < own.count(); from += triangles_at_once) {
+      for (const SomeTriangles& some : read(own.part(from, triangles_at_once))) {
+        LeastCoordinates of_object;
+        std::copy_n(&least[size * some.object], size, of_object.begin());
+        look_at(some.mesh, of_object);
+        std::ranges::copy(of_object, &least[size * some.object]);
+      }
+    }
+  });
   ranks.take_least(least);
   for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
     Mesh& mesh = scene_.meshes[scene_.objects[i].mesh];
     const double* const b = &least[size * i];
-    if (!mesh.triangles.empty() || b[0] == none) continue;
+    if (!mesh.triangles.empty() || b[0] == no_coordinate) continue;
     mesh.vertices = {MeshPoint{b[0], b[1], b[2]}, MeshPoint{-b[3], -b[4], -b[5]}};
     mesh.triangles = {{0, 1, 1}};
     mesh.face_count = 1;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,21 +9,22 @@
 #include "apps/mpi/ranks.h"
 #include "apps/options/motion_options.h"
 #include "apps/options/scene_options.h"
+#include "fathom/fast/some_tiles.h"
 #include "fathom/scene/scene.h"
 #include "fathom/scene/streamed_scene.h"
 #include "fathom/scene/triangle_source.h"
 
 namespace fathom::app {
 
-/// Some of the triangles of a scene, as a scene of its own, whose objects have them in their order.
-struct ScenePart {
-  Scene scene;
-  /// Where the triangles of each object are from: triangle t is number first + t of the mesh of this
-  /// object.
-  struct From {
-    std::uint32_t object, first;
-  };
-  std::vector<From> from;
+/// Triangles of a scene, first ≤ number < end.
+struct TriangleRange {
+  std::uint64_t first = 0, end = 0;
+  [[nodiscard]] std::uint64_t count() const { return end - first; }
+  /// Those that are less than `most` from number first + from on.
+  [[nodiscard]] TriangleRange part(std::uint64_t from, std::uint64_t most) const {
+    const std::uint64_t begin = first + std::min(from, count());
+    return {begin, begin + std::min(most, end - begin)};
+  }
 };
 
 /// A scene of which all ranks know objects and sources, and whose triangles they share out. Binary
@@ -33,6 +35,8 @@ class SharedScene {
   struct Kept {
     /// Materials, groups, parts and labels; normals. Where they are asked for, files are read whole.
     bool segments = false, normals = false;
+    /// Objects that are placed anew, which takes whole files, too.
+    bool motion = false;
     /// SHA-256 of the sources, which one rank is enough for.
     bool hash = false;
   };
@@ -40,21 +44,25 @@ class SharedScene {
   SharedScene(const SceneOptions& options, const Kept& kept, const Console& console);
 
   /// Places the objects that move.
-  /// Fails    as MotionOptions::placed; UsageError where triangles stay in their files.
+  /// Fails    as MotionOptions::placed.
   void place(const MotionOptions& motion);
-  /// Completes the outline by the bounds of what only parts have seen; called by all ranks, with the
-  /// parts that together are the scene.
-  void find_bounds(const Ranks& ranks, const ScenePart& part);
+  /// Completes the outline by the bounds of what stays in its files, of which each rank looks at its
+  /// part, so many triangles at a time. Called by all ranks.
+  /// Fails    as part(), in all ranks.
+  void find_bounds(const Ranks& ranks, std::uint32_t triangles_at_once);
   /// The scene; of one that stays in its files its objects and sources and, after find_bounds(), its
   /// bounds.
   [[nodiscard]] const Scene& outline() const { return scene_; }
   /// Whether the outline is the whole scene.
   [[nodiscard]] bool is_whole() const { return !streamed_; }
   [[nodiscard]] TriangleSource triangles() const;
+  /// Which of its triangles are a rank's to read.
+  [[nodiscard]] TriangleRange part_of(const Ranks& ranks) const;
   /// The numbers of the objects' first triangles, and of all triangles.
   [[nodiscard]] const std::vector<std::uint64_t>& first_numbers() const { return first_numbers_; }
-  /// The triangles first ≤ number < end.
-  [[nodiscard]] ScenePart part(std::uint64_t first, std::uint64_t end) const;
+  /// Some of its triangles, a list for each object that has any.
+  /// Fails    InputError where a file has changed, or a triangle of it a fault.
+  [[nodiscard]] std::vector<SomeTriangles> read(const TriangleRange& range) const;
   /// What is the same in all ranks if they read the same files.
   [[nodiscard]] std::string description() const;
 

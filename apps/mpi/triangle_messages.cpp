@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 #include "apps/mpi/picked_triangles.h"
-#include "fathom/mesh/vertex_normals.h"
 
 namespace fathom::app {
 using namespace text;
@@ -39,18 +40,17 @@ std::vector<std::vector<std::uint32_t>> triangles_for_ranks(std::span<const Tile
   return lists;
 }
 
-void append_section(Bytes& message, const ScenePart::From& from, const Mesh& mesh,
+void append_section(Bytes& message, const SomeTriangles& from, const Mesh& mesh,
                     std::span<const std::uint32_t> triangles) {
   const Section section{from.object, static_cast<std::uint32_t>(mesh.vertices.size()),
                         static_cast<std::uint32_t>(mesh.triangles.size())};
   append_all(message, std::span(&section, 1));
   append_all(message, std::span(mesh.vertices.data(), mesh.vertices.size()));
   append_all(message, std::span(mesh.triangles.data(), mesh.triangles.size()));
-  for (const std::uint32_t triangle : triangles) {
-    const std::uint32_t number = from.first + triangle;
-    append_all(message, std::span(&number, 1));
-  }
-  append_all(message, std::span(mesh.face_of_triangle.data(), mesh.face_of_triangle.size()));
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(triangles.size());
+  for (const std::uint32_t triangle : triangles) numbers.push_back(from.numbers[triangle]);
+  append_all(message, std::span(std::as_const(numbers)));
 }
 
 /// Takes values from the beginning of a message.
@@ -81,9 +81,9 @@ class MessageReader {
   ByteView left_;
 };
 
-/// Adds a section to the mesh of its object; `numbers` are those of the triangles in the whole mesh.
-void add_section(MessageReader& message, const Section& section, Mesh& mesh,
-                 std::vector<std::uint32_t>& numbers) {
+/// Adds a section to the triangles of its object.
+void add_section(MessageReader& message, const Section& section, SomeTriangles& to) {
+  Mesh& mesh = to.mesh;
   const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
   const auto vertices = message.several<MeshPoint>(section.vertices);
   mesh.vertices.append(vertices.begin(), vertices.end());
@@ -91,81 +91,50 @@ void add_section(MessageReader& message, const Section& section, Mesh& mesh,
     for (std::uint32_t& corner : corners) corner += first_vertex;
     mesh.triangles.push_back(corners);
   }
-  const auto these = message.several<std::uint32_t>(section.triangles);
-  numbers.insert(numbers.end(), these.begin(), these.end());
-  const auto faces = message.several<std::uint32_t>(section.triangles);
-  mesh.face_of_triangle.insert(mesh.face_of_triangle.end(), faces.begin(), faces.end());
-}
-
-/// What channels show of a mesh beside positions, for some of its triangles.
-void add_attributes(const Mesh& whole, std::span<const std::uint32_t> numbers, Mesh& mesh) {
-  for (const TriangleSegments& all : whole.segments) {
-    TriangleSegments some{all.by, all.numbers, all.names};
-    if (all.numbers.size() > 1) {
-      some.numbers.clear();
-      for (const std::uint32_t number : numbers) some.numbers.push_back(all.of(number));
-    }
-    mesh.segments.push_back(std::move(some));
-  }
-  if (whole.normals.empty() || numbers.empty()) return;
-  mesh.normals = whole.normals;
-  for (const std::uint32_t number : numbers) {
-    CornerIndices corners{};
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = mesh::normal_index(whole, number, i);
-    mesh.normal_triangles.push_back(corners);
-  }
+  const auto numbers = message.several<std::uint32_t>(section.triangles);
+  to.numbers.insert(to.numbers.end(), numbers.begin(), numbers.end());
 }
 
 }  // namespace
 
-std::vector<Bytes> messages_of(const ScenePart& part, std::span<const TileTouch> touches,
-                               std::span<const int> owners, int ranks) {
+std::vector<Bytes> messages_of(const std::vector<SomeTriangles>& part,
+                               std::span<const TileTouch> touches, std::span<const int> owners,
+                               int ranks) {
   const auto lists = triangles_for_ranks(touches, owners, ranks);
   std::vector<Bytes> messages(lists.size());
   std::vector<std::size_t> next(lists.size(), 0);
-  std::uint32_t first = 0;  // of the object's triangles in the part
-  for (std::size_t object = 0; object < part.from.size(); ++object) {
-    const Mesh& mesh = part.scene.meshes[object];
-    const auto end = first + static_cast<std::uint32_t>(mesh.triangles.size());
-    TrianglePicker picker(mesh);
+  std::uint32_t first = 0;  // of the list's triangles in the part
+  for (const SomeTriangles& from : part) {
+    const auto end = first + static_cast<std::uint32_t>(from.mesh.triangles.size());
+    TrianglePicker picker(from.mesh);
     for (std::size_t rank = 0; rank < lists.size(); ++rank) {
-      std::vector<std::uint32_t> of_object;
+      std::vector<std::uint32_t> of_list;
       for (; next[rank] < lists[rank].size() && lists[rank][next[rank]] < end; ++next[rank])
-        of_object.push_back(lists[rank][next[rank]] - first);
-      if (of_object.empty()) continue;
-      append_section(messages[rank], part.from[object], picker.picked(of_object), of_object);
+        of_list.push_back(lists[rank][next[rank]] - first);
+      if (of_list.empty()) continue;
+      append_section(messages[rank], from, picker.picked(of_list), of_list);
     }
     first = end;
   }
   return messages;
 }
 
-ReceivedScene received_scene(std::vector<Bytes> messages, const SharedScene& whole) {
-  const Scene& outline = whole.outline();
-  ReceivedScene received;
-  Scene& scene = received.scene;
-  scene.objects = outline.objects;
-  scene.sources = outline.sources;
-  scene.meshes.resize(scene.objects.size());
-  std::vector<std::vector<std::uint32_t>> numbers(scene.objects.size());
+std::vector<SomeTriangles> received_triangles(std::vector<Bytes> messages) {
+  std::map<std::uint32_t, SomeTriangles> of_objects;
   for (Bytes& message : messages) {
     MessageReader reader(message);
     while (!reader.is_at_end()) {
       const auto section = reader.one<Section>();
-      add_section(reader, section, scene.meshes.at(section.object), numbers[section.object]);
+      add_section(reader, section, of_objects[section.object]);
     }
     message = {};
   }
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    if (whole.is_whole())
-      add_attributes(outline.meshes[outline.objects[i].mesh], numbers[i], scene.meshes[i]);
-    scene.objects[i].mesh = i;
-    scene.meshes[i].face_count = scene.meshes[i].triangles.size();
-    for (const std::uint32_t number : numbers[i]) {
-      received.numbers.push_back(static_cast<std::uint32_t>(whole.first_numbers()[i]) + number);
-    }
+  std::vector<SomeTriangles> lists;
+  for (auto& [object, triangles] : of_objects) {
+    triangles.object = object;
+    lists.push_back(std::move(triangles));
   }
-  return received;
+  return lists;
 }
 
 }  // namespace fathom::app

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "apps/mpi/shared_scene.h"
 #include "fathom/fast/some_tiles.h"
 #include "fathom/text/file_bytes.h"
 
@@ -16,23 +15,16 @@ namespace fathom::app {
 ///   object, numbers of vertices and triangles
 ///   vertices    three binary64 numbers each, as in the mesh
 ///   triangles   three vertices of the section each
-///   numbers     of the triangles in the object's mesh
-///   faces       of the triangles in the mesh's file
+///   numbers     of the triangles in the scene
 ///
 /// Numbers are as they are in memory: all ranks run on machines of one kind.
-/// `owners`     the rank of each tile
-std::vector<text::Bytes> messages_of(const ScenePart& part, std::span<const TileTouch> touches,
+/// `touches`    of tiles of other ranks;   `owners`: the rank of each tile
+std::vector<text::Bytes> messages_of(const std::vector<SomeTriangles>& part,
+                                     std::span<const TileTouch> touches,
                                      std::span<const int> owners, int ranks);
 
-/// The triangles that a rank has received.
-struct ReceivedScene {
-  /// All objects of the whole scene, which have those of their triangles that came.
-  Scene scene;
-  /// The number of each triangle in the whole scene, in ascending order.
-  std::vector<std::uint32_t> numbers;
-};
-
+/// The triangles that a rank has received, one list for each object, in their order.
 /// `messages`   from all ranks, in the order of the triangles that these read. They are used up.
-ReceivedScene received_scene(std::vector<text::Bytes> messages, const SharedScene& whole);
+std::vector<SomeTriangles> received_triangles(std::vector<text::Bytes> messages);
 
 }  // namespace fathom::app

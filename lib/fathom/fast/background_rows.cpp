@@ -14,14 +14,13 @@ BackgroundRows::BackgroundRows(const triangle::MapBackground& background, MapRow
   });
 }
 
-void BackgroundRows::write(const PixelBox& part, std::uint32_t image_width) const {
+void BackgroundRows::write(const PixelBox& part, const MapLayout& layout) const {
   const std::size_t columns = part.last_column - part.first_column + std::size_t{1};
   for (const AnyRow& channel : channels_) {
     std::visit(
         [&](const auto& row) {
           for (std::uint32_t y = part.first_row; y <= part.last_row; ++y) {
-            rows_.write(row.pixels, columns,
-                        row.values + std::size_t{y} * image_width + part.first_column);
+            rows_.write(row.pixels, columns, row.values + layout.pixel(part.first_column, y));
           }
         },
         channel);

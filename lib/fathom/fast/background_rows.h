@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "fathom/fast/map_layout.h"
 #include "fathom/fast/map_rows.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/projected_triangle.h"
@@ -17,7 +18,7 @@ class BackgroundRows {
   BackgroundRows(const triangle::MapBackground& background, MapRows rows);
   /// All pixels of a part of the image that is at most as large as a tile; others see them after
   /// MapRows::finish().
-  void write(const PixelBox& part, std::uint32_t image_width) const;
+  void write(const PixelBox& part, const MapLayout& layout) const;
 
  private:
   template <class T>

@@ -63,7 +63,7 @@ struct CertifiedWriter::Open {
   }
 };
 
-void CertifiedWriter::start(const Tile& tile, std::uint32_t image_width, Referee& referee,
+void CertifiedWriter::start(const Tile& tile, const MapLayout& layout, Referee& referee,
                             RenderStatistics& statistics) {
   if (!needs_surfaces_) return;
   surfaces_.start(tile);
@@ -89,9 +89,10 @@ void CertifiedWriter::start(const Tile& tile, std::uint32_t image_width, Referee
     const std::size_t settled =
         surfaces_.make_normals(frame_, in_camera_frame, normals, [&](std::size_t index) {
           const auto& [number, column, row] = surfaces_.visible()[index - 1];
-          const std::size_t x = tile.area().first_column + column, y = tile.area().first_row + row;
+          const std::uint32_t x = tile.area().first_column + column;
+          const std::uint32_t y = tile.area().first_row + row;
           const VisibleSurface surface{
-              y * image_width + x,
+              layout.pixel(x, y),
               number,
               {static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5}};
           const auto& n = (PixelWriter(surface, facts(number), frame_, target).*normal)();

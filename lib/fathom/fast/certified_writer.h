@@ -22,7 +22,7 @@ struct VisibleRow {
   std::uint64_t surface = 0;
   /// Those of them at which Z is still to be written.
   std::uint64_t open_depth = 0;
-  std::size_t first_pixel = 0;  // row · width + column, of the first sample
+  std::size_t first_pixel = 0;  // of the first sample (MapLayout)
   std::size_t columns = TileShape::size;
 
   [[nodiscard]] std::uint64_t all() const {
@@ -52,7 +52,7 @@ class CertifiedWriter {
   [[nodiscard]] const MapRows& rows() const { return rows_; }
 
   /// To be called before the rows of a tile are written.
-  void start(const Tile& tile, std::uint32_t image_width, triangle::Referee& referee,
+  void start(const Tile& tile, const MapLayout& layout, triangle::Referee& referee,
              RenderStatistics& statistics);
   /// If the encoding cannot hold a depth, returns what is wrong at the first such pixel.
   /// `statistics.rounding` counts values.

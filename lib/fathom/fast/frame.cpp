@@ -14,7 +14,8 @@ FastFrame::FastFrame(const Camera& the_camera, const RenderOptions& the_options)
       options(the_options),
       grid(camera.width, camera.height),
       range(depth_range(camera)),
-      perspective(camera.projection == Projection::perspective) {}
+      perspective(camera.projection == Projection::perspective),
+      by_area(std::ranges::count(options.channels, Channel::A) != 0) {}
 
 std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
                                   std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
@@ -127,8 +128,8 @@ FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& ra
       all_(unfilled, rows),
       beside_surfaces_(beside_surfaces(std::move(unfilled), depths_ != nullptr), rows) {}
 
-void FastOutput::write_background(const PixelBox& area, std::uint32_t image_width) const {
-  all_.write(area, image_width);
+void FastOutput::write_background(const PixelBox& area, const MapLayout& layout) const {
+  all_.write(area, layout);
   rows_.finish();
 }
 

@@ -55,7 +55,7 @@ struct FastFrame {
   DepthRange range;
   bool perspective;
   /// Whether tiles get all triangles that meet them, for channel A.
-  bool by_area = false;
+  bool by_area;
 };
 
 /// Sorts triangles [first, end) of the scene, all of which belong to these objects, into tiles:
@@ -92,11 +92,10 @@ class FastOutput {
   FastOutput(DepthMap& map, triangle::ChannelWriter& writer, const triangle::SceneRays& rays,
              triangle::MapBackground unfilled = {}, MapRows rows = {});
   /// For a tile without any triangle: all channels.
-  void write_background(const PixelBox& area, std::uint32_t image_width) const;
-  std::optional<triangle::EncodingFault> write(const Tile& tile, std::uint32_t image_width,
+  void write_background(const PixelBox& area, const MapLayout& layout) const;
+  std::optional<triangle::EncodingFault> write(const Tile& tile, const MapLayout& layout,
                                                const Tile::Context& context) {
-    return tile.resolve({certified_.local(), depths_, others_, beside_surfaces_, image_width},
-                        context);
+    return tile.resolve({certified_.local(), depths_, others_, beside_surfaces_, layout}, context);
   }
 
  private:

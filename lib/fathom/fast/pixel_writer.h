@@ -9,7 +9,7 @@ namespace fathom::fast {
 
 /// A visible surface at a pixel.
 struct VisibleSurface {
-  std::size_t pixel = 0;  // row · width + column
+  std::size_t pixel = 0;  // MapLayout
   std::uint32_t triangle = 0;
   ImagePoint sample;
 };

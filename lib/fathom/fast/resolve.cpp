@@ -197,12 +197,12 @@ std::optional<EncodingFault> Tile::resolve(const Output& output, const Context& 
   RenderStatistics& statistics = context.statistics;
   const MapRows& rows = output.certified.rows();
   SurfacesOfRow surfaces;
-  output.certified.start(*this, output.image_width, context.referee, statistics);
+  output.certified.start(*this, output.layout, context.referee, statistics);
   for (std::uint32_t row = area_.first_row; row <= area_.last_row; ++row) {
     const std::uint32_t tile_row = row - area_.first_row;
     VisibleRow visible;
     visible.columns = columns;
-    visible.first_pixel = static_cast<std::size_t>(row) * output.image_width + area_.first_column;
+    visible.first_pixel = output.layout.pixel(area_.first_column, row);
     if (output.depths) {
       const RowBits bits =
           write_depths(*this, tile_row, output.depths + visible.first_pixel, columns, rows, context,
@@ -220,8 +220,7 @@ std::optional<EncodingFault> Tile::resolve(const Output& output, const Context& 
         static_cast<std::uint64_t>(std::popcount(visible.surface & ~visible.open_depth));
     if (visible.surface == 0) {
       if (output.others) {
-        output.background.write({area_.first_column, area_.last_column, row, row},
-                                output.image_width);
+        output.background.write({area_.first_column, area_.last_column, row, row}, output.layout);
       }
       continue;
     }

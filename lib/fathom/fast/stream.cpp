@@ -80,7 +80,7 @@ class Band {
     parallel_for(first(), end(), [&](std::uint32_t number) {
       auto& tile = at(number);
       if (!tile) return;
-      fault.add(output.write(*tile, grid_.width, frame.context(workers.local())));
+      fault.add(output.write(*tile, {grid_.width}, frame.context(workers.local())));
       tile.reset();
     });
   }

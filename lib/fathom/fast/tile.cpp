@@ -63,10 +63,56 @@ std::span<const std::uint32_t> Tile::numbers_of(std::span<const TileEntry> some)
 }
 
 void Tile::pack() {
+  if (surfaces_.size() == places_) return;  // it was packed before, or is empty
   forget_hidden();
   surfaces_.resize(places_);
   surfaces_.shrink_to_fit();
   entries_ = {};
+}
+
+std::size_t Tile::bytes() const {
+  return sizeof *this + surfaces_.capacity() * sizeof(TileSurface) +
+         entries_.capacity() * sizeof(TileEntry);
+}
+
+namespace {
+
+/// Besides samples and surfaces.
+struct SavedState {
+  std::uint32_t places, end_of_front, draws_back_faces;
+};
+
+template <class List>
+std::span<std::byte> bytes_of(List& list) {
+  return std::as_writable_bytes(std::span(list));
+}
+
+}  // namespace
+
+// What is known of blocks is left out: it is found again.
+void Tile::save(text::Bytes& bytes) const {
+  const SavedState state{places_, end_of_front_, draws_back_faces_ ? 1U : 0U};
+  text::append(bytes, std::as_bytes(std::span(&state, 1)));
+  text::append(bytes, std::as_bytes(std::span(q_)));
+  text::append(bytes, std::as_bytes(std::span(tags_)));
+  text::append(bytes, std::as_bytes(std::span(surfaces_).first(places_)));
+}
+
+void Tile::restore(const std::function<void(std::uint64_t, std::span<std::byte>)>& read) {
+  std::uint64_t offset = 0;
+  const auto take = [&](std::span<std::byte> to) {
+    read(offset, to);
+    offset += to.size();
+  };
+  SavedState state{};
+  take(std::as_writable_bytes(std::span(&state, 1)));
+  take(bytes_of(q_));
+  take(bytes_of(tags_));
+  places_ = state.places;
+  end_of_front_ = state.end_of_front;
+  draws_back_faces_ = state.draws_back_faces != 0;
+  surfaces_.resize(places_);
+  take(bytes_of(surfaces_));
 }
 
 void Tile::set_up_exactly(std::uint32_t number, const PixelBox& box, const Context& context,

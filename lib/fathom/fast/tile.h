@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,8 +14,10 @@
 #include "fathom/fast/certified_writer.h"
 #include "fathom/fast/depth_range.h"
 #include "fathom/fast/exact_setups.h"
+#include "fathom/fast/map_layout.h"
 #include "fathom/fast/setup.h"
 #include "fathom/fast/tile_shape.h"
+#include "fathom/text/file_bytes.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/referee.h"
 
@@ -114,6 +117,12 @@ class Tile : public TileShape {
   /// Gives back the memory that is not needed to keep the tile: what remains is most_packed_bytes at
   /// most.
   void pack();
+  /// The memory that it takes.
+  [[nodiscard]] std::size_t bytes() const;
+  /// Adds what the tile is to `bytes`, most_packed_bytes at most, or makes it that again: read(offset,
+  /// to) reads from there. The tile has been packed, or started where it was.
+  void save(text::Bytes& bytes) const;
+  void restore(const std::function<void(std::uint64_t offset, std::span<std::byte> to)>& read);
 
   /// Where a tile is written to.
   struct Output {
@@ -124,9 +133,9 @@ class Tile : public TileShape {
     /// no surface, as far as they have to be filled.
     bool others;
     const BackgroundRows& background;
-    std::uint32_t image_width;
+    MapLayout layout;
   };
-  /// Writes the visible surfaces; stops at the first fault in row order.
+  /// Writes the visible surfaces; stops at the first fault in row order, whose pixel is that of the map.
   std::optional<triangle::EncodingFault> resolve(const Output& output,
                                                  const Context& context) const;
 

@@ -22,7 +22,7 @@ bool settles(const Interval& area) {
 }  // namespace
 
 void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile::Context& context,
-                         float* values, std::uint32_t image_width) {
+                         float* values, const MapLayout& layout) {
   area_ = tile.area();
   // The number of triangles that cover a point is the same throughout the inside of a pixel that is
   // not open, and at its sample it is 0 exactly where no surface is seen.
@@ -43,7 +43,7 @@ void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile
       row_values[next->pixel % size] = next->value;
     }
     scene_.rows.write(row_values, columns,
-                      values + std::size_t{row} * image_width + area_.first_column);
+                      values + layout.pixel(area_.first_column, row));
   }
   scene_.rows.finish();
 }

@@ -40,9 +40,9 @@ class TileCoverage {
   explicit TileCoverage(const Scene& scene) : scene_(scene) {}
 
   /// `tile` has been drawn; its triangles are those of the bins, which must be sorted by area, not
-  /// by samples. Writes the values of its pixels into an image of this width.
+  /// by samples. Writes the values of its pixels.
   void write(const Tile& tile, std::uint32_t tile_number, const Tile::Context& context,
-             float* values, std::uint32_t image_width);
+             float* values, const MapLayout& layout);
 
  private:
   static constexpr std::uint32_t size = Tile::size;

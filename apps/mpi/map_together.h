@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "apps/mpi/mpi_arguments.h"
+#include "apps/mpi/rank_memory.h"
+#include "apps/mpi/ranks.h"
+#include "apps/mpi/shared_scene.h"
+#include "apps/mpi/traffic.h"
+#include "apps/render/render_outputs.h"
+#include "apps/render/render_plan.h"
+#include "apps/shell/console.h"
+
+namespace fathom::app {
+
+/// What a run is asked for, and what all its maps are made from.
+struct JobTogether {
+  const MpiArguments& arguments;
+  const Ranks& ranks;
+  const Console& console;
+  const MapPlan& plan;
+  const SharedScene& scene;
+  const RankMemory& memory;
+};
+
+/// Makes the map of a camera, from the triangles of all ranks to a file. Called by all ranks.
+/// `outputs`  in the first rank;  `number`: of the camera
+/// `traffic`  gets what it took
+/// Returns the sums of the statistics of all ranks, in all of them.
+RenderStatistics make_map_together(const JobTogether& job, const Camera& camera,
+                                   std::optional<RenderOutputs>& outputs, std::size_t number,
+                                   const std::function<void(double)>& progress,
+                                   MapTraffic& traffic);
+
+}  // namespace fathom::app

@@ -1,0 +1,34 @@
+#include "apps/mpi/rank_memory.h"
+
+#include <algorithm>
+
+#include "apps/shell/max_memory.h"
+#include "fathom/fast/some_tiles.h"
+
+namespace fathom::app {
+namespace {
+
+/// What a rank takes before it has read anything: the program, its libraries, MPI.
+constexpr std::uint64_t program_bytes = std::uint64_t{64} << 20;
+
+/// A triangle that this rank has read, and the one that it may have got in exchange: either is drawn,
+/// and travels in a message, of which there is a copy.
+constexpr std::uint64_t bytes_per_triangle = 2 * (TilesInRounds::bytes_per_triangle + 100);
+
+}  // namespace
+
+RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>& bytes) {
+  const std::uint64_t share =
+      memory_allowance().bytes / static_cast<std::uint64_t>(ranks.count_on_this_machine());
+  const std::uint64_t allowed = std::max(bytes.value_or(share / 4 * 3), least_rank_memory);
+  const std::uint64_t left = allowed - program_bytes;
+  constexpr std::uint64_t most_triangles = std::uint64_t{1} << 24;
+  return {.triangles_at_once =
+              static_cast<std::uint32_t>(std::min(most_triangles, left / 4 / bytes_per_triangle)),
+          .tile_bytes = left / 2,
+          .row_bytes = left / 16,
+          .chunk_bytes = left / 16,
+          .message_bytes = static_cast<std::size_t>(left / 16)};
+}
+
+}  // namespace fathom::app

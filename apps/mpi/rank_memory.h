@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "apps/mpi/ranks.h"
+
+namespace fathom::app {
+
+/// How a rank shares out the memory that it may take.
+struct RankMemory {
+  /// Triangles of a round.
+  std::uint32_t triangles_at_once;
+  /// For tiles that are drawn; what does not fit waits in a file.
+  std::uint64_t tile_bytes;
+  /// For rows of the image on their way to the file; for what is compressed and waits for its turn.
+  std::uint64_t row_bytes, chunk_bytes;
+  /// For what is sent at a time.
+  std::size_t message_bytes;
+};
+
+/// The least that can be asked for.
+inline constexpr std::uint64_t least_rank_memory = std::uint64_t{128} << 20;
+
+/// `bytes`: as asked for; else an equal share of what this machine, its control group or --max-memory
+/// allows, of which a quarter stays free. The map does not depend on it. Called by all ranks.
+RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>& bytes);
+
+}  // namespace fathom::app

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "fathom/fast/bins.h"
+#include "fathom/fast/tile.h"
+#include "fathom/text/spill_file.h"
+
+namespace fathom::fast {
+
+/// Tiles of an image that are drawn in rounds. Those that were not drawn into for the longest time
+/// wait in a file where all together would take more memory than they may.
+class TileStore {
+ public:
+  TileStore(const TileGrid& grid, std::uint64_t most_bytes)
+      : grid_(grid), most_bytes_(most_bytes), slots_(grid.count()) {}
+
+  /// How many may be taken before make_room() is called again.
+  [[nodiscard]] std::size_t most_at_once() const;
+  /// A tile as it was left, or empty at first. Several threads may take different ones at the same
+  /// time.
+  /// Fails    InputError where the file cannot be read any more.
+  Tile& take(std::uint32_t number);
+  /// Whether it was taken before.
+  [[nodiscard]] bool exists(std::uint32_t number) const {
+    return slots_[number].tile || slots_[number].waits;
+  }
+  void forget(std::uint32_t number) { slots_[number] = {}; }
+  /// Has the tiles in memory take less than they may. While no thread uses one.
+  /// Fails    OutputError where the file cannot be written.
+  void make_room();
+
+ private:
+  struct Slot {
+    std::unique_ptr<Tile> tile;
+    /// Rooms that were made before it was taken.
+    std::uint64_t used = 0;
+    bool waits = false;
+  };
+  void pack_oldest(std::uint64_t& bytes);
+  void write(std::uint32_t number);
+
+  const TileGrid& grid_;
+  std::uint64_t most_bytes_;
+  std::vector<Slot> slots_;
+  /// Numbers of the tiles in memory; of some that have been forgotten, too.
+  std::vector<std::uint32_t> in_memory_;
+  std::mutex mutex_;
+  std::uint64_t rooms_made_ = 0;
+  std::optional<text::SpillFile> file_;
+};
+
+}  // namespace fathom::fast
