@@ -2,15 +2,10 @@
 
 #include <cmath>
 
+#include "validation/bench/made/scattered.h"
+
 namespace fathom::bench {
 namespace {
-
-/// A permutation of 64-bit numbers that spreads every bit over all (the finalizer of SplitMix64).
-std::uint64_t scattered(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return z ^ (z >> 31);
-}
 
 /// The value at a point of the lattice.
 double lattice_value(std::int64_t x, std::int64_t y, std::int64_t z, std::uint64_t seed) {
