@@ -59,6 +59,15 @@ SharedScene::SharedScene(const SceneOptions& options, const Kept& kept, const Co
     for (const std::string& file : options.files) note_input(file);
     scene_ = outline_of(*streamed_);
   }
+  number_triangles();
+}
+
+SharedScene::SharedScene(StreamedScene scene) : streamed_(std::move(scene)) {
+  scene_ = outline_of(*streamed_);
+  number_triangles();
+}
+
+void SharedScene::number_triangles() {
   for (const Object& object : scene_.objects) {
     const std::uint64_t count = streamed_ ? streamed_->streams[object.mesh]->triangle_count()
                                           : scene_.meshes[object.mesh].triangles.size();

@@ -42,6 +42,9 @@ class SharedScene {
   };
   /// Fails    as SceneOptions::read() and stream_scene(); UsageError for standard input.
   SharedScene(const SceneOptions& options, const Kept& kept, const Console& console);
+  /// A scene that is there, the same in all ranks. Bounds that its streams know are taken as they are.
+  /// Fails    InputError where it has a fault (find_fault).
+  explicit SharedScene(StreamedScene scene);
 
   /// Places the objects that move.
   /// Fails    as MotionOptions::placed.
@@ -67,6 +70,8 @@ class SharedScene {
   [[nodiscard]] std::string description() const;
 
  private:
+  void number_triangles();
+
   Scene scene_;
   std::optional<StreamedScene> streamed_;
   std::vector<std::uint64_t> first_numbers_{0};
