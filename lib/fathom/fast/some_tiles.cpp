@@ -71,7 +71,12 @@ std::vector<TileTouch> SortedTriangles::touches(const WantedTile& wanted_tile) c
 std::uint64_t SortedTriangles::count_triangles(const WantedTile& wanted_tile) const {
   const ImageObjects& objects = state_->objects;
   std::vector<bool> seen(objects.empty() ? 0 : objects.back().end_number(), false);
-  for (const TileTouch& touch : touches(wanted_tile)) seen[touch.triangle] = true;
+  for (std::uint32_t tile = 0; tile < state_->grid.count(); ++tile) {
+    if (!is_met(state_->bins, tile) || !wanted_tile(tile)) continue;
+    for_each_list(state_->bins, tile, [&](std::span<const TileEntry> list) {
+      for (const TileEntry& entry : list) seen[entry.number] = true;
+    });
+  }
   return static_cast<std::uint64_t>(std::ranges::count(seen, true));
 }
 

@@ -1,0 +1,105 @@
+// Times `fathom-mpi render` on scenes of any size, which the ranks make instead of reading them:
+//   mpirun -n 2 build/…/bin/fathom_mpi_bench --scene terrain --triangles 1000000 -o map.exr
+// Prints a line of JSON.
+
+#include <sys/resource.h>
+
+#include <fstream>
+#include <memory>
+
+#include "apps/bench/mpi_bench_arguments.h"
+#include "apps/mpi/ranks.h"
+#include "apps/mpi/render_together.h"
+#include "apps/mpi/together.h"
+#include "apps/shell/exit_status.h"
+#include "apps/shell/json_answer.h"
+#include "apps/shell/last_resort.h"
+#include "apps/shell/program.h"
+#include "apps/shell/standard_streams.h"
+#include "apps/shell/stopwatch.h"
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Whether this rank has come as far as others wait for it.
+bool work_has_begun = false;
+
+/// The most that this process has had in RAM at a time, in bytes.
+std::uint64_t peak_memory() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// What the ranks have sent of triangles, pixels and chunks, and in all, as they have told it.
+Json sent(const std::string& traffic_file) {
+  std::ifstream file(traffic_file);
+  std::string line;
+  if (!std::getline(file, line)) throw InputError(traffic_file + ": cannot be read");
+  Json sent = Json::parse(line)["sent"];
+  std::uint64_t messages = 0, bytes = 0;
+  for (const Json& kind : sent) {
+    messages += kind["messages"].get<std::uint64_t>();
+    bytes += kind["bytes"].get<std::uint64_t>();
+  }
+  sent["all"] = {{"messages", messages}, {"bytes", bytes}};
+  return sent;
+}
+
+int run(MpiBenchArguments arguments, const Console& console) {
+  const Ranks ranks;
+  work_has_begun = true;
+  MpiArguments& rendering = arguments.rendering;
+  const bool keeps_traffic = !rendering.traffic.empty();
+  if (!keeps_traffic) rendering.traffic = rendering.render.output + ".traffic";
+  std::optional<SharedScene> scene;
+  std::vector<Camera> cameras;
+  together(ranks, [&] {
+    if (rendering.traffic == "-") throw UsageError("--traffic: expected a file, not '-'");
+    scene.emplace(bench::generated_scene(arguments.scene));
+    const auto [width, height] = arguments.size;
+    cameras.push_back(bench::camera_of(arguments.scene.kind, {width, height}));
+  });
+
+  Stopwatch stopwatch;
+  const int status = render_scene_together(rendering, std::move(*scene), cameras, console);
+  const double seconds = stopwatch.lap();
+  const std::uint64_t memory = ranks.greatest(peak_memory());
+  if (status != done || !ranks.is_first()) return status;
+  const Json line{{"scene", bench::name_of(arguments.scene.kind)},
+                  {"triangles", arguments.scene.triangles},
+                  {"size", arguments.size},
+                  {"ranks", ranks.count()},
+                  {"threads", rendering.render.scene.threads},
+                  {"seconds", seconds},
+                  {"peak_memory", memory},
+                  {"sent", sent(rendering.traffic)}};
+  print(json_answer(line, -1));
+  if (!keeps_traffic) std::filesystem::remove(rendering.traffic);
+  return status;
+}
+
+void add_measuring(Command& program) {
+  const auto arguments = std::make_shared<MpiBenchArguments>();
+  Command& command = program.command(
+      "measure", "Time the ranks of an MPI run on a scene that they make",
+      "  mpirun -n 2 fathom_mpi_bench --scene soup --triangles 1000000 -o map.exr\n");
+  arguments->add_to(command);
+  command.runs([arguments](const Console& console) { return run(*arguments, console); });
+}
+
+}  // namespace
+}  // namespace fathom::app
+
+int main(int argc, char** argv) {
+  using namespace fathom::app;
+  const MpiSession session(argc, argv);
+  const Ranks ranks;
+  speak_of_failures(ranks.is_first());
+  const int status = companion_main(argc, argv, "measure", add_measuring);
+  if (work_has_begun && status != done && !failed_together()) ranks.abort(status);
+  return status;
+}
