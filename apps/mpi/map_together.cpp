@@ -48,7 +48,8 @@ class MapTogether {
     progress_ = progress;
     together(ranks_, [&] {
       drawing_.emplace(triangles_, camera_, job_.plan.rendering,
-                       TilesInRounds::Limits{job_.memory.tile_bytes});
+                       TilesInRounds::Limits{.tile_bytes = job_.memory.tile_bytes,
+                                             .kept_bytes = job_.memory.kept_bytes});
     });
     const std::uint64_t rounds = count_rounds();
     if (rounds == 1) {
@@ -119,6 +120,10 @@ class MapTogether {
     ranks_.add_up(triangles);
     owners_ = owners_of_tiles(job_.arguments.partition, tiles_.columns, tiles_.rows, triangles,
                               ranks_.count());
+    std::vector<std::uint32_t> own;
+    for (std::uint32_t tile = 0; tile < owners_.size(); ++tile)
+      if (is_own(tile)) own.push_back(tile);
+    together(ranks_, [&] { drawing_->choose(std::move(own)); });
   }
 
   void draw_round(std::uint64_t round) {
@@ -149,7 +154,7 @@ class MapTogether {
 
   void draw(const SortedTriangles& sorted) {
     Stopwatch stopwatch;
-    drawing_->draw(sorted, own_tiles());
+    drawing_->draw(sorted);
     traffic_.drawing += stopwatch.lap();
     if (!job_.arguments.traffic.empty()) traffic_.drawn += sorted.count_triangles(own_tiles());
   }
@@ -212,7 +217,7 @@ class MapTogether {
       const DrawnTiles where{tiles_, camera_.width, camera_.height, owners_};
       const RowsDrawn drawn = [&](const TileRows& some) {
         Stopwatch stopwatch;
-        DepthMap map = drawing_->rows(some.first, some.end, own_tiles());
+        DepthMap map = drawing_->rows(some.first, some.end);
         traffic_.drawing += stopwatch.lap();
         return map;
       };

@@ -17,7 +17,8 @@ constexpr std::uint64_t bytes_per_triangle = 2 * (TilesInRounds::bytes_per_trian
 
 }  // namespace
 
-RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>& bytes) {
+RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>& bytes,
+                          bool keeps_triangles) {
   const std::uint64_t share =
       memory_allowance().bytes / static_cast<std::uint64_t>(ranks.count_on_this_machine());
   const std::uint64_t allowed = std::max(bytes.value_or(share / 4 * 3), least_rank_memory);
@@ -25,7 +26,8 @@ RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>
   constexpr std::uint64_t most_triangles = std::uint64_t{1} << 24;
   return {.triangles_at_once =
               static_cast<std::uint32_t>(std::min(most_triangles, left / 4 / bytes_per_triangle)),
-          .tile_bytes = left / 2,
+          .tile_bytes = keeps_triangles ? left / 4 : left / 2,
+          .kept_bytes = keeps_triangles ? left / 4 : 0,
           .row_bytes = left / 16,
           .chunk_bytes = left / 16,
           .message_bytes = static_cast<std::size_t>(left / 16)};

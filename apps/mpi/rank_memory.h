@@ -12,8 +12,9 @@ namespace fathom::app {
 struct RankMemory {
   /// Triangles of a round.
   std::uint32_t triangles_at_once;
-  /// For tiles that are drawn; what does not fit waits in a file.
-  std::uint64_t tile_bytes;
+  /// For tiles that are drawn, and for triangles that channel A needs again; what does not fit waits
+  /// in files.
+  std::uint64_t tile_bytes, kept_bytes;
   /// For rows of the image on their way to the file; for what is compressed and waits for its turn.
   std::uint64_t row_bytes, chunk_bytes;
   /// For what is sent at a time.
@@ -24,7 +25,8 @@ struct RankMemory {
 inline constexpr std::uint64_t least_rank_memory = std::uint64_t{128} << 20;
 
 /// `bytes`: as asked for; else an equal share of what this machine, its control group or --max-memory
-/// allows, of which a quarter stays free. The map does not depend on it. Called by all ranks.
-RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>& bytes);
+/// allows, of which a quarter stays free. `keeps_triangles`: for channel A. The map does not depend on it.
+RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>& bytes,
+                          bool keeps_triangles);
 
 }  // namespace fathom::app

@@ -22,6 +22,11 @@
 namespace fathom::app {
 namespace {
 
+RankMemory memory_for(const Ranks& ranks, const MpiArguments& arguments, const MapPlan& plan) {
+  const bool by_area = std::ranges::count(plan.rendering.channels, Channel::A) != 0;
+  return memory_of_rank(ranks, arguments.memory, by_area);
+}
+
 SharedScene open_scene(const Ranks& ranks, const RenderArguments& arguments, const MapPlan& plan,
                        const Console& console) {
   const bool normals = std::ranges::count(plan.rendering.channels, Channel::Ns) != 0;
@@ -91,7 +96,7 @@ int render_together(const MpiArguments& arguments, const Console& for_all) {
     plan = plan_maps(render);
   });
   const ThreadLimit limit(plan.rendering.threads);
-  const RankMemory memory = memory_of_rank(ranks, arguments.memory);
+  const RankMemory memory = memory_for(ranks, arguments, plan);
   SharedScene scene = open_scene(ranks, render, plan, console);
   scene.find_bounds(ranks, memory.triangles_at_once);
   const std::vector<Camera> cameras = cameras_of(ranks, render, plan, scene, console);
@@ -108,7 +113,7 @@ int render_scene_together(const MpiArguments& arguments, const SharedScene& scen
   MapPlan plan;
   together(ranks, [&] { plan = plan_maps(arguments.render); });
   const ThreadLimit limit(plan.rendering.threads);
-  const RankMemory memory = memory_of_rank(ranks, arguments.memory);
+  const RankMemory memory = memory_for(ranks, arguments, plan);
   render_maps({arguments, ranks, console, plan, scene, memory}, cameras);
   return done;
 }

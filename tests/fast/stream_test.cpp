@@ -38,7 +38,8 @@ const fs::path data = test::source_dir() / "data";
 void expect_same_render(const Both& both, const Camera& camera, const RenderOptions& options,
                         const StreamLimits& limits) {
   SCOPED_TRACE(std::to_string(limits.triangles_at_once) + " triangles at once, " +
-               std::to_string(limits.tile_bytes) + " bytes of tiles");
+               std::to_string(limits.tile_bytes) + " bytes of tiles, " +
+               std::to_string(limits.kept_bytes) + " of triangles");
   expect_same_map(render_streamed(both.streamed, camera, options, limits),
                   render_fast(both.scene, camera, options));
 }
@@ -71,8 +72,10 @@ TEST(FastStream, MeshesInEveryChannel) {
     options.cull = files == 2 ? Cull::back : Cull::none;
     for (const Camera& camera : cameras_for(both.scene)) {
       expect_same_render(both, camera, options, {});
-      expect_same_render(both, camera, options, {.triangles_at_once = 100, .tile_bytes = 0});
-      expect_same_render(both, camera, options, {.triangles_at_once = 997, .tile_bytes = 300000});
+      expect_same_render(both, camera, options,
+                         {.triangles_at_once = 100, .tile_bytes = 0, .kept_bytes = 0});
+      expect_same_render(both, camera, options,
+                         {.triangles_at_once = 997, .tile_bytes = 300000, .kept_bytes = 200000});
       if (effort > 1) break;
     }
   }
@@ -105,7 +108,8 @@ TEST(FastStream, RandomScenes) {
       RenderOptions options;
       options.channels = streamed_channels;
       options.cull = i % 5 == 0 ? Cull::back : Cull::none;
-      expect_same_render(both, c.camera, options, {.triangles_at_once = 1U + i % 3});
+      expect_same_render(both, c.camera, options,
+                         {.triangles_at_once = 1U + i % 3, .kept_bytes = i % 2 * 1000000U});
       if (::testing::Test::HasFailure()) return;
     }
   }
@@ -129,7 +133,8 @@ TEST(FastStream, Encodings) {
   options.depth_encoding.scale = 1e6;
   const auto failure = [](const auto& work) { return message_of<OutputError>(work); };
   EXPECT_EQ(failure([&] {
-              render_streamed(both.streamed, camera, options, {1000, 0});
+              render_streamed(both.streamed, camera, options,
+                              {.triangles_at_once = 1000, .tile_bytes = 0});
             }),
             failure([&] { render_fast(both.scene, camera, options); }));
 }

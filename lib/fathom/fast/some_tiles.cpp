@@ -1,7 +1,9 @@
 #include "fathom/fast/some_tiles.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "fathom/fast/coverage/coverage_in_rounds.h"
 #include "fathom/fast/frame.h"
 #include "fathom/fast/tile_store.h"
 #include "fathom/numeric/errors.h"
@@ -82,7 +84,7 @@ std::uint64_t SortedTriangles::count_triangles(const WantedTile& wanted_tile) co
 
 struct TilesInRounds::State {
   State(const TriangleSource& scene, const Camera& the_camera, const RenderOptions& the_options,
-        const Limits& limits)
+        const Limits& the_limits)
       : triangles(scene),
         options(the_options),
         camera(the_camera),
@@ -90,11 +92,13 @@ struct TilesInRounds::State {
         rays(triangles, camera),
         workers([this] { return FastWorker(triangles, camera, rays); }),
         sorting_again([this] { return FastWorker(triangles, camera, rays); }),
+        limits(the_limits),
         tiles(frame.grid, limits.tile_bytes) {}
 
   SortedTriangles sort(std::vector<SomeTriangles> lists, FastWorkers& by) const;
-  void draw(const SortedTriangles::State& sorted, const WantedTile& wanted_tile);
-  DepthMap rows(std::uint32_t first_row, std::uint32_t end_row, const WantedTile& wanted_tile);
+  void choose(std::vector<std::uint32_t> numbers);
+  void draw(const SortedTriangles::State& sorted);
+  DepthMap rows(std::uint32_t first_row, std::uint32_t end_row);
 
   TriangleSource triangles;
   RenderOptions options;
@@ -102,7 +106,13 @@ struct TilesInRounds::State {
   FastFrame frame;
   SceneRays rays;
   FastWorkers workers, sorting_again;
+  Limits limits;
   TileStore tiles;
+  /// Those that are drawn here, and for each of the image whether it is one of them.
+  std::vector<std::uint32_t> chosen;
+  std::vector<std::uint8_t> is_chosen;
+  /// Where channel A is asked for.
+  std::optional<CoverageInRounds> coverage;
 };
 
 // Triangles are numbered from 0 through the lists.
@@ -128,11 +138,18 @@ SortedTriangles TilesInRounds::State::sort(std::vector<SomeTriangles> lists,
   return result;
 }
 
-void TilesInRounds::State::draw(const SortedTriangles::State& sorted,
-                                const WantedTile& wanted_tile) {
+void TilesInRounds::State::choose(std::vector<std::uint32_t> numbers) {
+  is_chosen.assign(frame.grid.count(), 0);
+  for (const std::uint32_t tile : numbers) is_chosen[tile] = 1;
+  if (frame.by_area)
+    coverage.emplace(CoverageInRounds::Scene{frame, triangles, rays}, numbers, limits.kept_bytes);
+  chosen = std::move(numbers);
+}
+
+void TilesInRounds::State::draw(const SortedTriangles::State& sorted) {
   std::vector<std::uint32_t> met;
-  for (std::uint32_t tile = 0; tile < frame.grid.count(); ++tile)
-    if (is_met(sorted.bins, tile) && wanted_tile(tile)) met.push_back(tile);
+  for (const std::uint32_t tile : chosen)
+    if (is_met(sorted.bins, tile)) met.push_back(tile);
   const std::size_t at_once = tiles.most_at_once();
   for (std::size_t first = 0; first < met.size(); first += at_once) {
     parallel_for(first, std::min(first + at_once, met.size()), [&](std::size_t i) {
@@ -141,10 +158,10 @@ void TilesInRounds::State::draw(const SortedTriangles::State& sorted,
     });
     tiles.make_room();
   }
+  if (coverage) coverage->add(sorted.objects, sorted.bins);
 }
 
-DepthMap TilesInRounds::State::rows(std::uint32_t first_row, std::uint32_t end_row,
-                                    const WantedTile& wanted_tile) {
+DepthMap TilesInRounds::State::rows(std::uint32_t first_row, std::uint32_t end_row) {
   const TileGrid& grid = frame.grid;
   const std::uint32_t first = first_row * grid.columns, end = end_row * grid.columns;
   const MapLayout layout{grid.width, grid.area(first).first_row};
@@ -153,9 +170,15 @@ DepthMap TilesInRounds::State::rows(std::uint32_t first_row, std::uint32_t end_r
   auto [map, background] = make_unfilled_map(part, options);
   ChannelWriter writer(map, triangles, camera, options);
   FastOutput output(map, writer, rays, std::move(background));
+  if (coverage) {
+    float* const values = writer.values().coverage;
+    coverage->write(first, end, [&](std::uint32_t number, TileCoverage& of_tile) {
+      of_tile.write(tiles.take(number), number, frame.context(workers.local()), values, layout);
+    });
+  }
   FirstFault fault;
   parallel_for(first, end, [&](std::uint32_t number) {
-    if (!wanted_tile(number)) return;
+    if (is_chosen[number] == 0) return;
     if (!tiles.exists(number)) {
       output.write_background(grid.area(number), layout);
       return;
@@ -220,14 +243,16 @@ SortedTriangles TilesInRounds::sort_again(std::vector<SomeTriangles> triangles) 
                     [&] { return state_->sort(std::move(triangles), state_->sorting_again); });
 }
 
-void TilesInRounds::draw(const SortedTriangles& triangles, const WantedTile& wanted_tile) {
-  in_threads(state_->options.threads, [&] { state_->draw(*triangles.state_, wanted_tile); });
+void TilesInRounds::choose(std::vector<std::uint32_t> tiles) {
+  state_->choose(std::move(tiles));
 }
 
-DepthMap TilesInRounds::rows(std::uint32_t first_row, std::uint32_t end_row,
-                             const WantedTile& wanted_tile) {
-  return in_threads(state_->options.threads,
-                    [&] { return state_->rows(first_row, end_row, wanted_tile); });
+void TilesInRounds::draw(const SortedTriangles& triangles) {
+  in_threads(state_->options.threads, [&] { state_->draw(*triangles.state_); });
+}
+
+DepthMap TilesInRounds::rows(std::uint32_t first_row, std::uint32_t end_row) {
+  return in_threads(state_->options.threads, [&] { return state_->rows(first_row, end_row); });
 }
 
 RenderStatistics TilesInRounds::statistics() const {

@@ -75,8 +75,9 @@ class SortedTriangles {
 class TilesInRounds {
  public:
   struct Limits {
-    /// For tiles, up to 40 bytes per pixel; what does not fit waits in a file (TMPDIR says where).
-    std::uint64_t tile_bytes = std::uint64_t{1} << 40;
+    /// For tiles, up to 40 bytes per pixel; for triangles that channel A needs again. What does not
+    /// fit waits in files (TMPDIR says where).
+    std::uint64_t tile_bytes = std::uint64_t{1} << 40, kept_bytes = std::uint64_t{1} << 40;
   };
   /// About what sorting and drawing takes for each triangle that is given, its mesh included.
   static constexpr std::uint32_t bytes_per_triangle = 240;
@@ -93,13 +94,15 @@ class TilesInRounds {
   SortedTriangles sort(std::vector<SomeTriangles> triangles);
   /// The same, but statistics count nothing of it: these triangles have been counted elsewhere.
   SortedTriangles sort_again(std::vector<SomeTriangles> triangles);
-  /// Draws them in the tiles that are wanted, the same in all rounds.
+  /// Says which tiles are drawn here, by their numbers in ascending order: once, before the first are.
+  void choose(std::vector<std::uint32_t> tiles);
+  /// Draws triangles in these tiles.
   /// Fails    OutputError where there is no room for tiles in a file.
-  void draw(const SortedTriangles& triangles, const WantedTile& wanted_tile);
+  void draw(const SortedTriangles& triangles);
   /// When all have been drawn: the map of rows first_row ≤ row < end_row of tiles, each asked for
-  /// once, in the order of the image. Elsewhere than in wanted tiles it has any values.
+  /// once. Elsewhere than in these tiles it has any values.
   /// Fails    as render_fast().
-  DepthMap rows(std::uint32_t first_row, std::uint32_t end_row, const WantedTile& wanted_tile);
+  DepthMap rows(std::uint32_t first_row, std::uint32_t end_row);
   /// Of what was done up to now: `triangles` are those of the scene.
   [[nodiscard]] RenderStatistics statistics() const;
 

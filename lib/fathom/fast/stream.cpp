@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <optional>
 
-#include "fathom/area/coverage_image.h"
+#include "fathom/fast/coverage/coverage_in_rounds.h"
 #include "fathom/fast/frame.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/element_checks.h"
@@ -15,9 +17,9 @@
 // which are transformed, sorted into tiles and drawn like those of a scene in memory; the tiles of
 // the band keep what is visible so far. How many rows a band has is found on the way: as many as
 // have tiles that fit into the allowed memory. Bands after the first leave out what the first saw
-// to lie elsewhere.
+// to lie elsewhere. Channel A needs all triangles that meet a tile together: it is written at the end
+// of the band (CoverageInRounds).
 namespace fathom {
-using namespace area;
 using namespace fast;
 using namespace triangle;
 
@@ -45,6 +47,11 @@ class Band {
   /// Numbers of the tiles.
   [[nodiscard]] std::uint32_t first() const { return first_row_ * grid_.columns; }
   [[nodiscard]] std::uint32_t end() const { return end_row_ * grid_.columns; }
+  [[nodiscard]] std::vector<std::uint32_t> tiles() const {
+    std::vector<std::uint32_t> numbers(end() - first());
+    std::iota(numbers.begin(), numbers.end(), first());
+    return numbers;
+  }
 
   /// Gives up the last rows, though never all of them, until the tiles that exist and those that
   /// these triangles need are not too many.
@@ -72,6 +79,14 @@ class Band {
       }
       draw_tile(*tile, number, bins, objects, frame.context(workers.local()));
       tile->pack();
+    });
+  }
+
+  /// Writes channel A, to an image of this width, for the tiles whose triangles were kept.
+  void write_coverage(CoverageInRounds& kept, float* values, const FastFrame& frame,
+                      FastWorkers& workers) {
+    kept.write(first(), end(), [&](std::uint32_t number, TileCoverage& coverage) {
+      coverage.write(*at(number), number, frame.context(workers.local()), values, {grid_.width});
     });
   }
 
@@ -142,10 +157,16 @@ DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
   DepthMap map = make_background(camera, options);
   ChannelWriter writer(map, triangles, camera, options);
   FastOutput output(map, writer, rays);
+  float* const coverage = writer.values().coverage;
   FirstFault fault;
   RowsOfParts rows;
   for (std::uint32_t first_row = 0; first_row < frame.grid.rows;) {
     Band band(frame.grid, first_row, limits.tile_bytes);
+    std::optional<CoverageInRounds> kept;
+    if (coverage) {
+      kept.emplace(CoverageInRounds::Scene{frame, triangles, rays}, band.tiles(),
+                   limits.kept_bytes);
+    }
     const auto draw = [&](const TriangleSource::Part& part) {
       ImageObjects objects;
       objects.emplace_back(part.object, part.mesh, camera, part.first_number);
@@ -156,23 +177,24 @@ DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
       if (first_row == 0) rows.note(part.first_number, bins, frame.grid);
       band.make_room(bins);
       band.draw(bins, objects, frame, workers);
+      if (kept) {
+        kept->give_up_from(band.end());
+        kept->add(objects, bins);
+      }
       report(options, band, frame.grid, first_row,
              static_cast<double>(end) / static_cast<double>(triangles.count()));
     };
     triangles.for_each_part(limits.triangles_at_once, draw, [&](std::uint32_t first_number) {
       return rows.may_meet(first_number, first_row, band.end_row());
     });
+    if (kept) band.write_coverage(*kept, coverage, frame, workers);
     band.resolve(output, frame, workers, fault);
     if (fault.get()) fail(*fault.get(), map);
     report(options, band, frame.grid, first_row, 1);
     first_row = band.end_row();
   }
   collect_doubtful(workers, camera, options);
-  RenderStatistics statistics = sum_of(workers, triangles.count());
-  if (float* coverage = writer.values().coverage) {
-    statistics.coverage += write_coverage({triangles, camera, options.cull}, coverage);
-  }
-  if (options.statistics) *options.statistics = statistics;
+  if (options.statistics) *options.statistics = sum_of(workers, triangles.count());
   return map;
 }
 
