@@ -55,12 +55,13 @@ def combinations(seed):
     return every if is_long else [random.Random(seed).choice(every)]
 
 
-def expect_same_for(combination, folder, *arguments, suffix="exr"):
-    """The same files, byte by byte, for every camera; where they are not, which channels differ."""
+def expect_same_for(combination, folder, *arguments, suffix="exr", of_ranks=()):
+    """The same files, byte by byte, for every camera; where they are not, which channels differ. `of_ranks`: options that
+    only the ranks have."""
     count, partition = combination
     if not list(folder.glob("one*")):
         render_alone(*arguments, "-o", folder / f"one{{index}}.{suffix}")
-    render_by(count, *arguments, "--partition", partition, "-o", folder / f"several{{index}}.{suffix}")
+    render_by(count, *arguments, "--partition", partition, *of_ranks, "-o", folder / f"several{{index}}.{suffix}")
     expected = sorted(folder.glob("one*"))
     assert expected
     for one in expected:

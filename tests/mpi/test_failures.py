@@ -37,7 +37,7 @@ def expect_failure(outcome, status, text, folder):
     ([spot, "--stream"], 2, "leaves binary STL and PLY in their files anyway"),
     ([spot, "--engine", "reference"], 2, "the fast one alone"),
     (["-"], 2, "standard input, reaches one rank only"),
-    ([spot, "--channels", "Ns"], 2, "sums over triangles"),
+    ([spot, "--memory", "100M"], 2, "--memory: expected at least 128M"),
     ([spot, "--size", "100000x100000", "--max-memory", "1G"], 3, "an image of 100000x100000 pixels"),
 ], ids=lambda value: "-".join(str(part) for part in value if part != spot) if isinstance(value, list) else None)
 def test_what_all_ranks_refuse(tmp_path, arguments, status, text):

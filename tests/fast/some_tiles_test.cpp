@@ -1,0 +1,208 @@
+// Tiles that are drawn in several places, of triangles that come in rounds: the map of the whole scene,
+// bit for bit.
+#include "fathom/fast/some_tiles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "fathom/fast/render_fast.h"
+#include "fathom/mesh/picked_triangles.h"
+#include "fathom/numeric/errors.h"
+#include "tests/effort.h"
+#include "tests/engines/expect_same_map.h"
+#include "tests/inputs/soup.h"
+
+namespace fathom {
+namespace {
+
+using testing::expect_same_map;
+
+/// Triangles of a scene of one object by their numbers, in ascending order.
+std::vector<SomeTriangles> some_of(const Scene& scene, std::vector<std::uint32_t> numbers) {
+  if (numbers.empty()) return {};
+  const Mesh& mesh = scene.meshes[scene.objects[0].mesh];
+  return {{0, mesh::TrianglePicker(mesh).picked(numbers), 0, numbers}};
+}
+
+/// Cuts a list into rounds of this length, in any order.
+std::vector<std::vector<std::uint32_t>> rounds_of(std::vector<std::uint32_t> numbers,
+                                                  std::size_t length, std::mt19937_64& random) {
+  std::ranges::shuffle(numbers, random);
+  std::vector<std::vector<std::uint32_t>> rounds;
+  for (std::size_t first = 0; first < numbers.size(); first += length) {
+    const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(first);
+    rounds.emplace_back(
+        begin, begin + static_cast<std::ptrdiff_t>(std::min(length, numbers.size() - first)));
+    std::ranges::sort(rounds.back());
+  }
+  return rounds;
+}
+
+/// Copies the pixels of some tiles of a map of rows from this one on.
+void copy_tiles(const DepthMap& rows, std::uint32_t first_row, const ImageTiles& tiles,
+                const WantedTile& wanted, DepthMap& map) {
+  for (std::size_t i = 0; i < map.channels.size(); ++i) {
+    std::visit(
+        [&]<class T>(Samples<T>& values) {
+          const auto& from = std::get<Samples<T>>(rows.channels[i].values);
+          for (std::uint32_t pixel = 0; pixel < from.size(); ++pixel) {
+            const std::uint32_t row = first_row + pixel / map.width, column = pixel % map.width;
+            if (!wanted(row / tiles.side * tiles.columns + column / tiles.side)) continue;
+            values[std::size_t{row} * map.width + column] = from[pixel];
+          }
+        },
+        map.channels[i].values);
+  }
+}
+
+struct Plan {
+  std::uint32_t places;
+  std::size_t triangles_of_round;
+  TilesInRounds::Limits limits;
+  std::uint32_t rows_at_once;
+};
+
+/// As several processes do: each place is given, in rounds, the triangles that touch its tiles.
+DepthMap render_in_places(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                          const Plan& plan, std::mt19937_64& random) {
+  const ImageTiles tiles = tiles_of(camera);
+  std::vector<std::uint32_t> all(scene.meshes[0].triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<std::uint32_t> place_of(tiles.count());
+  for (std::uint32_t& place : place_of) place = static_cast<std::uint32_t>(random() % plan.places);
+
+  DepthMap map = render_fast(Scene{{Mesh{}}, scene.objects, {}}, camera, options);
+  RenderStatistics sum;
+  for (std::uint32_t place = 0; place < plan.places; ++place) {
+    const WantedTile wanted = [&](std::uint32_t tile) { return place_of[tile] == place; };
+    TilesInRounds drawing(scene, camera, options, plan.limits);
+    const SortedTriangles sorted = drawing.sort_again(some_of(scene, all));
+    std::vector<std::uint64_t> counts(tiles.count(), 0), counted(tiles.count(), 0);
+    sorted.count(counts);
+    std::vector<bool> touches(all.size(), false);
+    for (const TileTouch& touch : sorted.touches([](std::uint32_t) { return true; })) {
+      ++counted[touch.tile];
+      if (wanted(touch.tile)) touches[touch.triangle] = true;
+    }
+    EXPECT_EQ(counts, counted);
+    std::vector<std::uint32_t> own;
+    std::ranges::copy_if(all, std::back_inserter(own), [&](std::uint32_t t) { return touches[t]; });
+    EXPECT_EQ(sorted.count_triangles(wanted), own.size());
+
+    std::vector<std::uint32_t> own_tiles;
+    for (std::uint32_t tile = 0; tile < tiles.count(); ++tile)
+      if (wanted(tile)) own_tiles.push_back(tile);
+    drawing.choose(own_tiles);
+    for (auto& round : rounds_of(own, plan.triangles_of_round, random))
+      drawing.draw(drawing.sort(some_of(scene, std::move(round))));
+    for (std::uint32_t row = 0; row < tiles.rows; row += plan.rows_at_once) {
+      const DepthMap rows = drawing.rows(row, std::min(tiles.rows, row + plan.rows_at_once));
+      copy_tiles(rows, row * tiles.side, tiles, wanted, map);
+    }
+    sum.pixels_with_surface += drawing.statistics().pixels_with_surface;
+  }
+  RenderStatistics expected;
+  RenderOptions counting = options;
+  counting.statistics = &expected;
+  (void)render_fast(scene, camera, counting);
+  EXPECT_EQ(sum.pixels_with_surface, expected.pixels_with_surface);
+  return map;
+}
+
+RenderOptions all_channels() {
+  RenderOptions options;
+  options.channels = testing::every_channel;
+  return options;
+}
+
+constexpr std::uint64_t plenty = std::uint64_t{1} << 40;
+
+const std::vector<Plan> plans{{1, 1000000, {plenty, plenty}, 100},
+                              {1, 100, {plenty, plenty}, 1},
+                              {2, 37, {0, plenty}, 2},
+                              {3, 100, {0, 0}, 1},
+                              {2, 500, {plenty, 0}, 3},
+                              {5, 1000, {1 << 20, 1 << 16}, 1}};
+
+TEST(TilesInRounds, AreThoseOfTheWholeScene) {
+  std::mt19937_64 random(501);
+  const Camera camera = testing::camera_of(160, 140, 64);
+  for (const bool on_samples : {false, true}) {
+    for (const Plan& plan : plans) {
+      const Scene scene = testing::soup(random, 900 / testing::effort, on_samples);
+      const RenderOptions options = all_channels();
+      expect_same_map(render_in_places(scene, camera, options, plan, random),
+                      render_fast(scene, camera, options));
+    }
+  }
+}
+
+TEST(TilesInRounds, SliversWithAllWaysToCull) {
+  std::mt19937_64 random(502);
+  const Camera camera = testing::camera_of(160, 140, 64);
+  for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
+    for (const Plan& plan : plans) {
+      const Scene scene = testing::slivers(random, 600 / testing::effort);
+      RenderOptions options = all_channels();
+      options.cull = cull;
+      expect_same_map(render_in_places(scene, camera, options, plan, random),
+                      render_fast(scene, camera, options));
+    }
+  }
+}
+
+/// Most triangles are hidden, and surfaces of a tile are forgotten many times.
+TEST(TilesInRounds, ManySurfacesOfOneTile) {
+  std::mt19937_64 random(503);
+  const Camera camera = testing::camera_of(40, 30, 64);
+  std::vector<MeshPoint> vertices;
+  std::vector<CornerIndices> triangles;
+  const auto number = [&] { return static_cast<double>(random() % 4096) / 4096; };
+  for (std::uint32_t t = 0; t < 30000 / testing::effort; ++t) {
+    const double u = 40 * number(), v = 30 * number(), z = 1 + 8 * number();
+    for (int k = 0; k < 3; ++k) {
+      vertices.push_back(
+          {(u + 4 * number() - 20) / 64 * z, (v + 4 * number() - 15) / 64 * z, z + number() / 8});
+    }
+    triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  const Scene scene = testing::scene_of(std::move(vertices), std::move(triangles));
+  RenderOptions options;
+  options.channels = {Channel::Z, Channel::id};
+  for (const std::size_t length : {100U, 7000U}) {
+    const Plan plan{1, length, {0, 0}, 1};
+    expect_same_map(render_in_places(scene, camera, options, plan, random),
+                    render_fast(scene, camera, options));
+  }
+}
+
+/// A depth that the encoding cannot hold is told with its place in the image, not in the rows.
+TEST(TilesInRounds, ADepthBeyondTheEncodingHasItsPlace) {
+  const Camera camera = testing::camera_of(160, 140, 64);
+  const Scene scene = testing::scene_of({{0.5, 0.9, 2}, {0.6, 0.9, 2}, {0.5, 1, 2}}, {{0, 1, 2}});
+  RenderOptions options;
+  options.channels = {Channel::Z};
+  options.depth_encoding = {.type = DepthEncoding::Type::scaled_unorm16, .scale = 1e6};
+  const auto message_of = [](const auto& work) {
+    try {
+      work();
+    } catch (const OutputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  const std::string expected = message_of([&] { (void)render_fast(scene, camera, options); });
+  TilesInRounds drawing(scene, camera, options, {});
+  std::vector<std::uint32_t> tiles(tiles_of(camera).count());
+  std::iota(tiles.begin(), tiles.end(), 0);
+  drawing.choose(tiles);
+  drawing.draw(drawing.sort(some_of(scene, {0})));
+  (void)drawing.rows(0, 1);
+  EXPECT_EQ(message_of([&] { (void)drawing.rows(1, 3); }), expected);
+  EXPECT_NE(expected, "no error");
+}
+
+}  // namespace
+}  // namespace fathom

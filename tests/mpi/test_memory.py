@@ -1,0 +1,88 @@
+"""Triangles are taken in rounds, and tiles wait in files, where a rank may take little memory: the same files."""
+
+import math
+import os
+import random
+import struct
+import subprocess
+
+import pytest
+
+from mpi_runs import channels, combinations, environment, expect_same_for, mpi_program, mpirun, run
+
+
+def write_sphere(path, rings):
+    """4 · rings² triangles, as a scanner would have them: each next to the one before."""
+    def point(i, k):
+        a, b = math.pi * i / rings, math.pi * k / rings
+        return math.sin(a) * math.cos(b), math.sin(a) * math.sin(b), math.cos(a)
+
+    points = [[point(i, k % (2 * rings)) for k in range(2 * rings + 1)] for i in range(rings + 1)]
+    triangles = []
+    for i in range(rings):
+        for k in range(2 * rings):
+            a, b, c, d = points[i][k], points[i + 1][k], points[i + 1][k + 1], points[i][k + 1]
+            triangles += [(a, b, c), (a, c, d)]
+    write_stl(path, triangles)
+
+
+def write_scattered(path, count):
+    """Triangles of which no two that follow each other are near."""
+    draw = random.Random(71)
+    triangles = []
+    for _ in range(count):
+        centre = [draw.random() for _ in range(3)]
+        triangles.append([[x + draw.uniform(-0.02, 0.02) for x in centre] for _ in range(3)])
+    write_stl(path, triangles)
+
+
+def write_stl(path, triangles):
+    with open(path, "wb") as file:
+        file.write(bytes(80) + struct.pack("<I", len(triangles)))
+        for triangle in triangles:
+            file.write(struct.pack("<12fH", 0, 0, 0, *triangle[0], *triangle[1], *triangle[2], 0))
+
+
+@pytest.mark.parametrize("combination", combinations(81), ids=lambda each: f"{each[0]}-{each[1]}")
+@pytest.mark.parametrize("write", [lambda path: write_sphere(path, 200), lambda path: write_scattered(path, 120_000)],
+                         ids=["sphere", "scattered"])
+def test_rounds_do_not_show(tmp_path, combination, write):
+    # A rank takes some 20,000 triangles at a time.
+    write(tmp_path / "mesh.stl")
+    expect_same_for(combination, tmp_path, tmp_path / "mesh.stl", "--size", "900x700", "--channels", channels,
+                    of_ranks=["--memory", "128M"])
+
+
+def test_tiles_that_wait_do_not_show(tmp_path):
+    # 1600 tiles of up to 160 kB are far more than 128 MB.
+    write_sphere(tmp_path / "mesh.stl", 150)
+    expect_same_for((2, "load"), tmp_path, tmp_path / "mesh.stl", "--size", "2560x2560", "--channels", "Z,A,id",
+                    of_ranks=["--memory", "128M"])
+
+
+def peak_memory(folder, *options):
+    """Of the greatest process, in MB."""
+    script = ("import resource, subprocess, sys; status = subprocess.call(sys.argv[1:]); "
+              "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024); sys.exit(status)")
+    outcome = run(["/usr/bin/python3", "-c", script, *mpirun, "-n", 2, mpi_program, "render", folder / "mesh.stl",
+                   "--size", "640x480", "--channels", "Z,A", "--threads", 1, "--quiet", "-o", folder / "map.exr", *options])
+    assert outcome.returncode == 0, outcome.stderr
+    return float(outcome.stdout)
+
+
+def test_memory_is_bounded(tmp_path):
+    write_sphere(tmp_path / "mesh.stl", 400)
+    assert peak_memory(tmp_path) > 150
+    assert peak_memory(tmp_path, "--memory", "128M") < 128
+
+
+def test_no_room_for_what_waits(tmp_path):
+    """Where the folder for it does not exist, or is full, that is one line, and nothing is written."""
+    write_sphere(tmp_path / "mesh.stl", 150)
+    outcome = subprocess.run(
+        list(map(str, [*mpirun, "-n", 2, "-x", "TMPDIR", mpi_program, "render", tmp_path / "mesh.stl", "--size",
+                       "2560x2560", "--quiet", "--threads", 1, "--memory", "128M", "-o", tmp_path / "map.exr"])),
+        capture_output=True, text=True, env={**environment(), "TMPDIR": os.fspath(tmp_path / "none")}, timeout=300)
+    ours = [line for line in outcome.stderr.splitlines() if line.startswith("fathom: ")]
+    assert len(ours) == 1 and "does not fit into memory" in ours[0] or "No such file" in ours[0], outcome.stderr
+    assert outcome.returncode == 4 and not (tmp_path / "map.exr").exists()
