@@ -1,18 +1,16 @@
 """Triangles are taken in rounds, and tiles wait in files, where a rank may take little memory: the same files."""
 
 import math
-import os
 import random
 import struct
-import subprocess
 
 import pytest
 
-from mpi_runs import channels, combinations, environment, expect_same_for, mpi_program, mpirun, run
+from mpi_runs import channels, combinations, expect_same_for, mpi_program, mpirun, run, said
 
 
-def write_sphere(path, rings):
-    """4 · rings² triangles, as a scanner would have them: each next to the one before."""
+def write_sphere(path, rings, times=1):
+    """4 · rings² triangles, as a scanner would have them: each next to the one before; all of them several times."""
     def point(i, k):
         a, b = math.pi * i / rings, math.pi * k / rings
         return math.sin(a) * math.cos(b), math.sin(a) * math.sin(b), math.cos(a)
@@ -23,7 +21,7 @@ def write_sphere(path, rings):
         for k in range(2 * rings):
             a, b, c, d = points[i][k], points[i + 1][k], points[i + 1][k + 1], points[i][k + 1]
             triangles += [(a, b, c), (a, c, d)]
-    write_stl(path, triangles)
+    write_stl(path, triangles, times)
 
 
 def write_scattered(path, count):
@@ -36,11 +34,9 @@ def write_scattered(path, count):
     write_stl(path, triangles)
 
 
-def write_stl(path, triangles):
-    with open(path, "wb") as file:
-        file.write(bytes(80) + struct.pack("<I", len(triangles)))
-        for triangle in triangles:
-            file.write(struct.pack("<12fH", 0, 0, 0, *triangle[0], *triangle[1], *triangle[2], 0))
+def write_stl(path, triangles, times=1):
+    facets = b"".join(struct.pack("<12fH", 0, 0, 0, *a, *b, *c, 0) for a, b, c in triangles)
+    path.write_bytes(bytes(80) + struct.pack("<I", times * len(triangles)) + times * facets)
 
 
 @pytest.mark.parametrize("combination", combinations(81), ids=lambda each: f"{each[0]}-{each[1]}")
@@ -54,9 +50,9 @@ def test_rounds_do_not_show(tmp_path, combination, write):
 
 
 def test_tiles_that_wait_do_not_show(tmp_path):
-    # 1600 tiles of up to 160 kB are far more than 128 MB.
+    # 4096 tiles of 40 kB or more are far more than 128 MB.
     write_sphere(tmp_path / "mesh.stl", 150)
-    expect_same_for((2, "load"), tmp_path, tmp_path / "mesh.stl", "--size", "2560x2560", "--channels", "Z,A,id",
+    expect_same_for((2, "load"), tmp_path, tmp_path / "mesh.stl", "--size", "4096x4096", "--channels", "Z,A,id",
                     of_ranks=["--memory", "128M"])
 
 
@@ -71,18 +67,17 @@ def peak_memory(folder, *options):
 
 
 def test_memory_is_bounded(tmp_path):
-    write_sphere(tmp_path / "mesh.stl", 400)
+    write_sphere(tmp_path / "mesh.stl", 150, times=12)
     assert peak_memory(tmp_path) > 150
     assert peak_memory(tmp_path, "--memory", "128M") < 128
 
 
-def test_no_room_for_what_waits(tmp_path):
-    """Where the folder for it does not exist, or is full, that is one line, and nothing is written."""
+@pytest.mark.parametrize("folder, text", [("/proc", "/proc"), ("none", "TMPDIR: expected a folder")])
+def test_no_room_for_what_waits(tmp_path, folder, text):
+    """Where there is no folder for it, that is one line, and nothing is written."""
     write_sphere(tmp_path / "mesh.stl", 150)
-    outcome = subprocess.run(
-        list(map(str, [*mpirun, "-n", 2, "-x", "TMPDIR", mpi_program, "render", tmp_path / "mesh.stl", "--size",
-                       "2560x2560", "--quiet", "--threads", 1, "--memory", "128M", "-o", tmp_path / "map.exr"])),
-        capture_output=True, text=True, env={**environment(), "TMPDIR": os.fspath(tmp_path / "none")}, timeout=300)
-    ours = [line for line in outcome.stderr.splitlines() if line.startswith("fathom: ")]
-    assert len(ours) == 1 and "does not fit into memory" in ours[0] or "No such file" in ours[0], outcome.stderr
+    outcome = run([*mpirun, "-n", 2, "env", f"TMPDIR={folder}", mpi_program, "render", tmp_path / "mesh.stl", "--size",
+                   "4096x4096", "--quiet", "--threads", 1, "--memory", "128M", "-o", tmp_path / "map.exr"])
     assert outcome.returncode == 4 and not (tmp_path / "map.exr").exists()
+    lines = said(outcome)
+    assert len(lines) == 1 and text in lines[0], outcome.stderr

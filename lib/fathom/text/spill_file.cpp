@@ -36,7 +36,8 @@ fs::path folder_or_default(fs::path folder) {
   if (!folder.empty()) return folder;
   std::error_code error;
   const fs::path given = fs::temp_directory_path(error);
-  return error ? fs::path("/tmp") : given;
+  if (error) throw OutputError("TMPDIR: expected a folder: " + error.message());
+  return given;
 }
 
 /// Calls transfer(offset, bytes left) until none is left; it returns how many it has done.

@@ -16,8 +16,8 @@ namespace fathom::text {
 /// and with the process, however that ends. Several threads may write and read at the same time.
 class SpillFile {
  public:
-  /// In a folder; else in the one that TMPDIR names.
-  /// Fails    OutputError "FOLDER: why".
+  /// In a folder; else in the one that TMPDIR names, or /tmp.
+  /// Fails    OutputError "FOLDER: why", or "TMPDIR: why".
   explicit SpillFile(std::filesystem::path folder = {});
 
   /// Writes bytes behind all others, and returns where they begin.
