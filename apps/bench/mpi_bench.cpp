@@ -1,11 +1,16 @@
 // Times `fathom-mpi render` on scenes of any size, which the ranks make instead of reading them:
 //   mpirun -n 2 build/…/bin/fathom_mpi_bench --scene terrain --triangles 1000000 -o map.exr
-// Prints a line of JSON.
+// Prints a line of JSON; of what each rank takes, processor_seconds and peak_memory, it has the most.
 
 #include <sys/resource.h>
 
+#include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/bench/mpi_bench_arguments.h"
 #include "apps/mpi/ranks.h"
@@ -27,11 +32,21 @@ using Json = nlohmann::ordered_json;
 /// Whether this rank has come as far as others wait for it.
 bool work_has_begun = false;
 
-/// The most that this process has had in RAM at a time, in bytes.
-std::uint64_t peak_memory() {
+/// What this process has taken until now.
+struct Taken {
+  std::uint64_t microseconds;  ///< of processors, also those that a rank spends waiting for others
+  std::uint64_t memory;        ///< the most that it has had in RAM at a time, in bytes
+};
+
+Taken taken() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  const auto microseconds = [](const timeval& time) {
+    return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000 +
+           static_cast<std::uint64_t>(time.tv_usec);
+  };
+  return {microseconds(usage.ru_utime) + microseconds(usage.ru_stime),
+          static_cast<std::uint64_t>(usage.ru_maxrss) * 1024};
 }
 
 /// What the ranks have sent of triangles, pixels and chunks, and in all, as they have told it.
@@ -64,10 +79,12 @@ int run(MpiBenchArguments arguments, const Console& console) {
     cameras.push_back(bench::camera_of(arguments.scene.kind, {width, height}));
   });
 
+  const std::uint64_t before = taken().microseconds;
   Stopwatch stopwatch;
   const int status = render_scene_together(rendering, std::move(*scene), cameras, console);
   const double seconds = stopwatch.lap();
-  const std::uint64_t memory = ranks.greatest(peak_memory());
+  const std::uint64_t processor = ranks.greatest(taken().microseconds - before);
+  const std::uint64_t memory = ranks.greatest(taken().memory);
   if (status != done || !ranks.is_first()) return status;
   const Json line{{"scene", bench::name_of(arguments.scene.kind)},
                   {"triangles", arguments.scene.triangles},
@@ -75,6 +92,7 @@ int run(MpiBenchArguments arguments, const Console& console) {
                   {"ranks", ranks.count()},
                   {"threads", rendering.render.scene.threads},
                   {"seconds", seconds},
+                  {"processor_seconds", static_cast<double>(processor) * 1e-6},
                   {"peak_memory", memory},
                   {"sent", sent(rendering.traffic)}};
   print(json_answer(line, -1));
