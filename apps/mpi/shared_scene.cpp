@@ -7,9 +7,9 @@
 #include <numeric>
 #include <utility>
 
+#include "apps/mpi/picked_triangles.h"
 #include "apps/mpi/together.h"
 #include "apps/shell/known_files.h"
-#include "fathom/mesh/picked_triangles.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -32,7 +32,7 @@ Mesh mesh_part(const Scene& scene, const StreamedScene* streamed, std::uint32_t 
   }
   std::vector<std::uint32_t> numbers(count);
   std::iota(numbers.begin(), numbers.end(), first);
-  return mesh::TrianglePicker(scene.meshes[scene.objects[object].mesh]).picked(numbers);
+  return TrianglePicker(scene.meshes[scene.objects[object].mesh]).picked(numbers);
 }
 
 }  // namespace

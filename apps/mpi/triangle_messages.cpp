@@ -7,7 +7,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "fathom/mesh/picked_triangles.h"
+#include "apps/mpi/picked_triangles.h"
+
 
 namespace fathom::app {
 using namespace text;
@@ -106,7 +107,7 @@ std::vector<Bytes> messages_of(const std::vector<SomeTriangles>& part,
   std::uint32_t first = 0;  // of the list's triangles in the part
   for (const SomeTriangles& from : part) {
     const auto end = first + static_cast<std::uint32_t>(from.mesh.triangles.size());
-    mesh::TrianglePicker picker(from.mesh);
+    TrianglePicker picker(from.mesh);
     for (std::size_t rank = 0; rank < lists.size(); ++rank) {
       std::vector<std::uint32_t> of_list;
       for (; next[rank] < lists[rank].size() && lists[rank][next[rank]] < end; ++next[rank])

@@ -56,8 +56,8 @@ void add_outputs(Command& command, RenderArguments& arguments) {
 void add_contents(Command& command, RenderArguments& arguments) {
   command.option("--channels", "LIST", into(arguments.channels, parse_channels),
                  "Of Z, A, Zlow, distance, id, face, object, material, group, part, label, N, P, "
-                 "bary, Nc, Ns (default Z,A in EXR and NPZ; Z in other formats, with --stream and "
-                 "with --engine pipeline)");
+                 "bary, Nc, Ns (default Z,A in EXR and NPZ; Z in other formats and with "
+                 "--engine pipeline)");
   command.flag(
       "--deep", arguments.deep,
       "Write a deep EXR: for each pixel the visible fragments, sorted, with their depths "
@@ -79,9 +79,11 @@ void add_checks(Command& command, RenderArguments& arguments) {
                  "at which a surface counts. 1, 2, 4, 8, 16 (the standard positions of Direct3D "
                  "and Vulkan), rotated-grid, regular:N, jittered:N or jittered:N:SEED (N by N "
                  "samples)");
-  command.flag("--stream", arguments.stream,
-               "Leave the meshes, binary STL or PLY, in their files, which may be larger than "
-               "memory; implies --engine fast");
+  command.flag(
+      "--stream", arguments.stream,
+      "Leave the meshes, binary STL or PLY, in their files, which may be larger than "
+      "memory; implies --engine fast. Triangles that channel A needs and memory has no room "
+      "for wait in the folder that TMPDIR names");
   command.option("--stats", "FILE", arguments.statistics,
                  "Write how the decisions were made to this file (JSON; - is standard output)");
   command.option("--verify", "N|all", into(arguments.verified_pixels, parse_pixels),

@@ -57,6 +57,7 @@ StreamLimits stream_limits(const Camera& camera, const RenderOptions& options) {
   const double left = std::max(memory - size_of_map(camera, options), 0x1p28);
   StreamLimits limits;
   limits.tile_bytes = static_cast<std::uint64_t>(left / 4);
+  limits.kept_bytes = static_cast<std::uint64_t>(left / 8);
   limits.triangles_at_once = static_cast<std::uint32_t>(
       std::min<double>(limits.triangles_at_once, left / 16 / StreamLimits::bytes_per_triangle));
   return limits;

@@ -18,8 +18,8 @@ void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
 /// The memory of a deep map, whose size is known when it is there. Fails with InputError.
 void check_size(const Camera& camera, const DeepMapPlan& plan);
 
-/// Of the memory that the map leaves over of what is allowed, a quarter for tiles, a sixteenth for
-/// triangles.
+/// Of the memory that the map leaves over of what is allowed, a quarter for tiles, an eighth for the
+/// triangles that channel A needs, a sixteenth for those that are read at a time.
 StreamLimits stream_limits(const Camera& camera, const RenderOptions& options);
 
 }  // namespace fathom::app

@@ -19,10 +19,10 @@ bool contains(const std::vector<Channel>& channels, Channel channel) {
 }
 
 /// The channels that are asked for, or depth and coverage; depth alone where coverage cannot be
-/// written, or triangles do not stay in memory for it.
+/// written.
 std::vector<Channel> channels_of(const RenderArguments& a, MapFormat format) {
   if (a.channels) return *a.channels;
-  if (keeps_all_channels(format) && !a.stream) return {Channel::Z, Channel::A};
+  if (keeps_all_channels(format)) return {Channel::Z, Channel::A};
   return {Channel::Z};
 }
 
@@ -40,9 +40,6 @@ void check_stream(const RenderArguments& a, const std::vector<Channel>& channels
   if (!a.stream) return;
   if (a.engine != EngineName::fast) {
     throw UsageError("--stream is for the fast engine, not for reference");
-  }
-  if (contains(channels, Channel::A)) {
-    throw UsageError("--stream does not keep the triangles that channel A needs: leave out A");
   }
   if (contains(channels, Channel::Ns)) {
     throw UsageError("--stream does not keep the normals that channel Ns needs: leave out Ns");

@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "fathom/fast/render_fast.h"
-#include "fathom/mesh/picked_triangles.h"
 #include "fathom/numeric/errors.h"
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
@@ -22,8 +21,11 @@ using testing::expect_same_map;
 /// Triangles of a scene of one object by their numbers, in ascending order.
 std::vector<SomeTriangles> some_of(const Scene& scene, std::vector<std::uint32_t> numbers) {
   if (numbers.empty()) return {};
-  const Mesh& mesh = scene.meshes[scene.objects[0].mesh];
-  return {{0, mesh::TrianglePicker(mesh).picked(numbers), 0, numbers}};
+  const Mesh& whole = scene.meshes[scene.objects[0].mesh];
+  Mesh mesh;
+  mesh.vertices = whole.vertices;
+  for (const std::uint32_t number : numbers) mesh.triangles.push_back(whole.triangles[number]);
+  return {{0, std::move(mesh), 0, std::move(numbers)}};
 }
 
 /// Cuts a list into rounds of this length, in any order.

@@ -53,16 +53,25 @@ void CoverageInRounds::count_meetings(const std::vector<Bins>& bins) {
 
 void CoverageInRounds::add(const ImageObjects& objects, const std::vector<Bins>& bins) {
   count_meetings(bins);
-  PickerByTiles picker(objects, bins, scene_.triangles);
   if (spilled_) {
-    spill(picker);
+    spill(objects, bins);
     return;
   }
-  for (KeptTriangles& some : picker.in_tiles(tiles_)) {
-    kept_size_ += size_of(some);
-    kept_.push_back(std::move(some));
-  }
+  keep(objects, bins);
   if (kept_size_.bytes_in_use() > most_bytes_) begin_to_spill();
+}
+
+void CoverageInRounds::keep(const ImageObjects& objects, const std::vector<Bins>& bins) {
+  std::vector<std::vector<KeptTriangles>> parts(bins.size());
+  parallel_for(std::size_t{0}, bins.size(), [&](std::size_t i) {
+    parts[i] = triangles_in_tiles(objects, {&bins[i], 1}, tiles_, scene_.triangles);
+  });
+  for (std::vector<KeptTriangles>& part : parts) {
+    for (KeptTriangles& some : part) {
+      kept_size_ += size_of(some);
+      kept_.push_back(std::move(some));
+    }
+  }
 }
 
 void CoverageInRounds::begin_to_spill() {
@@ -71,16 +80,15 @@ void CoverageInRounds::begin_to_spill() {
     GatheredTriangles round;
     round.add(std::exchange(some, {}));
     sort(round, parts_of_some);
-    PickerByTiles picker(round.objects(), round.bins(), scene_.triangles);
-    spill(picker);
+    spill(round.objects(), round.bins());
   }
   kept_ = {};
 }
 
-void CoverageInRounds::spill(PickerByTiles& picker) {
-  for (std::size_t bucket = 0; bucket < bucket_count(); ++bucket) {
-    spilled_->add(bucket, picker.in_tiles(tiles_of(bucket)));
-  }
+void CoverageInRounds::spill(const ImageObjects& objects, const std::vector<Bins>& bins) {
+  parallel_for(std::size_t{0}, bucket_count(), [&](std::size_t bucket) {
+    spilled_->add(bucket, triangles_in_tiles(objects, bins, tiles_of(bucket), scene_.triangles));
+  });
 }
 
 void CoverageInRounds::sort(GatheredTriangles& gathered, std::uint32_t parts) {
@@ -145,8 +153,10 @@ void CoverageInRounds::gather_some(std::size_t bucket, Tiles tiles, GatheredTria
     GatheredTriangles round;
     round.add(block);
     sort(round, parts_of_some);
-    PickerByTiles picker(round.objects(), round.bins(), scene_.triangles);
-    for (const KeptTriangles& some : picker.in_tiles(tiles)) to.add(some);
+    for (const KeptTriangles& some :
+         triangles_in_tiles(round.objects(), round.bins(), tiles, scene_.triangles)) {
+      to.add(some);
+    }
   });
 }
 

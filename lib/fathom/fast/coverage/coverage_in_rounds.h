@@ -22,7 +22,7 @@ namespace fathom::fast {
 /// Memory   about `most_bytes`, 8 bytes per tile, and 24 for each round and each bucket that it has
 ///          triangles for. Of a bucket that needs more, what meets a part of its tiles is taken at a
 ///          time. All triangles that meet one tile are in memory together, whatever they take.
-/// Disk     88 bytes for each triangle and bucket, or less where vertices are shared.
+/// Disk     about 28 bytes for each triangle and bucket; 88 where vertices are not shared.
 class CoverageInRounds {
  public:
   /// What is rendered: views, all of which outlive it. `frame.by_area` is set.
@@ -55,7 +55,9 @@ class CoverageInRounds {
   /// Of some, those from first to end.
   [[nodiscard]] static Tiles within(Tiles tiles, std::uint32_t first, std::uint32_t end);
   void count_meetings(const std::vector<Bins>& bins);
-  void spill(PickerByTiles& picker);
+  /// Takes the triangles of a round into memory, or into the file.
+  void keep(const ImageObjects& objects, const std::vector<Bins>& bins);
+  void spill(const ImageObjects& objects, const std::vector<Bins>& bins);
   /// From now on, triangles are in the file.
   void begin_to_spill();
 

@@ -4,32 +4,32 @@
 
 namespace fathom::fast {
 
-KeptTriangles& GatheredTriangles::part_for(std::uint32_t object, std::size_t vertices) {
-  KeptTriangles*& part = part_of_[object];
-  if (!part || part->mesh.vertices.size() + vertices > no_index) {
+GatheredTriangles::Part& GatheredTriangles::part_for(std::uint32_t object, std::size_t vertices) {
+  Part*& part = part_of_[object];
+  if (!part || part->vertices.size() + vertices > no_index) {
     part = &parts_.emplace_back();
-    part->object = object;
+    part->triangles.object = object;
   }
   return *part;
 }
 
 void GatheredTriangles::reserve(std::uint32_t object, const KeptSize& more) {
-  KeptTriangles& part = part_for(object, 0);
-  part.mesh.vertices.reserve(part.mesh.vertices.size() + more.vertices);
-  part.mesh.triangles.reserve(part.mesh.triangles.size() + more.triangles);
-  part.numbers.reserve(part.numbers.size() + more.triangles);
+  auto& [kept, vertices] = part_for(object, 0);
+  vertices.reserve(vertices.size() + more.vertices);
+  kept.mesh.triangles.reserve(kept.mesh.triangles.size() + more.triangles);
+  kept.numbers.reserve(kept.numbers.size() + more.triangles);
 }
 
-void GatheredTriangles::add(const KeptTriangles& kept) {
-  KeptTriangles& part = part_for(kept.object, kept.mesh.vertices.size());
-  const auto first_vertex = static_cast<std::uint32_t>(part.mesh.vertices.size());
-  part.mesh.vertices.append(kept.mesh.vertices.begin(), kept.mesh.vertices.end());
-  std::vector<CornerIndices>& triangles = part.mesh.triangles.own();
-  for (CornerIndices corners : kept.mesh.triangles) {
-    for (std::uint32_t& corner : corners) corner += first_vertex;
-    triangles.push_back(corners);
+void GatheredTriangles::add(const KeptTriangles& more) {
+  auto& [kept, vertices] = part_for(more.object, more.mesh.vertices.size());
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(more.mesh.vertices.size());
+  for (const MeshPoint& point : more.mesh.vertices) numbers.push_back(vertices.number_of(point));
+  std::vector<CornerIndices>& triangles = kept.mesh.triangles.own();
+  for (const auto& [a, b, c] : more.mesh.triangles) {
+    triangles.push_back({numbers[a], numbers[b], numbers[c]});
   }
-  part.numbers.insert(part.numbers.end(), kept.numbers.begin(), kept.numbers.end());
+  kept.numbers.insert(kept.numbers.end(), more.numbers.begin(), more.numbers.end());
 }
 
 void GatheredTriangles::take(std::vector<KeptTriangles>& kept) {
@@ -43,9 +43,10 @@ void GatheredTriangles::take(std::vector<KeptTriangles>& kept) {
 void GatheredTriangles::sort(std::uint32_t parts, const TriangleSource& triangles,
                              const FastFrame& frame, FastWorkers& workers) {
   std::uint32_t count = 0;
-  for (const KeptTriangles& part : parts_) {
-    objects_.emplace_back(triangles.objects()[part.object], part.mesh, frame.camera, count, nullptr,
-                          part.numbers);
+  for (auto& [kept, vertices] : parts_) {
+    kept.mesh.vertices = vertices.take();
+    objects_.emplace_back(triangles.objects()[kept.object], kept.mesh, frame.camera, count, nullptr,
+                          kept.numbers);
     count = objects_.back().end_number();
   }
   bins_ = sort_into_tiles(objects_, 0, count, parts, frame, workers);

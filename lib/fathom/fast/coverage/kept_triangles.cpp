@@ -2,56 +2,66 @@
 
 #include <algorithm>
 
+#include "fathom/fast/coverage/distinct_vertices.h"
+
 namespace fathom::fast {
 
 KeptSize size_of(const KeptTriangles& kept) {
   return {kept.mesh.vertices.size(), kept.mesh.triangles.size()};
 }
 
-PickerByTiles::PickerByTiles(const ImageObjects& objects, const std::vector<Bins>& bins,
-                             const TriangleSource& triangles)
-    : objects_(objects), bins_(bins), triangles_(triangles) {
-  for (const ImageObject& object : objects) pickers_.emplace_back(object.mesh);
+namespace {
+
+/// What bins call the triangles, in ascending order: one after another, bins have greater numbers.
+std::vector<std::uint32_t> numbers_in_tiles(std::span<const Bins> all_bins,
+                                            std::span<const std::uint32_t> tiles) {
+  std::vector<std::uint32_t> numbers;
+  for (const Bins& bins : all_bins) {
+    const auto first = static_cast<std::ptrdiff_t>(numbers.size());
+    for (const std::uint32_t tile : tiles) {
+      for (const Side side : {Side::front, Side::back}) {
+        for (const TileEntry& entry : bins.in_tile(tile, side)) numbers.push_back(entry.number);
+      }
+    }
+    std::sort(numbers.begin() + first, numbers.end());
+    numbers.erase(std::unique(numbers.begin() + first, numbers.end()), numbers.end());
+  }
+  return numbers;
 }
 
-std::vector<KeptTriangles> PickerByTiles::in_tiles(std::span<const std::uint32_t> tiles) {
-  find_numbers(tiles);
-  std::vector<KeptTriangles> kept;
-  auto next = numbers_.begin();
-  for (std::size_t i = 0; i < objects_.size() && next != numbers_.end(); ++i) {
-    const auto end = std::lower_bound(next, numbers_.end(), objects_[i].end_number());
-    if (next != end) kept.push_back(picked(i, {next, end}));
-    next = end;
+KeptTriangles triangles_of(const ImageObject& object, std::span<const std::uint32_t> numbers,
+                           const TriangleSource& triangles) {
+  KeptTriangles kept;
+  kept.object = triangles.origin(object.number_in_scene(numbers.front())).object;
+  kept.numbers.reserve(numbers.size());
+  kept.mesh.triangles.reserve(numbers.size());
+  DistinctVertices vertices;
+  for (const std::uint32_t number : numbers) {
+    kept.numbers.push_back(object.number_in_scene(number));
+    CornerIndices corners = object.mesh.triangles[number - object.first_number];
+    for (std::uint32_t& corner : corners) {
+      corner = vertices.number_of(object.mesh.vertices[corner]);
+    }
+    kept.mesh.triangles.push_back(corners);
   }
+  kept.mesh.vertices = vertices.take();
   return kept;
 }
 
-// One after another, bins have triangles of ascending numbers.
-void PickerByTiles::find_numbers(std::span<const std::uint32_t> tiles) {
-  numbers_.clear();
-  for (const Bins& bins : bins_) {
-    const auto begin = static_cast<std::ptrdiff_t>(numbers_.size());
-    for (const std::uint32_t tile : tiles) {
-      for (const Side side : {Side::front, Side::back}) {
-        for (const TileEntry& entry : bins.in_tile(tile, side)) numbers_.push_back(entry.number);
-      }
-    }
-    std::sort(numbers_.begin() + begin, numbers_.end());
-    numbers_.erase(std::unique(numbers_.begin() + begin, numbers_.end()), numbers_.end());
-  }
-}
+}  // namespace
 
-KeptTriangles PickerByTiles::picked(std::size_t object, std::span<std::uint32_t> numbers) {
-  const ImageObject& from = objects_[object];
-  KeptTriangles kept;
-  kept.numbers.reserve(numbers.size());
-  for (std::uint32_t& number : numbers) {
-    kept.numbers.push_back(from.number_in_scene(number));
-    number -= from.first_number;
+std::vector<KeptTriangles> triangles_in_tiles(const ImageObjects& objects,
+                                              std::span<const Bins> bins,
+                                              std::span<const std::uint32_t> tiles,
+                                              const TriangleSource& triangles) {
+  const std::vector<std::uint32_t> numbers = numbers_in_tiles(bins, tiles);
+  std::vector<KeptTriangles> kept;
+  for (auto next = numbers.begin(); next != numbers.end();) {
+    const ImageObject& object = object_of(objects, *next);
+    const auto end = std::lower_bound(next, numbers.end(), object.end_number());
+    kept.push_back(triangles_of(object, {next, end}, triangles));
+    next = end;
   }
-  kept.object = triangles_.origin(kept.numbers.front()).object;
-  kept.mesh = pickers_[object].picked(numbers);
-  kept.mesh.face_of_triangle = {};
   return kept;
 }
 

@@ -15,6 +15,7 @@ namespace fathom::fast {
 class SpilledTriangles {
  public:
   explicit SpilledTriangles(std::size_t buckets) : buckets_(buckets) {}
+  /// Several threads may add to different buckets at the same time.
   void add(std::size_t bucket, std::span<const KeptTriangles> kept);
   [[nodiscard]] KeptSize size_of_bucket(std::size_t bucket) const;
   /// Everything in a bucket.

@@ -1,6 +1,6 @@
-#include "fathom/mesh/picked_triangles.h"
+#include "apps/mpi/picked_triangles.h"
 
-namespace fathom::mesh {
+namespace fathom::app {
 
 Mesh TrianglePicker::picked(std::span<const std::uint32_t> triangles) {
   if (places_.empty()) places_.assign(mesh_.vertices.size(), no_index);
@@ -31,4 +31,4 @@ Mesh TrianglePicker::picked(std::span<const std::uint32_t> triangles) {
   return result;
 }
 
-}  // namespace fathom::mesh
+}  // namespace fathom::app

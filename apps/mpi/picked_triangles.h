@@ -6,7 +6,7 @@
 
 #include "fathom/mesh/mesh.h"
 
-namespace fathom::mesh {
+namespace fathom::app {
 
 /// Takes triangles out of a mesh, once or often. The mesh outlives it unchanged.
 /// Cost     of the first time, 4 bytes for each vertex; else that of what is taken.
@@ -23,4 +23,4 @@ class TrianglePicker {
   std::vector<std::uint32_t> places_;
 };
 
-}  // namespace fathom::mesh
+}  // namespace fathom::app
