@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "apps/mpi/banded_exr.h"
 #include "apps/mpi/image_rows.h"
@@ -61,6 +62,7 @@ class MapTogether {
         report(static_cast<double>(round + 1) / static_cast<double>(rounds));
       }
     }
+    together(ranks_, [&] { draw_received(); });
     write();
     sum_up();
     return statistics_;
@@ -95,7 +97,11 @@ class MapTogether {
       sorted.count(counts);
     });
     deal_out_tiles(std::move(counts));
-    draw_and_exchange(std::move(sorted));
+    together(ranks_, [&] {
+      draw_read(sorted);
+      sorted = {};
+    });
+    exchange();
   }
 
   /// By as many triangles as a round has, taken all over the part; each stands for those around it.
@@ -126,30 +132,35 @@ class MapTogether {
     together(ranks_, [&] { drawing_->choose(std::move(own)); });
   }
 
+  /// The triangles that this rank reads in a round, and those that came at the end of the last one: a
+  /// rank waits for others once in a round.
   void draw_round(std::uint64_t round) {
     const std::uint64_t at_once = job_.memory.triangles_at_once;
-    SortedTriangles sorted;
     together(ranks_, [&] {
-      sorted = drawing_->sort(job_.scene.read(own_.part(round * at_once, at_once)));
+      draw_received();
+      draw_read(drawing_->sort(job_.scene.read(own_.part(round * at_once, at_once))));
     });
-    draw_and_exchange(std::move(sorted));
+    exchange();
   }
 
-  /// What this rank has read and what it gets from the others.
-  void draw_and_exchange(SortedTriangles sorted) {
-    std::vector<text::Bytes> messages(static_cast<std::size_t>(ranks_.count()));
-    together(ranks_, [&] {
-      if (ranks_.count() > 1) {
-        messages = messages_of(sorted.triangles(), sorted.touches(tiles_of_others()), owners_,
-                               ranks_.count());
-      }
-      draw(sorted);
-      sorted = {};
-    });
+  /// What touches tiles of other ranks is for them.
+  void draw_read(const SortedTriangles& sorted) {
+    messages_.assign(static_cast<std::size_t>(ranks_.count()), {});
+    if (ranks_.count() > 1) {
+      messages_ = messages_of(sorted.triangles(), sorted.touches(tiles_of_others()), owners_,
+                              ranks_.count());
+    }
+    draw(sorted);
+  }
+
+  void exchange() {
     if (ranks_.count() == 1) return;
-    traffic_.of_triangles.add(messages, ranks_.self());
-    messages = ranks_.exchange(std::move(messages), job_.memory.message_bytes);
-    together(ranks_, [&] { draw(drawing_->sort_again(received_triangles(std::move(messages)))); });
+    traffic_.of_triangles.add(messages_, ranks_.self());
+    messages_ = ranks_.exchange(std::move(messages_), job_.memory.message_bytes);
+  }
+
+  void draw_received() {
+    draw(drawing_->sort_again(received_triangles(std::exchange(messages_, {}))));
   }
 
   void draw(const SortedTriangles& sorted) {
@@ -296,6 +307,8 @@ class MapTogether {
   std::optional<TilesInRounds> drawing_;
   /// The rank of each tile.
   std::vector<int> owners_;
+  /// Triangles for each rank, then from each rank.
+  std::vector<text::Bytes> messages_;
   /// Of an EXR that is written in bands.
   std::optional<std::uint32_t> rows_of_chunk_;
   std::vector<TileRows> bands_;

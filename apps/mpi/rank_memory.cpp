@@ -1,5 +1,7 @@
 #include "apps/mpi/rank_memory.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 
 #include "apps/shell/max_memory.h"
@@ -11,9 +13,9 @@ namespace {
 /// What a rank takes before it has read anything: the program, its libraries, MPI.
 constexpr std::uint64_t program_bytes = std::uint64_t{64} << 20;
 
-/// A triangle that this rank has read, and the one that it may have got in exchange: either is drawn,
-/// and travels in a message, of which there is a copy.
-constexpr std::uint64_t bytes_per_triangle = 2 * (TilesInRounds::bytes_per_triangle + 100);
+/// A triangle that is drawn, and its copies on the way to another rank: picked, and in a message. What
+/// comes from others takes less, and is drawn when these are gone.
+constexpr std::uint64_t bytes_per_triangle = TilesInRounds::bytes_per_triangle + 200;
 
 }  // namespace
 
@@ -31,6 +33,13 @@ RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>
           .row_bytes = left / 16,
           .chunk_bytes = left / 16,
           .message_bytes = static_cast<std::size_t>(left / 16)};
+}
+
+void keep_what_rounds_give_back() {
+#ifdef M_MMAP_THRESHOLD
+  ::mallopt(M_MMAP_THRESHOLD, 1 << 25);  // the most that there can be
+  ::mallopt(M_TRIM_THRESHOLD, 1 << 27);
+#endif
 }
 
 }  // namespace fathom::app

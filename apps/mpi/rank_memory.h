@@ -29,4 +29,8 @@ inline constexpr std::uint64_t least_rank_memory = std::uint64_t{128} << 20;
 RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>& bytes,
                           bool keeps_triangles);
 
+/// What a round gives back stays with the process for the next one: to get it from the system again,
+/// page by page, took a quarter of the time of a rank.
+void keep_what_rounds_give_back();
+
 }  // namespace fathom::app

@@ -64,6 +64,7 @@ void render_maps(const JobTogether& job, const std::vector<Camera>& cameras) {
     outputs.emplace(arguments, cameras);
     outputs->write_cameras(to_json(cameras) + "\n");
   });
+  keep_what_rounds_give_back();
   std::vector<MapTraffic> traffic(cameras.size());
   CameraWarnings warnings;
   {

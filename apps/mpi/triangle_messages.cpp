@@ -9,7 +9,6 @@
 
 #include "apps/mpi/picked_triangles.h"
 
-
 namespace fathom::app {
 using namespace text;
 
