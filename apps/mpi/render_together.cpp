@@ -36,6 +36,7 @@ SharedScene open_scene(const Ranks& ranks, const RenderArguments& arguments, con
                                .hash = ranks.is_first()};
   std::optional<SharedScene> opened;
   together(ranks, [&] { opened.emplace(arguments.scene, kept, console); });
+  opened->check_files(ranks, console);
   require_same<InputError>(ranks, opened->description(), "the ranks read different files");
   return std::move(*opened);
 }

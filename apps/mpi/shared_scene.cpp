@@ -50,14 +50,11 @@ SharedScene::SharedScene(const SceneOptions& options, const Kept& kept, const Co
     scene_ = options.read(
         console, {.hash = kept.hash, .attributes = kept.normals, .segments = kept.segments});
   } else {
-    Warnings warnings;
-    ReadOptions reading = options.read_options();
-    reading.hash = kept.hash;
-    reading.check_when_opened = false;
-    streamed_ = stream_scene({options.files.begin(), options.files.end()}, reading, warnings);
-    console.warn(warnings);
+    files_.assign(options.files.begin(), options.files.end());
+    reading_ = options.read_options();
+    reading_.hash = kept.hash;
+    open(false, console);
     for (const std::string& file : options.files) note_input(file);
-    scene_ = outline_of(*streamed_);
   }
   number_triangles();
 }
@@ -67,7 +64,34 @@ SharedScene::SharedScene(StreamedScene scene) : streamed_(std::move(scene)) {
   number_triangles();
 }
 
+void SharedScene::open(bool check, const Console& console) {
+  Warnings warnings;
+  reading_.check_when_opened = check;
+  streamed_ = stream_scene(files_, reading_, warnings);
+  std::erase_if(warnings, [&](const std::string& w) { return std::ranges::count(told_, w) > 0; });
+  console.warn(warnings);
+  told_.insert(told_.end(), warnings.begin(), warnings.end());
+  scene_ = outline_of(*streamed_);
+}
+
+void SharedScene::check_files(const Ranks& ranks, const Console& console) {
+  const auto self = static_cast<std::uint64_t>(ranks.self());
+  const auto count = static_cast<std::uint64_t>(ranks.count());
+  bool holds = true;
+  together(ranks, [&] {
+    if (!streamed_) return;
+    for (const auto& stream : streamed_->streams) holds = stream->check_part(self, count) && holds;
+  });
+  if (ranks.least(holds ? 1 : 0) == 1) return;
+  together(ranks, [&] {
+    if (files_.empty()) return;
+    open(true, console);
+    number_triangles();
+  });
+}
+
 void SharedScene::number_triangles() {
+  first_numbers_ = {0};
   for (const Object& object : scene_.objects) {
     const std::uint64_t count = streamed_ ? streamed_->streams[object.mesh]->triangle_count()
                                           : scene_.meshes[object.mesh].triangles.size();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,8 +29,8 @@ struct TriangleRange {
 };
 
 /// A scene of which all ranks know objects and sources, and whose triangles they share out. Binary
-/// STL and PLY stay in their files, of which a rank keeps nothing but its part; of an STL it reads no
-/// more. Of other formats, every rank has all.
+/// STL and PLY stay in their files, of which a rank keeps nothing but its part; of an STL, and of a PLY of
+/// nothing but triangles, it reads no more. Of other formats, every rank has all.
 class SharedScene {
  public:
   struct Kept {
@@ -46,6 +47,11 @@ class SharedScene {
   /// Fails    InputError where it has a fault (find_fault).
   explicit SharedScene(StreamedScene scene);
 
+  /// Looks at what was not looked at when files were opened: each rank at its part, and all of them
+  /// at the whole files where these are not what their sizes let suppose. Called by all ranks, before
+  /// anything is asked of the scene.
+  /// Fails    as the constructor, in all ranks.
+  void check_files(const Ranks& ranks, const Console& console);
   /// Places the objects that move.
   /// Fails    as MotionOptions::placed.
   void place(const MotionOptions& motion);
@@ -70,11 +76,16 @@ class SharedScene {
   [[nodiscard]] std::string description() const;
 
  private:
+  void open(bool check, const Console& console);
   void number_triangles();
 
+  /// What stays in its files: how these are opened, and what has been said of them.
+  std::vector<std::filesystem::path> files_;
+  ReadOptions reading_;
+  Warnings told_;
   Scene scene_;
   std::optional<StreamedScene> streamed_;
-  std::vector<std::uint64_t> first_numbers_{0};
+  std::vector<std::uint64_t> first_numbers_;
 };
 
 }  // namespace fathom::app

@@ -27,6 +27,12 @@ class FaceIndex {
  public:
   void begin(std::uint64_t offset) { end_.offset = start_ = offset; }
 
+  /// So many triangles, of rows of one size, instead of adding each.
+  void add_triangles(std::uint64_t count, std::size_t row_size) {
+    row_size_ = row_size;
+    end_ = {count, count, start_ + count * row_size};
+  }
+
   /// The next face has so many corners, and its row ends before `offset`.
   void add(std::size_t corners, std::uint64_t offset) {
     const std::uint64_t size = offset - end_.offset;

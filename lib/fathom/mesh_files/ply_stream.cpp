@@ -5,11 +5,12 @@
 #include "fathom/mesh/triangulate_face.h"
 #include "fathom/mesh_files/ply_body.h"
 #include "fathom/mesh_files/ply_face_index.h"
+#include "fathom/mesh_files/ply_supposed_triangles.h"
 #include "fathom/mesh_files/ply_vertices.h"
 #include "fathom/mesh_files/streams.h"
 
-// The file is read through once, with the rows and checks of the ordinary reader; what is kept is
-// where things are. Faces are read again, from the file, whenever triangles are asked for.
+// The file is read through once, with the rows and checks of the ordinary reader, or, where that is
+// not asked for, taken for what its size lets suppose; what is kept is where things are. Faces are read again, from the file, whenever triangles are asked for.
 namespace fathom::mesh_files {
 using namespace mesh;
 using namespace text;
@@ -20,6 +21,8 @@ constexpr std::size_t window_size = std::size_t{1} << 20;
 
 /// What reading the file through leaves behind.
 struct Scan {
+  /// What is taken for granted instead.
+  std::optional<PlySupposedTriangles> supposed;
   bool big_endian = false;
   std::optional<PlyVertexLayout> layout;
   /// Used if vertices have list properties.
@@ -186,6 +189,10 @@ class PlyStream : public TriangleStream {
     return scan_.faces.triangles_only() ? number : triangle(number).face;
   }
 
+  [[nodiscard]] bool check_part(std::uint64_t part, std::uint64_t parts) const override {
+    return !scan_.supposed || scan_.supposed->check(*file_, part, parts);
+  }
+
   [[nodiscard]] std::uint32_t label_of(std::uint32_t number) const override {
     std::uint32_t label = unsegmented;
     if (!scan_.labels.in_face && !vertices_->have_labels()) return label;
@@ -317,7 +324,9 @@ class PlyStream : public TriangleStream {
     auto reader = reader_at<big_endian>(here.offset, scan_.faces.end().offset, window);
     PlyFace face;
     while (here.triangle < end) {
+      const std::uint64_t offset = reader.rows().position();
       reader.read_face(scan_.face_element, scan_.columns, face);
+      if (scan_.supposed && face.ring.size() != 3) fail_supposed(offset);
       visit(here.triangle, here.face, face);
       here.triangle += triangles_of(face.ring.size());
       ++here.face;
@@ -330,6 +339,12 @@ class PlyStream : public TriangleStream {
                                                                std::size_t window) const {
     return {BinaryRows<big_endian>(ByteWindow(*file_, offset, end, window), file_->name()),
             vertex_count_};
+  }
+
+  [[noreturn]] void fail_supposed(std::uint64_t offset) const {
+    throw InputError(file_->name() + ": byte " + std::to_string(offset) +
+                     ": a face has not three corners, as all have in a file of this size that is "
+                     "opened without being looked through");
   }
 
   /// Calls visit(triangle, corners) for these triangles of the strips.
@@ -382,14 +397,32 @@ void scan_file(const RandomAccessFile& file, const PlyHeader& header, Scan& scan
       .read(warnings);
 }
 
+/// What reading through a file of nothing but triangles leaves behind, but for its bounds.
+Scan scan_of(const PlySupposedTriangles& supposed, bool big_endian) {
+  Scan scan;
+  scan.big_endian = big_endian;
+  scan.layout =
+      layout_of_vertices(supposed.vertices(), supposed.vertex_offset(), big_endian, std::nullopt);
+  scan.face_element = supposed.faces();
+  scan.columns = {supposed.indices()};
+  scan.faces.begin(supposed.face_offset());
+  scan.faces.add_triangles(supposed.faces().count, supposed.face_size());
+  scan.supposed = supposed;
+  return scan;
+}
+
 }  // namespace
 
 std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<RandomAccessFile> file,
-                                                const PlyHeader& header, bool segments,
+                                                const PlyHeader& header, bool segments, bool check,
                                                 Warnings& warnings) {
   Scan scan;
   if (segments) scan.labels = find_ply_labels(header, file->name(), warnings);
-  if (header.encoding == PlyHeader::Encoding::big_endian) {
+  const auto supposed =
+      check || segments ? std::nullopt : PlySupposedTriangles::of(header, file->size());
+  if (supposed) {
+    scan = scan_of(*supposed, header.encoding == PlyHeader::Encoding::big_endian);
+  } else if (header.encoding == PlyHeader::Encoding::big_endian) {
     scan_file<true>(*file, header, scan, warnings);
   } else {
     scan_file<false>(*file, header, scan, warnings);

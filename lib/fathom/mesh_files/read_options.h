@@ -24,8 +24,10 @@ struct ReadOptions {
   /// Keep what triangles are called: OBJ's usemtl, g and o; the materials, meshes and nodes of glTF;
   /// a PLY's labels. At most 4 bytes for each triangle and segmentation, beside the names.
   bool segments = false;
-  /// Of a binary STL that stays in its file: look at all of it when it is opened. Or else each triangle is
-  /// looked at when it is read, and the stream does not know its bounds.
+  /// Of a binary STL or PLY that stays in its file: look at all of it when it is opened. Or else each
+  /// triangle is looked at when it is read, and the stream does not know its bounds. So much for STL, and
+  /// for a PLY without labels that has the size of one in which all faces are triangles: whether it is one,
+  /// TriangleStream::check_part() tells. Other PLY files are looked at anyway.
   bool check_when_opened = true;
   /// Compute Source::sha256.
   bool hash = true;

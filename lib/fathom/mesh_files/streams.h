@@ -13,9 +13,10 @@ namespace fathom::mesh_files {
 std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<text::RandomAccessFile> file,
                                                 bool check, Warnings& warnings);
 
-/// `header` is that of the file, and binary. Labels are found where `segments` are wanted.
+/// `header` is that of the file, and binary. Labels are found where `segments` are wanted. Without
+/// `check`, a file that can be taken for one of triangles alone is not read through, unless they are.
 std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<text::RandomAccessFile> file,
-                                                const PlyHeader& header, bool segments,
+                                                const PlyHeader& header, bool segments, bool check,
                                                 Warnings& warnings);
 
 }  // namespace fathom::mesh_files

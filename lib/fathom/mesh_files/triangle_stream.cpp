@@ -48,7 +48,8 @@ std::unique_ptr<TriangleStream> open(std::unique_ptr<RandomAccessFile> file, Fil
   const PlyHeader header =
       read_ply_header({reinterpret_cast<const char*>(head.data()), head.size()}, name, warnings);
   if (header.encoding == PlyHeader::Encoding::ascii) fail_format(name);
-  return open_ply_stream(std::move(file), header, options.segments, warnings);
+  return open_ply_stream(std::move(file), header, options.segments, options.check_when_opened,
+                         warnings);
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ struct TriangleChunk {
 /// The triangles of a binary STL or PLY file that need not fit into memory, in the order and with
 /// the numbers and corners that read_scene() gives them, bit for bit.
 ///
-/// The file has been read through once and checked, with the messages of the ordinary readers; it
-/// must not change while the stream exists; where it is seen to have, reading fails. Memory: for an
+/// The file has been read through once and checked, with the messages of the ordinary readers, unless
+/// that was not asked for (ReadOptions::check_when_opened); it must not change while the stream exists; where it is seen to have, reading fails. Memory: for an
 /// STL none that grows with the file; for a PLY the block of its vertices is mapped, and if not all
 /// faces have three corners, they take 24 bytes for every 256 of the file's faces; strips take 48
 /// for every 1024 corners. (If vertices have list properties: 24 bytes per vertex instead.)
@@ -47,6 +47,14 @@ class TriangleStream {
     MeshPoint lower, upper;
   };
   [[nodiscard]] virtual std::optional<Bounds> bounds() const = 0;
+
+  /// Where the file was opened without being read through (ReadOptions::check_when_opened), looks at
+  /// one of `parts` equal parts of what reading triangles does not look at. False: the file is not
+  /// what its size let suppose, and has to be opened again and read through.
+  /// Fails    InputError, as when it is read through.
+  [[nodiscard]] virtual bool check_part(std::uint64_t /*part*/, std::uint64_t /*parts*/) const {
+    return true;
+  }
 
   /// `count` triangles from `first` on, or as many as there are.
   [[nodiscard]] virtual TriangleChunk read(std::uint32_t first, std::uint32_t count) const = 0;
