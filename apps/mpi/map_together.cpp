@@ -1,6 +1,8 @@
 #include "apps/mpi/map_together.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <exception>
 #include <filesystem>
 #include <limits>
@@ -12,6 +14,7 @@
 #include "apps/mpi/triangle_messages.h"
 #include "apps/mpi/waiting_chunks.h"
 #include "apps/options/channel_list.h"
+#include "apps/render/map_additions.h"
 #include "apps/render/map_warnings.h"
 #include "apps/shell/stopwatch.h"
 #include "fathom/fast/some_tiles.h"
@@ -33,20 +36,22 @@ namespace {
 class MapTogether {
  public:
   MapTogether(const JobTogether& job, const Camera& camera, std::optional<RenderOutputs>& outputs,
-              std::size_t number, MapTraffic& traffic)
+              std::size_t number, MapTraffic& traffic, MapReport& report)
       : job_(job),
         ranks_(job.ranks),
         camera_(camera),
         outputs_(outputs),
         number_(number),
         traffic_(traffic),
+        report_(report),
         tiles_(tiles_of(camera)),
         triangles_(job.scene.triangles()),
         own_(job.scene.part_of(job.ranks)),
         chunks_(job.memory.chunk_bytes) {}
 
-  RenderStatistics make(const std::function<void(double)>& progress) {
+  void make(const std::function<void(double)>& progress) {
     progress_ = progress;
+    Stopwatch stopwatch;
     together(ranks_, [&] {
       drawing_.emplace(triangles_, camera_, job_.plan.rendering,
                        TilesInRounds::Limits{.tile_bytes = job_.memory.tile_bytes,
@@ -63,9 +68,10 @@ class MapTogether {
       }
     }
     together(ranks_, [&] { draw_received(); });
+    report_.seconds.render = stopwatch.lap();
     write();
+    report_.seconds.write = stopwatch.lap() - report_.seconds.depth_format - report_.seconds.verify;
     sum_up();
-    return statistics_;
   }
 
  private:
@@ -171,19 +177,29 @@ class MapTogether {
   }
 
   void sum_up() {
-    const RenderStatistics own = drawing_->statistics();
-    statistics_.triangles = traffic_.triangles = job_.scene.first_numbers().back();
-    statistics_.degenerate_triangles = ranks_.sum(own.degenerate_triangles);
-    statistics_.pixels_with_surface = ranks_.sum(own.pixels_with_surface);
+    traffic_.triangles = job_.scene.first_numbers().back();
     traffic_.most_drawn = traffic_.drawn;
     app::sum_up(traffic_, ranks_);
+    sum_up_statistics();
+  }
+
+  /// What each rank has counted, but for the triangles of the scene, which all know.
+  void sum_up_statistics() {
+    using Counts = std::array<std::uint64_t, sizeof(RenderStatistics) / sizeof(std::uint64_t)>;
+    auto counts = std::bit_cast<Counts>(drawing_->statistics());
+    ranks_.add_up(counts);
+    report_.statistics = std::bit_cast<RenderStatistics>(counts);
+    report_.statistics.triangles = job_.scene.first_numbers().back();
   }
 
   // Rows of the image, some at a time.
 
   void write() {
     traffic_.map = outputs_ ? outputs_->map_name(number_) : job_.arguments.render.output;
-    if (job_.plan.format == MapFormat::exr)
+    report_.map = traffic_.map;
+    report_.width = camera_.width;
+    report_.height = camera_.height;
+    if (job_.plan.format == MapFormat::exr && !has_additions(job_.plan))
       rows_of_chunk_ = rows_of_exr_chunk(job_.plan.writing.compression);
     bands_ = rows_of_chunk_ ? equal_bands(tiles_.rows, ranks_.count())
                             : all_for_first(tiles_.rows, ranks_.count());
@@ -191,20 +207,26 @@ class MapTogether {
       for_each_rows([&](DepthMap rows) { compress(std::move(rows)); });
       write_in_bands();
     } else {
-      std::optional<WholeMap> map;
-      for_each_rows([&](DepthMap rows) {
-        if (!ranks_.is_first()) return;
-        if (map) {
-          map->add(rows.channels);
-        } else {
-          map.emplace(std::move(rows), camera_.height);
-        }
-      });
-      sum_up_pixels();
+      gather();
+      sum_up_statistics();
       together(ranks_, [&] {
-        if (ranks_.is_first()) write_whole(map->take());
+        if (ranks_.is_first()) write_whole();
       });
     }
+  }
+
+  /// All rows in the first rank.
+  void gather() {
+    std::optional<WholeMap> map;
+    for_each_rows([&](DepthMap rows) {
+      if (!ranks_.is_first()) return;
+      if (map) {
+        map->add(rows.channels);
+      } else {
+        map.emplace(std::move(rows), camera_.height);
+      }
+    });
+    if (map) map_ = map->take();
   }
 
   /// How many rows of tiles of a band are put together at a time.
@@ -241,13 +263,9 @@ class MapTogether {
     }
   }
 
-  void sum_up_pixels() {
-    statistics_.pixels_with_surface = ranks_.sum(drawing_->statistics().pixels_with_surface);
-  }
-
   /// Adds what is said of the map.
   void describe(DepthMap& map) const {
-    finish_map(map, job_.scene.outline(), camera_, job_.plan.rendering, statistics_);
+    finish_map(map, job_.scene.outline(), camera_, job_.plan.rendering, report_.statistics);
     const MotionOptions& motion = job_.arguments.render.motion;
     motion.describe(map, motion.time_or_start());
   }
@@ -257,14 +275,19 @@ class MapTogether {
                                      std::numeric_limits<double>::infinity());
   }
 
-  void write_whole(DepthMap map) {
+  void write_whole() {
     const MapPlan& plan = job_.plan;
-    describe(map);
-    map = dressed(std::move(map));
+    const std::string& name = traffic_.map;
+    describe(map_);
+    const auto render_again = [&](const RenderOptions& o) { (void)job_.scene.render(camera_, o); };
+    add_planned(map_, plan, name,
+                {job_.scene.outline(), triangles_, camera_, plan.rendering, render_again}, report_,
+                job_.console);
+    map_ = dressed(std::move(map_));
     outputs_->map(number_).write(
-        [&](const auto& path) { write_map(map, path, plan.format, plan.writing); });
-    if (plan.storage.png_sidecar) outputs_->sidecar(number_).write(png_sidecar(map));
-    warn_of_codes_beyond(map, traffic_.map, job_.console);
+        [&](const auto& path) { write_map(map_, path, plan.format, plan.writing); });
+    if (plan.storage.png_sidecar) outputs_->sidecar(number_).write(png_sidecar(map_));
+    warn_of_codes_beyond(map_, name, job_.console);
   }
 
   void compress(DepthMap rows) {
@@ -299,6 +322,7 @@ class MapTogether {
   std::optional<RenderOutputs>& outputs_;
   std::size_t number_;
   MapTraffic& traffic_;
+  MapReport& report_;
   ImageTiles tiles_;
   TriangleSource triangles_;
   /// What this rank reads.
@@ -314,16 +338,17 @@ class MapTogether {
   std::vector<TileRows> bands_;
   text::Bytes beginning_;
   WaitingChunks chunks_;
-  RenderStatistics statistics_;
+  /// Where it is put together in one rank, in that one.
+  DepthMap map_;
 };
 
 }  // namespace
 
-RenderStatistics make_map_together(const JobTogether& job, const Camera& camera,
-                                   std::optional<RenderOutputs>& outputs, std::size_t number,
-                                   const std::function<void(double)>& progress,
-                                   MapTraffic& traffic) {
-  return MapTogether(job, camera, outputs, number, traffic).make(progress);
+void make_map_together(const JobTogether& job, const Camera& camera,
+                       std::optional<RenderOutputs>& outputs, std::size_t number,
+                       const std::function<void(double)>& progress, MapTraffic& traffic,
+                       MapReport& report) {
+  MapTogether(job, camera, outputs, number, traffic, report).make(progress);
 }
 
 }  // namespace fathom::app

@@ -11,6 +11,7 @@
 #include "apps/mpi/traffic.h"
 #include "apps/render/render_outputs.h"
 #include "apps/render/render_plan.h"
+#include "apps/render/render_report.h"
 #include "apps/shell/console.h"
 
 namespace fathom::app {
@@ -27,11 +28,11 @@ struct JobTogether {
 
 /// Makes the map of a camera, from the triangles of all ranks to a file. Called by all ranks.
 /// `outputs`  in the first rank;  `number`: of the camera
-/// `traffic`  gets what it took
-/// Returns the sums of the statistics of all ranks, in all of them.
-RenderStatistics make_map_together(const JobTogether& job, const Camera& camera,
-                                   std::optional<RenderOutputs>& outputs, std::size_t number,
-                                   const std::function<void(double)>& progress,
-                                   MapTraffic& traffic);
+/// `traffic`  gets what it took;  `report`: what is said of the map, its statistics the sums of all ranks'
+///            in all of them, the rest in the first
+void make_map_together(const JobTogether& job, const Camera& camera,
+                       std::optional<RenderOutputs>& outputs, std::size_t number,
+                       const std::function<void(double)>& progress, MapTraffic& traffic,
+                       MapReport& report);
 
 }  // namespace fathom::app

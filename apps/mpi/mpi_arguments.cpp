@@ -38,15 +38,7 @@ void refuse_what_is_missing(const RenderArguments& a) {
   if (a.stream) {
     throw UsageError("--stream: fathom-mpi leaves binary STL and PLY in their files anyway");
   }
-  const char* const missing = a.deep                   ? "--deep"
-                              : !a.mattes().empty()    ? "--cryptomatte"
-                              : a.samples              ? "--samples"
-                              : a.depth_buffer.storage ? "--depth-format"
-                              : a.verified_pixels      ? "--verify"
-                              : !a.statistics.empty()  ? "--stats"
-                                                       : nullptr;
-  if (missing != nullptr)
-    throw UsageError(std::string(missing) + " is not for fathom-mpi yet; 'fathom render' has it");
+  if (a.deep) throw UsageError("--deep is not for fathom-mpi yet; 'fathom render' has it");
 }
 
 }  // namespace fathom::app

@@ -15,6 +15,7 @@
 #include "apps/shell/exit_status.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/signals.h"
+#include "apps/shell/stopwatch.h"
 #include "apps/shell/text_output.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
@@ -30,9 +31,9 @@ RankMemory memory_for(const Ranks& ranks, const MpiArguments& arguments, const M
 SharedScene open_scene(const Ranks& ranks, const RenderArguments& arguments, const MapPlan& plan,
                        const Console& console) {
   const bool normals = std::ranges::count(plan.rendering.channels, Channel::Ns) != 0;
-  const SharedScene::Kept kept{.segments = plan.needs_segments(),
+  const SharedScene::Kept kept{.whole = arguments.motion.is_given() || !plan.mattes.empty(),
+                               .segments = plan.needs_segments(),
                                .normals = normals,
-                               .motion = arguments.motion.is_given(),
                                .hash = ranks.is_first()};
   std::optional<SharedScene> opened;
   together(ranks, [&] { opened.emplace(arguments.scene, kept, console); });
@@ -53,7 +54,9 @@ std::vector<Camera> cameras_of(const Ranks& ranks, const RenderArguments& argume
   return cameras;
 }
 
-void render_maps(const JobTogether& job, const std::vector<Camera>& cameras) {
+/// Returns the exit status.
+int render_maps(const JobTogether& job, const std::vector<Camera>& cameras,
+                double seconds_reading) {
   const Ranks& ranks = job.ranks;
   const RenderArguments& arguments = job.arguments.render;
   std::optional<RenderOutputs> outputs;
@@ -67,21 +70,31 @@ void render_maps(const JobTogether& job, const std::vector<Camera>& cameras) {
   });
   keep_what_rounds_give_back();
   std::vector<MapTraffic> traffic(cameras.size());
+  std::vector<MapReport> reports(cameras.size());
   CameraWarnings warnings;
   {
     Progress progress(job.console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-      const RenderStatistics statistics = make_map_together(
-          job, cameras[i], outputs, i, progress.reporter(i, cameras.size()), traffic[i]);
+      make_map_together(job, cameras[i], outputs, i, progress.reporter(i, cameras.size()),
+                        traffic[i], reports[i]);
+      reports[i].seconds.read = seconds_reading;
+      const RenderStatistics& statistics = reports[i].statistics;
       if (i == 0) warn_of(statistics, job.console);
       warnings.note(job.scene.outline(), cameras[i], statistics.pixels_with_surface);
     }
   }
   warnings.tell(job.console);
   together(ranks, [&] {
-    if (outputs) outputs->commit();
-    if (report) report->finish(as_json(traffic, ranks.count()));
+    if (!outputs) return;
+    outputs->write_statistics(as_json(reports));
+    outputs->commit();
+    report->finish(as_json(traffic, ranks.count()));
   });
+  // What was verified, the first rank knows.
+  const bool differs = std::ranges::any_of(reports, [](const MapReport& each) {
+    return each.verification && !each.verification->agrees();
+  });
+  return ranks.sum(differs ? 1 : 0) == 0 ? done : answer_is_no;
 }
 
 }  // namespace
@@ -99,12 +112,14 @@ int render_together(const MpiArguments& arguments, const Console& for_all) {
   });
   const ThreadLimit limit(plan.rendering.threads);
   const RankMemory memory = memory_for(ranks, arguments, plan);
+  Stopwatch stopwatch;
   SharedScene scene = open_scene(ranks, render, plan, console);
   scene.find_bounds(ranks, memory.triangles_at_once);
   const std::vector<Camera> cameras = cameras_of(ranks, render, plan, scene, console);
-  render_maps({arguments, ranks, console, plan, scene, memory}, cameras);
+  const int status =
+      render_maps({arguments, ranks, console, plan, scene, memory}, cameras, stopwatch.lap());
   say_when_interrupted("");
-  return done;
+  return status;
 }
 
 int render_scene_together(const MpiArguments& arguments, const SharedScene& scene,
@@ -116,8 +131,7 @@ int render_scene_together(const MpiArguments& arguments, const SharedScene& scen
   together(ranks, [&] { plan = plan_maps(arguments.render); });
   const ThreadLimit limit(plan.rendering.threads);
   const RankMemory memory = memory_for(ranks, arguments, plan);
-  render_maps({arguments, ranks, console, plan, scene, memory}, cameras);
-  return done;
+  return render_maps({arguments, ranks, console, plan, scene, memory}, cameras, 0);
 }
 
 }  // namespace fathom::app

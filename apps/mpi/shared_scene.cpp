@@ -9,8 +9,10 @@
 
 #include "apps/mpi/picked_triangles.h"
 #include "apps/mpi/together.h"
+#include "apps/render/render_memory.h"
 #include "apps/shell/known_files.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/render.h"
 
 namespace fathom::app {
 namespace {
@@ -46,7 +48,7 @@ SharedScene::SharedScene(const SceneOptions& options, const Kept& kept, const Co
     if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none))
       throw UsageError("SCENE: " + file + " is no regular file, which all ranks could read");
   }
-  if (kept.segments || kept.normals || kept.motion || !can_be_streamed(options)) {
+  if (kept.whole || kept.segments || kept.normals || !can_be_streamed(options)) {
     scene_ = options.read(
         console, {.hash = kept.hash, .attributes = kept.normals, .segments = kept.segments});
   } else {
@@ -105,6 +107,11 @@ void SharedScene::place(const MotionOptions& motion) {
 
 TriangleSource SharedScene::triangles() const {
   return streamed_ ? TriangleSource(*streamed_) : TriangleSource(scene_);
+}
+
+DepthMap SharedScene::render(const Camera& camera, const RenderOptions& options) const {
+  return streamed_ ? fathom::render(*streamed_, camera, options, stream_limits(camera, options))
+                   : fathom::render(scene_, camera, options);
 }
 
 TriangleRange SharedScene::part_of(const Ranks& ranks) const {

@@ -34,10 +34,10 @@ struct TriangleRange {
 class SharedScene {
  public:
   struct Kept {
-    /// Materials, groups, parts and labels; normals. Where they are asked for, files are read whole.
+    /// Everything, in every rank.
+    bool whole = false;
+    /// Materials, groups, parts and labels; normals. Where they are asked for, files are read whole, too.
     bool segments = false, normals = false;
-    /// Objects that are placed anew, which takes whole files, too.
-    bool motion = false;
     /// SHA-256 of the sources, which one rank is enough for.
     bool hash = false;
   };
@@ -65,6 +65,8 @@ class SharedScene {
   /// Whether the outline is the whole scene.
   [[nodiscard]] bool is_whole() const { return !streamed_; }
   [[nodiscard]] TriangleSource triangles() const;
+  /// Renders a map of it in this rank alone.
+  [[nodiscard]] DepthMap render(const Camera& camera, const RenderOptions& options) const;
   /// Which of its triangles are a rank's to read.
   [[nodiscard]] TriangleRange part_of(const Ranks& ranks) const;
   /// The numbers of the objects' first triangles, and of all triangles.

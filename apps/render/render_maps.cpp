@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "apps/render/camera_warnings.h"
-#include "apps/render/depth_buffer_channels.h"
-#include "apps/render/map_verification.h"
+#include "apps/render/map_additions.h"
 #include "apps/render/map_warnings.h"
 #include "apps/render/render_input.h"
 #include "apps/render/render_memory.h"
@@ -17,7 +16,6 @@
 #include "apps/shell/exit_status.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/stopwatch.h"
-#include "fathom/area/sampled_coverage.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/png_sidecar.h"
@@ -25,29 +23,6 @@
 
 namespace fathom::app {
 namespace {
-
-/// Refuses cameras that the file, the memory or the depth format has no room for.
-void check_cameras_and_format(const std::vector<Camera>& cameras, const MapPlan& plan,
-                              const std::string& output) {
-  check_cameras(cameras, plan, output);
-  if (!plan.depth_buffer) return;
-  for (const Camera& camera : cameras) (void)format_for(*plan.depth_buffer, camera);
-}
-
-/// The map with everything in it that the plan asks for but the depth buffer.
-DepthMap render_map(const std::string& name, const MapPlan& plan, const RenderInput& scene,
-                    const Camera& camera, const RenderOptions& options) {
-  // A depth that the file cannot hold is told with the name of its map.
-  DepthMap map = about_output(name, [&] { return scene.render(camera, options); });
-  for (const MatteKind& by : plan.mattes) {
-    add_cryptomatte(map, scene.outline(), camera, options, by);
-  }
-  if (plan.samples) {
-    add_sampled_coverage(map, scene.triangles(), camera, *plan.samples, options);
-    map.texts["fathom.samples"] = plan.samples->name;
-  }
-  return map;
-}
 
 /// Makes the map of a camera, checks it where that is asked for, and writes it.
 MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOptions& motion,
@@ -60,24 +35,16 @@ MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOp
   options.progress = progress;
 
   Stopwatch stopwatch;
-  DepthMap map = render_map(name, plan, scene, camera, options);
+  // A depth that the file cannot hold is told with the name of its map.
+  DepthMap map = about_output(name, [&] { return scene.render(camera, options); });
   motion.describe(map, motion.time_or_start());
   report.width = map.width;
   report.height = map.height;
   report.seconds.render = stopwatch.lap();
-  if (plan.depth_buffer) {
-    report.depth_buffer =
-        add_depth_buffer_channels(map, *plan.depth_buffer, scene.triangles(), camera, options);
-  }
-  report.seconds.depth_format = stopwatch.lap();
-  if (plan.verified_pixels) {
-    const auto render_again = [&](const RenderOptions& o) { (void)scene.render(camera, o); };
-    report.verification = verify_map(
-        map, name, {scene.triangles(), camera, options, *plan.verified_pixels, render_again},
-        console);
-  }
-  report.seconds.verify = stopwatch.lap();
-  if (plan.depth_buffer) drop_helpers(map, *plan.depth_buffer);
+  const auto render_again = [&](const RenderOptions& o) { (void)scene.render(camera, o); };
+  add_planned(map, plan, name, {scene.outline(), scene.triangles(), camera, options, render_again},
+              report, console);
+  stopwatch.lap();
   map = plan.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity());
   outputs.map(number).write(
       [&](const auto& path) { write_map(map, path, plan.format, plan.writing); });
@@ -97,7 +64,7 @@ int render_maps(const RenderArguments& arguments, MapPlan plan, const Console& c
   const std::vector<Camera> cameras = arguments.camera.get(scene.outline(), console);
   scene.place(arguments.motion);
   warn_of_missing_segments(scene.triangles(), plan.rendering.channels, console);
-  check_cameras_and_format(cameras, plan, arguments.output);
+  check_cameras(cameras, plan, arguments.output);
   RenderOutputs outputs(arguments, cameras);
   outputs.write_cameras(to_json(cameras) + "\n");
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/options/channel_list.h"
+#include "apps/render/depth_buffer_channels.h"
 #include "apps/shell/max_memory.h"
 #include "fathom/camera/world_from_image.h"
 
@@ -44,6 +45,7 @@ void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
     // To ask the system how much memory there is takes longer than to read a camera.
     if (before == nullptr || before->width != camera.width || before->height != camera.height)
       check_size(camera, plan);
+    if (plan.depth_buffer) (void)format_for(*plan.depth_buffer, camera);
     before = &camera;
   }
 }
