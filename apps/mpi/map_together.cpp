@@ -199,8 +199,7 @@ class MapTogether {
     report_.map = traffic_.map;
     report_.width = camera_.width;
     report_.height = camera_.height;
-    if (job_.plan.format == MapFormat::exr && !has_additions(job_.plan))
-      rows_of_chunk_ = rows_of_exr_chunk(job_.plan.writing.compression);
+    rows_of_chunk_ = rows_of_chunk(job_.plan);
     bands_ = rows_of_chunk_ ? equal_bands(tiles_.rows, ranks_.count())
                             : all_for_first(tiles_.rows, ranks_.count());
     if (rows_of_chunk_) {
@@ -343,6 +342,11 @@ class MapTogether {
 };
 
 }  // namespace
+
+std::optional<std::uint32_t> rows_of_chunk(const MapPlan& plan) {
+  if (plan.format != MapFormat::exr || has_additions(plan)) return std::nullopt;
+  return rows_of_exr_chunk(plan.writing.compression);
+}
 
 void make_map_together(const JobTogether& job, const Camera& camera,
                        std::optional<RenderOutputs>& outputs, std::size_t number,

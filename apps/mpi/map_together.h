@@ -26,6 +26,10 @@ struct JobTogether {
   const RankMemory& memory;
 };
 
+/// How many rows a chunk has, of a map that is put together from bands of rows; nullopt where all rows go to
+/// the first rank.
+std::optional<std::uint32_t> rows_of_chunk(const MapPlan& plan);
+
 /// Makes the map of a camera, from the triangles of all ranks to a file. Called by all ranks.
 /// `outputs`  in the first rank;  `number`: of the camera
 /// `traffic`  gets what it took;  `report`: what is said of the map, its statistics the sums of all ranks'

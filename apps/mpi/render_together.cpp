@@ -62,7 +62,7 @@ int render_maps(const JobTogether& job, const std::vector<Camera>& cameras,
   std::optional<RenderOutputs> outputs;
   std::optional<TextOutput> report;
   together(ranks, [&] {
-    check_cameras(cameras, job.plan, arguments.output);
+    check_cameras(cameras, job.plan, arguments.output, rows_of_chunk(job.plan).has_value());
     if (!ranks.is_first()) return;
     report.emplace(job.arguments.traffic);
     outputs.emplace(arguments, cameras);

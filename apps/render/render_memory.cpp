@@ -37,14 +37,15 @@ void check_size(const Camera& camera, const MapPlan& plan) {
 }  // namespace
 
 void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
-                   const std::string& output) {
+                   const std::string& output, bool in_bands) {
   const Camera* before = nullptr;
   for (const Camera& camera : cameras) {
     require_size(plan.format, camera.width, camera.height, output);
     if (plan.format == MapFormat::tiff) require_world_from_image(world_from_image(camera), output);
     // To ask the system how much memory there is takes longer than to read a camera.
-    if (before == nullptr || before->width != camera.width || before->height != camera.height)
-      check_size(camera, plan);
+    const bool is_known =
+        before != nullptr && before->width == camera.width && before->height == camera.height;
+    if (!in_bands && !is_known) check_size(camera, plan);
     if (plan.depth_buffer) (void)format_for(*plan.depth_buffer, camera);
     before = &camera;
   }

@@ -13,8 +13,9 @@ namespace fathom::app {
 /// Refuses cameras whose maps the file or the depth format cannot hold, or that take more memory than there is or
 /// --max-memory allows, before any is tried: a map, and what is needed to write it. `output` is their name for
 /// messages. Fails with OutputError, InputError and UsageError.
+/// `in_bands`: a map is never whole in memory, but a few rows of it.
 void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
-                   const std::string& output);
+                   const std::string& output, bool in_bands = false);
 /// The memory of a deep map, whose size is known when it is there. Fails with InputError.
 void check_size(const Camera& camera, const DeepMapPlan& plan);
 

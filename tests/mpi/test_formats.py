@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from mpi_runs import expect_same_for, source
+from mpi_runs import expect_same_for, mpi_program, mpirun, one_program, run, source
 
 data = source / "data"
 
@@ -31,8 +31,36 @@ def test_normals_of_files(tmp_path):
     expect_same_for((3, "load"), tmp_path, mesh, "--size", "200x150", "--channels", "Z,Ns,id")
 
 
+@pytest.mark.parametrize("arguments", [
+    ("--near", "0.1", "--far", "100", "--depth-format", "unorm16", "--against-exact"), ("--samples", "rotated-grid"),
+    ("--cryptomatte", "--channels", "Z"), ("--verify", "50"), ("--channels", "Ns,Z"),
+], ids=lambda arguments: arguments[-1])
+def test_what_needs_the_whole_map_or_scene(tmp_path, arguments):
+    expect_same_for((3, "round-robin"), tmp_path, data / "meshes/spot.obj", data / "scenes/pair.json", "--size", "200x150",
+                    *arguments)
+
+
+def test_statistics_are_those_of_all_ranks(tmp_path):
+    arguments = [data / "meshes/spot.obj", "--size", "200x150", "--channels", "Z,A", "--stats", "-", "--quiet"]
+    alone = json.loads(run([one_program, "render", *arguments, "-o", tmp_path / "one.exr"]).stdout)
+    outcome = run([*mpirun, "-n", 3, mpi_program, "render", *arguments, "-o", tmp_path / "several.exr"])
+    of_all = json.loads(outcome.stdout)
+    assert of_all.keys() == alone.keys()
+    for key in ("triangles", "degenerate_triangles", "culled_triangles", "pixels_with_surface", "width", "height"):
+        assert of_all[key] == alone[key], key
+    facing = of_all["decisions"]["facing"]
+    assert facing == alone["decisions"]["facing"] and sum(facing.values()) == 5856
+
+
 def test_paths_of_cameras(tmp_path):
     expect_same_for((3, "load"), tmp_path, data / "meshes/spot.obj", "--camera", data / "cameras/orbit.json")
+
+
+def test_streamable_objects_that_move(tmp_path):
+    motion = tmp_path / "motion.json"
+    places = [{"time": time, "transform": [[1, 0, 0, time], [0, 1, 0, 0], [0, 0, 1, 0]]} for time in (0, 1)]
+    motion.write_text(json.dumps({"objects": [{"name": "cube", "keyframes": places}]}))
+    expect_same_for((2, "load"), tmp_path, data / "meshes/cube.stl", "--size", "100x75", "--motion", motion, "--time", "0.5")
 
 
 def test_objects_that_move(tmp_path):
