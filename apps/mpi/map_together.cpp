@@ -57,15 +57,11 @@ class MapTogether {
                        TilesInRounds::Limits{.tile_bytes = job_.memory.tile_bytes,
                                              .kept_bytes = job_.memory.kept_bytes});
     });
-    const std::uint64_t rounds = count_rounds();
-    if (rounds == 1) {
+    if (ranks_.greatest(own_.count()) <= job_.memory.triangles_at_once) {
       draw_at_once();
     } else {
       deal_out_by_sample();
-      for (std::uint64_t round = 0; round < rounds; ++round) {
-        draw_round(round);
-        report(static_cast<double>(round + 1) / static_cast<double>(rounds));
-      }
+      draw_in_rounds();
     }
     together(ranks_, [&] { draw_received(); });
     report_.seconds.render = stopwatch.lap();
@@ -75,11 +71,6 @@ class MapTogether {
   }
 
  private:
-  [[nodiscard]] std::uint64_t count_rounds() const {
-    const std::uint64_t at_once = job_.memory.triangles_at_once;
-    return std::max<std::uint64_t>(1, ranks_.greatest((own_.count() + at_once - 1) / at_once));
-  }
-
   [[nodiscard]] bool is_own(std::uint32_t tile) const { return owners_[tile] == ranks_.self(); }
   [[nodiscard]] auto own_tiles() const {
     return [this](std::uint32_t tile) { return is_own(tile); };
@@ -138,29 +129,45 @@ class MapTogether {
     together(ranks_, [&] { drawing_->choose(std::move(own)); });
   }
 
-  /// The triangles that this rank reads in a round, and those that came at the end of the last one: a
-  /// rank waits for others once in a round.
-  void draw_round(std::uint64_t round) {
+  /// Ranks wait for each other after several rounds of each, so that a round that takes long in one of
+  /// them is made up for; after fewer, where many triangles are for others.
+  void draw_in_rounds() {
+    constexpr int most_rounds = 32;
     const std::uint64_t at_once = job_.memory.triangles_at_once;
-    together(ranks_, [&] {
-      draw_received();
-      draw_read(drawing_->sort(job_.scene.read(own_.part(round * at_once, at_once))));
-    });
-    exchange();
+    std::uint64_t next = 0, left = 0;
+    do {
+      together(ranks_, [&] {
+        draw_received();
+        for (int i = 0; i < most_rounds && next < own_.count() && !has_much_to_send(); ++i) {
+          draw_read(drawing_->sort(job_.scene.read(own_.part(next, at_once))));
+          next = std::min(next + at_once, own_.count());
+        }
+      });
+      exchange();
+      left = ranks_.greatest(own_.count() - next);
+      report(1 - static_cast<double>(left) / static_cast<double>(own_.count() + 1));
+    } while (left != 0);
+  }
+
+  /// Each rank gets as much from all others together as one of them may send.
+  [[nodiscard]] bool has_much_to_send() const {
+    const std::size_t most = job_.memory.message_bytes / static_cast<std::size_t>(ranks_.count());
+    return std::ranges::any_of(messages_, [&](const auto& each) { return each.size() >= most; });
   }
 
   /// What touches tiles of other ranks is for them.
   void draw_read(const SortedTriangles& sorted) {
-    messages_.assign(static_cast<std::size_t>(ranks_.count()), {});
+    messages_.resize(static_cast<std::size_t>(ranks_.count()));
     if (ranks_.count() > 1) {
-      messages_ = messages_of(sorted.triangles(), sorted.touches(tiles_of_others()), owners_,
-                              ranks_.count());
+      const std::vector<text::Bytes> more = messages_of(
+          sorted.triangles(), sorted.touches(tiles_of_others()), owners_, ranks_.count());
+      for (std::size_t i = 0; i < more.size(); ++i) append(messages_[i], more[i]);
     }
     draw(sorted);
   }
 
   void exchange() {
-    if (ranks_.count() == 1) return;
+    messages_.resize(static_cast<std::size_t>(ranks_.count()));
     traffic_.of_triangles.add(messages_, ranks_.self());
     messages_ = ranks_.exchange(std::move(messages_), job_.memory.message_bytes);
   }

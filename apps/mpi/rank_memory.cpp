@@ -16,6 +16,8 @@ constexpr std::uint64_t program_bytes = std::uint64_t{64} << 20;
 /// A triangle that is drawn, and its copies on the way to another rank: picked, and in a message. What
 /// comes from others takes less, and is drawn when these are gone.
 constexpr std::uint64_t bytes_per_triangle = TilesInRounds::bytes_per_triangle + 200;
+/// Of a message.
+constexpr std::uint64_t bytes_sent = 88;
 
 }  // namespace
 
@@ -25,9 +27,12 @@ RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>
       memory_allowance().bytes / static_cast<std::uint64_t>(ranks.count_on_this_machine());
   const std::uint64_t allowed = std::max(bytes.value_or(share / 4 * 3), least_rank_memory);
   const std::uint64_t left = allowed - program_bytes;
-  constexpr std::uint64_t most_triangles = std::uint64_t{1} << 24;
-  return {.triangles_at_once =
-              static_cast<std::uint32_t>(std::min(most_triangles, left / 4 / bytes_per_triangle)),
+  constexpr std::uint64_t most_triangles = std::uint64_t{1} << 24, least_triangles = 4096;
+  // All others may have all of a round for one rank.
+  const auto others = static_cast<std::uint64_t>(std::max(1, ranks.count() - 1));
+  const std::uint64_t from_all = std::max(least_triangles, left / 8 / bytes_sent / others);
+  return {.triangles_at_once = static_cast<std::uint32_t>(
+              std::min({most_triangles, left / 4 / bytes_per_triangle, from_all})),
           .tile_bytes = keeps_triangles ? left / 4 : left / 2,
           .kept_bytes = keeps_triangles ? left / 4 : 0,
           .row_bytes = left / 16,
