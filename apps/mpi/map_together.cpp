@@ -5,6 +5,7 @@
 #include <bit>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -108,11 +109,13 @@ class MapTogether {
     const std::uint64_t length = std::max<std::uint64_t>(1, job_.memory.triangles_at_once / places);
     std::uint64_t taken = 0;
     together(ranks_, [&] {
+      std::vector<SomeTriangles> sample;
       for (std::uint64_t place = 0; place < places; ++place) {
         const TriangleRange some = own_.part(own_.count() * place / places, length);
-        drawing_->sort_again(job_.scene.read(some)).count(counts);
+        std::ranges::move(job_.scene.read(some), std::back_inserter(sample));
         taken += some.count();
       }
+      drawing_->sort_again(std::move(sample)).count(counts);
     });
     if (taken != 0)
       for (std::uint64_t& count : counts) count = count * own_.count() / taken;
@@ -132,7 +135,7 @@ class MapTogether {
   /// Ranks wait for each other after several rounds of each, so that a round that takes long in one of
   /// them is made up for; after fewer, where many triangles are for others.
   void draw_in_rounds() {
-    constexpr int most_rounds = 32;
+    constexpr int most_rounds = 128;
     const std::uint64_t at_once = job_.memory.triangles_at_once;
     std::uint64_t next = 0, left = 0;
     do {

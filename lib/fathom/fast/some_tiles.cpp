@@ -43,8 +43,11 @@ bool is_met(const std::vector<Bins>& bins, std::uint32_t tile) {
   return std::ranges::any_of(bins, [&](const Bins& part) { return !part.is_empty(tile); });
 }
 
-/// Parts of a round, enough for threads to share them out. Each has a table of all tiles.
-constexpr std::uint32_t parts_of_round = 8;
+/// Parts of a round, enough for threads to share them out. Each has a table of all tiles, which takes
+/// longer to fill than the triangles of a round where an image is large.
+std::uint32_t parts_of_round(const RenderOptions& options) {
+  return options.threads == 1 ? 1 : 8;
+}
 
 }  // namespace
 
@@ -134,7 +137,7 @@ SortedTriangles TilesInRounds::State::sort(std::vector<SomeTriangles> lists,
                                 list.numbers);
     next += static_cast<std::uint32_t>(count);
   }
-  sorted.bins = sort_into_tiles(sorted.objects, 0, next, parts_of_round, frame, by);
+  sorted.bins = sort_into_tiles(sorted.objects, 0, next, parts_of_round(options), frame, by);
   return result;
 }
 

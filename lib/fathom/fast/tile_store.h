@@ -41,6 +41,8 @@ class TileStore {
     std::uint64_t used = 0;
     bool waits = false;
   };
+  /// What is left for those that are not in use.
+  [[nodiscard]] std::uint64_t most_kept() const { return most_bytes_ / 8 * 7; }
   void pack_oldest(std::uint64_t& bytes);
   void write(std::uint32_t number);
 
