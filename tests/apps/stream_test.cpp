@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -32,7 +33,8 @@ class Streaming : public ::testing::Test {
 TEST_F(Streaming, WritesTheSameFile) {
   const std::vector<std::string> scene{meshes + "cube.stl", meshes + "cube-big-endian.ply"};
   const std::vector<std::vector<std::string>> cases{
-      {"--channels", "Z,Zlow,distance,id,face,object,N,P,bary", "-o", "map.exr"},
+      {"--channels", "Z,A,Zlow,distance,id,face,object,N,P,bary", "-o", "map.exr"},
+      {"-o", "depth-and-coverage.npz"},
       {"--size", "300x200", "--view", "10,40", "-o", "map.pfm"},
       {"--channels", "distance", "--dtype", "float64", "--cull", "back", "-o", "map.npy"},
       {"--png-scale", "5000", "-o", "map.png"}};
@@ -118,6 +120,18 @@ TEST_F(Streaming, AFileLargerThanTheMemoryAllowed) {
   const Outcome streamed = run_fathom({"render", "sheet.stl", "--stream", "-o", "a.exr"}, limited);
   EXPECT_EQ(streamed.status, 0);
   EXPECT_EQ(streamed.err, "");
+  // The channels are Z and A: triangles waited on the disk. Where it has no room for them:
+  RunOptions full = limited;
+  full.file_size = rlim_t{10000000};
+  const Outcome failed = run_fathom({"render", "sheet.stl", "--stream", "-o", "b.exr"}, full);
+  EXPECT_EQ(failed.status, 4);
+  EXPECT_THAT(failed.err, HasSubstr("(what does not fit into memory): File too large"));
+  EXPECT_EQ(std::count(failed.err.begin(), failed.err.end(), '\n'), 1);
+  // And as from memory, which here there is.
+  const Outcome kept = fathom({"render", "sheet.stl", "--stream", "-o", "c.exr"});
+  EXPECT_EQ(kept.status, 0);
+  EXPECT_TRUE(folder_.read("c.exr") == folder_.read("a.exr"));
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"a.exr", "c.exr", "sheet.stl"}));
 }
 #endif
 

@@ -73,7 +73,6 @@ std::vector<Usage> wrong_usages() {
       {"CryptomatteForPng",
        {"render", "square.obj", "-o", "map.png", "--cryptomatte"},
        "--cryptomatte is for .exr"},
-      {"CoverageStreamed", render({"--channels", "Z,A", "--stream"}), "leave out A"},
       {"CryptomatteStreamed", render({"--cryptomatte", "--stream"}), "--stream"},
       {"CullUnknown", render({"--cull", "some"}), "back, front and none"},
       {"LossyCompression", render({"--compression", "pxr24"}), "loses"},

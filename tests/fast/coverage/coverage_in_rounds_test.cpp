@@ -3,11 +3,17 @@
 #include "fathom/fast/coverage/coverage_in_rounds.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <memory>
 
+#include "fathom/camera/camera_files.h"
 #include "fathom/fast/stream.h"
+#include "fathom/numeric/errors.h"
 #include "fathom/scene/framing.h"
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
@@ -149,6 +155,136 @@ TEST(CoverageInRounds, Adversaries) {
       if (::testing::Test::HasFailure()) return;
     }
   }
+}
+
+TEST(CoverageInRounds, HardScenes) {
+  Files files;
+  int scenes = 0;
+  for (const auto& entry : fs::directory_iterator(data / "scenes/hard")) {
+    if (entry.path().extension() != ".obj") continue;
+    SCOPED_TRACE(entry.path().filename());
+    Warnings warnings;
+    const Scene scene = read_scene({entry.path()}, {}, warnings);
+    fs::path cameras = entry.path();
+    cameras.replace_extension(".camera.json");
+    const Both both({files.ply(scene.meshes[0])});
+    for (const Camera& camera : read_cameras(cameras)) expect_same_coverage(both, camera);
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 10);
+}
+
+/// Every so many-th triangle of a scene as a mesh that knows what the scene calls them.
+struct ScatteredTriangles {
+  ScatteredTriangles(const Scene& scene, std::uint32_t first, std::uint32_t step) {
+    mesh.vertices = scene.meshes[0].vertices;
+    for (std::uint32_t i = first; i < scene.meshes[0].triangles.size(); i += step) {
+      mesh.triangles.push_back(scene.meshes[0].triangles[i]);
+      numbers.push_back(i);
+    }
+  }
+  Mesh mesh;
+  std::vector<std::uint32_t> numbers;
+};
+
+/// What a rank of several does: it has some of the tiles, and gets triangles from anywhere.
+class SomeTiles {
+ public:
+  SomeTiles(const Scene& scene, const Camera& camera)
+      : scene_(scene), triangles_(scene), rays_(triangles_, camera), frame_(camera, options_) {
+    frame_.by_area = true;
+  }
+
+  std::vector<float> coverage(const std::vector<std::uint32_t>& tiles, std::uint64_t most_bytes,
+                              std::uint32_t rounds) {
+    fast::CoverageInRounds kept({frame_, triangles_, rays_}, tiles, most_bytes);
+    for (std::uint32_t round = 0; round < rounds; ++round) {
+      const ScatteredTriangles some(scene_, round, rounds);
+      fast::ImageObjects objects;
+      objects.emplace_back(scene_.objects[0], some.mesh, frame_.camera, 0U, nullptr, some.numbers);
+      kept.add(objects, sort(objects));
+    }
+    return write(kept);
+  }
+
+  [[nodiscard]] const fast::TileGrid& grid() const { return frame_.grid; }
+
+ private:
+  std::vector<fast::Bins> sort(const fast::ImageObjects& objects) {
+    return sort_into_tiles(objects, 0, objects.back().end_number(), 3, frame_, workers_);
+  }
+
+  std::vector<float> write(fast::CoverageInRounds& kept) {
+    fast::ImageObjects objects;
+    objects.emplace_back(scene_.objects[0], scene_.meshes[0], frame_.camera, 0U);
+    const std::vector<fast::Bins> bins = sort(objects);
+    std::vector<float> values(std::size_t{frame_.camera.width} * frame_.camera.height);
+    kept.write([&](std::uint32_t number, fast::TileCoverage& coverage) {
+      const auto tile = std::make_unique<fast::Tile>();
+      tile->start(grid().area(number));
+      const fast::Tile::Context context = frame_.context(workers_.local());
+      draw_tile(*tile, number, bins, objects, context);
+      coverage.write(*tile, number, context, values.data(), frame_.camera.width);
+    });
+    return values;
+  }
+
+  const Scene& scene_;
+  RenderOptions options_;
+  TriangleSource triangles_;
+  triangle::SceneRays rays_;
+  fast::FastFrame frame_;
+  fast::FastWorkers workers_{[this] { return fast::FastWorker(triangles_, frame_.camera, rays_); }};
+};
+
+TEST(CoverageInRounds, SomeTilesOfTrianglesFromAnywhere) {
+  std::mt19937_64 random(1714);
+  const Scene scene = testing::soup(random, 700, false);
+  Camera camera = testing::camera_of(320, 280, 128);
+  camera.near = 3;
+  RenderOptions options;
+  options.channels = {Channel::A};
+  const DepthMap map = render_fast(scene, camera, options);
+  const auto& truth = std::get<Samples<float>>(map.channels[0].values);
+  SomeTiles rank(scene, camera);
+  const std::vector<std::uint32_t> tiles{0, 3, 4, 7, 8, 13, 19, 20, 22};
+  for (const std::uint64_t most_bytes : {0U, 20000U, 100000000U}) {
+    for (const std::uint32_t rounds : {1U, 2U, 9U}) {
+      SCOPED_TRACE(std::to_string(most_bytes) + " bytes, " + std::to_string(rounds) + " rounds");
+      const std::vector<float> values = rank.coverage(tiles, most_bytes, rounds);
+      for (std::uint32_t row = 0; row < camera.height; ++row) {
+        for (std::uint32_t column = 0; column < camera.width; ++column) {
+          const std::size_t pixel = std::size_t{row} * camera.width + column;
+          const bool is_ours = std::ranges::count(tiles, rank.grid().tile_at(column, row)) != 0;
+          ASSERT_EQ(values[pixel], is_ours ? truth[pixel] : 0.0F) << column << ", " << row;
+        }
+      }
+    }
+  }
+}
+
+TEST(CoverageInRounds, SaysWhereThereIsNoRoomOnTheDisk) {
+  const ScratchFolder folder;
+  Warnings warnings;
+  const Both both({data / "meshes" / "cube.stl"});
+  RenderOptions options;
+  options.channels = {Channel::A};
+  const char* const before = std::getenv("TMPDIR");
+  const std::string folder_before = before ? before : "";
+  ::setenv("TMPDIR", folder.path().c_str(), 1);
+  rlimit limit{};
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit small{100, limit.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  const auto old = std::signal(SIGXFSZ, SIG_IGN);
+  const std::string message = message_of<OutputError>([&] {
+    render_streamed(both.streamed, frame_scene(both.scene, {}, {}), options, {.kept_bytes = 0});
+  });
+  (void)std::signal(SIGXFSZ, old);
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  before ? ::setenv("TMPDIR", folder_before.c_str(), 1) : ::unsetenv("TMPDIR");
+  EXPECT_EQ(message, folder.path().string() + " (what does not fit into memory): File too large");
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 }  // namespace
