@@ -12,8 +12,11 @@ namespace {
 constexpr std::uint32_t parts_of_all = 64, parts_of_some = 8;
 
 /// A bucket is for a row of tiles: few triangles meet more than one, and there are few buckets that
-/// are written to in turn. It has at least so many, where an image is narrow, as work for threads.
-constexpr std::uint32_t least_tiles = 16;
+/// are written to in turn. It is for several rows, where an image is narrow, as work for threads.
+std::uint32_t rows_of_bucket(const TileGrid& grid) {
+  constexpr std::uint32_t least_tiles = 16;
+  return (least_tiles - 1) / grid.columns + 1;
+}
 
 }  // namespace
 
@@ -24,17 +27,24 @@ CoverageInRounds::CoverageInRounds(const Scene& scene, std::vector<std::uint32_t
       tiles_(std::move(tiles)),
       meetings_(tiles_.size()),
       most_bytes_(most_bytes),
-      tiles_of_bucket_(std::max(scene.frame.grid.columns, least_tiles)),
       sorting_again_(
           [scene] { return FastWorker(scene.triangles, scene.frame.camera, scene.rays); }) {}
 
-std::size_t CoverageInRounds::bucket_count() const {
-  return (tiles_.size() + tiles_of_bucket_ - 1) / tiles_of_bucket_;
+std::vector<CoverageInRounds::Tiles> CoverageInRounds::tiles_of_buckets() const {
+  const TileGrid& grid = scene_.frame.grid;
+  const std::uint32_t rows = rows_of_bucket(grid);
+  std::vector<Tiles> buckets;
+  for (std::uint32_t row = 0; row < grid.rows; row += rows) {
+    const std::uint32_t end = std::min(grid.rows, row + rows);
+    buckets.push_back(within(tiles_, row * grid.columns, end * grid.columns));
+  }
+  return buckets;
 }
 
-CoverageInRounds::Tiles CoverageInRounds::tiles_of(std::size_t bucket) const {
-  const Tiles from = Tiles(tiles_).subspan(bucket * tiles_of_bucket_);
-  return from.first(std::min(from.size(), tiles_of_bucket_));
+CoverageInRounds::Tiles CoverageInRounds::within(Tiles tiles, std::uint32_t first,
+                                                 std::uint32_t end) {
+  const auto from = std::ranges::lower_bound(tiles, first);
+  return {from, std::lower_bound(from, tiles.end(), end)};
 }
 
 void CoverageInRounds::give_up_from(std::uint32_t tile) {
@@ -54,7 +64,7 @@ void CoverageInRounds::count_meetings(const std::vector<Bins>& bins) {
 void CoverageInRounds::add(const ImageObjects& objects, const std::vector<Bins>& bins) {
   count_meetings(bins);
   if (spilled_) {
-    spill(objects, bins);
+    spill(objects, bins, tiles_of_buckets(), *spilled_);
     return;
   }
   keep(objects, bins);
@@ -75,89 +85,91 @@ void CoverageInRounds::keep(const ImageObjects& objects, const std::vector<Bins>
 }
 
 void CoverageInRounds::begin_to_spill() {
-  spilled_.emplace(bucket_count());
-  for (KeptTriangles& some : kept_) {
-    GatheredTriangles round;
-    round.add(std::exchange(some, {}));
-    sort(round, parts_of_some);
-    spill(round.objects(), round.bins());
-  }
+  const std::vector<Tiles> buckets = tiles_of_buckets();
+  spilled_.emplace(buckets.size());
+  for (KeptTriangles& some : kept_) spill(std::exchange(some, {}), buckets, *spilled_);
   kept_ = {};
 }
 
-void CoverageInRounds::spill(const ImageObjects& objects, const std::vector<Bins>& bins) {
-  parallel_for(std::size_t{0}, bucket_count(), [&](std::size_t bucket) {
-    spilled_->add(bucket, triangles_in_tiles(objects, bins, tiles_of(bucket), scene_.triangles));
+void CoverageInRounds::spill(const ImageObjects& objects, const std::vector<Bins>& bins,
+                             std::span<const Tiles> runs, SpilledTriangles& to) const {
+  parallel_for(std::size_t{0}, runs.size(), [&](std::size_t i) {
+    to.add(i, triangles_in_tiles(objects, bins, runs[i], scene_.triangles));
   });
 }
 
-void CoverageInRounds::sort(GatheredTriangles& gathered, std::uint32_t parts) {
-  gathered.sort(parts, scene_.triangles, scene_.frame, sorting_again_);
-}
-
-CoverageInRounds::Tiles CoverageInRounds::within(Tiles tiles, std::uint32_t first,
-                                                 std::uint32_t end) {
-  const auto from = std::ranges::lower_bound(tiles, first);
-  return {from, std::lower_bound(from, tiles.end(), end)};
+void CoverageInRounds::spill(const KeptTriangles& kept, std::span<const Tiles> runs,
+                             SpilledTriangles& to) {
+  GatheredTriangles round;
+  round.add(kept);
+  round.sort(parts_of_some, scene_.triangles, scene_.frame, sorting_again_);
+  spill(round.objects(), round.bins(), runs, to);
 }
 
 void CoverageInRounds::write(std::uint32_t first, std::uint32_t end, const WriteTile& write) {
-  if (spilled_) {
-    for (std::size_t bucket = 0; bucket < bucket_count(); ++bucket)
-      write_bucket(bucket, first, end, write);
+  if (!spilled_) {
+    sort_kept();
+    write_tiles(*all_, within(tiles_, first, end), write);
     return;
   }
-  if (!all_) {
-    all_.emplace();
-    all_->take(kept_);
-    sort(*all_, parts_of_all);
+  const std::vector<Tiles> buckets = tiles_of_buckets();
+  for (std::size_t i = 0; i < buckets.size(); ++i) {
+    const Tiles tiles = within(buckets[i], first, end);
+    if (tiles.size() == buckets[i].size()) {
+      write_bucket(*spilled_, i, tiles, write);
+    } else if (!tiles.empty()) {
+      SpilledTriangles part(1);
+      spilled_->for_each(i, [&](const KeptTriangles& kept) { spill(kept, {&tiles, 1}, part); });
+      write_bucket(part, 0, tiles, write);
+    }
   }
-  write_tiles(*all_, within(tiles_, first, end), write);
 }
 
-void CoverageInRounds::write_bucket(std::size_t bucket, std::uint32_t first, std::uint32_t end,
-                                    const WriteTile& write) {
-  const KeptSize size = spilled_->size_of_bucket(bucket);
+void CoverageInRounds::sort_kept() {
+  if (all_) return;
+  all_.emplace();
+  all_->take(kept_);
+  all_->sort(parts_of_all, scene_.triangles, scene_.frame, sorting_again_);
+}
+
+// A bucket that is too large is read once more than others, whatever its size.
+void CoverageInRounds::write_bucket(const SpilledTriangles& spilled, std::size_t bucket,
+                                    Tiles tiles, const WriteTile& write) {
+  const KeptSize size = spilled.size_of_bucket(bucket);
   if (size.is_nothing()) return;
-  for (Tiles left = within(tiles_of(bucket), first, end); !left.empty();) {
-    const Tiles some = first_that_fit(left, size);
-    GatheredTriangles gathered;
-    if (some.size() == tiles_of(bucket).size()) {
-      spilled_->gather(bucket, gathered);
-    } else {
-      gather_some(bucket, some, gathered);
-    }
-    sort(gathered, parts_of_some);
-    write_tiles(gathered, some, write);
-    left = left.subspan(some.size());
+  const std::vector<Tiles> runs = runs_that_fit(tiles, size);
+  if (runs.size() > 1) {
+    SpilledTriangles parts(runs.size());
+    spilled.for_each(bucket, [&](const KeptTriangles& kept) { spill(kept, runs, parts); });
+    for (std::size_t i = 0; i < runs.size(); ++i) write_bucket(parts, i, runs[i], write);
+    return;
   }
+  GatheredTriangles gathered;
+  spilled.gather(bucket, gathered);
+  gathered.sort(parts_of_some, scene_.triangles, scene_.frame, sorting_again_);
+  write_tiles(gathered, tiles, write);
 }
 
 // Triangles that meet several of the tiles are counted for each.
-CoverageInRounds::Tiles CoverageInRounds::first_that_fit(Tiles tiles,
-                                                         const KeptSize& bucket) const {
+std::vector<CoverageInRounds::Tiles> CoverageInRounds::runs_that_fit(Tiles tiles,
+                                                                     const KeptSize& bucket) const {
   const std::uint64_t bytes = bucket.bytes_in_use();
-  if (bytes <= most_bytes_) return tiles;
+  if (bytes <= most_bytes_) return {tiles};
   const double per_triangle = static_cast<double>(bytes) / static_cast<double>(bucket.triangles);
   const std::uint64_t* const meetings = meetings_.data() + (tiles.data() - tiles_.data());
-  std::size_t count = 0;
-  for (double needed = 0; count < tiles.size(); ++count) {
-    needed += per_triangle * static_cast<double>(meetings[count]);
-    if (count > 0 && needed > static_cast<double>(most_bytes_)) break;
-  }
-  return tiles.first(count);
-}
-
-void CoverageInRounds::gather_some(std::size_t bucket, Tiles tiles, GatheredTriangles& to) {
-  spilled_->for_each(bucket, [&](const KeptTriangles& block) {
-    GatheredTriangles round;
-    round.add(block);
-    sort(round, parts_of_some);
-    for (const KeptTriangles& some :
-         triangles_in_tiles(round.objects(), round.bins(), tiles, scene_.triangles)) {
-      to.add(some);
+  std::vector<Tiles> runs;
+  double needed = 0;
+  for (std::size_t i = 0, first = 0; i < tiles.size(); ++i) {
+    const double more = per_triangle * static_cast<double>(meetings[i]);
+    if (i > first && needed + more > static_cast<double>(most_bytes_)) {
+      runs.push_back(tiles.subspan(first, i - first));
+      first = i;
+      needed = 0;
     }
-  });
+    needed += more;
+    if (i + 1 == tiles.size()) runs.push_back(tiles.subspan(first));
+  }
+  return runs;
 }
 
 void CoverageInRounds::write_tiles(const GatheredTriangles& gathered, Tiles tiles,
@@ -165,7 +177,7 @@ void CoverageInRounds::write_tiles(const GatheredTriangles& gathered, Tiles tile
   PerThread<TileCoverage> coverages([&] {
     return TileCoverage({coverage_frame_, gathered.objects(), gathered.bins(), MapRows{}});
   });
-  const std::size_t first = static_cast<std::size_t>(tiles.data() - tiles_.data());
+  const auto first = static_cast<std::size_t>(tiles.data() - tiles_.data());
   parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
     if (meetings_[first + i] != 0) write(tiles[i], coverages.local());
   });

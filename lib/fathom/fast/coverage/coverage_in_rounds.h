@@ -20,8 +20,7 @@ namespace fathom::fast {
 /// TileCoverage says the same of them as of a scene in memory.
 ///
 /// Memory   about `most_bytes`, 8 bytes per tile, and 24 for each round and each bucket that it has
-///          triangles for. Of a bucket that needs more, what meets a part of its tiles is taken at a
-///          time. All triangles that meet one tile are in memory together, whatever they take.
+///          triangles for. A bucket that needs more is cut into smaller ones first. All triangles that meet one tile are in memory together, whatever they take.
 /// Disk     about 28 bytes for each triangle and bucket; 88 where vertices are not shared.
 class CoverageInRounds {
  public:
@@ -44,31 +43,31 @@ class CoverageInRounds {
   /// Writes a tile's values by coverage.write(), for which it has been drawn.
   using WriteTile = std::function<void(std::uint32_t tile, TileCoverage& coverage)>;
   /// Calls write(tile, coverage) for the tiles first ≤ tile < end that triangles meet, several at the
-  /// same time; in the others A is 0. For each tile once, after the last round.
+  /// same time; in the others A is 0. After the last round, for each tile once.
   void write(std::uint32_t first, std::uint32_t end, const WriteTile& write);
 
  private:
   using Tiles = std::span<const std::uint32_t>;
-  [[nodiscard]] std::size_t bucket_count() const;
-  /// The tiles of a bucket that are still wanted.
-  [[nodiscard]] Tiles tiles_of(std::size_t bucket) const;
+  /// The tiles that are still wanted, by buckets.
+  [[nodiscard]] std::vector<Tiles> tiles_of_buckets() const;
   /// Of some, those from first to end.
   [[nodiscard]] static Tiles within(Tiles tiles, std::uint32_t first, std::uint32_t end);
   void count_meetings(const std::vector<Bins>& bins);
-  /// Takes the triangles of a round into memory, or into the file.
+  /// Takes the triangles of a round into memory.
   void keep(const ImageObjects& objects, const std::vector<Bins>& bins);
-  void spill(const ImageObjects& objects, const std::vector<Bins>& bins);
   /// From now on, triangles are in the file.
   void begin_to_spill();
+  /// Adds what meets tiles to a bucket for each of these runs.
+  void spill(const ImageObjects& objects, const std::vector<Bins>& bins,
+             std::span<const Tiles> runs, SpilledTriangles& to) const;
+  /// The same, once it has been sorted.
+  void spill(const KeptTriangles& kept, std::span<const Tiles> runs, SpilledTriangles& to);
 
-  /// Sorts what is kept, in tiles by many bins or few.
-  void sort(GatheredTriangles& gathered, std::uint32_t parts);
-  /// Of the tiles of a bucket those from first to end.
-  void write_bucket(std::size_t bucket, std::uint32_t first, std::uint32_t end,
+  void write_bucket(const SpilledTriangles& spilled, std::size_t bucket, Tiles tiles,
                     const WriteTile& write);
-  /// The first tiles of these that can be written together.
-  [[nodiscard]] Tiles first_that_fit(Tiles tiles, const KeptSize& bucket) const;
-  void gather_some(std::size_t bucket, Tiles tiles, GatheredTriangles& to);
+  /// Cuts the tiles of a bucket into runs of which each is little enough for the memory, or one tile.
+  [[nodiscard]] std::vector<Tiles> runs_that_fit(Tiles tiles, const KeptSize& bucket) const;
+  void sort_kept();
   void write_tiles(const GatheredTriangles& gathered, Tiles tiles, const WriteTile& write) const;
 
   Scene scene_;
@@ -77,7 +76,6 @@ class CoverageInRounds {
   /// For each of them, how many triangles meet it.
   std::vector<std::uint64_t> meetings_;
   std::uint64_t most_bytes_;
-  std::size_t tiles_of_bucket_;
   /// What is in memory.
   std::vector<KeptTriangles> kept_;
   KeptSize kept_size_;

@@ -42,8 +42,7 @@ void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile
     for (; next != settled_.end() && next->pixel / size == tile_row; ++next) {
       row_values[next->pixel % size] = next->value;
     }
-    scene_.rows.write(row_values, columns,
-                      values + layout.pixel(area_.first_column, row));
+    scene_.rows.write(row_values, columns, values + layout.pixel(area_.first_column, row));
   }
   scene_.rows.finish();
 }
