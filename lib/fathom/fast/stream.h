@@ -29,7 +29,8 @@ struct StreamLimits {
 /// read by read_scene(), bit for bit.
 ///
 /// Memory   the channels asked for, and what the limits allow; nothing that grows with the number
-///          of triangles (but see TriangleStream).
+///          of triangles (but see TriangleStream), except that for channel A all that meet one tile are
+///          there together.
 /// Fails    as render_reference(); UsageError for limits that allow no triangle; InputError if a
 ///          file changes in the meantime; for channel A, OutputError if there is no room for what
 ///          does not fit into the memory.
