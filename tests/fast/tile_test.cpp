@@ -182,6 +182,37 @@ TEST(Tile, ForgetsSurfacesThatAreHidden) {
   EXPECT_EQ(number_at(tile, 32, 32), large + 1);
 }
 
+/// Each tile has a place of most_packed_bytes in a file: more would be another tile's. Surfaces that fill
+/// their list to its end are as many as others.
+TEST(Tile, PackedIsWithinItsPlaceWhereTheListIsFull) {
+  for (const std::uint32_t in_first_batch : {7U, 8U}) {
+    Tile tile;
+    tile.start({0, 63, 0, 63});
+    (void)tile.next_place();
+    tile.keep_surfaces(in_first_batch);
+    while (tile.end_of_places() < 16384) {
+      (void)tile.next_place();
+      tile.keep_surfaces(8);
+    }
+    EXPECT_GT(tile.bytes(), Tile::most_packed_bytes);
+    tile.pack();
+    EXPECT_LE(tile.bytes(), Tile::most_packed_bytes);
+    text::Bytes saved;
+    tile.save(saved);
+    EXPECT_LE(saved.size(), Tile::most_packed_bytes);
+  }
+}
+
+/// What waits to be drawn takes no memory of a packed tile, where nothing of it came to be seen either.
+TEST(Tile, PackedTwiceHasNoEntries) {
+  Tile tile;
+  tile.start({0, 63, 0, 63});
+  tile.pack();
+  tile.entries().resize(100'000);
+  tile.pack();
+  EXPECT_LE(tile.bytes(), Tile::most_packed_bytes);
+}
+
 TEST(Tile, StartEmptiesIt) {
   TileScene x(testing::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, {{0, 1, 2}}),
               testing::camera_of(64, 64, 1));

@@ -63,11 +63,12 @@ std::span<const std::uint32_t> Tile::numbers_of(std::span<const TileEntry> some)
 }
 
 void Tile::pack() {
-  if (surfaces_.size() == places_) return;  // it was packed before, or is empty
+  entries_ = std::vector<TileEntry>();  // {} would keep its memory
+  // It was packed before, or is empty. The list may also be just full, of any length.
+  if (surfaces_.size() == places_ && places_ <= room + 1) return;
   forget_hidden();
   surfaces_.resize(places_);
   surfaces_.shrink_to_fit();
-  entries_ = {};
 }
 
 std::size_t Tile::bytes() const {
