@@ -127,7 +127,7 @@ std::vector<SomeTriangles> received_triangles(std::vector<Bytes> messages) {
       const auto section = reader.one<Section>();
       add_section(reader, section, of_objects[section.object]);
     }
-    message = {};
+    message = Bytes();  // {} would keep its memory
   }
   std::vector<SomeTriangles> lists;
   for (auto& [object, triangles] : of_objects) {

@@ -267,9 +267,10 @@ void Bins::Lists::sort(bool keep_memory) {
     entries_.clear();
     nearness_.clear();
   } else {
-    entries_ = {};
-    nearness_ = {};
-    next_ = {};
+    // Assigning {} would keep their memory.
+    entries_ = std::vector<std::uint64_t>();
+    nearness_ = std::vector<Nearness>();
+    next_ = std::vector<std::size_t>();
   }
 }
 

@@ -219,13 +219,17 @@ class SomeTiles {
     objects.emplace_back(scene_.objects[0], scene_.meshes[0], frame_.camera, 0U);
     const std::vector<fast::Bins> bins = sort(objects);
     std::vector<float> values(std::size_t{frame_.camera.width} * frame_.camera.height);
-    kept.write([&](std::uint32_t number, fast::TileCoverage& coverage) {
+    const auto write_tile = [&](std::uint32_t number, fast::TileCoverage& coverage) {
       const auto tile = std::make_unique<fast::Tile>();
       tile->start(grid().area(number));
       const fast::Tile::Context context = frame_.context(workers_.local());
       draw_tile(*tile, number, bins, objects, context);
-      coverage.write(*tile, number, context, values.data(), frame_.camera.width);
-    });
+      coverage.write(*tile, number, context, values.data(), {frame_.camera.width});
+    };
+    // In two parts, whose border lies anywhere.
+    const std::uint32_t middle = grid().count() / 2;
+    kept.write(0, middle, write_tile);
+    kept.write(middle, grid().count(), write_tile);
     return values;
   }
 

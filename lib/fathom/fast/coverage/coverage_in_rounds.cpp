@@ -88,7 +88,7 @@ void CoverageInRounds::begin_to_spill() {
   const std::vector<Tiles> buckets = tiles_of_buckets();
   spilled_.emplace(buckets.size());
   for (KeptTriangles& some : kept_) spill(std::exchange(some, {}), buckets, *spilled_);
-  kept_ = {};
+  kept_ = std::vector<KeptTriangles>();  // {} would keep its memory
 }
 
 void CoverageInRounds::spill(const ImageObjects& objects, const std::vector<Bins>& bins,

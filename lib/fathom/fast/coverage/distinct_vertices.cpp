@@ -59,7 +59,7 @@ std::uint32_t DistinctVertices::number_of(const MeshPoint& point) {
 }
 
 std::vector<MeshPoint> DistinctVertices::take() {
-  slots_ = {};
+  slots_ = std::vector<std::uint32_t>();  // {} would keep its memory
   return std::exchange(vertices_, {});
 }
 
