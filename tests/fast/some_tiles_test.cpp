@@ -11,6 +11,7 @@
 #include "fathom/numeric/errors.h"
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
+#include "tests/inputs/adversarial_scenes.h"
 #include "tests/inputs/soup.h"
 
 namespace fathom {
@@ -18,14 +19,24 @@ namespace {
 
 using testing::expect_same_map;
 
-/// Triangles of a scene of one object by their numbers, in ascending order.
-std::vector<SomeTriangles> some_of(const Scene& scene, std::vector<std::uint32_t> numbers) {
-  if (numbers.empty()) return {};
-  const Mesh& whole = scene.meshes[scene.objects[0].mesh];
-  Mesh mesh;
-  mesh.vertices = whole.vertices;
-  for (const std::uint32_t number : numbers) mesh.triangles.push_back(whole.triangles[number]);
-  return {{0, std::move(mesh), 0, std::move(numbers)}};
+/// Triangles of a scene by their numbers, in ascending order: a list for each object that has any.
+std::vector<SomeTriangles> some_of(const Scene& scene, const std::vector<std::uint32_t>& numbers) {
+  std::vector<SomeTriangles> lists;
+  std::uint32_t first = 0, object = 0;
+  auto next = numbers.begin();
+  for (const Object& each : scene.objects) {
+    const Mesh& whole = scene.meshes[each.mesh];
+    const auto end = first + static_cast<std::uint32_t>(whole.triangles.size());
+    SomeTriangles some{object++, {}, 0, {}};
+    some.mesh.vertices = whole.vertices;
+    for (; next != numbers.end() && *next < end; ++next) {
+      some.mesh.triangles.push_back(whole.triangles[*next - first]);
+      some.numbers.push_back(*next);
+    }
+    if (!some.numbers.empty()) lists.push_back(std::move(some));
+    first = end;
+  }
+  return lists;
 }
 
 /// Cuts a list into rounds of this length, in any order.
@@ -70,12 +81,13 @@ struct Plan {
 DepthMap render_in_places(const Scene& scene, const Camera& camera, const RenderOptions& options,
                           const Plan& plan, std::mt19937_64& random) {
   const ImageTiles tiles = tiles_of(camera);
-  std::vector<std::uint32_t> all(scene.meshes[0].triangles.size());
+  std::vector<std::uint32_t> all(TriangleSource(scene).count());
   std::iota(all.begin(), all.end(), 0);
   std::vector<std::uint32_t> place_of(tiles.count());
   for (std::uint32_t& place : place_of) place = static_cast<std::uint32_t>(random() % plan.places);
 
-  DepthMap map = render_fast(Scene{{Mesh{}}, scene.objects, {}}, camera, options);
+  DepthMap map = render_fast(Scene{std::vector<Mesh>(scene.meshes.size()), scene.objects, {}},
+                             camera, options);
   RenderStatistics sum;
   for (std::uint32_t place = 0; place < plan.places; ++place) {
     const WantedTile wanted = [&](std::uint32_t tile) { return place_of[tile] == place; };
@@ -97,8 +109,8 @@ DepthMap render_in_places(const Scene& scene, const Camera& camera, const Render
     for (std::uint32_t tile = 0; tile < tiles.count(); ++tile)
       if (wanted(tile)) own_tiles.push_back(tile);
     drawing.choose(own_tiles);
-    for (auto& round : rounds_of(own, plan.triangles_of_round, random))
-      drawing.draw(drawing.sort(some_of(scene, std::move(round))));
+    for (const auto& round : rounds_of(own, plan.triangles_of_round, random))
+      drawing.draw(drawing.sort(some_of(scene, round)));
     for (std::uint32_t row = 0; row < tiles.rows; row += plan.rows_at_once) {
       const DepthMap rows = drawing.rows(row, std::min(tiles.rows, row + plan.rows_at_once));
       copy_tiles(rows, row * tiles.side, tiles, wanted, map);
@@ -151,6 +163,55 @@ TEST(TilesInRounds, SliversWithAllWaysToCull) {
       options.cull = cull;
       expect_same_map(render_in_places(scene, camera, options, plan, random),
                       render_fast(scene, camera, options));
+    }
+  }
+}
+
+/// Corners behind the eye and beside it: bins, setups and coverage ask exact numbers for triangles whose
+/// numbers in a round are not those in the scene, in every tile.
+TEST(TilesInRounds, TrianglesAroundTheEye) {
+  std::mt19937_64 random(504);
+  for (int i = 0; i < 6 / testing::effort + 1; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i) + " of seed 504");
+    const auto number = [&] { return static_cast<double>(random() % 4097) / 1024 - 2; };
+    Scene scene;
+    for (std::uint32_t object = 0; object < 3; ++object) {
+      std::vector<MeshPoint> vertices;
+      std::vector<CornerIndices> triangles;
+      for (std::uint32_t t = 0; t < 40; ++t) {
+        for (int k = 0; k < 3; ++k) vertices.push_back({number(), number(), number() + 1});
+        triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+      }
+      Scene one = testing::scene_of(std::move(vertices), std::move(triangles));
+      scene.meshes.push_back(std::move(one.meshes[0]));
+      scene.objects.push_back(std::move(one.objects[0]));
+      scene.objects.back().mesh = object;
+    }
+    Camera camera = testing::camera_of(200, 150, 90);
+    if (i % 2 == 1) camera.near = 0.25;
+    RenderOptions options = all_channels();
+    options.cull = i % 3 == 0 ? Cull::none : i % 3 == 1 ? Cull::back : Cull::front;
+    const DepthMap truth = render_fast(scene, camera, options);
+    for (const Plan& plan :
+         {Plan{1, 17, {plenty, plenty}, 1}, Plan{3, 17, {0, 0}, 1}, Plan{2, 50, {0, 1 << 14}, 2}})
+      expect_same_map(render_in_places(scene, camera, options, plan, random), truth);
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(TilesInRounds, Adversaries) {
+  std::mt19937_64 random(505);
+  for (const testing::Family family : testing::all_families) {
+    for (std::uint64_t seed = 0; seed < 30U / testing::effort + 1; ++seed) {
+      SCOPED_TRACE(name_of(family) + ", seed " + std::to_string(seed));
+      const testing::Case c = testing::adversarial_case(family, seed);
+      RenderOptions options = all_channels();
+      if (seed % 4 == 3) options.cull = Cull::back;
+      const DepthMap truth = render_fast(c.scene, c.camera, options);
+      for (const Plan& plan :
+           {Plan{1, 1, {0, 0}, 1}, Plan{1, 3, {plenty, plenty}, 1}, Plan{2, 2, {plenty, 0}, 1}})
+        expect_same_map(render_in_places(c.scene, c.camera, options, plan, random), truth);
+      if (::testing::Test::HasFailure()) return;
     }
   }
 }
