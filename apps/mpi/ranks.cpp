@@ -131,7 +131,9 @@ std::vector<Bytes> Ranks::exchange(std::vector<Bytes> messages, std::size_t most
   }
   MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, sizes_to_come.data(), 1, MPI_UINT64_T,
                MPI_COMM_WORLD);
-  const std::size_t most = std::max<std::size_t>(1, most_in_a_round / ranks);
+  // Places in what goes and comes in a round are ints, too.
+  const std::size_t most =
+      std::max<std::size_t>(1, std::min(most_in_a_round, most_at_once) / ranks);
   const std::size_t rounds = (greatest(longest) + most - 1) / most;
   std::vector<Bytes> received(ranks);
   for (std::size_t rank = 0; rank < ranks; ++rank) received[rank].reserve(sizes_to_come[rank]);
