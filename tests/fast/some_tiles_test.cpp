@@ -216,25 +216,26 @@ TEST(TilesInRounds, Adversaries) {
   }
 }
 
-/// Most triangles are hidden, and surfaces of a tile are forgotten many times.
-TEST(TilesInRounds, ManySurfacesOfOneTile) {
+/// Most triangles are hidden, and surfaces of a tile are forgotten many times; those of a round are more
+/// than there is room for where the tile waits, next to another one.
+TEST(TilesInRounds, ManySurfacesOfATile) {
   std::mt19937_64 random(503);
-  const Camera camera = testing::camera_of(40, 30, 64);
+  const Camera camera = testing::camera_of(128, 30, 64);
   std::vector<MeshPoint> vertices;
   std::vector<CornerIndices> triangles;
   const auto number = [&] { return static_cast<double>(random() % 4096) / 4096; };
-  for (std::uint32_t t = 0; t < 30000 / testing::effort; ++t) {
-    const double u = 40 * number(), v = 30 * number(), z = 1 + 8 * number();
+  for (std::uint32_t t = 0; t < 60000 / testing::effort; ++t) {
+    const double u = 128 * number(), v = 30 * number(), z = 1 + 8 * number();
     for (int k = 0; k < 3; ++k) {
       vertices.push_back(
-          {(u + 4 * number() - 20) / 64 * z, (v + 4 * number() - 15) / 64 * z, z + number() / 8});
+          {(u + 4 * number() - 64) / 64 * z, (v + 4 * number() - 15) / 64 * z, z + number() / 8});
     }
     triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   }
   const Scene scene = testing::scene_of(std::move(vertices), std::move(triangles));
   RenderOptions options;
   options.channels = {Channel::Z, Channel::id};
-  for (const std::size_t length : {100U, 7000U}) {
+  for (const std::size_t length : {300U, 14000U}) {
     const Plan plan{1, length, {0, 0}, 1};
     expect_same_map(render_in_places(scene, camera, options, plan, random),
                     render_fast(scene, camera, options));
