@@ -25,7 +25,9 @@ RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>
                           bool keeps_triangles) {
   const std::uint64_t share =
       memory_allowance().bytes / static_cast<std::uint64_t>(ranks.count_on_this_machine());
-  const std::uint64_t allowed = std::max(bytes.value_or(share / 4 * 3), least_rank_memory);
+  // How much is sent at a time, and how many rows, is the same in all ranks.
+  const std::uint64_t allowed =
+      ranks.least(std::max(bytes.value_or(share / 4 * 3), least_rank_memory));
   const std::uint64_t left = allowed - program_bytes;
   constexpr std::uint64_t most_triangles = std::uint64_t{1} << 24, least_triangles = 4096;
   // All others may have all of a round for one rank.

@@ -24,8 +24,10 @@ struct RankMemory {
 /// The least that can be asked for.
 inline constexpr std::uint64_t least_rank_memory = std::uint64_t{128} << 20;
 
-/// `bytes`: as asked for; else an equal share of what this machine, its control group or --max-memory
-/// allows, of which a quarter stays free. `keeps_triangles`: for channel A. The map does not depend on it.
+/// The same for all ranks, which call it. The map does not depend on it.
+/// `bytes`            as asked for; else, of the least that a rank has, three quarters of an equal share
+///                    of what its machine, its control group or --max-memory allows
+/// `keeps_triangles`  for channel A
 RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>& bytes,
                           bool keeps_triangles);
 

@@ -6,7 +6,7 @@ import struct
 
 import pytest
 
-from mpi_runs import channels, combinations, expect_same_for, mpi_program, mpirun, run, said
+from mpi_runs import channels, combinations, expect_same_for, mpi_program, mpirun, render_alone, run, said
 
 
 def write_sphere(path, rings, times=1):
@@ -54,6 +54,17 @@ def test_tiles_that_wait_do_not_show(tmp_path):
     write_sphere(tmp_path / "mesh.stl", 150)
     expect_same_for((2, "load"), tmp_path, tmp_path / "mesh.stl", "--size", "4096x4096", "--channels", "Z,A,id",
                     of_ranks=["--memory", "128M"])
+
+
+def test_ranks_that_have_different_memory(tmp_path):
+    # One of them would take its part at once, the other in rounds.
+    write_scattered(tmp_path / "mesh.stl", 160_000)
+    arguments = [tmp_path / "mesh.stl", "--size", "300x200", "--channels", "Z,id", "--quiet"]
+    render_alone(*arguments, "-o", tmp_path / "one.exr")
+    command = [mpi_program, "render", *arguments, "--threads", 1, "-o", tmp_path / "several.exr"]
+    outcome = run([*mpirun, "-n", 1, *command, ":", "-n", 1, "bash", "-c", 'ulimit -v 450000; exec "$@"', "bash", *command])
+    assert outcome.returncode == 0, outcome.stderr
+    assert (tmp_path / "one.exr").read_bytes() == (tmp_path / "several.exr").read_bytes()
 
 
 def peak_memory(folder, *options):
