@@ -199,6 +199,41 @@ TEST(TilesInRounds, TrianglesAroundTheEye) {
   }
 }
 
+/// Where coordinates cancel, coverage is settled by exact corners, which each object places its own way:
+/// the triangle that says which object it is has another number in a round.
+TEST(TilesInRounds, PlacedObjects) {
+  std::mt19937_64 random(506);
+  const Camera camera = testing::camera_of(160, 140, 64);
+  const auto number = [&] { return static_cast<double>(random() % 4096) / 4096; };
+  Scene scene;
+  for (std::uint32_t object = 0; object < 3; ++object) {
+    const double moved_by = object * 0x1p26;
+    std::vector<MeshPoint> vertices;
+    std::vector<CornerIndices> triangles;
+    for (std::uint32_t t = 0; t < 100; ++t) {
+      const double x = 2 * number() - 1, y = 2 * number() - 1, z = 1 + number();
+      for (int k = 0; k < 3; ++k)
+        vertices.push_back({x + number() / 4 - moved_by, y + number() / 4, z});
+      triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+    Scene one = testing::scene_of(std::move(vertices), std::move(triangles));
+    scene.meshes.push_back(std::move(one.meshes[0]));
+    Object placed = one.objects[0];
+    placed.mesh = object;
+    placed.placed_as_is = false;
+    placed.world_from_mesh.rows[0] = {1, 0, 0, moved_by};
+    scene.objects.push_back(placed);
+  }
+  RenderOptions options = all_channels();
+  RenderStatistics statistics;
+  options.statistics = &statistics;
+  const DepthMap truth = render_fast(scene, camera, options);
+  EXPECT_GT(statistics.areas_with_exact_ends, 100U);
+  options.statistics = nullptr;
+  for (const Plan& plan : plans)
+    expect_same_map(render_in_places(scene, camera, options, plan, random), truth);
+}
+
 TEST(TilesInRounds, Adversaries) {
   std::mt19937_64 random(505);
   for (const testing::Family family : testing::all_families) {
