@@ -5,14 +5,13 @@
 #include <bit>
 #include <exception>
 #include <filesystem>
-#include <iterator>
 #include <limits>
 #include <utility>
 
 #include "apps/mpi/banded_exr.h"
 #include "apps/mpi/image_rows.h"
+#include "apps/mpi/tiles_together.h"
 #include "apps/mpi/together.h"
-#include "apps/mpi/triangle_messages.h"
 #include "apps/mpi/waiting_chunks.h"
 #include "apps/options/channel_list.h"
 #include "apps/render/map_additions.h"
@@ -23,10 +22,8 @@
 #include "fathom/image/png_sidecar.h"
 #include "fathom/render.h"
 
-// How to read this file: MapTogether::make() is the whole story. Each rank has a part of the
-// triangles and takes it in rounds. It finds the tiles of the image that they may touch, draws its
-// own tiles, and sends the triangles that touch others to the ranks that draw these (sort-middle
-// [MCEF94]). When all is drawn, pixels go to the ranks that compress bands of rows, some rows at a
+// How to read this file: MapTogether::make() is the whole story. The ranks draw the tiles of the image
+// together (tiles_together.h). Then pixels go to the ranks that compress bands of rows, some rows at a
 // time, and from there to the file.
 //
 // Whatever is said to other ranks is said between calls of together(), within which a rank works by
@@ -46,25 +43,12 @@ class MapTogether {
         traffic_(traffic),
         report_(report),
         tiles_(tiles_of(camera)),
-        triangles_(job.scene.triangles()),
-        own_(job.scene.part_of(job.ranks)),
+        drawing_(job, camera, traffic),
         chunks_(job.memory.chunk_bytes) {}
 
   void make(const std::function<void(double)>& progress) {
-    progress_ = progress;
     Stopwatch stopwatch;
-    together(ranks_, [&] {
-      drawing_.emplace(triangles_, camera_, job_.plan.rendering,
-                       TilesInRounds::Limits{.tile_bytes = job_.memory.tile_bytes,
-                                             .kept_bytes = job_.memory.kept_bytes});
-    });
-    if (ranks_.greatest(own_.count()) <= job_.memory.triangles_at_once) {
-      draw_at_once();
-    } else {
-      deal_out_by_sample();
-      draw_in_rounds();
-    }
-    together(ranks_, [&] { draw_received(); });
+    drawing_.draw(progress);
     report_.seconds.render = stopwatch.lap();
     write();
     report_.seconds.write = stopwatch.lap() - report_.seconds.depth_format - report_.seconds.verify;
@@ -72,120 +56,6 @@ class MapTogether {
   }
 
  private:
-  [[nodiscard]] bool is_own(std::uint32_t tile) const { return owners_[tile] == ranks_.self(); }
-  [[nodiscard]] auto own_tiles() const {
-    return [this](std::uint32_t tile) { return is_own(tile); };
-  }
-  [[nodiscard]] auto tiles_of_others() const {
-    return [this](std::uint32_t tile) { return !is_own(tile); };
-  }
-
-  /// Drawing takes most of the time, and writing the rest: a tenth, say.
-  void report(double share_of_drawing) const {
-    if (progress_) progress_(0.9 * share_of_drawing);
-  }
-
-  // Drawing.
-
-  void draw_at_once() {
-    std::vector<std::uint64_t> counts(tiles_.count(), 0);
-    SortedTriangles sorted;
-    together(ranks_, [&] {
-      sorted = drawing_->sort(job_.scene.read(own_));
-      sorted.count(counts);
-    });
-    deal_out_tiles(std::move(counts));
-    together(ranks_, [&] {
-      draw_read(sorted);
-      sorted = {};
-    });
-    exchange();
-  }
-
-  /// By as many triangles as a round has, taken all over the part; each stands for those around it.
-  void deal_out_by_sample() {
-    constexpr std::uint64_t places = 64;
-    std::vector<std::uint64_t> counts(tiles_.count(), 0);
-    const std::uint64_t length = std::max<std::uint64_t>(1, job_.memory.triangles_at_once / places);
-    std::uint64_t taken = 0;
-    together(ranks_, [&] {
-      std::vector<SomeTriangles> sample;
-      for (std::uint64_t place = 0; place < places; ++place) {
-        const TriangleRange some = own_.part(own_.count() * place / places, length);
-        std::ranges::move(job_.scene.read(some), std::back_inserter(sample));
-        taken += some.count();
-      }
-      drawing_->sort_again(std::move(sample)).count(counts);
-    });
-    if (taken != 0)
-      for (std::uint64_t& count : counts) count = count * own_.count() / taken;
-    deal_out_tiles(std::move(counts));
-  }
-
-  void deal_out_tiles(std::vector<std::uint64_t> triangles) {
-    ranks_.add_up(triangles);
-    owners_ = owners_of_tiles(job_.arguments.partition, tiles_.columns, tiles_.rows, triangles,
-                              ranks_.count());
-    std::vector<std::uint32_t> own;
-    for (std::uint32_t tile = 0; tile < owners_.size(); ++tile)
-      if (is_own(tile)) own.push_back(tile);
-    together(ranks_, [&] { drawing_->choose(std::move(own)); });
-  }
-
-  /// Ranks wait for each other after several rounds of each, so that a round that takes long in one of
-  /// them is made up for; after fewer, where many triangles are for others.
-  void draw_in_rounds() {
-    constexpr int most_rounds = 128;
-    const std::uint64_t at_once = job_.memory.triangles_at_once;
-    std::uint64_t next = 0, left = 0;
-    do {
-      together(ranks_, [&] {
-        draw_received();
-        for (int i = 0; i < most_rounds && next < own_.count() && !has_much_to_send(); ++i) {
-          draw_read(drawing_->sort(job_.scene.read(own_.part(next, at_once))));
-          next = std::min(next + at_once, own_.count());
-        }
-      });
-      exchange();
-      left = ranks_.greatest(own_.count() - next);
-      report(1 - static_cast<double>(left) / static_cast<double>(own_.count() + 1));
-    } while (left != 0);
-  }
-
-  /// Each rank gets as much from all others together as one of them may send.
-  [[nodiscard]] bool has_much_to_send() const {
-    const std::size_t most = job_.memory.message_bytes / static_cast<std::size_t>(ranks_.count());
-    return std::ranges::any_of(messages_, [&](const auto& each) { return each.size() >= most; });
-  }
-
-  /// What touches tiles of other ranks is for them.
-  void draw_read(const SortedTriangles& sorted) {
-    messages_.resize(static_cast<std::size_t>(ranks_.count()));
-    if (ranks_.count() > 1) {
-      const std::vector<text::Bytes> more = messages_of(
-          sorted.triangles(), sorted.touches(tiles_of_others()), owners_, ranks_.count());
-      for (std::size_t i = 0; i < more.size(); ++i) append(messages_[i], more[i]);
-    }
-    draw(sorted);
-  }
-
-  void exchange() {
-    messages_.resize(static_cast<std::size_t>(ranks_.count()));
-    traffic_.of_triangles.add(messages_, ranks_.self());
-    messages_ = ranks_.exchange(std::move(messages_), job_.memory.message_bytes);
-  }
-
-  void draw_received() {
-    draw(drawing_->sort_again(received_triangles(std::exchange(messages_, {}))));
-  }
-
-  void draw(const SortedTriangles& sorted) {
-    Stopwatch stopwatch;
-    drawing_->draw(sorted);
-    traffic_.drawing += stopwatch.lap();
-    if (!job_.arguments.traffic.empty()) traffic_.drawn += sorted.count_triangles(own_tiles());
-  }
-
   void sum_up() {
     traffic_.triangles = job_.scene.first_numbers().back();
     traffic_.most_drawn = traffic_.drawn;
@@ -196,7 +66,7 @@ class MapTogether {
   /// What each rank has counted, but for the triangles of the scene, which all know.
   void sum_up_statistics() {
     using Counts = std::array<std::uint64_t, sizeof(RenderStatistics) / sizeof(std::uint64_t)>;
-    auto counts = std::bit_cast<Counts>(drawing_->statistics());
+    auto counts = std::bit_cast<Counts>(drawing_.statistics());
     ranks_.add_up(counts);
     report_.statistics = std::bit_cast<RenderStatistics>(counts);
     report_.statistics.triangles = job_.scene.first_numbers().back();
@@ -256,13 +126,8 @@ class MapTogether {
     const std::uint32_t at_once = rows_at_once();
     for (std::uint32_t from = 0; from < most; from += at_once) {
       const std::vector<TileRows> rows = parts_of(bands_, from, at_once);
-      const DrawnTiles where{tiles_, camera_.width, camera_.height, owners_};
-      const RowsDrawn drawn = [&](const TileRows& some) {
-        Stopwatch stopwatch;
-        DepthMap map = drawing_->rows(some.first, some.end);
-        traffic_.drawing += stopwatch.lap();
-        return map;
-      };
+      const DrawnTiles where{tiles_, camera_.width, camera_.height, drawing_.owners()};
+      const RowsDrawn drawn = [&](const TileRows& some) { return drawing_.rows(some); };
       std::vector<text::Bytes> messages;
       together(ranks_, [&] { messages = pixels_for_others(ranks_, where, rows, drawn); });
       traffic_.of_pixels.add(messages, ranks_.self());
@@ -289,9 +154,10 @@ class MapTogether {
     const std::string& name = traffic_.map;
     describe(map_);
     const auto render_again = [&](const RenderOptions& o) { (void)job_.scene.render(camera_, o); };
-    add_planned(map_, plan, name,
-                {job_.scene.outline(), triangles_, camera_, plan.rendering, render_again}, report_,
-                job_.console);
+    add_planned(
+        map_, plan, name,
+        {job_.scene.outline(), job_.scene.triangles(), camera_, plan.rendering, render_again},
+        report_, job_.console);
     map_ = dressed(std::move(map_));
     outputs_->map(number_).write(
         [&](const auto& path) { write_map(map_, path, plan.format, plan.writing); });
@@ -333,15 +199,7 @@ class MapTogether {
   MapTraffic& traffic_;
   MapReport& report_;
   ImageTiles tiles_;
-  TriangleSource triangles_;
-  /// What this rank reads.
-  TriangleRange own_;
-  std::function<void(double)> progress_;
-  std::optional<TilesInRounds> drawing_;
-  /// The rank of each tile.
-  std::vector<int> owners_;
-  /// Triangles for each rank, then from each rank.
-  std::vector<text::Bytes> messages_;
+  TilesTogether drawing_;
   /// Of an EXR that is written in bands.
   std::optional<std::uint32_t> rows_of_chunk_;
   std::vector<TileRows> bands_;

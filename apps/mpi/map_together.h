@@ -4,27 +4,12 @@
 #include <memory>
 #include <optional>
 
-#include "apps/mpi/mpi_arguments.h"
-#include "apps/mpi/rank_memory.h"
-#include "apps/mpi/ranks.h"
-#include "apps/mpi/shared_scene.h"
+#include "apps/mpi/job_together.h"
 #include "apps/mpi/traffic.h"
 #include "apps/render/render_outputs.h"
-#include "apps/render/render_plan.h"
 #include "apps/render/render_report.h"
-#include "apps/shell/console.h"
 
 namespace fathom::app {
-
-/// What a run is asked for, and what all its maps are made from.
-struct JobTogether {
-  const MpiArguments& arguments;
-  const Ranks& ranks;
-  const Console& console;
-  const MapPlan& plan;
-  const SharedScene& scene;
-  const RankMemory& memory;
-};
 
 /// How many rows a chunk has, of a map that is put together from bands of rows; nullopt where all rows go to
 /// the first rank.

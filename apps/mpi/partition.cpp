@@ -9,7 +9,7 @@ namespace {
 
 /// What a tile costs, in triangles, even where it meets none. A guess: how the work is balanced
 /// depends on it, nothing else does.
-constexpr std::uint64_t cost_of_pixels = 64;
+constexpr std::uint64_t cost_of_pixels = 256;
 
 /// The rank in whose part of `whole` the middle of an interval lies.
 int rank_at(std::uint64_t before, std::uint64_t cost, std::uint64_t whole, int ranks) {

@@ -35,8 +35,8 @@ RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>
   const std::uint64_t from_all = std::max(least_triangles, left / 8 / bytes_sent / others);
   return {.triangles_at_once = static_cast<std::uint32_t>(
               std::min({most_triangles, left / 4 / bytes_per_triangle, from_all})),
-          .tile_bytes = keeps_triangles ? left / 4 : left / 2,
-          .kept_bytes = keeps_triangles ? left / 4 : 0,
+          .tile_bytes = keeps_triangles ? left / 16 * 5 : left / 8 * 5,
+          .kept_bytes = keeps_triangles ? left / 16 * 5 : 0,
           .row_bytes = left / 16,
           .chunk_bytes = left / 16,
           .message_bytes = static_cast<std::size_t>(left / 16)};

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "apps/mpi/image_rows.h"
+#include "apps/mpi/job_together.h"
+#include "apps/mpi/traffic.h"
+#include "fathom/fast/some_tiles.h"
+#include "fathom/text/file_bytes.h"
+
+namespace fathom::app {
+
+/// The tiles of an image, drawn by all ranks: each has some of them.
+class TilesTogether {
+ public:
+  /// `traffic` gets what is sent, and how long this rank draws. All of these outlive it.
+  TilesTogether(const JobTogether& job, const Camera& camera, MapTraffic& traffic);
+
+  /// Draws the scene. Called by all ranks.
+  void draw(const std::function<void(double)>& progress);
+  /// The rank of each tile.
+  [[nodiscard]] const std::vector<int>& owners() const { return owners_; }
+  /// The map of some rows of tiles, with values where this rank has drawn. Each is asked for once.
+  DepthMap rows(const TileRows& rows);
+  /// What this rank has counted.
+  [[nodiscard]] RenderStatistics statistics() const { return drawing_->statistics(); }
+
+ private:
+  void draw_at_once();
+  void deal_out_by_sample();
+  void deal_out_tiles(std::vector<std::uint64_t> triangles);
+  void draw_in_rounds(const std::function<void(double)>& progress);
+
+  [[nodiscard]] bool is_own(std::uint32_t tile) const;
+  [[nodiscard]] bool has_much_to_send() const;
+  void draw_read(const SortedTriangles& sorted);
+  void exchange();
+  void draw_received();
+  void draw(const SortedTriangles& sorted);
+
+  const JobTogether& job_;
+  const Ranks& ranks_;
+  const Camera& camera_;
+  MapTraffic& traffic_;
+  TriangleSource triangles_;
+  /// What this rank reads.
+  TriangleRange own_;
+  std::optional<TilesInRounds> drawing_;
+  std::vector<int> owners_;
+  /// Triangles for each rank, then from each rank.
+  std::vector<text::Bytes> messages_;
+};
+
+}  // namespace fathom::app
