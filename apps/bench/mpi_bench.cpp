@@ -81,7 +81,7 @@ int run(MpiBenchArguments arguments, const Console& console) {
 
   const std::uint64_t before = taken().microseconds;
   Stopwatch stopwatch;
-  const int status = render_scene_together(rendering, std::move(*scene), cameras, console);
+  const int status = render_scene_together(rendering, *scene, cameras, console);
   const double seconds = stopwatch.lap();
   const std::uint64_t processor = ranks.greatest(taken().microseconds - before);
   const std::uint64_t memory = ranks.greatest(taken().memory);

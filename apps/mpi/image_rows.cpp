@@ -72,6 +72,7 @@ std::vector<TileRows> equal_bands(std::uint32_t rows, int ranks) {
     return static_cast<std::uint32_t>((share + count - 1) / count);
   };
   std::vector<TileRows> bands;
+  bands.reserve(static_cast<std::size_t>(ranks));
   for (int rank = 0; rank < ranks; ++rank) bands.push_back({first_of(rank), first_of(rank + 1)});
   return bands;
 }

@@ -35,7 +35,7 @@ Descriptor open_unnamed(const fs::path& folder) {
 fs::path folder_or_default(fs::path folder) {
   if (!folder.empty()) return folder;
   std::error_code error;
-  const fs::path given = fs::temp_directory_path(error);
+  fs::path given = fs::temp_directory_path(error);
   if (error) throw OutputError("TMPDIR: expected a folder: " + error.message());
   return given;
 }
