@@ -23,6 +23,7 @@
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/stopwatch.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/text/parse_json.h"
 
 namespace fathom::app {
 namespace {
@@ -54,7 +55,9 @@ Json sent(const std::string& traffic_file) {
   std::ifstream file(traffic_file);
   std::string line;
   if (!std::getline(file, line)) throw InputError(traffic_file + ": cannot be read");
-  Json sent = Json::parse(line)["sent"];
+  Json told;
+  text::parse_json(line, told);
+  Json sent = told["sent"];
   std::uint64_t messages = 0, bytes = 0;
   for (const Json& kind : sent) {
     messages += kind["messages"].get<std::uint64_t>();
