@@ -1,7 +1,7 @@
 #include "apps/bench/mpi_bench_arguments.h"
 
 #include "apps/options/channel_list.h"
-#include "fathom/numeric/errors.h"
+#include "apps/options/scene_options.h"
 
 namespace fathom::app {
 namespace {
@@ -10,12 +10,6 @@ bench::GeneratedKind parse_kind(const std::string& text) {
   using bench::GeneratedKind;
   return parse_word<GeneratedKind>(
       text, {{"terrain", GeneratedKind::terrain}, {"soup", GeneratedKind::soup}});
-}
-
-int parse_thread_count(const std::string& text) {
-  const std::uint32_t count = parse_positive(text);
-  if (count > 1024) throw UsageError("'" + text + "' is more than 1024");
-  return static_cast<int>(count);
 }
 
 }  // namespace

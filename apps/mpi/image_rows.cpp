@@ -5,8 +5,6 @@
 #include <utility>
 #include <variant>
 
-#include "apps/mpi/tile_rows.h"
-
 namespace fathom::app {
 using namespace text;
 
@@ -32,6 +30,18 @@ ImageChannel channel_like(const ImageChannel& other, std::size_t pixels) {
         return ImageChannel{other.name, Samples<T>(pixels)};
       },
       other.values);
+}
+
+/// Calls visit(row, left, columns) for each row of pixels of a tile, from the top, in an image of
+/// width × height pixels: `columns` of them from `left` on.
+template <class Visit>
+void for_each_row_of_tile(const ImageTiles& tiles, std::uint32_t tile, std::uint32_t width,
+                          std::uint32_t height, const Visit& visit) {
+  const std::uint32_t left = tile % tiles.columns * tiles.side;
+  const std::uint32_t top = tile / tiles.columns * tiles.side;
+  const std::uint32_t columns = std::min(tiles.side, width - left);
+  const std::uint32_t rows = std::min(tiles.side, height - top);
+  for (std::uint32_t row = top; row - top < rows; ++row) visit(row, left, columns);
 }
 
 /// Calls visit(where its pixels are, how many bytes they take) for each row of each channel of a tile,

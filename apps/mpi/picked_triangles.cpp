@@ -6,8 +6,6 @@ Mesh TrianglePicker::picked(std::span<const std::uint32_t> triangles) {
   if (places_.empty()) places_.assign(mesh_.vertices.size(), no_index);
   Mesh result;
   result.triangles.reserve(triangles.size());
-  result.face_of_triangle.reserve(triangles.size());
-  result.face_count = mesh_.face_count;
   std::vector<std::uint32_t> used;
   for (const std::uint32_t number : triangles) {
     CornerIndices corners{};
@@ -21,7 +19,6 @@ Mesh TrianglePicker::picked(std::span<const std::uint32_t> triangles) {
       corners[i] = place;
     }
     result.triangles.push_back(corners);
-    result.face_of_triangle.push_back(mesh_.face_of(number));
   }
   result.vertices.reserve(used.size());
   for (const std::uint32_t vertex : used) {

@@ -13,8 +13,8 @@ namespace fathom::app {
 class TrianglePicker {
  public:
   explicit TrianglePicker(const Mesh& mesh) : mesh_(mesh) {}
-  /// A mesh of these triangles, in this order, with the vertices that they have and the numbers of
-  /// their faces; of attributes and segments nothing.
+  /// A mesh of these triangles, in this order, with the vertices that they have; of faces, attributes
+  /// and segments nothing.
   [[nodiscard]] Mesh picked(std::span<const std::uint32_t> triangles);
 
  private:

@@ -85,9 +85,14 @@ MpiSession::~MpiSession() {
 Ranks::Ranks() {
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
   MPI_Comm_rank(MPI_COMM_WORLD, &self_);
+}
+
+int Ranks::count_on_this_machine() const {
   MPI_Comm machine = ranks_on_this_machine();
-  MPI_Comm_size(machine, &count_here_);
+  int count = 1;
+  MPI_Comm_size(machine, &count);
   MPI_Comm_free(&machine);
+  return count;
 }
 
 std::uint64_t Ranks::least(std::uint64_t value) const {

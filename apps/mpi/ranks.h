@@ -30,11 +30,11 @@ class Ranks {
 
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] int self() const { return self_; }
-  /// How many of them share the memory of this machine.
-  [[nodiscard]] int count_on_this_machine() const { return count_here_; }
   /// The first of them reads standard input, answers and writes files.
   [[nodiscard]] bool is_first() const { return self_ == 0; }
 
+  /// How many of them share the memory of this machine.
+  [[nodiscard]] int count_on_this_machine() const;
   [[nodiscard]] std::uint64_t least(std::uint64_t value) const;
   [[nodiscard]] std::uint64_t greatest(std::uint64_t value) const;
   [[nodiscard]] std::uint64_t sum(std::uint64_t value) const;
@@ -59,7 +59,7 @@ class Ranks {
   [[noreturn]] void abort(int status) const;
 
  private:
-  int count_ = 1, self_ = 0, count_here_ = 1;
+  int count_ = 1, self_ = 0;
 };
 
 }  // namespace fathom::app

@@ -8,15 +8,12 @@
 #include "fathom/scene/read_scene.h"
 
 namespace fathom::app {
-namespace {
 
-int parse_threads(const std::string& text) {
+int parse_thread_count(const std::string& text) {
   const std::uint32_t count = parse_count(text);
   if (count > 1024) throw UsageError("'" + text + "' is more than 1024");
   return static_cast<int>(count);
 }
-
-}  // namespace
 
 MeshFormat parse_mesh_format(const std::string& text) {
   return parse_word<MeshFormat>(text, {{"obj", MeshFormat::obj},
@@ -40,7 +37,7 @@ void SceneOptions::add_to(Command& command) {
 void SceneOptions::add_reading_to(Command& command) {
   command.option("--mesh-format", "NAME", into(mesh_format, parse_mesh_format),
                  "Format of the meshes: obj, ply, stl, off, gltf or glb (default: by content)");
-  command.option("--threads", "N", into(threads, parse_threads), "Threads to use (default 0: all)");
+  command.option("--threads", "N", into(threads, parse_thread_count), "Threads to use (default 0: all)");
   limits.add_to(command);
 }
 

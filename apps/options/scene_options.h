@@ -13,6 +13,8 @@ namespace fathom::app {
 
 /// "obj", "ply", … ; fails with UsageError.
 MeshFormat parse_mesh_format(const std::string& text);
+/// A number of threads, at most 1024; 0: all.
+int parse_thread_count(const std::string& text);
 
 /// `SCENE… --mesh-format --threads …`: what every command that reads a scene takes.
 struct SceneOptions {

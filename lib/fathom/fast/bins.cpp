@@ -274,4 +274,8 @@ void Bins::Lists::sort(bool keep_memory) {
   }
 }
 
+bool is_met(const std::vector<Bins>& bins, std::uint32_t tile) {
+  return std::ranges::any_of(bins, [&](const Bins& part) { return !part.is_empty(tile); });
+}
+
 }  // namespace fathom::fast

@@ -153,4 +153,7 @@ class Bins {
   std::array<Lists, 2> lists_;
 };
 
+/// Whether any of these triangles may be visible in a tile, or meets it.
+bool is_met(const std::vector<Bins>& bins, std::uint32_t tile);
+
 }  // namespace fathom::fast

@@ -1,6 +1,6 @@
 #include "fathom/fast/render_fast.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/frame.h"
@@ -57,8 +57,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   FirstFault fault;
   Progress progress(options.progress, frame.grid.count());
   parallel_for(std::uint32_t{0}, frame.grid.count(), [&](std::uint32_t number) {
-    const auto is_empty = [&](const Bins& part) { return part.is_empty(number); };
-    if (std::all_of(bins.begin(), bins.end(), is_empty)) {
+    if (!is_met(bins, number)) {
       output.write_background(frame.grid.area(number), layout);
     } else {
       const Tile::Context context = frame.context(workers.local());

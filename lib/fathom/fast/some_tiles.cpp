@@ -39,10 +39,6 @@ void for_each_list(const std::vector<Bins>& bins, std::uint32_t tile, const Visi
     for (const Side side : {Side::front, Side::back}) visit(part.in_tile(tile, side));
 }
 
-bool is_met(const std::vector<Bins>& bins, std::uint32_t tile) {
-  return std::ranges::any_of(bins, [&](const Bins& part) { return !part.is_empty(tile); });
-}
-
 /// Parts of a round, enough for threads to share them out. Each has a table of all tiles, which takes
 /// longer to fill than the triangles of a round where an image is large.
 std::uint32_t parts_of_round(const RenderOptions& options) {

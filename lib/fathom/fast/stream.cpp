@@ -27,11 +27,6 @@ namespace {
 
 constexpr std::uint32_t parts_of_chunk = 8;
 
-/// Whether a triangle may be visible in the tile.
-bool is_met(std::uint32_t number, const std::vector<Bins>& bins) {
-  return std::any_of(bins.begin(), bins.end(), [&](const Bins& b) { return !b.is_empty(number); });
-}
-
 /// Rows of tiles [first_row, end_row); a tile exists from the first triangle on that may be visible
 /// in it.
 class Band {
@@ -60,7 +55,7 @@ class Band {
     for (std::uint32_t row = first_row_; row < end_row_; ++row) {
       for (std::uint32_t column = 0; column < grid_.columns; ++column) {
         const std::uint32_t number = row * grid_.columns + column;
-        if (at(number) || is_met(number, bins)) ++needed;
+        if (at(number) || is_met(bins, number)) ++needed;
       }
       if (needed <= most_tiles_ || row == first_row_) continue;
       end_row_ = row;
@@ -71,7 +66,7 @@ class Band {
   void draw(const std::vector<Bins>& bins, const ImageObjects& objects, const FastFrame& frame,
             FastWorkers& workers) {
     parallel_for(first(), end(), [&](std::uint32_t number) {
-      if (!is_met(number, bins)) return;
+      if (!is_met(bins, number)) return;
       auto& tile = at(number);
       if (!tile) {
         tile = std::make_unique_for_overwrite<Tile>();
@@ -115,7 +110,7 @@ class RowsOfParts {
   void note(std::uint32_t first_number, const std::vector<Bins>& bins, const TileGrid& grid) {
     Rows rows{grid.rows, 0};
     for (std::uint32_t number = 0; number < grid.count(); ++number) {
-      if (!is_met(number, bins)) continue;
+      if (!is_met(bins, number)) continue;
       rows.first = std::min(rows.first, number / grid.columns);
       rows.last = number / grid.columns;
     }
