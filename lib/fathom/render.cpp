@@ -62,14 +62,14 @@ std::vector<std::uint32_t> ids_of(const std::vector<std::string>& names) {
   return ids;
 }
 
-Mattes mattes_by_object(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+Mattes mattes_by_object(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                        const RowShare& share) {
   std::vector<std::string> names;
   for (const Object& object : scene.objects) names.push_back(object.name);
   const std::vector<std::uint32_t> ids = ids_of(names);
   const TriangleSource triangles(scene);
-  Mattes mattes = mattes_in_pixels(triangles, camera, options, [&](std::uint32_t number) {
-    return ids[triangles.origin(number).object];
-  });
+  const auto matte_of = [&](std::uint32_t number) { return ids[triangles.origin(number).object]; };
+  Mattes mattes = mattes_in_pixels(triangles, camera, options, matte_of, share);
   mattes.layer = "CryptoObject";
   mattes.names = std::move(names);
   return mattes;
@@ -83,17 +83,18 @@ std::string layer_of(Segmentation by) {
 
 /// Triangles that belong to no segment have the empty name, which is listed where one is visible.
 Mattes mattes_by_segment(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                         Segmentation by) {
+                         Segmentation by, const RowShare& share) {
   const TriangleSource triangles(scene);
   const SceneSegments segments(triangles, {by});
   const std::vector<std::uint32_t> ids = ids_of(segments.names(by));
   std::atomic<bool> some_without_name = false;
-  Mattes mattes = mattes_in_pixels(triangles, camera, options, [&](std::uint32_t number) {
+  const auto matte_of = [&](std::uint32_t number) {
     const std::uint32_t segment = segments.number(by, triangles.origin(number));
     if (segment != unsegmented) return ids[segment];
     some_without_name = true;
     return cryptomatte_id("");
-  });
+  };
+  Mattes mattes = mattes_in_pixels(triangles, camera, options, matte_of, share);
   mattes.layer = layer_of(by);
   mattes.names = segments.names(by);
   if (some_without_name) mattes.names.emplace_back();
@@ -140,11 +141,12 @@ DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOp
   return map;
 }
 
-DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                    const RowShare& share) {
   const StandardArithmetic standard;
   require_thread_count(options.threads);
   require_renderable(scene, camera);
-  DeepMap map = visible_in_pixels(scene, camera, options);
+  DeepMap map = visible_in_pixels(scene, camera, options, share);
   describe(scene, camera, options, map.description);
   map.description.texts.erase("fathom.engine");
   return map;
@@ -152,14 +154,19 @@ DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOption
 
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
                      const RenderOptions& options, std::optional<Segmentation> by) {
+  // A map that is yet to get its channels is of the size that its areas are computed for.
+  if (!map.channels.empty()) require_map_of(camera, map);
+  add_mattes(map, find_mattes(scene, camera, options, by));
+}
+
+Mattes find_mattes(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                   std::optional<Segmentation> by, const RowShare& share) {
   const StandardArithmetic standard;
   if (by == Segmentation::label) throw UsageError("labels have no names, which Cryptomatte needs");
   require_thread_count(options.threads);
-  // A map that is yet to get its channels is of the size that its areas are computed for.
-  if (!map.channels.empty()) require_map_of(camera, map);
   require_renderable(scene, camera);
-  add_mattes(map, by ? mattes_by_segment(scene, camera, options, *by)
-                     : mattes_by_object(scene, camera, options));
+  return by ? mattes_by_segment(scene, camera, options, *by, share)
+            : mattes_by_object(scene, camera, options, share);
 }
 
 }  // namespace fathom

@@ -5,8 +5,10 @@
 #include "fathom/camera/camera.h"
 #include "fathom/fast/render_memory.h"
 #include "fathom/fast/stream.h"
+#include "fathom/image/cryptomatte.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/image/row_share.h"
 #include "fathom/mesh/segmentation.h"
 #include "fathom/scene/scene.h"
 #include "fathom/scene/streamed_scene.h"
@@ -43,9 +45,11 @@ void finish_map(DepthMap& map, const Scene& scene, const Camera& camera,
                 const RenderOptions& options, const RenderStatistics& statistics);
 
 /// The visible fragments of every pixel with their exact areas (specification, section 8). Of the
-/// options culling, threads and progress count.
+/// options culling, threads and progress count. Pixels of other rows than those of the share have no
+/// samples.
 /// Fails    InputError and UsageError as render().
-DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
+DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options = {},
+                    const RowShare& share = {});
 
 /// Adds Cryptomatte channels by object, CryptoObject00.R and so on, with the exact visible area of
 /// each object in each pixel rounded once; or by material, group or part, as CryptoMaterial00.R and
@@ -56,5 +60,11 @@ DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOption
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
                      const RenderOptions& options = {},
                      std::optional<Segmentation> by = std::nullopt);
+
+/// What it adds; pixels of other rows than those of the share show nothing. The names are those of all
+/// segments, and the empty one, last, where such a pixel shows a triangle without a name.
+/// Fails    as add_cryptomatte(), but for faults of the map.
+Mattes find_mattes(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                   std::optional<Segmentation> by, const RowShare& share = {});
 
 }  // namespace fathom

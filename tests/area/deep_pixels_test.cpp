@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "fathom/area/visible_areas.h"
 #include "tests/area/surfaces.h"
 
 namespace fathom {
@@ -67,6 +70,39 @@ TEST(DeepPixels, MattesAddUpTheirTriangles) {
   EXPECT_EQ(shares([](std::uint32_t t) { return 100 - t; }),
             (Found{{99, 0.5F}, {100, 0.5F}, {99, 0.75F}}));
   EXPECT_EQ(shares([](std::uint32_t) { return 7; }), (Found{{7, 1}, {7, 0.75F}}));
+}
+
+/// Triangles one behind the other, each of which hides a part of those behind it.
+Scene many_layers(std::uint32_t count) {
+  std::mt19937 random(20);
+  std::uniform_real_distribution<double> place(-0.1, 1.1), size(0.02, 0.2);
+  std::vector<MeshPoint> points;
+  std::vector<CornerIndices> triangles;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double depth = 2 + i * 0x1p-8, u = place(random), v = place(random);
+    for (int k = 0; k < 3; ++k) points.push_back({u + size(random), v + size(random), depth});
+    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return scene_of(points, triangles);
+}
+
+// The areas of a picture of one pixel are those of the scene, whose sums are known to binary64.
+TEST(DeepPixels, HundredsOfFragmentsAddUp) {
+  const Scene scene = many_layers(700);
+  const Camera camera = plain_camera(1, 1);
+  const DeepMap map = visible_in_pixels(scene, camera, {});
+  const VisibleAreas areas = visible_areas(scene, camera, {});
+  ASSERT_GT(map.samples.size(), 300U);
+  double left = 1;
+  for (const DeepSample& sample : map.samples) {
+    const double area = areas.triangles[sample.id].visible;
+    EXPECT_EQ(sample.area, static_cast<float>(area));
+    EXPECT_FLOAT_EQ(sample.A, static_cast<float>(area / left));
+    left -= area;
+  }
+  const Mattes mattes = mattes_in_pixels(scene, camera, {}, [](std::uint32_t) { return 7U; });
+  ASSERT_EQ(mattes.shares.size(), 1U);
+  EXPECT_FLOAT_EQ(mattes.shares[0].coverage, static_cast<float>(1 - left));
 }
 
 TEST(DeepPixels, CullingLeavesTrianglesOut) {

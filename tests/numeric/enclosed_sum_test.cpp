@@ -29,5 +29,19 @@ TEST(EnclosedSum, OtherQuotientsAreEnclosed) {
   EXPECT_EQ(found.high - found.low, Ratio(Dyadic(60.0).scaled(-320)));
 }
 
+TEST(EnclosedSum, TermsOfBothSigns) {
+  EnclosedSum sum;
+  Ratio exact;
+  for (int k = 1; k <= 60; ++k) {
+    const Ratio term(Dyadic(k % 2 == 0 ? 1.0 : -1.0), Dyadic(2.0 * k + 1));
+    exact = exact + term;
+    sum.add(term);
+  }
+  const Enclosure found = sum.get();
+  EXPECT_EQ(exact.sign(), Sign::negative);
+  EXPECT_LT(found.low, exact);
+  EXPECT_LT(exact, found.high);
+}
+
 }  // namespace
 }  // namespace fathom

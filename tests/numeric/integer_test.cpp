@@ -38,14 +38,17 @@ TEST(Integer, MagnitudesAreQuotientsOfIntegers) {
   EXPECT_TRUE(mpq_equal(ours.q, expected.q));
 }
 
-TEST(Integer, IntegersOfAnySizeAreExactNumbers) {
+TEST(Integer, IntegersOfAnySizeAndSignAreExactNumbers) {
   Integer value;
-  EXPECT_TRUE(to_dyadic(value).is_zero());
+  EXPECT_TRUE(Dyadic::of(value).is_zero());
   mpz_ui_pow_ui(value, 3, 500);
   mpz_mul_2exp(value, value, 77);
   Dyadic expected(1.0);
   for (int i = 0; i < 500; ++i) expected *= Dyadic(3.0);
-  EXPECT_EQ(to_dyadic(value), expected.scaled(77));
+  EXPECT_EQ(Dyadic::of(value), expected.scaled(77));
+  EXPECT_EQ(Dyadic::of(value, -80), expected.scaled(-3));
+  mpz_neg(value, value);
+  EXPECT_EQ(Dyadic::of(value), -expected.scaled(77));
 }
 
 TEST(Integer, MovingLeavesAZeroBehind) {

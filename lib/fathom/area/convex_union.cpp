@@ -114,16 +114,6 @@ void add_edges_of_subject(const ConvexPolygon& subject, std::span<const ConvexPo
   }
 }
 
-/// Adds pairs, then pairs of those: operands stay about equally long.
-Ratio sum(std::vector<Ratio> terms) {
-  while (terms.size() > 1) {
-    const std::size_t half = (terms.size() + 1) / 2;
-    for (std::size_t i = 0; i + half < terms.size(); ++i) terms[i] = terms[i] + terms[i + half];
-    terms.resize(half);
-  }
-  return terms.empty() ? Ratio() : std::move(terms.front());
-}
-
 }  // namespace
 
 Boundary boundary_of(const ConvexPolygon& polygon) {
@@ -152,10 +142,12 @@ Boundary boundary_of_difference(const ConvexPolygon& subject,
   return boundary;
 }
 
+namespace {
+
 // Green's theorem: the area is ½·Σ p × q over the segments from p to q. On the line
 // e: e_u·u + e_v·v + e_w = 0, q = p + (τ(to) − τ(from))·(e_v, −e_u), so that
 // p × q = (τ(to) − τ(from))·e_w, with the τ of compare_crossings().
-Ratio exact_area(const Boundary& boundary) {
+std::vector<Ratio> terms_of_area(const Boundary& boundary) {
   std::vector<Ratio> terms;
   for (const BoundarySegment& s : boundary) {
     const Dyadic& e_w = s.line->exact()[2];
@@ -165,7 +157,19 @@ Ratio exact_area(const Boundary& boundary) {
     terms.emplace_back(std::move(numerator),
                        (turn(*s.line, *s.from) * turn(*s.line, *s.to)).scaled(1));
   }
-  return sum(std::move(terms));
+  return terms;
+}
+
+}  // namespace
+
+Ratio exact_area(const Boundary& boundary) {
+  return sum_of(terms_of_area(boundary));
+}
+
+EnclosedSum enclosed_area(const Boundary& boundary) {
+  EnclosedSum area;
+  for (const Ratio& term : terms_of_area(boundary)) area.add(term);
+  return area;
 }
 
 Certified<double> approximate_area(const Boundary& boundary) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fathom/area/convex_polygon.h"
+#include "fathom/numeric/enclosed_sum.h"
 
 /// Unions and differences of convex polygons, exactly and for every input: overlapping, touching,
 /// with common edges, equal.
@@ -37,6 +38,9 @@ Boundary boundary_of_difference(const ConvexPolygon& subject,
 
 /// The area that a boundary encloses, exactly; 0 if it is empty.
 Ratio exact_area(const Boundary& boundary);
+
+/// exact_area() in an enclosure, which takes time in proportion to the number of segments.
+EnclosedSum enclosed_area(const Boundary& boundary);
 
 /// exact_area() in binary64, with a bound; 0 without an error if it is empty.
 Certified<double> approximate_area(const Boundary& boundary);

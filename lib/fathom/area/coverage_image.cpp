@@ -49,9 +49,11 @@ void visit_row(const std::vector<BoxedRegion>& regions, std::uint32_t row, std::
 }  // namespace
 
 void for_each_pixel(const CoverageFrame& frame, const VisitPixel& visit,
-                    const std::function<void()>& part_done) {
+                    const std::function<void()>& part_done, const RowShare& share) {
+  static_assert(TriangleBands::rows_per_band == RowShare::rows_per_band);
   const TriangleBands bands(frame);
   parallel_for(std::uint32_t{0}, bands.count(), [&](std::uint32_t k) {
+    if (!share.has_band(k)) return;
     const TriangleBands::Band band = bands[k];
     const std::vector<BoxedRegion> regions = regions_of(frame, band);
     for (std::uint32_t row = band.first_row; row < band.end_row; ++row) {

@@ -66,31 +66,85 @@ PixelSurfaces look_into(ImageCell& pixel, std::span<const SurfaceRegion* const> 
   return result;
 }
 
-float rounded(const Certified<double>& approximate, const std::function<Ratio()>& exact) {
+/// Rounds a positive number once, by the first of three ways to it that settles how.
+float rounded(const Certified<double>& approximate, const std::function<Enclosure()>& enclosed,
+              const std::function<Ratio()>& exact) {
   if (const auto settled = settled_binary32(approximate)) return *settled;
+  const auto [low, high] = enclosed();
+  if (low.sign() == Sign::positive) {
+    const float least = round_to_binary32(low);
+    if (least == round_to_binary32(high)) return least;
+  }
   return round_to_binary32(exact());
 }
 
-Ratio sum_of_areas(std::span<const Fragment> fragments) {
-  Ratio sum;
-  for (const Fragment& f : fragments) sum = sum + exact_area(f.boundary);
+Ratio exact_sum(std::span<const Fragment> fragments) {
+  std::vector<Ratio> areas;
+  for (const Fragment& f : fragments) areas.push_back(exact_area(f.boundary));
+  return sum_of(std::move(areas));
+}
+
+EnclosedSum enclosed_sum(std::span<const Fragment> fragments) {
+  EnclosedSum sum;
+  for (const Fragment& f : fragments) sum.add(enclosed_area(f.boundary));
   return sum;
 }
 
+/// Areas of fragments that lie behind each other, in enclosures that are found when one is asked for.
+class AreasBehind {
+ public:
+  AreasBehind(std::span<const Fragment> fragments, const Boundary& uncovered)
+      : fragments_(fragments), uncovered_(uncovered) {}
+
+  [[nodiscard]] const EnclosedSum& of(std::size_t i) {
+    find();
+    return areas_[i];
+  }
+  /// Of a fragment, all behind it, and what none of them covers.
+  [[nodiscard]] const EnclosedSum& from(std::size_t i) {
+    find();
+    return sums_[i];
+  }
+
+ private:
+  void find() {
+    if (!areas_.empty()) return;
+    EnclosedSum sum = enclosed_area(uncovered_);
+    areas_.resize(fragments_.size());
+    sums_.resize(fragments_.size());
+    for (std::size_t i = fragments_.size(); i-- > 0;) {
+      areas_[i] = enclosed_area(fragments_[i].boundary);
+      sum.add(areas_[i]);
+      sums_[i] = sum;
+    }
+  }
+
+  std::span<const Fragment> fragments_;
+  const Boundary& uncovered_;
+  std::vector<EnclosedSum> areas_, sums_;
+};
+
 /// a / (1 − Σ of those before) = a / (a + rest), where the rest is what is covered by those behind
 /// it and by nothing: a sum of positive numbers, in which nothing cancels.
-float alpha(std::span<const Fragment> from_here, const Boundary& uncovered) {
-  const Fragment& f = from_here.front();
-  const auto behind = from_here.subspan(1);
+float alpha(std::span<const Fragment> fragments, std::size_t i, const Boundary& uncovered,
+            AreasBehind& enclosed) {
+  const Fragment& f = fragments[i];
+  const auto behind = fragments.subspan(i + 1);
   if (behind.empty() && uncovered.empty()) return 1;
   Certified<double> rest = approximate_area(uncovered);
   for (const Fragment& b : behind) rest = rest + b.approximate_area;
   const Certified<double> one{1, 0};
-  return rounded(one / (one + rest / f.approximate_area), [&] {
-    const Ratio a = exact_area(f.boundary);
-    const Ratio sum = sum_of_areas(from_here) + exact_area(uncovered);
-    return Ratio(a.numerator * sum.denominator, a.denominator * sum.numerator);
-  });
+  return rounded(
+      one / (one + rest / f.approximate_area),
+      [&]() -> Enclosure {
+        const Enclosure a = enclosed.of(i).get(), sum = enclosed.from(i).get();
+        if (sum.low.sign() != Sign::positive) return {};
+        return {quotient(a.low, sum.high), quotient(a.high, sum.low)};
+      },
+      [&] {
+        return quotient(exact_area(f.boundary),
+                        exact_sum(fragments.subspan(i)) + exact_area(uncovered));
+      });
 }
 
 std::vector<DeepSample> deep_samples(ImageCell& pixel, PixelSurfaces surfaces) {
@@ -107,12 +161,14 @@ std::vector<DeepSample> deep_samples(ImageCell& pixel, PixelSurfaces surfaces) {
   std::vector<Fragment> sorted;
   sorted.reserve(order.size());
   for (const auto& entry : order) sorted.push_back(std::move(surfaces.fragments[entry.second]));
+  AreasBehind enclosed(sorted, surfaces.uncovered);
   std::vector<DeepSample> samples;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     DeepSample sample = order[i].first;
-    sample.area =
-        rounded(sorted[i].approximate_area, [&] { return exact_area(sorted[i].boundary); });
-    sample.A = alpha(std::span(sorted).subspan(i), surfaces.uncovered);
+    sample.area = rounded(
+        sorted[i].approximate_area, [&] { return enclosed.of(i).get(); },
+        [&] { return exact_area(sorted[i].boundary); });
+    sample.A = alpha(sorted, i, surfaces.uncovered, enclosed);
     samples.push_back(sample);
   }
   return samples;
@@ -135,7 +191,10 @@ std::vector<MatteShare> shares(const PixelSurfaces& surfaces,
     // One matte that leaves nothing of the pixel covers it.
     const bool all = mattes.size() == 1 && surfaces.uncovered.empty();
     const float coverage =
-        all ? 1 : rounded(sum, [&fragments = fragments] { return sum_of_areas(fragments); });
+        all ? 1
+            : rounded(
+                  sum, [&fragments = fragments] { return enclosed_sum(fragments).get(); },
+                  [&fragments = fragments] { return exact_sum(fragments); });
     result.push_back({id, coverage});
   }
   std::sort(result.begin(), result.end(), [](const MatteShare& a, const MatteShare& b) {
@@ -147,8 +206,8 @@ std::vector<MatteShare> shares(const PixelSurfaces& surfaces,
 /// Calls `compute` for every pixel that triangles may cover; gathers the items of all pixels, one
 /// pixel after another, and how many each has.
 template <class Item, class Compute>
-void gather(const CoverageFrame& frame, const RenderOptions& options, const Compute& compute,
-            std::vector<std::uint32_t>& counts, std::vector<Item>& items) {
+void gather(const CoverageFrame& frame, const RenderOptions& options, const RowShare& share,
+            const Compute& compute, std::vector<std::uint32_t>& counts, std::vector<Item>& items) {
   const std::size_t width = frame.camera.width;
   counts.assign(width * frame.camera.height, 0);
   // One thread does a row, from left to right.
@@ -160,18 +219,21 @@ void gather(const CoverageFrame& frame, const RenderOptions& options, const Comp
     counts[row * width + column] = static_cast<std::uint32_t>(found.size());
     rows[row].insert(rows[row].end(), found.begin(), found.end());
   };
-  Progress parts(options.progress, (frame.camera.height - 1) / TriangleBands::rows_per_band + 1);
-  with_threads(options.threads, [&] { for_each_pixel(frame, visit, [&] { parts.part_done(); }); });
+  Progress parts(options.progress, std::max(1U, share.bands(frame.camera.height)));
+  with_threads(options.threads, [&] {
+    for_each_pixel(
+        frame, visit, [&] { parts.part_done(); }, share);
+  });
   for (std::vector<Item>& row : rows) {
     items.insert(items.end(), row.begin(), row.end());
-    row = {};
+    row = std::vector<Item>();  // {} would keep its memory
   }
 }
 
 }  // namespace
 
 DeepMap visible_in_pixels(const TriangleSource& triangles, const Camera& camera,
-                          const RenderOptions& options) {
+                          const RenderOptions& options, const RowShare& share) {
   const StandardArithmetic standard;
   DeepMap map;
   map.description.width = camera.width;
@@ -179,19 +241,20 @@ DeepMap visible_in_pixels(const TriangleSource& triangles, const Camera& camera,
   const auto compute = [](ImageCell& pixel, std::span<const SurfaceRegion* const> surfaces) {
     return deep_samples(pixel, look_into(pixel, surfaces));
   };
-  gather({triangles, camera, options.cull}, options, compute, map.counts, map.samples);
+  gather({triangles, camera, options.cull}, options, share, compute, map.counts, map.samples);
   return map;
 }
 
 Mattes mattes_in_pixels(const TriangleSource& triangles, const Camera& camera,
                         const RenderOptions& options,
-                        const std::function<std::uint32_t(std::uint32_t)>& matte_of) {
+                        const std::function<std::uint32_t(std::uint32_t)>& matte_of,
+                        const RowShare& share) {
   const StandardArithmetic standard;
   Mattes mattes;
   const auto compute = [&](ImageCell& pixel, std::span<const SurfaceRegion* const> surfaces) {
     return shares(look_into(pixel, surfaces), matte_of);
   };
-  gather({triangles, camera, options.cull}, options, compute, mattes.counts, mattes.shares);
+  gather({triangles, camera, options.cull}, options, share, compute, mattes.counts, mattes.shares);
   return mattes;
 }
 

@@ -30,16 +30,6 @@ EnclosedSum enclosed_sum(const std::vector<Ratio>& terms) {
   return sum;
 }
 
-/// Adds pairs, then pairs of those: operands stay about equally long.
-Ratio exact_sum(std::vector<Ratio> terms) {
-  while (terms.size() > 1) {
-    const std::size_t half = (terms.size() + 1) / 2;
-    for (std::size_t i = 0; i + half < terms.size(); ++i) terms[i] = terms[i] + terms[i + half];
-    terms.resize(half);
-  }
-  return terms.empty() ? Ratio() : std::move(terms.front());
-}
-
 VisibleArea rounded(const Ratio& visible, const Ratio& unoccluded) {
   VisibleArea area{round_to_binary64(visible), round_to_binary64(unoccluded), std::nullopt};
   if (unoccluded.sign() != Sign::zero) {
@@ -142,7 +132,7 @@ VisibleArea rounded(const ExactAreas& areas) {
     const Enclosure alone{areas.unoccluded, areas.unoccluded};
     if (const auto area = settled(enclosed_sum(areas.visible).get(), alone)) return *area;
   }
-  return rounded(exact_sum(areas.visible), areas.unoccluded);
+  return rounded(sum_of(areas.visible), areas.unoccluded);
 }
 
 /// Rounds the exact areas of an object, where their enclosures do not settle how they round.
@@ -154,7 +144,7 @@ VisibleArea rounded_exactly(const SceneAreas& areas, std::uint32_t object) {
     visible.insert(visible.end(), exact.visible.begin(), exact.visible.end());
     in_object.insert(in_object.end(), exact.in_object.begin(), exact.in_object.end());
   }
-  return rounded(exact_sum(std::move(visible)), exact_sum(std::move(in_object)));
+  return rounded(sum_of(std::move(visible)), sum_of(std::move(in_object)));
 }
 
 VisibleArea rounded(const SceneAreas& areas, const ObjectSums& sums, std::uint32_t object) {

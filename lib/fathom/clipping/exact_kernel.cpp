@@ -1,29 +1,11 @@
 #include "fathom/clipping/exact_kernel.h"
 
-#include <cstdint>
-#include <vector>
-
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {
-namespace {
-
-/// An integer as a dyadic number, put together from its 32-bit words.
-Dyadic to_dyadic(mpz_srcptr integer) {
-  std::vector<std::uint32_t> words((mpz_sizeinbase(integer, 2) + 31) / 32);
-  std::size_t count = 0;
-  mpz_export(words.data(), &count, -1, sizeof(std::uint32_t), 0, 0, integer);
-  Dyadic sum;
-  for (std::size_t i = 0; i < count; ++i)
-    sum += Dyadic(static_cast<double>(words[i])).scaled(static_cast<long>(32 * i));
-  return mpz_sgn(integer) < 0 ? -sum : sum;
-}
-
-}  // namespace
-
 Ratio to_ratio(const Rational& x) {
-  return {to_dyadic(mpq_numref(x.mpq())), to_dyadic(mpq_denref(x.mpq()))};
+  return {Dyadic::of(mpq_numref(x.mpq())), Dyadic::of(mpq_denref(x.mpq()))};
 }
 
 double to_binary64(const Rational& x) {

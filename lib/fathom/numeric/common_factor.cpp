@@ -24,7 +24,7 @@ ExactVector3 without_common_factor(const ExactVector3& v) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (v[k].is_zero()) continue;
     mpz_divexact(magnitudes[k], magnitudes[k], divisor);
-    result[k] = to_dyadic(magnitudes[k]);
+    result[k] = Dyadic::of(magnitudes[k]);
     if (v[k].sign() == Sign::negative) result[k] = -result[k];
   }
   return result;

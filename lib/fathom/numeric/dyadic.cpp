@@ -39,6 +39,13 @@ Dyadic::Dyadic(double value) {
   exponent_ = (biased_exponent != 0 ? biased_exponent : 1) - 1075 + trailing_zeros;
 }
 
+Dyadic Dyadic::of(mpz_srcptr m, long e) {
+  Dyadic x;
+  mpz_set(x.significand_, m);
+  x.exponent_ = e;
+  return x;
+}
+
 Dyadic::Dyadic(const Dyadic& other) : exponent_(other.exponent_) {
   mpz_init_set(significand_, other.significand_);
 }

@@ -18,6 +18,8 @@ class Dyadic {
   Dyadic() { mpz_init(significand_); }
   /// The number that `value` denotes. Throws std::invalid_argument if it is not finite.
   Dyadic(double value);  // implicit: a double is a dyadic number
+  /// m·2^e.
+  static Dyadic of(mpz_srcptr m, long e = 0);
   Dyadic(const Dyadic& other);
   Dyadic(Dyadic&& other) noexcept;
   Dyadic& operator=(const Dyadic& other);

@@ -25,7 +25,7 @@ void EnclosedSum::add(const Ratio& term) {
   shift(numerator, denominator, bits + term.numerator.exponent() - term.denominator.exponent());
   mpz_fdiv_qr(quotient, remainder, numerator, denominator);
   if (mpz_sgn(remainder.get()) != 0) rounded_ += 1;
-  floor_ += to_dyadic(quotient).scaled(-bits);
+  floor_ += Dyadic::of(quotient, -bits);
 }
 
 void EnclosedSum::add(const EnclosedSum& part) {

@@ -30,16 +30,4 @@ std::string to_string(const Integer& value) {
   return text;
 }
 
-Dyadic to_dyadic(mpz_srcptr value) {
-  Dyadic sum;
-  Integer rest, low;
-  mpz_set(rest, value);
-  for (long position = 0; mpz_sgn(rest.get()) != 0; position += 32) {
-    mpz_tdiv_r_2exp(low, rest, 32);
-    sum += Dyadic(static_cast<double>(mpz_get_ui(low))).scaled(position);
-    mpz_tdiv_q_2exp(rest, rest, 32);
-  }
-  return sum;
-}
-
 }  // namespace fathom

@@ -44,7 +44,4 @@ void divide_to_nearest_even(mpz_ptr result, mpz_srcptr numerator, mpz_srcptr den
 
 std::string to_string(const Integer& value);
 
-/// A non-negative integer as an exact number.
-Dyadic to_dyadic(mpz_srcptr value);
-
 }  // namespace fathom

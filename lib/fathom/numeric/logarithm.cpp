@@ -27,7 +27,7 @@ Ratio to_ratio(mpfr_ptr x) {
   if (mpfr_zero_p(x) != 0) return Dyadic();
   Integer significand;
   const mpfr_exp_t exponent = mpfr_get_z_2exp(significand, x);
-  return to_dyadic(significand).scaled(exponent);
+  return Dyadic::of(significand, exponent);
 }
 
 /// x ≥ 0 rounded in a direction.
@@ -77,7 +77,7 @@ Fraction in_lowest_terms(const Ratio& x) {
 }
 
 Ratio to_ratio(const Fraction& f) {
-  return {to_dyadic(f.numerator), to_dyadic(f.denominator)};
+  return {Dyadic::of(f.numerator), Dyadic::of(f.denominator)};
 }
 
 /// Replaces a fraction > 1 in lowest terms by its k-th root if that is rational: numerator and

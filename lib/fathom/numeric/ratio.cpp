@@ -31,6 +31,15 @@ Ratio quotient(const Ratio& a, const Ratio& b) {
   return {a.numerator * b.denominator, a.denominator * b.numerator};
 }
 
+Ratio sum_of(std::vector<Ratio> terms) {
+  while (terms.size() > 1) {
+    const std::size_t half = (terms.size() + 1) / 2;
+    for (std::size_t i = 0; i + half < terms.size(); ++i) terms[i] = terms[i] + terms[i + half];
+    terms.resize(half);
+  }
+  return terms.empty() ? Ratio() : std::move(terms.front());
+}
+
 int compare(const Ratio& a, const Ratio& b) {
   return compare(a.numerator * b.denominator, b.numerator * a.denominator);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "fathom/numeric/dyadic.h"
 
@@ -24,6 +25,8 @@ Ratio operator-(const Ratio& a, const Ratio& b);
 Ratio operator*(const Ratio& a, const Ratio& b);
 /// Throws std::domain_error if b is zero.
 Ratio quotient(const Ratio& a, const Ratio& b);
+/// The sum of terms. Adds pairs, then pairs of those: operands stay about equally long.
+Ratio sum_of(std::vector<Ratio> terms);
 int compare(const Ratio& a, const Ratio& b);
 inline bool operator==(const Ratio& a, const Ratio& b) {
   return compare(a, b) == 0;
