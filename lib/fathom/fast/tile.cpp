@@ -39,9 +39,11 @@ std::uint32_t Tile::next_place() {
   return places_;
 }
 
-void Tile::forget_hidden() {
+std::vector<TileSurface> Tile::number_visible() {
   std::vector<std::uint32_t> new_place(places_);
-  std::vector<TileSurface> kept{surfaces_[0]};
+  std::vector<TileSurface> kept;
+  kept.reserve(std::min<std::size_t>(places_, room + 1));
+  kept.push_back(surfaces_[0]);
   for (LaneTag& tag : tags_) {
     const std::uint32_t place = place_of(tag);
     if (place == 0) continue;
@@ -52,8 +54,13 @@ void Tile::forget_hidden() {
     tag = (tag & 0xFFFF0000) | new_place[place];
   }
   end_of_front_ = 0;
-  std::copy(kept.begin(), kept.end(), surfaces_.begin());
   places_ = static_cast<std::uint32_t>(kept.size());
+  return kept;
+}
+
+void Tile::forget_hidden() {
+  const std::vector<TileSurface> kept = number_visible();
+  std::ranges::copy(kept, surfaces_.begin());
 }
 
 std::span<const std::uint32_t> Tile::numbers_of(std::span<const TileEntry> some) {
@@ -66,8 +73,7 @@ void Tile::pack() {
   entries_ = std::vector<TileEntry>();  // {} would keep its memory
   // It was packed before, or is empty. The list may also be just full, of any length.
   if (surfaces_.size() == places_ && places_ <= room + 1) return;
-  forget_hidden();
-  surfaces_.resize(places_);
+  surfaces_ = number_visible();
   surfaces_.shrink_to_fit();
 }
 

@@ -184,6 +184,8 @@ class Tile : public TileShape {
   /// Their numbers; those of the triangles that may be visible.
   std::span<const std::uint32_t> numbers_of(std::span<const TileEntry> some);
   std::span<const std::uint32_t> visible_of(std::span<const TileEntry> some);
+  /// The surfaces that are at samples, which get their new places there.
+  std::vector<TileSurface> number_visible();
   /// Forgets the surfaces that are at no sample any more.
   void forget_hidden();
 

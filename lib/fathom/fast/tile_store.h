@@ -39,18 +39,25 @@ class TileStore {
     std::unique_ptr<Tile> tile;
     /// Rooms that were made before it was taken.
     std::uint64_t used = 0;
-    bool waits = false;
+    /// What it took when a room was last made.
+    std::size_t bytes = 0;
+    bool is_packed = false, waits = false;
   };
   /// What is left for those that are not in use.
   [[nodiscard]] std::uint64_t most_kept() const { return most_bytes_ / 8 * 7; }
-  void pack_oldest(std::uint64_t& bytes);
-  void write(std::uint32_t number);
+  [[nodiscard]] bool is_too_much() const { return bytes_ > most_kept(); }
+  /// What all tiles in memory may take when they are packed.
+  [[nodiscard]] std::uint64_t most_when_packed() const;
+  /// As many as needed of the oldest, up to `end`.
+  void pack(std::size_t end);
+  void write_oldest(std::size_t count);
 
   const TileGrid& grid_;
   std::uint64_t most_bytes_;
   std::vector<Slot> slots_;
-  /// Numbers of the tiles in memory; of some that have been forgotten, too.
+  /// Numbers of the tiles in memory, and what they take; when a room is made, the oldest comes first.
   std::vector<std::uint32_t> in_memory_;
+  std::uint64_t bytes_ = 0;
   std::mutex mutex_;
   std::uint64_t rooms_made_ = 0;
   std::optional<text::SpillFile> file_;
