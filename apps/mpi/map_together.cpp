@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/mpi/banded_exr.h"
+#include "apps/mpi/gathered_rows.h"
 #include "apps/mpi/image_rows.h"
 #include "apps/mpi/tiles_together.h"
 #include "apps/mpi/together.h"
@@ -27,7 +28,8 @@
 // time, and from there to the file.
 //
 // Whatever is said to other ranks is said between calls of together(), within which a rank works by
-// itself and may fail; but for write_banded_exr(), which fails only when all has been said.
+// itself and may fail; but for write_banded_exr(), which fails only when all has been said, and for
+// TriangleMail, which tells the others.
 namespace fathom::app {
 namespace {
 
@@ -87,6 +89,7 @@ class MapTogether {
       write_in_bands();
     } else {
       gather();
+      find_mattes();
       sum_up_statistics();
       together(ranks_, [&] {
         if (ranks_.is_first()) write_whole();
@@ -106,6 +109,21 @@ class MapTogether {
       }
     });
     if (map) map_ = map->take();
+  }
+
+  /// Each rank in its share of the rows; all of them in the first.
+  void find_mattes() {
+    for (const MatteKind& by : job_.plan.mattes) {
+      Mattes mattes;
+      together(ranks_, [&] {
+        mattes = fathom::find_mattes(job_.scene.outline(), camera_, job_.plan.rendering, by,
+                                     share_of(ranks_));
+      });
+      gather_rows(ranks_, camera_.width, mattes.counts, mattes.shares, traffic_.of_pixels);
+      // Only the empty name is not one of all ranks.
+      if (ranks_.greatest(mattes.names.size()) > mattes.names.size()) mattes.names.emplace_back();
+      if (ranks_.is_first()) mattes_.push_back(std::move(mattes));
+    }
   }
 
   /// How many rows of tiles of a band are put together at a time.
@@ -154,10 +172,10 @@ class MapTogether {
     const std::string& name = traffic_.map;
     describe(map_);
     const auto render_again = [&](const RenderOptions& o) { (void)job_.scene.render(camera_, o); };
-    add_planned(
-        map_, plan, name,
-        {job_.scene.outline(), job_.scene.triangles(), camera_, plan.rendering, render_again},
-        report_, job_.console);
+    add_planned(map_, plan, name,
+                {job_.scene.outline(), job_.scene.triangles(), camera_, plan.rendering,
+                 render_again, mattes_},
+                report_, job_.console);
     map_ = dressed(std::move(map_));
     outputs_->map(number_).write(
         [&](const auto& path) { write_map(map_, path, plan.format, plan.writing); });
@@ -207,6 +225,7 @@ class MapTogether {
   WaitingChunks chunks_;
   /// Where it is put together in one rank, in that one.
   DepthMap map_;
+  std::vector<Mattes> mattes_;
 };
 
 }  // namespace

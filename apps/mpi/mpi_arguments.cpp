@@ -38,7 +38,6 @@ void refuse_what_is_missing(const RenderArguments& a) {
   if (a.stream) {
     throw UsageError("--stream: fathom-mpi leaves binary STL and PLY in their files anyway");
   }
-  if (a.deep) throw UsageError("--deep is not for fathom-mpi yet; 'fathom render' has it");
 }
 
 }  // namespace fathom::app

@@ -13,11 +13,11 @@ namespace {
 /// What a rank takes before it has read anything: the program, its libraries, MPI.
 constexpr std::uint64_t program_bytes = std::uint64_t{64} << 20;
 
-/// A triangle that is drawn, and its copies on the way to another rank: picked, and in a message. What
-/// comes from others takes less, and is drawn when these are gone.
-constexpr std::uint64_t bytes_per_triangle = TilesInRounds::bytes_per_triangle + 200;
 /// Of a message.
-constexpr std::uint64_t bytes_sent = 88;
+constexpr std::uint64_t bytes_sent = 100;
+/// More makes nothing faster, and MPI counts less than 2³¹ bytes of a message.
+constexpr std::uint64_t most_triangles = std::uint64_t{1} << 24,
+                        most_waiting = std::uint64_t{1} << 26;
 
 }  // namespace
 
@@ -29,17 +29,20 @@ RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>
   const std::uint64_t allowed =
       ranks.least(std::max(bytes.value_or(share / 4 * 3), least_rank_memory));
   const std::uint64_t left = allowed - program_bytes;
-  constexpr std::uint64_t most_triangles = std::uint64_t{1} << 24, least_triangles = 4096;
-  // All others may have all of a round for one rank.
-  const auto others = static_cast<std::uint64_t>(std::max(1, ranks.count() - 1));
-  const std::uint64_t from_all = std::max(least_triangles, left / 8 / bytes_sent / others);
+  // An eighth is for messages. So many bytes wait to be sent, and twice as many and a half are being
+  // added to them; as many are on the way from here, twice as many on the way to here, and twice as many
+  // have come, which take five times as much while they are drawn: fourteen times in all.
+  const std::uint64_t waiting = left / 8 / 14;
   return {.triangles_at_once = static_cast<std::uint32_t>(
-              std::min({most_triangles, left / 4 / bytes_per_triangle, from_all})),
+              std::min(most_triangles, left / 4 / TilesInRounds::bytes_per_triangle)),
           .tile_bytes = keeps_triangles ? left / 16 * 5 : left / 8 * 5,
           .kept_bytes = keeps_triangles ? left / 16 * 5 : 0,
           .row_bytes = left / 16,
           .chunk_bytes = left / 16,
-          .message_bytes = static_cast<std::size_t>(left / 16)};
+          .message_bytes = static_cast<std::size_t>(left / 16),
+          .sent_at_once = static_cast<std::uint32_t>(
+              std::max<std::uint64_t>(1, std::min(most_waiting, waiting) / bytes_sent)),
+          .waiting_bytes = static_cast<std::size_t>(std::min(most_waiting, waiting))};
 }
 
 void keep_what_rounds_give_back() {

@@ -17,8 +17,13 @@ struct RankMemory {
   std::uint64_t tile_bytes, kept_bytes;
   /// For rows of the image on their way to the file; for what is compressed and waits for its turn.
   std::uint64_t row_bytes, chunk_bytes;
-  /// For what is sent at a time.
+  /// For pixels that are sent at a time.
   std::size_t message_bytes;
+  /// Triangles of a round that are picked for others at a time, or a few more.
+  std::uint32_t sent_at_once;
+  /// For triangles that wait to be sent; so many more may be on the way from a rank, on the way to it,
+  /// and wait to be drawn (triangle_mail.h).
+  std::size_t waiting_bytes;
 };
 
 /// The least that can be asked for.

@@ -8,7 +8,8 @@
 
 #include "fathom/text/file_bytes.h"
 
-/// The processes of a run, numbered from 0. All that is said to MPI is said in ranks.cpp.
+/// The processes of a run, numbered from 0. All that is said to MPI is said in ranks.cpp and
+/// sparse_exchange.cpp.
 namespace fathom::app {
 
 /// MPI, from the start of the program to its end. Of the ranks that share memory, one speaks where

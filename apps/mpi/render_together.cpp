@@ -4,7 +4,9 @@
 #include <optional>
 #include <utility>
 
+#include "apps/mpi/deep_together.h"
 #include "apps/mpi/map_together.h"
+#include "apps/mpi/scene_together.h"
 #include "apps/mpi/together.h"
 #include "apps/render/camera_warnings.h"
 #include "apps/render/map_warnings.h"
@@ -28,30 +30,12 @@ RankMemory memory_for(const Ranks& ranks, const MpiArguments& arguments, const M
   return memory_of_rank(ranks, arguments.memory, by_area);
 }
 
-SharedScene open_scene(const Ranks& ranks, const RenderArguments& arguments, const MapPlan& plan,
-                       const Console& console) {
-  const bool normals = std::ranges::count(plan.rendering.channels, Channel::Ns) != 0;
-  const SharedScene::Kept kept{.whole = arguments.motion.is_given() || !plan.mattes.empty(),
-                               .segments = plan.needs_segments(),
-                               .normals = normals,
-                               .hash = ranks.is_first()};
-  std::optional<SharedScene> opened;
-  together(ranks, [&] { opened.emplace(arguments.scene, kept, console); });
-  opened->check_files(ranks, console);
-  require_same<InputError>(ranks, opened->description(), "the ranks read different files");
-  return std::move(*opened);
-}
-
-std::vector<Camera> cameras_of(const Ranks& ranks, const RenderArguments& arguments,
-                               const MapPlan& plan, SharedScene& scene, const Console& console) {
-  std::vector<Camera> cameras;
-  together(ranks, [&] {
-    cameras = arguments.camera.get(scene.outline(), console);
-    scene.place(arguments.motion);
-    warn_of_missing_segments(scene.triangles(), plan.rendering.channels, console);
-  });
-  require_same<InputError>(ranks, to_json(cameras), "the ranks have different cameras");
-  return cameras;
+SharedScene::Kept kept_for(const Ranks& ranks, const RenderArguments& arguments,
+                           const MapPlan& plan) {
+  return {.whole = arguments.motion.is_given() || !plan.mattes.empty(),
+          .segments = plan.needs_segments(),
+          .normals = std::ranges::count(plan.rendering.channels, Channel::Ns) != 0,
+          .hash = ranks.is_first()};
 }
 
 /// Returns the exit status.
@@ -108,14 +92,16 @@ int render_together(const MpiArguments& arguments, const Console& for_all) {
   MapPlan plan;
   together(ranks, [&] {
     refuse_what_is_missing(render);
-    plan = plan_maps(render);
+    if (!render.deep) plan = plan_maps(render);
   });
+  if (render.deep) return render_deep_together(ranks, arguments, console);
   const ThreadLimit limit(plan.rendering.threads);
   const RankMemory memory = memory_for(ranks, arguments, plan);
   Stopwatch stopwatch;
-  SharedScene scene = open_scene(ranks, render, plan, console);
+  SharedScene scene = open_scene(ranks, render, kept_for(ranks, render, plan), console);
   scene.find_bounds(ranks, memory.triangles_at_once);
-  const std::vector<Camera> cameras = cameras_of(ranks, render, plan, scene, console);
+  const std::vector<Camera> cameras =
+      cameras_of(ranks, render, plan.rendering.channels, scene, console);
   const int status =
       render_maps({arguments, ranks, console, plan, scene, memory}, cameras, stopwatch.lap());
   say_when_interrupted("");

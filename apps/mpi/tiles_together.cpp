@@ -27,28 +27,37 @@ void TilesTogether::draw(const std::function<void(double)>& progress) {
                      TilesInRounds::Limits{.tile_bytes = job_.memory.tile_bytes,
                                            .kept_bytes = job_.memory.kept_bytes});
   });
-  if (ranks_.greatest(own_.count()) <= job_.memory.triangles_at_once) {
-    draw_at_once();
+  const bool is_one_round = ranks_.greatest(own_.count()) <= job_.memory.triangles_at_once;
+  std::optional<SortedTriangles> all;
+  if (is_one_round) {
+    all = deal_out_by_all();
   } else {
     deal_out_by_sample();
-    draw_in_rounds(progress);
   }
-  together(ranks_, [&] { draw_received(); });
+  together(ranks_, [&] {
+    TriangleMail mail(ranks_, job_.memory.waiting_bytes, traffic_.of_triangles,
+                      [&](std::vector<SomeTriangles> received) {
+                        draw(drawing_->sort_again(std::move(received)));
+                      });
+    if (all) {
+      draw_read(*all, mail);
+    } else {
+      draw_in_rounds(mail, progress);
+    }
+    all.reset();
+    mail.end();
+  });
 }
 
-void TilesTogether::draw_at_once() {
+SortedTriangles TilesTogether::deal_out_by_all() {
   std::vector<std::uint64_t> counts(tiles_of(camera_).count(), 0);
-  SortedTriangles sorted;
+  SortedTriangles all;
   together(ranks_, [&] {
-    sorted = drawing_->sort(job_.scene.read(own_));
-    sorted.count(counts);
+    all = drawing_->sort(job_.scene.read(own_));
+    all.count(counts);
   });
   deal_out_tiles(std::move(counts));
-  together(ranks_, [&] {
-    draw_read(sorted);
-    sorted = {};
-  });
-  exchange();
+  return all;
 }
 
 // By as many triangles as a round has, taken all over the part; each stands for those around it.
@@ -82,59 +91,35 @@ void TilesTogether::deal_out_tiles(std::vector<std::uint64_t> triangles) {
   together(ranks_, [&] { drawing_->choose(std::move(own)); });
 }
 
-// Ranks wait for each other after several rounds of each, so that a round that takes long in one of
-// them is made up for; after fewer where one of them has many triangles for others, so that none is far
-// ahead in the end.
-void TilesTogether::draw_in_rounds(const std::function<void(double)>& progress) {
-  constexpr std::uint64_t most_rounds = 128;
+// Each rank at its own pace: what others send is drawn between rounds.
+void TilesTogether::draw_in_rounds(TriangleMail& mail,
+                                   const std::function<void(double)>& progress) {
   const std::uint64_t at_once = job_.memory.triangles_at_once;
-  std::uint64_t next = 0, left = 0, rounds_until_exchange = 1;
-  do {
-    std::uint64_t rounds = 0;
-    together(ranks_, [&] {
-      draw_received();
-      while (rounds < rounds_until_exchange && next < own_.count() && !has_much_to_send()) {
-        draw_read(drawing_->sort(job_.scene.read(own_.part(next, at_once))));
-        next = std::min(next + at_once, own_.count());
-        ++rounds;
-      }
-    });
-    exchange();
-    left = ranks_.greatest(own_.count() - next);
-    const std::uint64_t more = next < own_.count() ? 2 * rounds : most_rounds;
-    rounds_until_exchange = std::clamp<std::uint64_t>(ranks_.least(more), 1, most_rounds);
+  for (std::uint64_t next = 0; next < own_.count() && !mail.is_given_up(); next += at_once) {
+    draw_read(drawing_->sort(job_.scene.read(own_.part(next, at_once))), mail);
     // Drawing takes most of the time, and writing the rest: a tenth, say.
-    if (progress)
-      progress(0.9 * (1 - static_cast<double>(left) / static_cast<double>(own_.count() + 1)));
-  } while (left != 0);
-}
-
-// Each rank gets as much from all others together as one of them may send.
-bool TilesTogether::has_much_to_send() const {
-  const std::size_t most = job_.memory.message_bytes / static_cast<std::size_t>(ranks_.count());
-  return std::ranges::any_of(messages_, [&](const auto& each) { return each.size() >= most; });
-}
-
-// What touches tiles of other ranks is for them.
-void TilesTogether::draw_read(const SortedTriangles& sorted) {
-  messages_.resize(static_cast<std::size_t>(ranks_.count()));
-  if (ranks_.count() > 1) {
-    const std::vector<text::Bytes> more = messages_of(
-        sorted.triangles(), sorted.touches([&](std::uint32_t tile) { return !is_own(tile); }),
-        owners_, ranks_.count());
-    for (std::size_t i = 0; i < more.size(); ++i) text::append(messages_[i], more[i]);
+    if (progress) progress(0.9 * static_cast<double>(next) / static_cast<double>(own_.count()));
   }
+}
+
+// What touches tiles of other ranks is sent there, some triangles at a time: copies of all would take
+// nearly as much memory as the round.
+void TilesTogether::draw_read(const SortedTriangles& sorted, TriangleMail& mail) {
   draw(sorted);
-}
-
-void TilesTogether::exchange() {
-  messages_.resize(static_cast<std::size_t>(ranks_.count()));
-  traffic_.of_triangles.add(messages_, ranks_.self());
-  messages_ = ranks_.exchange(std::move(messages_), job_.memory.message_bytes);
-}
-
-void TilesTogether::draw_received() {
-  draw(drawing_->sort_again(received_triangles(std::exchange(messages_, {}))));
+  if (ranks_.count() == 1) return;
+  std::vector<TileTouch> touches =
+      sorted.touches([&](std::uint32_t tile) { return !is_own(tile); });
+  std::ranges::sort(touches, {}, &TileTouch::triangle);
+  const std::size_t at_once = job_.memory.sent_at_once;
+  for (auto first = touches.begin(); first != touches.end();) {
+    auto end = first + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
+                           at_once, static_cast<std::size_t>(touches.end() - first)));
+    // A triangle goes to each rank once.
+    while (end != touches.end() && end->triangle == (end - 1)->triangle) ++end;
+    mail.send(messages_of(sorted.triangles(), {first, end}, owners_, ranks_.count()));
+    first = end;
+  }
+  mail.receive();
 }
 
 void TilesTogether::draw(const SortedTriangles& sorted) {

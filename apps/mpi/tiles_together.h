@@ -7,6 +7,7 @@
 #include "apps/mpi/image_rows.h"
 #include "apps/mpi/job_together.h"
 #include "apps/mpi/traffic.h"
+#include "apps/mpi/triangle_mail.h"
 #include "fathom/fast/some_tiles.h"
 #include "fathom/text/file_bytes.h"
 
@@ -28,16 +29,13 @@ class TilesTogether {
   [[nodiscard]] RenderStatistics statistics() const { return drawing_->statistics(); }
 
  private:
-  void draw_at_once();
+  SortedTriangles deal_out_by_all();
   void deal_out_by_sample();
   void deal_out_tiles(std::vector<std::uint64_t> triangles);
-  void draw_in_rounds(const std::function<void(double)>& progress);
+  void draw_in_rounds(TriangleMail& mail, const std::function<void(double)>& progress);
 
   [[nodiscard]] bool is_own(std::uint32_t tile) const;
-  [[nodiscard]] bool has_much_to_send() const;
-  void draw_read(const SortedTriangles& sorted);
-  void exchange();
-  void draw_received();
+  void draw_read(const SortedTriangles& sorted, TriangleMail& mail);
   void draw(const SortedTriangles& sorted);
 
   const JobTogether& job_;
@@ -49,8 +47,6 @@ class TilesTogether {
   TriangleRange own_;
   std::optional<TilesInRounds> drawing_;
   std::vector<int> owners_;
-  /// Triangles for each rank, then from each rank.
-  std::vector<text::Bytes> messages_;
 };
 
 }  // namespace fathom::app

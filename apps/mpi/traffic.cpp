@@ -22,11 +22,15 @@ constexpr double nanoseconds = 1e9;
 
 }  // namespace
 
+void Traffic::add(std::size_t bytes_of_message) {
+  ++messages;
+  bytes += bytes_of_message;
+}
+
 void Traffic::add(std::span<const text::Bytes> messages_to_ranks, int self) {
   for (std::size_t rank = 0; rank < messages_to_ranks.size(); ++rank) {
     if (rank == static_cast<std::size_t>(self) || messages_to_ranks[rank].empty()) continue;
-    ++messages;
-    bytes += messages_to_ranks[rank].size();
+    add(messages_to_ranks[rank].size());
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@ namespace fathom::app {
 struct Traffic {
   std::uint64_t messages = 0, bytes = 0;
 
+  void add(std::size_t bytes_of_message);
   /// What `self` sends of these, to all ranks but itself.
   void add(std::span<const text::Bytes> messages_to_ranks, int self);
 };

@@ -37,7 +37,8 @@ void SceneOptions::add_to(Command& command) {
 void SceneOptions::add_reading_to(Command& command) {
   command.option("--mesh-format", "NAME", into(mesh_format, parse_mesh_format),
                  "Format of the meshes: obj, ply, stl, off, gltf or glb (default: by content)");
-  command.option("--threads", "N", into(threads, parse_thread_count), "Threads to use (default 0: all)");
+  command.option("--threads", "N", into(threads, parse_thread_count),
+                 "Threads to use (default 0: all)");
   limits.add_to(command);
 }
 

@@ -15,8 +15,11 @@ bool has_additions(const MapPlan& plan) {
 void add_planned(DepthMap& map, const MapPlan& plan, const std::string& name,
                  const RenderedFrom& from, MapReport& report, const Console& console) {
   Stopwatch stopwatch;
-  for (const MatteKind& by : plan.mattes)
-    add_cryptomatte(map, from.outline, from.camera, from.options, by);
+  for (const Mattes& mattes : from.mattes) add_mattes(map, mattes);
+  if (from.mattes.empty()) {
+    for (const MatteKind& by : plan.mattes)
+      add_cryptomatte(map, from.outline, from.camera, from.options, by);
+  }
   if (plan.samples) {
     add_sampled_coverage(map, from.triangles, from.camera, *plan.samples, from.options);
     map.texts["fathom.samples"] = plan.samples->name;

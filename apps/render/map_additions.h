@@ -1,12 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 
 #include "apps/render/render_plan.h"
 #include "apps/render/render_report.h"
 #include "apps/shell/console.h"
 #include "fathom/camera/camera.h"
+#include "fathom/image/cryptomatte.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/triangle_source.h"
 
@@ -20,6 +22,8 @@ struct RenderedFrom {
   const RenderOptions& options;
   /// Renders the same map with other options.
   std::function<void(const RenderOptions&)> render;
+  /// Those of the plan, in its order, where they have been found already.
+  std::span<const Mattes> mattes = {};
 };
 
 /// Whether the plan has anything that add_planned() does, for which it needs the whole map.

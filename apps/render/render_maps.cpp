@@ -92,11 +92,6 @@ int render_maps(const RenderArguments& arguments, MapPlan plan, const Console& c
   return all_agree ? done : answer_is_no;
 }
 
-std::uint64_t shown_pixels(const DeepMap& map) {
-  return static_cast<std::uint64_t>(
-      std::ranges::count_if(map.counts, [](std::uint32_t samples) { return samples > 0; }));
-}
-
 int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
                      const Console& console) {
   RenderOptions options = plan.rendering;
@@ -104,10 +99,7 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
   Scene scene = arguments.scene.read(console, {.hash = true});
   const std::vector<Camera> cameras = arguments.camera.get(scene, console);
   scene = arguments.motion.placed(std::move(scene));
-  for (const Camera& camera : cameras) {
-    require_size(MapFormat::exr, camera.width, camera.height, arguments.output);
-    check_size(camera, plan);
-  }
+  check_cameras(cameras, plan, arguments.output);
   RenderOutputs outputs(arguments, cameras);
   outputs.write_cameras(to_json(cameras) + "\n");
   CameraWarnings warnings;
@@ -119,7 +111,7 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
       arguments.motion.describe(map.description, arguments.motion.time_or_start());
       outputs.map(i).write(
           [&](const auto& path) { write_deep_map(map, path, plan.compression, options.threads); });
-      warnings.note(scene, cameras[i], shown_pixels(map));
+      warnings.note(scene, cameras[i], map);
     }
   }
   warnings.tell(console);

@@ -51,8 +51,12 @@ void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
   }
 }
 
-void check_size(const Camera& camera, const DeepMapPlan& plan) {
-  require_room(camera, size_of_map(camera, plan.rendering));
+void check_cameras(const std::vector<Camera>& cameras, const DeepMapPlan& plan,
+                   const std::string& output) {
+  for (const Camera& camera : cameras) {
+    require_size(MapFormat::exr, camera.width, camera.height, output);
+    require_room(camera, size_of_map(camera, plan.rendering));
+  }
 }
 
 StreamLimits stream_limits(const Camera& camera, const RenderOptions& options) {

@@ -16,8 +16,9 @@ namespace fathom::app {
 /// `in_bands`: a map is never whole in memory, but a few rows of it.
 void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
                    const std::string& output, bool in_bands = false);
-/// The memory of a deep map, whose size is known when it is there. Fails with InputError.
-void check_size(const Camera& camera, const DeepMapPlan& plan);
+/// The same for deep maps, whose size is known when they are there.
+void check_cameras(const std::vector<Camera>& cameras, const DeepMapPlan& plan,
+                   const std::string& output);
 
 /// Of the memory that the map leaves over of what is allowed, a quarter for tiles, an eighth for the
 /// triangles that channel A needs, a sixteenth for those that are read at a time.

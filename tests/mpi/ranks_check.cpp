@@ -1,8 +1,11 @@
-// What ranks tell each other arrives, in however many rounds: started by mpirun, exit status 0 where it does.
+// What ranks tell each other arrives, in however many rounds, and that one of them gives up: started by mpirun, exit
+// status 0 where it does.
 #include <cstdio>
 #include <random>
+#include <stdexcept>
 
 #include "apps/mpi/ranks.h"
+#include "apps/mpi/sparse_exchange.h"
 
 namespace fathom::app {
 namespace {
@@ -24,6 +27,55 @@ bool messages_arrive(const Ranks& ranks, std::size_t most_at_once) {
   return true;
 }
 
+/// What one rank sends to another, message after message, as each is at another pace.
+bool sparse_messages_arrive(const Ranks& ranks, std::size_t most_on_the_way) {
+  constexpr int rounds = 20;
+  const auto count = static_cast<std::size_t>(ranks.count());
+  std::vector<text::Bytes> received(count);
+  SparseExchange exchange(ranks, most_on_the_way, [&](int from, const text::Bytes& message) {
+    text::append(received[static_cast<std::size_t>(from)], message);
+  });
+  for (int round = 0; round < rounds * (ranks.self() + 1); ++round) {
+    for (int to = 0; to < ranks.count(); ++to)
+      if (to != ranks.self()) exchange.send(to, message_of(ranks.self(), to + round));
+    if (round % 3 == 0) exchange.receive();
+  }
+  exchange.end();
+  bool well = !exchange.is_given_up();
+  for (int from = 0; from < ranks.count(); ++from) {
+    text::Bytes expected;
+    for (int round = 0; from != ranks.self() && round < rounds * (from + 1); ++round)
+      text::append(expected, message_of(from, ranks.self() + round));
+    well = well && received[static_cast<std::size_t>(from)] == expected;
+  }
+  return ranks.least(well ? 1 : 0) == 1;
+}
+
+/// One of them fails while it works, or while it takes what comes: all others end, too, and hear of it where
+/// that is of use.
+bool sparse_failures_end(const Ranks& ranks, int failing, bool while_taking) {
+  const bool is_failing = ranks.self() == failing;
+  bool told = false, thrown = false;
+  try {
+    SparseExchange exchange(ranks, 1000, [&](int, const text::Bytes&) {
+      if (is_failing && while_taking) throw std::runtime_error("a message cannot be taken");
+    });
+    if (is_failing && !while_taking) throw std::runtime_error("the work cannot be done");
+    for (int round = 0; round < 1000 && !exchange.is_given_up(); ++round) {
+      for (int to = 0; to < ranks.count(); ++to)
+        if (to != ranks.self()) exchange.send(to, text::Bytes(100));
+      exchange.receive();
+    }
+    exchange.end();
+    told = exchange.is_given_up();
+  } catch (const std::runtime_error&) {
+    thrown = true;
+  }
+  const bool alone = ranks.count() == 1;
+  const bool well = thrown == (is_failing && !(alone && while_taking)) && (is_failing || told);
+  return ranks.least(well ? 1 : 0) == 1;
+}
+
 bool numbers_are_reduced(const Ranks& ranks) {
   const auto self = static_cast<std::uint64_t>(ranks.self());
   const auto last = static_cast<std::uint64_t>(ranks.count() - 1);
@@ -43,7 +95,10 @@ bool all_is_well() {
   // The last is what a rank of much memory may send at once, and more than MPI counts.
   for (const std::size_t most : {std::size_t{1}, std::size_t{7}, std::size_t{100},
                                  std::size_t{1000}, std::size_t{100000}, ~std::size_t{0}})
-    well = messages_arrive(ranks, most) && well;
+    well = messages_arrive(ranks, most) && sparse_messages_arrive(ranks, most) && well;
+  for (int failing = 0; failing < ranks.count(); ++failing)
+    for (const bool while_taking : {false, true})
+      well = sparse_failures_end(ranks, failing, while_taking) && well;
   if (!well) std::fprintf(stderr, "rank %d has got something else\n", ranks.self());
   return ranks.least(well ? 1 : 0) == 1;
 }

@@ -92,3 +92,14 @@ def test_no_room_for_what_waits(tmp_path, folder, text):
     assert outcome.returncode == 4 and not (tmp_path / "map.exr").exists()
     lines = said(outcome)
     assert len(lines) == 1 and text in lines[0], outcome.stderr
+
+
+def test_no_room_in_one_rank(tmp_path):
+    """The other hears of it while it draws."""
+    write_sphere(tmp_path / "mesh.stl", 150, times=4)
+    command = [mpi_program, "render", tmp_path / "mesh.stl", "--size", "7000x7000", "--quiet", "--threads", 1, "--memory",
+               "128M", "--partition", "round-robin", "-o", tmp_path / "map.exr"]
+    outcome = run([*mpirun, "-n", 2, *command, ":", "-n", 1, "env", "TMPDIR=/proc", *command])
+    assert outcome.returncode == 4 and not (tmp_path / "map.exr").exists()
+    lines = said(outcome)
+    assert len(lines) == 1 and "/proc" in lines[0] and lines[0].endswith("(rank 2 of 3)"), outcome.stderr

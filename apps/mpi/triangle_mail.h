@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "apps/mpi/ranks.h"
+#include "apps/mpi/sparse_exchange.h"
+#include "apps/mpi/traffic.h"
+#include "fathom/fast/some_tiles.h"
+#include "fathom/text/file_bytes.h"
+
+namespace fathom::app {
+
+/// Triangles on their way between ranks: messages (triangle_messages.h) wait until together they are
+/// worth sending, and what has come until it is worth drawing.
+class TriangleMail {
+ public:
+  using Draw = std::function<void(std::vector<SomeTriangles>)>;
+
+  /// `most_waiting`  bytes, of each of these: what waits to be sent, what is on the way from this rank
+  ///                 and to it, what waits to be drawn; or one message, if that is longer
+  /// `traffic`       gets what is sent
+  /// `draw`          is given what has come, within the other functions
+  TriangleMail(const Ranks& ranks, std::size_t most_waiting, Traffic& traffic, Draw draw);
+
+  /// messages[r] is for rank r. May take what has come meanwhile.
+  /// Fails    as draw().
+  void send(std::vector<text::Bytes> messages);
+  /// Takes what has come.
+  /// Fails    as draw().
+  void receive() { exchange_.receive(); }
+  /// Sends what waits, and returns when all ranks have called this and all that came is drawn.
+  /// Fails    as draw().
+  void end();
+  /// Whether a rank has failed: nothing is drawn any more.
+  [[nodiscard]] bool is_given_up() const { return exchange_.is_given_up(); }
+
+ private:
+  void add(std::size_t rank, text::Bytes& message);
+  void send_longest();
+  void send_waiting(std::size_t rank);
+  void take(int from, const text::Bytes& message);
+  void draw_received();
+
+  std::size_t most_waiting_;
+  Traffic& traffic_;
+  Draw draw_;
+  /// For each rank, from each rank.
+  std::vector<text::Bytes> waiting_, received_;
+  std::size_t bytes_waiting_ = 0, bytes_received_ = 0;
+  SparseExchange exchange_;
+};
+
+}  // namespace fathom::app
