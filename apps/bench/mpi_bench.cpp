@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
   using namespace fathom::app;
   const MpiSession session(argc, argv);
   const Ranks ranks;
-  speak_of_failures(ranks.is_first());
+  speak(ranks.is_first() ? Speaks::of_all : Speaks::of_nothing);
   const int status = companion_main(argc, argv, "measure", add_measuring);
   if (work_has_begun && status != done && !failed_together()) ranks.abort(status);
   return status;

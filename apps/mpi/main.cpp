@@ -34,10 +34,7 @@ void add_render_together(Command& program) {
     const Ranks ranks;
     work_has_begun = true;
     together(ranks, [] {});
-    speak_of_failures(true);
-    say_when_interrupted(ranks.count() == 1 ? ""
-                                            : "fathom: error: a rank of the run has ended, or all "
-                                              "were told to: nothing is written\n");
+    speak(Speaks::of_all);
     return render_together(*arguments, console);
   });
 }
@@ -71,7 +68,9 @@ void leave_before_work(const Ranks& ranks, int status) {
 
 int run(int argc, char** argv) {
   const Ranks ranks;
-  speak_of_failures(ranks.is_first());
+  if (ranks.count() == 1) say_when_interrupted("");
+  // All would say the same of arguments.
+  speak(ranks.is_first() ? Speaks::of_all : Speaks::of_interruptions);
   if (!ranks.is_first()) close_standard_output();
   const int status = program_main(argc, argv, commands);
   if (!work_has_begun) {
@@ -85,7 +84,14 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace fathom::app
 
+// Also while MPI starts, which takes longer than some maps, a rank can be killed.
 int main(int argc, char** argv) {
+  fathom::app::prepare_last_resort();
+  if (fathom::app::share_last_word_of_run()) {
+    fathom::app::say_when_interrupted(
+        "fathom: error: a rank of the run has ended, or all were told to: nothing is written\n");
+  }
+  fathom::app::handle_signals();
   const fathom::app::MpiSession session(argc, argv);
   return fathom::app::run(argc, argv);
 }

@@ -12,8 +12,12 @@
 /// sparse_exchange.cpp.
 namespace fathom::app {
 
-/// MPI, from the start of the program to its end. Of the ranks that share memory, one speaks where
-/// they end without having agreed on why (shell/last_resort.h).
+/// Of the ranks on a machine, one speaks where they end without having agreed on why
+/// (shell/last_resort.h), from before MPI has started, if it says where the files of the run are.
+/// Returns whether it does: otherwise, from when it has started.
+bool share_last_word_of_run();
+
+/// MPI, from the start of the program to its end.
 class MpiSession {
  public:
   MpiSession(int& argc, char**& argv);

@@ -1,15 +1,18 @@
 #include "apps/shell/last_resort.h"
 
+#include <fcntl.h>
 #include <gmp.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <optional>
 
 #include "apps/shell/pending_files.h"
 #include "fathom/threads/threads.h"
@@ -19,7 +22,9 @@ namespace {
 
 std::atomic<pid_t> speaker{0};
 std::atomic<int> outcome{-1};  ///< the exit status, once it is known
-std::atomic<bool> silent{false};
+std::atomic<Speaks> speaks_now{Speaks::of_all};
+/// The file that is made by the process that speaks; "" if there is none.
+std::array<char, 512> last_word_path{};
 std::atomic<std::atomic<int>*> said_by_any{nullptr};
 
 /// A line on standard error, without stdio, which might need memory or hold a lock.
@@ -31,6 +36,17 @@ void say(const char* text) noexcept {
     text += written;
     size -= static_cast<std::size_t>(written);
   }
+}
+
+/// Whether this process is the first to make the file; nullopt where none can be made.
+std::optional<bool> makes_last_word_file() noexcept {
+  if (last_word_path[0] == '\0') return std::nullopt;
+  const int file = ::open(last_word_path.data(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
+  if (file >= 0) {
+    ::close(file);
+    return true;
+  }
+  return errno == EEXIST ? std::optional(false) : std::nullopt;
 }
 
 ExitStatus report_unexpected(const char* what) noexcept {
@@ -90,16 +106,24 @@ void have_the_last_word() noexcept {
   ::_exit(unusable_input);
 }
 
-void speak_of_failures(bool speaks) noexcept {
-  silent = !speaks;
+void speak(Speaks speaks) noexcept {
+  speaks_now = speaks;
+}
+
+void share_last_word(const std::string& path) {
+  if (path.size() < last_word_path.size()) path.copy(last_word_path.data(), path.size());
 }
 
 void share_last_word(std::atomic<int>* said) noexcept {
   said_by_any = said;
 }
 
-bool may_speak() noexcept {
-  if (silent.exchange(true)) return false;
+bool may_speak(Speaks of) noexcept {
+  Speaks now = speaks_now;
+  do {
+    if (now < of) return false;
+  } while (!speaks_now.compare_exchange_weak(now, Speaks::of_nothing));
+  if (const std::optional<bool> first = makes_last_word_file()) return *first;
   std::atomic<int>* const said = said_by_any;
   return said == nullptr || said->exchange(1) == 0;
 }

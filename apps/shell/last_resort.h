@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <string>
 
 #include "apps/shell/exit_status.h"
 
@@ -10,15 +11,19 @@ namespace fathom::app {
 /// the end.
 void have_the_last_word() noexcept;
 
-/// Of processes that work together and end together, one speaks of it: whether this is it. At first
-/// it is.
-void speak_of_failures(bool speaks) noexcept;
-/// Such processes, on one machine, share this number, which is 0 and becomes 1 when one of them
-/// speaks: the others are silent from then on. nullptr: it is shared no longer.
+/// Of processes that work together and end together, one speaks of it. What this one speaks of:
+/// at first, all.
+enum class Speaks { of_nothing, of_interruptions, of_all };
+void speak(Speaks speaks) noexcept;
+/// Such processes, on one machine, share the name of a file that is made by the one that speaks:
+/// the others are silent from then on. A name that is too long is not shared.
+void share_last_word(const std::string& path);
+/// Where there is no such file, and none can be made, a number, which is 0 and becomes 1. nullptr: it is
+/// shared no longer.
 void share_last_word(std::atomic<int>* said) noexcept;
 /// Whether this process may say why it ends, which it does then, so that the answer is true once at
 /// most. Safe in a signal handler.
-bool may_speak() noexcept;
+bool may_speak(Speaks of = Speaks::of_all) noexcept;
 
 /// Says "fathom: error: out of memory: …" and returns the exit status; takes no memory for it.
 ExitStatus report_out_of_memory() noexcept;

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include "apps/shell/exit_status.h"
 #include "apps/shell/last_resort.h"
@@ -43,7 +44,7 @@ void say_at_once(const char* text) {
 extern "C" FATHOM_NOT_ADDRESS_SANITIZED void remove_and_exit(int) {
   remove_all_pending();
   const char* const text = last_words.texts[last_words.current.load()].data();
-  if (*text != '\0' && may_speak()) say_at_once(text);
+  if (*text != '\0' && may_speak(Speaks::of_interruptions)) say_at_once(text);
   ::_exit(interrupted);
 }
 
@@ -100,6 +101,8 @@ void say_when_interrupted(const std::string& text) {
 }
 
 void handle_signals() {
+  static bool are_handled = false;
+  if (std::exchange(are_handled, true)) return;
   make_stack();
   const struct sigaction exit = action_of(remove_and_exit), end = action_of(remove_and_end);
   // A program that was started with nohup keeps ignoring SIGHUP.

@@ -12,6 +12,7 @@ namespace fathom::app {
 ///   has been cut short meanwhile
 ///   a closed pipe and a file that   are errors of writing, not signals.
 ///   grows beyond the limit
+/// A second call does nothing.
 void handle_signals();
 
 /// What the program says on standard error when it is interrupted, from now on: a text that ends with a
