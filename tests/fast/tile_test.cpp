@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "fathom/triangle/sampling.h"
 #include "tests/inputs/soup.h"
@@ -131,41 +132,32 @@ TEST(Tile, ShowsTheNearestInColumnsBeyondTheRangeOfInt) {
   EXPECT_GT(seen, 1000);
 }
 
-/// Places of surfaces have 16 bits. Two small triangles that are near stay visible, while more large
-/// ones than there are places are drawn behind them, each nearer than the one before; then again
-/// after the tile was packed.
-TEST(Tile, ForgetsSurfacesThatAreHidden) {
+/// Two small triangles that are near, and after them so many large ones, each nearer than the one before.
+TileScene nearer_and_nearer(std::uint32_t large) {
   std::vector<MeshPoint> vertices{{-0.4, -0.4, 1}, {-0.1, -0.4, 1}, {-0.4, -0.1, 1},
                                   {0.4, 0.4, 1},   {0.1, 0.4, 1},   {0.4, 0.1, 1}};
   std::vector<CornerIndices> triangles{{0, 1, 2}, {3, 4, 5}};
-  constexpr std::uint32_t large = 70'000;
   for (std::uint32_t i = 0; i < large; ++i) {
     const double z = 100 - i * 0.001;
     const auto first = static_cast<std::uint32_t>(vertices.size());
     vertices.insert(vertices.end(), {{-9 * z, -9 * z, z}, {9 * z, -9 * z, z}, {0, 9 * z, z}});
     triangles.push_back({first, first + 1, first + 2});
   }
-  const Scene scene = testing::scene_of(vertices, triangles);
-  const Camera camera = testing::camera_of(64, 64, 64);
-  const TriangleSource source(scene);
-  Referee referee(source, camera);
-  RenderStatistics statistics;
-  const DepthRange range = depth_range(camera);
-  const FastSwitches switches;
-  ExactSetups exact_setups({0, camera.width - 1, 0, camera.height - 1});
-  const Tile::Context context{referee, statistics, range, true, switches, nullptr, exact_setups};
-  ImageObjects objects;
-  objects.emplace_back(scene.objects[0], scene.meshes[0], camera, 0);
-  std::vector<std::uint32_t> numbers(large + 2);
-  for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
-  const auto number_at = [](const Tile& tile, std::uint32_t column, std::uint32_t row) {
-    return tile.surface_at(Tile::index(column, row)).number();
-  };
+  return {testing::scene_of(vertices, triangles), testing::camera_of(64, 64, 64)};
+}
+
+std::uint32_t number_at(const Tile& tile, std::uint32_t column, std::uint32_t row) {
+  return tile.surface_at(Tile::index(column, row)).number();
+}
+
+/// More surfaces than a tile has places for, twice, and packed in between; then all at once.
+TEST(Tile, ForgetsSurfacesThatAreHidden) {
+  TileScene x = nearer_and_nearer(40'000);
+  const std::size_t half = x.drawn.size() / 2;
   Tile tile;
   tile.start({0, 63, 0, 63});
-  const std::size_t half = numbers.size() / 2;
   for (const std::size_t first : {std::size_t{0}, half}) {
-    tile.draw(objects[0], std::span(numbers).subspan(first, half), context);
+    tile.draw(x.objects[0], std::span(x.drawn).subspan(first, half), x.context());
     EXPECT_EQ(number_at(tile, 10, 10), 0U);
     EXPECT_EQ(number_at(tile, 54, 54), 1U);
     EXPECT_EQ(number_at(tile, 32, 32), first + half - 1);
@@ -174,12 +166,35 @@ TEST(Tile, ForgetsSurfacesThatAreHidden) {
     EXPECT_EQ(number_at(tile, 10, 10), 0U);
     EXPECT_EQ(number_at(tile, 32, 32), first + half - 1);
   }
-  EXPECT_EQ(statistics.visibility.exact, 0U);
-  // All of them at once.
+  EXPECT_EQ(x.statistics.visibility.exact, 0U);
   tile.start({0, 63, 0, 63});
-  tile.draw(objects[0], numbers, context);
+  tile.draw(x.objects[0], x.drawn, x.context());
   EXPECT_EQ(number_at(tile, 10, 10), 0U);
-  EXPECT_EQ(number_at(tile, 32, 32), large + 1);
+  EXPECT_EQ(number_at(tile, 32, 32), x.drawn.size() - 1);
+}
+
+/// What was drawn before back faces stays known when hidden surfaces are forgotten: before them, among
+/// them, and when the tile is packed.
+TEST(Tile, KnowsFrontFacesWhereItForgetsOthers) {
+  TileScene x = nearer_and_nearer(40'000);
+  for (const std::size_t front : {2, 100, 19'000, 39'999, 40'001}) {
+    Tile tile;
+    tile.start({0, 63, 0, 63});
+    tile.draw(x.objects[0], std::span(x.drawn).first(front), x.context());
+    tile.begin_back_faces();
+    tile.draw(x.objects[0], std::span(x.drawn).subspan(front), x.context());
+    for (int packed = 0; packed < 2; ++packed, tile.pack()) {
+      for (std::size_t i = 0; i < std::size_t{Tile::size} * Tile::size; ++i) {
+        if (!tile.shows_surface(i)) continue;
+        const bool is_known = Tile::place_of(tile.tags()[i]) < tile.end_of_front();
+        ASSERT_EQ(is_known, tile.surface_at(i).number() < front) << front << ' ' << i;
+      }
+    }
+    // Front faces after back faces: nothing is known.
+    tile.begin_back_faces();
+    tile.draw(x.objects[0], x.drawn, x.context());
+    EXPECT_EQ(tile.end_of_front(), 0U);
+  }
 }
 
 /// Each tile has a place of most_packed_bytes in a file: more would be another tile's. Surfaces that fill
@@ -190,7 +205,7 @@ TEST(Tile, PackedIsWithinItsPlaceWhereTheListIsFull) {
     tile.start({0, 63, 0, 63});
     (void)tile.next_place();
     tile.keep_surfaces(in_first_batch);
-    while (tile.end_of_places() < 16384) {
+    while (tile.end_of_places() < 8192) {
       (void)tile.next_place();
       tile.keep_surfaces(8);
     }
@@ -200,6 +215,63 @@ TEST(Tile, PackedIsWithinItsPlaceWhereTheListIsFull) {
     text::Bytes saved;
     tile.save(saved);
     EXPECT_LE(saved.size(), Tile::most_packed_bytes);
+  }
+}
+
+/// How many surfaces of a tile are shown by one sample alone.
+std::size_t shown_once(const Tile& tile) {
+  std::map<std::uint32_t, int> samples;
+  for (std::size_t i = 0; i < std::size_t{Tile::size} * Tile::size; ++i)
+    if (tile.shows_surface(i)) ++samples[tile.surface_at(i).number()];
+  return static_cast<std::size_t>(
+      std::ranges::count_if(samples, [](const auto& each) { return each.second == 1; }));
+}
+
+double q_at(const Tile& tile, std::size_t i) {
+  return tile.surface_at(i).q(Tile::column_of(i), Tile::row_of(i));
+}
+
+/// Triangles as large as one pixel to nine, all over an image of 64 × 64.
+TileScene small_triangles(std::mt19937_64& random, int count) {
+  std::uniform_real_distribution<double> place(-0.5, 0.5), depth(1, 9), side(-2.0 / 64, 2.0 / 64);
+  std::vector<MeshPoint> vertices;
+  std::vector<CornerIndices> triangles;
+  for (int i = 0; i < count; ++i) {
+    const double x = place(random), y = place(random), z = depth(random);
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    for (int k = 0; k < 3; ++k)
+      vertices.push_back({(x + side(random)) * z, (y + side(random)) * z, z + place(random)});
+    triangles.push_back({first, first + 1, first + 2});
+  }
+  return {testing::scene_of(vertices, triangles), testing::camera_of(64, 64, 64)};
+}
+
+/// At each sample the same surface, with the same q and the same bound, and as much is known of front faces.
+TEST(Tile, ComesBackFromAFileAsItWas) {
+  std::mt19937_64 random(203);
+  TileScene x = small_triangles(random, 3000);
+  Tile tile;
+  tile.start({0, 63, 0, 63});
+  tile.draw(x.objects[0], std::span(x.drawn).first(x.drawn.size() / 2), x.context());
+  tile.begin_back_faces();
+  tile.draw(x.objects[0], std::span(x.drawn).subspan(x.drawn.size() / 2), x.context());
+  tile.pack();
+  EXPECT_GT(shown_once(tile), 100U);
+  EXPECT_GT(tile.end_of_places(), shown_once(tile) + 100);
+  text::Bytes saved;
+  tile.save(saved);
+  Tile back;
+  back.start(tile.area());
+  back.restore([&](std::uint64_t offset, std::span<std::byte> to) {
+    std::ranges::copy(text::ByteView(saved).subspan(offset, to.size()), to.begin());
+  });
+  EXPECT_EQ(back.end_of_places(), tile.end_of_places());
+  EXPECT_EQ(back.end_of_front(), tile.end_of_front());
+  for (std::size_t i = 0; i < std::size_t{Tile::size} * Tile::size; ++i) {
+    ASSERT_EQ(back.shows_surface(i), tile.shows_surface(i));
+    ASSERT_EQ(back.surface_at(i).tag, tile.surface_at(i).tag);
+    ASSERT_EQ(back.q()[i], tile.q()[i]);
+    ASSERT_EQ(q_at(back, i), q_at(tile, i));
   }
 }
 

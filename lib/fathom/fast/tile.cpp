@@ -39,28 +39,20 @@ std::uint32_t Tile::next_place() {
   return places_;
 }
 
-std::vector<TileSurface> Tile::number_visible() {
-  std::vector<std::uint32_t> new_place(places_);
-  std::vector<TileSurface> kept;
-  kept.reserve(std::min<std::size_t>(places_, room + 1));
-  kept.push_back(surfaces_[0]);
-  for (LaneTag& tag : tags_) {
-    const std::uint32_t place = place_of(tag);
-    if (place == 0) continue;
-    if (new_place[place] == 0) {
-      new_place[place] = static_cast<std::uint32_t>(kept.size());
-      kept.push_back(surfaces_[place]);
-    }
-    tag = (tag & 0xFFFF0000) | new_place[place];
-  }
-  end_of_front_ = 0;
-  places_ = static_cast<std::uint32_t>(kept.size());
-  return kept;
-}
-
 void Tile::forget_hidden() {
-  const std::vector<TileSurface> kept = number_visible();
-  std::ranges::copy(kept, surfaces_.begin());
+  std::vector<std::uint32_t> new_place(places_);  // first, whether it is at a sample
+  for (const LaneTag tag : tags_) new_place[place_of(tag)] = 1;
+  new_place[0] = 0;
+  std::uint32_t end = 1, end_of_front = std::min(end_of_front_, end);
+  for (std::uint32_t place = 1; place < places_; ++place) {
+    if (new_place[place] == 0) continue;
+    if (place < end_of_front_) end_of_front = end + 1;
+    surfaces_[end] = surfaces_[place];
+    new_place[place] = end++;
+  }
+  for (LaneTag& tag : tags_) tag = (tag & 0xFFFF0000) | new_place[place_of(tag)];
+  places_ = end;
+  end_of_front_ = end_of_front;
 }
 
 std::span<const std::uint32_t> Tile::numbers_of(std::span<const TileEntry> some) {
@@ -73,7 +65,8 @@ void Tile::pack() {
   entries_ = std::vector<TileEntry>();  // {} would keep its memory
   // It was packed before, or is empty. The list may also be just full, of any length.
   if (surfaces_.size() == places_ && places_ <= room + 1) return;
-  surfaces_ = number_visible();
+  forget_hidden();
+  surfaces_.resize(places_);
   surfaces_.shrink_to_fit();
 }
 
@@ -89,6 +82,13 @@ struct SavedState {
   std::uint32_t places, end_of_front, draws_back_faces;
 };
 
+/// Of a surface that one sample alone shows, q at that sample is all that will be asked for: a constant,
+/// with the same bound on its error.
+struct SurfaceOfSample {
+  double q;
+  std::uint64_t tag;
+};
+
 template <class List>
 std::span<std::byte> bytes_of(List& list) {
   return std::as_writable_bytes(std::span(list));
@@ -96,13 +96,35 @@ std::span<std::byte> bytes_of(List& list) {
 
 }  // namespace
 
+std::vector<std::uint32_t> Tile::only_samples() const {
+  std::vector<std::uint32_t> samples(places_, no_sample);
+  for (std::uint32_t i = 0; i < room; ++i) {
+    std::uint32_t& sample = samples[place_of(tags_[i])];
+    sample = sample == no_sample ? i : several_samples;
+  }
+  return samples;
+}
+
 // What is known of blocks is left out: it is found again.
 void Tile::save(text::Bytes& bytes) const {
   const SavedState state{places_, end_of_front_, draws_back_faces_ ? 1U : 0U};
   text::append(bytes, std::as_bytes(std::span(&state, 1)));
   text::append(bytes, std::as_bytes(std::span(q_)));
   text::append(bytes, std::as_bytes(std::span(tags_)));
-  text::append(bytes, std::as_bytes(std::span(surfaces_).first(places_)));
+  std::vector<SurfaceOfSample> of_samples;
+  std::vector<TileSurface> others;
+  const std::vector<std::uint32_t> only = only_samples();
+  for (std::uint32_t place = 0; place < places_; ++place) {
+    const TileSurface& surface = surfaces_[place];
+    const std::uint32_t sample = only[place];
+    if (sample < room) {
+      of_samples.push_back({surface.q(column_of(sample), row_of(sample)), surface.tag});
+    } else {
+      others.push_back(surface);
+    }
+  }
+  text::append(bytes, std::as_bytes(std::span(of_samples)));
+  text::append(bytes, std::as_bytes(std::span(others)));
 }
 
 void Tile::restore(const std::function<void(std::uint64_t, std::span<std::byte>)>& read) {
@@ -118,8 +140,24 @@ void Tile::restore(const std::function<void(std::uint64_t, std::span<std::byte>)
   places_ = state.places;
   end_of_front_ = state.end_of_front;
   draws_back_faces_ = state.draws_back_faces != 0;
+  const std::vector<std::uint32_t> only = only_samples();
+  const auto is_of_sample = [](std::uint32_t sample) { return sample < room; };
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(only, is_of_sample));
+  std::vector<SurfaceOfSample> of_samples(count);
+  std::vector<TileSurface> others(places_ - count);
+  take(bytes_of(of_samples));
+  take(bytes_of(others));
   surfaces_.resize(places_);
-  take(bytes_of(surfaces_));
+  auto next_of_sample = of_samples.cbegin();
+  auto next_other = others.cbegin();
+  for (std::uint32_t place = 0; place < places_; ++place) {
+    if (is_of_sample(only[place])) {
+      surfaces_[place] = {next_of_sample->q, 0, 0, next_of_sample->tag};
+      ++next_of_sample;
+    } else {
+      surfaces_[place] = *next_other++;
+    }
+  }
 }
 
 void Tile::set_up_exactly(std::uint32_t number, const PixelBox& box, const Context& context,

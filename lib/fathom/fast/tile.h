@@ -110,7 +110,7 @@ class Tile : public TileShape {
       if (!numbers.empty()) draw(numbers);
     }
   }
-  /// Draws triangles of one object (their numbers in the scene) at the samples of the area.
+  /// Draws triangles of one object (their numbers in the scene, one at least) at the samples of the area.
   void draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
             const Context& context);
 
@@ -150,7 +150,7 @@ class Tile : public TileShape {
     draws_back_faces_ = true;
   }
   /// Samples whose surface has a place below this certainly show one that was drawn before the first
-  /// back face. None is known where surfaces have been numbered anew since, or front faces been drawn.
+  /// back face. None is known where front faces have been drawn since.
   [[nodiscard]] std::uint32_t end_of_front() const { return end_of_front_; }
 
   // For the vector code.
@@ -184,14 +184,18 @@ class Tile : public TileShape {
   /// Their numbers; those of the triangles that may be visible.
   std::span<const std::uint32_t> numbers_of(std::span<const TileEntry> some);
   std::span<const std::uint32_t> visible_of(std::span<const TileEntry> some);
-  /// The surfaces that are at samples, which get their new places there.
-  std::vector<TileSurface> number_visible();
-  /// Forgets the surfaces that are at no sample any more.
+  /// Forgets the surfaces that are at no sample any more; the others keep their order.
   void forget_hidden();
 
-  /// Place 0 is no surface; others are numbered by 16 bits.
-  static constexpr std::uint32_t most_places = 0x10000;
-  static constexpr std::size_t room = std::size_t{size} * size;
+  /// For each place, the one sample that shows its surface; greater numbers where none does, or several.
+  [[nodiscard]] std::vector<std::uint32_t> only_samples() const;
+
+  static constexpr std::uint32_t room = size * size;
+  static constexpr std::uint32_t several_samples = room, no_sample = room + 1;
+  /// Place 0 is no surface; others are numbered by 16 bits. At most a quarter of them are visible: with more
+  /// places than this, surfaces would be forgotten less often, but leave the caches.
+  static constexpr std::uint32_t most_places = 4 * room;
+  static_assert(most_places <= 0x10000);
   PixelBox area_;
   alignas(64) std::array<float, room> q_;
   alignas(64) std::array<LaneTag, room> tags_;
