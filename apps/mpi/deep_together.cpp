@@ -4,20 +4,18 @@
 #include <vector>
 
 #include "apps/mpi/gathered_rows.h"
+#include "apps/mpi/run_outputs.h"
 #include "apps/mpi/scene_together.h"
 #include "apps/mpi/together.h"
 #include "apps/mpi/traffic.h"
 #include "apps/render/camera_warnings.h"
 #include "apps/render/render_memory.h"
-#include "apps/render/render_outputs.h"
 #include "apps/render/render_plan.h"
 #include "apps/render/thread_limit.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/signals.h"
 #include "apps/shell/stopwatch.h"
-#include "apps/shell/text_output.h"
-#include "fathom/camera/camera_files.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/render.h"
 
@@ -47,14 +45,10 @@ int render_deep_together(const Ranks& ranks, const MpiArguments& arguments,
       open_scene(ranks, render, {.whole = true, .hash = ranks.is_first()}, console);
   const std::vector<Camera> cameras = cameras_of(ranks, render, {}, shared, console);
   const Scene& scene = shared.outline();
-  std::optional<RenderOutputs> outputs;
-  std::optional<TextOutput> report;
+  std::optional<RunOutputs> outputs;  // in the first rank
   together(ranks, [&] {
     check_cameras(cameras, plan, render.output);
-    if (!ranks.is_first()) return;
-    report.emplace(arguments.traffic);
-    outputs.emplace(render, cameras);
-    outputs->write_cameras(to_json(cameras) + "\n");
+    if (ranks.is_first()) outputs.emplace(arguments, cameras);
   });
   CameraWarnings warnings;
   std::vector<MapTraffic> traffic(cameras.size());
@@ -68,9 +62,9 @@ int render_deep_together(const Ranks& ranks, const MpiArguments& arguments,
       sum_up(traffic[i], ranks);
       together(ranks, [&] {
         if (!outputs) return;
-        traffic[i].map = outputs->map_name(i);
+        traffic[i].map = outputs->of_render().map_name(i);
         render.motion.describe(map.description, render.motion.time_or_start());
-        outputs->map(i).write([&](const auto& path) {
+        outputs->of_render().map(i).write([&](const auto& path) {
           write_deep_map(map, path, plan.compression, plan.rendering.threads);
         });
         warnings.note(scene, cameras[i], map);
@@ -79,9 +73,7 @@ int render_deep_together(const Ranks& ranks, const MpiArguments& arguments,
   }
   warnings.tell(console);
   together(ranks, [&] {
-    if (!outputs) return;
-    outputs->commit();
-    report->finish(as_json(traffic, ranks.count()));
+    if (outputs) outputs->commit(traffic, ranks.count());
   });
   say_when_interrupted("");
   return done;

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <numeric>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -18,30 +19,62 @@ namespace fathom::app {
 /// Which rows of an image a rank makes by itself, where each has the whole scene.
 RowShare share_of(const Ranks& ranks);
 
-/// Items of the pixels of an image, row by row: how many each pixel has, and all of them, one after another.
-struct PixelItems {
-  std::vector<std::uint32_t> counts;
-  text::Bytes items;
+/// What other ranks than the first have found in their shares of the rows, as it comes to the first.
+class RowsOfOthers {
+ public:
+  explicit RowsOfOthers(const Ranks& ranks);
+  /// The next so many counts, or bytes of items, of a rank.
+  void take_counts(std::size_t rank, std::span<std::uint32_t> to) { take(counts_[rank], to); }
+  template <class Item>
+  void take_items(std::size_t rank, std::span<Item> to) {
+    take(items_[rank], to);
+  }
+
+ private:
+  struct List {
+    text::Bytes bytes;
+    std::size_t taken = 0;
+  };
+  template <class T>
+  static void take(List& from, std::span<T> to) {
+    const auto bytes = std::as_writable_bytes(to);
+    std::ranges::copy(text::ByteView(from.bytes).subspan(from.taken, bytes.size()), bytes.begin());
+    from.taken += bytes.size();
+  }
+  std::vector<List> counts_, items_;
 };
 
-/// Puts together in the first rank what each has found in its share of the rows; other rows of it have
-/// nothing. Called by all ranks; the others keep what they have.
-void gather_rows(const Ranks& ranks, std::uint32_t width, std::size_t bytes_of_item,
-                 PixelItems& items, Traffic& traffic);
+/// Sends the first rank what this one has found in its share of the rows, where RowsOfOthers takes it.
+void send_rows(const Ranks& ranks, std::uint32_t width, std::span<const std::uint32_t> counts,
+               text::ByteView items, Traffic& traffic);
 
-/// The same of lists of items.
+/// Puts together in the first rank what each has found in its share of the rows of an image: how many
+/// items each pixel has, and all of them, pixel by pixel; other rows of it have none. Called by all
+/// ranks; the others keep what they have.
 template <class Item>
-void gather_rows(const Ranks& ranks, std::uint32_t width, std::vector<std::uint32_t>& counts,
+void gather_rows(const Ranks& ranks, std::uint32_t width, std::span<std::uint32_t> counts,
                  std::vector<Item>& items, Traffic& traffic) {
   static_assert(std::is_trivially_copyable_v<Item>);
+  if (!ranks.is_first())
+    return send_rows(ranks, width, counts, std::as_bytes(std::span(items)), traffic);
   if (ranks.count() == 1) return;
-  const auto bytes = std::as_bytes(std::span(items));
-  PixelItems all{std::move(counts), {bytes.begin(), bytes.end()}};
-  items = std::vector<Item>();  // {} would keep its memory
-  gather_rows(ranks, width, sizeof(Item), all, traffic);
-  counts = std::move(all.counts);
-  items.resize(all.items.size() / sizeof(Item));
-  if (!items.empty()) std::memcpy(items.data(), all.items.data(), all.items.size());
+  RowsOfOthers others(ranks);
+  const std::vector<Item> own = std::exchange(items, {});
+  std::span<const Item> own_left(own);
+  for (std::size_t row = 0; row * width < counts.size(); ++row) {
+    const std::size_t rank = share_of(ranks).process_of_row(static_cast<std::uint32_t>(row));
+    const std::span<std::uint32_t> of_row = counts.subspan(row * width, width);
+    if (rank != 0) others.take_counts(rank, of_row);
+    const std::size_t count = std::accumulate(of_row.begin(), of_row.end(), std::size_t{0});
+    if (rank == 0) {
+      items.insert(items.end(), own_left.begin(),
+                   own_left.begin() + static_cast<std::ptrdiff_t>(count));
+      own_left = own_left.subspan(count);
+    } else {
+      items.resize(items.size() + count);
+      others.take_items(rank, std::span(items).last(count));
+    }
+  }
 }
 
 }  // namespace fathom::app

@@ -35,7 +35,7 @@ namespace {
 
 class MapTogether {
  public:
-  MapTogether(const JobTogether& job, const Camera& camera, std::optional<RenderOutputs>& outputs,
+  MapTogether(const JobTogether& job, const Camera& camera, RenderOutputs* outputs,
               std::size_t number, MapTraffic& traffic, MapReport& report)
       : job_(job),
         ranks_(job.ranks),
@@ -172,10 +172,12 @@ class MapTogether {
     const std::string& name = traffic_.map;
     describe(map_);
     const auto render_again = [&](const RenderOptions& o) { (void)job_.scene.render(camera_, o); };
+    const auto mattes = [found = mattes_.begin()](const MatteKind&) mutable {
+      return std::move(*found++);
+    };
     add_planned(map_, plan, name,
-                {job_.scene.outline(), job_.scene.triangles(), camera_, plan.rendering,
-                 render_again, mattes_},
-                report_, job_.console);
+                {job_.scene.triangles(), camera_, plan.rendering, render_again, mattes}, report_,
+                job_.console);
     map_ = dressed(std::move(map_));
     outputs_->map(number_).write(
         [&](const auto& path) { write_map(map_, path, plan.format, plan.writing); });
@@ -212,7 +214,7 @@ class MapTogether {
   const JobTogether& job_;
   const Ranks& ranks_;
   const Camera& camera_;
-  std::optional<RenderOutputs>& outputs_;
+  RenderOutputs* outputs_;
   std::size_t number_;
   MapTraffic& traffic_;
   MapReport& report_;
@@ -235,10 +237,9 @@ std::optional<std::uint32_t> rows_of_chunk(const MapPlan& plan) {
   return rows_of_exr_chunk(plan.writing.compression);
 }
 
-void make_map_together(const JobTogether& job, const Camera& camera,
-                       std::optional<RenderOutputs>& outputs, std::size_t number,
-                       const std::function<void(double)>& progress, MapTraffic& traffic,
-                       MapReport& report) {
+void make_map_together(const JobTogether& job, const Camera& camera, RenderOutputs* outputs,
+                       std::size_t number, const std::function<void(double)>& progress,
+                       MapTraffic& traffic, MapReport& report) {
   MapTogether(job, camera, outputs, number, traffic, report).make(progress);
 }
 

@@ -15,12 +15,11 @@ namespace fathom::app {
 std::optional<std::uint32_t> rows_of_chunk(const MapPlan& plan);
 
 /// Makes the map of a camera, from the triangles of all ranks to a file. Called by all ranks.
-/// `outputs`  in the first rank;  `number`: of the camera
+/// `outputs`  of the first rank;  `number`: of the camera
 /// `traffic`  gets what it took;  `report`: what is said of the map, its statistics the sums of all ranks'
 ///            in all of them, the rest in the first
-void make_map_together(const JobTogether& job, const Camera& camera,
-                       std::optional<RenderOutputs>& outputs, std::size_t number,
-                       const std::function<void(double)>& progress, MapTraffic& traffic,
-                       MapReport& report);
+void make_map_together(const JobTogether& job, const Camera& camera, RenderOutputs* outputs,
+                       std::size_t number, const std::function<void(double)>& progress,
+                       MapTraffic& traffic, MapReport& report);
 
 }  // namespace fathom::app

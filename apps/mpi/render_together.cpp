@@ -6,20 +6,18 @@
 
 #include "apps/mpi/deep_together.h"
 #include "apps/mpi/map_together.h"
+#include "apps/mpi/run_outputs.h"
 #include "apps/mpi/scene_together.h"
 #include "apps/mpi/together.h"
 #include "apps/render/camera_warnings.h"
 #include "apps/render/map_warnings.h"
 #include "apps/render/render_memory.h"
-#include "apps/render/render_outputs.h"
 #include "apps/render/render_plan.h"
 #include "apps/render/thread_limit.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/signals.h"
 #include "apps/shell/stopwatch.h"
-#include "apps/shell/text_output.h"
-#include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -43,14 +41,10 @@ int render_maps(const JobTogether& job, const std::vector<Camera>& cameras,
                 double seconds_reading) {
   const Ranks& ranks = job.ranks;
   const RenderArguments& arguments = job.arguments.render;
-  std::optional<RenderOutputs> outputs;
-  std::optional<TextOutput> report;
+  std::optional<RunOutputs> outputs;  // in the first rank
   together(ranks, [&] {
     check_cameras(cameras, job.plan, arguments.output, rows_of_chunk(job.plan).has_value());
-    if (!ranks.is_first()) return;
-    report.emplace(job.arguments.traffic);
-    outputs.emplace(arguments, cameras);
-    outputs->write_cameras(to_json(cameras) + "\n");
+    if (ranks.is_first()) outputs.emplace(job.arguments, cameras);
   });
   keep_what_rounds_give_back();
   std::vector<MapTraffic> traffic(cameras.size());
@@ -59,8 +53,8 @@ int render_maps(const JobTogether& job, const std::vector<Camera>& cameras,
   {
     Progress progress(job.console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-      make_map_together(job, cameras[i], outputs, i, progress.reporter(i, cameras.size()),
-                        traffic[i], reports[i]);
+      make_map_together(job, cameras[i], outputs ? &outputs->of_render() : nullptr, i,
+                        progress.reporter(i, cameras.size()), traffic[i], reports[i]);
       reports[i].seconds.read = seconds_reading;
       const RenderStatistics& statistics = reports[i].statistics;
       if (i == 0) warn_of(statistics, job.console);
@@ -70,9 +64,8 @@ int render_maps(const JobTogether& job, const std::vector<Camera>& cameras,
   warnings.tell(job.console);
   together(ranks, [&] {
     if (!outputs) return;
-    outputs->write_statistics(as_json(reports));
-    outputs->commit();
-    report->finish(as_json(traffic, ranks.count()));
+    outputs->of_render().write_statistics(as_json(reports));
+    outputs->commit(traffic, ranks.count());
   });
   // What was verified, the first rank knows.
   const bool differs = std::ranges::any_of(reports, [](const MapReport& each) {

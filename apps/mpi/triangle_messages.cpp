@@ -1,6 +1,5 @@
 #include "apps/mpi/triangle_messages.h"
 
-#include <algorithm>
 #include <cstring>
 #include <map>
 #include <stdexcept>
@@ -32,10 +31,6 @@ std::vector<std::vector<std::uint32_t>> triangles_for_ranks(std::span<const Tile
   for (const TileTouch& touch : touches) {
     auto& list = lists[static_cast<std::size_t>(owners[touch.tile])];
     if (list.empty() || list.back() != touch.triangle) list.push_back(touch.triangle);
-  }
-  for (auto& list : lists) {
-    std::ranges::sort(list);
-    list.erase(std::unique(list.begin(), list.end()), list.end());
   }
   return lists;
 }

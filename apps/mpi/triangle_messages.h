@@ -18,7 +18,7 @@ namespace fathom::app {
 ///   numbers     of the triangles in the scene
 ///
 /// Numbers are as they are in memory: all ranks run on machines of one kind.
-/// `touches`    of tiles of other ranks;   `owners`: the rank of each tile
+/// `touches`    of tiles of other ranks, in the order of the triangles;  `owners`: the rank of each tile
 std::vector<text::Bytes> messages_of(const std::vector<SomeTriangles>& part,
                                      std::span<const TileTouch> touches,
                                      std::span<const int> owners, int ranks);

@@ -4,7 +4,6 @@
 #include "apps/render/map_verification.h"
 #include "apps/shell/stopwatch.h"
 #include "fathom/area/sampled_coverage.h"
-#include "fathom/render.h"
 
 namespace fathom::app {
 
@@ -15,11 +14,7 @@ bool has_additions(const MapPlan& plan) {
 void add_planned(DepthMap& map, const MapPlan& plan, const std::string& name,
                  const RenderedFrom& from, MapReport& report, const Console& console) {
   Stopwatch stopwatch;
-  for (const Mattes& mattes : from.mattes) add_mattes(map, mattes);
-  if (from.mattes.empty()) {
-    for (const MatteKind& by : plan.mattes)
-      add_cryptomatte(map, from.outline, from.camera, from.options, by);
-  }
+  for (const MatteKind& by : plan.mattes) add_mattes(map, from.mattes(by));
   if (plan.samples) {
     add_sampled_coverage(map, from.triangles, from.camera, *plan.samples, from.options);
     map.texts["fathom.samples"] = plan.samples->name;

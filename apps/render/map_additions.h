@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <string>
 
 #include "apps/render/render_plan.h"
@@ -14,16 +13,15 @@
 
 namespace fathom::app {
 
-/// What a map was rendered from. The outline is the whole scene where there is Cryptomatte in the plan.
+/// What a map was rendered from.
 struct RenderedFrom {
-  const Scene& outline;
   TriangleSource triangles;
   const Camera& camera;
   const RenderOptions& options;
   /// Renders the same map with other options.
   std::function<void(const RenderOptions&)> render;
-  /// Those of the plan, in its order, where they have been found already.
-  std::span<const Mattes> mattes = {};
+  /// Those of the plan, each asked for once, in its order.
+  std::function<Mattes(const MatteKind&)> mattes;
 };
 
 /// Whether the plan has anything that add_planned() does, for which it needs the whole map.

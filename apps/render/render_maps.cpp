@@ -42,8 +42,11 @@ MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOp
   report.height = map.height;
   report.seconds.render = stopwatch.lap();
   const auto render_again = [&](const RenderOptions& o) { (void)scene.render(camera, o); };
-  add_planned(map, plan, name, {scene.outline(), scene.triangles(), camera, options, render_again},
-              report, console);
+  const auto mattes = [&](const MatteKind& by) {
+    return find_mattes(scene.outline(), camera, options, by);
+  };
+  add_planned(map, plan, name, {scene.triangles(), camera, options, render_again, mattes}, report,
+              console);
   stopwatch.lap();
   map = plan.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity());
   outputs.map(number).write(

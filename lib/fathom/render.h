@@ -45,8 +45,8 @@ void finish_map(DepthMap& map, const Scene& scene, const Camera& camera,
                 const RenderOptions& options, const RenderStatistics& statistics);
 
 /// The visible fragments of every pixel with their exact areas (specification, section 8). Of the
-/// options culling, threads and progress count. Pixels of other rows than those of the share have no
-/// samples.
+/// options culling, threads and progress count. `share`: the rows that are made, where several
+/// processes share them out; pixels of other rows have no samples.
 /// Fails    InputError and UsageError as render().
 DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options = {},
                     const RowShare& share = {});
@@ -61,8 +61,9 @@ void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
                      const RenderOptions& options = {},
                      std::optional<Segmentation> by = std::nullopt);
 
-/// What it adds; pixels of other rows than those of the share show nothing. The names are those of all
-/// segments, and the empty one, last, where such a pixel shows a triangle without a name.
+/// What it adds. `share`: the rows that are looked at; pixels of other rows show nothing. The names
+/// are those of all segments, and the empty one, last, where a pixel of these rows shows a triangle
+/// without a name.
 /// Fails    as add_cryptomatte(), but for faults of the map.
 Mattes find_mattes(const Scene& scene, const Camera& camera, const RenderOptions& options,
                    std::optional<Segmentation> by, const RowShare& share = {});

@@ -11,8 +11,12 @@ struct RowShare {
 
   std::uint32_t process = 0, processes = 1;
 
-  [[nodiscard]] bool has_band(std::uint32_t band) const { return band % processes == process; }
-  [[nodiscard]] bool has_row(std::uint32_t row) const { return has_band(row / rows_per_band); }
+  [[nodiscard]] std::uint32_t process_of_band(std::uint32_t band) const { return band % processes; }
+  [[nodiscard]] std::uint32_t process_of_row(std::uint32_t row) const {
+    return process_of_band(row / rows_per_band);
+  }
+  [[nodiscard]] bool has_band(std::uint32_t band) const { return process_of_band(band) == process; }
+  [[nodiscard]] bool has_row(std::uint32_t row) const { return process_of_row(row) == process; }
   /// How many bands, of an image of so many rows.
   [[nodiscard]] std::uint32_t bands(std::uint32_t rows) const {
     const std::uint32_t all = (rows + rows_per_band - 1) / rows_per_band;
