@@ -149,7 +149,7 @@ TEST(Clip, MessagesAboutKeysNameTheAlgorithm) {
   // What only the second cannot do, it says.
   expect_error("weiler-atherton", R"({"subject": [], "clip": [], "op": "difference"})",
                "--against sutherland-hodgman: sutherland-hodgman does intersections only; "
-               "weiler-atherton does both",
+               "weiler-atherton does differences and unions",
                {"--against", "sutherland-hodgman"});
   expect_error("homogeneous", R"({"segment": [[0,0,0,1],[1,1,1,1]], "attributes": [[0],[1]]})",
                "\"attributes\" is not a key of homogeneous with segment; it takes segment, volume, "

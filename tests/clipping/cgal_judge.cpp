@@ -57,8 +57,9 @@ std::optional<std::string> ring_fault(const Ring<Rational>& ring, bool is_hole) 
 }  // namespace
 
 struct Judge::Regions {
-  CgalSet intersection, difference;
+  CgalSet intersection, difference, join;
   [[nodiscard]] const CgalSet& of(SetOperation operation) const {
+    if (operation == SetOperation::join) return join;
     return operation == SetOperation::intersection ? intersection : difference;
   }
 };
@@ -68,6 +69,7 @@ Judge::Judge(const Rings<Rational>& subject, const Rings<Rational>& clip)
   const CgalSet a = set_of(subject), b = set_of(clip);
   regions_->intersection.intersection(a, b);
   regions_->difference.difference(a, b);
+  regions_->join.join(a, b);
 }
 
 Judge::~Judge() = default;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -53,22 +54,32 @@ bool is_same(const std::vector<Polygon<Rational>>& p, const std::vector<Polygon<
   });
 }
 
-/// Both operations on one pair, beside CGAL as a judge of regions and as another way to the answer. The answers' areas add up to the subject's.
+constexpr SetOperation all_operations[] = {SetOperation::intersection, SetOperation::difference,
+                                           SetOperation::join};
+
+/// All operations on one pair, beside CGAL as a judge of regions and as another way to the answer.
+/// Intersection and difference add up to the subject, the union and the intersection to both sides.
 void expect_as_cgal(const Rings<double>& subject, const Rings<double>& clip) {
   const Judge judge(to_exact(subject), to_exact(clip));
-  Rational sum(0);
-  for (const SetOperation operation : {SetOperation::intersection, SetOperation::difference}) {
-    SCOPED_TRACE(operation == SetOperation::intersection ? "intersection" : "difference");
+  std::array<Rational, 3> areas;
+  for (const SetOperation operation : all_operations) {
+    const auto number = static_cast<std::size_t>(operation);
+    constexpr const char* names[] = {"intersection", "difference", "union"};
+    SCOPED_TRACE(names[number]);
     const auto answer = weiler_atherton(to_exact(subject), to_exact(clip), operation);
     ASSERT_EQ(area_of(answer), judge.area(operation)) << to_text(subject, clip);
     ASSERT_EQ(judge.fault(operation, answer), std::nullopt) << to_text(subject, clip);
     ASSERT_EQ(piece_fault(answer), std::nullopt) << to_text(subject, clip);
     ASSERT_TRUE(is_same(answer, boolean_by_cgal(to_exact(subject), to_exact(clip), operation)))
         << to_text(subject, clip);
-    sum += area_of(answer);
+    areas[number] = area_of(answer);
   }
-  ASSERT_EQ(sum, signed_area(checked_rings(to_exact(subject), "subject")))
-      << to_text(subject, clip);
+  const auto area_of_side = [](const Rings<double>& rings) {
+    return signed_area(checked_rings(to_exact(rings), "side"));
+  };
+  const auto& [common, rest, all] = areas;
+  ASSERT_EQ(common + rest, area_of_side(subject)) << to_text(subject, clip);
+  ASSERT_EQ(all + common, area_of_side(subject) + area_of_side(clip)) << to_text(subject, clip);
 }
 
 /// Random pairs on a grid from 0 to `size`: the smaller it is, the more they touch.
@@ -95,7 +106,7 @@ TEST_P(WeilerAthertonRandom, IsAsCgal) {
   }
 }
 
-// 21,000 pairs, each with both operations; a twentieth of them under sanitizers.
+// 21,000 pairs, each with all operations; a twentieth of them under sanitizers.
 INSTANTIATE_TEST_SUITE_P(Grids, WeilerAthertonRandom,
                          ::testing::Values(RandomPairs{1, 6000, 3, 8}, RandomPairs{2, 5000, 4, 10},
                                            RandomPairs{3, 4000, 5, 8}, RandomPairs{4, 3000, 6, 12},
@@ -121,16 +132,20 @@ Rings<double> rings_of(const Json& json) {
   return rings;
 }
 
+SetOperation operation_of(const std::string& name) {
+  if (name == "union") return SetOperation::join;
+  return name == "difference" ? SetOperation::difference : SetOperation::intersection;
+}
+
 // The named degenerate contacts of data/: CGAL has the same point set, and the file of answers the
 // same area.
 TEST(WeilerAtherton, NamedDegenerateCases) {
   const auto cases = lines_of("degenerate.jsonl"), answers = lines_of("degenerate.answers.jsonl");
-  ASSERT_GE(cases.size(), 130u);
+  ASSERT_GE(cases.size(), 200u);
   ASSERT_EQ(cases.size(), answers.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     SCOPED_TRACE(cases[i]["name"]);
-    const auto operation =
-        cases[i]["op"] == "intersection" ? SetOperation::intersection : SetOperation::difference;
+    const auto operation = operation_of(cases[i]["op"]);
     const Rings<Rational> subject = to_exact(rings_of(cases[i]["subject"]));
     const Rings<Rational> clip = to_exact(rings_of(cases[i]["clip"]));
     const auto answer = weiler_atherton(subject, clip, operation);
@@ -198,6 +213,29 @@ TEST(WeilerAtherton, ContactsAreLabelled) {
   EXPECT_EQ(kinds_of(clip, clip), "aaaa");
 }
 
+// A union begins at a leaving contact, and follows the clip list forwards to the next leaving one.
+TEST(WeilerAtherton, AUnionWalksOutsideOfTheOther) {
+  WeilerAthertonTrace<Rational> trace;
+  const auto answer = weiler_atherton<Rational>({rectangle(0, 0, 4, 4)}, {rectangle(2, 2, 6, 6)},
+                                                SetOperation::join, &trace);
+  ASSERT_EQ(answer.size(), 1u);
+  EXPECT_EQ(answer[0].outline,
+            (Ring<Rational>{{0, 0}, {4, 0}, {4, 2}, {6, 2}, {6, 6}, {2, 6}, {2, 4}, {0, 4}}));
+  ASSERT_EQ(trace.walks.size(), 1u);
+  EXPECT_EQ(trace.walks[0][0].from, (Point2<Rational>{2, 4}));  // where the subject leaves the clip
+  EXPECT_EQ(borders_of(trace.walks[0]), "ssssccc" + std::string("c"));
+  // Side by side they become one; corner to corner they stay two; around a gap there is a hole.
+  const auto join = [](const Rings<Rational>& a, const Rings<Rational>& b) {
+    return weiler_atherton(a, b, SetOperation::join);
+  };
+  EXPECT_EQ(join({rectangle(0, 0, 2, 2)}, {rectangle(2, 0, 4, 2)}).size(), 1u);
+  EXPECT_EQ(join({rectangle(0, 0, 2, 2)}, {rectangle(2, 2, 4, 4)}).size(), 2u);
+  const auto ring = join({{{0, 0}, {6, 0}, {6, 6}, {4, 6}, {4, 2}, {2, 2}, {2, 6}, {0, 6}}},
+                         {rectangle(0, 4, 6, 6)});
+  ASSERT_EQ(ring.size(), 1u);
+  EXPECT_EQ(ring[0].holes, (Rings<Rational>{{{2, 2}, {2, 4}, {4, 4}, {4, 2}}}));
+}
+
 TEST(WeilerAtherton, Laws) {
   PolygonMaker maker(7);
   for (int i = 0; i < 500 / testing::effort; ++i) {
@@ -209,6 +247,12 @@ TEST(WeilerAtherton, Laws) {
     EXPECT_TRUE(is_same(weiler_atherton(A, A, SetOperation::intersection),
                         weiler_atherton(A, Rings<Rational>{}, SetOperation::difference)));
     EXPECT_TRUE(weiler_atherton(A, Rings<Rational>{}, SetOperation::intersection).empty());
+    const auto joined = weiler_atherton(A, B, SetOperation::join);
+    EXPECT_TRUE(is_same(joined, weiler_atherton(B, A, SetOperation::join)));
+    EXPECT_TRUE(is_same(weiler_atherton(A, A, SetOperation::join),
+                        weiler_atherton(A, Rings<Rational>{}, SetOperation::join)));
+    EXPECT_TRUE(is_same(weiler_atherton(A, Rings<Rational>{}, SetOperation::join),
+                        weiler_atherton(Rings<Rational>{}, A, SetOperation::join)));
     // A − B and A ∩ B have nothing in common; the answers are rings that can be clipped again.
     Rings<Rational> rest, common;
     for (auto* list : {&rest, &common})
@@ -218,6 +262,8 @@ TEST(WeilerAtherton, Laws) {
         list->insert(list->end(), polygon.holes.begin(), polygon.holes.end());
       }
     EXPECT_TRUE(weiler_atherton(rest, common, SetOperation::intersection).empty());
+    // A − B beside B has no gap, along whichever edges they touch.
+    EXPECT_TRUE(is_same(weiler_atherton(rest, B, SetOperation::join), joined));
     EXPECT_TRUE(is_same(weiler_atherton(rest, common, SetOperation::difference),
                         weiler_atherton(A, B, SetOperation::difference)));
   }
@@ -234,7 +280,7 @@ TEST(WeilerAtherton, WithoutRoundingBothKernelsAgree) {
       return Rings<double>{{{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}}};
     };
     const Rings<double> a = box(), b = box();
-    for (const SetOperation operation : {SetOperation::intersection, SetOperation::difference}) {
+    for (const SetOperation operation : all_operations) {
       const auto exact = weiler_atherton(to_exact(a), to_exact(b), operation);
       const auto rounded = weiler_atherton(a, b, operation);
       ASSERT_EQ(exact.size(), rounded.size());

@@ -46,7 +46,8 @@ void expect_one_line(const InputError& error) {
 /// set operations say, as a point set and in area. Over binary64 it comes to an end.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto [subject, clip] = sides_of(data, size);
-  for (const SetOperation operation : {SetOperation::intersection, SetOperation::difference}) {
+  for (const SetOperation operation :
+       {SetOperation::intersection, SetOperation::difference, SetOperation::join}) {
     try {
       const auto answer = weiler_atherton(to_exact(subject), to_exact(clip), operation);
       // CGAL takes no corners that repeat the one before.

@@ -34,6 +34,9 @@ def test_areas_add_up_and_both_algorithms_agree():
         common, rest = fathom.clip(a, b), fathom.clip(a, b, "difference")
         assert total(common) + total(rest) == abs(area_of(a))
         assert common == fathom.clip(a, b, algorithm="cgal") and rest == fathom.clip(a, b, "difference", algorithm="cgal")
+        joined = fathom.clip(a, b, "union")
+        assert total(joined) + total(common) == abs(area_of(a)) + abs(area_of(b))
+        assert joined == fathom.clip(a, b, "union", algorithm="cgal")
 
 
 def test_holes_floats_and_strings():
@@ -104,6 +107,6 @@ def test_what_is_no_polygon(rings):
 
 
 def test_names():
-    with pytest.raises(ValueError, match="operation: expected 'intersection', 'difference', found 'union'"):
-        fathom.clip([], [], "union")
+    with pytest.raises(ValueError, match="operation: expected 'intersection', 'difference', 'union', found 'xor'"):
+        fathom.clip([], [], "xor")
     assert fathom.clip([], []) == []

@@ -80,6 +80,13 @@ Json to_json(const clipping::WeilerAthertonTrace<Number>& trace, Form form) {
           {"walks", walks}};
 }
 
+clipping::SetOperation operation_of(const Json& object) {
+  const std::string op = word(object, "op", {"intersection", "difference", "union"});
+  if (op == "union") return clipping::SetOperation::join;
+  return op == "difference" ? clipping::SetOperation::difference
+                            : clipping::SetOperation::intersection;
+}
+
 /// A case of two polygons.
 template <class Number>
 struct PolygonCase {
@@ -90,11 +97,8 @@ struct PolygonCase {
 template <class Number>
 PolygonCase<Number> polygon_case(const Json& object, std::string_view algorithm) {
   expect_only(object, {"subject", "clip", "op"}, algorithm);
-  const auto operation = word(object, "op", {"intersection", "difference"}) == "intersection"
-                             ? clipping::SetOperation::intersection
-                             : clipping::SetOperation::difference;
   return {over_kernel<Number>(rings(object, "subject")), over_kernel<Number>(rings(object, "clip")),
-          operation};
+          operation_of(object)};
 }
 
 template <class Number>
@@ -125,8 +129,9 @@ Rings<Number> pieces_of(const Rings<Number>& subject) {
 template <class Number>
 Json sutherland_hodgman_2(const Json& object, Form form) {
   expect_only(object, {"subject", "clip", "op", "decompose"}, "sutherland-hodgman");
-  if (word(object, "op", {"intersection", "difference"}) == "difference")
-    throw InputError("sutherland-hodgman does intersections only; weiler-atherton does both");
+  if (operation_of(object) != clipping::SetOperation::intersection)
+    throw InputError(
+        "sutherland-hodgman does intersections only; weiler-atherton does differences and unions");
   const bool decompose = flag(object, "decompose");
   Rings<Number> subject =
       clipping::checked_rings(over_kernel<Number>(rings(object, "subject")), "subject");

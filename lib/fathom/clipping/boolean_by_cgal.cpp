@@ -111,10 +111,17 @@ std::vector<Polygon<Rational>> boolean_by_cgal(const Rings<Rational>& subject,
   const StandardArithmetic standard;
   CgalRegion region = region_of(checked_rings(subject, "subject"));
   const CgalRegion other = region_of(checked_rings(clip, "clip"));
-  if (operation == SetOperation::intersection)
-    region.intersection(other);
-  else
-    region.difference(other);
+  switch (operation) {
+    case SetOperation::intersection:
+      region.intersection(other);
+      break;
+    case SetOperation::difference:
+      region.difference(other);
+      break;
+    case SetOperation::join:
+      region.join(other);
+      break;
+  }
   return pieces_of(region);
 }
 

@@ -13,7 +13,7 @@
 /// the form of the answer (pieces.h), so that equal regions are equal lists.
 namespace fathom::clipping {
 
-/// Subject ∩ clip or subject − clip, as weiler_atherton() gives them. A side is the exclusive or of
+/// Subject ∩ clip, subject − clip or subject ∪ clip, as weiler_atherton() gives them. A side is the exclusive or of
 /// its rings, which is the even-odd rule.
 /// Exact    nothing is rounded.
 /// Fails    InputError as checked_rings()

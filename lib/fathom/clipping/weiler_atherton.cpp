@@ -91,7 +91,7 @@ std::vector<Polygon<Number>> weiler_atherton(const Rings<Number>& subject_rings,
 
   const auto [points, sides] = with_contacts(subject, clip);
   const PointOrder order(points);
-  const PlaceLists lists = enter_crossings(sides, order);
+  const PlaceLists lists = enter_crossings(sides, order, operation);
   std::vector<Walk> walks = walk(lists, operation);
   for (Walk& whole : whole_rings(lists, sides, order, operation)) walks.push_back(std::move(whole));
 

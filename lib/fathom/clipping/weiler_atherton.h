@@ -25,11 +25,12 @@
 /// that two of them share are dropped (weiler_atherton_sides.h). After, walks that pass through a
 /// point again are made such lists too (pieces.h). Nothing is moved: where edges of subject and clip
 /// run along each other, the *order* of edges about a point is that of a subject that lies a little
-/// further inside itself, and that alone decides a shared vertex, a vertex on an edge, overlapping
-/// edges and identical polygons.
+/// further inside itself (for a union, outside itself), and that alone decides a shared vertex, a
+/// vertex on an edge, overlapping edges and identical polygons.
 namespace fathom::clipping {
 
-enum class SetOperation { intersection, difference };
+/// `join` is the union, a word that C++ keeps for itself.
+enum class SetOperation { intersection, difference, join };
 
 /// An outline, counter-clockwise, and its holes, clockwise. Each ring is simple; rings touch at
 /// most in points, and the interior is connected.
@@ -83,7 +84,7 @@ struct WeilerAthertonTrace {
   std::vector<std::vector<WalkStep<Number>>> walks;
 };
 
-/// Subject ∩ clip or subject − clip, as regions: parts of lower dimension are dropped. Polygons and
+/// Subject ∩ clip, subject − clip or subject ∪ clip, as regions: parts of lower dimension are dropped. Polygons and
 /// holes are in the order of their least corners; rings start there and have no straight corners,
 /// so the same region always gives the same list.
 ///

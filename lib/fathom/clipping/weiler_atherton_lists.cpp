@@ -45,10 +45,10 @@ struct VisitEnd {
   Visit* visit;
   bool leaves;
 
-  /// Among ends in one direction: the subject lies further to its left.
-  [[nodiscard]] int shift() const {
+  /// Among ends in one direction: the subject lies further to its left, for a union to its right.
+  [[nodiscard]] int shift(SetOperation operation) const {
     if (side == clip_side) return 0;
-    return leaves ? 1 : -1;
+    return leaves == (operation != SetOperation::join) ? 1 : -1;
   }
 };
 
@@ -118,7 +118,8 @@ std::span<Visit> first_point(std::span<Visit> visits) {
 
 /// All contacts, entered in the visits. Returns the kinds of the crossings.
 std::vector<ContactKind> cross(std::span<Visit> subject, std::span<Visit> clip,
-                               const NumberedSides& sides, const PointOrder& points) {
+                               const NumberedSides& sides, const PointOrder& points,
+                               SetOperation operation) {
   std::vector<ContactKind> kinds;
   while (!subject.empty() && !clip.empty()) {
     const auto s = first_point(subject), c = first_point(clip);
@@ -129,7 +130,8 @@ std::vector<ContactKind> cross(std::span<Visit> subject, std::span<Visit> clip,
       add_ends(ends, c, sides.clip, clip_side);
       std::sort(ends.begin(), ends.end(), [&](const VisitEnd& a, const VisitEnd& b) {
         if (points.comes_before(P, a.towards, b.towards)) return true;
-        return !points.comes_before(P, b.towards, a.towards) && a.shift() < b.shift();
+        return !points.comes_before(P, b.towards, a.towards) &&
+               a.shift(operation) < b.shift(operation);
       });
       place_in_wedges(ends);
       PointOfContact(s, c, kinds);
@@ -206,9 +208,10 @@ std::size_t PlaceList::before(std::size_t place) const {
   return place > rings[ring] ? place - 1 : rings[ring + 1] - 1;
 }
 
-PlaceLists enter_crossings(const NumberedSides& sides, const PointOrder& points) {
+PlaceLists enter_crossings(const NumberedSides& sides, const PointOrder& points,
+                           SetOperation operation) {
   std::vector<Visit> subject = visits_by_point(sides.subject), clip = visits_by_point(sides.clip);
-  const std::vector<ContactKind> kinds = cross(subject, clip, sides, points);
+  const std::vector<ContactKind> kinds = cross(subject, clip, sides, points, operation);
   PlaceLists lists{list_of(subject, sides.subject, EdgeSet(sides.clip), kinds),
                    list_of(clip, sides.clip, EdgeSet(sides.subject), kinds)};
   number_along_subject(lists);

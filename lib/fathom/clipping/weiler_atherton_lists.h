@@ -42,9 +42,11 @@ struct PlaceLists {
 /// a ring bounds a wedge; a subject wedge and a clip wedge cross if one side of the first lies in the
 /// second and the other does not: at most twice for each wedge, however many meet. Where a subject
 /// edge and a clip edge are the same, the order is that of a subject that lies a little further to
-/// its left; it is the same order at both ends of the edge.
+/// its left, for a union to its right: then a slit between two polygons that share an edge lies in
+/// neither, for a union in both. It is the same order at both ends of the edge.
 /// Fails    InputError if the edges of a side do not alternate about a point; over Rational that
 ///          cannot happen.
-PlaceLists enter_crossings(const NumberedSides& sides, const PointOrder& points);
+PlaceLists enter_crossings(const NumberedSides& sides, const PointOrder& points,
+                           SetOperation operation);
 
 }  // namespace fathom::clipping

@@ -63,7 +63,7 @@ class Walker {
   std::vector<bool> walked_;
 };
 
-/// Whether edges of either side lie inside the other polygon.
+/// Whether edges of either side belong to the result, by whether they lie inside the other polygon.
 class Insides {
  public:
   Insides(const NumberedSides& sides, const PointOrder& points) {
@@ -89,13 +89,16 @@ class Insides {
     }
   }
 
-  [[nodiscard]] bool subject_is_inside(std::size_t from, std::size_t to) const {
+  [[nodiscard]] bool subject_belongs(std::size_t from, std::size_t to,
+                                     SetOperation operation) const {
     const auto& [below, is_shared] = below_.at(undirected(from, to));
-    return is_shared ? clip_edges_.contains({from, to}) : below.clip;
+    if (is_shared)
+      return clip_edges_.contains({from, to}) != (operation == SetOperation::difference);
+    return below.clip == (operation == SetOperation::intersection);
   }
-  [[nodiscard]] bool clip_is_inside(std::size_t from, std::size_t to) const {
+  [[nodiscard]] bool clip_belongs(std::size_t from, std::size_t to, SetOperation operation) const {
     const auto& [below, is_shared] = below_.at(undirected(from, to));
-    return !is_shared && below.subject;
+    return !is_shared && below.subject == (operation != SetOperation::join);
   }
 
  private:
@@ -146,15 +149,14 @@ std::vector<Walk> whole_rings(const PlaceLists& lists, const NumberedSides& side
                               const PointOrder& points, SetOperation operation) {
   std::vector<Walk> walks;
   if (!has_whole_rings(lists.subject) && !has_whole_rings(lists.clip)) return walks;
-  const bool is_difference = operation == SetOperation::difference;
   const Insides insides(sides, points);
   append_whole_rings(walks, lists.subject, Border::subject, false,
                      [&](std::size_t from, std::size_t to) {
-                       return insides.subject_is_inside(from, to) != is_difference;
+                       return insides.subject_belongs(from, to, operation);
                      });
   append_whole_rings(
-      walks, lists.clip, Border::clip, is_difference,
-      [&](std::size_t from, std::size_t to) { return insides.clip_is_inside(from, to); });
+      walks, lists.clip, Border::clip, operation == SetOperation::difference,
+      [&](std::size_t from, std::size_t to) { return insides.clip_belongs(from, to, operation); });
   return walks;
 }
 

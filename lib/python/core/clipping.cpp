@@ -62,10 +62,12 @@ py::list to_python(const std::vector<Polygon<Rational>>& polygons) {
   return list;
 }
 
-py::list clip(const py::list& subject, const py::list& window, bool difference, bool by_cgal) {
+py::list clip(const py::list& subject, const py::list& window, const std::string& operation_name,
+              bool by_cgal) {
   const Rings<Rational> a = rings_of(subject), b = rings_of(window);
-  const auto operation =
-      difference ? clipping::SetOperation::difference : clipping::SetOperation::intersection;
+  const auto operation = operation_name == "union"        ? clipping::SetOperation::join
+                         : operation_name == "difference" ? clipping::SetOperation::difference
+                                                          : clipping::SetOperation::intersection;
   return to_python(run([&](const auto&) {
     return by_cgal ? clipping::boolean_by_cgal(a, b, operation)
                    : clipping::weiler_atherton(a, b, operation);

@@ -39,7 +39,7 @@ def clip(
     *,
     algorithm: str = "weiler-atherton",
 ) -> list[Polygon]:
-    """Intersection or difference of two polygons, each given as its rings, outlines and holes, by the even-odd rule.
+    """Intersection, difference or union of two polygons, each given as its rings, outlines and holes, by the even-odd rule.
     Numbers are taken as what they are, not rounded: int, float, Fraction, Decimal, NumPy's, "1/3".
 
     A ring is simple: it has three corners or more, not all on one line, and does not meet itself (no bowtie, no spike).
@@ -47,7 +47,7 @@ def clip(
     equal, but not cross. The two polygons may lie to each other as they like, and have no rings; parts of the result
     that have no area are dropped.
 
-    operation  "intersection" or "difference"
+    operation  "intersection", "difference" (subject without window) or "union"
     algorithm  "weiler-atherton", or "cgal" to have CGAL's Boolean operations judge it: equal regions are equal lists
 
     >>> square = [(0, 0), (2, 0), (2, 2), (0, 2)]
@@ -57,9 +57,9 @@ def clip(
     Raises InputError, which names the ring, for one that is not as above; ValueError for what are no rings of finite
     numbers; TypeError for coordinates of other types.
     """
-    one_of("operation", operation, ("intersection", "difference"))
+    one_of("operation", operation, ("intersection", "difference", "union"))
     one_of("algorithm", algorithm, ("weiler-atherton", "cgal"))
-    found = _core.clip(_rings("subject", subject), _rings("window", window), operation == "difference",
+    found = _core.clip(_rings("subject", subject), _rings("window", window), operation,
                        algorithm == "cgal")
     return [Polygon(_ring(outline), [_ring(hole) for hole in holes]) for outline, holes in found]
 

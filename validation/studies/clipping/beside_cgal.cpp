@@ -107,7 +107,7 @@ struct ExactPair {
   clipping::Rings<Rational> subject, clip;
 };
 
-/// The answers to both operations on all pairs, and how long they took.
+/// The answers to intersection and difference on all pairs, and how long they took.
 template <class Clip>
 std::pair<std::vector<Answer>, double> timed(const std::vector<ExactPair>& pairs,
                                              const Clip& clip) {
