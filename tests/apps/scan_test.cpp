@@ -252,6 +252,72 @@ TEST(Scan, WhatComesAfterANulIsRefused) {
   EXPECT_EQ(scanned.answers.at(0), Json({{"error", "not JSON at character 20"}}));
 }
 
+TEST(Scan, TheTextbooksPixelsCanBeFoundAgain) {
+  const std::string line = R"({"line": [0,0,8,3]})";
+  EXPECT_EQ(answer("bresenham", line, {"--ties", "stay"})["pixels"],
+            Json::parse("[[0,0],[1,0],[2,1],[3,1],[4,1],[5,2],[6,2],[7,3],[8,3]]"));
+  EXPECT_EQ(answer("bresenham", line, {"--ties", "greater"}), answer("bresenham", line));
+  EXPECT_EQ(answer("dda", R"({"line": [0,0,4,2]})",
+                   {"--arithmetic", "float64", "--ties", "even"})["pixels"],
+            Json::parse("[[0,0],[1,0],[2,1],[3,2],[4,2]]"));
+  const Json trace = answer("midpoint", line, {"--ties", "stay", "--trace"})["trace"]["steps"];
+  EXPECT_EQ(trace[3]["d"], 0);
+  EXPECT_EQ(trace[3]["choice"], "E");
+  // Of a square's two halves both have the centres on the diagonal.
+  const std::string half = R"({"triangle": [[0,0],[4,4],[4,0]]})";
+  EXPECT_EQ(answer("edge-function", half)["pixels"].size(), 10u);
+  const std::string other = R"({"triangle": [[0,0],[0,4],[4,4]]})";
+  EXPECT_EQ(answer("edge-function", other)["pixels"].size(), 6u);
+  EXPECT_EQ(answer("edge-function", other, {"--edges", "closed"})["pixels"].size(), 10u);
+  EXPECT_EQ(
+      answer("edge-function", other, {"--edges", "closed", "--trace"})["trace"]["rejected"].size(),
+      6u);
+}
+
+TEST(Scan, TheTextbooksRulesAreRefusedWhereTheyMeanNothing) {
+  const auto refused = [](const std::string& algorithm, const std::vector<std::string>& options,
+                          const std::string& said) {
+    const Scanned scanned = scan(algorithm, "{}\n", options);
+    EXPECT_EQ(scanned.outcome.status, 2);
+    EXPECT_THAT(scanned.outcome.err, HasSubstr(said));
+  };
+  refused("even-odd", {"--ties", "stay"},
+          "--ties is for lines: explicit, dda, bresenham and midpoint");
+  refused("diamond-exit", {"--ties", "even"}, "--ties is for lines");
+  refused("scan-line", {"--edges", "closed"}, "--edges is for edge-function");
+  refused("dda", {"--ties", "up"}, "greater");
+}
+
+// A ring may repeat its first corner, as for `fathom clip`: the answer is the same.
+TEST(Scan, RingsMayBeClosed) {
+  const std::string open = R"([[1,1],[8,2],[4,7]])", closed = R"([[1,1],[8,2],[4,7],[1,1]])";
+  const std::string hole = R"([[3,3],[5,3],[4,5]])", closed_hole = R"([[3,3],[5,3],[4,5],[3,3]])";
+  const struct {
+    const char *algorithm, *more;
+  } questions[] = {{"even-odd", ""},
+                   {"non-zero", R"(, "width": 9, "height": 4)"},
+                   {"inside", R"(, "points": [[4,4],[7,3],[1,1],[0,0]])"},
+                   {"tessellate", ""}};
+  for (const auto& [algorithm, more] : questions) {
+    const auto of = [&](const std::string& outline, const std::string& inner) {
+      return answer(algorithm, "{\"polygon\": [" + outline + "," + inner + "]" + more + "}");
+    };
+    EXPECT_EQ(of(closed, closed_hole), of(open, hole)) << algorithm;
+    EXPECT_EQ(of(closed, hole), of(open, hole)) << algorithm;
+  }
+  EXPECT_EQ(answer("convexity", "{\"polygon\": [" + closed + "]}"),
+            answer("convexity", "{\"polygon\": [" + open + "]}"));
+  // Every corner that is written has its numbers.
+  EXPECT_EQ(
+      answer("even-odd", "{\"polygon\": [" + closed + "," + closed_hole +
+                             "], "
+                             R"("attributes": [[1],[2],[3],[1],[4],[5],[6],[4]],)"
+                             R"( "w": [1,2,1,1,3,3,1,3]})"),
+      answer("even-odd", "{\"polygon\": [" + open + "," + hole +
+                             "], "
+                             R"("attributes": [[1],[2],[3],[4],[5],[6]], "w": [1,2,1,3,3,1]})"));
+}
+
 TEST(Scan, CasesThatCannotBeDoneDoNotStopTheOthers) {
   const struct {
     const char *algorithm, *object, *said;
@@ -276,8 +342,12 @@ TEST(Scan, CasesThatCannotBeDoneDoNotStopTheOthers) {
        "w[1] is 0"},
       {"even-odd", R"({"polygon": [[[0,0],[1,1]]]})", "expected at least 3"},
       {"even-odd", R"({"polygon": []})", "expected at least one ring"},
-      {"inside", R"({"polygon": [[[0,0],[4,0],[0,4],[0,0]]], "points": []})",
-       "ring 0 ends with its first corner"},
+      {"inside", R"({"polygon": [[[0,0],[4,0],[0,0]]], "points": []})",
+       "ring 0 has 2 corners; expected at least 3"},
+      {"even-odd", R"({"polygon": [[[0,0],[4,0],[0,4],[0,0]]], "attributes": [[1],[2],[3]]})",
+       "attributes: 3 lists for 4 corners"},
+      {"even-odd", R"({"polygon": [[[0,0],[4,0],[0,4],[0,0]]], "attributes": [[1],[2],[3],[4]]})",
+       "attributes[3] differs from attributes[0], but both are of one corner: it closes the ring"},
       {"inside", R"({"polygon": [[[0,0],[4,0],[0,4]]], "points": [], "width": -5, "height": 3})",
        "\"width\" is -5; expected a whole number"},
       {"convexity", R"({"polygon": [[[0,0],[4,0],[0,4]]], "width": 3})", "\"height\" is missing"},

@@ -5,6 +5,8 @@
 #include "apps/textbook/cases/case_reading.h"
 #include "apps/textbook/cases/case_writing.h"
 #include "fathom/pipeline/scan/arithmetic.h"
+#include "fathom/pipeline/scan/edge_function.h"
+#include "fathom/pipeline/scan/line.h"
 #include "fathom/pipeline/scan/pixels.h"
 
 /// What `fathom scan` does with one case: a case in, the answer without its name out.
@@ -22,6 +24,8 @@ struct Form {
   /// Runs of pixels instead of pixels.
   bool runs = false;
   std::optional<int> subpixel_bits;
+  std::optional<pipeline::TieRule> ties;    ///< greater where nullopt
+  std::optional<pipeline::EdgeRule> edges;  ///< top-left where nullopt
 };
 
 template <class Number>

@@ -76,11 +76,11 @@ std::int64_t entries_of(std::size_t attributes) {
 }
 
 template <class Number>
-Json fill(const Json& object, const clipping::Rings<double>& rings, FillRule rule,
-          const Form& form) {
+Json fill(const Json& object, const clipping::Rings<double>& rings,
+          const std::vector<ClosingCorner>& closing, FillRule rule, const Form& form) {
   std::size_t corners = 0;
   for (const auto& ring : rings) corners += ring.size();
-  const CarriedAlong carried = carried_along(object, corners);
+  const CarriedAlong carried = carried_along(object, corners, closing);
   const pipeline::PixelWindow window = window_of(object);
   const std::size_t attributes = carried.any() ? carried.attributes[0].size() : 0;
   cases::check_effort<Number>(crossings_of(rings, window) * static_cast<double>(1 + attributes),
@@ -110,7 +110,9 @@ Json fill(const Json& object, const clipping::Rings<double>& rings, FillRule rul
 template <class Number>
 Json fill_polygon(const Json& object, FillRule rule, const Form& form) {
   cases::expect_only(object, {"polygon", "width", "height", "attributes", "w"});
-  return fill<Number>(object, polygon_of(object), rule, form);
+  std::vector<ClosingCorner> closing;
+  const clipping::Rings<double> rings = polygon_of(object, &closing);
+  return fill<Number>(object, rings, closing, rule, form);
 }
 
 }  // namespace
@@ -128,7 +130,7 @@ Json non_zero(const Json& object, const Form& form) {
 template <class Number>
 Json scan_line(const Json& object, const Form& form) {
   cases::expect_only(object, {"triangle", "width", "height", "attributes", "w"});
-  return fill<Number>(object, {triangle_of(object, form)}, FillRule::even_odd, form);
+  return fill<Number>(object, {triangle_of(object, form)}, {}, FillRule::even_odd, form);
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none

@@ -24,9 +24,13 @@ struct Answers {
   bool pixels = false;     ///< --runs
   bool steps = false;      ///< --trace
   bool triangles = false;  ///< --subpixel-bits
+  bool ties = false;       ///< --ties
+  bool edges = false;      ///< --edges
 };
 constexpr Answers drawing{.pixels = true, .steps = true};
+constexpr Answers stepping{.pixels = true, .steps = true, .ties = true};
 constexpr Answers triangle{.pixels = true, .steps = true, .triangles = true};
+constexpr Answers half_planes{.pixels = true, .steps = true, .triangles = true, .edges = true};
 constexpr Answers filling{.pixels = true};
 constexpr Answers question{};
 
@@ -39,16 +43,16 @@ struct ScanAlgorithm {
 #define FATHOM_SCAN(name) scan::name<Exact>, scan::name<double>, scan::name<float>
 ScanAlgorithm parse_algorithm(const std::string& text) {
   return parse_word<ScanAlgorithm>(
-      text, {{"explicit", {FATHOM_SCAN(explicit_line), drawing}},
-             {"dda", {FATHOM_SCAN(dda), drawing}},
-             {"bresenham", {FATHOM_SCAN(bresenham), drawing}},
-             {"midpoint", {FATHOM_SCAN(midpoint), drawing}},
+      text, {{"explicit", {FATHOM_SCAN(explicit_line), stepping}},
+             {"dda", {FATHOM_SCAN(dda), stepping}},
+             {"bresenham", {FATHOM_SCAN(bresenham), stepping}},
+             {"midpoint", {FATHOM_SCAN(midpoint), stepping}},
              {"diamond-exit", {FATHOM_SCAN(diamond_exit), drawing}},
              {"line-forms", {FATHOM_SCAN(line_forms), question}},
              {"even-odd", {FATHOM_SCAN(even_odd), drawing}},
              {"non-zero", {FATHOM_SCAN(non_zero), drawing}},
              {"flood", {scan::flood, scan::flood, scan::flood, filling}},
-             {"edge-function", {FATHOM_SCAN(edge_function), triangle}},
+             {"edge-function", {FATHOM_SCAN(edge_function), half_planes}},
              {"scan-line", {FATHOM_SCAN(scan_line), triangle}},
              {"inside", {FATHOM_SCAN(inside), question}},
              {"convexity", {FATHOM_SCAN(convexity), question}},
@@ -82,6 +86,17 @@ int parse_subpixel_bits(const std::string& text) {
   return static_cast<int>(bits);
 }
 
+pipeline::TieRule parse_ties(const std::string& text) {
+  using enum pipeline::TieRule;
+  return parse_word<pipeline::TieRule>(text,
+                                       {{"greater", greater}, {"even", even}, {"stay", stay}});
+}
+
+pipeline::EdgeRule parse_edges(const std::string& text) {
+  using enum pipeline::EdgeRule;
+  return parse_word<pipeline::EdgeRule>(text, {{"top-left", top_left}, {"closed", closed}});
+}
+
 struct ScanArguments {
   NamedAlgorithm algorithm;
   Arithmetic arithmetic = Arithmetic::exact;
@@ -106,6 +121,9 @@ void check(const ScanArguments& arguments) {
   const Form& form = arguments.form;
   if (form.subpixel_bits && !algorithm.answers.triangles)
     throw UsageError("--subpixel-bits is for triangles: edge-function and scan-line");
+  if (form.ties && !algorithm.answers.ties)
+    throw UsageError("--ties is for lines: explicit, dda, bresenham and midpoint");
+  if (form.edges && !algorithm.answers.edges) throw UsageError("--edges is for edge-function");
   if (form.runs && !algorithm.answers.pixels)
     throw UsageError(fmt::format("--runs: {} draws no pixels; leave the option out", name));
   if (form.numbers.trace && !algorithm.answers.steps)
@@ -157,6 +175,13 @@ void add_scan(Command& program) {
                  "are exact with each of them");
   command.option("--subpixel-bits", "N", into(arguments->form.subpixel_bits, parse_subpixel_bits),
                  "Snap triangles to 2^N positions a pixel, 0 to 16 (default: no snapping)");
+  command.option(
+      "--ties", "RULE", into(arguments->form.ties, parse_ties),
+      "Decide which pixel a line takes half way between two: greater (default), even (as "
+      "Python's round) or stay (as the textbooks' Bresenham)");
+  command.option("--edges", "RULE", into(arguments->form.edges, parse_edges),
+                 "Decide whose the centres on an edge are: top-left (default) or closed (every "
+                 "triangle's, as the textbooks' >= 0)");
   command.flag("--runs", arguments->form.runs,
                "Write runs [y, x_begin, x_end] instead of pixels, x_end exclusive");
   command.flag("--exact", arguments->form.numbers.exact, "Write numbers as \"p/q\"");

@@ -25,14 +25,14 @@ std::vector<double> ends_of(const Json& object) {
   return ends;
 }
 
-pipeline::LineEnds pixel_ends_of(const Json& object) {
+pipeline::LineEnds pixel_ends_of(const Json& object, const Form& form) {
   const std::vector<double> ends = ends_of(object);
   for (const double x : ends)
     if (x != std::floor(x))
       throw InputError(fmt::format(
           "line: {} is not a whole number; ends of lines are pixels, but for diamond-exit", x));
   const auto whole = [&](std::size_t i) { return static_cast<std::int64_t>(ends[i]); };
-  return {whole(0), whole(1), whole(2), whole(3)};
+  return {whole(0), whole(1), whole(2), whole(3), form.ties.value_or(pipeline::TieRule::greater)};
 }
 
 /// How much a step of a trace takes, in pixels.
@@ -42,7 +42,7 @@ constexpr std::int64_t entries_of_a_step = 8;
 /// from its pixel and its state.
 template <class Number, class State, class Draw, class Describe>
 Json draw(const Json& object, const Form& form, const Draw& draw_line, const Describe& describe) {
-  const pipeline::LineEnds ends = pixel_ends_of(object);
+  const pipeline::LineEnds ends = pixel_ends_of(object, form);
   const PixelWindow window = window_of(object);
   const auto [first, last] = pipeline::LineAxes(ends).steps_in(window);
   cases::check_effort<Number>(static_cast<double>(last) - static_cast<double>(first) + 1,
@@ -108,14 +108,15 @@ Json bresenham(const Json& object, const Form& form) {
 
 template <class Number>
 Json midpoint(const Json& object, const Form& form) {
-  const pipeline::LineEnds ends = pixel_ends_of(object);
+  const pipeline::LineEnds ends = pixel_ends_of(object, form);
   const pipeline::LineAxes axes(ends);
   return draw<std::int64_t, std::int64_t>(
       object, form, pipeline::midpoint_line, [&](const Pixel& pixel, std::int64_t d) {
         Json step{{"d", d}};
         // At the last pixel nothing is left to choose.
         if (pixel == Pixel{ends.x1, ends.y1}) return step;
-        const bool north_east = d > 0 || (d == 0 && axes.minor_sign > 0);
+        const std::int64_t minor = axes.steep ? pixel.x : pixel.y;
+        const bool north_east = d > 0 || (d == 0 && axes.steps_at_tie(minor));
         step["choice"] = north_east ? "NE" : "E";
         return step;
       });

@@ -21,6 +21,20 @@ std::int64_t size_of(const Json& object, const char* key) {
   return static_cast<std::int64_t>(size);
 }
 
+/// Removes the entries of the corners that close their rings.
+template <class Entry>
+void drop_closing(std::vector<Entry>& entries, const std::vector<ClosingCorner>& closing,
+                  const char* name) {
+  for (const auto& [corner, first] : closing)
+    if (entries[corner] != entries[first])
+      throw InputError(
+          fmt::format("{0}[{1}] differs from {0}[{2}], but both are of one corner: it "
+                      "closes the ring that corner {2} begins",
+                      name, corner, first));
+  for (auto c = closing.rbegin(); c != closing.rend(); ++c)
+    entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(c->corner));
+}
+
 }  // namespace
 
 pipeline::PixelWindow window_of(const Json& object) {
@@ -34,17 +48,20 @@ double checked_coordinate(double x, const std::string& where) {
   return x;
 }
 
-clipping::Rings<double> polygon_of(const Json& object) {
+clipping::Rings<double> polygon_of(const Json& object, std::vector<ClosingCorner>* closing) {
   clipping::Rings<double> rings = cases::rings(object, "polygon");
   if (rings.empty()) throw InputError("polygon: expected at least one ring");
+  std::size_t written = 0;
   for (std::size_t r = 0; r < rings.size(); ++r) {
+    const std::size_t first = written;
+    written += rings[r].size();
+    if (rings[r].size() > 1 && rings[r].front() == rings[r].back()) {
+      rings[r].pop_back();
+      if (closing != nullptr) closing->push_back({written - 1, first});
+    }
     if (rings[r].size() < 3)
       throw InputError(fmt::format("polygon ring {} has {}; expected at least 3", r,
                                    text::counted(rings[r].size(), "corner")));
-    const auto &first = rings[r].front(), &last = rings[r].back();
-    if (first.x == last.x && first.y == last.y)
-      throw InputError(fmt::format(
-          "polygon ring {} ends with its first corner; leave it out, rings are closed", r));
     for (const auto& p : rings[r]) {
       checked_coordinate(p.x, fmt::format("polygon ring {}", r));
       checked_coordinate(p.y, fmt::format("polygon ring {}", r));
@@ -72,13 +89,17 @@ clipping::Ring<double> triangle_of(const Json& object, const Form& form) {
   return triangle;
 }
 
-CarriedAlong carried_along(const Json& object, std::size_t corners) {
-  CarriedAlong carried{cases::attributes(object, corners), {}};
+CarriedAlong carried_along(const Json& object, std::size_t corners,
+                           const std::vector<ClosingCorner>& closing) {
+  const std::size_t written = corners + closing.size();
+  CarriedAlong carried{cases::attributes(object, written), {}};
+  drop_closing(carried.attributes, closing, "attributes");
   if (!object.contains("w")) return carried;
-  carried.w = cases::numbers(object["w"], "w", corners, corners);
-  for (std::size_t i = 0; i < corners; ++i)
+  carried.w = cases::numbers(object["w"], "w", written, written);
+  for (std::size_t i = 0; i < written; ++i)
     if (carried.w[i] == 0)
       throw InputError(fmt::format("w[{}] is 0: the corner lies at infinity", i));
+  drop_closing(carried.w, closing, "w");
   if (!carried.any()) throw InputError("\"w\" stands without \"attributes\"");
   return carried;
 }

@@ -14,8 +14,16 @@ pipeline::PixelWindow window_of(const Json& object);
 /// Refuses coordinates beyond ±2³¹; `where` names them.
 double checked_coordinate(double x, const std::string& where);
 
-/// The rings of "polygon", each of three corners or more.
-clipping::Rings<double> polygon_of(const Json& object);
+/// The corners that close their rings: the last one of a ring where it repeats the first. Corners are
+/// numbered as they are written, ring after ring.
+struct ClosingCorner {
+  std::size_t corner, first;
+};
+
+/// The rings of "polygon", each of three corners or more, without the corners that close them; these
+/// are appended to `closing`.
+clipping::Rings<double> polygon_of(const Json& object,
+                                   std::vector<ClosingCorner>* closing = nullptr);
 
 /// The corners of "triangle", snapped where --subpixel-bits says so.
 clipping::Ring<double> triangle_of(const Json& object, const Form& form);
@@ -27,7 +35,10 @@ struct CarriedAlong {
 
   [[nodiscard]] bool any() const { return !attributes.empty() && !attributes[0].empty(); }
 };
-CarriedAlong carried_along(const Json& object, std::size_t corners);
+/// `corners` are without the closing ones, which have entries too: those of the first corner of the
+/// ring, which are dropped.
+CarriedAlong carried_along(const Json& object, std::size_t corners,
+                           const std::vector<ClosingCorner>& closing = {});
 
 /// The attributes of a corner as they go through interpolation: a, or with w: a/w … and 1/w.
 template <class Number>

@@ -130,10 +130,11 @@ Json edge_function(const Json& object, const Form& form) {
                          {"barycentric", weights}});
     }
   };
-  pipeline::rasterize_triangle<Number>(corners, window, visit);
+  const pipeline::EdgeRule rule = form.edges.value_or(pipeline::EdgeRule::top_left);
+  pipeline::rasterize_triangle<Number>(corners, window, visit, rule);
   Json result = pixels.json(carried.any());
   if (form.numbers.trace) {
-    const auto triangle = pipeline::edge_functions(corners);
+    const auto triangle = pipeline::edge_functions(corners, rule);
     const pipeline::PixelWindow box = pipeline::bounding_box(corners, window);
     result["trace"] = trace_of(triangle, ring, box, form);
     result["trace"]["samples"] = std::move(samples);

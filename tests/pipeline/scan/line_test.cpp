@@ -96,6 +96,72 @@ TEST(Line, KnownLineFromTheOriginToEightThree) {
   EXPECT_EQ(drawn<double>(explicit_line<double>, ends), expected);
 }
 
+/// The textbooks' Bresenham: a minor step where the error is above 0.
+Pixels textbook_bresenham(const LineEnds& e) {
+  std::int64_t dx = std::abs(e.x1 - e.x0), dy = std::abs(e.y1 - e.y0);
+  const int sx = e.x0 < e.x1 ? 1 : -1, sy = e.y0 < e.y1 ? 1 : -1;
+  const bool steep = dy > dx;
+  if (steep) std::swap(dx, dy);
+  Pixels pixels;
+  std::int64_t error = 2 * dy - dx;
+  Pixel p{e.x0, e.y0};
+  for (std::int64_t i = 0; i <= dx; ++i) {
+    pixels.push_back(p);
+    if (error > 0) {
+      (steep ? p.x : p.y) += steep ? sx : sy;
+      error -= 2 * dx;
+    }
+    (steep ? p.y : p.x) += steep ? sy : sx;
+    error += 2 * dy;
+  }
+  return pixels;
+}
+
+/// The textbooks' DDA without rounding errors: whole numbers of 1/(2·steps), rounded half to even.
+Pixels textbook_dda(const LineEnds& e) {
+  const std::int64_t dx = e.x1 - e.x0, dy = e.y1 - e.y0;
+  const std::int64_t steps = std::max(std::abs(dx), std::abs(dy));
+  const auto rounded = [&](std::int64_t start, std::int64_t d, std::int64_t k) {
+    if (steps == 0) return start;
+    const std::int64_t whole = (start * steps + d * k),
+                       below = whole >= 0 ? whole / steps : -((-whole + steps - 1) / steps);
+    const std::int64_t twice = 2 * (whole - below * steps);
+    return twice > steps || (twice == steps && below % 2 != 0) ? below + 1 : below;
+  };
+  Pixels pixels;
+  for (std::int64_t k = 0; k <= steps; ++k)
+    pixels.push_back({rounded(e.x0, dx, k), rounded(e.y0, dy, k)});
+  return pixels;
+}
+
+TEST(Line, TheTextbooksTieRules) {
+  std::size_t unlike = 0;
+  for (std::int64_t dx = -24; dx <= 24; ++dx) {
+    for (std::int64_t dy = -24; dy <= 24; ++dy) {
+      for (const TieRule ties : {TieRule::stay, TieRule::even}) {
+        const LineEnds ends{5, -3, 5 + dx, -3 + dy, ties};
+        const Pixels expected =
+            ties == TieRule::stay ? textbook_bresenham(ends) : textbook_dda(ends);
+        ASSERT_EQ(bresenham(ends), expected) << dx << " " << dy;
+        ASSERT_EQ(midpoint(ends), expected) << dx << " " << dy;
+        ASSERT_EQ(dda_exact(ends), expected) << dx << " " << dy;
+        ASSERT_EQ(explicit_exact(ends), expected) << dx << " " << dy;
+        unlike += expected != nearest_pixels(ends);
+        // A window shows a part of the same line.
+        const PixelWindow window{0, -9, 12, 4};
+        Pixels inside = expected;
+        std::erase_if(inside, [&](const Pixel& p) { return !window.contains(p); });
+        ASSERT_EQ(drawn<std::int64_t>(bresenham_line, ends, window), inside) << dx << " " << dy;
+        ASSERT_EQ(drawn<std::int64_t>(midpoint_line, ends, window), inside) << dx << " " << dy;
+      }
+    }
+  }
+  EXPECT_GT(unlike, 500u);
+  EXPECT_EQ(bresenham({0, 0, 8, 3, TieRule::stay})[4], (Pixel{4, 1}));
+  EXPECT_EQ(drawn<double>(dda_line<double>, {0, 0, 4, 2, TieRule::even}),
+            (Pixels{{0, 0}, {1, 0}, {2, 1}, {3, 2}, {4, 2}}));
+}
+
 TEST(Line, DecisionVariableOfTheMidpointAlgorithm) {
   // d = 2·3 − 8 = −2, then + 6 for east and − 10 for north-east, by hand.
   std::vector<std::int64_t> d;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <random>
+#include <set>
 
 #include "fathom/pipeline/geometry/subpixel_grid.h"
 #include "fathom/pipeline/scan/edge_function.h"
@@ -138,6 +139,34 @@ TEST(SubpixelGrid, SnapsToNearestTiesToEven) {
   EXPECT_EQ(snap(-0.5, 0), 0);
   EXPECT_EQ(snap(0.3, 8), 77 * (grid_one >> 8));  // 76.8
   EXPECT_EQ(snap(-2147483648.0, 16), -(std::int64_t{1} << 31) * grid_one);
+}
+
+/// The demo of the textbooks: centres on any edge count, in either winding.
+TEST(EdgeFunction, ClosedEdgesAreEveryTriangles) {
+  using Corners = std::array<Point<Exact>, 3>;
+  const auto triangle = [](std::array<std::array<int, 2>, 3> c) {
+    Corners corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = {Exact(c[k][0]), Exact(c[k][1])};
+    return corners;
+  };
+  const Corners near = triangle({{{80, 30}, {30, 200}, {200, 180}}});
+  const Corners far = triangle({{{160, 20}, {100, 220}, {290, 150}}});
+  const auto pixels = [](Corners corners, EdgeRule rule, bool turned) {
+    if (turned) std::swap(corners[1], corners[2]);
+    std::set<Pixel> covered;
+    rasterize_triangle<Exact>(
+        corners, {}, [&](const auto& c) { covered.insert(c.pixel); }, rule);
+    return covered;
+  };
+  for (const bool turned : {false, true}) {
+    const auto near_closed = pixels(near, EdgeRule::closed, turned);
+    auto all = pixels(far, EdgeRule::closed, turned);
+    EXPECT_EQ(near_closed.size(), 13955u);
+    EXPECT_EQ(all.size(), 16970u);
+    all.insert(near_closed.begin(), near_closed.end());
+    EXPECT_EQ(all.size(), 26933u);
+    EXPECT_EQ(pixels(far, EdgeRule::top_left, turned).size(), 16830u);
+  }
 }
 
 TEST(SubpixelGrid, CoversWhatExactEdgeFunctionsOfTheSnappedCornersDo) {

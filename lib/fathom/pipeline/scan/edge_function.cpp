@@ -8,7 +8,7 @@ namespace {
 /// The edge function of p → q, positive on the left as seen.
 template <class Number>
 EdgeFunction<Number> edge_between(const Point<Number>& p, const Point<Number>& q) {
-  EdgeFunction<Number> e{Number(q.y - p.y), Number(p.x - q.x), Number(q.x * p.y - p.x * q.y),
+  EdgeFunction<Number> e{Number(q.y - p.y), Number(p.x - q.x), Number(q.x * p.y - p.x * q.y), false,
                          false};
   return e;
 }
@@ -16,7 +16,8 @@ EdgeFunction<Number> edge_between(const Point<Number>& p, const Point<Number>& q
 }  // namespace
 
 template <class Number>
-std::optional<EdgeTriangle<Number>> edge_functions(const std::array<Point<Number>, 3>& p) {
+std::optional<EdgeTriangle<Number>> edge_functions(const std::array<Point<Number>, 3>& p,
+                                                   EdgeRule rule) {
   EdgeTriangle<Number> t{
       {edge_between(p[1], p[2]), edge_between(p[2], p[0]), edge_between(p[0], p[1])},
       left_of(p[0], p[1], p[2]),
@@ -25,8 +26,9 @@ std::optional<EdgeTriangle<Number>> edge_functions(const std::array<Point<Number
   t.turned = t.twice_area < Number(0);
   if (t.turned) t.twice_area = -t.twice_area;
   for (EdgeFunction<Number>& e : t.edges) {
-    if (t.turned) e = {Number(-e.a), Number(-e.b), Number(-e.c), false};
+    if (t.turned) e = {Number(-e.a), Number(-e.b), Number(-e.c), false, false};
     e.left_or_top = e.a > Number(0) || (e.a == Number(0) && e.b > Number(0));
+    e.takes_zero = e.left_or_top || rule == EdgeRule::closed;
   }
   return t;
 }
@@ -41,8 +43,9 @@ PixelWindow bounding_box(const std::array<Point<Number>, 3>& corners, const Pixe
 
 template <class Number>
 void rasterize_triangle(const std::array<Point<Number>, 3>& corners, const PixelWindow& window,
-                        const std::function<void(const CoveredPixel<Number>&)>& visit) {
-  const auto triangle = edge_functions(corners);
+                        const std::function<void(const CoveredPixel<Number>&)>& visit,
+                        EdgeRule rule) {
+  const auto triangle = edge_functions(corners, rule);
   if (!triangle) return;
   const PixelWindow box = bounding_box(corners, window);
   for (std::int64_t y = box.y_begin; y < box.y_end; ++y) {
@@ -63,12 +66,13 @@ void rasterize_triangle(const std::array<Point<Number>, 3>& corners, const Pixel
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
-#define FATHOM_INSTANTIATE(Number)                                                            \
-  template std::optional<EdgeTriangle<Number>> edge_functions(                                \
-      const std::array<Point<Number>, 3>&);                                                   \
-  template PixelWindow bounding_box(const std::array<Point<Number>, 3>&, const PixelWindow&); \
-  template void rasterize_triangle(const std::array<Point<Number>, 3>&, const PixelWindow&,   \
-                                   const std::function<void(const CoveredPixel<Number>&)>&);
+#define FATHOM_INSTANTIATE(Number)                                                                 \
+  template std::optional<EdgeTriangle<Number>> edge_functions(const std::array<Point<Number>, 3>&, \
+                                                              EdgeRule);                           \
+  template PixelWindow bounding_box(const std::array<Point<Number>, 3>&, const PixelWindow&);      \
+  template void rasterize_triangle(const std::array<Point<Number>, 3>&, const PixelWindow&,        \
+                                   const std::function<void(const CoveredPixel<Number>&)>&,        \
+                                   EdgeRule);
 FATHOM_INSTANTIATE(Exact)
 FATHOM_INSTANTIATE(double)
 FATHOM_INSTANTIATE(float)

@@ -14,15 +14,22 @@
 /// Source   [Pin88]
 namespace fathom::pipeline {
 
-/// One edge function, a·x + b·y + c: inside if positive, and if zero on a left or top edge.
+/// Whose the centres on an edge are.
+enum class EdgeRule {
+  top_left,  ///< a left or top edge's: of two triangles that share an edge, one has them
+  closed,    ///< every edge's, as by the textbooks' `>= 0`: both triangles have them
+};
+
+/// One edge function, a·x + b·y + c: inside if positive, and if zero on an edge that takes zero.
 template <class Number>
 struct EdgeFunction {
   Number a, b, c;
   bool left_or_top;
+  bool takes_zero;
 
   [[nodiscard]] Number at(const Number& x, const Number& y) const { return a * x + b * y + c; }
   [[nodiscard]] bool contains(const Number& value) const {
-    return value > Number(0) || (left_or_top && value == Number(0));
+    return value > Number(0) || (takes_zero && value == Number(0));
   }
 };
 
@@ -35,7 +42,8 @@ struct EdgeTriangle {
 
 /// nullopt if the area is zero: such a triangle covers nothing.
 template <class Number>
-std::optional<EdgeTriangle<Number>> edge_functions(const std::array<Point<Number>, 3>& corners);
+std::optional<EdgeTriangle<Number>> edge_functions(const std::array<Point<Number>, 3>& corners,
+                                                   EdgeRule rule = EdgeRule::top_left);
 
 /// The bounding box as pixels: those of the window that it touches.
 template <class Number>
@@ -55,6 +63,7 @@ struct CoveredPixel {
 ///          from different corners, and can both take a centre near it, or neither.
 template <class Number>
 void rasterize_triangle(const std::array<Point<Number>, 3>& corners, const PixelWindow& window,
-                        const std::function<void(const CoveredPixel<Number>&)>& visit);
+                        const std::function<void(const CoveredPixel<Number>&)>& visit,
+                        EdgeRule rule = EdgeRule::top_left);
 
 }  // namespace fathom::pipeline

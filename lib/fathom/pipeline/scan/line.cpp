@@ -2,28 +2,23 @@
 
 #include <algorithm>
 
+#include "fathom/pipeline/scan/line-inl.h"
+
 namespace fathom::pipeline {
 namespace {
-
-/// The signed slope: the change of the minor coordinate in one step.
-template <class Number>
-Number slope_of(const LineAxes& a) {
-  if (a.d_major == 0) return number_of<Number>(0);
-  return Number(number_of<Number>(a.minor_sign * a.d_minor) / number_of<Number>(a.d_major));
-}
 
 /// By how many 2·d_major-ths the exact line is beyond `steps_up` minor steps.
 std::int64_t twice_excess(const LineAxes& a, std::int64_t step, std::int64_t steps_up) {
   return static_cast<std::int64_t>(2 * (Int128{step} * a.d_minor - Int128{steps_up} * a.d_major));
 }
 
-/// Minor steps made up to a step: the nearest, at a tie the greater minor coordinate.
+/// Minor steps made up to a step: the nearest.
 std::int64_t minor_steps(const LineAxes& a, std::int64_t step) {
   if (a.d_major == 0) return 0;
-  const Int128 twice = Int128{2} * step * a.d_minor;
-  const Int128 tie_up = a.minor_sign > 0 ? 0 : 1;  // going down, a tie stays
-  return static_cast<std::int64_t>(
-      floor_quotient(twice + a.d_major - tie_up, Int128{2} * a.d_major));
+  const Int128 twice = Int128{2} * step * a.d_minor + a.d_major, unit = Int128{2} * a.d_major;
+  const auto steps = static_cast<std::int64_t>(floor_quotient(twice, unit));
+  const bool tie = twice % unit == 0;
+  return tie && !a.steps_at_tie(a.minor0 + a.minor_sign * (steps - 1)) ? steps - 1 : steps;
 }
 
 }  // namespace
@@ -37,6 +32,7 @@ LineAxes::LineAxes(const LineEnds& ends) {
   d_minor = std::abs(steep ? dx : dy);
   major_sign = (steep ? dy : dx) < 0 ? -1 : 1;
   minor_sign = (steep ? dx : dy) < 0 ? -1 : 1;
+  ties = ends.ties;
 }
 
 LineAxes::Steps LineAxes::steps_in(const PixelWindow& window) const {
@@ -45,36 +41,6 @@ LineAxes::Steps LineAxes::steps_in(const PixelWindow& window) const {
   const std::int64_t first = major_sign > 0 ? begin - major0 : major0 - (end - 1);
   const std::int64_t last = major_sign > 0 ? end - 1 - major0 : major0 - begin;
   return {std::max<std::int64_t>(0, first), std::min(d_major, last)};
-}
-
-template <class Number>
-void explicit_line(const LineEnds& ends, const PixelWindow& window,
-                   const VisitLine<Number>& visit) {
-  const LineAxes a(ends);
-  const Number m = slope_of<Number>(a);
-  const auto [first, last] = a.steps_in(window);
-  for (std::int64_t step = first; step <= last; ++step) {
-    const Number y = m * number_of<Number>(step) + number_of<Number>(a.minor0);
-    const Pixel pixel = a.pixel(step, nearest_integer(y));
-    if (window.contains(pixel)) visit(pixel, y);
-  }
-}
-
-template <class Number>
-void dda_line(const LineEnds& ends, const PixelWindow& window, const VisitLine<Number>& visit) {
-  const LineAxes a(ends);
-  const Number m = slope_of<Number>(a);
-  const auto [first, last] = a.steps_in(window);
-  Number y = number_of<Number>(a.minor0);
-  if constexpr (std::is_same_v<Number, Exact>) {
-    y += m * number_of<Number>(first);  // sums of rationals have no drift: begin where it is seen
-  } else {
-    for (std::int64_t step = 0; step < first; ++step) y += m;
-  }
-  for (std::int64_t step = first; step <= last; ++step, y += m) {
-    const Pixel pixel = a.pixel(step, nearest_integer(y));
-    if (window.contains(pixel)) visit(pixel, y);
-  }
 }
 
 void bresenham_line(const LineEnds& ends, const PixelWindow& window,
@@ -88,7 +54,7 @@ void bresenham_line(const LineEnds& ends, const PixelWindow& window,
     const Pixel pixel = a.pixel(step, minor);
     if (window.contains(pixel)) visit(pixel, error);
     error += 2 * a.d_minor;
-    if (error > a.d_major || (error == a.d_major && a.minor_sign > 0)) {
+    if (error > a.d_major || (error == a.d_major && a.steps_at_tie(minor))) {
       minor += a.minor_sign;
       error -= 2 * a.d_major;
     }
@@ -105,7 +71,7 @@ void midpoint_line(const LineEnds& ends, const PixelWindow& window,
   for (std::int64_t step = first; step <= last; ++step) {
     const Pixel pixel = a.pixel(step, minor);
     if (window.contains(pixel)) visit(pixel, d);
-    const bool north_east = d > 0 || (d == 0 && a.minor_sign > 0);
+    const bool north_east = d > 0 || (d == 0 && a.steps_at_tie(minor));
     if (north_east) minor += a.minor_sign;
     d += north_east ? 2 * (a.d_minor - a.d_major) : 2 * a.d_minor;
   }

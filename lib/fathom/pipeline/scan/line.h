@@ -9,17 +9,24 @@
 /// Lines between two pixels.
 ///
 /// A line steps along the axis of the greater difference (x if they are equal), the major one, from
-/// its first end to its second, and in every step takes the pixel nearest to the exact line; at a
-/// tie the greater minor coordinate. So the exact algorithms draw the same pixels from either end,
-/// and all of them draw the same ones.
+/// its first end to its second, and in every step takes the pixel nearest to the exact line. A tie
+/// is decided by a rule; all exact algorithms draw the same pixels by the same rule.
 ///
 /// Lines are not clipped: `window` limits which pixels are visited, never which line is drawn;
 /// algorithms that can begin anywhere skip what is outside, however long the line.
 namespace fathom::pipeline {
 
+/// Which of two pixels a line takes that passes half way between their centres.
+enum class TieRule {
+  greater,  ///< the greater minor coordinate: the same pixels from either end
+  even,     ///< the even one, as Python's round() has it: the same pixels from either end
+  stay,     ///< no minor step, as the textbooks' Bresenham: reversing a line changes its pixels
+};
+
 /// Ends in pixels, with |coordinate| ≤ 2³¹.
 struct LineEnds {
   std::int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  TieRule ties = TieRule::greater;
 };
 
 /// A line in terms of its major and minor axis.
@@ -30,9 +37,14 @@ struct LineAxes {
   std::int64_t major0, minor0;    ///< the first end
   std::int64_t d_major, d_minor;  ///< lengths, not negative: d_major ≥ d_minor
   int major_sign, minor_sign;     ///< directions, ±1
+  TieRule ties;
 
   [[nodiscard]] std::int64_t major_at(std::int64_t step) const {
     return major0 + major_sign * step;
+  }
+  /// Whether a line that passes half way between `minor` and the next minor coordinate steps there.
+  [[nodiscard]] bool steps_at_tie(std::int64_t minor) const {
+    return ties == TieRule::greater ? minor_sign > 0 : ties == TieRule::even && minor % 2 != 0;
   }
   [[nodiscard]] Pixel pixel(std::int64_t step, std::int64_t minor) const {
     const std::int64_t major = major_at(step);
