@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,7 +19,7 @@
 #include "fathom/pipeline/rasterization/grid_samples.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/pipeline/scan/edge_function.h"
-#include "fathom/pipeline/scan/line.h"
+#include "fathom/pipeline/scan/line-inl.h"
 #include "fathom/pipeline/scan/polygon_fill.h"
 #include "fathom/pipeline/trace.h"
 
@@ -95,6 +97,42 @@ TEST(Errata, E05_TheSourcesBresenhamDoesAllOctants) {
   for (const auto& [x, y] :
        {std::pair(9, 0), {9, 9}, {0, 9}, {-9, 9}, {-9, 0}, {-9, -9}, {0, -9}, {9, -9}})
     EXPECT_EQ(their_bresenham(0, 0, x, y), right_line({0, 0, x, y}));  // no ties at 45 degrees
+}
+
+/// Binary64 that counts what is done with it.
+struct Counted {
+  double value = 0;
+
+  Counted() = default;
+  explicit Counted(std::int64_t i) : value(static_cast<double>(i)) {}
+  static Counted of(double x) {
+    Counted result;
+    result.value = x;
+    return result;
+  }
+  static inline int additions = 0, divisions = 0;
+
+  Counted operator+(const Counted& o) const { return ++additions, of(value + o.value); }
+  Counted operator-(const Counted& o) const { return of(value - o.value); }
+  Counted operator*(const Counted& o) const { return of(value * o.value); }
+  Counted operator/(const Counted& o) const { return ++divisions, of(value / o.value); }
+  Counted& operator+=(const Counted& o) { return *this = *this + o; }
+  friend auto operator<=>(const Counted&, const Counted&) = default;
+};
+std::int64_t floor_of(const Counted& x) {
+  return pipeline::floor_of(x.value);
+}
+
+TEST(Errata, E05_ALineDividesOnce) {
+  const auto counts_of = [](const auto& draw, std::int64_t length) {
+    Counted::additions = Counted::divisions = 0;
+    draw(LineEnds{0, 0, length, length / 3}, PixelWindow{}, [](const Pixel&, const Counted&) {});
+    return std::pair(Counted::additions, Counted::divisions);
+  };
+  for (const int length : {8, 1000}) {
+    EXPECT_EQ(counts_of(dda_line<Counted>, length), std::pair(length + 1, 1));
+    EXPECT_EQ(counts_of(explicit_line<Counted>, length), std::pair(length + 1, 1));
+  }
 }
 
 TEST(Errata, E06_AParabolasParameterCoversHalfOfTheLine) {
@@ -237,6 +275,20 @@ TEST(Errata, E13_ATinyAreaIsNoZero) {
   EXPECT_EQ(covered, 1u);
 }
 
+/// The source's loop over the pixels of a box, which returns how many it drew, or nothing.
+std::optional<int> their_fragments(const std::array<std::array<double, 2>, 3>& t, int width,
+                                   int height) {
+  if (std::abs(their_edge(t[0], t[1], t[2])) < 1e-10) return std::nullopt;  // the bare `return`
+  int fragments = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::array<double, 2> p{x + 0.5, y + 0.5};
+      fragments += their_edge(t[1], t[2], p) >= 0 && their_edge(t[2], t[0], p) >= 0 &&
+                   their_edge(t[0], t[1], p) >= 0;
+    }
+  return fragments;
+}
+
 Scene scene_of(std::vector<MeshPoint> vertices, std::vector<CornerIndices> triangles) {
   Scene scene;
   scene.meshes.emplace_back();
@@ -255,6 +307,21 @@ Camera window_camera(std::uint32_t width, std::uint32_t height) {
   camera.near = 0;
   camera.far = 1;
   return camera;
+}
+
+TEST(Errata, E13_NoFragmentsAreACountToo) {
+  // Its sum of both triangles' fragments needs two counts; of a line of corners it has none.
+  EXPECT_FALSE(their_fragments({{{0, 0}, {4, 4}, {8, 8}}}, 8, 8));
+  const std::vector<MeshPoint> v{{0, 0, 0.5}, {4, 4, 0.5}, {8, 8, 0.5}, {8, 0, 0.5}, {0, 8, 0.5}};
+  const auto count = [&](std::vector<CornerIndices> triangles) {
+    return render_frame(scene_of(v, std::move(triangles)), window_camera(8, 8), {}, false)
+        .statistics;
+  };
+  EXPECT_EQ(count({{0, 1, 2}}).fragments, 0u);
+  EXPECT_EQ(count({{0, 1, 2}}).degenerate, 1u);
+  const auto alone = count({{0, 3, 4}}).fragments;
+  EXPECT_GT(alone, 20u);
+  EXPECT_EQ(count({{0, 1, 2}, {0, 3, 4}}).fragments, alone);  // and what follows is drawn
 }
 
 TEST(Errata, E14_WindowDepthIsAffineAndNotDividedAgain) {
@@ -295,18 +362,29 @@ TEST(Errata, E14_WindowDepthIsAffineAndNotDividedAgain) {
   }
 }
 
-TEST(Errata, E15_TheDemosCounts) {
-  const Scene demo = scene_of({{80, 30, 0.3},
-                               {30, 200, 0.3},
-                               {200, 180, 0.3},
-                               {160, 20, 0.6},
-                               {100, 220, 0.6},
-                               {290, 150, 0.6}},
-                              {{3, 4, 5}, {0, 1, 2}});
-  PipelineOptions options;
-  options.precision = Precision::binary64;
+/// The triangles of the demo, in this order: 1 is the near one, 2 the far one.
+Scene demo_scene(std::vector<CornerIndices> triangles) {
+  return scene_of({{80, 30, 0.3},
+                   {30, 200, 0.3},
+                   {200, 180, 0.3},
+                   {160, 20, 0.6},
+                   {100, 220, 0.6},
+                   {290, 150, 0.6}},
+                  std::move(triangles));
+}
+constexpr CornerIndices near_triangle{0, 1, 2}, far_triangle{3, 4, 5};
+
+Camera demo_camera() {
   Camera camera = window_camera(320, 240);
   camera.near = 0.1;
+  return camera;
+}
+
+TEST(Errata, E15_TheDemosCounts) {
+  const Scene demo = demo_scene({far_triangle, near_triangle});
+  PipelineOptions options;
+  options.precision = Precision::binary64;
+  const Camera camera = demo_camera();
   const PipelineFrame frame = render_frame(demo, camera, options, true);
   const auto covered = static_cast<std::uint64_t>(
       std::count_if(frame.id.begin(), frame.id.end(), [](auto id) { return id != no_surface; }));
@@ -316,6 +394,33 @@ TEST(Errata, E15_TheDemosCounts) {
   // 8 bit colours: truncation darkens.
   EXPECT_EQ(static_cast<int>(0.999 * 255), 254);
   EXPECT_EQ(to_rgb({1, 1, {{0.999, 0, 0}}}).pixels[0][0], 255);
+}
+
+TEST(Errata, E15_TheDemosNames) {
+  // "Triangle 1 (far)" is printed beside the count of the one drawn first, which is its triangle 2.
+  const std::array<std::array<double, 2>, 3> near_one{{{80, 30}, {30, 200}, {200, 180}}},
+      far_one{{{160, 20}, {100, 220}, {290, 150}}};
+  const std::array<std::optional<int>, 2> theirs{their_fragments(far_one, 320, 240),
+                                                 their_fragments(near_one, 320, 240)};
+  EXPECT_EQ(theirs[0], 16970);
+  EXPECT_EQ(theirs[1], 13955);
+  PipelineOptions options;
+  options.precision = Precision::binary64;
+  const auto frame_of = [&](std::vector<CornerIndices> triangles) {
+    return render_frame(demo_scene(std::move(triangles)), demo_camera(), options, false);
+  };
+  EXPECT_EQ(frame_of({near_triangle}).statistics.fragments, 13955u);
+  EXPECT_EQ(frame_of({far_triangle}).statistics.fragments, 16830u);
+  // Triangle numbers are those of the file, in whatever order they are drawn.
+  for (const bool near_first : {false, true}) {
+    options.draw_order = near_first ? DrawOrder::front_to_back : DrawOrder::back_to_front;
+    const PipelineFrame frame = frame_of({near_triangle, far_triangle});
+    const auto at = [&](std::size_t x, std::size_t y) { return 320 * y + x; };
+    EXPECT_EQ(frame.id[at(60, 160)], 0u);   // the near one alone
+    EXPECT_EQ(frame.id[at(240, 130)], 1u);  // the far one alone
+    EXPECT_EQ(frame.id[at(130, 150)], 0u);  // both
+    EXPECT_EQ(std::count(frame.id.begin(), frame.id.end(), 0u), 13955);
+  }
 }
 
 TEST(Errata, E15_AFragmentAtTheFarEndIsSeen) {
@@ -345,7 +450,35 @@ TEST(Errata, E16_OrderIndependenceEndsWithTies) {
 }
 
 TEST(Errata, E17_TenThousandthOfWindowDepthIsNoFight) {
-  EXPECT_GT(0.0001 * 65535, 6.5);  // steps of unorm16
+  // Window depth is z − 1, for an orthographic look from 1 to 2. Six or seven codes lie between two
+  // sheets that far apart in it, anywhere, so either order of drawing shows the nearer one.
+  PipelineOptions options;
+  options.precision = Precision::binary64;
+  options.depth_format.storage = Storage::unorm16;
+  Camera camera = window_camera(8, 8);
+  camera.near = 1;
+  camera.far = 2;
+  const DepthFormat window{Mapping::linear, Storage::unorm16, 1, 2, 1};
+  const auto code_of = [&](double z) {
+    return static_cast<int>(encode(window, Ratio(Dyadic(z))).bits);
+  };
+  for (const double z : {1.0, 1.25, 1.5, 1.75, 1.9998}) {
+    EXPECT_GE(code_of(z + 0.0001) - code_of(z), 6) << z;
+    EXPECT_LE(code_of(z + 0.0001) - code_of(z), 7) << z;
+    for (const bool near_first : {false, true}) {
+      const Scene sheets = scene_of({{0, 0, z},
+                                     {8, 0, z},
+                                     {0, 8, z},
+                                     {0, 0, z + 0.0001},
+                                     {8, 0, z + 0.0001},
+                                     {0, 8, z + 0.0001}},
+                                    near_first ? std::vector<CornerIndices>{{0, 1, 2}, {3, 4, 5}}
+                                               : std::vector<CornerIndices>{{3, 4, 5}, {0, 1, 2}});
+      const PipelineFrame frame = render_frame(sheets, camera, options, false);
+      const std::uint32_t farther = near_first ? 1 : 0;
+      EXPECT_EQ(std::count(frame.id.begin(), frame.id.end(), farther), 0) << z;
+    }
+  }
   // Along the view, at depth 50 with near 0.1: the same code.
   const DepthFormat format{Mapping::standard, Storage::unorm16, 0.1, 100, 1};
   EXPECT_EQ(encode(format, Ratio(Dyadic(50.0))), encode(format, Ratio(Dyadic(50.0001))));
@@ -354,9 +487,12 @@ TEST(Errata, E17_TenThousandthOfWindowDepthIsNoFight) {
 TEST(Errata, E18_TheRotatedGridsMeanIsTheCentre) {
   const double wrong_x = -0.25 + 0.25 - 0.125 + 0.375;
   EXPECT_EQ(wrong_x / 4, 1.0 / 16);
-  for (const int n : {1, 2, 4, 8}) {
+  EXPECT_EQ(sample_pattern("rotated-grid").offsets,
+            (std::vector<SampleOffset>{
+                {-0.375, -0.125}, {0.125, -0.375}, {-0.125, 0.375}, {0.375, 0.125}}));
+  for (const char* n : {"1", "2", "4", "8", "rotated-grid"}) {
     GridPoint sum;
-    const GridSamples pattern = GridSamples::of(sample_pattern(std::to_string(n)));
+    const GridSamples pattern = GridSamples::of(sample_pattern(n));
     for (std::size_t i = 0; i < pattern.size(); ++i) {
       sum.x += pattern.at({0, 0}, i).x;
       sum.y += pattern.at({0, 0}, i).y;
@@ -379,10 +515,36 @@ TEST(Errata, E19_TheFallbacksCountAndSpacing) {
   EXPECT_EQ(grid.at({0, 0}, 1).x - grid.at({0, 0}, 0).x, grid_one / 2);
 }
 
+/// What the source's program leaves of white triangles at one depth over black: it blends by the
+/// share of samples, and keeps one depth for each pixel.
+std::array<std::array<double, 8>, 8> their_multisampling(
+    const std::vector<std::array<std::array<double, 2>, 3>>& triangles) {
+  std::array<std::array<double, 8>, 8> colours{}, depths{};
+  for (auto& row : depths) row.fill(1);
+  for (const auto& [a, b, c] : triangles)
+    for (std::size_t y = 0; y < 8; ++y)
+      for (std::size_t x = 0; x < 8; ++x) {
+        double coverage = 0;
+        for (const auto& [u, v] : {std::pair(-0.25, -0.125), std::pair(0.25, -0.375),
+                                   std::pair(-0.125, 0.375), std::pair(0.375, 0.125)}) {
+          const std::array<double, 2> p{static_cast<double>(x) + 0.5 + u,
+                                        static_cast<double>(y) + 0.5 + v};
+          if (their_edge(b, c, p) >= 0 && their_edge(c, a, p) >= 0 && their_edge(a, b, p) >= 0)
+            coverage += 0.25;
+        }
+        if (coverage == 0 || !(0.5 < depths[y][x])) continue;  // the depth test of set_pixel()
+        depths[y][x] = 0.5;
+        colours[y][x] = coverage + colours[y][x] * (1 - coverage);
+      }
+  return colours;
+}
+
 TEST(Errata, E20_BlendingCoverageLeavesASeam) {
-  // Two triangles, each covering half of a pixel's samples, over black: white in the end is right.
-  const double first = 0.5 * 1 + 0.5 * 0, wrong = 0.5 * 1 + 0.5 * first;
-  EXPECT_EQ(wrong, 0.75);
+  // Two triangles, each with half of the samples of a pixel on the diagonal, over black. The second
+  // one, as deep as the first, fails the source's depth test: half of the black stays.
+  const auto theirs = their_multisampling({{{{0, 0}, {8, 8}, {8, 0}}}, {{{0, 0}, {0, 8}, {8, 8}}}});
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(theirs[i][i], 0.5);
+  EXPECT_EQ(theirs[1][5], 1);
   const Scene square =
       scene_of({{0, 0, 0.5}, {8, 0, 0.5}, {8, 8, 0.5}, {0, 8, 0.5}}, {{0, 1, 2}, {0, 2, 3}});
   PipelineOptions options;
@@ -394,6 +556,25 @@ TEST(Errata, E20_BlendingCoverageLeavesASeam) {
   const PipelineFrame frame = render_frame(square, camera, options, true);
   for (int i = 0; i < 8; ++i)
     EXPECT_NEAR(frame.picture.at(i, i)[0], 1, 1e-7);  // floats hold colours
+}
+
+TEST(Errata, E20_AnUncoveredCentreIsNoPlaceToShade) {
+  // Red falls from 1 at the corner to 0 on the long side, x + y = 7.75, which leaves the centres of
+  // the diagonal outside, and of their samples the one with the least x + y inside.
+  Scene scene = scene_of({{0, 0, 0.5}, {7.75, 0, 0.5}, {0, 7.75, 0.5}}, {{0, 1, 2}});
+  scene.meshes[0].colours = {{1, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}};
+  PipelineOptions options;
+  options.precision = Precision::binary64;
+  options.shading = Shading::none;
+  options.background = {0, 0, 0};
+  options.antialias = {AntialiasMethod::msaa, 4};
+  Camera camera = window_camera(8, 8);
+  camera.near = 0.1;
+  const PipelineFrame frame = render_frame(scene, camera, options, true);
+  const double at_centre = 1 - 8 / 7.75, at_sample = 1 - 7.5 / 7.75;
+  EXPECT_LT(at_centre, 0);
+  for (std::uint32_t i = 0; i < 8; ++i)
+    EXPECT_NEAR(frame.picture.at(i, 7 - i)[0], at_sample / 4, 1e-7) << i;
 }
 
 TEST(Errata, E21_JitterIsForRegularPatterns) {
@@ -533,6 +714,27 @@ TEST(Errata, E28_CullingAfterTheDivisionSeesWhatIsDrawn) {
   ASSERT_GE(right.size(), 3u);
   EXPECT_LT(area(wrong), 0);
   EXPECT_GT(area(right), 0);
+  // The stage itself: the same triangle, y down, keeps every pixel when back faces are culled, and
+  // loses all of them when it is turned.
+  Camera camera = window_camera(64, 64);
+  camera.projection = Projection::perspective;
+  camera.fx = camera.fy = camera.cx = camera.cy = 32;
+  camera.near = 0.5;
+  camera.far = 10;
+  const auto pixels = [&](CornerIndices corners, Culling culling) {
+    PipelineOptions options;
+    options.culling = culling;
+    const Scene scene = scene_of({{-1, 1, 2}, {1, 1, 2}, {0, -3, -1}}, {corners});
+    const PipelineFrame frame = render_frame(scene, camera, options, false);
+    EXPECT_EQ(frame.statistics.clipped, 1u);
+    return std::count(frame.id.begin(), frame.id.end(), 0u);
+  };
+  const auto all = pixels({0, 1, 2}, Culling::none);
+  EXPECT_GT(all, 500);
+  EXPECT_EQ(pixels({0, 1, 2}, Culling::back), all);
+  EXPECT_EQ(pixels({0, 1, 2}, Culling::front), 0);
+  EXPECT_EQ(pixels({0, 2, 1}, Culling::back), 0);
+  EXPECT_EQ(pixels({0, 2, 1}, Culling::front), all);
 }
 
 TEST(Errata, E29_OneViewDirectionIsWrongInPerspective) {
@@ -616,6 +818,58 @@ TEST(Errata, E32_TheDeterminantsLastFactor) {
     different += facing != theirs;
   }
   EXPECT_GT(different, 100);
+}
+
+TEST(Errata, E33_SevenOtherOctants) {
+  // A line without ties, and its images by the symmetries of the square: itself and seven others.
+  const LineEnds first{0, 0, 9, 4};
+  std::set<Pixels> lines;
+  for (int i = 0; i < 8; ++i) {
+    const auto image = [&](const Pixel& p) {
+      const std::int64_t x = i & 1 ? -p.x : p.x, y = i & 2 ? -p.y : p.y;
+      return i & 4 ? Pixel{y, x} : Pixel{x, y};
+    };
+    Pixels expected = right_line(first);
+    std::transform(expected.begin(), expected.end(), expected.begin(), image);
+    const Pixel end = image({first.x1, first.y1});
+    EXPECT_EQ(right_line({0, 0, end.x, end.y}), expected) << i;
+    lines.insert(expected);
+  }
+  EXPECT_EQ(lines.size() - 1, 7u);  // not eight
+}
+
+/// Values at pixels, by edges and then scan lines: the mixed differences, which are 0 for what is
+/// linear in x and y.
+std::set<Exact> mixed_differences(const std::vector<FillCorner<Exact>>& corners) {
+  std::map<Pixel, Exact> values;
+  fill_polygon<Exact>({corners}, FillRule::even_odd, {}, [&](const ScanLine<Exact>& line) {
+    for (const auto& span : line.spans) {
+      std::int64_t x = span.pixels.x_begin;
+      for (const auto& value : values_along(span)) values[{x++, span.pixels.y}] = value[0];
+    }
+  });
+  std::set<Exact> differences;
+  for (const auto& [p, value] : values) {
+    const auto right = values.find({p.x + 1, p.y}), below = values.find({p.x, p.y + 1});
+    const auto both = values.find({p.x + 1, p.y + 1});
+    if (right == values.end() || below == values.end() || both == values.end()) continue;
+    differences.insert(Exact(both->second - right->second - below->second + value));
+  }
+  return differences;
+}
+
+TEST(Errata, E34_OnATriangleInterpolationIsLinear) {
+  const auto corner = [](int x, int y, int value) {
+    return FillCorner<Exact>{Exact(x), Exact(y), {Exact(value)}};
+  };
+  // On a triangle nothing is left of "bilinear", whichever way it is turned.
+  EXPECT_EQ(mixed_differences({corner(0, 0, 1), corner(9, 2, 0), corner(3, 8, 5)}),
+            (std::set<Exact>{Exact(0)}));
+  EXPECT_EQ(mixed_differences({corner(0, 8, 1), corner(2, 0, 0), corner(8, 6, 5)}),
+            (std::set<Exact>{Exact(0)}));
+  // On a square it is: 1 at one corner and 0 at the others is x·y.
+  EXPECT_EQ(mixed_differences({corner(0, 0, 0), corner(4, 0, 0), corner(4, 4, 1), corner(0, 4, 0)}),
+            (std::set<Exact>{Exact(1) / Exact(16)}));
 }
 
 }  // namespace
