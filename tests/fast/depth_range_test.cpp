@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/numeric/ratio.h"
 #include "tests/inputs/scene_building.h"
 
 namespace fathom {
@@ -26,6 +27,28 @@ TEST(DepthRange, PerspectiveLimitsEncloseTheReciprocals) {
     EXPECT_LT(Dyadic(range.outside_least) * Dyadic(c.far), one);
     EXPECT_LT(range.outside_greatest / range.inside_greatest, 1 + 0x1p-50);
     EXPECT_LT(range.inside_least / range.outside_least, 1 + 0x1p-50);
+  }
+}
+
+/// Reciprocals that overflow, and those that are subnormal.
+TEST(DepthRange, ReciprocalsBeyondTheNormalNumbersAreEnclosed) {
+  Camera c = testing::camera_of(9, 9, 2);
+  constexpr double greatest = std::numeric_limits<double>::max();
+  for (const double limit : {0x1p-1074, 0x1.8p-1030, 0x1p-1024, 0x1.0000000000004p-1024, 0x1p-1023,
+                             0x1p1022, 0x1.8p1023, greatest}) {
+    SCOPED_TRACE(::testing::Message() << std::hexfloat << limit);
+    const Dyadic one(1.0);
+    c.near = c.far = limit;
+    const DepthRange range = depth_range(c);
+    EXPECT_LT(Dyadic(range.inside_greatest) * Dyadic(limit), one);
+    EXPECT_LT(Dyadic(range.outside_least) * Dyadic(limit), one);
+    for (const double above : {range.outside_greatest, range.inside_least}) {
+      if (std::isfinite(above)) {
+        EXPECT_GT(Dyadic(above) * Dyadic(limit), one);
+      } else {
+        EXPECT_GE(compare(Ratio(1.0, limit), Dyadic(greatest)), 0);
+      }
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "fathom/fast/render_fast.h"
 #include "fathom/numeric/errors.h"
+#include "tests/adversaries.h"
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
 #include "tests/inputs/adversarial_scenes.h"
@@ -235,10 +236,10 @@ TEST(TilesInRounds, PlacedObjects) {
 }
 
 TEST(TilesInRounds, Adversaries) {
-  std::mt19937_64 random(505);
   for (const testing::Family family : testing::all_families) {
-    for (std::uint64_t seed = 0; seed < 30U / testing::effort + 1; ++seed) {
-      SCOPED_TRACE(name_of(family) + ", seed " + std::to_string(seed));
+    testing::for_each_adversary(30, [&](std::uint64_t seed) {
+      SCOPED_TRACE(name_of(family));
+      std::mt19937_64 random(seed);
       const testing::Case c = testing::adversarial_case(family, seed);
       RenderOptions options = all_channels();
       if (seed % 4 == 3) options.cull = Cull::back;
@@ -246,8 +247,7 @@ TEST(TilesInRounds, Adversaries) {
       for (const Plan& plan :
            {Plan{1, 1, {0, 0}, 1}, Plan{1, 3, {plenty, plenty}, 1}, Plan{2, 2, {plenty, 0}, 1}})
         expect_same_map(render_in_places(c.scene, c.camera, options, plan, random), truth);
-      if (::testing::Test::HasFailure()) return;
-    }
+    });
   }
 }
 

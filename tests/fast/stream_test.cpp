@@ -13,8 +13,10 @@
 #include "fathom/render.h"
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
+#include "tests/adversaries.h"
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
+#include "tests/inputs/adversarial_scenes.h"
 #include "tests/inputs/both_readings.h"
 #include "tests/inputs/random_scenes.h"
 #include "tests/places.h"
@@ -114,6 +116,25 @@ TEST(FastStream, RandomScenes) {
     }
   }
   EXPECT_GE(cases, 40);
+}
+
+TEST(FastStream, Adversaries) {
+  const ScratchFolder folder;
+  const std::vector<StreamLimits> limits{{.triangles_at_once = 1, .tile_bytes = 0, .kept_bytes = 0},
+                                         {.triangles_at_once = 3, .tile_bytes = 0},
+                                         {.triangles_at_once = 2}};
+  for (const testing::Family family : testing::all_families) {
+    if (family == testing::Family::placements) continue;  // files of meshes place nothing
+    testing::for_each_adversary(30, [&](std::uint64_t seed) {
+      SCOPED_TRACE(name_of(family));
+      const testing::Case c = testing::adversarial_case(family, seed);
+      const Both both({folder.write("mesh.ply", ply_of(c.scene.meshes.at(0)))});
+      RenderOptions options;
+      options.channels = streamed_channels;
+      if (seed % 4 == 3) options.cull = Cull::back;
+      expect_same_render(both, c.camera, options, limits[seed % limits.size()]);
+    });
+  }
 }
 
 /// Every encoding, and the failure that names the first pixel.

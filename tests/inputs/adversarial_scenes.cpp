@@ -232,7 +232,9 @@ void make_exponents(Builder& s) {
       if (s.draw.one_in(4)) entry = any();
     }
   }
+  if (s.draw.one_in(3)) c.cy = any();
   if (s.draw.one_in(4)) c.near = std::abs(any());
+  if (s.draw.one_in(4)) c.far = std::abs(any());
   for (int i = s.draw.between(3, 6); i > 0; --i) s.vertices.push_back({any(), any(), any()});
   s.connect(s.draw.between(1, 5));
 }
@@ -264,6 +266,92 @@ void make_conspiracies(Builder& s) {
   }
   s.camera.fx = std::ldexp(s.camera.fx, -of_rows[0]);
   s.camera.fy = std::ldexp(s.camera.fy, -of_rows[1]);
+}
+
+/// Exponents of binary64 numbers, subnormal ones included.
+constexpr int least_exponent = -1074, greatest_exponent = 1023;
+
+/// Ordinary, any, or near the ends, where reciprocals overflow or are subnormal.
+int any_exponent(Draw& draw) {
+  switch (draw.below(4)) {
+    case 0:
+      return draw.between(least_exponent, greatest_exponent);
+    case 1:
+      return draw.between(least_exponent, least_exponent + 80);
+    case 2:
+      return draw.between(greatest_exponent - 80, greatest_exponent);
+    default:
+      return draw.between(-70, 70);
+  }
+}
+
+/// The exponent of an entry of the pose, which takes numbers of about 2^(a − b) to about 2^a.
+int exponent_of_entry(Draw& draw, int a) {
+  const int b = draw.one_in(2) ? 0 : a - any_exponent(draw);
+  const int least = std::max(least_exponent, a - greatest_exponent);
+  const int greatest = std::min(greatest_exponent, a - least_exponent);
+  return std::max(least, std::min(greatest, b));
+}
+
+/// near and far: near the depths of the scene, which are about 2^depth, or anywhere.
+void limit_depths(Builder& s, int depth) {
+  const auto limit = [&] {
+    const int exponent = s.draw.one_in(3) ? any_exponent(s.draw) : depth + s.draw.between(-1, 1);
+    return std::abs(s.draw.of_exponent(exponent));
+  };
+  if (s.draw.one_in(2)) s.camera.near = limit();
+  if (s.draw.one_in(2)) s.camera.far = limit();
+  if (s.camera.near > s.camera.far) std::swap(s.camera.near, s.camera.far);
+}
+
+/// A direction of the image: f and c of any exponents.
+struct Axis {
+  double mantissa;  // of f
+  double centre;    // of the image that is seen
+  int exponent;     // of the world's coordinates where w = 1
+
+  /// `entry`: the exponent that the pose has for depths, whose exponent is `depth`.
+  Axis(Builder& s, std::size_t row, int depth, int entry) {
+    double& f = row == 0 ? s.camera.fx : s.camera.fy;
+    double& c = row == 0 ? s.camera.cx : s.camera.cy;
+    const int e = any_exponent(s.draw), own_entry = exponent_of_entry(s.draw, depth - e);
+    f = s.draw.of_exponent(e);
+    mantissa = std::ldexp(f, -e);
+    centre = c;
+    exponent = depth - e - own_entry;
+    auto& pose = s.camera.world_to_camera[row];
+    pose[row] = std::ldexp(1, own_entry);
+    if (s.draw.one_in(2)) return;
+    // The pose takes f·2^j·W from the image, to which c adds it.
+    const bool perspective = s.camera.projection == Projection::perspective;
+    const int j = any_exponent(s.draw) - e;
+    c = std::ldexp(f, j);
+    centre = 0;
+    pose[perspective ? 2 : 3] = -std::ldexp(1, perspective ? j + entry : j);
+  }
+  /// The coordinate of a point that is seen at u, where W is w times a power of two.
+  [[nodiscard]] double at(double u, double w) const {
+    return std::ldexp((u - centre) / mantissa * w, exponent);
+  }
+};
+
+void make_cameras(Builder& s) {
+  s.maybe_orthographic(3);
+  const bool perspective = s.camera.projection == Projection::perspective;
+  const int depth = any_exponent(s.draw), entry = exponent_of_entry(s.draw, depth);
+  s.camera.world_to_camera[2][2] = std::ldexp(1, entry);
+  limit_depths(s, depth);
+  const int in_image = perspective ? depth : 0;  // of W
+  const Axis x(s, 0, in_image, entry), y(s, 1, in_image, entry);
+  const bool around_the_eye = s.draw.one_in(3);
+  for (int i = s.draw.between(3, 7); i > 0; --i) {
+    double w = 1 + s.draw.unit();
+    if (around_the_eye && s.draw.one_in(2)) w = s.draw.few_bits(2);
+    if (s.draw.one_in(6)) w = s.draw.of_exponent(s.draw.between(-100, 0));
+    const double u = s.draw.unit() * 16 - 4, v = s.draw.unit() * 12 - 3, W = perspective ? w : 1;
+    s.vertices.push_back({x.at(u, W), y.at(v, W), std::ldexp(w, depth - entry)});
+  }
+  s.connect(s.draw.between(2, 6));
 }
 
 /// Places the mesh, and once more where that is drawn.
@@ -320,6 +408,8 @@ void make(Family family, Builder& s) {
       return make_exponents(s);
     case Family::conspiracies:
       return make_conspiracies(s);
+    case Family::cameras:
+      return make_cameras(s);
   }
 }
 
@@ -332,7 +422,8 @@ bool is_finite(const MeshPoint& p) {
 std::string name_of(Family family) {
   constexpr std::array names{"slivers",        "samples_on_edges", "ties",       "midpoints",
                              "coplanar_heaps", "around_the_eye",   "intrinsics", "cancellation",
-                             "range_ends",     "placements",       "exponents",  "conspiracies"};
+                             "range_ends",     "placements",       "exponents",  "conspiracies",
+                             "cameras"};
   return names.at(static_cast<std::size_t>(family));
 }
 

@@ -24,11 +24,13 @@ enum class Family {
   placements,        // placed, mirrored, flattened and tiny meshes
   exponents,         // exponents from −1060 to 1020, each by itself
   conspiracies,      // extreme numbers whose products are ordinary
+  cameras,           // near, far, fx, fy, cx, cy and depths of any exponent, of an ordinary image
 };
 inline constexpr std::array all_families{
     Family::slivers,        Family::samples_on_edges, Family::ties,       Family::midpoints,
     Family::coplanar_heaps, Family::around_the_eye,   Family::intrinsics, Family::cancellation,
-    Family::range_ends,     Family::placements,       Family::exponents,  Family::conspiracies};
+    Family::range_ends,     Family::placements,       Family::exponents,  Family::conspiracies,
+    Family::cameras};
 std::string name_of(Family family);
 
 /// A scene and a camera without fault.

@@ -1,6 +1,8 @@
 """Scenes drawn at random, with what goes wrong where pixels are decided in several places: triangles of all sizes, on a
 coarse grid, so that there are shared edges, ties and coplanar layers; equal triangles, also in two files."""
 
+import json
+import math
 import random
 import struct
 
@@ -51,8 +53,10 @@ class RandomScene:
 
     def view(self):
         draw = self.random
-        view = ["--view", f"{draw.randint(-180, 180)},{draw.randint(-80, 80)}", "--size",
-                draw.choice(["1x1", "7x5", "64x64", "65x129", "200x150", "333x77"])]
+        size = draw.choice(["1x1", "7x5", "64x64", "65x129", "200x150", "333x77"])
+        if draw.random() < 0.25:
+            return ["--camera", self.write_camera(self.folder / "camera.json", *map(int, size.split("x")))]
+        view = ["--view", f"{draw.randint(-180, 180)},{draw.randint(-80, 80)}", "--size", size]
         if draw.random() < 0.3:
             view += ["--orthographic", draw.choice([4, 10])]
         if draw.random() < 0.3:
@@ -60,3 +64,18 @@ class RandomScene:
         if draw.random() < 0.3:
             view += ["--cull", draw.choice(["back", "front"])]
         return view
+
+    def write_camera(self, path, width, height):
+        """An ordinary view, of which depths, focal lengths, near and far have any exponents, subnormal ones included."""
+        depth, *across = (self.random.randint(-1074, 1000) for _ in range(3))
+        focal = [math.ldexp(width, min(1000, max(-1074, depth - each))) for each in across]
+        camera = {"width": width, "height": height, "fx": focal[0], "fy": focal[1], "cx": width / 2, "cy": height / 2,
+                  "pixel_centre": 0.5, "world_to_camera": [[math.ldexp(1, across[0]), 0, 0, 0],
+                                                           [0, math.ldexp(1, across[1]), 0, 0],
+                                                           [0, 0, math.ldexp(1, depth), math.ldexp(self.random.choice([0, 5, 20]), depth)]]}
+        ends = sorted(math.ldexp(self.random.uniform(1, 2), self.random.choice([depth + 3, depth + 4, self.random.randint(-1074, 1023)]))
+                      for _ in range(2))
+        if ends[0] < ends[1] and self.random.random() < 0.8:
+            camera["near"], camera["far"] = ends
+        path.write_text(json.dumps(camera))
+        return path

@@ -1,6 +1,7 @@
 """probe, visible, render_deep, verify: judged by fractions, by sums, and by each other."""
 
 import copy
+import os
 from fractions import Fraction
 
 import numpy as np
@@ -137,3 +138,34 @@ def test_verify(spot, camera):
         fathom.verify(fathom.Map({"colour": map["Z"]}, camera), spot)
     with pytest.raises(ValueError, match="camera"):
         fathom.verify(fathom.Map({"Z": map["Z"]}), spot)
+
+
+@pytest.mark.filterwarnings("ignore::fathom.ViewWarning")
+def test_cameras_of_all_exponents():
+    """Depths, focal lengths, near and far have any exponents, subnormal ones included: every pixel of every channel is
+    that of exact arithmetic. FATHOM_FUZZ_CALLS: how many cameras."""
+    partly = 0
+    for seed in range(int(os.environ.get("FATHOM_FUZZ_CALLS", "100"))):
+        draw = np.random.default_rng(seed)
+        depth, *across = (int(each) for each in draw.integers(-1074, 1023, 3))
+        if seed % 3 == 0:
+            depth = int(draw.integers(-1060, -1020))  # 1/far may be infinite
+        if seed % 3 < 2:
+            across = [depth, depth]
+        focal = np.ldexp(draw.uniform(1, 2, 2) * 8, depth - np.array(across))
+        if not (np.isfinite(focal) & (focal != 0)).all():
+            continue
+        z = draw.uniform(1, 2, 6) - (0 if seed % 2 else draw.integers(0, 4, 6))
+        xy = draw.uniform(-0.8, 0.8, (6, 2)) * np.where(z < 0.1, 1, z)[:, None]
+        vertices = np.column_stack([np.ldexp(xy, across), np.ldexp(z, depth)])
+        ends = np.sort(np.ldexp(draw.uniform(1, 2, 2), [depth, depth if seed % 4 < 3 else int(draw.integers(-1074, 1023))]))
+        if not np.isfinite(vertices).all() or not ends[0] < ends[1] < np.inf:
+            continue
+        scene = fathom.Scene()
+        scene.add_mesh(vertices, [(0, 1, 2), (3, 4, 5), (0, 3, 5)])
+        camera = fathom.Camera(16, 12, *map(float, focal), 8, 6, pixel_centre=0.5, near=float(ends[0]), far=float(ends[1]))
+        channels = ("Z", "A", "Zlow", "distance", "id", "N", "Nc", "P", "bary")
+        found = scene.render(camera, channels=channels)
+        assert fathom.verify(found, scene, pixels=16 * 12).differing == 0, seed
+        partly += int(((found["A"] > 0) & (found["A"] < 1)).sum())
+    assert partly > 500

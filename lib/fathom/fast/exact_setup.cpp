@@ -103,7 +103,7 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
   setup.q_b = coefficient(numerator.coefficients()[1]);
   setup.q_c = coefficient(numerator.at(origin_u, origin_v));
   const double S = std::abs(setup.q_c) + (std::abs(setup.q_a) + std::abs(setup.q_b)) * extent;
-  if (S < 0x1p100) {
+  if (S < setup_bounds::greatest_q) {
     setup.q_error = (setup_bounds::exact_q_error * S + 0x1p-100) * setup_bounds::q_room;
   } else {
     setup.q_a = setup.q_b = setup.q_c = 0;
@@ -160,7 +160,7 @@ std::optional<TriangleSetup> wide_setup(const WideForms& forms, std::uint32_t nu
   setup.q_c = c.value.hi;
   const double S = std::abs(setup.q_c) + (std::abs(setup.q_a) + std::abs(setup.q_b)) * extent;
   const double of_words = c.error + (a.error + b.error) * extent;
-  if (!(S < 0x1p100 && of_words < 0x1p100)) return std::nullopt;
+  if (!(S < setup_bounds::greatest_q && of_words < setup_bounds::greatest_q)) return std::nullopt;
   setup.q_error = (setup_bounds::exact_q_error * S + (of_words + 0x1p-100)) * setup_bounds::q_room;
   return setup;
 }

@@ -46,7 +46,9 @@ inline constexpr double exact_lane_limit = 0x1p7;
 /// q as a function over the whole tile: of the sum of the magnitudes of its terms (tile_q).
 inline constexpr double tile_q_error = 12 * unit_roundoff<double>;
 
-/// exact_setup() (exact_edges, exact_q).
+/// exact_setup() (exact_edges, exact_q). Where the terms of q add up to greatest_q or more, nothing
+/// is known of q.
+inline constexpr double greatest_q = 0x1p100;
 inline constexpr double exact_edge_error = 12 * unit_roundoff<double>;
 inline constexpr double exact_q_error = 5 * unit_roundoff<double>;
 

@@ -15,6 +15,7 @@
 #include "fathom/fast/stream.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/framing.h"
+#include "tests/adversaries.h"
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
 #include "tests/inputs/adversarial_scenes.h"
@@ -147,13 +148,12 @@ TEST(CoverageInRounds, Adversaries) {
   for (const testing::Family family : testing::all_families) {
     // Files that are streamed are not placed.
     if (family == testing::Family::placements) continue;
-    for (std::uint64_t seed = 0; seed < 6U / effort + 1; ++seed) {
-      SCOPED_TRACE(name_of(family) + ", seed " + std::to_string(seed));
+    testing::for_each_adversary(6, [&](std::uint64_t seed) {
+      SCOPED_TRACE(name_of(family));
       const testing::Case c = testing::adversarial_case(family, seed);
       const Both both({files.ply(c.scene.meshes.at(0))});
       expect_same_coverage(both, c.camera);
-      if (::testing::Test::HasFailure()) return;
-    }
+    });
   }
 }
 

@@ -132,6 +132,48 @@ TEST_P(FunctionShares, OfExactSetupsOverATile) {
 
 INSTANTIATE_TEST_SUITE_P(Fast, FunctionShares, ::testing::Bool());
 
+/// Ends of the range of any exponent: functions are finite, and where they are certain of a sign at a
+/// point, it is that of q less the end.
+TEST(TileFunctions, AreFiniteForEveryRangeOfDepths) {
+  Numbers n(39);
+  const auto any_limit = [&] {
+    return std::ldexp(1 + n.below(1024) / 1024.0, n.below(2098) - 1074);
+  };
+  int certain = 0;
+  for (int i = 0; i < 20000 / effort; ++i) {
+    const bool perspective = i % 4 != 0;
+    Camera camera = plain_camera(perspective);
+    camera.near = any_limit();
+    camera.far =
+        i % 2 == 0 ? any_limit() : std::ldexp(1 + n.below(1024) / 1024.0, -1024 - n.below(50));
+    if (camera.near > camera.far) std::swap(camera.near, camera.far);
+    SCOPED_TRACE(::testing::Message() << std::hexfloat << camera.near << " to " << camera.far);
+    auto corners = triangle_from(n);
+    if (n.below(2)) corners[0].z -= 5;  // reaches behind the camera
+    const ProjectedTriangle t = project_both(corners, camera).exact;
+    if (t.orientation == Sign::zero) continue;
+    const PixelBox tile = tile_at(n, camera);
+    const auto [functions, count] =
+        functions_over_tile(exact_setup(t, perspective, tile), depth_range(camera));
+    ASSERT_EQ(count, 5U);
+    const double x = n.below(64), y = n.below(64);
+    const double u = tile.first_column + x, v = tile.first_row + y;
+    const Ratio q = perspective ? Ratio(t.weight.at(u, v), t.depth_numerator.at(u, v))
+                                : Ratio(-t.depth_numerator.at(u, v), t.weight.at(u, v));
+    const auto end = [&](double D) { return perspective ? Ratio(1.0, D) : Ratio(-D); };
+    const std::array<Ratio, 2> exact{end(camera.near) - q, q - end(camera.far)};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto& [a, b, c, error] = functions[3 + k];
+      ASSERT_TRUE(std::isfinite(a) && std::isfinite(b) && std::isfinite(c) && std::isfinite(error));
+      const double f = c + a * x + b * y;
+      if (!(std::abs(f) > error)) continue;
+      ++certain;
+      ASSERT_EQ(f > 0 ? Sign::positive : Sign::negative, exact[k].sign());
+    }
+  }
+  EXPECT_GT(certain, 30000 / effort);
+}
+
 /// A pixel beside the corner of a triangle, which none of its sides separates from it, and pixels of
 /// random triangles against their clipped area.
 TEST(CertainlyMissesPixel, IsSaidOfPixelsWithoutAnArea) {

@@ -28,12 +28,32 @@ std::array<UncertainHalfPlane, 3> edges_over_tile(const std::array<ImageVertex, 
   return {edge(p[1], p[2]), edge(p[2], p[0]), edge(p[0], p[1])};
 }
 
+namespace {
+
+/// An end of the range of depths, and its part of the error of a function over a tile.
+struct RangeEnd {
+  double q, error;
+};
+
+// Wherever exact_setup() knows a bound on q, all terms of q are below greatest_q, and so is |q|. An
+// end beyond that has all of them on the same side, wherever it is: 1/far is infinite where far is
+// below 2⁻¹⁰²⁴. Such an end moves to beyond_every_q, so that functions and bounds are finite numbers
+// and no sum or product of them overflows.
+RangeEnd range_end(double inside, double outside) {
+  constexpr double beyond_every_q = 0x1p100 * setup_bounds::greatest_q;
+  const double q = std::clamp(inside, -beyond_every_q, beyond_every_q);
+  const double doubt = std::abs(std::clamp(outside, -beyond_every_q, beyond_every_q) - q);
+  return {q, 2 * doubt + setup_bounds::range_end_rounding * std::abs(q)};
+}
+
+}  // namespace
+
 // The functions of exact_setup() are relative to the sample of the tile's first pixel, half a pixel
 // from its corner: c moves by (a + b)/2. Their bounds hold for any point up to 8 pixels beyond the
 // tile. The additional half of a bound covers the further roundings: of c, of half a pixel's change
 // that values_in_pixel() subtracts, and of what TileCoverage::add_to_union() adds
-// (validation/proofs/shape_edges.gappa.in). Ends of the range are known up to the next number;
-// their part of a sum is rounded five times, which range_end_rounding covers (shape_q.gappa.in).
+// (validation/proofs/shape_edges.gappa.in). Ends of the range are known within their doubt; their
+// part of a sum is rounded five times, which range_end_rounding covers (shape_q.gappa.in).
 TileFunctions functions_over_tile(const TriangleSetup& s, const DepthRange& range) {
   TileFunctions over;
   const auto add = [&](double a, double b, double c, double error) {
@@ -42,16 +62,12 @@ TileFunctions functions_over_tile(const TriangleSetup& s, const DepthRange& rang
   for (std::size_t k = 0; k < 3; ++k) add(s.edge_a[k], s.edge_b[k], s.edge_c[k], s.edge_error);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (range.inside_greatest < infinity) {
-    const double doubt = std::abs(range.outside_greatest - range.inside_greatest);
-    add(-s.q_a, -s.q_b, range.inside_greatest - s.q_c,
-        2 * s.q_error + 2 * doubt +
-            setup_bounds::range_end_rounding * std::abs(range.inside_greatest));
+    const RangeEnd end = range_end(range.inside_greatest, range.outside_greatest);
+    add(-s.q_a, -s.q_b, end.q - s.q_c, 2 * s.q_error + end.error);
   }
   if (range.inside_least > -infinity) {
-    const double doubt = std::abs(range.inside_least - range.outside_least);
-    add(s.q_a, s.q_b, s.q_c - range.inside_least,
-        2 * s.q_error + 2 * doubt +
-            setup_bounds::range_end_rounding * std::abs(range.inside_least));
+    const RangeEnd end = range_end(range.inside_least, range.outside_least);
+    add(s.q_a, s.q_b, s.q_c - end.q, 2 * s.q_error + end.error);
   }
   return over;
 }
