@@ -1,34 +1,11 @@
 #include "fathom/numeric/logarithm.h"
 
-#include <mpfr.h>
-
 #include <stdexcept>
 
-#include "fathom/numeric/integer.h"
+#include "fathom/numeric/big_float.h"
 
 namespace fathom {
 namespace {
-
-/// An mpfr_t that cleans up after itself.
-class BigFloat {
- public:
-  explicit BigFloat(long bits) { mpfr_init2(value_, bits); }
-  BigFloat(const BigFloat&) = delete;
-  BigFloat& operator=(const BigFloat&) = delete;
-  ~BigFloat() { mpfr_clear(value_); }
-  operator mpfr_ptr() { return value_; }
-
- private:
-  mpfr_t value_;
-};
-
-/// The value of a finite, non-negative x.
-Ratio to_ratio(mpfr_ptr x) {
-  if (mpfr_zero_p(x) != 0) return Dyadic();
-  Integer significand;
-  const mpfr_exp_t exponent = mpfr_get_z_2exp(significand, x);
-  return Dyadic::of(significand, exponent);
-}
 
 /// x ≥ 0 rounded in a direction.
 void set(mpfr_ptr result, const Ratio& x, mpfr_rnd_t direction) {
