@@ -28,6 +28,12 @@ std::vector<ImportedCamera> gltf(const std::string& text) {
 const std::string lens =
     R"("cameras": [{"type": "perspective", "perspective": {"yfov": 0.75, "znear": 0.5}}])";
 
+/// A quaternion at length 1, up to its rounding.
+std::array<double, 4> unit(const std::array<double, 4>& q) {
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
+}
+
 /// Where NDC lie in an image of 640×480, y down.
 Seen in_image(Real x_ndc, Real y_ndc, Real depth) {
   return {320 * (1 + x_ndc), 240 * (1 - y_ndc), depth};
@@ -37,8 +43,9 @@ TEST(ImportGltf, PerspectiveProjectsAsGltfDoes) {
   Draws draw(7);
   for (int round = 0; round < 100; ++round) {
     // A parent that turns and moves, and a scaled camera below it.
-    const std::array<double, 4> q{draw(-1, 1), draw(-1, 1), draw(-1, 1), draw(0.25, 1)},
-        own_q{draw(-1, 1), draw(-1, 1), draw(0.25, 1), draw(-1, 1)};
+    const std::array<double, 4> q = unit({draw(-1, 1), draw(-1, 1), draw(-1, 1), draw(0.25, 1)}),
+                                own_q =
+                                    unit({draw(-1, 1), draw(-1, 1), draw(0.25, 1), draw(-1, 1)});
     const std::array<double, 3> t{draw(-5, 5), draw(-5, 5), draw(-5, 5)},
         own_t{draw(-5, 5), draw(-5, 5), draw(-5, 5)};
     const auto cameras =
@@ -106,8 +113,9 @@ TEST(ImportGltf, NamesPlaceAndFault) {
   EXPECT_THAT(fault(lens), HasSubstr("no node has a camera"));
   EXPECT_THAT(fault(R"("nodes": [{"camera": 0}])"), HasSubstr("the file has no cameras"));
   EXPECT_THAT(fault(lens + R"(, "nodes": [{"camera": 1}])"), HasSubstr("nodes[0].camera"));
-  EXPECT_THAT(fault(lens + R"(, "nodes": [{"camera": 0, "rotation": [0,0,0,0]}])"),
-              HasSubstr("nodes[0]: the rotation is zero"));
+  EXPECT_THAT(fault(lens + R"(, "nodes": [{"camera": 0, "rotation": [0,0,0,1],
+      "matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}])"),
+              HasSubstr("nodes[0].rotation: stands beside a matrix"));
   EXPECT_THAT(fault(lens + R"(, "nodes": [{"camera": 0, "scale": [1,0,1]}])"),
               HasSubstr("nodes[0]: its transform is singular"));
   EXPECT_THAT(fault(lens + R"(, "nodes": [{"camera": 0, "children": [0]}])"),

@@ -1,8 +1,11 @@
 """fathom.Camera: its conventions, judged by projections in NumPy; its files; what it refuses."""
 
 import copy
+import decimal
 import json
+import math
 import pickle
+import random
 import signal
 import time
 
@@ -381,3 +384,53 @@ def test_signals_end_an_orbit(spot, make_orbit):
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0)
         signal.signal(signal.SIGVTALRM, before)
+
+
+class Exactly:
+    """Sines and cosines by their series, with 80 digits: no library's."""
+
+    def __init__(self):
+        self.context = decimal.Context(prec=80)
+        # Machin: π/4 = 4·arctan(1/5) − arctan(1/239).
+        self.pi = 4 * (4 * self.arctan_of_inverse(5) - self.arctan_of_inverse(239))
+
+    def arctan_of_inverse(self, n):
+        with decimal.localcontext(self.context):
+            return sum(decimal.Decimal((-1) ** k) / ((2 * k + 1) * decimal.Decimal(n) ** (2 * k + 1)) for k in range(60))
+
+    def sine_and_cosine(self, degrees):
+        with decimal.localcontext(self.context):
+            x = decimal.Decimal(degrees) * self.pi / 180
+            power, factorial, sums = decimal.Decimal(1), 1, [decimal.Decimal(0), decimal.Decimal(0)]
+            for k in range(80):
+                sums[k % 2] += (-1) ** (k // 2) * power / factorial
+                power, factorial = power * x, factorial * (k + 1)
+            return sums[1], sums[0]
+
+    def focal_length(self, size, degrees):
+        with decimal.localcontext(self.context):
+            sine, cosine = self.sine_and_cosine(decimal.Decimal(degrees) / 2)
+            return float(decimal.Decimal(size) / 2 * cosine / sine)
+
+
+def test_a_field_of_view_gives_the_exact_focal_length_rounded_once():
+    exactly, draw, off = Exactly(), random.Random(4), 0
+    for i in range(400):
+        fov = round(draw.uniform(0.1, 179.9), 1) if i % 2 else draw.uniform(1e-3, 179.999)
+        height = draw.randrange(1, 5000)
+        camera = fathom.Camera.look_at((0, 0, 3), size=(64, height), fov=fov)
+        expected = exactly.focal_length(height, fov)
+        assert camera.fx == camera.fy == expected, (fov, height)
+        off += height / 2 / math.tan(fov * math.pi / 360) != expected
+    assert off > 100  # the formula in binary64 is another camera
+
+
+def test_an_orbit_has_exact_sines_and_cosines_rounded_once():
+    exactly, count = Exactly(), 61
+    for i, camera in enumerate(fathom.Camera.orbit(count, distance=3, azimuth=-170.3, elevation=17.7)):
+        with decimal.localcontext(exactly.context):
+            azimuth = decimal.Decimal(float(decimal.Decimal(-170.3) + decimal.Decimal(360 * i) / count))
+            sine, cosine = exactly.sine_and_cosine(azimuth)
+            up, flat = exactly.sine_and_cosine(decimal.Decimal(17.7))
+            expected = [[cosine, 0, -sine], [up * sine, -flat, up * cosine], [-flat * sine, -up, -flat * cosine]]
+        assert np.array_equal(camera.world_to_camera[:3, :3], np.array([[float(x) for x in row] for row in expected])), i

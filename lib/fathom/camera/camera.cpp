@@ -5,7 +5,9 @@
 
 #include "fathom/camera/pose.h"
 #include "fathom/numeric/certified.h"
+#include "fathom/numeric/double_word.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
@@ -81,8 +83,14 @@ HomogeneousImagePoint to_image(const Camera& camera, const CameraPoint& p) {
 }
 
 PrincipalPoint principal_point(const Camera& camera) {
-  const double half_less_centre = 0.5 - camera.pixel_centre;
-  return {camera.cx + half_less_centre, camera.cy + half_less_centre};
+  const WordPair half_less_centre = two_sum(0.5, -camera.pixel_centre);
+  // For 0 and ½ the difference is exact, and the sum is the only rounding.
+  if (half_less_centre.lo == 0)
+    return {camera.cx + half_less_centre.hi, camera.cy + half_less_centre.hi};
+  const auto rounded = [&](double c) {
+    return round_to_binary64(Ratio(centred(c, camera.pixel_centre)));
+  };
+  return {rounded(camera.cx), rounded(camera.cy)};
 }
 
 }  // namespace fathom

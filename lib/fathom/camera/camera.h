@@ -61,8 +61,8 @@ struct PrincipalPoint {
   double x = 0, y = 0;
 };
 
-/// The principal point in binary64; accounts for `pixel_centre`. Rounded twice, by a difference and
-/// a sum: what is exact goes through to_image().
+/// The principal point; accounts for `pixel_centre`.
+/// Exact    each number is the exact one rounded once. Exact computations use to_image() instead.
 PrincipalPoint principal_point(const Camera& camera);
 
 }  // namespace fathom

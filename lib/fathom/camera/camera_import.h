@@ -11,9 +11,9 @@
 
 /// Cameras of other programs, converted to ours; docs/conventions.md has the formulas. Ours has no
 /// lens distortion: what an import leaves out of a lens it says, unless all its parameters are
-/// exactly 0. Entries that follow from a formula (quaternions, inverses, projection matrices)
-/// are computed as exact rationals and rounded to binary64 once; only NeRF's camera_angle_x and
-/// camera_angle_y go through a tangent in extended precision.
+/// exactly 0. Entries that follow from a formula (quaternions, inverses, projection matrices, focal
+/// lengths of angles) are the exact numbers, rounded to binary64 once
+/// (docs/conventions.md#rounding).
 ///
 /// All fail with InputError, one line that names the file and the line or key, where the file as a
 /// whole cannot be followed. What is wrong with one camera is part of it: only who asks for that
@@ -72,9 +72,9 @@ std::vector<ImportedCamera> import_bop(const std::filesystem::path& input, std::
 
 /// The cameras of a glTF scene (.gltf, .glb), one for each node that has one, in the order of the
 /// nodes; called by the node's name, else the camera's. glTF has no image size; where a camera has an
-/// aspect ratio, the size must have it. The node's scale is ignored, as glTF says: the axes of the
-/// camera are unit vectors, rounded once, and so is the eye. yfov goes through a tangent in extended
-/// precision. Lengths are as in the file (metres).
+/// aspect ratio, the size must have it. The node's transform is that of the meshes on it (gltf/); its
+/// scale is ignored, as glTF says: the axes are scaled to length 1. Each entry of the inverse is rounded
+/// once. Lengths are as in the file (metres).
 std::vector<ImportedCamera> import_gltf(const std::filesystem::path& file, std::uint32_t width,
                                         std::uint32_t height);
 

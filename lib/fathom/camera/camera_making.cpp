@@ -1,13 +1,14 @@
 #include "fathom/camera/camera_making.h"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "fathom/camera/camera_making_internal.h"
+#include "fathom/camera/focal_length.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/numeric/trigonometry.h"
 
 namespace fathom {
 namespace camera {
@@ -20,15 +21,24 @@ void expect(bool holds, const std::string& message) {
   if (!holds) throw UsageError(message);
 }
 
-struct SineCosine {
-  double sine, cosine;
+/// A sine or cosine: its magnitude, and itself, rounded once.
+struct Signed {
+  Real magnitude;
+  double rounded;
+
+  Signed operator-() const { return {magnitude, -rounded}; }
 };
 
-/// Exact at multiples of 90 degrees.
+struct SineCosine {
+  Signed sine, cosine;
+};
+
 SineCosine sine_and_cosine(double degrees) {
   int quarter = 0;
-  const double rest = std::remquo(degrees, 90.0, &quarter) * (std::numbers::pi / 180);
-  const double s = std::sin(rest), c = std::cos(rest);
+  const double rest = std::remquo(degrees, 90.0, &quarter);
+  const Real sine = sine_of_degrees(std::abs(rest)), cosine = cosine_of_degrees(std::abs(rest));
+  const Signed s{sine, std::copysign(round_to_binary64(sine), rest)};
+  const Signed c{cosine, round_to_binary64(cosine)};
   switch (quarter & 3) {
     case 0:
       return {s, c};
@@ -39,6 +49,11 @@ SineCosine sine_and_cosine(double degrees) {
     default:
       return {-c, s};
   }
+}
+
+/// a·b, rounded once. The product of the rounded ones has its sign, also where it is 0.
+double product(const Signed& a, const Signed& b) {
+  return std::copysign(round_product_to_binary64(a.magnitude, b.magnitude), a.rounded * b.rounded);
 }
 
 ExactVector3 exactly(const Vector3& v) {
@@ -96,7 +111,7 @@ Camera with_lens(const Lens& lens) {
   } else {
     expect(lens.vertical_fov > 0 && lens.vertical_fov < 180,
            "the field of view must be between 0 and 180 degrees");
-    camera.fx = lens.height / 2.0 / std::tan(lens.vertical_fov * (std::numbers::pi / 360));
+    camera.fx = focal_of_degrees(lens.height, lens.vertical_fov);
   }
   camera.fy = camera.fx;
   return camera;
@@ -114,7 +129,9 @@ Matrix3 rotation_of(const View& view) {
   const auto [sa, ca] = sine_and_cosine(view.azimuth);
   const auto [se, ce] = sine_and_cosine(view.elevation);
   // In the frame of `up` the eye is at (ce·sa, se, ce·ca) from what it looks at.
-  const Matrix3 turn{{{ca, 0, -sa}, {se * sa, -ce, se * ca}, {-ce * sa, -se, -ce * ca}}};
+  const Matrix3 turn{{{ca.rounded, 0, -sa.rounded},
+                      {product(se, sa), -ce.rounded, product(se, ca)},
+                      {product(-ce, sa), -se.rounded, product(-ce, ca)}}};
   const Matrix3 frame = frame_of(view.up);
   Matrix3 R;
   for (int i = 0; i < 3; ++i)
@@ -129,7 +146,9 @@ void expect_count(std::uint32_t count) {
 }
 
 View turned(View view, std::uint32_t step, std::uint32_t count) {
-  view.azimuth += 360.0 * step / count;
+  expect(std::isfinite(view.azimuth), "the azimuth is not finite");
+  const Ratio turn(Dyadic(360.0) * Dyadic(step), Dyadic(count));
+  view.azimuth = round_to_binary64(Ratio(view.azimuth) + turn);
   return view;
 }
 

@@ -19,7 +19,7 @@ struct Lens {
   std::uint32_t width = 1280;
   std::uint32_t height = 720;
   Projection projection = Projection::perspective;
-  /// Perspective: the angle in degrees, in (0, 180), that the image's height spans.
+  /// Perspective: the degrees, in (0, 180), that the height spans; fx is ½·height / tan(½·angle).
   double vertical_fov = 40;
   /// Perspective: fx = fy in pixels; takes the place of vertical_fov.
   std::optional<double> focal;
@@ -59,16 +59,16 @@ struct View {
 /// looking at `centre`. The eye may be straight above or below; the azimuth then says how the image
 /// is turned.
 ///
-/// Exact    sines and cosines are the C library's (exact at multiples of 90°). Where `up` is along
-///          an axis, R has them and their products, each rounded once, with no error more; elsewhere
-///          the frame of `up` is rounded as look_at() does, and R, the product, once more.
+/// Exact    where `up` is along an axis, each entry of R is a sine, a cosine or the product of two of
+///          them: the exact one, rounded once. Elsewhere the frame of `up` is rounded as look_at() does,
+///          and R, the product of the rounded ones, once more.
 ///          t = (0, 0, distance) − R·centre is computed exactly from the rounded R and rounded once.
 /// Fails    UsageError if distance ≤ 0, elevation is outside [−90, 90], `up` is zero, a number is
 ///          not finite, or the lens is not valid.
 Camera look_from(const View& view, const Vector3& centre, double distance, const Lens& lens = {});
 
 /// A camera path of `count` views around `centre`, the first at `first`, the others at azimuths
-/// 360°/count apart.
+/// 360°/count apart, each azimuth rounded once.
 /// progress, if given, hears after each camera which part is done; what it throws ends the call.
 /// Fails    UsageError as look_from(), and if count is 0 or above 1,000,000.
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const Vector3& centre,

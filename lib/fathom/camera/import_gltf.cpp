@@ -4,7 +4,10 @@
 #include <numbers>
 #include <optional>
 
+#include "fathom/camera/focal_length.h"
 #include "fathom/camera/posed_cameras.h"
+#include "fathom/gltf/gltf_transform.h"
+#include "fathom/numeric/certified.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -15,72 +18,13 @@
 
 namespace fathom {
 using namespace camera;
+using namespace gltf;
 using text::JsonValue;
 
 namespace {
 
 /// Nodes above a camera are multiplied exactly, so that each makes the numbers longer.
 constexpr std::size_t deepest_node = 64;
-
-/// An exact affine map, all of it over one denominator.
-struct ExactTransform {
-  /// Columns of the linear part, then the translation.
-  std::array<ExactVector3, 4> columns{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {}}};
-  Dyadic denominator = 1.0;
-};
-
-/// outer · inner.
-ExactTransform product(const ExactTransform& outer, const ExactTransform& inner) {
-  ExactTransform result;
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t i = 0; i < 3; ++i) {
-      Dyadic sum;
-      for (std::size_t j = 0; j < 3; ++j) sum = sum + outer.columns[j][i] * inner.columns[k][j];
-      if (k == 3) sum = sum + outer.columns[3][i] * inner.denominator;
-      result.columns[k][i] = sum;
-    }
-  result.denominator = outer.denominator * inner.denominator;
-  return result;
-}
-
-/// 16 numbers, column by column.
-ExactTransform of_matrix(const JsonValue& matrix) {
-  const auto m = matrix.numbers(16);
-  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
-    matrix.fail("expected the last row to be 0 0 0 1");
-  ExactTransform result;
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t i = 0; i < 3; ++i) result.columns[k][i] = m[4 * k + i];
-  return result;
-}
-
-/// T·R·S; R of a quaternion x, y, z, w of any length but 0, over the square of its length.
-ExactTransform of_parts(const JsonValue& node) {
-  const auto numbers = [&](const char* key, const std::vector<double>& otherwise) {
-    const auto value = node.find(key);
-    return value ? value->numbers(otherwise.size()) : otherwise;
-  };
-  const auto t = numbers("translation", {0, 0, 0}), q = numbers("rotation", {0, 0, 0, 1}),
-             s = numbers("scale", {1, 1, 1});
-  const Dyadic x = q[0], y = q[1], z = q[2], w = q[3];
-  const Dyadic n = w * w + x * x + y * y + z * z;
-  if (n.is_zero()) node.fail("the rotation is zero");
-  const auto twice = [](const Dyadic& a) { return a + a; };
-  ExactTransform result;
-  result.columns = {{{w * w + x * x - y * y - z * z, twice(x * y + w * z), twice(x * z - w * y)},
-                     {twice(x * y - w * z), w * w - x * x + y * y - z * z, twice(y * z + w * x)},
-                     {twice(x * z + w * y), twice(y * z - w * x), w * w - x * x - y * y + z * z},
-                     {n * t[0], n * t[1], n * t[2]}}};
-  for (std::size_t k = 0; k < 3; ++k)
-    for (Dyadic& entry : result.columns[k]) entry = entry * s[k];
-  result.denominator = n;
-  return result;
-}
-
-ExactTransform transform_of(const JsonValue& node) {
-  const auto matrix = node.find("matrix");
-  return matrix ? of_matrix(*matrix) : of_parts(node);
-}
 
 /// The nodes of a file and which is above which.
 class Nodes {
@@ -102,13 +46,13 @@ class Nodes {
   [[nodiscard]] const std::vector<JsonValue>& all() const { return nodes_; }
 
   /// World from node.
-  [[nodiscard]] ExactTransform world_from(std::size_t node) const {
-    ExactTransform result = transform_of(nodes_[node]);
+  [[nodiscard]] WorldFromMesh world_from(std::size_t node) const {
+    WorldFromMesh result = read_transform_of_node(nodes_[node]);
     std::size_t depth = 0;
     for (auto parent = parents_[node]; parent; parent = parents_[*parent]) {
       if (++depth == deepest_node)
         nodes_[node].fail("has more than " + std::to_string(deepest_node) + " nodes above it");
-      result = product(transform_of(nodes_[*parent]), result);
+      result = compose(read_transform_of_node(nodes_[*parent]), result);
     }
     return result;
   }
@@ -118,25 +62,42 @@ class Nodes {
   std::vector<std::optional<std::size_t>> parents_;
 };
 
-/// The view of a node: its scale is ignored, as glTF says, so that the axes are the unit vectors of
-/// its columns, of OpenGL's directions, each rounded once; the eye is rounded once, too.
-Matrix34 view_of(const ExactTransform& world_from_node, const JsonValue& node) {
-  const auto& [right, up, back, eye] = world_from_node.columns;
-  for (const ExactVector3& axis : {right, up, back})
-    if (dot(axis, axis).is_zero()) node.fail("its transform is singular");
+/// x/over·√of = ±√(of·x²/over²), rounded once.
+double times_root(const Dyadic& x, const Dyadic& over, const Dyadic& of) {
+  const double magnitude = round_sqrt_to_binary64(Ratio(of * x * x, over * over));
+  return x.sign() * over.sign() == Sign::negative ? -magnitude : magnitude;
+}
+
+/// The view of a node: its scale is ignored, as glTF says, so that the camera's axes, right, down and
+/// forward, are the columns c of its transform at length 1. The inverse of [c₀/|c₀| … | eye] has the rows
+/// |cᵢ|·(C⁻¹)ᵢ and −|cᵢ|·(C⁻¹)ᵢ·eye; the rows of the adjugate of C are the cross products of its columns.
+Matrix34 view_of(const WorldFromMesh& world_from_node, const JsonValue& node) {
+  const auto column = [&](std::size_t k) {
+    const auto& rows = world_from_node.rows;
+    return ExactVector3{rows[0][k], rows[1][k], rows[2][k]};
+  };
   const auto turned = [](const ExactVector3& v) { return ExactVector3{-v[0], -v[1], -v[2]}; };
-  const Matrix3 R{unit_vector(right), unit_vector(turned(up)), unit_vector(turned(back))};
-  ExactVector3 rounded_eye;
-  for (std::size_t i = 0; i < 3; ++i)
-    rounded_eye[i] = round_to_binary64(Ratio(eye[i], world_from_node.denominator));
-  return pose_that_takes(R, rounded_eye, {});
+  const std::array<ExactVector3, 3> axes{column(0), turned(column(1)), turned(column(2))};
+  const ExactVector3 eye = column(3);
+  const Dyadic det = determinant(axes[0], axes[1], axes[2]);
+  if (det.is_zero()) node.fail("its transform is singular");
+  const std::array<ExactVector3, 3> adjugate{cross(axes[1], axes[2]), cross(axes[2], axes[0]),
+                                             cross(axes[0], axes[1])};
+  Matrix34 view;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Dyadic squared_length = dot(axes[i], axes[i]);
+    for (std::size_t k = 0; k < 3; ++k)
+      view[i][k] = times_root(adjugate[i][k], det, squared_length);
+    view[i][3] = times_root(-dot(adjugate[i], eye), det, squared_length);
+  }
+  return view;
 }
 
 void read_perspective(const JsonValue& lens, Camera& camera) {
   const JsonValue yfov = lens.at("yfov");
   if (!(yfov.number() > 0 && yfov.number() < std::numbers::pi))
     yfov.fail("expected an angle in radians between 0 and π");
-  camera.fx = camera.fy = focal_of_angle(camera.height, yfov.number());
+  camera.fx = camera.fy = focal_of_radians(camera.height, yfov.number());
   const auto aspect = lens.find("aspectRatio");
   if (!aspect) return;
   const double ratio = aspect->number();

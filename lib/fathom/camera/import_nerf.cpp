@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "fathom/camera/camera_import_internal.h"
+#include "fathom/camera/focal_length.h"
 #include "fathom/camera/posed_cameras.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -78,17 +79,17 @@ std::optional<double> angle_of(const Frame& frame, const char* key) {
 }
 
 /// The focal length by the angle in degrees that the image spans, which instant-ngp asks for first.
-std::optional<double> focal_of_degrees(const Frame& frame, const char* key, std::uint32_t size) {
+std::optional<double> focal_in_degrees(const Frame& frame, const char* key, std::uint32_t size) {
   const auto angle = frame.number(key);
   if (!angle) return std::nullopt;
   if (!(*angle > 0 && *angle < 180))
     frame.find(key)->fail("expected an angle in degrees between 0 and 180");
-  return focal_of_angle(size, *angle * (std::numbers::pi_v<long double> / 180));
+  return focal_of_degrees(size, *angle);
 }
 
 void read_intrinsics(const Frame& frame, Camera& camera) {
-  const auto fov_x = focal_of_degrees(frame, "x_fov", camera.width),
-             fov_y = focal_of_degrees(frame, "y_fov", camera.height);
+  const auto fov_x = focal_in_degrees(frame, "x_fov", camera.width),
+             fov_y = focal_in_degrees(frame, "y_fov", camera.height);
   const auto angle_x = angle_of(frame, "camera_angle_x"),
              angle_y = angle_of(frame, "camera_angle_y");
   const auto fl_x = frame.number("fl_x"), fl_y = frame.number("fl_y");
@@ -96,11 +97,11 @@ void read_intrinsics(const Frame& frame, Camera& camera) {
     frame.own.fail("the focal length is missing: expected fl_x, camera_angle_x or x_fov");
   camera.fx = fov_x     ? *fov_x
               : fl_x    ? *fl_x
-              : angle_x ? focal_of_angle(camera.width, *angle_x)
+              : angle_x ? focal_of_radians(camera.width, *angle_x)
                         : *fov_y;
   camera.fy = fov_y              ? *fov_y
               : fl_y             ? *fl_y
-              : angle_y && !fl_x ? focal_of_angle(camera.height, *angle_y)
+              : angle_y && !fl_x ? focal_of_radians(camera.height, *angle_y)
                                  : camera.fx;
   camera.cx = frame.number("cx").value_or(camera.width / 2.0);
   camera.cy = frame.number("cy").value_or(camera.height / 2.0);

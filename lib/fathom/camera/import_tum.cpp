@@ -36,20 +36,13 @@ constexpr std::array<PublishedLens, 4> published{
 
 struct TimedPose {
   double time = 0;
-  NamedPose pose;
+  std::string name;
+  Matrix34 world_to_camera{};
   /// "FILE: line N".
   std::string where;
   /// Why it is none.
   std::string fault;
 };
-
-/// [R | t] of a position and a quaternion x, y, z, w.
-Matrix34 pose_of(const std::array<double, 7>& p) {
-  const Matrix3 R = rotation_of({p[6], p[3], p[4], p[5]});
-  Matrix34 pose;
-  for (std::size_t i = 0; i < 3; ++i) pose[i] = {R[i][0], R[i][1], R[i][2], p[i]};
-  return pose;
-}
 
 double read_time(Line& line, std::string& text) {
   text = read_word(line, "a time in seconds");
@@ -61,28 +54,29 @@ double read_time(Line& line, std::string& text) {
 TimedPose read_timed_pose(Line& line) {
   TimedPose result;
   result.where = line.where;
-  result.time = read_time(line, result.pose.name);
+  result.time = read_time(line, result.name);
   const std::vector<double> numbers = rest_of(line);
   if (numbers.size() != 7)
     throw InputError(line.where + ": expected time tx ty tz qx qy qz qw, 8 numbers, found " +
                      std::to_string(numbers.size() + 1));
-  std::array<double, 7> position_and_turn;
-  std::copy(numbers.begin(), numbers.end(), position_and_turn.begin());
   if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
     result.fault = line.where + ": the pose has a number that is not finite";
   else if (std::all_of(numbers.begin() + 3, numbers.end(), [](double x) { return x == 0; }))
     result.fault = line.where + ": the quaternion is zero";
   else
-    result.pose.pose = pose_of(position_and_turn);
+    result.world_to_camera = view_from({numbers[0], numbers[1], numbers[2]},
+                                       {numbers[6], numbers[3], numbers[4], numbers[5]});
   return result;
 }
 
 ImportedCamera camera_at(const TimedPose& timed, const ImportedCamera& lens) {
   ImportedCamera result = lens;
-  result.camera.name = timed.pose.name;
+  result.camera.name = timed.name;
   if (result.fault.empty()) result.fault = timed.fault;
   if (!result.fault.empty()) return result;
-  return placed(lens, timed.pose, PoseDirection::camera_to_world, CameraAxes::opencv, timed.where);
+  result.camera.world_to_camera = timed.world_to_camera;
+  if (const auto fault = find_fault(result.camera)) result.fault = timed.where + ": " + *fault;
+  return result;
 }
 
 /// The nearest in time; `poses` are in its order and not empty.
@@ -104,7 +98,7 @@ std::vector<ImportedCamera> of_images(std::vector<TimedPose> poses, const NamedT
     std::getline(line.words >> std::ws, file);
     if (file.empty()) throw InputError(line.where + ": the image's file is missing");
     TimedPose own = nearest(poses, time);
-    own.pose.name = file;
+    own.name = file;
     ImportedCamera camera = camera_at(own, lens);
     if (std::abs(own.time - time) > largest_difference)
       camera.absence = line.where + ": the trajectory has no pose within 0.02 s of " + time_text;

@@ -14,17 +14,42 @@ std::array<double, 3> unit_vector(const ExactVector3& v) {
   return {entry(0), entry(1), entry(2)};
 }
 
-Matrix3 rotation_of(const std::array<double, 4>& quaternion) {
+namespace {
+
+/// The rotation of a quaternion times n, the square of its length.
+struct ScaledRotation {
+  std::array<ExactVector3, 3> rows;
+  Dyadic n;
+};
+
+ScaledRotation scaled_rotation_of(const std::array<double, 4>& quaternion) {
   const Dyadic w = quaternion[0], x = quaternion[1], y = quaternion[2], z = quaternion[3];
-  const Dyadic n = w * w + x * x + y * y + z * z;
-  const auto rounded = [&](const Dyadic& a) { return round_to_binary64(Ratio(a, n)); };
   const auto twice = [](const Dyadic& a) { return a + a; };
-  return {{{rounded(w * w + x * x - y * y - z * z), rounded(twice(x * y - w * z)),
-            rounded(twice(x * z + w * y))},
-           {rounded(twice(x * y + w * z)), rounded(w * w - x * x + y * y - z * z),
-            rounded(twice(y * z - w * x))},
-           {rounded(twice(x * z - w * y)), rounded(twice(y * z + w * x)),
-            rounded(w * w - x * x - y * y + z * z)}}};
+  return {{{{w * w + x * x - y * y - z * z, twice(x * y - w * z), twice(x * z + w * y)},
+            {twice(x * y + w * z), w * w - x * x + y * y - z * z, twice(y * z - w * x)},
+            {twice(x * z - w * y), twice(y * z + w * x), w * w - x * x - y * y + z * z}}},
+          w * w + x * x + y * y + z * z};
+}
+
+}  // namespace
+
+Matrix3 rotation_of(const std::array<double, 4>& quaternion) {
+  const auto [rows, n] = scaled_rotation_of(quaternion);
+  Matrix3 R;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) R[i][k] = round_to_binary64(Ratio(rows[i][k], n));
+  return R;
+}
+
+Matrix34 view_from(const ExactVector3& eye, const std::array<double, 4>& quaternion) {
+  const auto [rows, n] = scaled_rotation_of(quaternion);
+  Matrix34 view;
+  for (int i = 0; i < 3; ++i) {
+    const ExactVector3 column{rows[0][i], rows[1][i], rows[2][i]};
+    for (int k = 0; k < 3; ++k) view[i][k] = round_to_binary64(Ratio(column[k], n));
+    view[i][3] = round_to_binary64(Ratio(-dot(column, eye), n));
+  }
+  return view;
 }
 
 ExactVector3 rotate(const Matrix3& R, const ExactVector3& X) {

@@ -27,10 +27,6 @@ IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy) {
   return {fx, 0, cx, 0, fy, cy, 0, 0, 1};
 }
 
-double focal_of_angle(std::uint32_t size, long double angle) {
-  return static_cast<double>(0.5L * size / std::tan(0.5L * angle));
-}
-
 Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::string& where) {
   Camera camera;
   camera.width = given.width != 0 ? given.width : data_set.width;

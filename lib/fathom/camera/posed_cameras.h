@@ -17,10 +17,6 @@ void set_intrinsics(Camera& camera, const IntrinsicMatrix& K, const std::string&
 /// The intrinsic matrix of four numbers.
 IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy);
 
-/// The focal length in pixels with which an image of `size` pixels spans an angle in radians:
-/// ½·size / tan(½·angle) in extended precision, then rounded.
-double focal_of_angle(std::uint32_t size, long double angle);
-
 /// A camera at the world's origin: what is given, and of the rest what the data set has. A size that
 /// neither has is 0.
 Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::string& where);

@@ -4,6 +4,7 @@
 
 namespace fathom::mesh_files {
 using namespace text;
+using gltf::GltfPlacement;
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "fathom/gltf/gltf_transform.h"
 #include "fathom/mesh_files/gltf_accessor.h"
-#include "fathom/mesh_files/gltf_transform.h"
 #include "fathom/text/json_value.h"
 
 /// The places where a node shows its mesh, of the extension EXT_mesh_gpu_instancing. For this
@@ -22,7 +22,7 @@ class GltfInstances {
   /// Each instance's transform is NODE·transform_of(placement). The parts of a quaternion that are
   /// stored as integers are rounded once.
   /// Fails    InputError: a number that is not finite.
-  [[nodiscard]] std::vector<GltfPlacement> placements() const;
+  [[nodiscard]] std::vector<gltf::GltfPlacement> placements() const;
 
  private:
   std::shared_ptr<const GltfAccessor> translation_, rotation_, scale_;

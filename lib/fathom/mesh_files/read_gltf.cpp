@@ -4,6 +4,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "fathom/gltf/gltf_transform.h"
 #include "fathom/mesh_files/gltf_accessor.h"
 #include "fathom/mesh_files/gltf_buffers.h"
 #include "fathom/mesh_files/gltf_extensions.h"
@@ -11,11 +12,11 @@
 #include "fathom/mesh_files/gltf_materials.h"
 #include "fathom/mesh_files/gltf_primitives.h"
 #include "fathom/mesh_files/gltf_references.h"
-#include "fathom/mesh_files/gltf_transform.h"
 #include "fathom/text/printable.h"
 #include "fathom/text/sha256.h"
 
 namespace fathom::mesh_files {
+using namespace gltf;
 using namespace text;
 
 namespace {

@@ -3,11 +3,9 @@
 #include <array>
 
 #include "fathom/geometry/frames.h"
-#include "fathom/text/json_value.h"
 
-/// The placements of glTF nodes. For this room's .cpp files only.
 /// Source   [GLTF20] 3.5.3 (transformations)
-namespace fathom::mesh_files {
+namespace fathom::gltf {
 
 /// Translation, rotation (a quaternion x, y, z, w) and scale. All numbers are finite.
 struct GltfPlacement {
@@ -19,8 +17,4 @@ struct GltfPlacement {
 /// T·R·S, exactly; R is the polynomial matrix of the quaternion, whatever its length.
 WorldFromMesh transform_of(const GltfPlacement& placement);
 
-/// What a node says of its place in its parent: a matrix, or a GltfPlacement.
-/// Fails    InputError: both, or a matrix that is not affine.
-WorldFromMesh read_transform_of_node(const text::JsonValue& node);
-
-}  // namespace fathom::mesh_files
+}  // namespace fathom::gltf

@@ -1,8 +1,8 @@
-#include "fathom/mesh_files/gltf_transform.h"
+#include "fathom/gltf/gltf_transform.h"
 
 #include "fathom/numeric/certified.h"
 
-namespace fathom::mesh_files {
+namespace fathom::gltf {
 using namespace text;
 
 namespace {
@@ -57,4 +57,4 @@ WorldFromMesh read_transform_of_node(const JsonValue& node) {
   return transform_of(placement);
 }
 
-}  // namespace fathom::mesh_files
+}  // namespace fathom::gltf
