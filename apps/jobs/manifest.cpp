@@ -16,6 +16,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/parse_json.h"
+#include "fathom/text/utf8.h"
 
 namespace fathom::app {
 namespace {
@@ -39,15 +40,28 @@ std::string dumped(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// A path as JSON: a string or, because strings of JSON are UTF-8, its bytes as a list of numbers.
+Json json_of_path(const std::string& path) {
+  if (text::as_utf8(path) == path) return path;
+  return std::vector<std::uint8_t>(path.begin(), path.end());
+}
+
+std::string path_of_json(const Json& json) {
+  if (!json.is_array()) return json.get<std::string>();
+  const auto bytes = json.get<std::vector<std::uint8_t>>();
+  return {bytes.begin(), bytes.end()};
+}
+
 std::string announcement_of(const std::vector<std::string>& files) {
-  return dumped(Json{{"announced", files}}) + "\n";
+  Json paths = Json::array();
+  for (const std::string& file : files) paths.push_back(json_of_path(file));
+  return dumped(Json{{"announced", paths}}) + "\n";
 }
 
 Record record_of(const Json& json) {
   Record record{json.at("key").get<std::string>(), {}, dumped(json.at("facts"))};
   for (const Json& file : json.at("files")) {
-    record.files.push_back({file.at("path").get<std::string>(),
-                            file.at("bytes").get<std::uint64_t>(),
+    record.files.push_back({path_of_json(file.at("path")), file.at("bytes").get<std::uint64_t>(),
                             file.at("crc32").get<std::uint32_t>()});
   }
   if (record.files.empty()) throw std::invalid_argument("no file");
@@ -63,7 +77,7 @@ void add_line(const std::string& line, const std::string& name,
     throw InputError(name + ": is of a later version of fathom; use that one, or another folder");
   }
   if (json.contains("announced")) {
-    for (const Json& file : json.at("announced")) content.owned.insert(file.get<std::string>());
+    for (const Json& file : json.at("announced")) content.owned.insert(path_of_json(file));
     return;
   }
   Record record = record_of(json);
@@ -115,7 +129,8 @@ std::uint32_t crc32_of(text::ByteView bytes) {
 std::string line_of(const Record& record) {
   Json files = Json::array();
   for (const PublishedFile& file : record.files) {
-    files.push_back({{"path", file.path}, {"bytes", file.bytes}, {"crc32", file.crc32}});
+    files.push_back(
+        {{"path", json_of_path(file.path)}, {"bytes", file.bytes}, {"crc32", file.crc32}});
   }
   const Json json{
       {"key", record.key}, {"files", files}, {"facts", text::parse_json<Json>(record.facts)}};

@@ -34,7 +34,8 @@ struct Record {
   std::string facts;
 };
 
-/// The record of a finished task as one line of JSON, with the end of the line.
+/// The record of a finished task as one line of JSON, with the end of the line. A path is a string or,
+/// where it is not UTF-8, the list of its bytes.
 std::string line_of(const Record& record);
 
 /// What the manifests in a folder say, of all shards.
