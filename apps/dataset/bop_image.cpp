@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -12,6 +14,7 @@
 #include "fathom/area/visible_areas.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/mask_picture.h"
+#include "fathom/numeric/errors.h"
 #include "fathom/render.h"
 
 namespace fathom::app {
@@ -20,13 +23,22 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Mask = std::vector<std::uint8_t>;
 
-/// The camera of an image three times as wide and as high, in whose middle the image is.
-Camera around(Camera camera) {
-  camera.cx += camera.width;
-  camera.cy += camera.height;
-  camera.width *= 3;
-  camera.height *= 3;
-  return camera;
+/// The camera of an image three times as wide and as high, in whose middle the image is, of a camera in
+/// whose frame the world is. Exact: binary64 need not hold cx + width, so the width is added by the matrix,
+/// U = fx·x + skew·y + width·z + cx'·z, which carries the focal lengths, too.
+Camera around(const Camera& camera) {
+  if (std::max(camera.width, camera.height) > std::numeric_limits<std::uint32_t>::max() / 3)
+    throw InputError(fmt::format("image {}: an image of {}x{} pixels is too large for masks",
+                                 camera.name, camera.width, camera.height));
+  Camera wide = camera;
+  wide.fx = wide.fy = 1;
+  wide.skew = 0;
+  wide.world_to_camera = {{{camera.fx, camera.skew, static_cast<double>(camera.width), 0},
+                           {0, camera.fy, static_cast<double>(camera.height), 0},
+                           {0, 0, 1, 0}}};
+  wide.width *= 3;
+  wide.height *= 3;
+  return wide;
 }
 
 double fraction(double part, double whole) {

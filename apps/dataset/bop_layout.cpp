@@ -29,7 +29,7 @@ struct BopArguments : DatasetArguments {
 /// All that the files of an image depend on.
 std::string inputs_of(const BopImage& image, const BopModels& models, const BopArguments& a) {
   std::string text =
-      fmt::format("bop 1 areas {} cull {} scale {:a}{}\n", a.areas, static_cast<int>(a.render.cull),
+      fmt::format("bop 2 areas {} cull {} scale {:a}{}\n", a.areas, static_cast<int>(a.render.cull),
                   image.depth_scale, a.beyond_is_none() ? " beyond none" : "");
   for (const Source& source : models.sources()) {
     text += fmt::format("source {} {}\n", source.sha256, source.path);

@@ -202,6 +202,68 @@ INSTANTIATE_TEST_SUITE_P(
                against_z}),
     [](const auto& layout) { return "of_" + layout.param.name; });
 
+/// Layouts whose files are called as the data set calls its own, by names that are no UTF-8.
+TEST(DataSetsOfAnyNames, GoOnWhereTheyWereInterrupted) {
+  const std::string spot = (source_dir() / "data/meshes/spot.obj").string(), odd = "caf\xe9";
+  struct Named {
+    std::string name, input;
+    std::vector<std::pair<std::string, std::string>> files;
+    std::vector<std::string> options, images;
+  };
+  const std::string odd_again = odd + "\xff";
+  const std::vector<Named> layouts{
+      {"7scenes",
+       "seq",
+       {{"seq/" + odd + ".pose.txt", before}, {"seq/" + odd_again + ".pose.txt", beside}},
+       small,
+       {odd + ".depth.png", odd_again + ".depth.png"}},
+      {"tum",
+       "groundtruth.txt",
+       {{"groundtruth.txt", "1 0 0 -4 0 0 0 1\n2 0.25 0 -4 0 0 0 1\n"},
+        {"rgb.txt", "1 rgb/" + odd + ".png\n2 rgb/" + odd_again + ".png\n"}},
+       {"--K", "60,60,31.5,23.5", "--size", "64x48", "--images", "rgb.txt"},
+       {"depth/" + odd + ".png", "depth/" + odd_again + ".png"}},
+      {"colmap",
+       "sparse",
+       {{"sparse/cameras.txt", "1 PINHOLE 64 48 60 60 32 24\n"},
+        {"sparse/images.txt",
+         "1 1 0 0 0 0 0 4 1 " + odd + ".jpg\n\n2 1 0 0 0 0 0 4 1 " + odd_again + ".jpg\n\n"}},
+       {},
+       {"stereo/depth_maps/" + odd + ".jpg.geometric.bin",
+        "stereo/normal_maps/" + odd_again + ".jpg.geometric.bin"}}};
+  for (const Named& layout : layouts) {
+    SCOPED_TRACE(layout.name);
+    const TestFolder folder;
+    for (const auto& [name, text] : layout.files) {
+      fs::create_directories((folder.path() / name).parent_path());
+      std::ofstream(folder.path() / name) << text;
+    }
+    std::vector<std::string> command{"dataset", layout.name, layout.input, "--mesh",
+                                     spot,      "--out",     "exact"};
+    command.insert(command.end(), layout.options.begin(), layout.options.end());
+    const auto make = [&] { return run_fathom(command, {.folder = folder.path()}); };
+    const Outcome made = make();
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_THAT(made.out, HasSubstr(", 2 made now"));
+    const fs::path out = folder.path() / "exact";
+    for (const std::string& image : layout.images) EXPECT_TRUE(fs::exists(out / image)) << image;
+    const Outcome again = make();
+    ASSERT_EQ(again.status, 0) << again.err;
+    EXPECT_EQ(again.err, made.err);
+    EXPECT_THAT(again.out, HasSubstr(", 0 made now"));
+    fs::remove(out / layout.images[1]);
+    EXPECT_THAT(make().out, HasSubstr(", 1 made now"));
+    EXPECT_TRUE(fs::exists(out / layout.images[1]));
+    std::string manifest(text::InputFile(out / "fathom-manifest.jsonl").text());
+    std::ofstream(out / "fathom-manifest.jsonl", std::ios::trunc)
+        << manifest.substr(0, manifest.find('\n') + 1);
+    const Outcome of_others = make();
+    EXPECT_EQ(of_others.status, 2);  // the manifest names no file, so the files are not its own
+    std::ofstream(out / "fathom-manifest.jsonl", std::ios::trunc) << manifest;
+    EXPECT_THAT(make().out, HasSubstr(", 0 made now"));
+  }
+}
+
 /// A plate of 4 by 4 millimetres around the origin, z = 0.
 constexpr const char* plate = R"(ply
 format ascii 1.0
@@ -306,6 +368,67 @@ TEST_F(BopScenes, HaveTheMasksAndCountsThatAreWorkedOutByHand) {
            "d[5, 10], d[4, 19])"},
           {.folder = folder_.path()});
   EXPECT_EQ(depths.out, "uint16 0 100 200\n") << depths.err;
+}
+
+/// Plates in front of cameras with principal points of four decimals. Their left and upper edges go exactly through
+/// centres of pixels, which they have; the others through quarters. The numbers of X and Y are exact.
+constexpr const char* plates_at_centres = R"(
+import json
+import pathlib
+import random
+from fractions import Fraction
+
+draw = random.Random(7)
+cameras, poses, truth = {}, {}, {}
+for i in range(40):
+    cx, cy = round(draw.uniform(20, 44), 4), round(draw.uniform(15, 33), 4)
+    left, top = draw.randrange(5, 30), draw.randrange(5, 20)
+    right, bottom = left + draw.randrange(2, 20) + 0.25, top + draw.randrange(2, 20) + 0.25
+    x = [float(Fraction(edge) - Fraction(cx)) for edge in (left, right)]
+    y = [float(Fraction(edge) - Fraction(cy)) for edge in (top, bottom)]
+    for edge, at, c in zip((left, right, top, bottom), x + y, (cx, cx, cy, cy)):
+        assert Fraction(at) + Fraction(c) == edge
+    corners = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])]
+    pathlib.Path(f"models/obj_{i + 1:06}.ply").write_text(
+        "ply\nformat ascii 1.0\nelement vertex 4\n" + "".join(f"property double {a}\n" for a in "xyz") +
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+        "".join(f"{a!r} {b!r} 0\n" for a, b in corners) + "4 0 1 2 3\n")
+    cameras[i] = {"cam_K": [1, 0, cx, 0, 1, cy, 0, 0, 1], "depth_scale": 0.001}
+    poses[i] = [{"cam_R_m2c": [1, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_m2c": [0, 0, 1], "obj_id": i + 1}]
+    truth[i] = left, int(right), top, int(bottom), (right - left) * (bottom - top)
+pathlib.Path("000001/scene_camera.json").write_text(json.dumps(cameras))
+pathlib.Path("000001/scene_gt.json").write_text(json.dumps(poses))
+pathlib.Path("truth.json").write_text(json.dumps(truth))
+)";
+constexpr const char* judge_plates = R"(
+import json
+import cv2
+import numpy as np
+
+found = json.load(open("exact/scene_gt_info.json"))
+for i, (left, right, top, bottom, area) in json.load(open("truth.json")).items():
+    expected = np.zeros((48, 64), np.uint8)
+    expected[top:bottom + 1, left:right + 1] = 255
+    for kind in ("mask", "mask_visib"):
+        mask = cv2.imread(f"exact/{kind}/{int(i):06}_000000.png", cv2.IMREAD_UNCHANGED)
+        assert np.array_equal(mask, expected), (kind, i)
+    info, = found[i]
+    count = int((expected != 0).sum())
+    assert (info["px_count_all"], info["px_count_visib"], info["visib_fract"]) == (count, count, 1), info
+    assert info["bbox_obj"] == info["bbox_visib"] == [left, top, right - left, bottom - top], info
+    assert (info["area_all"], info["area_visib"], info["visib_area_fract"]) == (area, area, 1), (info, area)
+)";
+
+// In binary64, cx + width is another principal point: masks were shifted against mask_visib/, and visib_fract above 1.
+TEST_F(BopScenes, MasksAreOfTheSameCameraAsTheImage) {
+  const Outcome written = run({python, "-c", plates_at_centres}, {.folder = folder_.path()});
+  ASSERT_EQ(written.status, 0) << written.err;
+  const Outcome made = run_fathom({"dataset", "bop", "000001", "--models", "models", "--size",
+                                   "64x48", "--out", "exact", "--areas"},
+                                  {.folder = folder_.path()});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const Outcome judged = run({python, "-c", judge_plates}, {.folder = folder_.path()});
+  EXPECT_EQ(judged.status, 0) << judged.err;
 }
 
 TEST_F(BopScenes, WhatIsWrongIsToldInOneLine) {

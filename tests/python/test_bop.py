@@ -9,9 +9,11 @@ at 1000 mm covers a pixel for each square millimetre, and its edges lie between 
     33 +---------+---------+
 """
 
+import fractions
 import json
 import os
 import pathlib
+import random
 import subprocess
 import sys
 import zlib
@@ -232,3 +234,22 @@ def test_the_program_makes_the_same(tmp_path):
     for kind in ("mask", "mask_visib"):
         for png in (scene / kind).iterdir():
             assert (pixels_of(png) == cv2.imread(str(out / kind / png.name), -1)).all(), png
+
+
+def test_the_canvas_is_of_the_same_camera():
+    """Left and upper edges go exactly through centres of pixels, which the plate has: a cx + 64 that is rounded upwards
+    would lose a column of them."""
+    draw, rounded_upwards = random.Random(3), 0
+    for _ in range(30):
+        cx, cy = round(draw.uniform(20, 44), 4), round(draw.uniform(15, 33), 4)
+        x, y = (np.array([float(fractions.Fraction(edge) - fractions.Fraction(c)) for edge in edges])
+                for edges, c in (((10, 40.25), cx), ((12, 30.25), cy)))
+        models = {PLATE: (np.array([(a, b, 0) for a, b in ((x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1]))]),
+                          np.array([(0, 1, 2), (0, 2, 3)]))}
+        image = Image((64, 48), np.array([(1, 0, cx), (0, 1, cy), (0, 0, 1)]), 0.1, [at(PLATE, 0, 0, 1)])
+        measured = exact.distances(exact.scene(image, models), exact.camera(image, 0))
+        (silhouette, visible, found), = gt_info.of_image(image, models, measured, 0, 15)
+        assert np.array_equal(silhouette[48:96, 64:128], visible)
+        assert found["px_count_all"] == found["px_count_visib"] == 31 * 19 and found["visib_fract"] == 1
+        rounded_upwards += fractions.Fraction(cx + 64) > fractions.Fraction(cx) + 64
+    assert rounded_upwards > 5

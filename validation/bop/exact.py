@@ -8,13 +8,20 @@ import numpy as np
 import fathom
 
 
-def camera(image, pixel_centre, *, margin=0, near=0, far=np.inf):
-    """`margin` images more on each side, for what is cut off."""
+def camera(image, pixel_centre, *, near=0, far=np.inf):
+    K = image.K
+    return fathom.Camera(*image.size, K[0, 0], K[1, 1], K[0, 2], K[1, 2], skew=K[0, 1], pixel_centre=pixel_centre,
+                         near=near, far=far)
+
+
+def canvas(image, pixel_centre):
+    """The same camera with an image more on each side, for what is cut off. Depths and what is seen are exact; rays
+    have other lengths. Binary64 need not hold cx + width: world_to_camera adds the width, u·z = fx·x + skew·y +
+    width·z + cx·z, and has the focal lengths, too."""
     width, height = image.size
     K = image.K
-    return fathom.Camera(width * (1 + 2 * margin), height * (1 + 2 * margin), K[0, 0], K[1, 1],
-                         K[0, 2] + margin * width, K[1, 2] + margin * height, skew=K[0, 1],
-                         pixel_centre=pixel_centre, near=near, far=far)
+    rows = ((K[0, 0], K[0, 1], width, 0), (0, K[1, 1], height, 0), (0, 0, 1, 0), (0, 0, 0, 1))
+    return fathom.Camera(3 * width, 3 * height, 1, 1, K[0, 2], K[1, 2], pixel_centre=pixel_centre, world_to_camera=rows)
 
 
 def scene(image, models):

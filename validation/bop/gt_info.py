@@ -45,7 +45,7 @@ def info(visible, silhouette, measured):
 def of_image(image, models, measured, pixel_centre, delta):
     """(silhouette on the canvas, visible, info) of each instance. `measured` has the distances of the depth image;
     `delta` is None for the partition."""
-    view, canvas = exact.camera(image, pixel_centre), exact.camera(image, pixel_centre, margin=1)
+    view, canvas = exact.camera(image, pixel_centre), exact.canvas(image, pixel_centre)
     shown = exact.scene(image, models).render(view, channels=("object",))["object"]
     found = []
     for number, instance in enumerate(image.instances):
