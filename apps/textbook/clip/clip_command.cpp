@@ -8,8 +8,10 @@
 #include "apps/shell/exit_status.h"
 #include "apps/shell/values.h"
 #include "apps/textbook/cases/json_lines.h"
+#include "apps/textbook/cases/steps_picture.h"
 #include "apps/textbook/clip/clip_algorithms.h"
 #include "apps/textbook/clip/clip_comparison.h"
+#include "apps/textbook/drawing/clip_drawing.h"
 #include "apps/textbook/textbook_commands.h"
 #include "fathom/numeric/errors.h"
 
@@ -65,6 +67,7 @@ struct ClipArguments {
   std::optional<NamedAlgorithm> against;
   Kernel kernel = Kernel::exact;
   Form form;
+  std::string draw;
   std::string file = "-";
 };
 
@@ -74,6 +77,8 @@ void check(const ClipArguments& arguments) {
     throw UsageError("--kernel double: " + name + " clips exactly; leave the option out");
   if (arguments.form.trace && kernels.exact == clip::cgal)
     throw UsageError("--trace: " + name + " shows no steps; weiler-atherton does");
+  if (!arguments.draw.empty() && kernels.exact == clip::cgal)
+    throw UsageError("--draw: " + name + " shows no steps; weiler-atherton does");
   if (arguments.against && arguments.kernel == Kernel::exact && arguments.against->name == name)
     throw UsageError("--against " + name + ": an algorithm is not compared with itself");
 }
@@ -142,13 +147,19 @@ int run_clip(const ClipArguments& arguments, const Console& console) {
   const Algorithm algorithm = arguments.kernel == Kernel::exact ? kernels.exact : kernels.binary64;
   std::optional<Comparison> comparison;
   if (arguments.against) comparison.emplace(arguments, algorithm, console);
+  cases::StepsPicture picture(arguments.draw);
+  Form form = arguments.form;
+  form.trace = form.trace || picture.is_wanted();
   const int status = cases::answer_lines(
       arguments.file, cases::AnswerLine([&](const Json& object, std::size_t line) {
-        if (!comparison) return algorithm(object, arguments.form);
-        Json answer = comparison->own_answer(object, arguments.form);
-        answer["against"] = comparison->compare(object, line);
+        Json answer = comparison ? comparison->own_answer(object, form) : algorithm(object, form);
+        if (picture.is_wanted())
+          picture.add(drawing::draw_clip(arguments.algorithm.name, object, answer));
+        if (!arguments.form.trace) answer.erase("trace");
+        if (comparison) answer["against"] = comparison->compare(object, line);
         return answer;
       }));
+  picture.finish("fathom clip --algorithm " + arguments.algorithm.name);
   return comparison && comparison->differs() ? answer_is_no : status;
 }
 
@@ -177,6 +188,9 @@ void add_clip(Command& program) {
                  "exact (default) or double: the arithmetic to clip with");
   command.flag("--exact", arguments->form.exact, "Write numbers as \"p/q\"");
   command.flag("--trace", arguments->form.trace, "Add the steps that led to the answer");
+  command.option("--draw", "FILE.svg", into(arguments->draw, cases::parse_svg_name),
+                 "Draw the steps: the segment after each split, the polygon after each edge or "
+                 "plane, both lists and the walks");
   command.argument("FILE", arguments->file,
                    "Cases, one a line; standard input where it is - or missing");
   command.answers_on_standard_output();

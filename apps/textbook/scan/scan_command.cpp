@@ -4,8 +4,13 @@
 
 #include <memory>
 
+#include "apps/shell/output_place.h"
+#include "apps/shell/text_output.h"
 #include "apps/shell/values.h"
 #include "apps/textbook/cases/json_lines.h"
+#include "apps/textbook/cases/steps_picture.h"
+#include "apps/textbook/drawing/scan_drawing.h"
+#include "apps/textbook/scan/edge_values.h"
 #include "apps/textbook/scan/scan_algorithms.h"
 #include "apps/textbook/textbook_commands.h"
 #include "fathom/numeric/errors.h"
@@ -26,12 +31,14 @@ struct Answers {
   bool triangles = false;  ///< --subpixel-bits
   bool ties = false;       ///< --ties
   bool edges = false;      ///< --edges
+  bool values = false;     ///< --values
 };
 constexpr Answers drawing{.pixels = true, .steps = true};
 constexpr Answers stepping{.pixels = true, .steps = true, .ties = true};
 constexpr Answers triangle{.pixels = true, .steps = true, .triangles = true};
 constexpr Answers half_planes{.pixels = true, .steps = true, .triangles = true, .edges = true};
 constexpr Answers filling{.pixels = true};
+constexpr Answers valuing{.triangles = true, .values = true};
 constexpr Answers question{};
 
 /// An algorithm over each arithmetic.
@@ -54,6 +61,7 @@ ScanAlgorithm parse_algorithm(const std::string& text) {
              {"flood", {scan::flood, scan::flood, scan::flood, filling}},
              {"edge-function", {FATHOM_SCAN(edge_function), half_planes}},
              {"scan-line", {FATHOM_SCAN(scan_line), triangle}},
+             {"edge-values", {FATHOM_SCAN(edge_values), valuing}},
              {"inside", {FATHOM_SCAN(inside), question}},
              {"convexity", {FATHOM_SCAN(convexity), question}},
              {"tessellate", {scan::tessellate, scan::tessellate, scan::tessellate, question}},
@@ -101,8 +109,15 @@ struct ScanArguments {
   NamedAlgorithm algorithm;
   Arithmetic arithmetic = Arithmetic::exact;
   Form form;
+  std::string draw, values;
   std::string file = "-";
 };
+
+std::string parse_values_name(const std::string& text) {
+  if (!text.ends_with(".csv") && !text.ends_with(".npy"))
+    throw UsageError("'" + text + "' does not end in .csv or .npy");
+  return text;
+}
 
 Algorithm in_arithmetic(const ScanAlgorithm& algorithm, Arithmetic arithmetic) {
   switch (arithmetic) {
@@ -128,13 +143,60 @@ void check(const ScanArguments& arguments) {
     throw UsageError(fmt::format("--runs: {} draws no pixels; leave the option out", name));
   if (form.numbers.trace && !algorithm.answers.steps)
     throw UsageError(fmt::format("--trace: {} shows no steps; leave the option out", name));
+  if (!arguments.draw.empty() && !algorithm.answers.steps && !algorithm.answers.values)
+    throw UsageError(fmt::format("--draw: {} shows no steps; leave the option out", name));
+  if (!arguments.draw.empty() && form.runs)
+    throw UsageError("--draw shows pixels; leave --runs out");
+  if (!arguments.values.empty() && !algorithm.answers.values)
+    throw UsageError("--values is for edge-values; other algorithms print their answers");
 }
+
+/// The files of a run beside its answers: the picture of the steps, the values of one case.
+class ScanFiles {
+ public:
+  explicit ScanFiles(const ScanArguments& arguments)
+      : arguments_(arguments), picture_(arguments.draw), values_(arguments.values) {}
+
+  /// The answer as it is printed; what the files need of it is kept.
+  Json answer(const Json& object, Algorithm scan_case) {
+    Form form = arguments_.form;
+    if (picture_.is_wanted() && arguments_.algorithm.algorithm.answers.steps)
+      form.numbers.trace = true;
+    Json answer = scan_case(object, form);
+    if (picture_.is_wanted())
+      picture_.add(drawing::draw_scan(arguments_.algorithm.name, object, answer));
+    if (!arguments_.form.numbers.trace) answer.erase("trace");
+    if (!arguments_.values.empty()) keep_values(answer);
+    return answer;
+  }
+
+  void finish() {
+    picture_.finish("fathom scan --algorithm " + arguments_.algorithm.name);
+    if (!arguments_.values.empty()) values_.finish(content_);
+  }
+
+ private:
+  void keep_values(const Json& answer) {
+    if (!content_.empty()) throw InputError("--values takes one case; this is the second");
+    content_ =
+        scan::values_file(answer, arguments_.values.ends_with(".csv") ? scan::ValuesFormat::csv
+                                                                      : scan::ValuesFormat::npy);
+  }
+
+  const ScanArguments& arguments_;
+  cases::StepsPicture picture_;
+  TextOutput values_;
+  std::string content_;
+};
 
 int run_scan(const ScanArguments& arguments) {
   check(arguments);
   const Algorithm scan_case = in_arithmetic(arguments.algorithm.algorithm, arguments.arithmetic);
-  return cases::answer_lines(arguments.file,
-                             [&](const Json& object) { return scan_case(object, arguments.form); });
+  ScanFiles files(arguments);
+  const int status = cases::answer_lines(
+      arguments.file, [&](const Json& object) { return files.answer(object, scan_case); });
+  files.finish();
+  return status;
 }
 
 }  // namespace
@@ -158,6 +220,7 @@ void add_scan(Command& program) {
       "    fathom scan --algorithm flood\n"
       "  echo '{\"triangle\": [[1,1],[8,2],[4,7]], \"attributes\": [[0],[1],[2]]}' |\n"
       "    fathom scan --algorithm edge-function --subpixel-bits 8\n"
+      "  echo '{\"line\": [0,0,8,3]}' | fathom scan --algorithm midpoint --draw line.svg\n"
       "\n"
       "x grows to the right and y down, as on the screen. Pixel (x, y) has its centre at (x + 1/2, "
       "y + 1/2).\n"
@@ -167,8 +230,8 @@ void add_scan(Command& program) {
       .option("--algorithm", "NAME", into(arguments->algorithm, parse_named),
               "Lines: explicit, dda, bresenham, midpoint (ends are pixels), diamond-exit (ends are "
               "places, (0, 0) is a corner), line-forms; polygons: even-odd, non-zero, inside, "
-              "convexity, tessellate; points: convex-hull; triangles: edge-function, scan-line; "
-              "grids: flood")
+              "convexity, tessellate; points: convex-hull; triangles: edge-function, scan-line, "
+              "edge-values (the three edge functions over the whole image); grids: flood")
       .required();
   command.option("--arithmetic", "NAME", into(arguments->arithmetic, parse_arithmetic),
                  "exact (default), float64 or float32; bresenham, midpoint, flood and tessellate "
@@ -188,6 +251,11 @@ void add_scan(Command& program) {
   command.flag("--trace", arguments->form.numbers.trace,
                "Add how pixels were decided: decision variables, crossings, slopes, ends of spans, "
                "edge functions");
+  command.option("--draw", "FILE.svg", into(arguments->draw, cases::parse_svg_name),
+                 "Draw the steps: decision values along a line, crossings of each scan line, edge "
+                 "functions at each pixel");
+  command.option("--values", "FILE", into(arguments->values, parse_values_name),
+                 "With edge-values: write the values of one case as .csv or .npy");
   command.argument("FILE", arguments->file,
                    "Cases, one a line; standard input where it is - or missing");
   command.answers_on_standard_output();

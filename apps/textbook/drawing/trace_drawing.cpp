@@ -1,0 +1,262 @@
+#include "apps/textbook/drawing/trace_drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "fathom/numeric/errors.h"
+
+namespace fathom::app::drawing {
+namespace {
+
+constexpr double row_height = 20;
+constexpr std::size_t most_fragments_across = 32, most_panels = 120;
+
+std::vector<Place> window_corners(const Json& trace) {
+  std::vector<Place> corners;
+  for (const Json& corner : trace["clipping"]) corners.push_back(place_of(corner["window"]));
+  return corners;
+}
+
+void put_outline(Picture& picture, const std::vector<Place>& corners) {
+  if (corners.size() > 2) {
+    picture.polygon(corners, "fill-b");
+    picture.polygon(corners, "b");
+  } else if (corners.size() == 2) {
+    picture.line(corners[0], corners[1], "b");
+  }
+  for (const Place& p : corners) picture.dot(p, "dot-b");
+}
+
+/// What clipping has left, in the image.
+Picture draw_window(const Json& trace, double width, double height) {
+  Picture picture;
+  picture.text(
+      {0, 15},
+      fmt::format("{} {} in the window of {:g} x {:g} pixels",
+                  trace["primitive"].get<std::string>(), trace["number"].dump(), width, height),
+      "title");
+  const View view({{0, 0}, {width, height}}, {0, 24}, 520, 520 * std::min(1.0, height / width),
+                  true);
+  const std::vector<Place> image{{0, 0}, {width, 0}, {width, height}, {0, height}};
+  picture.polygon(view(image), "soft");
+  const std::vector<Place> corners = window_corners(trace);
+  put_outline(picture, view(corners));
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    picture.label(view(corners[i]), std::to_string(i + 1), view.box());
+  const Json merger = trace.value("output_merger", Json::array());
+  if (!merger.empty()) {
+    const Place pixel =
+        view({number_of(merger[0]["pixel"][0]) + 0.5, number_of(merger[0]["pixel"][1]) + 0.5});
+    picture.line({pixel.x - 8, pixel.y}, {pixel.x + 8, pixel.y}, "a");
+    picture.line({pixel.x, pixel.y - 8}, {pixel.x, pixel.y + 8}, "a");
+  }
+  double y = view.box().bottom + row_height;
+  if (corners.empty()) picture.text({0, y}, "clipping leaves nothing of it", "text");
+  for (std::size_t i = 0; i < corners.size(); ++i, y += row_height) {
+    const Json& corner = trace["clipping"][i];
+    picture.text({0, y}, fmt::format("{}  clip", i + 1), "note");
+    Place end = picture.values({52, y}, corner["clip"], "clip");
+    picture.text({end.x + 14, y}, "NDC", "note");
+    end = picture.values({end.x + 48, y}, corner["ndc"], "ndc");
+    picture.text({end.x + 14, y}, "window", "note");
+    picture.values({end.x + 70, y}, corner["window"], "window");
+  }
+  if (trace.contains("facing") && trace["facing"].contains("window"))
+    picture.text({0, y},
+                 fmt::format("facing: {}{}", trace["facing"]["window"].get<std::string>(),
+                             trace.value("culled", false) ? ", culled" : ""),
+                 "text");
+  return picture;
+}
+
+/// The fragments as pixels, each with its window depth.
+Picture draw_fragments(const Json& trace) {
+  Picture picture;
+  const Json& list = trace["fragment_list"];
+  picture.text({0, 15}, fmt::format("{} fragments and their window depths", list.size()), "title");
+  std::int64_t x_begin = list[0]["pixel"][0], x_end = x_begin, y_begin = list[0]["pixel"][1],
+               y_end = y_begin;
+  for (const Json& f : list) {
+    x_begin = std::min(x_begin, f["pixel"][0].get<std::int64_t>());
+    x_end = std::max(x_end, f["pixel"][0].get<std::int64_t>() + 1);
+    y_begin = std::min(y_begin, f["pixel"][1].get<std::int64_t>());
+    y_end = std::max(y_end, f["pixel"][1].get<std::int64_t>() + 1);
+  }
+  if (static_cast<std::size_t>(std::max(x_end - x_begin, y_end - y_begin)) > most_fragments_across)
+    throw InputError(fmt::format(
+        "--draw: a picture shows fragments of at most {0} x {0} pixels, found {1} x {2}; leave "
+        "--fragments out, or limit them with --scissor",
+        most_fragments_across, x_end - x_begin, y_end - y_begin));
+  constexpr double cell = 72, left = 40, top = 50;
+  const auto at = [&](double x, double y) {
+    return Place{left + (x - static_cast<double>(x_begin)) * cell,
+                 top + (y - static_cast<double>(y_begin)) * cell};
+  };
+  for (const Json& f : list) {
+    const Place corner = at(number_of(f["pixel"][0]), number_of(f["pixel"][1]));
+    picture.rect({corner.x, corner.y, corner.x + cell, corner.y + cell}, "soft");
+    picture.rect({corner.x, corner.y, corner.x + cell, corner.y + cell}, "cell");
+    picture.swatch({corner.x + 6, corner.y + 8, corner.x + cell - 6, corner.y + 26}, f["colour"]);
+    picture.value({corner.x + cell / 2, corner.y + 50}, f["window_z"], "window_z", "number",
+                  "middle");
+  }
+  for (std::int64_t x = x_begin; x < x_end; ++x)
+    picture.text({at(static_cast<double>(x), 0).x + cell / 2, top - 6}, std::to_string(x), "note",
+                 "middle");
+  for (std::int64_t y = y_begin; y < y_end; ++y)
+    picture.text({left - 8, at(0, static_cast<double>(y)).y + cell / 2 + 4}, std::to_string(y),
+                 "note", "end");
+  return picture;
+}
+
+std::string name_of_primitive(const Json& primitive) {
+  return primitive.is_null() ? "background" : "primitive " + primitive.dump();
+}
+
+/// What was in the pixel, the test, the blend, what is written: fragment by fragment.
+Picture draw_merger(const Json& trace) {
+  Picture picture;
+  const Json& merger = trace["output_merger"];
+  picture.text({0, 15},
+               fmt::format("the output merger at pixel {}, {}, in drawing order",
+                           merger[0]["pixel"][0].dump(), merger[0]["pixel"][1].dump()),
+               "title");
+  constexpr double columns[] = {0, 210, 420, 640};
+  constexpr const char* headings[] = {"in the pixel", "the fragment", "tests and blend",
+                                      "then in the pixel"};
+  double y = 44;
+  for (std::size_t i = 0; i < 4; ++i) picture.text({columns[i], y}, headings[i], "note");
+  y += 12;
+  const auto sample = [&](double x, const Json& colour, const Json& stored, const std::string& of) {
+    picture.swatch({x, y + 4, x + 34, y + 38}, colour);
+    picture.text({x + 42, y + 17}, of, "text");
+    picture.value({x + 42, y + 35}, stored["value"], "stored");
+  };
+  for (const Json& step : merger) {
+    const bool own = step["primitive"] == trace["number"];
+    if (own) picture.rect({-6, y - 2, 850, y + 44}, "soft");
+    sample(columns[0], step["before"]["colour"], step["before"]["stored"],
+           name_of_primitive(step["before"]["primitive"]));
+    sample(columns[1], step["fragment"]["colour"], step["fragment"]["stored"],
+           name_of_primitive(step["primitive"]));
+    const std::string outcome = step["tests"]["outcome"].get<std::string>();
+    picture.text({columns[2], y + 17}, step["tests"]["depth"].get<std::string>() + ": " + outcome,
+                 outcome == "passed" ? "text-c" : "text-a");
+    if (!step["blend"].is_null()) {
+      picture.text({columns[2], y + 35}, "blend, alpha", "note");
+      picture.value({columns[2] + 86, y + 35}, step["blend"]["alpha"], "alpha");
+    }
+    sample(columns[3], step["after"]["colour"], step["after"]["stored"],
+           name_of_primitive(step["after"]["primitive"]));
+    y += 54;
+  }
+  return picture;
+}
+
+std::string words_of(const Json& step) {
+  const std::string kind = step["step"].get<std::string>();
+  if (kind == "painted") return "paint " + step["P"].dump();
+  if (kind == "moved") return fmt::format("try {} before {}", step["Q"].dump(), step["P"].dump());
+  if (kind == "split")
+    return fmt::format("split {} into {} behind, {} before", step["cut"].dump(),
+                       step["behind"].dump(), step["before"].dump());
+  if (kind == "kept") return fmt::format("keep {} before {}", step["P"].dump(), step["Q"].dump());
+  return fmt::format("{} before {}:", step["P"].dump(), step["Q"].dump());
+}
+
+/// The painter's list step by step: painted polygons are filled, those of the step are outlined.
+Picture draw_painter(const Json& painter) {
+  Picture picture;
+  const Json &polygons = painter["polygons"], &steps = painter["steps"];
+  if (steps.size() > most_panels)
+    throw InputError(
+        fmt::format("--draw: a picture shows at most {} steps of the painter, found {}",
+                    most_panels, steps.size()));
+  picture.text({0, 15},
+               fmt::format(
+                   "the painter's order: {} polygons in the end, {} steps",
+                   [&] {
+                     std::set<std::size_t> cut;
+                     for (const Json& polygon : polygons)
+                       if (polygon.contains("part_of"))
+                         cut.insert(polygon["part_of"].get<std::size_t>());
+                     return polygons.size() - cut.size();
+                   }(),
+                   steps.size()),
+               "title");
+  std::vector<std::vector<Place>> outlines;
+  std::vector<Place> all;
+  for (const Json& polygon : polygons) {
+    outlines.push_back(places_of(polygon["corners"]));
+    all.insert(all.end(), outlines.back().begin(), outlines.back().end());
+  }
+  constexpr double size = 200, gap = 30, caption = 44, pitch = 270;
+  constexpr std::size_t across = 4;
+  std::vector<std::size_t> painted;
+  std::set<std::size_t> shown_polygons;
+  for (std::size_t i = 0; i < polygons.size(); ++i)
+    if (!polygons[i].contains("part_of")) shown_polygons.insert(i);
+  constexpr const char* fills[] = {"fill-b", "fill-c", "fill-d", "fill-a"};
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    const Json& step = steps[s];
+    const Place corner{static_cast<double>(s % across) * pitch,
+                       30 + static_cast<double>(s / across) * (size + caption + gap)};
+    const View view(all, corner, size, size, true);
+    if (step["step"] == "split") {
+      shown_polygons.erase(step["cut"].get<std::size_t>());
+      shown_polygons.insert({step["behind"].get<std::size_t>(), step["before"].get<std::size_t>()});
+    }
+    if (step["step"] == "painted") painted.push_back(step["P"].get<std::size_t>());
+    for (const std::size_t i : painted)
+      picture.polygon(view(outlines[i]), fills[polygons[i]["triangle"].get<std::size_t>() % 4]);
+    std::set<std::size_t> named{step["P"].get<std::size_t>()};
+    if (step.contains("Q")) named.insert(step["Q"].get<std::size_t>());
+    if (step["step"] == "split")
+      named = {step["behind"].get<std::size_t>(), step["before"].get<std::size_t>()};
+    for (const std::size_t i : shown_polygons)
+      picture.polygon(view(outlines[i]), named.contains(i) ? "a" : "thin");
+    for (const std::size_t i : named) {
+      Place middle;
+      for (const Place& p : outlines[i]) {
+        middle.x += p.x / static_cast<double>(outlines[i].size());
+        middle.y += p.y / static_cast<double>(outlines[i].size());
+      }
+      picture.label(view(middle), std::to_string(i), view.box());
+    }
+    picture.text({corner.x, corner.y + size + 16}, fmt::format("{}. {}", s + 1, words_of(step)),
+                 "text");
+    if (step.contains("why"))
+      picture.text({corner.x, corner.y + size + 33}, step["why"].get<std::string>(), "note");
+  }
+  double y = picture.height() + 30;
+  picture.text({0, y}, "polygon: triangle; its corners x, y, z in the window", "note");
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    y += row_height;
+    std::string words = fmt::format("{}: {}", i, polygons[i]["triangle"].dump());
+    if (polygons[i].contains("part_of")) words += ", part of " + polygons[i]["part_of"].dump();
+    picture.text({0, y}, words, "text");
+    Place end{130, y};
+    for (const Json& point : polygons[i]["corners"]) {
+      picture.text(end, "(", "number");
+      end = picture.values({end.x + width_of("("), y}, point, "corner");
+      picture.text(end, ")", "number");
+      end.x += width_of(") ");
+    }
+  }
+  return picture;
+}
+
+}  // namespace
+
+std::vector<Picture> draw_trace(const Json& trace, std::uint32_t width, std::uint32_t height) {
+  std::vector<Picture> pictures{draw_window(trace, width, height)};
+  if (trace.contains("fragment_list")) pictures.push_back(draw_fragments(trace));
+  if (trace.contains("output_merger")) pictures.push_back(draw_merger(trace));
+  if (trace.contains("painter")) pictures.push_back(draw_painter(trace["painter"]));
+  return pictures;
+}
+
+}  // namespace fathom::app::drawing
