@@ -30,10 +30,15 @@ DepthBias parse_offset(const std::string& text) {
 }  // namespace
 
 void PipelineArguments::add_to(Command& command, const std::string& heading) {
-  add_to_trace(command, heading);
   const std::size_t before = declared_.size();
-  add_picture_options(command);
+  add_triangle_options(command);
+  add_window_options(command);
+  add_line_option(command);
+  add_scan_option(command);
+  add_hidden_surface_option(command);
+  add_antialias_option(command);
   add_merging_options(command);
+  add_shortcut_options(command);
   for (std::size_t i = before; i < declared_.size(); ++i) declared_[i].below(heading);
 }
 
@@ -41,6 +46,9 @@ void PipelineArguments::add_to_trace(Command& command, const std::string& headin
   const std::size_t before = declared_.size();
   add_triangle_options(command);
   add_window_options(command);
+  add_line_option(command);
+  add_hidden_surface_option(command);
+  add_merging_options(command);
   for (std::size_t i = before; i < declared_.size(); ++i) declared_[i].below(heading);
 }
 
@@ -80,16 +88,25 @@ void PipelineArguments::add_triangle_options(Command& command) {
                                      "binary32 (default) or binary64"));
 }
 
-void PipelineArguments::add_picture_options(Command& command) {
+void PipelineArguments::add_line_option(Command& command) {
   declared_.push_back(command.option(
       "--line", "NAME", into(stages_.wire_line, parse_line),
       "Of wireframes and of lines in files: explicit, dda, bresenham (default), midpoint or "
       "diamond-exit"));
+}
+
+void PipelineArguments::add_scan_option(Command& command) {
   declared_.push_back(command.option("--scan", "NAME", into(stages_.scan, parse_scan),
                                      "edge-function (default) or scan-line"));
+}
+
+void PipelineArguments::add_hidden_surface_option(Command& command) {
   declared_.push_back(command.option("--hidden-surface", "NAME",
                                      into(stages_.hidden_surface, parse_hidden_surface),
                                      "z-buffer (default) or painter"));
+}
+
+void PipelineArguments::add_antialias_option(Command& command) {
   declared_.push_back(command.option(
       "--antialias", "NAME", into(stages_.antialias, parse_antialias),
       "none (default), ssaa:N (N times N), msaa:N, msaa:rotated-grid, jitter:N, "
@@ -124,6 +141,9 @@ void PipelineArguments::add_merging_options(Command& command) {
       command.option("--draw-order", "NAME", into(order_, parse_draw_order),
                      "Of triangles: file (default), front-to-back, back-to-front, random or "
                      "random:SEED"));
+}
+
+void PipelineArguments::add_shortcut_options(Command& command) {
   declared_.push_back(
       command.flag("--no-blocks", no_blocks_, "Test every sample; the picture does not change"));
   declared_.push_back(command.flag("--no-early-depth", no_early_depth_,

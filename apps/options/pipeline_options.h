@@ -18,7 +18,7 @@ class PipelineArguments {
  public:
   /// Declares the options below a heading of the help.
   void add_to(Command& command, const std::string& heading);
-  /// Those that change what becomes of one triangle by itself.
+  /// Those that change what becomes of one primitive, and of the pixel that it is drawn into.
   void add_to_trace(Command& command, const std::string& heading);
 
   /// Of the picture; the command has an option for it.
@@ -36,8 +36,12 @@ class PipelineArguments {
  private:
   void add_triangle_options(Command& command);
   void add_window_options(Command& command);
-  void add_picture_options(Command& command);
+  void add_line_option(Command& command);
+  void add_scan_option(Command& command);
+  void add_hidden_surface_option(Command& command);
+  void add_antialias_option(Command& command);
   void add_merging_options(Command& command);
+  void add_shortcut_options(Command& command);
   /// Refuses what would change nothing in this shading.
   void require_effect(pipeline::Shading shading) const;
 

@@ -53,16 +53,21 @@ TEST(ClippingPage, ItsExamplesPrintWhatItSays) {
       {"cohen-sutherland", "weiler-atherton", "sutherland-hodgman", "plane", "homogeneous"});
 }
 
+TEST(PipelinePage, ItsExamplesPrintWhatItSays) {
+  expect_true_examples(source_dir() / "docs/pipeline.md", 1, {});
+}
+
 TEST(ScanPage, TheExamplesOfTheHelpRun) {
   std::istringstream help(run_fathom({"scan", "--help"}).out);
   std::string line, command;
   while (std::getline(help, line) && line != "Examples:") {
   }
+  const TestFolder folder;
   int examples = 0;
   while (std::getline(help, line) && !line.empty()) {
     command += line;
     if (command.ends_with("|")) continue;
-    const Outcome outcome = run_in_shell(command, ".");
+    const Outcome outcome = run_in_shell(command, folder.path());
     EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.err;
     EXPECT_FALSE(outcome.out.empty()) << command;
     command.clear();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "run_program.h"
@@ -379,10 +380,8 @@ TEST(PipelineCommand, TraceInTextAndJson) {
   EXPECT_EQ(run_fathom({"pipeline", "trace", cube, "--triangle", "12"}).status, 2);
   EXPECT_EQ(run_fathom({"pipeline"}).status, 2);
   // What says nothing of a single triangle is no option; what draws none is refused.
-  const std::vector<std::string> pictures[] = {{"--scan", "scan-line"},
-                                               {"--antialias", "area"},
-                                               {"--hidden-surface", "painter"},
-                                               {"--shading", "wireframe"}};
+  const std::vector<std::string> pictures[] = {
+      {"--scan", "scan-line"}, {"--antialias", "area"}, {"--shading", "wireframe"}};
   for (const std::vector<std::string>& options : pictures) {
     auto refused = arguments;
     refused.insert(refused.end(), options.begin(), options.end());
@@ -412,6 +411,217 @@ TEST(PipelineCommand, TraceShowsTheLight) {
   }
   EXPECT_EQ(covered, 2);
   EXPECT_EQ(turned, 1);
+}
+
+Json traced(const TestFolder& folder, std::vector<std::string> more) {
+  more.insert(more.begin(), {"pipeline", "trace"});
+  more.emplace_back("--json");
+  const Outcome outcome = run_fathom(more, {.folder = folder.path()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome.status == 0 ? Json::parse(outcome.out) : Json();
+}
+
+TEST(PipelineCommand, TraceShowsTheOutputMerger) {
+  const TestFolder folder;
+  const std::vector<std::string> view{cube,    "--size",       "64x48", "--pixel",
+                                      "32,24", "--background", "1,0,0"};
+  const Json trace = traced(folder, view);
+  const Json& steps = trace["output_merger"];
+  ASSERT_EQ(steps.size(), 2u);  // the front and the back of the cube
+  EXPECT_EQ(steps[0]["before"]["primitive"], nullptr);
+  EXPECT_EQ(steps[0]["before"]["colour"], Json::parse("[1.0, 0.0, 0.0]"));
+  EXPECT_EQ(steps[0]["tests"]["outcome"], "passed");
+  EXPECT_EQ(steps[1]["before"], steps[0]["after"]);
+  const bool nearer =
+      steps[1]["fragment"]["stored"]["value"] < steps[0]["fragment"]["stored"]["value"];
+  EXPECT_EQ(steps[1]["tests"]["outcome"], nearer ? "passed" : "depth test failed");
+  auto blended = view;
+  blended.insert(blended.end(), {"--blend", "--opacity", "0.25"});
+  const Json glass = traced(folder, blended)["output_merger"];
+  for (const Json& step : glass) {
+    EXPECT_EQ(step["blend"]["alpha"], 0.25);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_FLOAT_EQ(step["after"]["colour"][k].get<float>(),
+                      static_cast<float>(0.25 * step["fragment"]["colour"][k].get<double>() +
+                                         0.75 * step["before"]["colour"][k].get<double>()));
+  }
+  const Outcome text =
+      run_fathom({"pipeline", "trace", cube, "--size", "64x48", "--pixel", "32,24"});
+  EXPECT_THAT(text.out, HasSubstr("in the pixel  background, depth 1 ("));
+  EXPECT_THAT(text.out, HasSubstr("depth test    nearer: passed"));
+}
+
+TEST(PipelineCommand, TraceFollowsLinesAndPointsAndListsFragments) {
+  const TestFolder folder;
+  folder.write("s.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 3 1\nf 1 2 3\nl 1 4\np 2\n");
+  const std::vector<std::string> view{"s.obj", "--size", "32x24"};
+  const auto primitive = [&](const char* number) {
+    auto arguments = view;
+    arguments.insert(arguments.end(), {"--primitive", number, "--fragments"});
+    return traced(folder, arguments);
+  };
+  EXPECT_EQ(primitive("0")["primitive"], "triangle");
+  const Json line = primitive("1"), point = primitive("2");
+  EXPECT_EQ(line["primitive"], "line");
+  EXPECT_EQ(line["clipping"].size(), 2u);
+  EXPECT_GT(line["fragment_list"].size(), 3u);
+  EXPECT_EQ(line["fragment_list"].size(), line["fragments"]);
+  EXPECT_EQ(point["primitive"], "point");
+  EXPECT_EQ(point["fragment_list"].size(), 1u);
+  const auto refused = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"pipeline", "trace", "s.obj"});
+    const Outcome outcome = run_fathom(more, {.folder = folder.path()});
+    EXPECT_EQ(outcome.status, 2);
+    return outcome.err;
+  };
+  EXPECT_THAT(refused({"--primitive", "3"}), HasSubstr("1 triangles, then 2 lines and points"));
+  EXPECT_THAT(refused({"--triangle", "1"}), HasSubstr("there is no triangle 1; the scene has 1"));
+  EXPECT_THAT(refused({"--triangle", "0", "--primitive", "0"}), HasSubstr("give one of them"));
+}
+
+TEST(PipelineCommand, TraceWarnsOfAStretchedViewport) {
+  const auto warned = [](const char* viewport) {
+    const Outcome outcome =
+        run_fathom({"pipeline", "trace", cube, "--size", "64x48", "--viewport", viewport});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_THAT(warned("0,0,64,24"), HasSubstr("the picture is stretched"));
+  EXPECT_EQ(warned("0,0,32,24"), "");
+}
+
+Json run_stage(const std::string& stage, const Json& record, std::vector<std::string> more = {}) {
+  more.insert(more.begin(), {"pipeline", "run", stage});
+  const Outcome outcome = run_fathom(more, {.input = record.dump() + "\n"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err << record;
+  return outcome.status == 0 ? Json::parse(outcome.out) : Json();
+}
+
+// Every stage by itself, one after the other, is what the trace shows.
+TEST(PipelineCommand, TheStagesOneByOneAreTheTrace) {
+  const TestFolder folder;
+  folder.write("s.obj", "v 0 0 0\nv 3 0 1\nv 0 2 -9\nf 1 2 3\n");
+  folder.write(
+      "c.json",
+      R"({"width": 12, "height": 9, "fx": 9, "fy": 9, "cx": 6, "cy": 4.5, "pixel_centre": 0.5,
+    "world_to_camera": [[1,0,0,-1],[0,-1,0,1],[0,0,-1,2]], "near": 0.5, "far": 20})");
+  for (const std::string precision : {"binary32", "binary64"}) {
+    const Json trace =
+        traced(folder, {"s.obj", "--camera", "c.json", "--precision", precision, "--shading",
+                        "none", "--fragments", "--pixel", "6,4", "--mapping", "opengl"});
+    const std::vector<std::string> with{"--precision", precision};
+    Json record{{"vertices", {{0, 0, 0}, {3, 0, 1}, {0, 2, -9}}},
+                {"camera", Json::parse(folder.read("c.json"))},
+                {"mapping", "opengl"},
+                {"indices", {0, 1, 2}}};
+    const Json assembled = run_stage("primitive-assembly", record, with);
+    ASSERT_EQ(assembled["primitives"].size(), 1u);
+    EXPECT_EQ(assembled["primitives"][0]["vertices"], record["vertices"]);
+    record = run_stage("vertex-transform", record, with);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const char* space : {"world", "eye", "clip"})
+        EXPECT_EQ(record[space][k], trace["vertex_transform"][k][space]);
+    record = run_stage("clipping", record, with);
+    record = run_stage("perspective-division", record, with);
+    record = run_stage("back-face-culling", record, with);
+    EXPECT_EQ(record["facing"]["ndc"], trace["facing"]["ndc"]);
+    EXPECT_EQ(record["culled"], trace["culled"]);
+    record = run_stage("viewport", record, with);
+    EXPECT_EQ(record["stretched"], false);
+    ASSERT_EQ(record["clip"].size(), trace["clipping"].size());
+    for (std::size_t k = 0; k < record["clip"].size(); ++k)
+      for (const char* space : {"clip", "ndc", "window"})
+        EXPECT_EQ(record[space][k], trace["clipping"][k][space]);
+    record = run_stage("scan-conversion", record, with);
+    ASSERT_EQ(record["fragments"].size(), trace["fragments"]);
+    ASSERT_GT(record["fragments"].size(), 5u);
+    for (std::size_t i = 0; i < record["fragments"].size(); ++i)
+      for (const char* key : {"pixel", "window_z", "depth", "colour"})
+        EXPECT_EQ(record["fragments"][i][key], trace["fragment_list"][i][key]) << key << i;
+    record = run_stage("output-merger", record, with);
+    const Json& merged = record["merged"];
+    const auto at_pixel = std::find_if(merged.begin(), merged.end(), [](const Json& step) {
+      return step["pixel"] == Json::parse("[6, 4]");
+    });
+    ASSERT_NE(at_pixel, merged.end());
+    EXPECT_EQ(*at_pixel, trace["output_merger"][0]);
+    EXPECT_EQ(record["buffer"].size(), record["fragments"].size());
+  }
+}
+
+TEST(PipelineCommand, StagesByHand) {
+  // 002: the far side's w is negative: of P, in front, and Q, behind the eye, P's part is left.
+  const Json clipped = run_stage(
+      "clipping",
+      Json::parse(R"({"clip": [[0,0,1,1],[0,0,-3,-1]], "mapping": "opengl", "name": "PQ"})"),
+      {"--precision", "binary64"});
+  EXPECT_EQ(clipped["name"], "PQ");
+  EXPECT_EQ(clipped["clip"].size(), 2u);
+  for (const Json& p : clipped["clip"]) EXPECT_LE(std::abs(p[2].get<double>()), p[3].get<double>());
+  EXPECT_EQ(run_stage("perspective-division", Json::parse(R"({"clip": [[3,1,2,8]]})"))["ndc"],
+            Json::parse("[[0.375, 0.125, 0.25]]"));
+  // 003: minX + w/2, the window's origin on the lower left; the rows of images count from above.
+  const Json window =
+      run_stage("viewport", Json::parse(R"({"ndc": [[0,0,0],[1,1,1]], "width": 40, "height": 30,
+    "viewport": [4, 6, 20, 10], "depth_range": [0.25, 0.75], "mapping": "opengl"})"));
+  EXPECT_EQ(window["window"], Json::parse("[[14.0, 19.0, 0.5],[24.0, 14.0, 0.75]]"));
+  EXPECT_TRUE(window["stretched"]);
+  const Json back = run_stage("back-face-culling",
+                              Json::parse(R"({"ndc": [[0,0,0],[0,1,0],[1,0,0]], "cull": "back"})"));
+  EXPECT_EQ(back["facing"]["ndc"], "back");
+  EXPECT_EQ(back["culled"], true);
+  // What is nearer wins, in either order.
+  const std::string fragments =
+      R"("fragments": [{"pixel": [0,0], "window_z": 0.5, "colour": [1,0,0]},
+    {"pixel": [0,0], "window_z": 0.75, "colour": [0,1,0]}, {"pixel": [1,0], "window_z": 0.25, "colour": [0,0,1]}])";
+  const Json merged =
+      run_stage("output-merger", Json::parse("{\"width\": 2, \"height\": 1, " + fragments + "}"));
+  EXPECT_EQ(merged["merged"][1]["tests"]["outcome"], "depth test failed");
+  EXPECT_EQ(merged["buffer"][0]["colour"], Json::parse("[1.0, 0.0, 0.0]"));
+  Json again = merged;
+  again["fragments"] = Json::parse(R"([{"pixel": [0,0], "window_z": 0.25, "colour": [0,0,1]}])");
+  EXPECT_EQ(run_stage("output-merger", again)["buffer"][0]["colour"],
+            Json::parse("[0.0, 0.0, 1.0]"));
+  // A line and a point are scan-converted as such.
+  EXPECT_EQ(
+      run_stage(
+          "scan-conversion",
+          Json::parse(
+              R"({"window": [[0.5,0.5,0],[3.5,1.5,0]], "width": 8, "height": 8})"))["fragments"]
+          .size(),
+      4u);
+  EXPECT_EQ(
+      run_stage(
+          "scan-conversion",
+          Json::parse(
+              R"({"window": [[2.5,1.5,0]], "width": 8, "height": 8})"))["fragments"][0]["pixel"],
+      Json::parse("[2, 1]"));
+}
+
+TEST(PipelineCommand, StagesRefuseInOneLine) {
+  const auto refused = [](const std::string& stage, const std::string& record,
+                          const std::string& said) {
+    const Outcome outcome = run_fathom({"pipeline", "run", stage}, {.input = record + "\n"});
+    EXPECT_EQ(outcome.status, 3) << record;
+    EXPECT_THAT(Json::parse(outcome.out).value("error", ""), HasSubstr(said)) << record;
+  };
+  refused("clipping", R"({"clop": []})", "\"clop\" is not a key of a stage");
+  refused("clipping", "{}", "\"clip\" is missing");
+  refused("perspective-division", R"({"clip": [[1,1,1,0]]})", "w = 0");
+  refused("viewport", R"({"ndc": [[0,0,0]]})", "\"width\" is missing");
+  refused("viewport", R"({"ndc": [[0,0,0]], "width": 1.5, "height": 2})",
+          "expected a whole number");
+  refused("vertex-transform", R"({"vertices": [[0,0,0]]})", "\"camera\" is missing");
+  refused("vertex-transform", R"({"vertices": [[0,0,0]], "camera": {"width": 4}})", "camera");
+  refused("clipping", R"({"clip": [[0,0,0,1]], "mapping": "isometric"})",
+          "\"mapping\": there is no mapping 'isometric'");
+  refused("primitive-assembly", R"({"vertices": [[0,0,0]], "indices": [1]})",
+          "not the number of one of 1 vertex");
+  refused("clipping", R"({"clip": [[0,0,0,1]], "colours": []})", "0 values for 1 corner");
+  refused("output-merger",
+          R"({"width": 1, "height": 1, "fragments": [{"pixel": [1,0], "colour": [0,0,0]}]})",
+          "no pixel of the image");
+  EXPECT_EQ(run_fathom({"pipeline", "run", "tessellation"}).status, 2);
 }
 
 }  // namespace

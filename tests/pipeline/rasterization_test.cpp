@@ -307,7 +307,7 @@ TEST(Trace, SaysWhatEveryStageDid) {
   options.subpixel_bits = 16;
   options.depth_format.storage = Storage::float64;
   const Pixel pixel{14, 14};
-  const TriangleTrace trace = trace_triangle(scene, camera(), options, 0, pixel);
+  const PrimitiveTrace trace = trace_triangle(scene, camera(), options, 0, pixel);
   EXPECT_EQ(trace.near, 1);
   EXPECT_EQ(trace.far, 100);
   // u = 16 + 32·x/z: (8, 8), (28, 8), (12.8, 24); no centre lies on a side.
@@ -362,14 +362,14 @@ TEST(Trace, SaysWhatEveryStageDid) {
   EXPECT_FALSE(trace.culled);
 
   // Turned, of the second object, and culled; beside the pixel; in an image that it leaves.
-  const TriangleTrace turned = trace_triangle(scene, camera(), options, 4, Pixel{2, 2});
+  const PrimitiveTrace turned = trace_triangle(scene, camera(), options, 4, Pixel{2, 2});
   EXPECT_EQ(turned.in_window, Facing::front);
   EXPECT_EQ(turned.in_world, Facing::front);
   EXPECT_EQ(turned.fragments, fragments);
   ASSERT_TRUE(turned.sample);
   EXPECT_FALSE(turned.sample->covered);
   options.culling = Culling::back;
-  const TriangleTrace culled = trace_triangle(scene, camera(), options, 0, pixel);
+  const PrimitiveTrace culled = trace_triangle(scene, camera(), options, 0, pixel);
   EXPECT_TRUE(culled.culled);
   EXPECT_EQ(culled.fragments, 0u);
   EXPECT_FALSE(culled.sample);

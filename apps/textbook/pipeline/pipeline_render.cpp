@@ -14,8 +14,8 @@
 #include "apps/shell/progress.h"
 #include "apps/textbook/pipeline/pipeline_plan.h"
 #include "apps/textbook/pipeline/pipeline_report.h"
+#include "apps/textbook/pipeline/pipeline_warnings.h"
 #include "fathom/camera/camera_files.h"
-#include "fathom/pipeline/geometry/window_transform.h"
 #include "fathom/render_by_pipeline.h"
 #include "fathom/text/counted.h"
 #include "fathom/triangle/segment_channels.h"
@@ -86,13 +86,7 @@ int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const 
   Drawn drawn = drawn_from(std::move(scene), plan, arguments);
   const double time = plan.shutter ? plan.shutter->close : arguments.motion.time_or_start();
   RenderOutputs outputs(arguments, cameras);
-  if (pipeline::is_stretched(cameras[0], plan.stages)) {
-    console.warn("the viewport's width : height is not the camera's: the picture is stretched");
-  }
-
-  if (pipeline::drawable_window(cameras[0], plan.stages).is_empty()) {
-    console.warn("viewport and scissor box leave no pixel of the image: the map is background");
-  }
+  warn_of_windows(cameras[0], plan.stages, console);
 
   std::vector<PipelineReport> reports;
   std::vector<Camera> used;

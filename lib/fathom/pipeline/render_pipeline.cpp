@@ -27,15 +27,9 @@ class Frame {
         window_(drawable_window(camera, options)) {}
 
   PipelineFrame run(bool with_picture) {
-    primitives_ = to_window<Real>(scene_, camera_, options_, rules_, frame_.statistics);
-    std::vector<WindowTriangle<Real>>& triangles = primitives_.triangles;
+    prepare(nullptr);
     frame_.statistics.near = options_.depth_format.near;
     frame_.statistics.far = options_.depth_format.far;
-    put_into_draw_order(triangles, options_);
-    if (options_.hidden_surface == HiddenSurface::painter) {
-      const DepthTest test(options_);
-      triangles = painters_order(std::move(triangles), test.is_nearer({1}, {0}), frame_.painter);
-    }
     // Also where no picture is asked for: a texture that is no good is said to be.
     Shader<Real> shader(camera_, options_, texture_of(scene_, options_));
     const bool same_samples = options_.antialias.method == AntialiasMethod::none ||
@@ -53,7 +47,32 @@ class Frame {
     return std::move(frame_);
   }
 
+  FrameWatch watch(const std::optional<Pixel>& pixel) {
+    FrameWatch watch;
+    prepare(&watch.painter);
+    if (!pixel || !window_.contains(*pixel)) return watch;
+    options_.early_depth = false;  // fragments that fail are reported, too
+    Shader<Real> shader(camera_, options_, texture_of(scene_, options_));
+    FrameBuffer row{camera_.width, 1, 1, options_.background, static_cast<std::uint32_t>(pixel->y),
+                    cleared()};
+    const ObserveMerge observe = [&](const MergeStep& step) { watch.merger.push_back(step); };
+    draw(GridSamples::centre(), &shader, row, frame_.statistics,
+         {pixel->x, pixel->y, pixel->x + 1, pixel->y + 1}, ShadingRate::per_sample, &observe);
+    return watch;
+  }
+
  private:
+  /// All stages up to the window, and the order in which triangles are drawn.
+  void prepare(PainterTrace* trace) {
+    primitives_ = to_window<Real>(scene_, camera_, options_, rules_, frame_.statistics);
+    std::vector<WindowTriangle<Real>>& triangles = primitives_.triangles;
+    put_into_draw_order(triangles, options_);
+    if (options_.hidden_surface != HiddenSurface::painter) return;
+    const DepthTest test(options_);
+    triangles =
+        painters_order(std::move(triangles), test.is_nearer({1}, {0}), frame_.painter, trace);
+  }
+
   [[nodiscard]] FrameBuffer buffer(std::size_t samples) const {
     return {camera_.width, camera_.height, samples, options_.background, 0, cleared()};
   }
@@ -66,10 +85,10 @@ class Frame {
 
   void draw(const GridSamples& pattern, Shader<Real>* shader, FrameBuffer& target,
             PipelineStatistics& statistics, const PixelWindow& window,
-            ShadingRate rate = ShadingRate::per_sample) {
+            ShadingRate rate = ShadingRate::per_sample, const ObserveMerge* observe = nullptr) {
     const RasterizerSettings settings{
         options_, rules_, pattern, rate, options_.hidden_surface == HiddenSurface::z_buffer,
-        window};
+        window,   observe};
     if (options_.shading != Shading::wireframe && options_.shading != Shading::points)
       rasterize(primitives_.triangles, settings, shader, target, statistics);
     rasterize_lines(primitives_.lines, settings, target, statistics);
@@ -191,6 +210,19 @@ void require_areas(const Scene& scene, const PipelineOptions& options) {
     throw UsageError(Setting{"antialias"}, std::string("area ") + why);
 }
 
+/// The options with the clip range of this view.
+/// Fails    as render_frame() where scene, camera and options do not go together.
+PipelineOptions completed(const Scene& scene, const Camera& camera,
+                          const PipelineOptions& options) {
+  require_renderable(scene, camera);
+  PipelineOptions complete = options;
+  fill_in_range(scene, camera, complete.depth_format);
+  require_meaningful(complete.depth_format);
+  require_countable(scene);
+  require_areas(scene, complete);
+  return complete;
+}
+
 }  // namespace
 
 PipelineFrame render_frame(const Scene& scene, const Camera& camera, const PipelineOptions& options,
@@ -200,15 +232,20 @@ PipelineFrame render_frame(const Scene& scene, const Camera& camera, const Pipel
   if (options.antialias.method == AntialiasMethod::temporal ||
       options.antialias.method == AntialiasMethod::temporal_area)
     throw UsageError(Setting{"antialias"}, "temporal and temporal-area are for scenes that move");
-  require_renderable(scene, camera);
-  PipelineOptions complete = options;
-  fill_in_range(scene, camera, complete.depth_format);
-  require_meaningful(complete.depth_format);
-  require_countable(scene);
-  require_areas(scene, complete);
+  const PipelineOptions complete = completed(scene, camera, options);
   if (complete.precision == Precision::binary32)
     return Frame<float>(scene, camera, complete).run(with_picture);
   return Frame<double>(scene, camera, complete).run(with_picture);
+}
+
+FrameWatch watch_frame(const Scene& scene, const Camera& camera, const PipelineOptions& options,
+                       const std::optional<Pixel>& pixel) {
+  const StandardArithmetic standard;
+  require_meaningful(options);
+  const PipelineOptions complete = completed(scene, camera, options);
+  if (complete.precision == Precision::binary32)
+    return Frame<float>(scene, camera, complete).watch(pixel);
+  return Frame<double>(scene, camera, complete).watch(pixel);
 }
 
 }  // namespace fathom::pipeline

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "fathom/image/depth_map.h"
 #include "fathom/pipeline/geometry/painters_algorithm.h"
 #include "fathom/pipeline/output/output_merger.h"
@@ -33,5 +36,19 @@ struct PipelineFrame {
 ///          used, or a scene without texture coordinates.
 PipelineFrame render_frame(const Scene& scene, const Camera& camera, const PipelineOptions& options,
                            bool with_picture);
+
+/// What can be observed while a frame is drawn.
+struct FrameWatch {
+  /// Every fragment at the pixel's centre, those that fail a test among them, in drawing order.
+  std::vector<MergeStep> merger;
+  /// If the scene is painted.
+  PainterTrace painter;
+};
+
+/// Draws one pixel of a frame with one sample, and reports how it came about. Without a pixel:
+/// the painter's order alone.
+/// Fails    as render_frame().
+FrameWatch watch_frame(const Scene& scene, const Camera& camera, const PipelineOptions& options,
+                       const std::optional<Pixel>& pixel);
 
 }  // namespace fathom::pipeline

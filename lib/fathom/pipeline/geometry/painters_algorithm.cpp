@@ -32,6 +32,7 @@ struct Polygon {
   std::size_t serial = 0;
   /// Serial numbers of polygons before which it is painted, whatever the tests say.
   std::vector<std::size_t> forced_before;
+  std::size_t traced = 0;  ///< its index in the trace
 };
 
 /// A point between a and b in the window: x, y, z and 1/w are linear there, attributes over w.
@@ -49,8 +50,8 @@ WindowVertex<Real> between(const WindowVertex<Real>& a, const WindowVertex<Real>
 template <class Real>
 class Painter {
  public:
-  Painter(bool greater_is_nearer, PainterStatistics& statistics)
-      : sign_(greater_is_nearer ? -1 : 1), count_(statistics) {}
+  Painter(bool greater_is_nearer, PainterStatistics& statistics, PainterTrace* trace)
+      : sign_(greater_is_nearer ? -1 : 1), count_(statistics), trace_(trace) {}
 
   std::vector<WindowTriangle<Real>> run(std::vector<WindowTriangle<Real>> triangles) {
     for (WindowTriangle<Real>& t : triangles) {
@@ -64,6 +65,7 @@ class Painter {
       todo_.push_back(std::move(p));
     }
     todo_.sort(is_farther);
+    for (Polygon<Real>& p : todo_) note(p, std::nullopt);
     while (!todo_.empty()) {
       if (settle_first()) paint_first();
     }
@@ -72,6 +74,21 @@ class Painter {
 
  private:
   using Place = typename std::list<Polygon<Real>>::iterator;
+
+  /// Enters a polygon in the trace.
+  void note(Polygon<Real>& p, std::optional<std::size_t> part_of) {
+    if (trace_ == nullptr) return;
+    p.traced = trace_->polygons.size();
+    PaintedPolygon painted{p.source.number, part_of, {}};
+    for (const auto& c : p.corners)
+      painted.corners.push_back(
+          {static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)});
+    trace_->polygons.push_back(std::move(painted));
+  }
+
+  void note(PainterStep::Kind kind, const Polygon<Real>& P, const Polygon<Real>& Q, int test = 0) {
+    if (trace_ != nullptr) trace_->steps.push_back({kind, P.traced, Q.traced, test});
+  }
 
   static bool is_farther(const Polygon<Real>& a, const Polygon<Real>& b) {
     return a.high[2] > b.high[2];
@@ -122,18 +139,21 @@ class Painter {
       // Polygons that were moved are out of order, so the list is searched to its end.
       if (Q->high[2] <= P->low[2]) {
         ++count_.z_disjoint;
+        note(PainterStep::Kind::z_disjoint, *P, *Q);
         continue;
       }
       ++count_.comparisons;
       const std::size_t settled = test(*P, *Q);
       if (settled < 5) {
         ++count_.settled[settled];
+        note(PainterStep::Kind::settled, *P, *Q, static_cast<int>(settled) + 1);
         continue;
       }
       const bool reversible =
           lies(*Q, Sign::positive, P->plane) || lies(*P, Sign::negative, Q->plane);
       if (!Q->moved && reversible) {
         ++count_.moved;
+        note(PainterStep::Kind::moved, *P, *Q);
         Q->moved = true;
         todo_.splice(todo_.begin(), todo_, Q);
       } else {
@@ -146,6 +166,7 @@ class Painter {
 
   void paint_first() {
     const Polygon<Real>& p = todo_.front();
+    note(PainterStep::Kind::painted, p, p);
     for (std::size_t i = 2; i < p.corners.size(); ++i) {
       WindowTriangle<Real> t = p.source;
       t.corners = {p.corners[0], p.corners[i - 1], p.corners[i]};
@@ -170,10 +191,12 @@ class Painter {
       return std::any_of(p.known_sides.begin(), p.known_sides.end(),
                          [&](const auto& known) { return known.first == plane; });
     };
+    compared_ = {P->traced, Q->traced};
     if (!is_known(*P, Q->plane) && cut(P, plane_of(*Q), Q->plane)) return;
     if (!is_known(*Q, P->plane) && cut(Q, plane_of(*P), P->plane)) return;
     if (cut_by_edges(P, Q->plane) || cut_by_edges(Q, P->plane)) return;
     // Nothing cuts: they overlap only by rounding. Keep the order of the list.
+    note(PainterStep::Kind::forced, *P, *Q);
     P->forced_before.push_back(Q->serial);
   }
 
@@ -229,7 +252,12 @@ class Painter {
       behind.known_sides.emplace_back(plane, Sign::positive);
       before.known_sides.emplace_back(plane, Sign::negative);
     }
+    const std::size_t whole = place->traced;
     todo_.erase(place);
+    note(behind, whole), note(before, whole);
+    if (trace_ != nullptr)
+      trace_->steps.push_back({PainterStep::Kind::split, compared_[0], compared_[1], 0, whole,
+                               behind.traced, before.traced});
     for (Polygon<Real>* part : {&behind, &before}) {
       part->moved = false;
       part->serial = ++serials_;
@@ -250,6 +278,8 @@ class Painter {
 
   double sign_;
   PainterStatistics& count_;
+  PainterTrace* trace_;
+  std::array<std::size_t, 2> compared_{};  ///< the polygons between which there is no order
   std::vector<std::vector<Point3d>> planes_;
   std::list<Polygon<Real>> todo_;
   std::size_t serials_ = 0;
@@ -261,14 +291,15 @@ class Painter {
 template <class Real>
 std::vector<WindowTriangle<Real>> painters_order(std::vector<WindowTriangle<Real>> triangles,
                                                  bool greater_is_nearer,
-                                                 PainterStatistics& statistics) {
-  return Painter<Real>(greater_is_nearer, statistics).run(std::move(triangles));
+                                                 PainterStatistics& statistics,
+                                                 PainterTrace* trace) {
+  return Painter<Real>(greater_is_nearer, statistics, trace).run(std::move(triangles));
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
-#define FATHOM_INSTANTIATE(Real)                                                               \
-  template std::vector<WindowTriangle<Real>> painters_order(std::vector<WindowTriangle<Real>>, \
-                                                            bool, PainterStatistics&);
+#define FATHOM_INSTANTIATE(Real)                             \
+  template std::vector<WindowTriangle<Real>> painters_order( \
+      std::vector<WindowTriangle<Real>>, bool, PainterStatistics&, PainterTrace*);
 FATHOM_INSTANTIATE(float)
 FATHOM_INSTANTIATE(double)
 #undef FATHOM_INSTANTIATE

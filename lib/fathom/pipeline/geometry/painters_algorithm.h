@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <optional>
+#include <vector>
+
 #include "fathom/pipeline/geometry/window_triangle.h"
 
 namespace fathom::pipeline {
@@ -12,6 +16,36 @@ struct PainterStatistics {
   std::uint64_t moved = 0;        ///< painted earlier than their farthest corner suggests
   std::uint64_t splits = 0;       ///< cut in two: cycles and penetration
   std::uint64_t comparisons = 0;  ///< pairs whose depths overlap
+};
+
+/// A polygon that the painter's algorithm orders: a triangle or, after splits, a part of one.
+struct PaintedPolygon {
+  std::uint32_t triangle = 0;                  ///< its number in the scene
+  std::optional<std::size_t> part_of;          ///< index of the polygon that was split to make it
+  std::vector<std::array<double, 3>> corners;  ///< x, y, z in the window
+};
+
+/// A step of the painter's algorithm; P and Q are indices of polygons, P the first of the list.
+struct PainterStep {
+  enum class Kind {
+    z_disjoint,  ///< Q lies wholly nearer: P may be painted before it
+    settled,     ///< one of Newell's tests settles that P may be painted before Q
+    moved,       ///< no test does: Q is tried before P
+    split,       ///< `cut` is split into `behind` and `before`, which replace it
+    forced,      ///< neither splits the other: P is painted before Q
+    painted,     ///< P is painted
+  };
+  Kind kind = Kind::painted;
+  std::size_t P = 0, Q = 0;
+  int test = 0;  ///< 1 to 5, of `settled`
+  std::size_t cut = 0, behind = 0, before = 0;
+};
+
+/// How a painting order came about.
+struct PainterTrace {
+  std::vector<PaintedPolygon>
+      polygons;  ///< triangles in their first order, then parts as they arise
+  std::vector<PainterStep> steps;
 };
 
 /// The painter's algorithm by Newell, Newell and Sancha: triangles are sorted by their farthest
@@ -29,6 +63,7 @@ struct PainterStatistics {
 template <class Real>
 std::vector<WindowTriangle<Real>> painters_order(std::vector<WindowTriangle<Real>> triangles,
                                                  bool greater_is_nearer,
-                                                 PainterStatistics& statistics);
+                                                 PainterStatistics& statistics,
+                                                 PainterTrace* trace = nullptr);
 
 }  // namespace fathom::pipeline

@@ -61,6 +61,11 @@ bool OutputMerger::passes_depth_test(const StoredSample& there, StoredDepth stor
 
 Outcome OutputMerger::test(const Pixel& p, std::size_t sample, StoredDepth stored) {
   StoredSample& there = target_.at(p, sample);
+  if (observe_ != nullptr) before_ = there;
+  return test_sample(there, stored);
+}
+
+Outcome OutputMerger::test_sample(StoredSample& there, StoredDepth stored) {
   const auto depth_outcome = [&] {
     return passes_depth_test(there, stored) ? Outcome::passed : Outcome::depth_failed;
   };
@@ -77,6 +82,14 @@ Outcome OutputMerger::test(const Pixel& p, std::size_t sample, StoredDepth store
 }
 
 void OutputMerger::merge(const Pixel& p, std::size_t sample, const MergedFragment& fragment,
+                         const Colour& colour, Outcome outcome) {
+  write(p, sample, fragment, colour, outcome);
+  if (observe_ != nullptr)
+    (*observe_)({p, sample, fragment, colour, before_, target_.at(p, sample), outcome,
+                 depth_tested_, *rules_});
+}
+
+void OutputMerger::write(const Pixel& p, std::size_t sample, const MergedFragment& fragment,
                          const Colour& colour, Outcome outcome) {
   const bool passed = outcome == Outcome::passed;
   count_.depth_passed += passed;

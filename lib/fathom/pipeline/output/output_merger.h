@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "fathom/image/depth_map.h"
@@ -77,19 +78,38 @@ class FrameBuffer {
 struct MergedFragment {
   std::uint32_t number = 0;  ///< of its primitive
   StoredDepth stored;
-  double depth = 0;  ///< along the view
+  double depth = 0;     ///< along the view
+  double window_z = 0;  ///< as interpolated, for traces
 };
 
 /// Which test a fragment failed, if any.
 enum class Outcome { stencil_failed, depth_failed, passed };
+
+/// One fragment at the output merger: the sample before it, the tests, the sample after it.
+struct MergeStep {
+  Pixel pixel;
+  std::size_t sample = 0;
+  MergedFragment fragment;
+  Colour colour{};
+  StoredSample before, after;
+  Outcome outcome = Outcome::passed;
+  bool depth_tested = true;  ///< false for the painter's algorithm
+  DrawRules rules;
+};
+/// Called for each fragment that is merged. With early depth tests, fragments that fail are not.
+using ObserveMerge = std::function<void(const MergeStep&)>;
 
 /// The tests of the samples, and what fragments leave in them.
 class OutputMerger {
  public:
   /// Without `depth_tested` all fragments pass: what is drawn later is on top.
   OutputMerger(const PipelineOptions& options, bool depth_tested, FrameBuffer& target,
-               PipelineStatistics& statistics)
-      : test_(options), depth_tested_(depth_tested), target_(target), count_(statistics) {}
+               PipelineStatistics& statistics, const ObserveMerge* observe = nullptr)
+      : test_(options),
+        depth_tested_(depth_tested),
+        target_(target),
+        count_(statistics),
+        observe_(observe) {}
 
   /// What holds for the fragments from now on; it must outlive them.
   void begin(const DrawRules& rules) { rules_ = &rules; }
@@ -110,12 +130,17 @@ class OutputMerger {
 
  private:
   [[nodiscard]] bool passes_depth_test(const StoredSample& there, StoredDepth stored) const;
+  Outcome test_sample(StoredSample& there, StoredDepth stored);
+  void write(const Pixel& p, std::size_t sample, const MergedFragment& fragment,
+             const Colour& colour, Outcome outcome);
 
   DepthTest test_;
   bool depth_tested_;
   FrameBuffer& target_;
   PipelineStatistics& count_;
   const DrawRules* rules_ = nullptr;
+  const ObserveMerge* observe_;
+  StoredSample before_;  ///< the sample before its stencil test, if somebody observes
 };
 
 }  // namespace fathom::pipeline

@@ -20,7 +20,7 @@ class Rasterizer {
   Rasterizer(const RasterizerSettings& settings, Shader<Real>* shader, FrameBuffer& target,
              PipelineStatistics& statistics)
       : s_(settings),
-        merger_(s_.options, s_.depth_tested, target, statistics),
+        merger_(s_.options, s_.depth_tested, target, statistics, s_.observe),
         shader_(shader),
         count_(statistics) {}
 
@@ -97,7 +97,8 @@ class Rasterizer {
     const StoredDepth stored = merger_.stored(fragment);
     const Outcome outcome = merger_.test(p, i, stored);
     if (s_.options.early_depth && !merger_.is_wanted(outcome)) return;
-    merger_.merge(p, i, {t.triangle().number, stored, fragment.depth}, shade(t, sample), outcome);
+    merger_.merge(p, i, {t.triangle().number, stored, fragment.depth, fragment.window_z},
+                  shade(t, sample), outcome);
   }
 
   void draw_pixel(const Interpolator<Real>& t, const Pixel& p, bool full) {
@@ -124,7 +125,8 @@ class Rasterizer {
       if (!merger_.is_wanted(outcome)) continue;
       if (!shaded) colour = shade(t, place);
       shaded = true;
-      merger_.merge(p, i, {t.triangle().number, stored, fragment.depth}, colour, outcome);
+      merger_.merge(p, i, {t.triangle().number, stored, fragment.depth, fragment.window_z}, colour,
+                    outcome);
     }
   }
 
@@ -171,7 +173,8 @@ class Rasterizer {
         fragment.attributes[i] = static_cast<double>(perspective ? v[3 + i] / v[1] : v[3 + i]);
       colour = shader_->shade(fragment, t.attribute_weights(sample_of(p)));
     }
-    merger_.merge(p, 0, {t.triangle().number, stored, fragment.depth}, colour, outcome);
+    merger_.merge(p, 0, {t.triangle().number, stored, fragment.depth, fragment.window_z}, colour,
+                  outcome);
   }
 
   const RasterizerSettings& s_;

@@ -25,6 +25,8 @@ struct RasterizerSettings {
   bool depth_tested = true;
   /// The part of the window that is drawn to.
   PixelWindow window;
+  /// Called for each fragment that is merged; null for nobody.
+  const ObserveMerge* observe = nullptr;
 };
 
 /// Draws triangles in their order. `shader` may be null if colours are not asked for.

@@ -13,7 +13,7 @@ class OutlineDrawer {
   OutlineDrawer(const RasterizerSettings& settings, FrameBuffer& target,
                 PipelineStatistics& statistics)
       : s_(settings),
-        merger_(s_.options, s_.depth_tested, target, statistics),
+        merger_(s_.options, s_.depth_tested, target, statistics, s_.observe),
         samples_(target.samples()),
         count_(statistics) {}
 
@@ -80,7 +80,7 @@ class OutlineDrawer {
     // Lines and points fill whole pixels, all samples alike.
     for (std::size_t i = 0; i < samples_; ++i) {
       const Outcome outcome = merger_.test(p, i, stored);
-      merger_.merge(p, i, {number_, stored, fragment.depth}, colour, outcome);
+      merger_.merge(p, i, {number_, stored, fragment.depth, fragment.window_z}, colour, outcome);
     }
   }
 
