@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "fathom/fast/render_memory.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/render.h"
 
 namespace fathom {
@@ -43,6 +44,7 @@ DepthAgreement compare_depths(const Scene& reconstruction, const Scene& truth,
 
 Evaluation evaluate(const Scene& reconstruction, const Scene& truth,
                     const std::vector<Camera>& cameras, const SurfaceComparisonOptions& options) {
+  const StandardArithmetic standard;
   require_meaningful(options);
   const double depths_end = cameras.empty() ? 0 : 0.5;
   Evaluation evaluation;

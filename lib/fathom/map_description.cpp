@@ -4,6 +4,7 @@
 
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/world_from_image.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/json_text.h"
 #include "fathom/triangle/segment_channels.h"
@@ -81,6 +82,7 @@ void add_tables(const Scene& scene, DepthMap& map) {
 
 void describe_map(const Scene& scene, const Camera& camera, std::string_view engine,
                   DepthMap& map) {
+  const StandardArithmetic standard;
   map.world_to_camera = exr_camera_from_world(camera);
   map.world_to_ndc = exr_ndc_from_world(camera);
   describe_screen_window(camera, map);
@@ -93,6 +95,7 @@ void describe_map(const Scene& scene, const Camera& camera, std::string_view eng
 }
 
 void add_world_from_image(DepthMap& map, const std::string& name) {
+  const StandardArithmetic standard;
   const auto text = map.texts.find("fathom.camera");
   if (text == map.texts.end()) return;
   const std::vector<Camera> cameras = read_cameras(text->second, name + ": fathom.camera");
@@ -100,6 +103,7 @@ void add_world_from_image(DepthMap& map, const std::string& name) {
 }
 
 MapView view_of(const Camera& camera) {
+  const StandardArithmetic standard;
   MapView view;
   view.orthographic = camera.projection == Projection::orthographic;
   view.fx = camera.fx;

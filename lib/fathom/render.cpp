@@ -104,6 +104,7 @@ Mattes mattes_by_segment(const Scene& scene, const Camera& camera, const RenderO
 }  // namespace
 
 DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  const StandardArithmetic standard;
   DepthMap map;
   render_into(map, scene, camera, options);
   return map;
@@ -124,6 +125,7 @@ void render_into(DepthMap& map, const Scene& scene, const Camera& camera,
 
 void finish_map(DepthMap& map, const Scene& scene, const Camera& camera,
                 const RenderOptions& options, const RenderStatistics& statistics) {
+  const StandardArithmetic standard;
   count_codes_beyond(options, statistics, map);
   describe(scene, camera, options, map);
 }
@@ -154,6 +156,7 @@ DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOption
 
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
                      const RenderOptions& options, std::optional<Segmentation> by) {
+  const StandardArithmetic standard;
   // A map that is yet to get its channels is of the size that its areas are computed for.
   if (!map.channels.empty()) require_map_of(camera, map);
   add_mattes(map, find_mattes(scene, camera, options, by));

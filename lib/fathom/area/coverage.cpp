@@ -39,6 +39,7 @@ Ratio pixel_coverage(const CoverageFrame& frame, std::span<const std::uint32_t> 
 
 float rounded_pixel_coverage(const CoverageFrame& frame, std::span<const std::uint32_t> triangles,
                              std::uint32_t column, std::uint32_t row) {
+  const StandardArithmetic standard;
   ImageCell pixel(column, row);
   CellCoverage coverage(pixel);
   add(frame, triangles, coverage);

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "fathom/attribution/model/window_depth.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::attribution {
 namespace {
@@ -77,6 +78,7 @@ std::string described(double value, const Camera& camera) {
 }  // namespace
 
 KnownBackground known_background(const Truth& truth, const OtherMap& other) {
+  const StandardArithmetic standard;
   KnownBackground known{other, std::nullopt};
   if (other.values.size() != truth.depths.size()) return known;
   const std::optional<double> value = agreed(census_of(truth, other));

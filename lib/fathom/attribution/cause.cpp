@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fathom/attribution/worst_pixels.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::attribution {
@@ -18,6 +19,7 @@ std::string depth_text(double depth) {
 
 std::string pixel_text(const Truth& truth, const OtherMap& other, const Attribution& found,
                        std::size_t pixel) {
+  const StandardArithmetic standard;
   std::string text =
       fmt::format("({}, {}): {} instead of {}", pixel % other.width, pixel / other.width,
                   depth_text(other.depths[pixel]), depth_text(truth.depths[pixel]));
@@ -38,6 +40,7 @@ std::string finding_line(const Finding& f) {
 }
 
 std::string cause_of(const Truth& truth, const OtherMap& other, const Attribution& found) {
+  const StandardArithmetic standard;
   if (!found.findings.empty()) return finding_line(found.findings.front());
   const std::uint64_t unexplained = found.count(PixelClass::unexplained);
   if (unexplained == 0) return "";

@@ -11,6 +11,7 @@
 #include "fathom/attribution/other_scene.h"
 #include "fathom/attribution/other_size.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::attribution {
 namespace {
@@ -77,6 +78,7 @@ Judgement judge_other_size(const std::string& name, const OtherMap& other, const
 }  // namespace
 
 RendererModel model_for(const std::string& name, const Camera& camera) {
+  const StandardArithmetic standard;
   const Setting setting{"model"};
   try {
     RendererModel model = model_named(name);
@@ -91,6 +93,7 @@ RendererModel model_for(const std::string& name, const Camera& camera) {
 
 Judgement judge(std::shared_ptr<const Truth> truth, const OtherMap& other,
                 const std::optional<RendererModel>& model) {
+  const StandardArithmetic standard;
   Judgement judgement{.truth = std::move(truth)};
   judgement.other = known_background(*judgement.truth, other).map;
   if (!model) {
@@ -104,6 +107,7 @@ Judgement judge(std::shared_ptr<const Truth> truth, const OtherMap& other,
 
 Judgement judge_map(const std::string& name, const OtherMap& other, const Scene& scene,
                     const Camera& camera, const std::optional<RendererModel>& model) {
+  const StandardArithmetic standard;
   require_known_triangles(name, other, scene);
   const bool has_size = other.width == camera.width && other.height == camera.height;
   Judgement judgement = has_size ? judge_of_camera(other, scene, camera, model)

@@ -8,6 +8,7 @@
 
 #include "fathom/attribution/attribute_and_name.h"
 #include "fathom/attribution/model/named_models.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::attribution {
@@ -35,6 +36,7 @@ std::string evidence_of(const ModelTrial& trial) {
 }  // namespace
 
 ModelChoice chosen_model(const Truth& truth, const OtherMap& other) {
+  const StandardArithmetic standard;
   std::vector<ModelTrial> trials;
   const auto try_those = [&](bool of_vtk) {
     for (RendererModel& model : named_models()) {

@@ -66,6 +66,7 @@ OtherMap other_map(const DepthMap& map, const std::string& name) {
 }
 
 DepthMap as_depth_map(const OtherMap& other) {
+  const StandardArithmetic standard;
   DepthMap map{.width = other.width, .height = other.height};
   Samples<float> depths(other.depths.size());
   std::transform(other.depths.begin(), other.depths.end(), depths.begin(),

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "fathom/numeric/standard_arithmetic.h"
+
 namespace fathom::attribution {
 namespace {
 
@@ -43,6 +45,7 @@ std::string what_does_not_fit(const Judgement& judged) {
 }  // namespace
 
 void name_other_scene(Judgement& judged) {
+  const StandardArithmetic standard;
   const std::string text = what_does_not_fit(judged);
   if (text.empty()) return;
   judged.attribution.findings = {

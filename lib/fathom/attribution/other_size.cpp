@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::attribution {
@@ -96,6 +97,7 @@ SizedMap drawn_in_another_size(const Camera& camera, const OtherMap& other) {
 }  // namespace
 
 std::vector<SizedMap> readings_of_other_size(const Camera& camera, const OtherMap& other) {
+  const StandardArithmetic standard;
   std::vector<SizedMap> readings;
   if (other.width == camera.width && other.height == camera.height) return readings;
   if (other.width == camera.height && other.height == camera.width) {

@@ -43,6 +43,7 @@ WorldMesh world_mesh(const Scene& scene) {
 }
 
 std::optional<WorldBounds> box_of(const WorldMesh& mesh) {
+  const StandardArithmetic standard;
   if (mesh.points.empty()) return std::nullopt;
   WorldBounds box{mesh.points.front(), mesh.points.front()};
   for (const auto& p : mesh.points) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "fathom/numeric/standard_arithmetic.h"
+
 namespace fathom::attribution {
 namespace {
 
@@ -32,6 +34,7 @@ double relative_error(double truth, double other) {
 
 std::vector<std::size_t> worst_pixels(const Truth& truth, const OtherMap& other,
                                       const Attribution& found, std::size_t count) {
+  const StandardArithmetic standard;
   using Rank = std::pair<int, double>;
   std::vector<std::pair<Rank, std::size_t>> ranked;
   for (std::size_t i = 0; i < found.classes.size(); ++i) {

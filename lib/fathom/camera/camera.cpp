@@ -83,6 +83,7 @@ HomogeneousImagePoint to_image(const Camera& camera, const CameraPoint& p) {
 }
 
 PrincipalPoint principal_point(const Camera& camera) {
+  const StandardArithmetic standard;
   const WordPair half_less_centre = two_sum(0.5, -camera.pixel_centre);
   // For 0 and ½ the difference is exact, and the sum is the only rounding.
   if (half_less_centre.lo == 0)

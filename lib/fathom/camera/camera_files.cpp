@@ -152,20 +152,24 @@ std::vector<Camera> read_cameras(std::string_view text, const std::string& name,
 }
 
 std::vector<Camera> read_cameras(const std::filesystem::path& file, Warnings& warnings) {
+  const StandardArithmetic standard;
   return read_cameras(InputFile(file).text(), file.string(), warnings);
 }
 
 std::vector<Camera> read_cameras(std::string_view text, const std::string& name) {
+  const StandardArithmetic standard;
   Warnings warnings;
   return read_cameras(text, name, warnings);
 }
 
 std::vector<Camera> read_cameras(const std::filesystem::path& file) {
+  const StandardArithmetic standard;
   Warnings warnings;
   return read_cameras(file, warnings);
 }
 
 std::string to_json(const Camera& camera) {
+  const StandardArithmetic standard;
   std::string text;
   const auto member = [&](const char* key, const std::string& value) {
     text += (text.empty() ? "{\n" : ",\n") + ("  \"" + std::string(key) + "\": ") + value;
@@ -192,6 +196,7 @@ std::string to_json(const Camera& camera) {
 }
 
 std::string to_json(const std::vector<Camera>& cameras) {
+  const StandardArithmetic standard;
   if (cameras.size() == 1) return to_json(cameras.front());
   std::string text = "[";
   for (const Camera& camera : cameras) text += (text == "[" ? "\n" : ",\n") + to_json(camera);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
 
@@ -56,6 +57,7 @@ std::string of_all(const LeftOut& left_out, std::size_t all, const char* have, c
 std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
                                    const std::string& input, const CameraChoice& choice,
                                    Warnings& warnings) {
+  const StandardArithmetic standard;
   if (imported.empty()) throw InputError(input + ": holds no camera");
   if (!choice.image.empty()) return {the_one_of(imported, input, choice)};
   std::vector<Camera> cameras;

@@ -128,6 +128,7 @@ std::vector<ImportedCamera> camera::parse_tum(const NamedText& trajectory,
 }
 
 std::optional<ImportedCamera> tum_lens(const std::string& name) {
+  const StandardArithmetic standard;
   const auto* found = std::find_if(published.begin(), published.end(),
                                    [&](const PublishedLens& lens) { return name == lens.name; });
   if (found == published.end()) return std::nullopt;
@@ -139,6 +140,7 @@ std::optional<ImportedCamera> tum_lens(const std::string& name) {
 }
 
 ImportedCamera tum_lens(const GivenLens& given) {
+  const StandardArithmetic standard;
   if (!given.K)
     throw UsageError(
         "a trajectory has no intrinsics: give K, or one of ros, freiburg1, freiburg2 "

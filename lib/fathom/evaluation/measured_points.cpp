@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/byte_order.h"
 #include "fathom/text/file_bytes.h"
 
@@ -9,6 +10,7 @@ namespace fathom {
 using namespace text;
 
 std::vector<std::byte> ply_of(const std::vector<MeasuredPoint>& points) {
+  const StandardArithmetic standard;
   std::string header = "ply\nformat binary_little_endian 1.0\ncomment distances by Fathom\n";
   header += "element vertex " + std::to_string(points.size()) + "\n";
   for (const char* name : {"x", "y", "z", "quality"})

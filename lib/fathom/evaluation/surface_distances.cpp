@@ -10,6 +10,7 @@
 #include "fathom/memory/available_memory.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/text/counted.h"
 #include "fathom/threads/threads.h"
@@ -201,6 +202,7 @@ SurfaceComparison compare_in_arena(const TriangleSource& reconstruction,
 }  // namespace
 
 void require_meaningful(const SurfaceComparisonOptions& options) {
+  const StandardArithmetic standard;
   if (options.points == 0) throw UsageError(Setting{"points"}, "expected at least 1");
   for (const double within : options.within) {
     if (!(within > 0) || std::isinf(within))
@@ -212,6 +214,7 @@ void require_meaningful(const SurfaceComparisonOptions& options) {
 SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& truth,
                                    const std::vector<Camera>& cameras,
                                    const SurfaceComparisonOptions& options) {
+  const StandardArithmetic standard;
   require_meaningful(options);
   return with_threads(options.threads, [&] {
     require_valid(reconstruction);

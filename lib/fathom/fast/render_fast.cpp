@@ -5,6 +5,7 @@
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/frame.h"
 #include "fathom/fast/render_memory_parts.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
@@ -79,6 +80,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
 
 DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options,
                      DepthMap before) {
+  const StandardArithmetic standard;
   require_meaningful(options);
   RenderMemory for_once;
   RenderMemory::Parts& memory = (options.kept ? *options.kept : for_once).parts();

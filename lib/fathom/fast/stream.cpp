@@ -8,6 +8,7 @@
 #include "fathom/fast/coverage/coverage_in_rounds.h"
 #include "fathom/fast/frame.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
@@ -197,6 +198,7 @@ DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
 
 DepthMap render_streamed(const StreamedScene& scene, const Camera& camera,
                          const RenderOptions& options, const StreamLimits& limits) {
+  const StandardArithmetic standard;
   require_meaningful(options);
   if (limits.triangles_at_once == 0) {
     throw UsageError(Setting{"triangles_at_once"}, "expected at least 1");

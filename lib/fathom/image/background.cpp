@@ -43,6 +43,7 @@ void fill_background(const DepthMap& map, const std::string& name, Samples<T>& v
 }  // namespace
 
 std::optional<double> declared_background(const DepthMap& map) {
+  const StandardArithmetic standard;
   const auto found = map.texts.find(background_text);
   if (found == map.texts.end()) return std::nullopt;
   const std::string& text = found->second;
@@ -58,6 +59,7 @@ std::optional<double> declared_background(const DepthMap& map) {
 }
 
 void declare_background(DepthMap& map, double value) {
+  const StandardArithmetic standard;
   map.texts.erase(background_text);
   if (value != unbounded) map.texts[background_text] = background_as_text(value);
 }

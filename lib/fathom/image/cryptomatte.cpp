@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_text.h"
 
 namespace fathom {
@@ -63,12 +64,14 @@ std::uint32_t murmur_hash(const std::string& text) {
 }
 
 std::uint32_t cryptomatte_id(const std::string& name) {
+  const StandardArithmetic standard;
   const std::uint32_t hash = murmur_hash(name);
   const std::uint32_t exponent = hash >> 23 & 255;
   return exponent == 0 || exponent == 255 ? hash ^ 1U << 23 : hash;
 }
 
 void add_mattes(DepthMap& map, const Mattes& mattes) {
+  const StandardArithmetic standard;
   // A map that is yet to get its channels has no other fault.
   if (!map.channels.empty()) require_valid(map);
   if (mattes.counts.size() != std::size_t{map.width} * map.height ||

@@ -8,6 +8,7 @@
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/npy_array.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/json_text.h"
 #include "fathom/threads/threads.h"
@@ -96,6 +97,7 @@ void require_world_from_image(const std::optional<std::array<double, 6>>& world_
 
 double memory_to_encode(MapFormat format, Compression compression, std::uint32_t height,
                         double bytes_of_map) {
+  const StandardArithmetic standard;
   if (format == MapFormat::png || format == MapFormat::tiff) return 0;
   return format == MapFormat::exr ? memory_to_encode_exr(compression, height, bytes_of_map)
                                   : bytes_of_map;
@@ -103,6 +105,7 @@ double memory_to_encode(MapFormat format, Compression compression, std::uint32_t
 
 std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, MapFormat format,
                                   const WriteOptions& options) {
+  const StandardArithmetic standard;
   require_valid(map);
   require_thread_count(options.threads);
   const auto one = [&]() -> const ImageChannel& { return channel_to_write(map, options.channel); };
@@ -127,6 +130,7 @@ std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, 
 
 void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat format,
                const WriteOptions& options) {
+  const StandardArithmetic standard;
   write_file(path, encode_map(map, path.string(), format, options));
 }
 
@@ -169,18 +173,21 @@ InputFile open_copied(const std::filesystem::path& path, const MapMemory& memory
 }  // namespace
 
 DepthMap read_map(const std::filesystem::path& path, const MapMemory& memory) {
+  const StandardArithmetic standard;
   const InputFile input = open_copied(path, memory);
   return decode_map(input.bytes(), path.string(), memory);
 }
 
 DepthMap read_npz_array(const std::filesystem::path& path, const std::string& array,
                         const MapMemory& memory) {
+  const StandardArithmetic standard;
   const InputFile input = open_copied(path, memory);
   return decode_npz_array(input.bytes(), array, path.string(), memory);
 }
 
 DepthMap read_map(std::span<const std::byte> bytes, const std::string& name,
                   const MapMemory& memory) {
+  const StandardArithmetic standard;
   return decode_map(bytes, name, memory);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/numeric/unknown_name.h"
 
 namespace fathom {
@@ -86,6 +87,7 @@ SampleOffset SamplePattern::at(std::size_t k, std::uint32_t column, std::uint32_
 }
 
 void require_valid(const SamplePattern& pattern) {
+  const StandardArithmetic standard;
   constexpr std::size_t most = 256;
   const auto is_within = [](const SampleOffset& offset) {
     return std::abs(offset[0]) <= 0.5 && std::abs(offset[1]) <= 0.5;
@@ -97,6 +99,7 @@ void require_valid(const SamplePattern& pattern) {
 }
 
 SamplePattern sample_pattern(const std::string& name) {
+  const StandardArithmetic standard;
   if (const auto count = side(name)) return from_sixteenths(name, standard_positions(*count));
   if (name == "rotated-grid") {
     return from_sixteenths(name, {{-6, -2}, {2, -6}, {-2, 6}, {6, 2}});

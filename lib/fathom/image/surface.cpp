@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "fathom/image/background.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
 namespace {
@@ -112,6 +113,7 @@ const Samples<std::uint32_t>* identifiers_of(const DepthMap& map) {
 }
 
 BackgroundRule detect_background(const ImageChannel& channel) {
+  const StandardArithmetic standard;
   if (std::holds_alternative<Samples<std::uint16_t>>(channel.values)) return {0.0, ""};
   std::uint64_t count = 0;
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
@@ -151,6 +153,7 @@ BackgroundRule detect_background(const ImageChannel& channel) {
 }
 
 BackgroundRule background_of(const DepthMap& map, const ImageChannel& channel) {
+  const StandardArithmetic standard;
   const bool codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
   const std::optional<double> declared = codes ? std::nullopt : declared_background(map);
   if (!declared) return detect_background(channel);
@@ -160,6 +163,7 @@ BackgroundRule background_of(const DepthMap& map, const ImageChannel& channel) {
 std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& channel,
                                        const std::optional<BackgroundRule>& rule,
                                        bool by_identifiers) {
+  const StandardArithmetic standard;
   require_valid(map);
   std::vector<std::uint8_t> everywhere(std::size_t{map.width} * map.height, 1);
   // `A` itself says how much of a pixel is covered: none of its pixels is background.

@@ -7,6 +7,7 @@
 #include "fathom/mesh_files/stl_binary.h"
 #include "fathom/mesh_files/streams.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/sha256.h"
 
 namespace fathom {
@@ -57,6 +58,7 @@ std::unique_ptr<TriangleStream> open(std::unique_ptr<RandomAccessFile> file, Fil
 std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path& path,
                                                      const ReadOptions& options,
                                                      Warnings& warnings) {
+  const StandardArithmetic standard;
   auto file = std::make_unique<RandomAccessFile>(path);
   const FileFormat kind = kind_of(*file, path, options);
   // The hash is computed during the reading, in a thread of its own if the system gives one, from

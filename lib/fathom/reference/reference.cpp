@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "fathom/area/coverage_image.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"
@@ -248,6 +249,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
 
 DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options,
                           DepthMap before) {
+  const StandardArithmetic standard;
   require_meaningful(options);
   return with_threads(options.threads, [&] {
     require_renderable(scene, camera);

@@ -304,6 +304,7 @@ Verification verify_in_arena(const Frame& frame, const PixelChoice& chosen) {
 }  // namespace
 
 PixelChoice choose_pixels(std::uint32_t width, std::uint32_t height, std::uint64_t count) {
+  const StandardArithmetic standard;
   const std::uint64_t pixels = std::uint64_t{width} * height;
   if (count >= pixels) return PixelChoice(pixels, true);
   PixelChoice chosen(pixels, false);

@@ -153,11 +153,13 @@ std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBou
 }
 
 Camera frame(const WorldBounds& bounds, const View& view, const Lens& lens) {
+  const StandardArithmetic standard;
   return orbit(view, 1, bounds, lens).front();
 }
 
 std::vector<Camera> orbit_scene(const View& first, std::uint32_t count, const Scene& scene,
                                 const Lens& lens, const std::function<void(double)>& progress) {
+  const StandardArithmetic standard;
   const auto bounds = world_bounds(scene);
   if (!bounds) throw InputError("the scene has no triangle that a camera could frame");
   if (!are_finite(*bounds))
@@ -171,6 +173,7 @@ std::vector<Camera> orbit_scene(const View& first, std::uint32_t count, const Sc
 }
 
 Camera frame_scene(const Scene& scene, const View& view, const Lens& lens) {
+  const StandardArithmetic standard;
   return orbit_scene(view, 1, scene, lens).front();
 }
 

@@ -54,6 +54,7 @@ void require_meaningful(const Motion& motion) {
 }  // namespace
 
 Motion read_motion(std::string_view text, const std::filesystem::path& path) {
+  const StandardArithmetic standard;
   const JsonDocument document(text, path.string());
   const JsonValue root = document.root();
   if (!root.is_object()) root.fail("is no object, expected a motion: {\"objects\": […]}");
@@ -71,6 +72,7 @@ Motion read_motion(std::string_view text, const std::filesystem::path& path) {
 }
 
 WorldFromMesh transform_at(const ObjectMotion& motion, double time) {
+  const StandardArithmetic standard;
   const std::vector<Keyframe>& frames = motion.keyframes;
   const auto next = std::upper_bound(frames.begin(), frames.end(), time,
                                      [](double t, const Keyframe& k) { return t < k.time; });

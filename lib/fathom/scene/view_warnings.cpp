@@ -255,12 +255,14 @@ std::vector<ViewWarning> warnings_of_view(const Scene& scene, const Camera& came
 
 std::vector<ViewWarning> view_warnings(const Scene& scene, const Camera& camera,
                                        std::uint64_t shown_pixels) {
+  const StandardArithmetic standard;
   std::vector<ViewWarning> warnings = warnings_of_camera(camera);
   std::ranges::move(warnings_of_view(scene, camera, shown_pixels), std::back_inserter(warnings));
   return warnings;
 }
 
 Warnings told_once(std::span<const std::vector<ViewWarning>> of_cameras) {
+  const StandardArithmetic standard;
   struct Told {
     const ViewWarning* first;
     std::size_t camera, count;

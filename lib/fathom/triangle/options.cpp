@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
@@ -34,6 +35,7 @@ void add(RenderStatistics& sum, const RenderStatistics& part) {
 }
 
 void require_meaningful(const RenderOptions& options) {
+  const StandardArithmetic standard;
   require_thread_count(options.threads);
   if (options.channels.empty()) throw UsageError(Setting{"channels"}, "expected at least one");
   const DepthEncoding& encoding = options.depth_encoding;

@@ -13,6 +13,7 @@
 #include "fathom/image/files/exr_attributes.h"
 #include "fathom/image/files/exr_streams.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/file_bytes.h"
 #include "fathom/threads/threads.h"
 
@@ -93,6 +94,7 @@ void check_deep_compression(Compression compression) {
 
 void write_deep_map(const DeepMap& map, const std::filesystem::path& path, Compression compression,
                     int threads) {
+  const StandardArithmetic standard;
   const std::size_t pixels = std::size_t{map.description.width} * map.description.height;
   if (pixels == 0 || map.counts.size() != pixels ||
       std::accumulate(map.counts.begin(), map.counts.end(), std::size_t{0}) != map.samples.size()) {

@@ -14,6 +14,7 @@
 #include "fathom/image/files/exr_zip.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::image {
 using namespace text;
@@ -157,6 +158,7 @@ std::optional<std::uint32_t> rows_of_exr_chunk(Compression compression) {
 
 text::Bytes exr_beginning(const DepthMap& band, std::uint32_t height, Compression compression,
                           const std::string& name) {
+  const StandardArithmetic standard;
   require_size(MapFormat::exr, band.width, height, name);
   return as_output_error(
       name, [&] { return header_bytes(layout_of(band, height, compression, name).header, name); });
@@ -164,6 +166,7 @@ text::Bytes exr_beginning(const DepthMap& band, std::uint32_t height, Compressio
 
 std::vector<text::Bytes> exr_chunks(const DepthMap& band, Compression compression, int threads,
                                     const std::string& name) {
+  const StandardArithmetic standard;
   Imf::FrameBuffer pixels;  // sorts channels as the file does
   for (const ImageChannel& channel : band.channels) {
     const Source source = source_of(channel, name);

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_text.h"
 
 namespace fathom {
@@ -29,6 +30,7 @@ std::string scale_as_json(double value) {
 }  // namespace
 
 std::string png_sidecar(const DepthMap& map, const std::string& name) {
+  const StandardArithmetic standard;
   require_valid(map);
   const ImageChannel& channel = channel_in_png(map, name);
   const bool identifiers = std::holds_alternative<Samples<std::uint32_t>>(channel.values);
