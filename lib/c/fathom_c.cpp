@@ -14,6 +14,7 @@
 #include "fathom/image/map_files.h"
 #include "fathom/map_description.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"
 #include "fathom/scene/bounds.h"
@@ -50,9 +51,18 @@ fathom_status failed(fathom_status status, const char* why) {
   return status;
 }
 
-/// Does the work of a function, and makes what it throws the function's status.
+/// Does the work of a function that the library exports, in StandardArithmetic, whatever mode the
+/// caller computes in. Every exported function consists of one call of this or of status_of().
+template <class Work>
+auto answer_of(const Work& work) noexcept {
+  const StandardArithmetic standard;
+  return work();
+}
+
+/// The same where the work may throw: a failure becomes the function's status.
 template <class Work>
 fathom_status status_of(const Work& work) noexcept {
+  const StandardArithmetic standard;
   try {
     work();
     return FATHOM_OK;
@@ -188,11 +198,11 @@ const T* values_of(const fathom_map* map, const char* channel) {
 extern "C" {
 
 const char* fathom_error(void) {
-  return error_of_thread().c_str();
+  return answer_of([] { return error_of_thread().c_str(); });
 }
 
 const char* fathom_version(void) {
-  return FATHOM_VERSION;
+  return answer_of([] { return FATHOM_VERSION; });
 }
 
 fathom_status fathom_scene_new(fathom_scene** scene) {
@@ -222,7 +232,7 @@ fathom_status fathom_scene_read(const char* const* files, size_t count, fathom_s
 }
 
 void fathom_scene_free(fathom_scene* scene) {
-  delete scene;
+  answer_of([&] { delete scene; });
 }
 
 fathom_status fathom_scene_add(fathom_scene* scene, const double* vertices, size_t vertex_count,
@@ -340,51 +350,57 @@ fathom_status fathom_map_write(const fathom_map* map, const char* file, const ch
 }
 
 void fathom_map_free(fathom_map* map) {
-  delete map;
+  answer_of([&] { delete map; });
 }
 
 uint32_t fathom_map_width(const fathom_map* map) {
-  return map ? map->map.width : 0;
+  return answer_of([&] { return map ? map->map.width : 0; });
 }
 
 uint32_t fathom_map_height(const fathom_map* map) {
-  return map ? map->map.height : 0;
+  return answer_of([&] { return map ? map->map.height : 0; });
 }
 
 const char* fathom_map_channel(const fathom_map* map, size_t number) {
-  if (!map || number >= map->map.channels.size()) return nullptr;
-  return map->map.channels[number].name.c_str();
+  return answer_of([&]() -> const char* {
+    if (!map || number >= map->map.channels.size()) return nullptr;
+    return map->map.channels[number].name.c_str();
+  });
 }
 
 const float* fathom_map_float32(const fathom_map* map, const char* channel) {
-  return values_of<float>(map, channel);
+  return answer_of([&] { return values_of<float>(map, channel); });
 }
 
 const double* fathom_map_float64(const fathom_map* map, const char* channel) {
-  return values_of<double>(map, channel);
+  return answer_of([&] { return values_of<double>(map, channel); });
 }
 
 const uint32_t* fathom_map_uint32(const fathom_map* map, const char* channel) {
-  return values_of<std::uint32_t>(map, channel);
+  return answer_of([&] { return values_of<std::uint32_t>(map, channel); });
 }
 
 const uint16_t* fathom_map_uint16(const fathom_map* map, const char* channel) {
-  return values_of<std::uint16_t>(map, channel);
+  return answer_of([&] { return values_of<std::uint16_t>(map, channel); });
 }
 
 const char* fathom_map_name(const fathom_map* map, const char* channel, uint32_t number) {
-  if (!map || !channel) return nullptr;
-  const auto found = map->map.tables.find(channel);
-  const bool of_objects = std::string_view(channel) == "object";
-  if (!of_objects && found == map->map.tables.end()) return nullptr;
-  const std::vector<std::string>& names = of_objects ? map->map.object_names : found->second;
-  return number < names.size() ? names[number].c_str() : nullptr;
+  return answer_of([&]() -> const char* {
+    if (!map || !channel) return nullptr;
+    const auto found = map->map.tables.find(channel);
+    const bool of_objects = std::string_view(channel) == "object";
+    if (!of_objects && found == map->map.tables.end()) return nullptr;
+    const std::vector<std::string>& names = of_objects ? map->map.object_names : found->second;
+    return number < names.size() ? names[number].c_str() : nullptr;
+  });
 }
 
 const char* fathom_map_text(const fathom_map* map, const char* name) {
-  if (!map || !name) return nullptr;
-  const auto found = map->map.texts.find(name);
-  return found == map->map.texts.end() ? nullptr : found->second.c_str();
+  return answer_of([&]() -> const char* {
+    if (!map || !name) return nullptr;
+    const auto found = map->map.texts.find(name);
+    return found == map->map.texts.end() ? nullptr : found->second.c_str();
+  });
 }
 
 fathom_status fathom_verify(const fathom_map* map, const fathom_scene* scene,

@@ -10,8 +10,11 @@
 #include "fathom/area/visible_areas.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/depth_buffer/depth_buffer.h"
+#include "fathom/evaluate.h"
 #include "fathom/image/compare.h"
 #include "fathom/image/convert.h"
+#include "fathom/image/map_files.h"
+#include "fathom/map_description.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/probe.h"
@@ -131,6 +134,18 @@ std::map<std::string, Door> doors_of(const Scene& scene, const Camera& camera) {
     flat.world_to_camera = {{{0x1p-1074, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     bytes.add(find_fault(flat).has_value());
   };
+  doors["to_json"] = [&](Bytes& bytes) {
+    Camera skewed = camera;
+    skewed.skew = 0x1p-1074;
+    skewed.cx = 0.1;
+    bytes.add(to_json(skewed));
+  };
+  doors["principal_point"] = [&](Bytes& bytes) {
+    Camera moved = camera;
+    moved.cx = 0.1;
+    moved.pixel_centre = 0.3;
+    bytes.add(principal_point(moved).x);
+  };
   doors["frame_scene"] = [&](Bytes& bytes) {
     bytes.add(frame_scene(scene, {.azimuth = 35, .elevation = 20}));
   };
@@ -184,6 +199,42 @@ TEST(FloatingPointMode, ChangesNothingOfWhatIsRead) {
         bytes.add(camera);
       }
     }
+  });
+}
+
+TEST(FloatingPointMode, ChangesNothingOfEvaluations) {
+  testing::CaseMaker maker(406, testing::Kind::few_bits);
+  const testing::Case c = maker.make();
+  Scene moved = c.scene;
+  for (MeshPoint& X : moved.meshes[0].vertices) X.x += 0.013;
+  expect_same_in_all_modes("evaluate", [&](Bytes& bytes) {
+    SurfaceComparisonOptions options;
+    options.points = 500;
+    options.within = {0.1};
+    const Evaluation found = evaluate(moved, c.scene, {}, options);
+    for (const auto* distances : {&found.surfaces.accuracy, &found.surfaces.completeness}) {
+      bytes.add(distances->mean);
+      bytes.add(distances->rms);
+      bytes.add(distances->shares);
+    }
+  });
+}
+
+/// What a file says of its camera is computed, and rounded.
+TEST(FloatingPointMode, ChangesNothingOfWhatIsWritten) {
+  testing::CaseMaker maker(407, testing::Kind::neighbours);
+  testing::Case c = maker.make();
+  c.camera.fx = 7.3;
+  c.camera.world_to_camera[0][0] = 0.1;
+  const DepthMap map = render(c.scene, c.camera, {.channels = testing::every_channel});
+  RenderOptions in_codes;
+  in_codes.depth_encoding = {DepthEncoding::Type::scaled_unorm16, 10.1};
+  const DepthMap codes = render(c.scene, c.camera, in_codes);
+  expect_same_in_all_modes("describe_map and encode_map", [&](Bytes& bytes) {
+    DepthMap described = map;
+    describe_map(c.scene, c.camera, "fast", described);
+    bytes.add(encode_map(described, "a.exr", MapFormat::exr));
+    bytes.add(encode_map(codes, "a.png", MapFormat::png));
   });
 }
 
