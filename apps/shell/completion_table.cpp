@@ -14,8 +14,8 @@ namespace {
 using Files = CompletedValue::Files;
 
 /// What values and arguments are called that are names of files.
-constexpr std::array<std::string_view, 8> files{"FILE",  "MAP",   "SCENE",  "TRUTH",
-                                                "OTHER", "INPUT", "REPORT", "PNG"};
+constexpr std::array<std::string_view, 9> files{"FILE",  "MAP",    "SCENE", "TRUTH", "OTHER",
+                                                "INPUT", "REPORT", "PNG",   "SVG"};
 
 Files files_called(const std::string& name) {
   if (name == "DIR") return Files::folders;

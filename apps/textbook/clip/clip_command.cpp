@@ -188,7 +188,7 @@ void add_clip(Command& program) {
                  "exact (default) or double: the arithmetic to clip with");
   command.flag("--exact", arguments->form.exact, "Write numbers as \"p/q\"");
   command.flag("--trace", arguments->form.trace, "Add the steps that led to the answer");
-  command.option("--draw", "FILE.svg", into(arguments->draw, cases::parse_svg_name),
+  command.option("--draw", "SVG", into(arguments->draw, cases::parse_svg_name),
                  "Draw the steps: the segment after each split, the polygon after each edge or "
                  "plane, both lists and the walks");
   command.argument("FILE", arguments->file,

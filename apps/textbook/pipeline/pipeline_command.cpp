@@ -118,7 +118,7 @@ void add_trace(Command& family) {
   command.flag("--fragments", arguments->fragments,
                "List the fragments: pixel, window depth, depth, stored depth, colour");
   command.flag("--json", arguments->json, "Answer in JSON");
-  command.option("--draw", "FILE.svg", into(arguments->draw, cases::parse_svg_name),
+  command.option("--draw", "SVG", into(arguments->draw, cases::parse_svg_name),
                  "Draw the primitive in the window, listed fragments, the output merger at the "
                  "pixel, and the painter's order with its splits");
   command.option(
@@ -147,10 +147,10 @@ std::string parse_stage(const std::string& text) {
   return text;
 }
 
-std::string list_of_stages() {
+std::string names_of_stages() {
   std::string list;
   for (const StageDescription& stage : pipeline_stages())
-    list += fmt::format("  {:<22}{} -> {}\n", stage.name, stage.takes, stage.adds);
+    list += (list.empty() ? "" : ", ") + stage.name;
   return list;
 }
 
@@ -165,10 +165,12 @@ void add_run(Command& family) {
       "    fathom pipeline run output-merger\n"
       "\n"
       "A record comes out with the stage's results, so the answer of a stage is the case of the "
-      "next. The stages, the keys\n"
-      "that they take and those that they add:\n" +
-          list_of_stages() + "docs/pipeline.md has every key.");
-  command.argument("STAGE", into(arguments->stage, parse_stage), "Name of the stage").required();
+      "next. "
+      "docs/pipeline.md has the keys of each stage.");
+  command
+      .argument("STAGE", into(arguments->stage, parse_stage),
+                "Name of the stage, in the order of the data: " + names_of_stages())
+      .required();
   command.argument("FILE", arguments->file,
                    "Records, one a line; standard input where it is - or missing");
   command.option("--precision", "NAME", into(arguments->precision, parse_precision),
