@@ -45,5 +45,6 @@ class BuildByCMake(build_ext):
         return getattr(sys, "_base_executable", None) or sys.executable
 
 
-setup(version=version, ext_modules=[Extension("fathom._core", []), Extension("fathom._studies", [])],
+setup(version=version,
+      ext_modules=[Extension(name, []) for name in ("fathom._core", "fathom._studies", "fathom._textbook")],
       cmdclass={"build_ext": BuildByCMake})

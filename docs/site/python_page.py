@@ -17,6 +17,8 @@ GROUPS = {
     "Validation": ["validate", "Validation", "testing.assert_depth"],
     "Studies": ["studies.run", "studies.names", "studies.Study", "studies.Description"],
     "Clipping": ["clip", "clipping.Polygon"],
+    "Scan conversion": ["scan", "scanning.algorithms"],
+    "The textbooks' pipeline": ["pipeline.render", "pipeline.Picture", "pipeline.trace", "pipeline.run", "pipeline.stages"],
     "Errors": ["Error", "InputError", "UsageError", "OutputError"],
 }
 
@@ -41,7 +43,7 @@ def directive(name):
 
 
 def text():
-    listed = {name for names in GROUPS.values() for name in names}
+    listed = {name for names in GROUPS.values() for name in names} | {"pipeline"}  # a module, by its functions
     groups = {**GROUPS, "Others": [name for name in public_names() if name not in listed]}
     parts = []
     for title, names in groups.items():

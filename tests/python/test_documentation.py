@@ -13,7 +13,7 @@ import pytest
 import fathom
 
 source = pathlib.Path(os.environ["FATHOM_SOURCE"])
-modules = ["_importing", "_render", "camera", "clipping", "deep", "depth_formats", "maps", "questions", "scene", "studies", "validation"]
+modules = ["_importing", "_render", "camera", "clipping", "deep", "depth_formats", "maps", "pipeline", "questions", "scanning", "scene", "studies", "validation"]
 
 
 @pytest.mark.parametrize("name", ["fathom", *(f"fathom.{name}" for name in modules)])

@@ -118,6 +118,7 @@ std::pair<SharedScene, Warnings> read(const std::vector<std::filesystem::path>& 
   options.threads = threads;
   options.segments = true;
   options.attributes = true;  // normals, for channel Ns
+  options.primitives = true;  // lines and points, for fathom.pipeline
   if (!formats_program.empty()) {
     options.formats_program = [&] { return std::filesystem::path(formats_program); };
   }

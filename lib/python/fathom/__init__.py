@@ -8,6 +8,7 @@
 ((480, 640), 'float32', 18000)
 """
 
+from . import pipeline
 from ._core import Error, InputError, OutputError, UsageError
 from ._importing import ViewWarning
 from ._render import render
@@ -18,6 +19,7 @@ from .depth_formats import DepthFormat
 from .evaluation import evaluate
 from .maps import NO_SEGMENT, NO_SURFACE, Map, compare, read_map
 from .questions import probe, verify, visible
+from .scanning import scan
 from .scene import Scene
 from .validation import Validation, validate
 
@@ -38,11 +40,13 @@ __all__ = [
     "clip",
     "compare",
     "evaluate",
+    "pipeline",
     "probe",
     "read_cameras",
     "read_map",
     "render",
     "render_deep",
+    "scan",
     "validate",
     "verify",
     "visible",
