@@ -268,7 +268,8 @@ TEST(PipelineCommand, WritesWhatTheDepthBufferHolds) {
           {"--mapping", "linear", "--polygon-offset", "1,1"});
   refused(2, "near and far have the same window depth",
           {"--depth-format", "unorm24", "--depth-range", "0.5,0.5"});
-  refused(3, "object cube: its 'draw' is for a depth buffer", {"--hidden-surface", "painter"});
+  refused(3, "object cube: its 'draw' is for a depth buffer; the painter's algorithm takes",
+          {"--hidden-surface", "painter"});
   refused(2, "--blend-depth belongs to --blend", {"--blend-depth", "on"});
   refused(2, "--opacity belongs to --blend", {"--opacity", "0.25"});
   refused(2, "--filter is for a --texture", {"--filter", "nearest"});

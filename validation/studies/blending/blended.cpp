@@ -63,25 +63,17 @@ Scene with_wall(Scene scene) {
   return scene;
 }
 
-bool has_wall(const GlassScene& glass) {
-  return glass.scene.objects.size() > 1;
-}
-
 Colour colour_of(const Scene& scene, const TriangleOrigin& origin) {
   const Mesh& mesh = scene.meshes[scene.objects[origin.object].mesh];
   const auto& c = mesh.colours[mesh.triangles[origin.triangle][0]];
   return {static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
 }
 
-std::optional<PipelineOptions> options_of(const GlassScene& glass, const std::string& method,
-                                          Scene& scene) {
+PipelineOptions options_of(const std::string& method, Scene& scene) {
   PipelineOptions options = precise_options();
   options.background = background;
   DrawState& state = scene.draw_states.back();
   if (method == "painter's algorithm") {
-    if (has_wall(glass)) return std::nullopt;
-    scene.draw_states.clear();
-    options.blend_alpha = opacity;
     options.hidden_surface = pipeline::HiddenSurface::painter;
     return options;
   }
@@ -144,12 +136,10 @@ ColourImage exactly_blended(const Scene& scene, const Camera& camera, const Colo
   return image;
 }
 
-std::optional<BlendedCase> blend(const GlassScene& glass, const std::string& method) {
+BlendedCase blend(const GlassScene& glass, const std::string& method) {
   Scene scene = glass.scene;
-  const auto options = options_of(glass, method, scene);
-  if (!options) return std::nullopt;
-  const ColourImage image =
-      pipeline::render_frame(scene, camera_of_glass(), *options, true).picture;
+  const PipelineOptions options = options_of(method, scene);
+  const ColourImage image = pipeline::render_frame(scene, camera_of_glass(), options, true).picture;
   std::vector<bool> seen;
   for (const Colour& colour : glass.exact.pixels) seen.push_back(colour != background);
   BlendedCase result{.scene = glass.name, .method = method};

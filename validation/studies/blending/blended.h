@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,7 +42,6 @@ inline constexpr const char* blending_methods[] = {"file order",
                                                    "back to front, read-only depth",
                                                    "painter's algorithm"};
 
-/// nullopt where the method cannot draw the scene: the painter's algorithm has no opaque walls.
-std::optional<BlendedCase> blend(const GlassScene& glass, const std::string& method);
+BlendedCase blend(const GlassScene& glass, const std::string& method);
 
 }  // namespace fathom::studies

@@ -58,9 +58,8 @@ std::vector<StudyFile> study_blending(const StudyOptions& options,
   for (const char* name : glass_scenes) scenes.push_back(glass_scene(name));
   std::vector<BlendedCase> cases;
   for (const GlassScene& scene : scenes) {
-    for (const char* method : blending_methods)
-      if (auto drawn = blend(scene, method)) cases.push_back(std::move(*drawn));
-    tick(static_cast<double>(cases.size()) / 31);
+    for (const char* method : blending_methods) cases.push_back(blend(scene, method));
+    tick(static_cast<double>(cases.size()) / 32);
   }
 
   Results results("blending", page_texts::blending, options);
@@ -69,7 +68,8 @@ std::vector<StudyFile> study_blending(const StudyOptions& options,
   for (const GlassScene& scene : scenes)
     results.picture(picture_file(scene.name + "-exact", pipeline::to_rgb(scene.exact), 3));
   for (const BlendedCase& c : cases) {
-    const bool shown = c.scene == "wall"   ? c.method.find("depth") != std::string::npos
+    const bool shown = c.scene == "wall"
+                           ? c.method.find("depth") != std::string::npos || c.method[0] == 'p'
                        : c.scene == "ring" ? c.method.starts_with("back") || c.method[0] == 'p'
                                            : c.scene == "panes" && c.method[0] == 'f';
     if (shown) results.picture(picture_file(picture_name(c.scene, c.method), c.picture, 3));

@@ -7,11 +7,6 @@
 namespace fathom::pipeline {
 namespace {
 
-bool has_depth_buffer(const PipelineOptions& options) {
-  return options.hidden_surface == HiddenSurface::z_buffer &&
-         options.antialias.method != AntialiasMethod::area;
-}
-
 void require_possible(const DrawState& state, const Object& object,
                       const PipelineOptions& options) {
   const auto fail = [&](const std::string& why) {
@@ -20,8 +15,12 @@ void require_possible(const DrawState& state, const Object& object,
   if (state.polygon_offset && is_per_fragment(options.depth_format.mapping))
     fail("a polygon offset does not reach the depths of mapping " +
          std::string(name_of(options.depth_format.mapping)) + ", which fragments compute");
-  if (!is_default(state) && !has_depth_buffer(options))
-    fail("its 'draw' is for a depth buffer; the painter's algorithm and area sampling have none");
+  if (options.antialias.method == AntialiasMethod::area && !is_default(state))
+    fail("its 'draw' is for a depth buffer, which area sampling does not have");
+  DrawState rest = state;
+  rest.alpha.reset();
+  if (options.hidden_surface == HiddenSurface::painter && !is_default(rest))
+    fail("its 'draw' is for a depth buffer; the painter's algorithm takes 'alpha' alone");
 }
 
 DrawRules rules_of(const DrawState& state, const PipelineOptions& options) {

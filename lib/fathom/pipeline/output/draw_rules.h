@@ -23,8 +23,8 @@ struct DrawRules {
 
 /// For each object of the scene.
 /// Fails    InputError where an object asks for what these options cannot do: a polygon offset of
-///          depths that fragments compute themselves, a state under the painter's algorithm or
-///          area sampling, which have no depth buffer.
+///          depths that fragments compute themselves, a state under area sampling, which has no
+///          depth buffer, or one with more than an opacity under the painter's algorithm.
 std::vector<DrawRules> draw_rules_of(const Scene& scene, const PipelineOptions& options);
 
 /// Whether `value` compares so with `stored`.
