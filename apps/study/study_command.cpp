@@ -146,7 +146,7 @@ void add_study(Command& program) {
                  "Folder for CSV, PNG, SVG, summary.json, index.html");
   command.option_with_values(
       "--scene", "FILE", arguments->scene,
-      "Meshes or scene files to study, for antialiasing, mitigation, subpixel and z-fighting; "
+      "Meshes or scene files to study, for antialiasing, hidden-surface, mitigation, subpixel and z-fighting; "
       "without it each study uses its own scene");
   arguments->limits.add_to(command);
   command.option("--camera", "FILE", arguments->camera,

@@ -120,6 +120,9 @@ TEST(Course, DemoCountsAddUp) {
   EXPECT_EQ(d.far_fragments, 16830u);
   EXPECT_EQ(d.near_closed, 13955u);
   EXPECT_EQ(d.far_closed, 16970u);
+  // What the textbook's program prints.
+  EXPECT_EQ(d.near_closed + d.far_closed, 30925u);
+  EXPECT_EQ(d.union_closed, 26933u);
 }
 
 // The page says so: its picture is the pipeline's, and so are its numbers.

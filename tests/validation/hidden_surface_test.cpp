@@ -6,8 +6,10 @@
 #include <map>
 #include <optional>
 
+#include "fathom/numeric/errors.h"
 #include "validation/studies/hidden_surface/bsp_tree.h"
 #include "validation/studies/hidden_surface/comparison.h"
+#include "validation/studies/hidden_surface/eye_scene.h"
 #include "validation/studies/hidden_surface/warnock.h"
 #include "validation/studies/pipeline_scenes.h"
 
@@ -140,13 +142,57 @@ TEST(HiddenSurfaceStudy, WarnocksWindowsAndTheTreeSeeCrowdsAsRaysDo) {
   }
 }
 
+/// A scene that is given: turned into the camera's frame, and cut off at near.
+TEST(HiddenSurfaceStudy, AGivenSceneIsSeenFromTheEye) {
+  SceneView view{"given", random_triangles(40, 5), hidden_surface_camera()};
+  Mesh& mesh = view.scene.meshes[0];
+  const std::size_t before = mesh.triangles.size();
+  std::vector<MeshPoint> vertices(mesh.vertices.begin(), mesh.vertices.end());
+  std::vector<CornerIndices> triangles(mesh.triangles.begin(), mesh.triangles.end());
+  const auto add = [&](MeshPoint a, MeshPoint b, MeshPoint c) {
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    vertices.insert(vertices.end(), {a, b, c});
+    triangles.push_back({first, first + 1, first + 2});
+  };
+  add({-2, 3, -1}, {2.1, 3, -1}, {0.3, 2.2, 9});      // two corners behind: a triangle is left
+  add({-2, -3, 7}, {2.1, -3, 8}, {0.3, -2.2, -0.5});  // one: a quadrangle, as two triangles
+  add({-2, 3, 0.5}, {2.1, 3, -1}, {0.3, 2.2, 0.9});   // all before near 1
+  add({-2, 3, 50}, {2.1, 3, 60}, {0.3, 2.2, 70});     // all beyond far 20
+  view.scene = scene_of(vertices, triangles);
+  // The same view after scene and camera have moved by whole numbers.
+  SceneView moved = view;
+  for (MeshPoint& p : vertices) p = {p.x + 4, p.y - 8, p.z + 16};
+  moved.scene = scene_of(vertices, triangles);
+  moved.camera.world_to_camera = {{{1, 0, 0, -4}, {0, 1, 0, 8}, {0, 0, 1, -16}}};
+  const SceneView eye = seen_from_eye(view), moved_eye = seen_from_eye(moved);
+  EXPECT_EQ(eye.scene.meshes[0].triangles.size(), before + 1 + 2);
+  EXPECT_EQ(moved_eye.scene.meshes[0].triangles.size(), before + 1 + 2);
+  for (const MeshPoint& p : eye.scene.meshes[0].vertices) EXPECT_GE(p.z, 1);
+  for (const SceneView& seen : {eye, moved_eye}) {
+    const HiddenSurfaceCase result = compare_hidden_surfaces("given", seen.scene, seen.camera);
+    EXPECT_GT(result.seen, 4000u);
+    EXPECT_EQ(result.buffer32, 0u);
+    EXPECT_EQ(result.painter, 0u);
+    EXPECT_EQ(result.warnock, 0u);
+    EXPECT_EQ(result.bsp_tree, 0u);
+  }
+  EXPECT_EQ(thinned(eye.scene, 7).meshes[0].triangles.size(), 7u);
+  Camera flat = view.camera;
+  flat.projection = Projection::orthographic;
+  EXPECT_THROW(seen_from_eye({"flat", view.scene, flat}), UsageError);
+}
+
 TEST(HiddenSurfaceStudy, CostsGrowAsTheyMust) {
   const HiddenSurfaceCost few = hidden_surface_cost(10), many = hidden_surface_cost(60);
   for (const HiddenSurfaceCost& c : {few, many}) {
-    EXPECT_EQ(c.buffer_bytes, 320u * 240 * 4);
-    EXPECT_EQ(c.painter_bytes, (c.triangles + c.splits) * sizeof(pipeline::WindowTriangle<double>));
-    EXPECT_GT(c.buffer_ms, 0);
-    EXPECT_GT(c.painter_ms, 0);
+    for (const FrameCost& cost : {c.buffer, c.painter, c.warnock, c.bsp_tree}) {
+      EXPECT_GT(cost.ms, 0);
+      // A triangle number for each pixel, at least, but for pages that were there before; and no
+      // more than some hundred bytes.
+      ASSERT_TRUE(cost.bytes);
+      EXPECT_GT(*cost.bytes + 65536, 320u * 240 * 4);
+      EXPECT_LT(*cost.bytes, 320u * 240 * 400);
+    }
   }
   // No polygon is compared with itself; each round of the first compares it with all others at most.
   EXPECT_LE(few.comparisons, (10u + few.splits) * (10u + few.splits) * (1u + few.splits));

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "validation/studies/lines/line_drift.h"
+#include "validation/studies/lines/step_costs.h"
 
 namespace fathom::studies {
 namespace {
@@ -15,7 +16,7 @@ TEST(LinesStudy, DecisionsOfTheTextbooksLine) {
   // 3x/8 is 0, .375, .75, 1.125, 1.5 (a tie: up), 1.875, 2.25, 2.625, 3.
   const std::vector<double> rows{0, 0, 1, 1, 2, 2, 2, 3, 3};
   const std::vector<DecidedLine> lines = decided_lines();
-  ASSERT_EQ(lines.size(), 5u);
+  ASSERT_EQ(lines.size(), 6u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(lines[i].rows, rows) << lines[i].algorithm;
   EXPECT_EQ(lines[0].decisions, "y: 0 0.375 0.75 1.125 1.5 1.875 2.25 2.625 3");
   EXPECT_EQ(lines[1].decisions, "y: 0 0.375 0.75 1.125 1.5 1.875 2.25 2.625 3");
@@ -23,7 +24,21 @@ TEST(LinesStudy, DecisionsOfTheTextbooksLine) {
   EXPECT_EQ(lines[2].decisions, "error: 0 6 -4 2 -8 -2 4 -6 0");
   EXPECT_EQ(lines[3].decisions, "d: -2 4 -6 0 -10 -4 2 -8 -2");
   // From centre to centre the last diamond is entered and not left.
-  EXPECT_EQ(lines[4].rows, std::vector<double>(rows.begin(), rows.end() - 1));
+  EXPECT_EQ(lines[5].rows, std::vector<double>(rows.begin(), rows.end() - 1));
+  // The textbook's program stays at the tie: (4, 1).
+  EXPECT_EQ(lines[4].rows, (std::vector<double>{0, 0, 1, 1, 1, 2, 2, 3, 3}));
+}
+
+TEST(LinesStudy, EveryWayToMeasureAStepDrawsTheLine) {
+  // m = 1/4: no sum is rounded.
+  std::int64_t rows = 0;
+  for (std::int64_t i = 0; i < 400; ++i) rows += (i + 2) / 4;
+  EXPECT_EQ(rows_by_products(400, 0.25), rows);
+  EXPECT_EQ(rows_by_sums(400, 0.25), rows);
+  EXPECT_EQ(rows_by_four_sums(400, 0.25F), rows);
+  const std::vector<StepCost> costs = step_costs();
+  ASSERT_EQ(costs.size(), 3u);
+  for (const StepCost& cost : costs) EXPECT_GT(std::min(cost.binary32_ns, cost.binary64_ns), 0);
 }
 
 /// A line by sums or by products, rounded to Number, judged in integers.

@@ -14,6 +14,7 @@
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"
 #include "tests/effort.h"
+#include "tests/places.h"
 
 namespace fathom::test {
 namespace {
@@ -58,10 +59,13 @@ Outcome run_by_shell(const std::string& command, const fs::path& folder) {
 /// The pictures go; what is there afterwards is what the commands have drawn.
 /// `others` are those that no command draws. Gives what the commands have printed.
 std::map<std::string, std::string> expect_pictures_by_commands(
-    const std::string& study, std::size_t least_commands, const std::set<std::string>& others) {
+    const std::string& study, std::size_t least_commands, const std::set<std::string>& others,
+    const std::vector<std::string>& options = {}) {
   std::map<std::string, std::string> printed;
   const TestFolder folder;
-  const Outcome made = run_fathom({"study", study, "--out", "made"}, {.folder = folder.path()});
+  std::vector<std::string> arguments{"study", study, "--out", "made"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const Outcome made = run_fathom(arguments, {.folder = folder.path()});
   EXPECT_EQ(made.status, 0) << made.err;
   if (made.status != 0) return printed;
   const fs::path beside = folder.path() / "made", shown = folder.path() / "shown";
@@ -75,6 +79,8 @@ std::map<std::string, std::string> expect_pictures_by_commands(
   const std::vector<std::string> commands = texts_between(page, "<code>", "</code>");
   EXPECT_GE(commands.size(), least_commands);
   for (const std::string& command : commands) {
+    // The study itself, which has been run; another renderer, which has tests of its own.
+    if (command.starts_with("fathom study ") || command.starts_with("fathom validate ")) continue;
     const Outcome outcome = run_by_shell(unescaped(command), beside);
     EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.err;
     printed[unescaped(command)] = outcome.out;
@@ -120,7 +126,33 @@ TEST(PageCommands, DrawThePicturesOfTheCourse) {
 }
 
 TEST(PageCommands, DrawThePicturesOfHiddenSurfaces) {
-  expect_pictures_by_commands("hidden-surface", 1, {"cost.png"});
+  expect_pictures_by_commands("hidden-surface", 2, {});
+}
+
+TEST(PageCommands, DrawThePicturesOfAScenesHiddenSurfaces) {
+  expect_pictures_by_commands("hidden-surface", 2, {},
+                              {"--scene", source_dir() / "data/meshes/cube.obj"});
+}
+
+// Exact pictures are drawn by exact areas, gratings from their samples, the wheel and the curve as on
+// the page of the course.
+TEST(PageCommands, DrawThePicturesOfAntialiasing) {
+  if (testing::effort > 1) GTEST_SKIP() << "the study takes half a minute without sanitizers";
+  std::set<std::string> others{"star-truth.png",  "sheets-truth.png",  "wall-truth.png",
+                               "plane-truth.png", "wheel-sharp.png",   "wheel-next.png",
+                               "coverage.png",    "wheel-shutter.png", "curve-enlarged.png",
+                               "curve-anew.png"};
+  for (int i = 1; i <= 60; ++i) {
+    const std::string thousandths = std::to_string(1000 + 25 * i % 1000);
+    others.insert("grating-" + std::to_string(25 * i / 1000) + "." + thousandths.substr(1) +
+                  ".png");
+  }
+  expect_pictures_by_commands("antialiasing", 6, others);
+}
+
+// Of the other pages: the plots.
+TEST(PageCommands, DrawThePlotsOfLines) {
+  expect_pictures_by_commands("lines", 2, {}, {"--samples", "2"});
 }
 
 }  // namespace

@@ -36,16 +36,16 @@ std::size_t pictures_of(const std::string& study, const StudyOptions& options = 
 
 TEST(StudyPages, Antialiasing) {
   if (testing::effort > 1) GTEST_SKIP() << "twenty seconds without sanitizers";
-  EXPECT_EQ(pictures_of("antialiasing"), 28U);
+  EXPECT_EQ(pictures_of("antialiasing"), 88U);
 }
 TEST(StudyPages, Blending) {
-  EXPECT_EQ(pictures_of("blending"), 15U);
+  EXPECT_EQ(pictures_of("blending"), 16U);
 }
 TEST(StudyPages, Course) {
   EXPECT_EQ(pictures_of("course"), 70U);
 }
 TEST(StudyPages, HiddenSurface) {
-  EXPECT_EQ(pictures_of("hidden-surface"), 10U);
+  EXPECT_EQ(pictures_of("hidden-surface"), 11U);
 }
 TEST(StudyPages, Lines) {
   EXPECT_EQ(pictures_of("lines", {.samples = 2}), 2U);

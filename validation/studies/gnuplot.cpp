@@ -57,10 +57,10 @@ std::string png_bytes(const RgbImage& image) {
   return file.content();
 }
 
-std::vector<StudyFile> run_gnuplot(const std::string& name, const std::string& script) {
-  const auto terminal = [](const char* kind, const std::string& place) {
-    return std::string("set terminal ") + kind +
-           " font \"DejaVu Sans,11\" size 1100,650\nset output \"" + place + "\"\n";
+std::vector<StudyFile> run_gnuplot(const std::string& name, const std::string& script, int height) {
+  const auto terminal = [&](const char* kind, const std::string& place) {
+    return std::string("set terminal ") + kind + " font \"DejaVu Sans,11\" size 1100," +
+           std::to_string(height) + "\nset output \"" + place + "\"\n";
   };
   const auto twice = [&](const std::string& png, const std::string& svg) {
     return terminal("pngcairo", png) + script + terminal("svg", svg) + "replot\nset output\n";

@@ -94,7 +94,9 @@ std::string html_document(const std::string& title, const std::string& body) {
          element("title", title) +
          "\n<style>body{font-family:sans-serif;max-width:70em;margin:2em "
          "auto;padding:0 1em}"
-         ".wide{overflow-x:auto}pre{overflow-x:auto;margin:0}figure{margin:1em 0}"
+         ".wide{overflow-x:auto;width:max-content;min-width:100%;max-width:calc(100vw - 4em);"
+         "position:relative;left:50%;transform:translateX(-50%)}th{vertical-align:bottom}pre{"
+         "overflow-x:auto;margin:0}figure{margin:1em 0}"
          ".small{display:inline-block;vertical-align:top;margin-right:1.5em;max-width:100%}"
          ".small img,.row img{image-rendering:pixelated;outline:1px solid #ccc}.small "
          "figcaption{max-width:24em}"

@@ -107,7 +107,7 @@ std::string Page::block(const std::string& block) const {
   return content;
 }
 
-std::string Page::html() const {
+std::string Page::html(const std::string& last_heading, const std::string& last_paragraph) const {
   const std::vector<std::string> blocks = blocks_of(markdown_);
   std::string body;
   bool is_shown = true;
@@ -123,6 +123,7 @@ std::string Page::html() const {
       body += block(text);
     }
   }
+  if (!last_heading.empty()) body += html_heading(2, last_heading) + html_paragraph(last_paragraph);
   return html_document(with_values(blocks.front().substr(2)), body);
 }
 

@@ -40,8 +40,10 @@ class Page {
     widths_[name] = width;
   }
 
+  /// The page, and at its end, where given, a section with this heading and paragraph.
   /// Fails    std::logic_error where page and parts do not belong together.
-  [[nodiscard]] std::string html() const;
+  [[nodiscard]] std::string html(const std::string& last_heading = "",
+                                 const std::string& last_paragraph = "") const;
 
  private:
   void add_part(const std::string& placeholder, const std::string& content);

@@ -6,6 +6,7 @@
 namespace fathom::studies::page_texts {
 
 extern const std::string_view antialiasing, blending, clipping, course, depth_resolution,
-    hidden_surface, indistinguishable, lines, mitigation, scene_fights, subpixel, z_fighting;
+    hidden_surface, indistinguishable, lines, mitigation, scene_fights, scene_hidden_surface,
+    subpixel, z_fighting;
 
 }  // namespace fathom::studies::page_texts

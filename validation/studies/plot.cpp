@@ -89,7 +89,8 @@ std::string script_of(const BarChart& chart) {
   }
   script += "END\n" + axes(chart.title, chart.y_label);
   script +=
-      "set style data histograms\nset style histogram clustered gap 1\nset yrange [0:*]\n"
+      "set key outside top center horizontal noenhanced\nset style data histograms\nset style "
+      "histogram clustered gap 1\nset yrange [0:*]\n"
       "set boxwidth 0.9\nset xtics rotate by -35 noenhanced\nset bmargin 9\nplot \\\n";
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     script += fmt::format(

@@ -1,11 +1,32 @@
 #include "validation/studies/results.h"
 
 #include <iterator>
+#include <optional>
 
 namespace fathom::studies {
 
+namespace {
+
+std::string command_of(const std::string& study, const StudyOptions& options) {
+  std::string command = "fathom study " + study;
+  if (options.scene) command += " --scene " + options.scene->name;
+  const auto add = [&](const char* name, const auto& value) {
+    if (value) command += std::string(" --") + name + " " + text_of(*value);
+  };
+  add("near", options.near);
+  add("far", options.far);
+  add("separation", options.separation);
+  add("samples", options.samples);
+  return command;
+}
+
+}  // namespace
+
 Results::Results(const std::string& study, std::string_view page, const StudyOptions& options)
-    : summary_{{"study", Cell(study)}}, page_(page), plots_(options.plots) {}
+    : summary_{{"study", Cell(study)}},
+      page_(page),
+      command_(command_of(study, options)),
+      plots_(options.plots) {}
 
 void Results::figure(const std::string& key, const Cell& value, const char* page_format) {
   summary_.emplace_back(key, value);
@@ -60,10 +81,21 @@ void Results::text(const std::string& name, const std::string& text) {
   page_.add_text(name, text);
 }
 
+std::string Results::commands() const {
+  std::string text =
+      "`" + command_ + " --out DIR` makes this page with its tables, plots and pictures.";
+  std::string plots;
+  for (const StudyFile& file : files_)
+    if (file.name.ends_with(".gp")) plots += " " + file.name.substr(0, file.name.size() - 3);
+  if (plots.empty()) return text;
+  return text + " In its folder `for plot in" + plots +
+         "; do gnuplot $plot.gp; done` draws the plots again, as PNG and SVG.";
+}
+
 std::vector<StudyFile> Results::files() const {
   std::vector<StudyFile> files = files_;
   files.push_back({"summary.json", json_of(summary_)});
-  files.push_back({"index.html", page_.html()});
+  files.push_back({"index.html", page_.html("Commands", commands())});
   return files;
 }
 

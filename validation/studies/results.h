@@ -52,8 +52,11 @@ class Results {
 
  private:
   std::vector<StudyFile> files_;
+  [[nodiscard]] std::string commands() const;
+
   Summary summary_;
   Page page_;
+  std::string command_;  ///< that runs the study, but for --out
   bool plots_;
 };
 

@@ -1,5 +1,7 @@
 #include "validation/studies/antialiasing/antialiasing.h"
 
+#include <algorithm>
+
 #include "fathom/numeric/errors.h"
 #include "validation/studies/antialiasing/coverage_by_samples.h"
 #include "validation/studies/antialiasing/curve.h"
@@ -84,7 +86,7 @@ Table methods_table(const std::vector<MethodError>& rows) {
            {Column("text_mean").page("text", ".2g"), of(&Row::text, &E::mean)},
            {Column("shaded").page("shaded"), &Row::shaded},
            {Column("ms").page("ms", ".1f"), &Row::ms},
-           {Column("megabytes").page("MB", ".2f"), &Row::megabytes}}};
+           {Column("bytes_a_pixel", ".6g").page("bytes a pixel", ".0f"), &Row::bytes_a_pixel}}};
 }
 
 Table filters_table(const std::vector<FilterError>& rows) {
@@ -168,7 +170,17 @@ void add(Results& results, const AntialiasingMethods& measured) {
   results.table(filters_table(measured.filters), {.json = "filters", .page = "filters"});
   results.figure("texture_changed_by_fxaa", measured.texture_changed_by_fxaa);
   results.quote("changed", 100 * measured.texture_changed_by_fxaa, ".1f");
-  results.pictures(measured.pictures);
+  for (const auto& [png, width] : measured.pictures) results.picture(png, width);
+  for (const StudyFile& file : measured.files) results.file(file);
+  const auto& rows = measured.methods;
+  const auto row = [&](const char* name) {
+    return *std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.name == name; });
+  };
+  for (const char* name : {"none", "msaa 4", "msaa 8", "ssaa 4x4", "fxaa"})
+    results.quote(std::string("error ") + name, 100 * row(name).star.mean, ".2f");
+  results.quote("fxaa bytes",
+                row("fxaa").bytes_a_pixel.value_or(0) - row("none").bytes_a_pixel.value_or(0),
+                ".0f");
 }
 
 void add(Results& results, const std::vector<GratingSeen>& gratings) {
@@ -176,6 +188,8 @@ void add(Results& results, const std::vector<GratingSeen>& gratings) {
                 {.csv = "gratings", .json = "gratings", .page = "gratings"});
   results.figure("nyquist_limit", nyquist_limit(gratings));
   results.plot(nyquist_plot(gratings));
+  for (const GratingSeen& grating : gratings)
+    results.picture(picture_file(grating_name(grating), grating_picture(grating)));
 }
 
 Table wheels_table(const std::vector<WheelSeen>& rows) {

@@ -1,12 +1,14 @@
 #include "validation/studies/antialiasing/methods.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "fathom/pipeline/render_pipeline.h"
 #include "validation/studies/antialiasing/judged_scenes.h"
+#include "validation/studies/effort.h"
 #include "validation/studies/picture.h"
+#include "validation/studies/pipeline_scenes.h"
+#include "validation/studies/scene_files.h"
 
 namespace fathom::studies {
 namespace {
@@ -20,7 +22,6 @@ using pipeline::TextureFilter;
 struct Method {
   const char* name;
   Antialias antialias;
-  int samples_kept;  ///< of colour and depth, for each pixel
   pipeline::Precision precision = pipeline::Precision::binary32;
   int subpixel_bits = 8;
 };
@@ -30,28 +31,24 @@ constexpr pipeline::FxaaSettings sensitive{0.125, 0.0625, 0.75}, edges_alone{0.1
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> all{
-      {"none", {AntialiasMethod::none, 1}, 1},
-      {"ssaa 2x2", {AntialiasMethod::ssaa, 2}, 4},
-      {"ssaa 4x4", {AntialiasMethod::ssaa, 4}, 16},
-      {"ssaa 16x16", {AntialiasMethod::ssaa, 16}, 256},
-      {"msaa 2", {AntialiasMethod::msaa, 2}, 2},
-      {"msaa 4", {AntialiasMethod::msaa, 4}, 4},
-      {"msaa rotated grid", {AntialiasMethod::msaa, 4, true, {}}, 4},
-      {"msaa 8", {AntialiasMethod::msaa, 8}, 8},
-      {"msaa 16", {AntialiasMethod::msaa, 16}, 16},
-      {"jitter 4", {AntialiasMethod::jitter, 4}, 4},
-      {"jitter 16", {AntialiasMethod::jitter, 16}, 16},
-      {"fxaa", {AntialiasMethod::fxaa, 1}, 1},
-      {"fxaa 0.125,0.0625,0.75", {AntialiasMethod::fxaa, 1, false, sensitive}, 1},
-      {"fxaa 0.166,0.0833,0", {AntialiasMethod::fxaa, 1, false, edges_alone}, 1},
-      {"taa 8", {AntialiasMethod::taa, 8}, 2},
-      {"area", {AntialiasMethod::area, 1}, 1},
-      {"area, 4 bits", {AntialiasMethod::area, 1}, 1, pipeline::Precision::binary32, 4},
-      {"area, binary64, 16 bits",
-       {AntialiasMethod::area, 1},
-       1,
-       pipeline::Precision::binary64,
-       16}};
+      {"none", {AntialiasMethod::none, 1}},
+      {"ssaa 2x2", {AntialiasMethod::ssaa, 2}},
+      {"ssaa 4x4", {AntialiasMethod::ssaa, 4}},
+      {"ssaa 16x16", {AntialiasMethod::ssaa, 16}},
+      {"msaa 2", {AntialiasMethod::msaa, 2}},
+      {"msaa 4", {AntialiasMethod::msaa, 4}},
+      {"msaa rotated grid", {AntialiasMethod::msaa, 4, true, {}}},
+      {"msaa 8", {AntialiasMethod::msaa, 8}},
+      {"msaa 16", {AntialiasMethod::msaa, 16}},
+      {"jitter 4", {AntialiasMethod::jitter, 4}},
+      {"jitter 16", {AntialiasMethod::jitter, 16}},
+      {"fxaa", {AntialiasMethod::fxaa, 1}},
+      {"fxaa 0.125,0.0625,0.75", {AntialiasMethod::fxaa, 1, false, sensitive}},
+      {"fxaa 0.166,0.0833,0", {AntialiasMethod::fxaa, 1, false, edges_alone}},
+      {"taa 8", {AntialiasMethod::taa, 8}},
+      {"area", {AntialiasMethod::area, 1}},
+      {"area, 4 bits", {AntialiasMethod::area, 1}, pipeline::Precision::binary32, 4},
+      {"area, binary64, 16 bits", {AntialiasMethod::area, 1}, pipeline::Precision::binary64, 16}};
   return all;
 }
 
@@ -77,7 +74,11 @@ PipelineOptions options_of(const Judged& judged, TextureFilter filter = TextureF
 struct JudgedScenes {
   Judged star = studies::star(), sheets = crossing_sheets(), plane = checkered_plane(),
          wall = checkered_wall(), text = studies::text();
+  /// Larger, so that memory is that of pixels.
+  Judged large_star{siemens_star(36, 90, 96.3, 95.8), window_camera(192, 192), false, {}};
 };
+
+using Pictures = std::vector<std::pair<StudyFile, std::uint32_t>>;
 
 pipeline::PipelineFrame draw(const Judged& judged, const Method& method) {
   PipelineOptions options = options_of(judged);
@@ -87,25 +88,27 @@ pipeline::PipelineFrame draw(const Judged& judged, const Method& method) {
   return render_frame(judged.scene, judged.camera, options, true);
 }
 
-void add_picture(std::vector<StudyFile>& files, const std::string& name, const ColourImage& image,
+void add_picture(Pictures& pictures, const std::string& name, const ColourImage& image,
                  std::uint32_t scale) {
-  files.push_back(picture_file(file_name(name), pipeline::to_rgb(image), scale));
+  pictures.emplace_back(picture_file(file_name(name), pipeline::to_rgb(image)),
+                        scale * image.width);
 }
 
-MethodError measure(const Method& method, const JudgedScenes& judged,
-                    std::vector<StudyFile>& files) {
+MethodError measure(const Method& method, const JudgedScenes& judged, Pictures& pictures) {
   MethodError row;
   row.name = method.name;
   const auto judge = [&](const Judged& scene, const char* name, std::uint32_t scale) {
     const ColourImage image = draw(scene, method).picture;
-    add_picture(files, std::string(name) + "-" + method.name, image, scale);
+    add_picture(pictures, std::string(name) + "-" + method.name, image, scale);
     return error_of(image, scene.truth);
   };
-  const auto start = std::chrono::steady_clock::now();
-  row.shaded = draw(judged.star, method).statistics.shaded;
-  row.ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  row.megabytes = 128.0 * 128 * method.samples_kept * sizeof(pipeline::StoredSample) / 1e6;
+  const auto [ms, frame] = least_time([&] { return draw(judged.star, method); });
+  row.ms = ms;
+  row.shaded = frame.statistics.shaded;
+  const Camera& large = judged.large_star.camera;
+  if (const auto bytes = peak_bytes([&] { draw(judged.large_star, method); }))
+    row.bytes_a_pixel =
+        static_cast<double>(*bytes) / (static_cast<double>(large.width) * large.height);
   row.star = judge(judged.star, "star", 3);
   row.sheets = judge(judged.sheets, "sheets", 3);
   row.plane = judge(judged.plane, "plane", 2);
@@ -160,8 +163,7 @@ AntialiasingMethods measure_antialiasing(const std::function<void(double)>& tick
          0.7 * static_cast<double>(result.methods.size()) / static_cast<double>(methods().size()));
   }
   measure_filters(result, judged.plane);
-  const Method plain{"", {AntialiasMethod::none, 1}, 1},
-      filtered{"", {AntialiasMethod::fxaa, 1}, 1};
+  const Method plain{"", {AntialiasMethod::none, 1}}, filtered{"", {AntialiasMethod::fxaa, 1}};
   result.texture_changed_by_fxaa =
       share_changed(draw(judged.wall, plain).picture, draw(judged.wall, filtered).picture);
   add_picture(result.pictures, "star-truth", judged.star.truth, 3);
@@ -169,6 +171,12 @@ AntialiasingMethods measure_antialiasing(const std::function<void(double)>& tick
   add_picture(result.pictures, "plane-truth", judged.plane.truth, 2);
   add_picture(result.pictures, "wall-truth", judged.wall.truth, 3);
   add_picture(result.pictures, "text-truth", judged.text.truth, 6);
+  for (const auto& [name, scene] :
+       {std::pair("star", &judged.star), std::pair("sheets", &judged.sheets),
+        std::pair("plane", &judged.plane), std::pair("wall", &judged.wall),
+        std::pair("text", &judged.text)})
+    for (StudyFile& file : scene_files(name, scene->scene, scene->camera).files)
+      result.files.push_back(std::move(file));
   tick(1);
   return result;
 }

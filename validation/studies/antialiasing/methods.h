@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fathom/pipeline/output/output_merger.h"
@@ -23,8 +25,11 @@ struct MethodError {
   PictureError star, sheets;
   /// Of the checkered plane and wall, and of letters that are right without antialiasing.
   PictureError plane, wall, text;
-  double ms = 0, megabytes = 0;  ///< for the star, here; of the samples that are kept
-  std::uint64_t shaded = 0;      ///< for the star
+  double ms = 0;             ///< for the star, here: the least of several frames
+  std::uint64_t shaded = 0;  ///< for the star
+  /// The peak of the memory that a frame of 192 × 192 pixels takes here, for each pixel; nullopt
+  /// where the system does not measure it.
+  std::optional<double> bytes_a_pixel;
 };
 
 struct FilterError {
@@ -38,8 +43,10 @@ struct AntialiasingMethods {
   /// Of the checkered wall, in which no edge of a triangle is seen: the share of pixels that FXAA
   /// changes all the same.
   double texture_changed_by_fxaa = 0;
-  /// star-METHOD, sheets-METHOD, plane-FILTER, wall-, text- and plane-truth, …
-  std::vector<StudyFile> pictures;
+  /// star-METHOD, sheets-METHOD, filter-FILTER, wall-, text- and plane-truth, …, each with the width
+  /// in which it is shown.
+  std::vector<std::pair<StudyFile, std::uint32_t>> pictures;
+  std::vector<StudyFile> files;  ///< the scenes and cameras that they are drawn from
 };
 
 /// All of them as the pipeline is by default: binary32, and 8 subpixel bits unless the name says

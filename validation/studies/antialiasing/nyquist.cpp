@@ -1,10 +1,13 @@
 #include "validation/studies/antialiasing/nyquist.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
+#include "fathom/image/pictures/lettering.h"
 #include "fathom/pipeline/render_pipeline.h"
+#include "validation/studies/cell.h"
 #include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
@@ -72,6 +75,50 @@ double mean_error(const std::vector<double>& greys, double frequency) {
 }
 
 }  // namespace
+
+std::vector<double> grating_samples(double frequency) {
+  return picture_of(frequency, {AntialiasMethod::none, 1});
+}
+
+double reconstructed(const std::vector<double>& samples, double x) {
+  // Of an even number of samples that repeat: each has the weight of Dirichlet's kernel, in which
+  // the wave of half a cycle a pixel counts half on either side.
+  const auto n = static_cast<double>(samples.size());
+  double value = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const double away = std::numbers::pi * (x - (static_cast<double>(k) + 0.5)), narrow = away / n;
+    const double weight =
+        std::abs(std::sin(narrow)) < 1e-12 ? 1 : std::sin(away) / (n * std::tan(narrow));
+    value += samples[k] * weight;
+  }
+  return value;
+}
+
+std::string grating_name(const GratingSeen& grating) {
+  return "grating-" + text_of(grating.frequency, ".3f");
+}
+
+RgbImage grating_picture(const GratingSeen& grating) {
+  constexpr std::uint32_t pixels = 24, scale = 8, strip = 20, gap = 2, top = 18;
+  RgbImage image(pixels * scale, top + 3 * strip + 2 * gap, {255, 255, 255});
+  const std::string seen =
+      grating.apparent == 0 ? "grey" : "seen as " + text_of(grating.apparent, ".3f");
+  image::Lettering().draw(image, 2, 13, text_of(grating.frequency, ".3f") + ": " + seen, 12,
+                          {0, 0, 0});
+  const std::vector<double> samples = grating_samples(grating.frequency);
+  for (std::uint32_t column = 0; column < image.width; ++column) {
+    const double x = (column + 0.5) / scale, cycles = x * grating.frequency;
+    const double strips[] = {cycles - std::floor(cycles) < 0.5 ? 1.0 : 0.0, samples[column / scale],
+                             reconstructed(samples, x)};
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const auto grey =
+          static_cast<std::uint8_t>(std::lround(255 * std::clamp(strips[i], 0.0, 1.0)));
+      for (std::uint32_t row = 0; row < strip; ++row)
+        image.at(column, top + i * (strip + gap) + row) = {grey, grey, grey};
+    }
+  }
+  return image;
+}
 
 double white_part(double frequency, double x) {
   // White from 0 to y: all whole cycles are white for their first half.

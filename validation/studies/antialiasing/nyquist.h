@@ -1,6 +1,9 @@
 #pragma once
 
+#include <string>
 #include <vector>
+
+#include "fathom/image/rgb_image.h"
 
 namespace fathom::studies {
 
@@ -19,6 +22,22 @@ struct GratingSeen {
 
 /// Gratings up to 1.5 cycles a pixel.
 std::vector<GratingSeen> gratings_seen();
+
+/// "grating-0.300"
+std::string grating_name(const GratingSeen& grating);
+
+/// The grating of the first 24 pixels in three strips: as it is, eight columns for each pixel; as its
+/// samples at the pixels' centres; and the signal that these samples are those of below half a cycle
+/// a pixel, which is what any ideal filter makes of them. With both frequencies in letters above.
+/// Fails    OutputError if the font is missing.
+RgbImage grating_picture(const GratingSeen& grating);
+
+/// The samples of the grating at all pixels' centres, 0 or 1, as the pipeline draws them.
+std::vector<double> grating_samples(double frequency);
+/// The band-limited signal through samples one pixel apart, at a place; they repeat for ever. The
+/// first sample lies at ½.
+/// Exact    up to rounding to binary64.
+double reconstructed(const std::vector<double>& samples, double x);
 
 /// The part of [x, x + 1] that is white in a grating of this frequency, white from 0 on.
 /// Exact    up to rounding to binary64.

@@ -42,7 +42,8 @@ std::vector<StudyFile> draw(const ClippedShape& shape) {
           panel("$a", "Sutherland-Hodgman: one ring") +
           panel("$b", fmt::format("Weiler-Atherton: {} pieces", shape.pieces.size())) +
           panel("$c", fmt::format("convex pieces first: {}", shape.decomposed.size())) +
-          "unset multiplot\n");
+          "unset multiplot\n",
+      400);
 }
 
 }  // namespace fathom::studies

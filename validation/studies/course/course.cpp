@@ -52,27 +52,43 @@ void quadrangles(Results& results) {
       {.json = "quadrangles", .page = "quadrangles"});
 }
 
+const char* name_of(pipeline::Precision precision) {
+  return precision == pipeline::Precision::binary32 ? "binary32" : "binary64";
+}
+
 void exercise_3(Results& results) {
+  using pipeline::Precision;
   struct Row {
     double distance;
     Storage storage;
+    Precision precision;
     double wrong_share;
   };
   struct PageRow {
     double distance;
     std::vector<double> wrong_shares;
   };
-  constexpr Storage storages[] = {Storage::unorm16, Storage::unorm32, Storage::float32};
+  struct Buffer {
+    Storage storage;
+    Precision precision;
+  };
+  constexpr Buffer buffers[] = {{Storage::unorm16, Precision::binary32},
+                                {Storage::unorm32, Precision::binary32},
+                                {Storage::float32, Precision::binary32},
+                                {Storage::unorm32, Precision::binary64},
+                                {Storage::float32, Precision::binary64}};
   std::vector<Row> rows;
   std::vector<PageRow> page_rows;
   for (const double distance : {0.5, 2.0, 10.0, 50.0}) {
     page_rows.push_back({distance, {}});
-    for (const Storage storage : storages) {
-      const Fight f = fight(distance, storage);
-      rows.push_back({distance, storage, f.wrong_share});
+    for (const auto& [storage, precision] : buffers) {
+      const Fight f = fight(distance, storage, precision);
+      rows.push_back({distance, storage, precision, f.wrong_share});
       page_rows.back().wrong_shares.push_back(f.wrong_share);
-      if (distance != 2.0 && distance != 10.0) continue;
-      if (storage == storages[0]) add(results, fight_files(distance));
+      if (distance == 10 && storage == Storage::unorm32)
+        results.quote(std::string("wrong ") + name_of(precision), 100 * f.wrong_share, ".1f");
+      if ((distance != 2.0 && distance != 10.0) || precision != Precision::binary32) continue;
+      if (storage == Storage::unorm16) add(results, fight_files(distance));
       show(results, "exercise-3-" + text_of(distance) + "-" + std::string(name_of(storage)),
            f.picture, 2);
     }
@@ -82,12 +98,15 @@ void exercise_3(Results& results) {
   results.table({rows,
                  {{"distance", &Row::distance},
                   {"storage", [](const Row& r) { return name_of(r.storage); }},
+                  {"precision", [](const Row& r) { return name_of(r.precision); }},
                   {"wrong_share", &Row::wrong_share}}},
                 {.json = "exercise_3"});
   std::vector<ColumnOf<PageRow>> columns{{heading("distance"), &PageRow::distance}};
-  for (std::size_t k = 0; k < std::size(storages); ++k) {
-    columns.push_back({percent_heading(std::string(name_of(storages[k])), ".1f"),
-                       [k](const PageRow& r) { return r.wrong_shares[k]; }});
+  for (std::size_t k = 0; k < std::size(buffers); ++k) {
+    const auto& [storage, precision] = buffers[k];
+    columns.push_back(
+        {percent_heading(std::string(name_of(storage)) + ", " + name_of(precision), ".1f"),
+         [k](const PageRow& r) { return r.wrong_shares[k]; }});
   }
   results.table({page_rows, columns}, {.page = "exercise_3"});
 }
@@ -145,10 +164,6 @@ void exercise_6(Results& results) {
   results.figure("exercise_6_exact", partial.exact);
   table.add({"exact area", partial.exact, 0});
   results.table(table, {.page = "exercise_6"});
-}
-
-const char* name_of(pipeline::Precision precision) {
-  return precision == pipeline::Precision::binary32 ? "binary32" : "binary64";
 }
 
 void edge_on(Results& results) {
@@ -246,7 +261,11 @@ void demo_of_section_6(Results& results) {
       {"centres in the far triangle or on its outline", d.far_closed},
       {"fragments together: what is shaded without a depth test",
        d.near_fragments + d.far_fragments},
+      {"fragments together with closed edges: the textbook's \"total pixels shaded\"",
+       d.near_closed + d.far_closed},
       {"pixels covered: the union", d.union_of_both},
+      {"the union with closed edges: the textbook's \"pixels that passed depth test\"",
+       d.union_closed},
       {"pixels in both: the overlap", d.overlap},
       {"fragments that pass the depth test, far drawn first", d.passed_far_first},
       {"fragments that pass the depth test, near drawn first", d.passed_near_first}};

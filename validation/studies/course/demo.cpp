@@ -28,9 +28,10 @@ Scene demo_scene() {
   return scene;
 }
 
-/// Centres of pixels inside a triangle or on its outline, by the signs of three integers.
-std::uint64_t closed_count(const std::array<std::array<std::int64_t, 2>, 3>& corners) {
-  std::uint64_t count = 0;
+/// Whether each centre of a pixel is inside a triangle or on its outline, by the signs of three
+/// integers.
+std::vector<bool> closed_pixels(const std::array<std::array<std::int64_t, 2>, 3>& corners) {
+  std::vector<bool> pixels;
   for (std::int64_t y = 1; y < 2 * 240; y += 2) {
     for (std::int64_t x = 1; x < 2 * 320; x += 2) {
       bool left = true, right = true;
@@ -40,10 +41,14 @@ std::uint64_t closed_count(const std::array<std::array<std::int64_t, 2>, 3>& cor
         left &= side >= 0;
         right &= side <= 0;
       }
-      count += left || right;
+      pixels.push_back(left || right);
     }
   }
-  return count;
+  return pixels;
+}
+
+std::uint64_t count_of(const std::vector<bool>& pixels) {
+  return static_cast<std::uint64_t>(std::count(pixels.begin(), pixels.end(), true));
 }
 
 constexpr std::uint32_t table_columns = 12, table_rows = 9;
@@ -132,8 +137,13 @@ Demo demo() {
   };
   result.near_fragments = fragments(1);
   result.far_fragments = fragments(0);
-  result.near_closed = closed_count({{{80, 30}, {30, 200}, {200, 180}}});
-  result.far_closed = closed_count({{{160, 20}, {100, 220}, {290, 150}}});
+  std::vector<bool> near_pixels = closed_pixels({{{80, 30}, {30, 200}, {200, 180}}});
+  const std::vector<bool> far_pixels = closed_pixels({{{160, 20}, {100, 220}, {290, 150}}});
+  result.near_closed = count_of(near_pixels);
+  result.far_closed = count_of(far_pixels);
+  for (std::size_t i = 0; i < near_pixels.size(); ++i)
+    near_pixels[i] = near_pixels[i] || far_pixels[i];
+  result.union_closed = count_of(near_pixels);
   result.union_of_both = static_cast<std::uint64_t>(std::count_if(
       far_first.id.begin(), far_first.id.end(), [](auto id) { return id != no_surface; }));
   result.overlap = result.near_fragments + result.far_fragments - result.union_of_both;

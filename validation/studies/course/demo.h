@@ -15,7 +15,7 @@ struct Demo {
   std::uint64_t near_fragments = 0, far_fragments = 0, union_of_both = 0, overlap = 0;
   /// Centres inside or on the outline, which is what the source's `>= 0` counts; by the signs of
   /// three integers each.
-  std::uint64_t near_closed = 0, far_closed = 0;
+  std::uint64_t near_closed = 0, far_closed = 0, union_closed = 0;
   std::uint64_t passed_far_first = 0, passed_near_first = 0;
 };
 Demo demo();

@@ -117,8 +117,9 @@ SceneFiles fight_files(double distance) {
   return scene_files("exercise-3-" + text_of(distance), scene, front_camera(96, 96, 0.1, 1000));
 }
 
-Fight fight(double distance, Storage storage) {
-  PipelineOptions options;  // binary32, as graphics processors compute
+Fight fight(double distance, Storage storage, pipeline::Precision precision) {
+  PipelineOptions options;
+  options.precision = precision;
   options.shading = pipeline::Shading::none;
   options.depth_format.storage = storage;
   const SceneView view = fight_files(distance).view;

@@ -24,7 +24,8 @@ struct Fight {
   RgbImage picture;
   double wrong_share = 0;
 };
-Fight fight(double distance, Storage storage);
+Fight fight(double distance, Storage storage,
+            pipeline::Precision precision = pipeline::Precision::binary32);
 /// Of the surface in front against the plane of the picture, in degrees.
 double tilt_of_fight();
 /// The separation of the surfaces in steps of unorm16, if it were one of window depths.

@@ -9,9 +9,11 @@
 namespace fathom::studies {
 namespace {
 
+/// Of a triangle, whose plane it keeps: a sliver's own corners tell no plane.
 struct Piece {
   std::uint32_t id;
   EyePolygon corners;
+  EyePlane plane;
 };
 
 struct Node {
@@ -23,7 +25,7 @@ struct Node {
 /// The parts of a piece on the two sides of a plane; both have the same corners on it.
 void divide(const Piece& piece, const EyePlane& plane, std::vector<Piece>& positive,
             std::vector<Piece>& negative) {
-  Piece above{piece.id, {}}, below{piece.id, {}};
+  Piece above{piece.id, {}, piece.plane}, below{piece.id, {}, piece.plane};
   for (std::size_t i = 0; i < piece.corners.size(); ++i) {
     const EyePoint &a = piece.corners[i], &b = piece.corners[(i + 1) % piece.corners.size()];
     const double va = plane.at(a), vb = plane.at(b);
@@ -45,7 +47,7 @@ std::unique_ptr<Node> tree_of(std::vector<Piece> pieces, Sight& sight) {
   if (pieces.empty()) return nullptr;
   ++sight.steps;
   auto node = std::make_unique<Node>();
-  node->plane = plane_of(pieces[0].corners);
+  node->plane = pieces[0].plane;
   node->on.push_back(pieces[0]);
   std::vector<Piece> positive, negative;
   for (std::size_t i = 1; i < pieces.size(); ++i) {
@@ -96,7 +98,8 @@ Sight bsp_tree(const Scene& scene, const Camera& camera) {
   sight.ids.assign(std::size_t{camera.width} * camera.height, no_surface);
   std::vector<Piece> pieces;
   for (EyePolygon& p : eye_polygons(scene)) {
-    pieces.push_back({static_cast<std::uint32_t>(pieces.size()), std::move(p)});
+    const EyePlane plane = plane_of(p);
+    pieces.push_back({static_cast<std::uint32_t>(pieces.size()), std::move(p), plane});
   }
   const std::unique_ptr<Node> root = tree_of(std::move(pieces), sight);
   paint(root.get(), camera, sight);

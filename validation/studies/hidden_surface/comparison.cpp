@@ -1,8 +1,6 @@
 #include "validation/studies/hidden_surface/comparison.h"
 
-#include <algorithm>
-#include <chrono>
-#include <limits>
+#include <utility>
 
 #include "fathom/render.h"
 #include "validation/studies/hidden_surface/bsp_tree.h"
@@ -41,42 +39,11 @@ PipelineOptions z_buffer_options(Storage storage) {
   return options;
 }
 
-HiddenSurfaceCase compare(const HiddenSurfaceScene& c) {
-  HiddenSurfaceCase result{c.name};
-  Scene coloured = c.scene;
-  paint_each_triangle(coloured);
-  SceneFiles drawn = scene_files(c.name, coloured, hidden_surface_camera());
-  const Scene& painted = drawn.view.scene;
-  const Camera& camera = drawn.view.camera;
-  const auto exact = exact_ids(c.scene, camera);
-  for (const std::uint32_t id : exact) result.seen += id != no_surface;
-  PipelineOptions options = z_buffer_options(Storage::float32);
-  result.buffer32 = different(exact, render_frame(painted, camera, options, false).id);
-  options = z_buffer_options(Storage::unorm16);
-  result.buffer16 = different(exact, render_frame(painted, camera, options, false).id);
-  options.hidden_surface = HiddenSurface::painter;
-  const PipelineFrame frame = render_frame(painted, camera, options, true);
-  result.painter = different(exact, frame.id);
-  result.order = frame.painter;
-  result.picture = pipeline::to_rgb(frame.picture);
-  result.warnock = different(exact, warnock(c.scene, camera).ids);
-  result.bsp_tree = different(exact, bsp_tree(c.scene, camera).ids);
-  result.files = std::move(drawn.files);
-  return result;
-}
-
-/// The least time of a few runs in milliseconds, and what the last of them gave.
+/// A frame by one algorithm, timed and, once more, weighed; and what it gave.
 template <class Run>
-auto timed(const Run& run) {
-  using Clock = std::chrono::steady_clock;
-  std::pair<double, decltype(run())> result{std::numeric_limits<double>::infinity(), {}};
-  for (int frame = 0; frame < 5; ++frame) {
-    const Clock::time_point start = Clock::now();
-    result.second = run();
-    const std::chrono::duration<double, std::milli> time = Clock::now() - start;
-    result.first = std::min(result.first, time.count());
-  }
-  return result;
+auto cost_of(const Run& run) {
+  auto [ms, result] = least_time(run);
+  return std::pair(FrameCost{ms, peak_bytes([&] { run(); })}, std::move(result));
 }
 
 }  // namespace
@@ -108,34 +75,58 @@ Camera hidden_surface_camera() {
   return camera;
 }
 
+HiddenSurfaceCase compare_hidden_surfaces(const std::string& name, const Scene& scene,
+                                          const Camera& camera) {
+  HiddenSurfaceCase result{name};
+  Scene coloured = scene;
+  paint_each_triangle(coloured);
+  SceneFiles drawn = scene_files(name, coloured, camera);
+  const Scene& painted = drawn.view.scene;
+  const auto exact = exact_ids(scene, camera);
+  for (const std::uint32_t id : exact) result.seen += id != no_surface;
+  PipelineOptions options = z_buffer_options(Storage::float32);
+  result.buffer32 = different(exact, render_frame(painted, camera, options, false).id);
+  options = z_buffer_options(Storage::unorm16);
+  result.buffer16 = different(exact, render_frame(painted, camera, options, false).id);
+  options.hidden_surface = HiddenSurface::painter;
+  const PipelineFrame frame = render_frame(painted, camera, options, true);
+  result.painter = different(exact, frame.id);
+  result.order = frame.painter;
+  result.picture = pipeline::to_rgb(frame.picture);
+  result.warnock = different(exact, warnock(scene, camera).ids);
+  result.bsp_tree = different(exact, bsp_tree(scene, camera).ids);
+  result.files = std::move(drawn.files);
+  return result;
+}
+
 std::vector<HiddenSurfaceCase> compare_hidden_surfaces() {
   std::vector<HiddenSurfaceCase> results;
-  for (const HiddenSurfaceScene& c : hidden_surface_scenes()) results.push_back(compare(c));
+  for (const HiddenSurfaceScene& c : hidden_surface_scenes())
+    results.push_back(compare_hidden_surfaces(c.name, c.scene, hidden_surface_camera()));
   return results;
 }
 
-HiddenSurfaceCost hidden_surface_cost(std::uint32_t triangles) {
-  const Camera camera = front_camera(320, 240, 1, 20);
-  const Scene scene = random_triangles(triangles, 9);
+HiddenSurfaceCost hidden_surface_cost(const Scene& scene, const Camera& camera) {
+  HiddenSurfaceCost cost{.triangles = scene.meshes[0].triangles.size()};
   PipelineOptions options = z_buffer_options(Storage::float32);
   const auto draw = [&] { return render_frame(scene, camera, options, false); };
-  const double buffer_ms = timed(draw).first;
+  cost.buffer = cost_of(draw).first;
   options.hidden_surface = HiddenSurface::painter;
-  const auto [painter_ms, frame] = timed(draw);
-  const auto [warnock_ms, windows] = timed([&] { return warnock(scene, camera); });
-  const auto [bsp_tree_ms, pieces] = timed([&] { return bsp_tree(scene, camera); });
-  const std::uint64_t polygons = triangles + frame.painter.splits;
-  return {triangles,
-          buffer_ms,
-          painter_ms,
-          warnock_ms,
-          bsp_tree_ms,
-          std::uint64_t{camera.width} * camera.height * sizeof(float),
-          polygons * sizeof(pipeline::WindowTriangle<double>),
-          frame.painter.comparisons,
-          frame.painter.splits,
-          windows.steps,
-          pieces.polygons};
+  const auto [painter, frame] = cost_of(draw);
+  cost.painter = painter;
+  cost.comparisons = frame.painter.comparisons;
+  cost.splits = frame.painter.splits;
+  const auto [warnock_cost, windows] = cost_of([&] { return warnock(scene, camera); });
+  cost.warnock = warnock_cost;
+  cost.warnock_windows = windows.steps;
+  const auto [tree_cost, tree] = cost_of([&] { return bsp_tree(scene, camera); });
+  cost.bsp_tree = tree_cost;
+  cost.bsp_tree_pieces = tree.polygons;
+  return cost;
+}
+
+HiddenSurfaceCost hidden_surface_cost(std::uint32_t triangles) {
+  return hidden_surface_cost(random_triangles(triangles, 9), front_camera(320, 240, 1, 20));
 }
 
 }  // namespace fathom::studies

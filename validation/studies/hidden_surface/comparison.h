@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fathom/camera/camera.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/scene/scene.h"
+#include "validation/studies/effort.h"
 #include "validation/studies/scene_files.h"
 
 /// Z-buffer, painter's algorithm, Warnock's subdivision and a tree of planes, compared with the exact
@@ -32,17 +34,28 @@ struct HiddenSurfaceCase {
   std::vector<StudyFile> files;  ///< the scene and the camera that it is drawn from
 };
 std::vector<HiddenSurfaceCase> compare_hidden_surfaces();
+/// The same of a scene of one mesh in the camera's frame.
+HiddenSurfaceCase compare_hidden_surfaces(const std::string& name, const Scene& scene,
+                                          const Camera& camera);
 
-/// Random triangles, 320 × 240 pixels: the least time of five frames, here. Bytes: a float32 for each
-/// pixel, and the polygons, with their attributes, that have to be there to be sorted.
-struct HiddenSurfaceCost {
-  std::uint32_t triangles;
-  double buffer_ms, painter_ms, warnock_ms, bsp_tree_ms;
-  std::uint64_t buffer_bytes, painter_bytes;
-  std::uint64_t comparisons, splits;
-  std::uint64_t warnock_windows;  ///< that were looked at
-  std::uint64_t bsp_tree_pieces;  ///< of polygons, one in each node
+/// What one algorithm took for a frame, here.
+struct FrameCost {
+  double ms = 0;  ///< the least of several frames
+  /// The peak of the memory that it took meanwhile, of a frame of its own; nullopt where the system
+  /// does not measure it.
+  std::optional<std::uint64_t> bytes;
 };
+
+struct HiddenSurfaceCost {
+  std::size_t triangles = 0;
+  FrameCost buffer, painter, warnock, bsp_tree;
+  std::uint64_t comparisons = 0, splits = 0;
+  std::uint64_t warnock_windows = 0;  ///< that were looked at
+  std::uint64_t bsp_tree_pieces = 0;  ///< of polygons, one in each node
+};
+/// Of a scene of one mesh in the camera's frame.
+HiddenSurfaceCost hidden_surface_cost(const Scene& scene, const Camera& camera);
+/// Of random triangles, 320 × 240 pixels.
 HiddenSurfaceCost hidden_surface_cost(std::uint32_t triangles);
 
 }  // namespace fathom::studies

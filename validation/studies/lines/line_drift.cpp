@@ -104,6 +104,10 @@ std::vector<DecidedLine> decided_lines() {
   add("DDA", "y", [&](const auto& visit) { pipeline::dda_line<double>(ends, {}, visit); });
   add("Bresenham", "error", [&](const auto& visit) { pipeline::bresenham_line(ends, {}, visit); });
   add("midpoint", "d", [&](const auto& visit) { pipeline::midpoint_line(ends, {}, visit); });
+  LineEnds staying = ends;
+  staying.ties = pipeline::TieRule::stay;
+  add("the textbook's Bresenham: --ties stay", "error",
+      [&](const auto& visit) { pipeline::bresenham_line(staying, {}, visit); });
   DecidedLine diamonds{"diamond exit, centre to centre",
                        {},
                        "the pixel of the end, whose diamond is not left, is not drawn"};

@@ -30,7 +30,7 @@ std::vector<LineCost> line_costs();
 
 /// (0,0)-(8,3) by an algorithm: the row of the pixel in each column, and what it decided by.
 struct DecidedLine {
-  const char* algorithm;
+  std::string algorithm;
   std::vector<double> rows;
   std::string decisions;
 };

@@ -4,6 +4,7 @@
 
 #include "fathom/numeric/errors.h"
 #include "validation/studies/lines/line_drift.h"
+#include "validation/studies/lines/step_costs.h"
 #include "validation/studies/page_texts.h"
 #include "validation/studies/results.h"
 
@@ -26,8 +27,16 @@ Table costs_table(const std::vector<LineCost>& rows) {
   using Row = LineCost;
   return {rows,
           {{Column("algorithm").page("algorithm"), &Row::algorithm},
-           {heading("in each step"), &Row::step},
+           {Column("step").page("in each step"), &Row::step},
            {Column("nanoseconds").page("ns a pixel, here", ".2f"), &Row::nanoseconds}}};
+}
+
+Table step_costs_table(const std::vector<StepCost>& rows) {
+  using Row = StepCost;
+  return {rows,
+          {{Column("step").page("arithmetic of a step"), &Row::step},
+           {Column("binary32_ns").page("ns a pixel, binary32", ".2f"), &Row::binary32_ns},
+           {Column("binary64_ns").page("binary64", ".2f"), &Row::binary64_ns}}};
 }
 
 Table known_line_table(const std::vector<DecidedLine>& rows) {
@@ -74,7 +83,13 @@ std::vector<StudyFile> study_lines(const StudyOptions& options,
   Results results("lines", page_texts::lines, options);
   results.figure("slopes", slopes);
   results.table(drift_table(drifts), {.csv = "drift", .json = "drift", .page = "drift"});
-  results.table(costs_table(line_costs()), {.json = "cost", .page = "costs"});
+  for (const LineDrift& d : drifts)
+    if (d.length == drifts.back().length)
+      results.quote("wrong " + d.algorithm, d.percent_wrong(), ".2g");
+  results.quote("longest", drifts.back().length);
+  results.table(costs_table(line_costs()), {.csv = "cost", .json = "cost", .page = "costs"});
+  results.table(step_costs_table(step_costs()),
+                {.csv = "step_cost", .json = "step_cost", .page = "step_costs"});
   results.table(known_line_table(decided_lines()), {.page = "known_line"});
   results.plot(Plot{.name = "drift",
                     .title = "Drift from the exact line",
@@ -88,6 +103,7 @@ std::vector<StudyFile> study_lines(const StudyOptions& options,
                     .x_label = "length of the line in pixels",
                     .y_label = "percent",
                     .logarithmic_x = true,
+                    .logarithmic_y = true,
                     .series = series_by_length(drifts, &LineDrift::percent_wrong)});
   return results.files();
 }

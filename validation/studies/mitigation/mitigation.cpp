@@ -105,6 +105,14 @@ std::vector<StudyFile> study_mitigation(const StudyOptions& options,
   results.figure("scene", view.name);
   results.figure("near", view.camera.near);
   results.figure("far", view.camera.far);
+  const auto fewest = std::min_element(
+      formats.begin(), formats.end(),
+      [](const Cure& a, const Cure& b) { return a.fights.fighting < b.fights.fighting; });
+  results.quote("pixels", nears.front().fights.surface_pixels);
+  results.quote("before", nears.front().fights.fighting);
+  results.quote("farthest", nears.back().fights.fighting);
+  results.quote("best_format", fewest->name);
+  results.quote("best_format_fights", fewest->fights.fighting);
   results.table(cures_table(nears, "cure"), {.csv = "near", .json = "near_planes", .page = "near"});
   results.table(cures_table(formats, "format"),
                 {.csv = "formats", .json = "formats", .page = "formats"});

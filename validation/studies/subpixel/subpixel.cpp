@@ -109,6 +109,9 @@ std::vector<StudyFile> study_subpixel(const StudyOptions& options,
   Results results("subpixel", page_texts::subpixel, options);
   results.figure("scene", view.name);
   results.table(table_of(rows), {.csv = "subpixel", .json = "bits", .page = "rows"});
+  for (const Row& row : rows)
+    results.quote("changed " + std::to_string(row.bits),
+                  row.covered_otherwise() + row.other_triangle);
   results.plot(coverage_plot(rows));
   results.plot(depth_plot(rows));
   if (rows[0].left_out > 0) results.quote("left_out", rows[0].left_out);

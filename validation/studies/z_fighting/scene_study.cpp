@@ -154,6 +154,15 @@ std::vector<StudyFile> study_scene_fights(const StudyOptions& options,
   results.figure("width", view.camera.width);
   results.figure("height", view.camera.height);
   results.figure("layered_samples", samples.size());
+  const auto most = std::max_element(
+      fights.begin(), fights.end(),
+      [](const SceneFights& a, const SceneFights& b) { return a.fighting < b.fighting; });
+  results.quote("formats", fights.size());
+  results.quote("formats_without", std::count_if(fights.begin(), fights.end(),
+                                                 [](const auto& f) { return f.fighting == 0; }));
+  results.quote("pixels", most->surface_pixels);
+  results.quote("most", most->fighting);
+  results.quote("worst", file_name_of(most->format));
   results.table(fights_table(fights), {.csv = "fights", .json = "formats"});
   results.table(fights_by_mapping(fights), {.page = "fights"});
   results.table(separations_table(losses), {.csv = "separations"});
