@@ -17,6 +17,7 @@
 #include "fathom/numeric/errors.h"
 #include "validation/faults/fault_study.h"
 #include "validation/peers/drawing.h"
+#include "validation/report/predicted_fights.h"
 
 namespace fathom::app {
 namespace {
@@ -101,6 +102,7 @@ void judge_all(std::vector<ValidationCase>& cases, const std::vector<SceneToMake
       Stopwatch watch;
       c.truth = truth;
       judge(model, c);
+      c.predicted_fights = validation::predicted_fights(made.scene, *c.truth, c.model);
       c.seconds = c.seconds.value_or(0) + watch.lap();
     }
   }

@@ -10,6 +10,7 @@
 #include "validation/report/ctest_lines.h"
 #include "validation/report/pictures.h"
 #include "validation/report/reported_result.h"
+#include "validation/report/z_fighting.h"
 
 namespace fathom::app {
 namespace {
@@ -25,9 +26,14 @@ std::string line_of(const ValidationCase& c) {
   const Attribution& a = c.attribution;
   std::string counts;
   for (std::size_t k = 0; k < attribution::pixel_class_count; ++k) {
-    if (a.counts[k] == 0) continue;
-    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", a.counts[k],
-                          name_of(static_cast<PixelClass>(k)));
+    const auto pixel_class = static_cast<PixelClass>(k);
+    std::string clause;
+    if (pixel_class == PixelClass::z_fight) {
+      clause = validation::z_fight_clause(c);
+    } else if (a.counts[k] != 0) {
+      clause = fmt::format("{} {}", a.counts[k], name_of(pixel_class));
+    }
+    if (!clause.empty()) counts += (counts.empty() ? "" : ", ") + clause;
   }
   std::string text =
       fmt::format("{}: {}; median bound {:.2g} of the depth, {:.2f} % of the pixels undecided\n",

@@ -42,7 +42,7 @@ RendererModel model_of(Storage storage, Mapping mapping = Mapping::opengl,
   RasterModel model{.mapping = mapping, .storage = storage, .depth_before_snap = true};
   if (written) model.written = written_depth(Projection::perspective, *written, 0.5, 20);
   model.matrix = clip_from_held(sphere_camera(), model);
-  return {.name = "test", .first_of_equals = true, .kind = model};
+  return {.name = "test", .equal_depths = EqualDepths::first_wins, .kind = model};
 }
 
 struct Case {

@@ -87,6 +87,23 @@ class ReportPage(PageCase):
         self.assertIn("4 maps of 2 scenes: every pixel is explained", self.text("#verdict"))
         self.assertEqual([cell.text for cell in self.all("#matrix button")], ["0"] * 4)
 
+    # Maps that are judged as if somebody had brought them have depths alone.
+    def test_z_fighting_is_unknown_without_triangle_numbers(self):
+        self.show(next(k for k, r in enumerate(self.results) if r["scene"] == "sphere"))
+        self.assertIn(["z-fight", "0", "0.000 %"], [cells[:3] for cells in self.table("#classes")])
+        with tempfile.TemporaryDirectory(prefix="fathom-report-") as folder:
+            subprocess.run([PROGRAM, "--against", "embree", "--scene", "sphere", "--size", f"{WIDTH}x{HEIGHT}",
+                            "--model", "matching", "--out", folder], check=True, stdout=subprocess.DEVNULL)
+            page = self.driver.current_url
+            self.addCleanup(self.driver.get, page)
+            self.driver.get((pathlib.Path(folder) / "report.html").as_uri())
+            self.wait_for(lambda: self.all("#classes tr"), "the classes")
+            self.assertIn(["z-fight", "unknown", "–"], [cells[:3] for cells in self.table("#classes")])
+            self.assertIn("No triangle numbers were read", self.text("#bounds"))
+            names = self.table("#all")[0]
+            for cells in self.table("#all")[1:]:
+                self.assertEqual(cells[names.index("z-fight")], "unknown")
+
     # The values come from compressed maps, those of report.json do not.
     def test_a_click_shows_pictures_that_can_be_read(self):
         for number, _ in enumerate(self.results):

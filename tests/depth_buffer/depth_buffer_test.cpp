@@ -30,10 +30,12 @@ struct Buffered {
 };
 
 Buffered buffered(const Scene& scene, const Camera& camera, const DepthFormat& format,
-                  Engine engine, Cull cull = Cull::none) {
+                  Engine engine, Cull cull = Cull::none,
+                  EqualDepths equal_depths = EqualDepths::first_wins) {
   RenderOptions options{.engine = engine, .channels = {Channel::Z, Channel::id}, .cull = cull};
   Buffered result{render(scene, camera, options), {}};
-  result.statistics = add_depth_buffer(result.map, scene, camera, {format, true, options});
+  result.statistics =
+      add_depth_buffer(result.map, scene, camera, {format, true, options, equal_depths});
   return result;
 }
 
@@ -48,7 +50,8 @@ StoredDepth stored_at(const DepthMap& map, Storage storage, std::size_t pixel) {
 }
 
 /// The depth test of the specification, over every triangle that counts at the sample.
-std::uint32_t winner(const DepthFormat& format, std::vector<CoveringTriangle> covering) {
+std::uint32_t winner(const DepthFormat& format, std::vector<CoveringTriangle> covering,
+                     EqualDepths equal_depths) {
   std::sort(covering.begin(), covering.end(),
             [](const auto& a, const auto& b) { return a.number < b.number; });
   std::uint32_t winner = no_surface;
@@ -56,7 +59,8 @@ std::uint32_t winner(const DepthFormat& format, std::vector<CoveringTriangle> co
   for (const CoveringTriangle& t : covering) {
     if (!t.counts) continue;
     const StoredDepth stored = encode(format, t.depth);
-    if (winner == no_surface || is_nearer(format, stored, nearest)) {
+    const bool wins_as_equal = equal_depths == EqualDepths::last_wins && stored == nearest;
+    if (winner == no_surface || is_nearer(format, stored, nearest) || wins_as_equal) {
       winner = t.number;
       nearest = stored;
     }
@@ -66,7 +70,7 @@ std::uint32_t winner(const DepthFormat& format, std::vector<CoveringTriangle> co
 
 /// Holds a map against every triangle that covers a sample, each exact, one pixel after the other.
 void expect_true(const Buffered& b, const Scene& scene, const Camera& camera,
-                 const DepthFormat& format, Cull cull) {
+                 const DepthFormat& format, Cull cull, EqualDepths equal_depths) {
   std::uint64_t fighting = 0;
   for (std::uint32_t y = 0; y < camera.height; ++y) {
     for (std::uint32_t x = 0; x < camera.width; ++x) {
@@ -89,7 +93,7 @@ void expect_true(const Buffered& b, const Scene& scene, const Camera& camera,
       const std::optional<Real> back = decode(format, stored);
       ASSERT_EQ(decoded, back ? round_to_binary32(*back) : infinity);
       ASSERT_EQ(error, back ? round_to_binary32(difference(*back, depth)) : infinity);
-      const std::uint32_t wins = winner(format, covering);
+      const std::uint32_t wins = winner(format, covering, equal_depths);
       ASSERT_EQ((*b.map.values<std::uint32_t>("Zwinner"))[pixel], wins);
       ASSERT_EQ((*b.map.values<std::uint32_t>("Zfight"))[pixel], wins != covering[0].number);
       fighting += wins != covering[0].number ? 1 : 0;
@@ -117,11 +121,13 @@ TEST(DepthBuffer, BothEnginesHoldWhatTheSpecificationSays) {
     c.camera.far = std::ldexp(1, static_cast<int>(random() % 30) + 1);
     const DepthFormat format = random_format(random, c.camera);
     const Cull cull = i % 5 == 0 ? Cull::back : i % 7 == 0 ? Cull::front : Cull::none;
+    const EqualDepths equal_depths = i % 2 == 0 ? EqualDepths::first_wins : EqualDepths::last_wins;
     SCOPED_TRACE("case " + std::to_string(i) + " " + std::string(name_of(format.mapping)) + " " +
                  std::string(name_of(format.storage)));
-    const Buffered exact = buffered(c.scene, c.camera, format, Engine::reference, cull);
-    ASSERT_NO_FATAL_FAILURE(expect_true(exact, c.scene, c.camera, format, cull));
-    const Buffered fast = buffered(c.scene, c.camera, format, Engine::fast, cull);
+    const Buffered exact =
+        buffered(c.scene, c.camera, format, Engine::reference, cull, equal_depths);
+    ASSERT_NO_FATAL_FAILURE(expect_true(exact, c.scene, c.camera, format, cull, equal_depths));
+    const Buffered fast = buffered(c.scene, c.camera, format, Engine::fast, cull, equal_depths);
     ASSERT_NO_FATAL_FAILURE(testing::expect_same_map(fast.map, exact.map));
     ASSERT_FALSE(::testing::Test::HasFailure());
     EXPECT_EQ(fast.statistics.fighting, exact.statistics.fighting);

@@ -11,7 +11,9 @@
 #include "tests/apps/test_folder.h"
 #include "validation/report/cause.h"
 #include "validation/report/ctest_lines.h"
+#include "validation/report/report_json.h"
 #include "validation/report/xml.h"
+#include "validation/report/z_fighting.h"
 
 /// The XML that CI services and CTest read, read back by Python.
 namespace fathom::validation {
@@ -112,6 +114,36 @@ TEST(Junit, HasASuiteForEachSceneAndACaseForEachRenderer) {
   EXPECT_EQ(failure[1]["message"], cause_of(cases[1]));
   EXPECT_EQ(failure[1]["type"], "unexplained");
   EXPECT_THAT(failure[2].get<std::string>(), HasSubstr("unexplained (2, 0): 1.5 instead of 1"));
+}
+
+/// What JUnit and report.json say of z-fighting.
+void expect_z_fighting(const ValidationCase& c, const std::string& property,
+                       const nlohmann::json& pixels) {
+  const std::string junit = to_junit({c}, nullptr), json = to_json({c});
+  EXPECT_THAT(junit, HasSubstr("name=\"z-fight pixels\" value=\"" + property + "\""));
+  EXPECT_EQ(nlohmann::json::parse(json)["results"][0]["z_fighting"]["pixels"], pixels);
+}
+
+// A wrong surface with the right depth cannot be seen without numbers of triangles: 0 would be a guess.
+TEST(ZFighting, IsUnknownWithoutTriangleNumbers) {
+  ValidationCase c = case_of("spot", "own peeled", good);
+  expect_z_fighting(c, "unknown: no triangle numbers were read", nullptr);
+  EXPECT_EQ(z_fight_clause(c), "z-fight unknown (no triangle numbers)");
+  c = case_of("spot", "own peeled", {PixelClass::z_fight, PixelClass::equal});
+  expect_z_fighting(c, "at least 1: no triangle numbers were read", nullptr);
+  EXPECT_EQ(z_fight_clause(c), "at least 1 z-fight (no triangle numbers)");
+}
+
+TEST(ZFighting, IsCountedWithTriangleNumbersAndPredicted) {
+  ValidationCase c = case_of("spot", "unorm24", good);
+  c.other.triangles.assign(4, 0);
+  expect_z_fighting(c, "0", 0);
+  EXPECT_EQ(z_fight_clause(c), "");
+  c.predicted_fights = 3;
+  EXPECT_EQ(z_fight_clause(c), "0 z-fight (3 by the format alone)");
+  EXPECT_THAT(to_junit({c}, nullptr),
+              HasSubstr("name=\"z-fight pixels by the format alone\" value=\"3\""));
+  EXPECT_EQ(nlohmann::json::parse(to_json({c}))["results"][0]["z_fighting"]["by_format_alone"], 3);
 }
 
 TEST(Junit, WhatIsWorseThanTheBaselineFails) {

@@ -85,6 +85,45 @@ TEST_P(Peers, VtkSeesTheSame) {
   EXPECT_LE(found.depth, 0.02);
 }
 
+// Otherwise z-fighting would be counted of another drawing than the one that is judged.
+TEST_P(Peers, VtkDrawsTheSameDepthsWithNumbers) {
+  const ClipRange range = clip_range(mesh, camera);
+  const auto drawn = [&](VtkOptions options, bool numbers) {
+    options.numbers = numbers;
+    VtkRenderer renderer(mesh, camera, range, options);
+    renderer.draw();
+    return renderer.drawing();
+  };
+  for (const VtkOptions& options :
+       {VtkOptions{}, VtkOptions{.depth = Storage::unorm16}, VtkOptions{.depth = Storage::unorm24},
+        VtkOptions{.depth = Storage::float32}, VtkOptions{.samples = 4},
+        VtkOptions{.depth = Storage::float32, .reversed = true},
+        VtkOptions{.mesh = VtkVariant::Mesh::behind_peeled}}) {
+    const VtkDrawing plain = drawn(options, false), numbered = drawn(options, true);
+    EXPECT_EQ(plain.windows, numbered.windows);
+    EXPECT_EQ(plain.shift, numbered.shift);
+    EXPECT_EQ(plain.clip_from_held, numbered.clip_from_held);
+    EXPECT_TRUE(plain.triangles.empty());
+    const double cleared = options.reversed ? 0 : 1;
+    ASSERT_EQ(numbered.triangles.size(), numbered.windows.size());
+    for (std::size_t i = 0; i < numbered.windows.size(); ++i) {
+      ASSERT_EQ(numbered.triangles[i] == no_surface, numbered.windows[i] == cleared) << i;
+    }
+  }
+}
+
+// The number is that of the exact map where one triangle alone is near: a ball's outline and edges are the rest.
+TEST_P(Peers, VtkNumbersTrianglesAsWeDo) {
+  VtkRenderer renderer(mesh, camera, clip_range(mesh, camera), {.numbers = true});
+  renderer.draw();
+  const std::vector<std::uint32_t> theirs = renderer.drawing().triangles;
+  const DepthMap exact = render(scene, camera, {.channels = {Channel::id}});
+  const auto& ids = *exact.values<std::uint32_t>("id");
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) differing += ids[i] != theirs[i] ? 1 : 0;
+  EXPECT_LT(differing, ids.size() / 200);
+}
+
 TEST_P(Peers, EmbreeSeesTheSame) {
   EmbreeTracer tracer(mesh, {.robust = true, .threads = 1});
   tracer.build();

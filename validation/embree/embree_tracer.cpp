@@ -78,10 +78,13 @@ void EmbreeTracer::build() {
   parts_->check("building");
 }
 
-void EmbreeTracer::trace(const Camera& camera, RayStream stream, std::vector<float>& depths) const {
+void EmbreeTracer::trace(const Camera& camera, RayStream stream, std::vector<float>& depths,
+                         std::vector<std::uint32_t>* triangles) const {
   const Binary32View view = binary32_view(camera);
   depths.resize(std::size_t{view.width} * view.height);
-  trace_image(parts_->scene, view, stream, depths.data());
+  if (triangles != nullptr) triangles->resize(depths.size());
+  trace_image(parts_->scene, view, stream,
+              {depths.data(), triangles != nullptr ? triangles->data() : nullptr});
 }
 
 std::string EmbreeTracer::description() {

@@ -39,9 +39,11 @@ class EmbreeTracer {
   void build();
 
   /// Writes planar depths in scene units, width × height, rows from the top, infinite where nothing
-  /// was hit. Makes the rays, too.
+  /// was hit. Makes the rays, too. If `triangles` is set, also writes the numbers of the triangles that were hit, or
+  /// no_surface.
   /// Needs    build().
-  void trace(const Camera& camera, RayStream stream, std::vector<float>& depths) const;
+  void trace(const Camera& camera, RayStream stream, std::vector<float>& depths,
+             std::vector<std::uint32_t>* triangles = nullptr) const;
 
   /// "Embree 3.13.5".
   static std::string description();

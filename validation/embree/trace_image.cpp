@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "fathom/image/depth_map.h"
+
 namespace fathom::validation {
 namespace {
 
@@ -44,15 +46,19 @@ void fill(Packet& packet, const Block& block, const Binary32View& view, int* val
 }
 
 template <class Packet>
-void store(const Packet& packet, const Block& block, const Binary32View& view, float* depths) {
+void store(const Packet& packet, const Block& block, const Binary32View& view,
+           const TracedImages& images) {
   const std::uint32_t columns = std::min(block.side, view.width - block.column);
   const std::uint32_t rows = std::min(block.side, view.height - block.row);
   for (std::uint32_t y = 0; y < rows; ++y) {
-    float* out = depths + std::size_t{block.row + y} * view.width + block.column;
+    const std::size_t first = std::size_t{block.row + y} * view.width + block.column;
     for (std::uint32_t x = 0; x < columns; ++x) {
       const std::uint32_t i = y * block.side + x;
       const bool hit = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-      out[x] = hit ? packet.ray.tfar[i] : infinity;
+      images.depths[first + x] = hit ? packet.ray.tfar[i] : infinity;
+      if (images.triangles != nullptr) {
+        images.triangles[first + x] = hit ? packet.hit.primID[i] : no_surface;
+      }
     }
   }
 }
@@ -64,13 +70,13 @@ RTCIntersectContext coherent_context() {
   return context;
 }
 
-void trace_block(RTCScene scene, const Block& block, const Binary32View& view, float* depths,
-                 RTCRayHit16& packet) {
+void trace_block(RTCScene scene, const Block& block, const Binary32View& view,
+                 const TracedImages& images, RTCRayHit16& packet) {
   alignas(64) int valid[16];
   fill(packet, block, view, valid);
   RTCIntersectContext context = coherent_context();
   rtcIntersect16(valid, scene, &context, &packet);
-  store(packet, block, view, depths);
+  store(packet, block, view, images);
 }
 
 constexpr std::uint32_t stream_side = 8;
@@ -79,8 +85,8 @@ constexpr std::uint32_t stream_length = stream_side * stream_side;
 /// The rays of a stream as an array for each of their parts.
 using Arrays = RTCRayHitNt<stream_length>;
 
-void trace_block(RTCScene scene, const Block& block, const Binary32View& view, float* depths,
-                 Arrays& rays) {
+void trace_block(RTCScene scene, const Block& block, const Binary32View& view,
+                 const TracedImages& images, Arrays& rays) {
   int valid[stream_length];
   fill(rays, block, view, valid);
   RTCRayHitNp parts{};
@@ -91,7 +97,7 @@ void trace_block(RTCScene scene, const Block& block, const Binary32View& view, f
                rays.hit.v,    rays.hit.primID, rays.hit.geomID, {rays.hit.instID[0]}};
   RTCIntersectContext context = coherent_context();
   rtcIntersectNp(scene, &context, &parts, stream_length);
-  store(rays, block, view, depths);
+  store(rays, block, view, images);
 }
 
 /// Numbers below 2⁻¹²⁶ count as zero while it lives, as Embree's manual recommends.
@@ -107,7 +113,8 @@ class FlushSubnormals {
 };
 
 template <class Rays>
-void trace_blocks(RTCScene scene, const Binary32View& view, std::uint32_t side, float* depths) {
+void trace_blocks(RTCScene scene, const Binary32View& view, std::uint32_t side,
+                  const TracedImages& images) {
   const auto block_count = [&](std::uint32_t pixels) { return (pixels + side - 1) / side; };
   const std::uint32_t grain = 32 / side;  // a task has about 32 × 32 pixels
   const tbb::blocked_range2d<std::uint32_t> blocks(0, block_count(view.height), grain, 0,
@@ -117,7 +124,7 @@ void trace_blocks(RTCScene scene, const Binary32View& view, std::uint32_t side, 
     Rays rays;
     for (std::uint32_t y = range.rows().begin(); y < range.rows().end(); ++y) {
       for (std::uint32_t x = range.cols().begin(); x < range.cols().end(); ++x) {
-        trace_block(scene, {x * side, y * side, side}, view, depths, rays);
+        trace_block(scene, {x * side, y * side, side}, view, images, rays);
       }
     }
   });
@@ -125,11 +132,12 @@ void trace_blocks(RTCScene scene, const Binary32View& view, std::uint32_t side, 
 
 }  // namespace
 
-void trace_image(RTCScene scene, const Binary32View& view, RayStream stream, float* depths) {
+void trace_image(RTCScene scene, const Binary32View& view, RayStream stream,
+                 const TracedImages& images) {
   if (stream == RayStream::packets) {
-    trace_blocks<RTCRayHit16>(scene, view, 4, depths);
+    trace_blocks<RTCRayHit16>(scene, view, 4, images);
   } else {
-    trace_blocks<Arrays>(scene, view, stream_side, depths);
+    trace_blocks<Arrays>(scene, view, stream_side, images);
   }
 }
 

@@ -7,8 +7,15 @@
 
 namespace fathom::validation {
 
-/// Traces one ray through each pixel's centre, blocks of pixels in parallel: writes the depths,
-/// width × height, rows from the top, infinite where nothing was hit.
-void trace_image(RTCScene scene, const Binary32View& view, RayStream stream, float* depths);
+/// Images of width × height pixels, rows from the top: depths, infinite where nothing was hit, and, unless null, the
+/// numbers of the triangles, no_surface there.
+struct TracedImages {
+  float* depths = nullptr;
+  std::uint32_t* triangles = nullptr;
+};
+
+/// Traces one ray through each pixel's centre, blocks of pixels in parallel.
+void trace_image(RTCScene scene, const Binary32View& view, RayStream stream,
+                 const TracedImages& images);
 
 }  // namespace fathom::validation

@@ -33,6 +33,8 @@ GlFunctions::GlFunctions() {
   find(ReadBuffer, "glReadBuffer");
   find(ReadPixels, "glReadPixels");
   find(PixelStorei, "glPixelStorei");
+  find(BindTexture, "glBindTexture");
+  find(ActiveTexture, "glActiveTexture");
   find(Finish, "glFinish");
   find(ClearBufferfv, "glClearBufferfv");
   find(ClearBufferuiv, "glClearBufferuiv");

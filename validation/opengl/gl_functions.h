@@ -24,6 +24,8 @@ struct GlFunctions {
   decltype(&::glReadBuffer) ReadBuffer;
   decltype(&::glReadPixels) ReadPixels;
   decltype(&::glPixelStorei) PixelStorei;
+  decltype(&::glBindTexture) BindTexture;
+  PFNGLACTIVETEXTUREPROC ActiveTexture;
   decltype(&::glFinish) Finish;
   PFNGLCLEARBUFFERFVPROC ClearBufferfv;
   PFNGLCLEARBUFFERUIVPROC ClearBufferuiv;

@@ -123,7 +123,7 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlVa
   }
   drawn.map = read_back(gl, camera, model);
   drawn.model.name = "OpenGL";
-  drawn.model.first_of_equals = true;
+  drawn.model.equal_depths = EqualDepths::first_wins;  // GL_LESS, GL_GREATER
   drawn.model.kind = model;
   attribution::set_driver_facts(drawn.version, subpixel_bits, camera, drawn.model);
   if (gl.GetError() != GL_NO_ERROR) throw InputError("OpenGL: the driver reports an error");

@@ -21,9 +21,9 @@ DrawnMap draw_built_in(const OpenGlVariant& variant, const ValidationScene& scen
 DrawnMap draw_built_in(const EmbreeVariant& variant, const ValidationScene& scene) {
   EmbreeTracer tracer(world_mesh(scene.scene), {.robust = variant.robust});
   tracer.build();
-  std::vector<float> depths;
-  tracer.trace(scene.camera, RayStream::packets, depths);
   DrawnMap drawn{.version = EmbreeTracer::description()};
+  std::vector<float> depths;
+  tracer.trace(scene.camera, RayStream::packets, depths, &drawn.map.triangles);
   drawn.map.width = scene.camera.width;
   drawn.map.height = scene.camera.height;
   drawn.map.depths.assign(depths.begin(), depths.end());

@@ -21,6 +21,14 @@ struct Enumerators<Mapping> {
 };
 
 template <>
+struct Enumerators<EqualDepths> {
+  static constexpr EqualDepths all[] = {EqualDepths::first_wins, EqualDepths::last_wins};
+  static std::string name(EqualDepths rule) {
+    return rule == EqualDepths::first_wins ? "first wins" : "last wins";
+  }
+};
+
+template <>
 struct Enumerators<attribution::RasterModel::Cut> {
   using Cut = attribution::RasterModel::Cut;
   static constexpr Cut all[] = {Cut::always, Cut::unknown, Cut::never};
@@ -155,11 +163,11 @@ template <>
 struct Fields<attribution::RendererModel> {
   template <class Visit, class S>
   static void each(Visit&& visit, S& s) {
-    auto& [name, sample, watertight, first_of_equals, recorded, kind] = s;
+    auto& [name, sample, watertight, equal_depths, recorded, kind] = s;
     visit("name", name);
     visit("sample", sample);
     visit("watertight", watertight);
-    visit("first_of_equals", first_of_equals);
+    visit("equal_depths", equal_depths);
     visit("recorded", recorded);
     visit("kind", kind);
   }

@@ -8,6 +8,7 @@
 #include "fathom/attribution/worst_pixels.h"
 #include "validation/report/cause.h"
 #include "validation/report/xml.h"
+#include "validation/report/z_fighting.h"
 
 namespace fathom::validation {
 namespace {
@@ -60,7 +61,12 @@ XmlElement properties_of(const ValidationCase& c) {
   if (!c.is_done()) return properties;
   const attribution::Attribution& a = c.attribution;
   for (std::size_t k = 0; k < attribution::pixel_class_count; ++k) {
-    add(attribution::name_of(static_cast<PixelClass>(k)) + " pixels", std::to_string(a.counts[k]));
+    const auto pixel_class = static_cast<PixelClass>(k);
+    add(attribution::name_of(pixel_class) + " pixels",
+        pixel_class == PixelClass::z_fight ? z_fight_count_text(c) : std::to_string(a.counts[k]));
+  }
+  if (c.predicted_fights) {
+    add("z-fight pixels by the format alone", std::to_string(*c.predicted_fights));
   }
   add("median relative bound", fmt::format("{:.3g}", a.median_relative_width));
   add("greatest relative error", fmt::format("{:.3g}", a.errors.greatest_relative));

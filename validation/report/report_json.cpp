@@ -80,6 +80,13 @@ Json result(const ValidationCase& c) {
   for (std::size_t k = 0; k < pixel_class_count; ++k) {
     json["pixels"][name_of(static_cast<PixelClass>(k))] = a.counts[k];
   }
+  const std::uint64_t fighting = a.count(PixelClass::z_fight);
+  const bool has_numbers = c.has_triangle_numbers();
+  json["z_fighting"] = {
+      {"triangle_numbers", has_numbers},
+      {"pixels", has_numbers ? Json(fighting) : Json(nullptr)},
+      {"at_least", fighting},
+      {"by_format_alone", c.predicted_fights ? Json(*c.predicted_fights) : Json(nullptr)}};
   json["bounds"] = {{"median_relative_width", number(a.median_relative_width)},
                     {"median_width_in_steps", number(a.median_steps_width)},
                     {"may_share", a.may_share}};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,7 +26,11 @@ struct ValidationCase {
   std::shared_ptr<const attribution::Truth> truth;
   attribution::OtherMap other;
   attribution::Attribution attribution;
+  /// predicted_fights.h.
+  std::optional<std::uint64_t> predicted_fights;
 
+  /// Whether it is known which triangle each pixel shows: where it is not, z-fighting shows only where depths reveal it.
+  [[nodiscard]] bool has_triangle_numbers() const { return !other.triangles.empty(); }
   [[nodiscard]] bool is_done() const { return failure.empty(); }
   /// Nothing is unexplained and nothing was found to be wrong.
   [[nodiscard]] bool is_good() const {

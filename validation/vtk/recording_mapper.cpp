@@ -7,10 +7,28 @@
 #include <vtkShaderProgram.h>
 
 #include "validation/opengl/gl_functions.h"
+#include "validation/vtk/triangle_numbers.h"
 
 namespace fathom::validation {
 
 vtkStandardNewMacro(RecordingMapper);
+
+namespace {
+
+std::optional<EqualDepths> equal_depths_of(GLenum depth_test) {
+  switch (depth_test) {
+    case GL_LESS:
+    case GL_GREATER:
+      return EqualDepths::first_wins;
+    case GL_LEQUAL:
+    case GL_GEQUAL:
+      return EqualDepths::last_wins;
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
 
 void RecordingMapper::SetCameraShaderParameters(vtkOpenGLHelper& drawn, vtkRenderer* renderer,
                                                 vtkActor* actor) {
@@ -34,19 +52,31 @@ void RecordingMapper::SetCameraShaderParameters(vtkOpenGLHelper& drawn, vtkRende
   }
 }
 
+void RecordingMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) {
+  if (greater_is_nearer_) {
+    draw_reversed(renderer, actor);
+  } else {
+    draw(renderer, actor);
+  }
+  if (width_ != 0) numbers_ = read_triangle_numbers(GlFunctions(), width_, height_);
+}
+
+void RecordingMapper::draw(vtkRenderer* renderer, vtkActor* actor) {
+  GLint test = 0;
+  GlFunctions().GetIntegerv(GL_DEPTH_FUNC, &test);
+  equal_depths_ = equal_depths_of(static_cast<GLenum>(test));
+  Superclass::RenderPieceDraw(renderer, actor);
+}
+
 /// VTK has cleared to far = 1 and will test for the less: for this one actor both are turned, and
 /// put back as VTK believes them to be.
-void RecordingMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) {
-  if (!greater_is_nearer_) {
-    Superclass::RenderPieceDraw(renderer, actor);
-    return;
-  }
+void RecordingMapper::draw_reversed(vtkRenderer* renderer, vtkActor* actor) {
   const GlFunctions gl;
   const GLfloat far = 0;
   gl.ClearBufferfv(GL_DEPTH, 0, &far);
   gl.DepthFunc(GL_GEQUAL);
   if (zero_to_one_) gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  Superclass::RenderPieceDraw(renderer, actor);
+  draw(renderer, actor);
   if (zero_to_one_) gl.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
   gl.DepthFunc(GL_LEQUAL);
 }

@@ -3,6 +3,11 @@
 #include <vtkOpenGLPolyDataMapper.h>
 
 #include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "fathom/depth_format/depth_format.h"
 
 namespace fathom::validation {
 
@@ -25,6 +30,16 @@ class RecordingMapper : public vtkOpenGLPolyDataMapper {
     greater_is_nearer_ = true;
     zero_to_one_ = zero_to_one;
   }
+  /// From now on the numbers of triangles (triangle_numbers.h) are read as soon as the mesh is drawn, before anything
+  /// else is drawn over it. Needs one sample per pixel.
+  void record_numbers(std::uint32_t width, std::uint32_t height) {
+    width_ = width;
+    height_ = height;
+  }
+  /// Which of equal depths won in the last frame, by OpenGL's depth test; nothing for a test that is no order.
+  [[nodiscard]] std::optional<EqualDepths> equal_depths() const { return equal_depths_; }
+  /// Those of the last frame, rows from the top; empty if they are not recorded.
+  [[nodiscard]] const std::vector<std::uint32_t>& numbers() const { return numbers_; }
   /// Positions are held as (position − shift)·scale; world frame, scene units.
   [[nodiscard]] const std::array<double, 3>& shift() const { return shift_; }
   [[nodiscard]] const std::array<double, 3>& scale() const { return scale_; }
@@ -35,9 +50,15 @@ class RecordingMapper : public vtkOpenGLPolyDataMapper {
   void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
 
  private:
+  void draw(vtkRenderer* renderer, vtkActor* actor);
+  void draw_reversed(vtkRenderer* renderer, vtkActor* actor);
+
   bool greater_is_nearer_ = false, zero_to_one_ = false;
   std::array<float, 16> clip_from_held_{};
   std::array<double, 3> shift_{0, 0, 0}, scale_{1, 1, 1};
+  std::optional<EqualDepths> equal_depths_;
+  std::uint32_t width_ = 0, height_ = 0;
+  std::vector<std::uint32_t> numbers_;
 };
 
 }  // namespace fathom::validation

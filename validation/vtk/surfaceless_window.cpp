@@ -3,6 +3,7 @@
 #include <vtkAutoInit.h>
 #include <vtkObjectFactory.h>
 
+#include "validation/opengl/gl_functions.h"
 #include "validation/vtk/quiet_stderr.h"
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)
@@ -19,6 +20,7 @@ SurfacelessWindow::SurfacelessWindow() {
   SetReadyForRendering(true);
   SetMultiSamples(0);
   SetFrameBlitModeToNoBlit();
+  GlFunctions().DepthFunc(GL_LEQUAL);
 }
 
 void SurfacelessWindow::OpenGLInitContext() {

@@ -1,9 +1,12 @@
 #include "validation/vtk/vtk_depth_maps.h"
 
+#include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "fathom/attribution/model/opengl_drivers.h"
 #include "fathom/attribution/model/window_depth.h"
+#include "fathom/image/depth_map.h"
 #include "fathom/numeric/errors.h"
 #include "validation/vtk/camera_matrix.h"
 #include "validation/vtk/vtk_renderer.h"
@@ -21,7 +24,8 @@ VtkOptions options_of(const VtkVariant& variant, const Camera& camera) {
   VtkOptions options{.depth = variant.attachment,
                      .samples = variant.samples,
                      .mesh = variant.mesh,
-                     .driver = variant.driver};
+                     .driver = variant.driver,
+                     .numbers = true};
   const auto write = [&](Mapping mapping) {
     options.written = written_depth(camera.projection, mapping, camera.near, camera.far);
   };
@@ -41,6 +45,20 @@ VtkOptions options_of(const VtkVariant& variant, const Camera& camera) {
   return options;
 }
 
+/// A depth buffer shows nothing where it holds the value that it was cleared to, though a surface at the far plane may
+/// have been drawn there: GL_LEQUAL lets it pass. The map says what the depth buffer does.
+/// Fails    InputError where a colour is that of no triangle, or a depth has none: another colour than ours was drawn.
+void hold_against_depths(attribution::OtherMap& map, std::size_t triangle_count) {
+  for (std::size_t i = 0; i < map.triangles.size(); ++i) {
+    std::uint32_t& triangle = map.triangles[i];
+    const bool shows_a_surface = std::isfinite(map.depths[i]);
+    if (triangle != no_surface ? triangle >= triangle_count : shows_a_surface) {
+      throw InputError("vtk: drew a depth in a colour that is the number of no triangle");
+    }
+    if (!shows_a_surface) triangle = no_surface;
+  }
+}
+
 }  // namespace
 
 DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const VtkVariant& variant) {
@@ -51,6 +69,7 @@ DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const VtkVariant&
 
   DrawnMap drawn{.version = renderer.description()};
   drawn.model.name = "VTK";
+  drawn.model.equal_depths = drawing.equal_depths;
   RasterModel model;
   model.mapping = options.reversed ? Mapping::reversed : Mapping::opengl;
   model.written = options.written;
@@ -75,6 +94,8 @@ DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const VtkVariant&
     drawn.map.depths.push_back(z == cleared ? std::numeric_limits<double>::infinity()
                                             : window.to_depth(z));
   }
+  drawn.map.triangles = drawing.triangles;
+  hold_against_depths(drawn.map, mesh.triangles.size());
   return drawn;
 }
 

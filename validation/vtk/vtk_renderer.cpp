@@ -26,6 +26,7 @@
 #include "validation/vtk/recording_mapper.h"
 #include "validation/vtk/surfaceless_window.h"
 #include "validation/vtk/translucent_pane.h"
+#include "validation/vtk/triangle_numbers.h"
 
 namespace fathom::validation {
 namespace {
@@ -120,6 +121,7 @@ struct VtkRenderer::Parts {
   vtkSmartPointer<vtkTextureObject> depth;
   VtkOptions options;
   int width = 0, height = 0;
+  bool draws_numbers = false;
 };
 
 VtkRenderer::VtkRenderer(const WorldMesh& mesh, const Camera& camera, const ClipRange& range,
@@ -129,10 +131,20 @@ VtkRenderer::VtkRenderer(const WorldMesh& mesh, const Camera& camera, const Clip
   parts_->height = static_cast<int>(camera.height);
 
   parts_->options = options;
+  parts_->draws_numbers =
+      options.numbers && options.mesh != VtkVariant::Mesh::peeled && have_colours(mesh);
   RecordingMapper* const mapper = parts_->mapper;
-  mapper->SetInputData(polygons_of(mesh));
-  mapper->ScalarVisibilityOff();
   vtkNew<vtkActor> actor;
+  if (parts_->draws_numbers) {
+    vtkNew<vtkPolyData> polygons;
+    set_numbered_polygons(mesh, *polygons);
+    mapper->SetInputData(polygons);
+    draw_numbers(*mapper, *actor->GetShaderProperty());
+    if (options.samples == 0) mapper->record_numbers(camera.width, camera.height);
+  } else {
+    mapper->SetInputData(polygons_of(mesh));
+  }
+  mapper->ScalarVisibilityOff();
   actor->SetMapper(mapper);
   actor->GetProperty()->LightingOff();
   vtkSmartPointer<vtkRenderer> renderer;
@@ -191,6 +203,7 @@ VtkDrawing VtkRenderer::drawing() {
   drawing.shift = p.mapper->shift();
   drawing.scale = p.mapper->scale();
   drawing.clip_from_held = p.mapper->clip_from_held();
+  drawing.equal_depths = p.mapper->equal_depths();
   if (p.options.mesh == VtkVariant::Mesh::behind_peeled) require_a_layer(*p.peeling);
   if (p.options.mesh == VtkVariant::Mesh::peeled) {
     const std::vector<float>& layer = p.peeling->nearest_layer();
@@ -205,11 +218,23 @@ VtkDrawing VtkRenderer::drawing() {
     const std::vector<float> resolved = window_depths();
     drawing.windows.assign(resolved.begin(), resolved.end());
     drawing.storage = Storage::float32;  // read as binary32
+    if (p.draws_numbers) drawing.triangles = numbers_of_first_sample(gl, drawing.samples);
   } else {
     drawing.windows = read_window_depths(gl, static_cast<std::uint32_t>(p.width),
                                          static_cast<std::uint32_t>(p.height), drawing.storage);
   }
+  if (p.options.samples == 0) drawing.triangles = p.mapper->numbers();
   return drawing;
+}
+
+/// Last: it changes what OpenGL draws into.
+std::vector<std::uint32_t> VtkRenderer::numbers_of_first_sample(const GlFunctions& gl,
+                                                                int samples) {
+  const auto width = static_cast<std::uint32_t>(parts_->width);
+  const auto height = static_cast<std::uint32_t>(parts_->height);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, parts_->window->GetRenderFramebuffer()->GetFBOIndex());
+  return samples > 1 ? read_triangle_numbers_of_first_sample(gl, width, height)
+                     : read_triangle_numbers(gl, width, height);
 }
 
 std::vector<float> VtkRenderer::window_depths() {

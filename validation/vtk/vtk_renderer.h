@@ -14,6 +14,8 @@
 
 namespace fathom::validation {
 
+struct GlFunctions;
+
 struct VtkOptions {
   /// The type of the depth attachment; VTK's own choice if not given.
   std::optional<Storage> depth;
@@ -26,6 +28,9 @@ struct VtkOptions {
   std::optional<attribution::WrittenDepth> written;
   VtkVariant::Mesh mesh = VtkVariant::Mesh::opaque;
   Driver driver = Driver::usual;
+  /// Whether the numbers of triangles are drawn as colours in the pass that writes the depth (triangle_numbers.h). Not of
+  /// a peeled mesh, whose layers are blended.
+  bool numbers = false;
 };
 
 /// What a frame was drawn with, and its depths.
@@ -33,7 +38,11 @@ struct VtkDrawing {
   /// Window depths exactly as stored, width × height, rows from the top; 1 (reversed: 0) where
   /// nothing was drawn.
   std::vector<double> windows;
+  /// Numbers of the visible triangles, no_surface where nothing was drawn; empty where they are not drawn.
+  std::vector<std::uint32_t> triangles;
   Storage storage = Storage::unorm24;
+  /// Which of equal depths won, by OpenGL's depth test.
+  std::optional<EqualDepths> equal_depths;
   int subpixel_bits = 8, samples = 0;
   /// Where in the pixel the sample lies, in pixels from its top left corner; of several, the first.
   std::array<double, 2> sample{0.5, 0.5};
@@ -45,7 +54,7 @@ struct VtkDrawing {
 
 /// A mesh drawn by VTK into a framebuffer without a display: points in binary64, our camera as
 /// explicit model-view and projection matrices, one sample per pixel unless options say otherwise,
-/// no lighting, no culling, nothing written but the depth and a constant colour.
+/// no lighting, no culling, nothing written but the depth and a constant colour or the number of the triangle.
 ///
 /// Does not  read the mesh after construction.
 /// Threads   all calls from the thread that made it. Mesa's software renderer uses as many threads
@@ -76,6 +85,9 @@ class VtkRenderer {
   [[nodiscard]] std::string description() const;
 
  private:
+  [[nodiscard]] std::vector<std::uint32_t> numbers_of_first_sample(const GlFunctions& gl,
+                                                                   int samples);
+
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

@@ -49,7 +49,7 @@ struct Attribution {
   std::vector<std::uint32_t> absent;
   /// For each triangle, the pixels where it is certain to be visible.
   std::vector<std::uint32_t> certain_pixels;
-  /// Unexplained pixels that show another than the first of equal triangles.
+  /// Unexplained pixels that show another of equal triangles than the model's rule lets win.
   std::uint64_t wrong_ties = 0;
   /// What is wrong.
   std::vector<Finding> findings;

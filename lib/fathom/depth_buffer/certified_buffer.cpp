@@ -67,7 +67,8 @@ class CertifiedBand {
     }
   }
 
-  /// Draws the triangles with lower numbers than the visible one where they can have its code.
+  /// Draws the triangles that win from the visible one where they can have its code: those with lower numbers where
+  /// the first of equals wins, else those with higher ones.
   void find_winners() {
     find_ends();
     for (const BoxedTriangle& boxed : band_.triangles) draw(boxed);
@@ -145,6 +146,7 @@ class CertifiedBand {
   }
 
   void draw(const BoxedTriangle& boxed) {
+    const bool first_wins = work_.options.equal_depths == EqualDepths::first_wins;
     const std::size_t first = pixel_at(0, band_.first_row);
     const std::uint32_t end_row = std::min(boxed.box.last_row + 1, band_.end_row);
     for (std::uint32_t row = std::max(boxed.box.first_row, band_.first_row); row < end_row; ++row) {
@@ -152,8 +154,9 @@ class CertifiedBand {
            ++column) {
         const std::size_t pixel = pixel_at(column, row);
         const std::uint32_t visible = channels_.id[pixel];
-        if (visible == no_surface || boxed.number >= visible) continue;
-        if (channels_.winner[pixel] != no_surface) continue;
+        if (visible == no_surface || boxed.number == visible) continue;
+        if ((boxed.number < visible) != first_wins) continue;
+        if (first_wins && channels_.winner[pixel] != no_surface) continue;
         if (wins(boxed.number, pixel, ends_[pixel - first], centre_of_pixel(column, row))) {
           channels_.winner[pixel] = boxed.number;
         }

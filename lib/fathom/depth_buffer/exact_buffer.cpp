@@ -82,7 +82,8 @@ class ExactBand {
                    std::min(box.last_row + 1, band_.end_row), box.first_column, box.last_column,
                    [&](std::size_t pixel, const ImagePoint& s) {
                      if (work_.channels.id[pixel] == no_surface) return;
-                     if (work_.channels.winner[pixel] != no_surface) return;
+                     const bool first_wins = work_.options.equal_depths == EqualDepths::first_wins;
+                     if (first_wins && work_.channels.winner[pixel] != no_surface) return;
                      TierCounts counts;
                      if (!covers(t, s, counts)) return;
                      const Ratio depth = depth_at(t, s);

@@ -10,4 +10,8 @@ const element = (tag, text, attributes = {}) => { const e = document.createEleme
 const row = (table, cells, tag = "td") => { const r = table.insertRow(); for (const c of cells) r.append(c instanceof Node ? c : element(tag, c)); return r; };
 const heading = (content, attributes = {}) => { const h = element("th", undefined, { scope: "col", ...attributes }); h.append(content); return h; };
 const colourKey = (c) => { const k = element("span", undefined, { class: "key" }); k.style.background = "rgb(" + classColours[c] + ")"; return k; };
+/// Of a class in a result: where no triangle numbers were read, z-fighting shows only where depths reveal it.
+const isUnknown = (r, name) => name == "z-fight" && r.z_fighting && !r.z_fighting.triangle_numbers;
+const pixelsText = (r, name) => !isUnknown(r, name) ? r.pixels[name] : r.pixels[name] ? "≥ " + r.pixels[name] : "unknown";
+const shareText = (r, name, n) => isUnknown(r, name) && !r.pixels[name] ? "–" : (isUnknown(r, name) ? "≥ " : "") + (100 * r.pixels[name] / n).toFixed(3) + " %";
 const findingText = (f) => f.text + " (" + counted(f.pixels, "pixel") + ")";

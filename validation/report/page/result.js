@@ -55,8 +55,10 @@ async function show(k) {
     canvas.addEventListener("pointermove", at); canvas.addEventListener("pointerdown", at);
   }
   const classes = byId("classes"); row(classes, ["class", "pixels", "share", element("th", "meaning", { class: "text" })], "th");
-  classNames.forEach((name, c) => { const cell = element("td"); cell.append(colourKey(c), name); row(classes, [cell, r.pixels[name], (100 * r.pixels[name] / n).toFixed(3) + " %", element("td", meanings[name], { class: "text" })]); });
-  byId("bounds").textContent = "Bounds: half of the depth intervals are narrower than " + short(r.bounds.median_relative_width, 3) + " of the depth (" + short(r.bounds.median_width_in_steps, 3) + " steps of the storage); " + (100 * r.bounds.may_share).toFixed(2) + " % of the pixels that triangles touch are undecided: a triangle may be drawn there or not. Errors: median " + short(r.errors.median_relative, 3) + ", greatest " + short(r.errors.greatest_relative, 3) + " of the depth.";
+  classNames.forEach((name, c) => { const cell = element("td"); cell.append(colourKey(c), name); row(classes, [cell, pixelsText(r, name), shareText(r, name, n), element("td", meanings[name], { class: "text" })]); });
+  const fights = r.z_fighting;
+  const fightText = !fights.triangle_numbers ? "No triangle numbers were read: z-fighting shows only where depths reveal it. " : fights.by_format_alone === null ? "" : "Of the format alone, exact depths rounded once, " + counted(fights.by_format_alone, "pixel") + " would z-fight. ";
+  byId("bounds").textContent = fightText + "Bounds: half of the depth intervals are narrower than " + short(r.bounds.median_relative_width, 3) + " of the depth (" + short(r.bounds.median_width_in_steps, 3) + " steps of the storage); " + (100 * r.bounds.may_share).toFixed(2) + " % of the pixels that triangles touch are undecided: a triangle may be drawn there or not. Errors: median " + short(r.errors.median_relative, 3) + ", greatest " + short(r.errors.greatest_relative, 3) + " of the depth.";
   scatter(scene, map, relative);
   formats(r.scene);
   const worst = byId("worst"); row(worst, ["pixel", element("th", "class", { class: "text" }), "truth", "other", heading(term("bound", "allowed")), element("th", "triangle and its corners", { class: "text" })], "th");

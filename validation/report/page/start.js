@@ -24,7 +24,7 @@ function allResults(shown) {
   for (const r of results) {
     if (!shown(r)) continue;
     const names = [heading(r.scene, { scope: "row" }), element("td", label(r), { class: "text" })];
-    row(body, r.failure ? [...names, element("td", r.failure, { colspan: 12, class: "text" })] : [...names, ...classNames.map((c) => r.pixels[c]), short(r.errors.median_relative, 2), short(r.errors.greatest_relative, 2), short(r.bounds.median_relative_width, 2), (100 * r.bounds.may_share).toFixed(2) + " %"]);
+    row(body, r.failure ? [...names, element("td", r.failure, { colspan: 12, class: "text" })] : [...names, ...classNames.map((c) => pixelsText(r, c)), short(r.errors.median_relative, 2), short(r.errors.greatest_relative, 2), short(r.bounds.median_relative_width, 2), (100 * r.bounds.may_share).toFixed(2) + " %"]);
   }
 }
 function versions() {

@@ -4,7 +4,7 @@ const meanings = {
   "within quantization": "a neighbour of that depth in the storage",
   "within arithmetic": "the visible surface, with a depth within its bound",
   "edge": "another surface or none: the sample is so near to an edge that roundings decide which side it is on",
-  "z-fight": "another surface, which roundings can put before the visible one",
+  "z-fight": "another surface, which roundings can put before the visible one; unknown where the renderer's triangle numbers were not read, since a wrong surface may have the right depth",
   "missed surface": "background where a ray slipped through between triangles that share an edge or a corner",
   "convention": "explained by a fault of the whole image, which is named among the findings",
   "unexplained": "nothing that a renderer of this kind does leads to this value: a bug",

@@ -106,10 +106,11 @@ std::vector<Finding> triangles_at_fault(const Truth& truth, const OtherMap& othe
                                         const Attribution& found) {
   std::vector<Finding> findings;
   if (found.wrong_ties > 0) {
-    findings.push_back({"ties",
-                        "of triangles with the same corners a later one is seen, where the first "
-                        "should be",
-                        found.wrong_ties});
+    findings.push_back(
+        {"ties",
+         "of triangles with the same corners another one is seen than the depth test "
+         "lets win",
+         found.wrong_ties});
   }
   const std::map<std::uint32_t, Sightings> seen = sightings(truth, found);
   const std::set<std::uint32_t> gone = missing(truth, found, seen);

@@ -97,8 +97,9 @@ struct RendererModel {
   SamplePosition sample;
   /// No sample between two triangles that share an edge is missed.
   bool watertight = true;
-  /// Of triangles with the same corners the one of the lowest number is seen.
-  bool first_of_equals = false;
+  /// Of triangles with the same corners, which have equal depths whatever the roundings are, the one that is seen,
+  /// where the renderer's rule is known. Triangles are drawn in the order of their numbers.
+  std::optional<EqualDepths> equal_depths;
   /// What was written down in place of the depths, where that is known; depths of the map are then
   /// those that its values mean.
   std::optional<RecordedDepth> recorded;

@@ -29,7 +29,7 @@ PixelJudge::PixelJudge(const Truth& truth, const OtherMap& other, const Renderer
     : truth_(truth),
       other_(other),
       watertight_(model.watertight),
-      first_of_equals_(model.first_of_equals && !other.triangles.empty()),
+      equal_depths_(other.triangles.empty() ? std::nullopt : model.equal_depths),
       values_(stored_values(truth, other, model)) {}
 
 PixelJudge::Pixel PixelJudge::pixel(std::size_t index,
@@ -38,16 +38,18 @@ PixelJudge::Pixel PixelJudge::pixel(std::size_t index,
           verdict_of(fragments, watertight_, truth_.mesh.triangles, truth_.corner_numbers)};
 }
 
-/// A triangle with the same corners in the same order and a lower number is certain to be seen
-/// instead.
-bool PixelJudge::is_later_of_equals(const Pixel& p, const Fragment& f) const {
+/// A triangle with the same corners in the same order is certain to be seen instead.
+bool PixelJudge::loses_to_an_equal(const Pixel& p, const Fragment& f) const {
+  if (!equal_depths_) return false;
+  const bool first_wins = *equal_depths_ == EqualDepths::first_wins;
   const auto corners = [&](std::uint32_t triangle) {
     CornerIndices t = truth_.mesh.triangles[triangle];
     for (std::uint32_t& corner : t) corner = truth_.corner_numbers[corner];
     return t;
   };
   return std::any_of(p.fragments.begin(), p.fragments.end(), [&](const Fragment& g) {
-    return g.triangle < f.triangle && corners(g.triangle) == corners(f.triangle);
+    const bool beats = first_wins ? g.triangle < f.triangle : g.triangle > f.triangle;
+    return beats && corners(g.triangle) == corners(f.triangle);
   });
 }
 
@@ -61,7 +63,7 @@ const Fragment* PixelJudge::explaining(const Pixel& p, double stored) const {
     const Interval allowed = values_->interval(f);
     if (!(allowed.lower <= stored && stored <= allowed.upper)) continue;
     if (allowed.lower > farthest || stored > farthest) continue;
-    if (first_of_equals_ && is_later_of_equals(p, f)) continue;
+    if (loses_to_an_equal(p, f)) continue;
     if (&f == p.visible) return &f;
     const auto distance = [&](const Fragment& g) { return std::abs(values_->exact(g) - stored); };
     if (best == nullptr || distance(f) < distance(*best)) best = &f;
@@ -108,13 +110,13 @@ PixelClass PixelJudge::classify(const Pixel& p) const {
   return is_visible ? class_of_visible(p) : class_of_another(p, *seen);
 }
 
-/// Of an unexplained pixel: whether that is because a later one of equal triangles is shown.
-bool PixelJudge::shows_later_of_equals(const Pixel& p) const {
-  if (!first_of_equals_) return false;
+/// Of an unexplained pixel: whether that is because of equal triangles a wrong one is shown.
+bool PixelJudge::shows_loser_of_equals(const Pixel& p) const {
+  if (!equal_depths_) return false;
   const auto shown = std::find_if(p.fragments.begin(), p.fragments.end(), [&](const Fragment& f) {
     return f.triangle == other_.triangles[p.index];
   });
-  return shown != p.fragments.end() && is_later_of_equals(p, *shown);
+  return shown != p.fragments.end() && loses_to_an_equal(p, *shown);
 }
 
 /// Whether the pixel would be explained if a triangle were not there.
@@ -157,7 +159,7 @@ PixelResult PixelJudge::judge(std::size_t index, const std::vector<Fragment>& fr
   PixelResult result;
   result.pixel_class = classify(p);
   if (result.pixel_class == PixelClass::unexplained) {
-    result.wrong_tie = shows_later_of_equals(p);
+    result.wrong_tie = shows_loser_of_equals(p);
     const bool may_be_absent = visible != no_surface && !result.wrong_tie;
     if (may_be_absent && is_explained_without(visible, p)) result.absent = visible;
   }

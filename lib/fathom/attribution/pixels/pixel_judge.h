@@ -20,7 +20,7 @@ struct PixelResult {
   bool may = false, touched = false;
   /// The visible triangle is certain to be drawn, and no other is near it in depth.
   bool alone = false;
-  /// Unexplained, and another than the first of equal triangles is shown.
+  /// Unexplained, and of equal triangles another than the model's rule lets win is shown.
   bool wrong_tie = false;
   /// The triangle whose absence would explain it, if it is unexplained.
   std::uint32_t absent = no_surface;
@@ -61,8 +61,8 @@ class PixelJudge {
 
   [[nodiscard]] Pixel pixel(std::size_t index, const std::vector<Fragment>& fragments) const;
   [[nodiscard]] const Fragment* explaining(const Pixel& p, double stored) const;
-  [[nodiscard]] bool is_later_of_equals(const Pixel& p, const Fragment& f) const;
-  [[nodiscard]] bool shows_later_of_equals(const Pixel& p) const;
+  [[nodiscard]] bool loses_to_an_equal(const Pixel& p, const Fragment& f) const;
+  [[nodiscard]] bool shows_loser_of_equals(const Pixel& p) const;
   [[nodiscard]] bool is_explained_without(std::uint32_t triangle, const Pixel& p) const;
   [[nodiscard]] PixelClass classify(const Pixel& p) const;
   [[nodiscard]] PixelClass class_of_none(const Pixel& p) const;
@@ -72,7 +72,9 @@ class PixelJudge {
 
   const Truth& truth_;
   const OtherMap& other_;
-  bool watertight_, first_of_equals_;
+  bool watertight_;
+  /// Nothing where it is not known, or the map has no numbers of triangles.
+  std::optional<EqualDepths> equal_depths_;
   std::unique_ptr<const StoredValues> values_;
 };
 
