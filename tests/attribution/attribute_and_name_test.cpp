@@ -111,6 +111,21 @@ TEST_P(Faults, TiesTheOtherWay) {
   expect_named(judged({.last_of_equals = true}), "ties");
 }
 
+// GL_LEQUAL, as VTK's windows have it.
+TEST_P(Faults, ARendererMayLetTheLastOfEqualsWin) {
+  RendererModel last = model;
+  last.equal_depths = EqualDepths::last_wins;
+  const auto judged_by_last = [&](const Fault& fault) {
+    return attribute_and_name(truth, draw_in_binary32(truth.mesh, truth.camera, model, fault),
+                              last);
+  };
+  const Attribution right = judged_by_last({.last_of_equals = true});
+  EXPECT_EQ(right.count(PixelClass::unexplained) + right.count(PixelClass::convention), 0U);
+  EXPECT_TRUE(right.findings.empty());
+  EXPECT_GT(right.count(PixelClass::z_fight), 0U);
+  expect_named(judged_by_last({}), "ties");
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, Faults,
     testing::Values(Case{"Unorm16", Storage::unorm16, Mapping::opengl},

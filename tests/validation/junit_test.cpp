@@ -26,6 +26,8 @@ using testing::HasSubstr;
 ValidationCase case_of(const std::string& scene, const std::string& variant,
                        const std::vector<PixelClass>& classes) {
   auto truth = std::make_shared<attribution::Truth>();
+  truth->mesh.points = {{-1, -1, 1}, {3, -1, 1}, {-1, 3, 1}};
+  truth->mesh.triangles = {{0, 1, 2}};
   truth->depths.assign(classes.size(), 1);
   truth->triangles.assign(classes.size(), 0);
   ValidationCase made{.scene = scene, .renderer = "vtk", .variant = variant, .version = "9.1"};

@@ -97,8 +97,7 @@ TEST_P(Peers, VtkDrawsTheSameDepthsWithNumbers) {
   for (const VtkOptions& options :
        {VtkOptions{}, VtkOptions{.depth = Storage::unorm16}, VtkOptions{.depth = Storage::unorm24},
         VtkOptions{.depth = Storage::float32}, VtkOptions{.samples = 4},
-        VtkOptions{.depth = Storage::float32, .reversed = true},
-        VtkOptions{.mesh = VtkVariant::Mesh::behind_peeled}}) {
+        VtkOptions{.depth = Storage::float32, .reversed = true}}) {
     const VtkDrawing plain = drawn(options, false), numbered = drawn(options, true);
     EXPECT_EQ(plain.windows, numbered.windows);
     EXPECT_EQ(plain.shift, numbered.shift);
