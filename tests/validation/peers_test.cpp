@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "fathom/attribution/world_mesh.h"
@@ -9,6 +13,7 @@
 #include "validation/colour/colour_comparison.h"
 #include "validation/embree/embree_tracer.h"
 #include "validation/vtk/vtk_colours.h"
+#include "validation/vtk/vtk_depth_maps.h"
 #include "validation/vtk/vtk_renderer.h"
 
 /// VTK and Embree see what we see, through a camera with everything that a camera has. Built where
@@ -121,6 +126,46 @@ TEST_P(Peers, VtkNumbersTrianglesAsWeDo) {
   std::size_t differing = 0;
   for (std::size_t i = 0; i < ids.size(); ++i) differing += ids[i] != theirs[i] ? 1 : 0;
   EXPECT_LT(differing, ids.size() / 200);
+}
+
+/// Exercise 3 of the course with the nearer sheet first: two oblique sheets, one 0.0001 behind the other.
+WorldMesh two_sheets(double distance) {
+  const double d = distance, s = distance / 3;
+  WorldMesh sheets;
+  for (const double behind : {0.0, 0.0001}) {
+    for (const auto& [x, y, z] : {std::array{-s, -s, d}, std::array{s, -s, d * 1.2},
+                                  std::array{s, s, d * 1.4}, std::array{-s, s, d * 1.2}}) {
+      sheets.points.push_back({x * (z + behind) / z, y * (z + behind) / z, z + behind});
+    }
+  }
+  sheets.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  return sheets;
+}
+
+// validation/vtk/count_wrong_surfaces.py, which shares nothing with the adaptor, counts the same. Depths of 16 bits are
+// all equal there, and the later sheet wins wherever it is drawn.
+TEST(VtkNumbers, ShowTheWrongSheetsThatAScriptCounts) {
+  Camera camera{.width = 96, .height = 96};
+  camera.fx = camera.fy = 96;
+  camera.cx = camera.cy = 48;
+  camera.near = 0.001;
+  camera.far = 1000;
+  for (const auto& [distance, wrong] : {std::pair{2.0, 2610}, {10.0, 2874}}) {
+    const WorldMesh sheets = two_sheets(distance);
+    for (const auto& [attachment, expected] : {std::pair{std::optional<Storage>(), wrong},
+                                               {std::optional(Storage::unorm16), 2931},
+                                               {std::optional(Storage::unorm24), wrong},
+                                               {std::optional(Storage::unorm32), wrong},
+                                               {std::optional(Storage::float32), wrong}}) {
+      const DrawnMap drawn = draw_vtk(sheets, camera, {.attachment = attachment});
+      EXPECT_EQ(drawn.model.equal_depths, EqualDepths::last_wins);
+      const auto& seen = drawn.map.triangles;
+      EXPECT_EQ(
+          std::count_if(seen.begin(), seen.end(), [](std::uint32_t t) { return t == 2 || t == 3; }),
+          expected)
+          << distance << " " << (attachment ? name_of(*attachment) : "own");
+    }
+  }
 }
 
 TEST_P(Peers, EmbreeSeesTheSame) {
