@@ -139,7 +139,7 @@ std::string text_of(const pipeline::MergeStep& step, const PrimitiveTrace& t) {
   if (step.rules.alpha)
     text += fmt::format("    blend         {} of the fragment, {} of the pixel\n",
                         *step.rules.alpha, 1 - *step.rules.alpha);
-  return text + fmt::format("    written       {}\n", text_of(step.after, t.storage));
+  return text + fmt::format("    afterwards    {}\n", text_of(step.after, t.storage));
 }
 
 std::string painter_text(const pipeline::PainterTrace& painter) {
