@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/pipeline/scan/line.h"
@@ -135,20 +138,87 @@ TEST(LinesOfTheScene, AreHiddenByTrianglesAndNumberedAfterThem) {
   }
 }
 
-/// Lines and points fill whole pixels: every sample, whatever the antialiasing.
-TEST(LinesOfTheScene, AreNotAntialiased) {
-  const Scene scene =
-      scene_of_lines({{2.5, 3.5, 10}, {37.5, 17.5, 10}, {3, 20, 10}}, {{0, 1}}, {2});
+/// The samples of a pixel as multisampling and supersampling have them, from its corner.
+std::vector<std::array<double, 2>> sample_places(const Antialias& antialias) {
+  std::vector<std::array<double, 2>> places;
+  if (antialias.method == AntialiasMethod::msaa)
+    return {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}};
+  for (int row = 0; row < antialias.count; ++row)
+    for (int column = 0; column < antialias.count; ++column)
+      places.push_back({(column + 0.5) / antialias.count, (row + 0.5) / antialias.count});
+  return places;
+}
+
+/// White by the share of samples in the area of a line or point: a rectangle one pixel wide, a square
+/// one pixel large. No sample lies on a border.
+void expect_areas(const ColourImage& image, const Antialias& antialias,
+                  const std::function<bool(double, double)>& is_inside) {
+  const auto places = sample_places(antialias);
+  double sum = 0;
+  for (std::uint32_t y = 0; y < image.height; ++y)
+    for (std::uint32_t x = 0; x < image.width; ++x) {
+      double share = 0;
+      for (const auto& [dx, dy] : places)
+        share += is_inside(x + dx, y + dy) / static_cast<double>(places.size());
+      ASSERT_NEAR(image.at(x, y)[0], share, 1e-7) << x << " " << y;
+      sum += share;
+    }
+  EXPECT_GT(sum, 0.5);
+}
+
+TEST(LinesOfTheScene, AreAntialiasedAsRectangles) {
+  const Scene line = scene_of_lines({{2.53, 3.51, 10}, {37.57, 17.49, 10}}, {{0, 1}});
+  const Scene point = scene_of_lines({{3.33, 20.71, 10}}, {}, {0});
   PipelineOptions options = precise();
-  const ColourImage plain = render_frame(scene, camera_of_pixels(), options, true).picture;
-  for (const Antialias& antialias : {Antialias{AntialiasMethod::ssaa, 3},
-                                     {AntialiasMethod::msaa, 4},
-                                     {AntialiasMethod::jitter, 4},
-                                     {AntialiasMethod::taa, 3}}) {
+  const PipelineFrame plain = render_frame(line, camera_of_pixels(), options, true);
+  const auto in_rectangle = [](double x, double y) {
+    const double dx = 37.57 - 2.53, dy = 17.49 - 3.51, length = std::hypot(dx, dy);
+    const double along = ((x - 2.53) * dx + (y - 3.51) * dy) / length;
+    const double aside = ((x - 2.53) * dy - (y - 3.51) * dx) / length;
+    return 0 <= along && along < length && std::abs(aside) < 0.5;
+  };
+  const auto in_square = [](double x, double y) {
+    return std::abs(x - 3.33) < 0.5 && std::abs(y - 20.71) < 0.5;
+  };
+  for (const Antialias& antialias :
+       {Antialias{AntialiasMethod::ssaa, 4}, {AntialiasMethod::msaa, 4}}) {
     options.antialias = antialias;
-    const ColourImage image = render_frame(scene, camera_of_pixels(), options, true).picture;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i)
-      EXPECT_NEAR(image.pixels[i][0], plain.pixels[i][0], 1e-12) << i;
+    const PipelineFrame frame = render_frame(line, camera_of_pixels(), options, true);
+    expect_areas(frame.picture, antialias, in_rectangle);
+    EXPECT_EQ(frame.id, plain.id);  // the map is that of whole pixels
+    expect_areas(render_frame(point, camera_of_pixels(), options, true).picture, antialias,
+                 in_square);
+  }
+  // Every method comes near to the area: 37.7 pixels of length, one wide.
+  for (const Antialias& antialias : {Antialias{AntialiasMethod::ssaa, 16},
+                                     {AntialiasMethod::msaa, 16},
+                                     {AntialiasMethod::jitter, 64},
+                                     {AntialiasMethod::taa, 64}}) {
+    options.antialias = antialias;
+    double sum = 0;
+    for (const Colour& c : render_frame(line, camera_of_pixels(), options, true).picture.pixels)
+      sum += c[0];
+    EXPECT_NEAR(sum, std::hypot(37.57 - 2.53, 17.49 - 3.51), 0.5);
+  }
+}
+
+/// The edges of a triangle and its corners, antialiased: half-covered pixels, which a line of whole
+/// pixels never has.
+TEST(Outlines, AreAntialiased) {
+  Scene scene = scene_of_lines({{3.2, 4.1, 10}, {35.7, 8.3, 10}, {12.4, 26.9, 10}}, {});
+  scene.meshes[0].triangles = {{0, 1, 2}};
+  scene.meshes[0].face_count = 1;
+  for (const Shading shading : {Shading::wireframe, Shading::points}) {
+    PipelineOptions options = precise();
+    options.shading = shading;
+    const auto partial = [&](const Antialias& antialias) {
+      options.antialias = antialias;
+      const ColourImage image = render_frame(scene, camera_of_pixels(), options, true).picture;
+      return std::ranges::count_if(image.pixels,
+                                   [](const Colour& c) { return c[0] > 0.01 && c[0] < 0.99; });
+    };
+    EXPECT_EQ(partial({AntialiasMethod::none, 1}), 0);
+    EXPECT_GT(partial({AntialiasMethod::msaa, 8}), shading == Shading::points ? 2 : 20);
   }
 }
 

@@ -82,13 +82,14 @@ void require_meaningful(const PipelineOptions& o) {
     throw UsageError(Setting{"scan"},
                      "scan-line samples pixel centres only; it allows no antialiasing but fxaa");
   const bool has_areas = o.shading != Shading::points && o.shading != Shading::wireframe;
-  if (!has_areas && !one_sample)
-    throw UsageError(Setting{"shading"}, "points and wireframe allow no antialiasing but fxaa");
   if (o.hidden_surface == HiddenSurface::painter && !has_areas)
     throw UsageError(Setting{"hidden_surface"},
                      "painter draws areas; points and wireframe have none");
   const bool by_area = o.antialias.method == AntialiasMethod::area ||
                        o.antialias.method == AntialiasMethod::temporal_area;
+  if (!has_areas && by_area)
+    throw UsageError(Setting{"antialias"},
+                     "area draws triangles; points and wireframe have msaa, ssaa and others");
   if (o.hidden_surface == HiddenSurface::painter && offsets_depths(o.polygon_offset))
     throw UsageError(Setting{"polygon_offset"}, "the painter compares no depths to be offset");
   if (o.hidden_surface == HiddenSurface::painter && o.blend_depth != BlendDepth::off)

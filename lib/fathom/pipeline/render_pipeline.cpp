@@ -85,10 +85,16 @@ class Frame {
 
   void draw(const GridSamples& pattern, Shader<Real>* shader, FrameBuffer& target,
             PipelineStatistics& statistics, const PixelWindow& window,
-            ShadingRate rate = ShadingRate::per_sample, const ObserveMerge* observe = nullptr) {
-    const RasterizerSettings settings{
-        options_, rules_, pattern, rate, options_.hidden_surface == HiddenSurface::z_buffer,
-        window,   observe};
+            ShadingRate rate = ShadingRate::per_sample, const ObserveMerge* observe = nullptr,
+            bool outlines_have_area = false) {
+    const RasterizerSettings settings{options_,
+                                      rules_,
+                                      pattern,
+                                      rate,
+                                      options_.hidden_surface == HiddenSurface::z_buffer,
+                                      window,
+                                      observe,
+                                      outlines_have_area};
     if (options_.shading != Shading::wireframe && options_.shading != Shading::points)
       rasterize(primitives_.triangles, settings, shader, target, statistics);
     rasterize_lines(primitives_.lines, settings, target, statistics);
@@ -156,7 +162,8 @@ class Frame {
       PixelWindow window = window_;
       window.y_begin = std::max<std::int64_t>(window.y_begin, y);
       window.y_end = std::min<std::int64_t>(window.y_end, std::int64_t{y} + height);
-      if (!window.is_empty()) draw(pattern, &shader, strip, frame_.statistics, window, rate);
+      if (!window.is_empty())
+        draw(pattern, &shader, strip, frame_.statistics, window, rate, nullptr, true);
       const ColourImage part = strip.resolve();
       image.pixels.insert(image.pixels.end(), part.pixels.begin(), part.pixels.end());
     }

@@ -27,6 +27,9 @@ struct RasterizerSettings {
   PixelWindow window;
   /// Called for each fragment that is merged; null for nobody.
   const ObserveMerge* observe = nullptr;
+  /// Lines are rectangles one pixel wide and points squares one pixel large, of which samples are
+  /// taken; else each fills whole pixels.
+  bool outlines_have_area = false;
 };
 
 /// Draws triangles in their order. `shader` may be null if colours are not asked for.
@@ -35,7 +38,8 @@ void rasterize(const std::vector<WindowTriangle<Real>>& triangles,
                const RasterizerSettings& settings, Shader<Real>* shader, FrameBuffer& target,
                PipelineStatistics& statistics);
 
-/// Draws lines, with a depth test at each pixel.
+/// Draws lines, with a depth test at each pixel, or at each sample where they have an area.
+/// Source   [GL46] 14.4 and 14.5.4: points and lines under multisampling
 template <class Real>
 void rasterize_lines(const std::vector<WindowLine<Real>>& lines, const RasterizerSettings& settings,
                      FrameBuffer& target, PipelineStatistics& statistics);
