@@ -83,9 +83,9 @@ std::pair<Named, Warnings> named(const std::vector<ImportedCamera>& imported, co
   return {std::move(cameras), std::move(warnings)};
 }
 
-void bind_making(py::module_& core) {
-  py::class_<Lens>(core, "Lens").def(py::init(&make_lens));
-  py::class_<View>(core, "View").def(py::init(&make_view));
+void bind_making(Module& core) {
+  Class<Lens>(core, "Lens").def(py::init(&make_lens));
+  Class<View>(core, "View").def(py::init(&make_view));
   core.def("look_at", &look_at);
   core.def("orbit", [](const View& first, std::uint32_t count, const Vector3& centre,
                        double distance, const Lens& lens) {
@@ -106,7 +106,7 @@ void bind_making(py::module_& core) {
            });
 }
 
-void bind_importing(py::module_& core) {
+void bind_importing(Module& core) {
   core.def("import_colmap", [](const Path& folder, bool ignore_distortion) {
     return named(import_colmap(folder), folder, ignore_distortion);
   });
@@ -139,8 +139,8 @@ PoseDirection direction_of(bool camera_to_world) {
   return camera_to_world ? PoseDirection::camera_to_world : PoseDirection::world_to_camera;
 }
 
-void bind_data_sets(py::module_& core) {
-  py::class_<GivenLens>(core, "GivenLens")
+void bind_data_sets(Module& core) {
+  Class<GivenLens>(core, "GivenLens")
       .def(py::init([](std::uint32_t width, std::uint32_t height, std::optional<IntrinsicMatrix> K,
                        std::optional<double> pixel_centre) {
         return GivenLens{width, height, K, pixel_centre};
@@ -192,8 +192,8 @@ void bind_data_sets(py::module_& core) {
 
 }  // namespace
 
-void bind_camera(py::module_& core) {
-  py::class_<Camera>(core, "Camera")
+void bind_camera(Module& core) {
+  Class<Camera>(core, "Camera")
       .def(py::init(&make_camera))
       .def_readonly("width", &Camera::width)
       .def_readonly("height", &Camera::height)

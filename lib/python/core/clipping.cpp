@@ -76,7 +76,7 @@ py::list clip(const py::list& subject, const py::list& window, const std::string
 
 }  // namespace
 
-void bind_clipping(py::module_& core) {
+void bind_clipping(Module& core) {
   core.def("clip", &clip);
 }
 

@@ -81,7 +81,7 @@ SharedMap cryptomatte(const SharedScene& shared, const Camera& camera, const std
 
 }  // namespace
 
-void bind_deep(py::module_& core) {
+void bind_deep(Module& core) {
   core.def("deep", &deep);
   core.def("write_deep",
            [](const SharedMap& description, const ContiguousArray<float>& front,

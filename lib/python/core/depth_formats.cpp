@@ -101,8 +101,8 @@ std::vector<std::string> names_of(const List& all, const Name& name) {
 
 }  // namespace
 
-void bind_depth_formats(py::module_& core) {
-  py::class_<DepthFormat>(core, "DepthFormat")
+void bind_depth_formats(Module& core) {
+  Class<DepthFormat>(core, "DepthFormat")
       .def(py::init(&make_format))
       .def("encode", &encode_depths)
       .def("decode",

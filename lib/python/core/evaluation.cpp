@@ -66,7 +66,7 @@ py::tuple evaluate_scenes(const SharedScene& made, const SharedScene& real,
 
 }  // namespace
 
-void bind_evaluation(py::module_& core) {
+void bind_evaluation(Module& core) {
   core.def("evaluate", &evaluate_scenes);
 }
 

@@ -181,8 +181,8 @@ std::map<std::string, std::string> set_background(
   return run([&](const auto&) { return with_background(std::move(map), value, rendered).texts; });
 }
 
-void bind_metrics(py::module_& core) {
-  py::class_<DepthMetrics>(core, "DepthMetrics")
+void bind_metrics(Module& core) {
+  Class<DepthMetrics>(core, "DepthMetrics")
       .def_readonly("pixels", &DepthMetrics::pixels)
       .def_readonly("left_out", &DepthMetrics::left_out)
       .def_readonly("abs_rel", &DepthMetrics::abs_rel)
@@ -193,7 +193,7 @@ void bind_metrics(py::module_& core) {
       .def_readonly("delta_1", &DepthMetrics::delta_1)
       .def_readonly("delta_2", &DepthMetrics::delta_2)
       .def_readonly("delta_3", &DepthMetrics::delta_3);
-  py::class_<DisparityMetrics>(core, "DisparityMetrics")
+  Class<DisparityMetrics>(core, "DisparityMetrics")
       .def_readonly("pixels", &DisparityMetrics::pixels)
       .def_readonly("left_out", &DisparityMetrics::left_out)
       .def_readonly("epe", &DisparityMetrics::epe)
@@ -203,8 +203,8 @@ void bind_metrics(py::module_& core) {
       .def_readonly("bad_2", &DisparityMetrics::bad_2);
 }
 
-void bind_comparison(py::module_& core) {
-  py::class_<DifferenceSummary>(core, "DifferenceSummary")
+void bind_comparison(Module& core) {
+  Class<DifferenceSummary>(core, "DifferenceSummary")
       .def_readonly("max", &DifferenceSummary::max)
       .def_readonly("mean", &DifferenceSummary::mean)
       .def_readonly("p50", &DifferenceSummary::p50)
@@ -214,7 +214,7 @@ void bind_comparison(py::module_& core) {
       .def_property_readonly("worst", [](const DifferenceSummary& summary) {
         return std::pair(summary.worst.x, summary.worst.y);
       });
-  py::class_<ChannelComparison>(core, "ChannelComparison")
+  Class<ChannelComparison>(core, "ChannelComparison")
       .def_readonly("truth_channel", &ChannelComparison::truth_channel)
       .def_readonly("other_channel", &ChannelComparison::other_channel)
       .def_readonly("pixels", &ChannelComparison::pixels)
@@ -234,7 +234,7 @@ void bind_comparison(py::module_& core) {
       .def_readonly("depth_metrics", &ChannelComparison::depth_metrics)
       .def_readonly("disparity_metrics", &ChannelComparison::disparity_metrics)
       .def_property_readonly("within_tolerance", &ChannelComparison::within_tolerance);
-  py::class_<MapComparison>(core, "MapComparison")
+  Class<MapComparison>(core, "MapComparison")
       .def_readonly("channels", &MapComparison::channels)
       .def_readonly("only_in_truth", &MapComparison::only_in_truth)
       .def_readonly("only_in_other", &MapComparison::only_in_other)
@@ -261,8 +261,8 @@ void bind_comparison(py::module_& core) {
 
 }  // namespace
 
-void bind_maps(py::module_& core) {
-  py::class_<DepthMap, SharedMap>(core, "Map")
+void bind_maps(Module& core) {
+  Class<DepthMap, SharedMap>(core, "Map")
       .def(py::init<>())
       .def_readonly("width", &DepthMap::width)
       .def_readonly("height", &DepthMap::height)

@@ -1,10 +1,12 @@
 #include "bindings.h"
 #include "errors.h"
 
-PYBIND11_MODULE(_core, core) {
-  core.doc() = "What the modules of fathom call: see those.";
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "What the modules of fathom call: see those.";
   using namespace fathom::python;
-  bind_errors(core);
+  bind_errors(module);
+  bind_standard_arithmetic(module);
+  Module core(module);
   bind_camera(core);
   bind_scene(core);
   bind_maps(core);

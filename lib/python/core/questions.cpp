@@ -75,7 +75,7 @@ py::tuple verify_map(const SharedMap& map, const SharedScene& shared, const Came
 
 }  // namespace
 
-void bind_questions(py::module_& core) {
+void bind_questions(Module& core) {
   core.def("probe", &probe_pixel);
   core.def("visible", &visible);
   core.def("verify", &verify_map);

@@ -219,8 +219,8 @@ void require_bytes(const std::string& what, double bytes) {
 
 }  // namespace
 
-void bind_render(py::module_& core) {
-  py::class_<RenderOptions>(core, "RenderOptions").def(py::init(&make_options));
+void bind_render(Module& core) {
+  Class<RenderOptions>(core, "RenderOptions").def(py::init(&make_options));
   core.def("render_one", &render_one);
   core.def("render_stack", &render_stack);
   core.def("require_bytes", &require_bytes);

@@ -184,8 +184,8 @@ std::tuple<std::uint32_t, std::uint32_t, std::uint32_t> origin(const SharedScene
 
 }  // namespace
 
-void bind_scene(py::module_& core) {
-  py::class_<SharedScene>(core, "Scene")
+void bind_scene(Module& core) {
+  Class<SharedScene>(core, "Scene")
       .def(py::init<>())
       .def("add_mesh", &add_mesh)
       .def("set_segments", &set_segments)

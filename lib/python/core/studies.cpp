@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "entry_points.h"
 #include "fathom/numeric/errors.h"
 #include "running.h"
 #include "scene.h"
@@ -110,6 +111,5 @@ py::tuple run_study(const std::string& name, const SharedScene* scene, const Cam
 PYBIND11_MODULE(_studies, module) {
   using namespace fathom::python;
   module.doc() = "What fathom.studies calls.";
-  module.def("names_of_studies", &names_of_studies);
-  module.def("run_study", &run_study);
+  Module(module).def("names_of_studies", &names_of_studies).def("run_study", &run_study);
 }

@@ -22,6 +22,7 @@
 #include "apps/textbook/pipeline/trace_report.h"
 #include "apps/textbook/scan/scan_cases.h"
 #include "arrays.h"
+#include "entry_points.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/geometry/window_transform.h"
 #include "fathom/render_by_pipeline.h"
@@ -190,11 +191,12 @@ py::tuple render(const SharedScene& shared, const Camera& camera, const Words& w
 PYBIND11_MODULE(_textbook, module) {
   using namespace fathom::python;
   module.doc() = "What fathom.scan and fathom.pipeline call.";
-  pybind11::class_<ScanRequest>(module, "ScanRequest").def(pybind11::init(&scan_request));
-  module.def("scan_algorithms", &fathom::app::scan::algorithm_names);
-  module.def("scan_case", &scan_case);
-  module.def("run_stage", &run_stage);
-  module.def("stages", &stages);
-  module.def("trace", &trace);
-  module.def("render", &render);
+  Module textbook(module);
+  Class<ScanRequest>(textbook, "ScanRequest").def(pybind11::init(&scan_request));
+  textbook.def("scan_algorithms", &fathom::app::scan::algorithm_names)
+      .def("scan_case", &scan_case)
+      .def("run_stage", &run_stage)
+      .def("stages", &stages)
+      .def("trace", &trace)
+      .def("render", &render);
 }

@@ -52,13 +52,13 @@ std::vector<std::string> class_names() {
 
 }  // namespace
 
-void bind_validation(py::module_& core) {
-  py::class_<Estimate>(core, "Estimate")
+void bind_validation(Module& core) {
+  Class<Estimate>(core, "Estimate")
       .def_readonly("name", &Estimate::name)
       .def_readonly("value", &Estimate::value)
       .def_readonly("deviation", &Estimate::deviation)
       .def_readonly("unit", &Estimate::unit);
-  py::class_<Finding>(core, "Finding")
+  Class<Finding>(core, "Finding")
       .def_readonly("kind", &Finding::kind)
       .def_readonly("text", &Finding::text)
       .def_readonly("pixels", &Finding::pixels)

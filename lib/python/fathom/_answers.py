@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
+from . import _core
 from ._core import InputError, UsageError
 
 
@@ -38,7 +39,8 @@ _fraction = re.compile(r"-?\d+(/\d+)?")
 
 def answer_of(text: str, svg: str = "") -> Answer:
     """Numbers that are written as "p/q" become Fractions; names stay texts."""
-    answer = Answer(_exact(json.loads(text)))
+    with _core.standard_arithmetic():  # Python reads decimals by binary64 arithmetic, and writes them
+        answer = Answer(_exact(json.loads(text)))
     answer.svg = svg
     return answer
 
@@ -57,7 +59,8 @@ def case_of(case: Mapping[str, Any]) -> str:
     """A case as a line of JSON. Numbers are those that they are, which has to be one of binary64.
 
     Raises ValueError, which names the key, for any other number; TypeError for other things."""
-    return json.dumps({name: _plain(name, value) for name, value in case.items()}, allow_nan=False)
+    with _core.standard_arithmetic():
+        return json.dumps({name: _plain(name, value) for name, value in case.items()}, allow_nan=False)
 
 
 def _plain(name: str, value: Any) -> Any:

@@ -54,7 +54,8 @@ def as_numbers(name: str, value: object, shape: tuple[int, ...] | None = None) -
         raise TypeError(f"{name}: expected float64 or float32 numbers, found {array.dtype}")
     if shape is not None and array.shape != shape:
         raise ValueError(f"{name}: expected shape {in_words(shape)}, found {in_words(array.shape)}")
-    numbers = np.asarray(array, dtype=np.float64, order="C")
+    with _core.standard_arithmetic():  # or else subnormal numbers might become 0
+        numbers = np.asarray(array, dtype=np.float64, order="C")
     if array.dtype.kind in "iu" and array.dtype.itemsize == 8 and ((array > 2**53) | (array < -(2**53))).any():
         raise ValueError(f"{name}: an integer beyond 2^53 may be no float64 number: pass floats")
     return numbers

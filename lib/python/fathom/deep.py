@@ -93,14 +93,14 @@ class DeepMap:
         return column
 
     def _expect_nearest_first(self, Z: npt.NDArray[np.float32], ZBack: npt.NDArray[np.float32]) -> None:
-        nearer = Z[1:] < Z[:-1]
+        with _core.standard_arithmetic():  # or else subnormal depths might be equal
+            nearer, inverted = Z[1:] < Z[:-1], ZBack < Z
         # The first fragment of a pixel follows none.
         first = self.offsets.astype(np.int64)
         nearer[first[(first > 0) & (first < len(Z))] - 1] = False
         if nearer.any():
             raise ValueError(f"Z: fragment {int(np.argmax(nearer)) + 1} is nearer than the one before it in its pixel; "
                              "expected the nearest first")
-        inverted = ZBack < Z
         if inverted.any():
             raise ValueError(f"ZBack: that of fragment {int(np.argmax(inverted))} is nearer than its Z")
 

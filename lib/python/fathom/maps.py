@@ -162,7 +162,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         """What depth channels have where there is no surface; 0 of codes."""
         if self.scale is not None:
             return 0.0
-        return float(self._description.texts.get(_core.background_text, "inf"))
+        with _core.standard_arithmetic():  # Python reads decimals by binary64 arithmetic
+            return float(self._description.texts.get(_core.background_text, "inf"))
 
     def _set_background(self, value: float) -> None:
         """Of a map, or of each of a stack, just rendered; it says so in its metadata, as the program's maps do."""
@@ -201,7 +202,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         value = self.background
         if np.isinf(value):
             return np.asarray(np.isfinite(depths))
-        return np.asarray(~np.isnan(depths) if np.isnan(value) else depths != depths.dtype.type(value))
+        with _core.standard_arithmetic():
+            return np.asarray(~np.isnan(depths) if np.isnan(value) else depths != depths.dtype.type(value))
 
     def _channel(self, name: str) -> npt.NDArray[Any]:
         array = as_array(f"map: channel {name}", self[name])

@@ -9,6 +9,7 @@ import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
+from . import _core
 from ._answers import Answer, answer_of, as_arguments, case_of
 from ._arguments import as_count, as_number, camera_handle, one_of, scene_handle
 from ._core import InputError, UsageError
@@ -72,7 +73,8 @@ def render(scene: Scene, camera: Camera, **options: Option) -> Picture:
     except (InputError, UsageError) as error:
         raise as_arguments(error) from None
     _warn(stretched)
-    counts = json.loads(statistics)
+    with _core.standard_arithmetic():  # Python reads decimals by binary64 arithmetic
+        counts = json.loads(statistics)
     counts.pop("map", None)
     return Picture(Map({"Z": z, "id": identifiers}, Camera._of(used)), picture, counts)
 
@@ -183,7 +185,8 @@ def _word(name: str, value: Any) -> str:
         return str(int(value))
     if hasattr(value, "__len__"):
         return ",".join(_word(name, each) for each in value)
-    return repr(as_number(name, value))
+    with _core.standard_arithmetic():  # Python writes decimals by binary64 arithmetic
+        return repr(as_number(name, value))
 
 
 def _warn(stretched: bool) -> None:

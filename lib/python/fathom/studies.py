@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from . import _core
 from ._arguments import as_count, as_number, camera_handle, scene_handle
 from ._core import UsageError
 from ._files import Path, make_folder
@@ -61,7 +62,8 @@ class Study:
     ) -> None:
         self.name = name
         self.files = files
-        self.summary: dict[str, Any] = json.loads(files["summary.json"])
+        with _core.standard_arithmetic():  # Python reads decimals by binary64 arithmetic
+            self.summary: dict[str, Any] = json.loads(files["summary.json"])
         self.tables: dict[str, npt.NDArray[Any]] = {
             file.removesuffix(".csv"): _table(columns) for file, columns in tables.items()
         }

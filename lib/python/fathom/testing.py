@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Callable
 
 import numpy as np
 
-from . import _files
+from . import _core, _files
 from .maps import Map, as_map
 from .validation import Validation, validate
 
@@ -58,7 +58,8 @@ def keep_report(folder: Path, map: Any, camera: Camera, found: Validation) -> Pa
     planes: dict[str, npt.NDArray[Any]] = {}
     for name, plane in as_map("map", map).items():
         array = np.asarray(plane)
-        planes[name] = array.astype(np.float32) if array.dtype == np.float64 else array
+        with _core.standard_arithmetic():
+            planes[name] = array.astype(np.float32) if array.dtype == np.float64 else array
     try:
         same_size = found.camera.size == camera.size
         Map(planes, camera if same_size else None).write(folder / "map.exr")
