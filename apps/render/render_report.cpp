@@ -4,6 +4,7 @@
 
 #include "apps/render/depth_format_json.h"
 #include "apps/shell/json_answer.h"
+#include "fathom/triangle/deciders.h"
 
 namespace fathom::app {
 namespace {
@@ -12,6 +13,16 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const TierCounts& counts) {
   return {{"interval", counts.interval}, {"exact", counts.exact}};
+}
+
+/// For each decision that the engine counts, the arithmetic that settles it.
+Json decided_by(Engine engine) {
+  Json json = Json::object();
+  for (const Deciders& d : deciders_of(engine)) {
+    if (d.interval.empty()) continue;
+    json[std::string(d.decision)] = {{"interval", d.interval}, {"exact", d.exact}};
+  }
+  return json;
 }
 
 Json to_json(const RenderStatistics& statistics) {
@@ -51,6 +62,7 @@ Json to_json(const MapReport& report) {
             {"width", report.width},
             {"height", report.height}};
   json.update(to_json(report.statistics));
+  json["decided_by"] = decided_by(report.engine);
   Json seconds{{"read", report.seconds.read},
                {"render", report.seconds.render},
                {"write", report.seconds.write}};

@@ -9,6 +9,7 @@
 #include "fathom/numeric/rounding.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/printable.h"
+#include "fathom/triangle/deciders.h"
 #include "fathom/triangle/segment_channels.h"
 
 namespace fathom::app {
@@ -67,6 +68,29 @@ std::string edge_text(const CoveringTriangle& triangle) {
   return text;
 }
 
+/// Which arithmetic settles the signs: "Δ by CGAL::determinant over CGAL::Interval_nt; e_A, e_B, e_C by …".
+std::string deciders_text(const CoveringTriangle& triangle) {
+  std::string text = fmt::format("Δ by {}", triangle.facing_decided_by());
+  for (const std::string_view decider : {cgal_form, dyadic_numbers}) {
+    std::string edges;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (triangle.edge_decided_by(i) != decider) continue;
+      edges += fmt::format("{}e_{}", edges.empty() ? "" : ", ", "ABC"[i]);
+    }
+    if (!edges.empty()) text += fmt::format("; {} by {}", edges, decider);
+  }
+  return text;
+}
+
+Json deciders_json(const CoveringTriangle& triangle) {
+  Json json{{"facing", triangle.facing_decided_by()}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    json[fmt::format("e_{}", "ABC"[i])] = triangle.edge_decided_by(i);
+  }
+  json["depth"] = dyadic_numbers;
+  return json;
+}
+
 std::array<MeshPoint, 3> corners_of(const Scene& scene, const CoveringTriangle& triangle) {
   const Mesh& mesh = scene.meshes[scene.objects[triangle.origin.object].mesh];
   const CornerIndices& corners = mesh.triangles[triangle.origin.triangle];
@@ -118,6 +142,7 @@ Json to_json(const Probe& probe, const NamedSegments& segments, std::size_t i) {
   answer.update(Json{{"corners", corners},
                      {"front_facing", triangle.front_facing},
                      {"edges", edges},
+                     {"decided_by", deciders_json(triangle)},
                      {"depth",
                       {{"exact", to_fraction(triangle.depth)},
                        {"decimal", to_decimal(triangle.depth, 40)},
@@ -164,6 +189,7 @@ std::string as_text(const Probe& probe) {
     }
     const float stored = round_to_binary32(triangle.depth);
     text += fmt::format("  edges   {}\n", edge_text(triangle));
+    text += fmt::format("  decided {}\n", deciders_text(triangle));
     text += fmt::format("  depth   {}\n", to_decimal(triangle.depth, 40));
     text += fmt::format("  exactly {}\n", to_fraction(triangle.depth));
     text += fmt::format("  stored  {} = {:a} (binary32, rounded once)\n", stored, stored);

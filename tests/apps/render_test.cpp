@@ -312,6 +312,51 @@ TEST_F(Rendering, ProbeExplainsATieOnAnEdge) {
   EXPECT_EQ(triangle["file"], "square.obj");
 }
 
+// The corners of the shared edge are doubles whose differences are not: an interval about e = 0 has a width.
+TEST_F(Rendering, ProbeNamesTheArithmeticThatDecided) {
+  folder_.write("diagonal.obj",
+                "v -0.7 -0.7 1\nv 1.9 1.9 1\nv -1 3 1\nv 3 -1 1\nf 1 2 3\nf 1 4 2\n");
+  folder_.write(
+      "front.json",
+      R"({"width": 2, "height": 2, "projection": "orthographic", "fx": 1, "fy": 1, "cx": 0,
+                    "cy": 0, "pixel_centre": 0.5,
+                    "world_to_camera": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]})");
+  const std::vector<std::string> asked{"probe",      "diagonal.obj", "--camera",
+                                       "front.json", "--pixel",      "0,0"};
+  std::vector<std::string> as_json = asked;
+  as_json.emplace_back("--json");
+  const Json triangles = Json::parse(answer(as_json))["triangles"];
+  ASSERT_EQ(triangles.size(), 1U);
+  const Json decided = triangles[0]["decided_by"];
+  EXPECT_EQ(decided["facing"], "CGAL::determinant over CGAL::Interval_nt");
+  int by_dyadic = 0;
+  for (const char* edge : {"e_A", "e_B", "e_C"}) {
+    const bool is_zero = triangles[0]["edges"][edge]["sign"] == 0;
+    by_dyadic += is_zero ? 1 : 0;
+    EXPECT_EQ(decided[edge], is_zero ? "dyadic numbers" : "a linear form over CGAL::Interval_nt");
+  }
+  EXPECT_EQ(by_dyadic, 1);
+  EXPECT_THAT(answer(asked),
+              HasSubstr("  decided Δ by CGAL::determinant over CGAL::Interval_nt; "));
+  EXPECT_THAT(answer(asked), HasSubstr(" by dyadic numbers\n"));
+}
+
+TEST_F(Rendering, StatisticsNameTheArithmeticThatDecided) {
+  const auto stats = [&](const std::string& engine) {
+    return Json::parse(answer({"render", "square.obj", "--camera", "camera.json", "--engine",
+                               engine, "-o", "map.exr", "--stats", "-"}));
+  };
+  const Json reference = stats("reference"), fast = stats("fast");
+  EXPECT_EQ(reference["decided_by"]["facing"]["interval"],
+            "CGAL::determinant over CGAL::Interval_nt");
+  EXPECT_EQ(reference["decided_by"]["facing"]["exact"], "dyadic numbers");
+  EXPECT_EQ(fast["decided_by"]["facing"]["interval"], "Fathom's bounds");
+  for (const Json& report : {reference, fast}) {
+    for (const auto& [decision, by] : report["decided_by"].items())
+      EXPECT_TRUE(report["decisions"].contains(decision)) << decision;
+  }
+}
+
 TEST_F(Rendering, ProbeNamesTheRuleThatDecided) {
   folder_.write("pair.obj", square_obj + "v -1 -1 3\nv 1 -1 3\nv 1 1 3\nf 5 6 7\nf 1 2 3\n");
   const auto probe = [&](std::vector<std::string> more) {

@@ -23,6 +23,8 @@ def test_probe_gives_exact_depths_that_maps_round(spot, camera):
         assert isinstance(found[0].depth, Fraction) and found[0].counts and found[0].edges == (1, 1, 1)
         assert np.float32(float(found[0].depth)) == map["Z"][y, x] and found[0].id == map["id"][y, x]
         assert [each.depth for each in found] == sorted(each.depth for each in found)
+        assert found[0].decided_by[0] == "CGAL::determinant over CGAL::Interval_nt"
+        assert set(found[0].decided_by[1:]) == {"a linear form over CGAL::Interval_nt"}
     assert fathom.probe(spot, camera, 0, 0) == []
     for place in ((60, 0), (0, 44), (-1, 0)):
         with pytest.raises(ValueError, match="[xy]: expected 0 to"):

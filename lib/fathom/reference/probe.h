@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "fathom/camera/camera.h"
@@ -20,6 +22,13 @@ struct CoveringTriangle {
   /// For an edge function that is zero: whether the edge is a left or a top edge.
   std::array<bool, 3> left_or_top{};
   bool front_facing = false;
+  /// Whether an interval by CGAL settles the sign of Δ, and those of the edge functions, as in the reference engine.
+  /// Where none does, dyadic numbers decide alone.
+  bool facing_by_interval = false;
+  std::array<bool, 3> edge_by_interval{};
+  /// Which arithmetic settles the sign of Δ, and that of the edge function of corner i (deciders.h).
+  [[nodiscard]] std::string_view facing_decided_by() const;
+  [[nodiscard]] std::string_view edge_decided_by(std::size_t i) const;
   /// Exact planar depth at the sample, in scene units.
   Ratio depth;
   /// Whether D > 0, near ≤ D ≤ far, and culling keeps it. Only such a triangle can be visible.
@@ -29,7 +38,7 @@ struct CoveringTriangle {
 /// Every triangle that covers the sample at the centre of pixel (x, y), column and row from the top
 /// left: nearest first, ties by number, and last those that do not count. Brute force.
 ///
-/// Exact    everything, without an interval filter for the edges.
+/// Exact    everything; of the edges, signs are those of dyadic numbers whatever an interval says.
 /// Fails    InputError where scene or camera has a fault (find_fault).
 std::vector<CoveringTriangle> probe(const Scene& scene, const Camera& camera, std::uint32_t x,
                                     std::uint32_t y, Cull cull = Cull::none);

@@ -31,7 +31,9 @@ py::list probe_pixel(const SharedScene& shared, const Camera& camera, std::uint3
         py::make_tuple(each.number, each.origin.object, each.origin.triangle, each.origin.face,
                        each.front_facing, parts_of(each.depth), each.counts,
                        py::make_tuple(static_cast<int>(signs[0]), static_cast<int>(signs[1]),
-                                      static_cast<int>(signs[2]))));
+                                      static_cast<int>(signs[2])),
+                       py::make_tuple(each.facing_decided_by(), each.edge_decided_by(0),
+                                      each.edge_decided_by(1), each.edge_decided_by(2))));
   }
   return list;
 }

@@ -35,6 +35,9 @@ class CoveringTriangle(NamedTuple):
     counts: bool
     #: The signs of the edge functions: 1 inside, 0 on the edge.
     edges: tuple[int, int, int]
+    #: The arithmetic that settles which way it faces, and then each sign of `edges`: an interval by CGAL, or dyadic
+    #: numbers where the interval does not settle it. The depth is always computed with dyadic numbers.
+    decided_by: tuple[str, str, str, str]
 
 
 def probe(scene: Scene, camera: Camera, x: int, y: int, *, cull: Cull = "none") -> list[CoveringTriangle]:
@@ -56,8 +59,8 @@ def probe(scene: Scene, camera: Camera, x: int, y: int, *, cull: Cull = "none") 
 
 
 def _covering(id: int, object: int, triangle: int, face: int, front_facing: bool, depth: tuple[int, int, int, int],
-              counts: bool, edges: tuple[int, int, int]) -> CoveringTriangle:
-    return CoveringTriangle(id, object, triangle, face, front_facing, _fraction(*depth), counts, edges)
+              counts: bool, edges: tuple[int, int, int], decided_by: tuple[str, str, str, str]) -> CoveringTriangle:
+    return CoveringTriangle(id, object, triangle, face, front_facing, _fraction(*depth), counts, edges, decided_by)
 
 
 def _fraction(m: int, e: int, n: int, f: int) -> Fraction:
