@@ -114,7 +114,8 @@ Result BopImageMaker::make(const BopImage& image, const std::filesystem::path& f
   RenderOptions options = rendering({Channel::Z, Channel::object});
   options.kept = &memory_;
   options.depth_encoding.type = DepthEncoding::Type::scaled_unorm16;
-  options.depth_encoding.scale = 1 / image.depth_scale;
+  options.depth_encoding.scale = 1;
+  options.depth_encoding.divisor = image.depth_scale;
   options.depth_encoding.beyond_is_none = options_.beyond_is_none;
   const std::string name = (folder / files_of(image).front()).string();
   const auto map = std::make_shared<const DepthMap>(

@@ -431,6 +431,50 @@ TEST_F(BopScenes, MasksAreOfTheSameCameraAsTheImage) {
   EXPECT_EQ(judged.status, 0) << judged.err;
 }
 
+/// A plate at depths that lie within two ulp of ties between codes.
+constexpr const char* depths_near_ties = R"(
+import json
+import math
+import pathlib
+import random
+from fractions import Fraction
+
+draw = random.Random(8)
+cameras, poses, truth = {}, {}, {}
+for i in range(150):
+    scale = [0.1, 0.01, 0.3, 1, 0.7][i % 5]
+    depth = (draw.randrange(500, 60000) + 0.5) * scale
+    for _ in range(draw.randrange(3)):
+        depth = math.nextafter(depth, draw.choice((0, math.inf)))
+    if i == 0:
+        depth = 1000.75
+    cameras[i] = {"cam_K": [100, 0, 9.5, 0, 100, 4.5, 0, 0, 1], "depth_scale": scale}
+    poses[i] = [{"cam_R_m2c": [9999, 0, 0, 0, 9999, 0, 0, 0, 1], "cam_t_m2c": [0, 0, depth], "obj_id": 1}]
+    truth[i] = round(Fraction(depth) / Fraction(scale))  # ties to even
+pathlib.Path("000001/scene_camera.json").write_text(json.dumps(cameras))
+pathlib.Path("000001/scene_gt.json").write_text(json.dumps(poses))
+pathlib.Path("truth.json").write_text(json.dumps(truth))
+)";
+constexpr const char* judge_codes = R"(
+import json
+import cv2
+
+truth = json.load(open("truth.json"))
+assert truth["0"] == 10007
+wrong = {i: (code, int(depth)) for i, code in truth.items()
+         if (depth := cv2.imread(f"exact/depth/{int(i):06}.png", cv2.IMREAD_UNCHANGED)[5, 10]) != code}
+assert not wrong, wrong
+)";
+
+TEST_F(BopScenes, DepthCodesAreTheExactQuotientRoundedOnce) {
+  const Outcome written = run({python, "-c", depths_near_ties}, {.folder = folder_.path()});
+  ASSERT_EQ(written.status, 0) << written.err;
+  const Outcome made = make({});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const Outcome judged = run({python, "-c", judge_codes}, {.folder = folder_.path()});
+  EXPECT_EQ(judged.status, 0) << judged.err;
+}
+
 TEST_F(BopScenes, WhatIsWrongIsToldInOneLine) {
   const auto told = [&](const std::string& words) {
     const Outcome refused = make({});

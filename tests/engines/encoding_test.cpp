@@ -1,8 +1,10 @@
 // Z and distance are rounded once from the exact number, whatever the type asked for.
 #include <gmock/gmock.h>
+#include <gmp.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "fathom/numeric/errors.h"
 #include "tests/engines/tested_engine.h"
@@ -35,6 +37,55 @@ TEST(Encoding, CodesRoundHalfToEven) {
   EXPECT_EQ(code(std::nextafter(2.5, 3), 1), 3);
   EXPECT_EQ(code(1.25, 1000), 1250);
   EXPECT_EQ(code(65535.49, 1), 65535);
+}
+
+/// The integer nearest to z·scale/divisor, ties to even, by GMP's quotients alone.
+std::uint16_t exact_code(double z, double scale, double divisor) {
+  mpq_t exact, other;
+  mpq_inits(exact, other, nullptr);
+  mpq_set_d(exact, z);
+  mpq_set_d(other, scale);
+  mpq_mul(exact, exact, other);
+  mpq_set_d(other, divisor);
+  mpq_div(exact, exact, other);
+  mpz_t code;
+  mpz_init(code);
+  mpz_fdiv_q(code, mpq_numref(exact), mpq_denref(exact));
+  mpq_set_z(other, code);
+  mpq_sub(exact, exact, other);
+  const int side = mpq_cmp_ui(exact, 1, 2);
+  const unsigned long below = mpz_get_ui(code);
+  mpz_clear(code);
+  mpq_clears(exact, other, nullptr);
+  return static_cast<std::uint16_t>(below + (side > 0 || (side == 0 && below % 2 == 1) ? 1 : 0));
+}
+
+TEST(Encoding, CodesOfADivisorAreExactQuotientsRoundedOnce) {
+  const auto code_of = [](double z, double scale, double divisor) {
+    RenderOptions options = scaled(scale);
+    options.depth_encoding.divisor = divisor;
+    const DepthMap map = testing::render_tested(wall(z), testing::camera_of(1, 1, 1), options);
+    EXPECT_EQ(map.png_scale, scale / divisor);
+    return map.values<std::uint16_t>("Z")->at(0);
+  };
+  // 0.1 in binary64 is more than a tenth, so the quotient lies below the tie, whose even code is 10008.
+  EXPECT_EQ(code_of(1000.75, 1, 0.1), 10007);
+  EXPECT_EQ(code_of(1000.75, 10, 1), 10008);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> any(0.001, 10);
+  int otherwise = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double divisor = i % 3 == 0 ? 0.1 : i % 3 == 1 ? 0.001 * (1 + i % 999) : any(random);
+    const double scale = i % 2 == 0 ? 1 : any(random);
+    // At most two ulp beside a tie.
+    double z = (static_cast<double>(1 + random() % 65000) + 0.5) * divisor / scale;
+    for (unsigned k = random() % 3; k > 0; --k) z = std::nextafter(z, i % 5 < 2 ? 0 : 1e9);
+    const std::uint16_t exact = exact_code(z, scale, divisor);
+    ASSERT_EQ(code_of(z, scale, divisor), exact)
+        << std::hexfloat << z << " " << scale << " " << divisor;
+    otherwise += code(z, scale / divisor) != exact;
+  }
+  EXPECT_GT(otherwise, 100);  // with the quotient rounded first
 }
 
 TEST(Encoding, ADepthBeyondTheCodesIsNoneWhereThatIsAskedFor) {

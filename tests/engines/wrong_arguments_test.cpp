@@ -197,6 +197,10 @@ TEST(WrongArguments, RenderOptionsThatMeanNothing) {
                   o.depth_encoding = {StoredType::scaled_unorm16, scale};
                 }),
                 "depth_encoding.scale");
+      EXPECT_EQ(setting([&](RenderOptions& o) {
+                  o.depth_encoding = {StoredType::scaled_unorm16, 1, false, scale};
+                }),
+                "depth_encoding.scale");
     }
     for (const double widening : {nan, infinity, 0.5, -1.0}) {
       EXPECT_EQ(setting([&](RenderOptions& o) { o.fast.widening = widening; }), "fast.widening");

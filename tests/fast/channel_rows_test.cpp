@@ -105,7 +105,7 @@ TEST_P(ChannelRows, DepthsAndCodes) {
       const double error = std::ldexp(1, -18 - static_cast<int>(random() % 14));
       coarse.tags[k] = std::bit_cast<std::uint64_t>(perspective ? error / (D * D) : error);
     }
-    round_to_codes(coarse.lanes(7.5), rays, false, scale, rounded);
+    round_to_codes(coarse.lanes(7.5), rays, false, {scale}, rounded);
     expect_right(
         rounded, coarse, perspective,
         [&](const Ratio& D, std::size_t) {
@@ -192,7 +192,7 @@ TEST(Fast, RowsOfUnknownDepths) {
     round_depths(row.lanes(7.5), rays, true, depths);
     EXPECT_EQ(depths.settled, 0U);
     RoundedValues<std::uint16_t> codes;
-    round_to_codes(row.lanes(7.5), rays, false, 1000, codes);
+    round_to_codes(row.lanes(7.5), rays, false, {1000}, codes);
     EXPECT_EQ(codes.settled, 0U);
     std::array<RoundedValues<float>, 3> positions;
     const Rays& world = rays.world().rays;

@@ -108,7 +108,7 @@ std::uint64_t CertifiedWriter::write_encoded(const VisibleRow& row, const Encode
                                              bool distance, RenderStatistics& statistics) const {
   if (values.codes) {
     RoundedValues<std::uint16_t> codes;
-    round_to_codes(row.lanes, frame_.rays, distance, exact_.scale(), codes);
+    round_to_codes(row.lanes, frame_.rays, distance, exact_.code_factor(), codes);
     return write_row(rows_, row, codes, std::uint16_t{0}, values.codes, statistics);
   }
   RoundedValues<float> rounded;

@@ -34,13 +34,14 @@ HWY_INLINE CertifiedLanes load_depth(const SurfaceRow& row, std::size_t first, b
   return {depth, hn::IfThenElse(known, error, constant(std::numeric_limits<double>::infinity()))};
 }
 
-/// Like to_code() of a binary64 number with an error, to which scaling adds a rounding
-/// (validation/proofs/scaled_code.gappa.in).
-HWY_INLINE void round_lanes(const CertifiedLanes& x, double scale, std::size_t first,
+/// Like to_code() of a binary64 number with an error, to which scaling adds a rounding, and the error of
+/// a rounded factor (validation/proofs/scaled_code.gappa.in, divided_code.gappa.in).
+HWY_INLINE void round_lanes(const CertifiedLanes& x, const CodeFactor& factor, std::size_t first,
                             RoundedValues<std::uint16_t>& rounded) {
   const D d;
-  const V scaled = hn::Mul(x.value, constant(scale));
-  const V error = hn::Mul(hn::MulAdd(x.error, constant(scale), hn::Mul(scaled, constant(ulp))),
+  const V scale = constant(factor.value);
+  const V scaled = hn::Mul(x.value, scale);
+  const V error = hn::Mul(hn::MulAdd(x.error, scale, hn::Mul(scaled, constant(ulp + factor.error))),
                           constant(slack));
   const V code = hn::Round(scaled);
   const V rest = hn::Abs(hn::Sub(scaled, code));
@@ -128,10 +129,11 @@ HWY_ATTR void round_lanes_of_depths(const SurfaceRow& row, const SceneRays& rays
 }
 
 HWY_ATTR void round_lanes_to_codes(const SurfaceRow& row, const SceneRays& rays, bool distance,
-                                   double scale, RoundedValues<std::uint16_t>& rounded) {
+                                   const CodeFactor& factor,
+                                   RoundedValues<std::uint16_t>& rounded) {
   rounded.settled = 0;
   for_lanes(row, rays, distance, [&](const CertifiedLanes& x, std::size_t first) HWY_ATTR {
-    round_lanes(x, scale, first, rounded);
+    round_lanes(x, factor, first, rounded);
   });
 }
 
@@ -157,9 +159,9 @@ void round_depths(const SurfaceRow& row, const SceneRays& rays, bool distance,
   HWY_DYNAMIC_DISPATCH(round_lanes_of_depths)(row, rays, distance, rounded);
 }
 
-void round_to_codes(const SurfaceRow& row, const SceneRays& rays, bool distance, double scale,
-                    RoundedValues<std::uint16_t>& rounded) {
-  HWY_DYNAMIC_DISPATCH(round_lanes_to_codes)(row, rays, distance, scale, rounded);
+void round_to_codes(const SurfaceRow& row, const SceneRays& rays, bool distance,
+                    const CodeFactor& factor, RoundedValues<std::uint16_t>& rounded) {
+  HWY_DYNAMIC_DISPATCH(round_lanes_to_codes)(row, rays, distance, factor, rounded);
 }
 
 }  // namespace fathom::fast

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "fathom/fast/map_rows.h"
+#include "fathom/triangle/code_factor.h"
 #include "fathom/triangle/double_word_surface.h"
 
 namespace fathom::fast {
@@ -37,10 +38,10 @@ struct RoundedValues {
 void round_positions(const SurfaceRow& row, const triangle::Rays& world,
                      const triangle::RaySizes& sizes, bool perspective,
                      std::array<RoundedValues<float>, 3>& rounded);
-/// Depth, or ray distance where `distance`; as binary32, or scaled as codes.
+/// Depth, or ray distance where `distance`; as binary32, or times the factor as codes.
 void round_depths(const SurfaceRow& row, const triangle::SceneRays& rays, bool distance,
                   RoundedValues<float>& rounded);
 void round_to_codes(const SurfaceRow& row, const triangle::SceneRays& rays, bool distance,
-                    double scale, RoundedValues<std::uint16_t>& rounded);
+                    const triangle::CodeFactor& factor, RoundedValues<std::uint16_t>& rounded);
 
 }  // namespace fathom::fast

@@ -19,16 +19,18 @@ bool take(const Certified<WordPair>& x, float& target) {
   return take(to_binary32(x.value, x.error), target);
 }
 
-/// Stores a value as the channel is encoded. If it is exact and a single word, its product with
-/// `scale` is an exact double-word.
+/// Stores a value as the channel is encoded. If it is exact and a single word, its product with an
+/// exact factor is an exact double-word.
 bool store(const EncodedValues& values, std::size_t pixel, const Certified<WordPair>& x,
-           double scale) {
+           const CodeFactor& factor) {
   if (values.binary32) return take(x, values.binary32[pixel]);
   if (values.binary64) return take(to_binary64(x.value, x.error), values.binary64[pixel]);
   using Real = DoubleWord<false>;
-  const Real scaled = Real(x.value) * scale;
-  const bool is_exact = x.error == 0 && x.value.lo == 0;
-  const double error = is_exact ? 0 : (x.error * scale + scaled.hi * epsilon<Real>)*slack;
+  const Real scaled = Real(x.value) * factor.value;
+  const bool is_exact = x.error == 0 && x.value.lo == 0 && factor.error == 0;
+  // What the factor's error does to x.error is within the slack.
+  const double error =
+      is_exact ? 0 : (x.error * factor.value + scaled.hi * (epsilon<Real> + factor.error)) * slack;
   return take(to_code(scaled, error), values.codes[pixel]);
 }
 
@@ -90,7 +92,7 @@ std::optional<EncodingFault> PixelWriter::write_depth() {
 
 bool PixelWriter::settle_depth(const EncodedValues& values) {
   const auto stored = [&](const Certified<WordPair>& depth) {
-    return store(values, surface_.pixel, depth, target_.exact.scale());
+    return store(values, surface_.pixel, depth, target_.exact.code_factor());
   };
   if (facts_.usable &&
       (stored(values_.depth()) || (values_.exact_depth() && stored({*values_.exact_depth(), 0})))) {
@@ -110,8 +112,8 @@ std::optional<EncodingFault> PixelWriter::write_distance() {
 }
 
 bool PixelWriter::settle_distance() {
-  if (facts_.usable &&
-      store(target_.values.distance, surface_.pixel, values_.distance(), target_.exact.scale())) {
+  if (facts_.usable && store(target_.values.distance, surface_.pixel, values_.distance(),
+                             target_.exact.code_factor())) {
     count_wide();
     return true;
   }

@@ -78,9 +78,9 @@ std::optional<std::string> store(const EncodedValues& values, std::size_t pixel,
     values.binary64[pixel] = root ? round_sqrt_to_binary64(x) : round_to_binary64(x);
     return std::nullopt;
   }
-  const Dyadic factor(encoding.scale);
-  const auto code = root ? round_sqrt_to_integer(x * Ratio(factor * factor), 65535)
-                         : round_to_integer(x * Ratio(factor), 65535);
+  const Ratio factor(encoding.scale, encoding.divisor);
+  const auto code = root ? round_sqrt_to_integer(x * (factor * factor), 65535)
+                         : round_to_integer(x * factor, 65535);
   if (!code && !encoding.beyond_is_none) return "above 65535";
   if (code == 0U) return "0, which means no surface";
   values.codes[pixel] = static_cast<std::uint16_t>(code.value_or(0));
@@ -147,7 +147,7 @@ UnfilledMap make_unfilled_map(const Camera& camera, const RenderOptions& options
     }
   }
   if (options.depth_encoding.type == DepthEncoding::Type::scaled_unorm16) {
-    map.png_scale = options.depth_encoding.scale;
+    map.png_scale = options.depth_encoding.scale / options.depth_encoding.divisor;
   }
   return made;
 }
@@ -200,6 +200,7 @@ ChannelWriter::ChannelWriter(DepthMap& map, const TriangleSource& triangles, con
     : triangles_(triangles),
       perspective_(camera.projection == Projection::perspective),
       encoding_(options.depth_encoding),
+      code_factor_(code_factor_of(encoding_)),
       image_handedness_(Dyadic(camera.fx).sign() * Dyadic(camera.fy).sign()),
       handedness_(image_handedness_ * determinant_of_rotation(camera).sign()),
       values_(map),

@@ -14,6 +14,7 @@
 #include "fathom/scene/scene_segments.h"
 #include "fathom/scene/triangle_source.h"
 #include "fathom/threads/per_thread.h"
+#include "fathom/triangle/code_factor.h"
 #include "fathom/triangle/corner_normals.h"
 #include "fathom/triangle/options.h"
 #include "fathom/triangle/projected_triangle.h"
@@ -155,7 +156,7 @@ class ChannelWriter {
 
   /// For writing one channel, or one component: it must have been asked for.
   [[nodiscard]] const ChannelValues& values() const { return values_; }
-  [[nodiscard]] double scale() const { return encoding_.scale; }
+  [[nodiscard]] const CodeFactor& code_factor() const { return code_factor_; }
   [[nodiscard]] OriginNumbers numbers_of(std::uint32_t triangle) const;
   std::optional<EncodingFault> write_depth(std::size_t pixel, const ProjectedTriangle& triangle,
                                            const ImagePoint& s);
@@ -181,6 +182,7 @@ class ChannelWriter {
   std::shared_ptr<const SceneSegments> segments_;
   bool perspective_;
   DepthEncoding encoding_;
+  CodeFactor code_factor_;
   /// sign(fx·fy), sign(fx·fy·det R)
   Sign image_handedness_, handedness_;
   ChannelValues values_;

@@ -39,8 +39,10 @@ void require_meaningful(const RenderOptions& options) {
   require_thread_count(options.threads);
   if (options.channels.empty()) throw UsageError(Setting{"channels"}, "expected at least one");
   const DepthEncoding& encoding = options.depth_encoding;
+  const auto is_positive = [](double x) { return x > 0 && std::isfinite(x); };
   if (encoding.type == StoredType::scaled_unorm16 &&
-      !(encoding.scale > 0 && std::isfinite(encoding.scale))) {
+      !(is_positive(encoding.scale) && is_positive(encoding.divisor) &&
+        is_positive(encoding.scale / encoding.divisor))) {
     throw UsageError(Setting{"depth_encoding.scale"}, "expected a positive number");
   }
   if (!(options.fast.widening >= 1 && std::isfinite(options.fast.widening))) {

@@ -25,12 +25,14 @@ enum class Cull { none, back, front };
 struct DepthEncoding {
   using Type = StoredType;
   Type type = Type::binary32;
-  /// For scaled_unorm16: codes per scene unit; code = round-half-even(scale·D), 0 for no surface. A
-  /// depth whose code would be 0 or above 65535 is an OutputError that names the pixel.
+  /// For scaled_unorm16: code = round-half-even(scale·D/divisor), 0 for no surface; the quotient is exact.
+  /// A depth whose code would be 0 or above 65535 is an OutputError that names the pixel.
+  /// Unit     scale codes stand for `divisor` scene units.
   double scale = 1000;
   /// But one above 65535 gets the code 0, as if no surface were there; DepthMap::codes_beyond counts
   /// them.
   bool beyond_is_none = false;
+  double divisor = 1;
 };
 
 /// How decisions were made. The fast engine asks fewer questions: triangles that reach behind the
@@ -109,8 +111,8 @@ struct RenderOptions {
   RenderStatistics* statistics = nullptr;
 };
 
-/// Refuses options that mean nothing: no channel, a scale that is not a positive number
-/// for scaled_unorm16, a widening that is not a number from 1 on, a negative number of threads.
+/// Refuses options that mean nothing: no channel, a scale, a divisor or their quotient that is not a
+/// positive number for scaled_unorm16, a widening that is not a number from 1 on, a negative number of threads.
 /// Fails    UsageError.
 void require_meaningful(const RenderOptions& options);
 
