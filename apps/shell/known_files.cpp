@@ -1,44 +1,65 @@
 #include "apps/shell/known_files.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <unordered_set>
 #include <utility>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/text/descriptor.h"
 
 namespace fathom::app {
 namespace {
 
 namespace fs = std::filesystem;
 
+using Identity = std::pair<dev_t, ino_t>;
+
+std::optional<Identity> identity_of(const fs::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+  return Identity{status.st_dev, status.st_ino};
+}
+
+/// Whether both names lead to one file now.
+bool are_one_file(const fs::path& first, const fs::path& second) {
+  // As long as a file is open, the system gives its number to no other file.
+  const text::Descriptor held(::open(first.c_str(), O_PATH | O_CLOEXEC));
+  struct stat status {};
+  if (!held.is_open() || ::fstat(held.get(), &status) != 0) return false;
+  return identity_of(second) == Identity{status.st_dev, status.st_ino};
+}
+
 /// Files, known by what they are on their device and by where they lie: a new file has only a
 /// place, and a hard link only the file in common with another.
+///
+/// The system uses the number of a file again when the file is gone, which may happen at any time:
+/// another process of the same job replaces files, too. So an equal number only leads to the place
+/// of a known file; whether this still is the same file is found out there.
 class KnownFiles {
  public:
   [[nodiscard]] bool contains(const fs::path& file) const {
+    const std::string place = place_of(file);
+    if (places_.contains(place)) return true;
     const auto identity = identity_of(file);
-    if (identity && identities_.contains(*identity)) return true;
-    return places_.contains(place_of(file));
+    if (!identity) return false;
+    const auto [first, last] = by_identity_.equal_range(*identity);
+    return std::any_of(first, last,
+                       [&](const auto& known) { return are_one_file(known.second, place); });
   }
 
   void add(const fs::path& file) {
-    if (const auto identity = identity_of(file)) identities_.insert(*identity);
-    places_.insert(place_of(file));
+    const std::string place = place_of(file);
+    if (const auto identity = identity_of(file)) by_identity_.emplace(*identity, place);
+    places_.insert(place);
   }
 
  private:
-  using Identity = std::pair<dev_t, ino_t>;
-
-  static std::optional<Identity> identity_of(const fs::path& file) {
-    struct stat status {};
-    if (::stat(file.c_str(), &status) != 0) return std::nullopt;
-    return Identity{status.st_dev, status.st_ino};
-  }
-
   static std::string place_of(const fs::path& file) {
     std::error_code error;
     const fs::path full = fs::absolute(file, error);
@@ -46,7 +67,8 @@ class KnownFiles {
     return error ? full.lexically_normal().native() : place.native();
   }
 
-  std::set<Identity> identities_;
+  /// The places of files that were there when they became known.
+  std::multimap<Identity, std::string> by_identity_;
   std::unordered_set<std::string> places_;
 };
 
