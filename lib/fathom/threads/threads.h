@@ -15,7 +15,7 @@
 namespace fathom {
 
 /// Calls work(0), …, work(count − 1), several at the same time, in the threads of with_threads() or
-/// in all that there are. An exception ends it and is passed on.
+/// in all that there are. An exception ends it and is passed on; so does a request (interruption.h).
 void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work);
 
 /// in_parallel() for work(first), …, work(end − 1), with first ≤ end.

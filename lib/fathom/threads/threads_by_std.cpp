@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/threads/interruption.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
@@ -42,6 +43,8 @@ class Pieces {
     for (std::size_t i = next(); i < count_; i = next()) {
       try {
         const StandardArithmetic standard;
+        const Interruptible here(request_);
+        check_interruption();
         work_(i);
       } catch (...) {
         fail(std::current_exception());
@@ -66,6 +69,8 @@ class Pieces {
 
   std::size_t count_;
   const std::function<void(std::size_t)>& work_;
+  /// Of the thread that asked for the work.
+  InterruptionRequest request_ = current_interruption();
   std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
   std::exception_ptr failure_;

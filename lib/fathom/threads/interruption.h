@@ -1,0 +1,36 @@
+#pragma once
+
+#include <atomic>
+
+/// Ends long work early, from another thread.
+namespace fathom {
+
+/// Thrown where work ends because that was asked for. Not a Failure: nothing is wrong.
+struct Interrupted {};
+
+/// Where a request to end the work of a thread would be: true once it has been made; nullptr where
+/// nobody can make one.
+using InterruptionRequest = const std::atomic<bool>*;
+
+/// The request that the work of this thread obeys.
+InterruptionRequest current_interruption();
+
+/// While it lives, work of this thread obeys `request`; so does parallel work that it asks for
+/// (threads.h), in all its threads. What starts a thread of its own passes current_interruption() on.
+class Interruptible {
+ public:
+  explicit Interruptible(InterruptionRequest request);
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
+  ~Interruptible();
+
+ private:
+  InterruptionRequest before_;
+};
+
+/// Throws Interrupted where the end of this thread's work has been requested. Takes nanoseconds.
+/// Parallel work asks before each piece; longer pieces, and loops that are not parallel, ask at least
+/// every tenth of a second.
+void check_interruption();
+
+}  // namespace fathom
