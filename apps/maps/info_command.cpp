@@ -30,6 +30,7 @@ std::string info_of_meshes(const InfoArguments& arguments, const text::InputFile
   options.segments = true;
   Warnings warnings;
   const Scene scene = read_scene(input.bytes(), arguments.file, options, warnings);
+  input.expect_unchanged();
   console.warn(warnings);
   return info_of_scene(scene, kind, arguments.file, form);
 }
@@ -37,12 +38,13 @@ std::string info_of_meshes(const InfoArguments& arguments, const text::InputFile
 /// The file is read once, so that it can be a pipe.
 int run_info(const InfoArguments& arguments, const Console& console) {
   const std::string& file = arguments.file;
-  const text::InputFile input(file);
+  const text::InputFile input(file, text::InputFile::Reading::mapped_where_large);
   const FileKind kind = arguments.scene.mesh_format ? FileKind::mesh : kind_of(input.text());
   const AnswerForm form = arguments.json ? AnswerForm::json : AnswerForm::text;
   if (kind == FileKind::camera) {
     Warnings warnings;
     const std::vector<Camera> cameras = read_cameras(input.text(), file, warnings);
+    input.expect_unchanged();
     console.warn(warnings);
     print(info_of_cameras(cameras, file, form));
     return done;

@@ -42,10 +42,13 @@ void overwrite(const fs::path& path, std::size_t offset, const std::string& byte
 
 class ChangedFile : public ::testing::Test {
  protected:
-  std::unique_ptr<TriangleStream> stream(const std::string& name, const std::string& bytes) {
+  std::unique_ptr<TriangleStream> stream(const std::string& name, const std::string& bytes,
+                                         bool mapped = false) {
     path_ = folder_.write(name, bytes);
+    ReadOptions options;
+    options.map_large_files = mapped;
     Warnings warnings;
-    return open_triangle_stream(path_, {}, warnings);
+    return open_triangle_stream(path_, options, warnings);
   }
   static void expect_refused(const TriangleStream& stream, const std::string& said) {
     EXPECT_THAT(message_of<InputError>([&] { (void)stream.read(0, 2); }), HasSubstr(said));
@@ -70,7 +73,7 @@ TEST_F(ChangedFile, EvenWithTheSameBytes) {
 }
 
 TEST_F(ChangedFile, WithVerticesThatAreNotFinite) {
-  const auto ply = stream("a.ply", ply_head + ply_vertices + ply_faces);
+  const auto ply = stream("a.ply", ply_head + ply_vertices + ply_faces, true);
   overwrite(path_, ply_head.size() + 12,
             bytes_of<float>({std::numeric_limits<float>::quiet_NaN(),
                              std::numeric_limits<float>::infinity(), 0}));
@@ -91,9 +94,46 @@ TEST_F(ChangedFile, WithFacesThatCannotBe) {
 }
 
 TEST_F(ChangedFile, ThatAreCutShort) {
-  const auto ply = stream("a.ply", ply_head + ply_vertices + ply_faces);
-  fs::resize_file(path_, ply_head.size() + ply_vertices.size() + 5);
-  expect_refused(*ply, "a.ply: byte ");
+  for (const bool mapped : {false, true}) {
+    const auto ply = stream("a.ply", ply_head + ply_vertices + ply_faces, mapped);
+    fs::resize_file(path_, ply_head.size() + ply_vertices.size() + 5);
+    expect_refused(*ply, "a.ply: byte ");
+    EXPECT_THROW((void)ply->triangle(1), InputError);
+  }
+}
+
+/// Single triangles are asked for after the chunks have been read.
+TEST_F(ChangedFile, WhenSingleTrianglesAreAskedFor) {
+  const std::string others = bytes_of<float>({0, 0, 2, 1, 0, 2, 1, 1, 2, 1, 0, 2});
+  for (const bool mapped : {false, true}) {
+    const auto ply = stream("a.ply", ply_head + ply_vertices + ply_faces, mapped);
+    EXPECT_EQ(ply->triangle(0).corners[0].z, 1);
+    overwrite(path_, ply_head.size(), others);
+    EXPECT_THAT(message_of<InputError>([&] { (void)ply->triangle(0); }),
+                HasSubstr("a.ply: has been written to"));
+  }
+  std::string stl(84 + 100, '\0');
+  stl[80] = 2;
+  const auto triangles = stream("a.stl", stl);
+  overwrite(path_, 100, "x");
+  EXPECT_THAT(message_of<InputError>([&] { (void)triangles->triangle(0); }),
+              HasSubstr("a.stl: has been written to"));
+}
+
+/// Vertices that are read through blocks are those that are mapped.
+TEST_F(ChangedFile, OrStayAsTheyAreTwoWays) {
+  const auto read = stream("a.ply", ply_head + ply_vertices + ply_faces);
+  const auto mapped = stream("b.ply", ply_head + ply_vertices + ply_faces, true);
+  for (const std::uint32_t number : {0U, 1U}) {
+    const auto one = read->triangle(number).corners, other = mapped->triangle(number).corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(one[i].x, other[i].x);
+      EXPECT_EQ(one[i].y, other[i].y);
+      EXPECT_EQ(one[i].z, other[i].z);
+    }
+  }
+  const TriangleChunk whole = mapped->read(0, 2);
+  EXPECT_EQ(read->read(0, 2).mesh.vertices.size(), whole.mesh.vertices.size());
 }
 
 }  // namespace

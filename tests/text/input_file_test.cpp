@@ -47,11 +47,35 @@ TEST(InputFile, FilesThatAreMappedAreTheirBytesToo) {
   constexpr std::uint64_t size = (std::uint64_t{64} << 20) + 3;
   std::filesystem::resize_file(path, size - 3);
   std::ofstream(path, std::ios::binary | std::ios::app) << "end";
+  for (const auto reading : {InputFile::Reading::mapped_where_large, InputFile::Reading::copied}) {
+    const InputFile file(path, reading);
+    ASSERT_EQ(file.text().size(), size);
+    EXPECT_TRUE(file.text().starts_with("begin"));
+    EXPECT_EQ(file.text()[size / 2], '\0');
+    EXPECT_TRUE(file.text().ends_with("end"));
+    EXPECT_NO_THROW(file.expect_unchanged());
+  }
+}
+
+/// Within its last page a mapped file ends in zeros then, and no signal says so.
+TEST(InputFile, AMappedFileThatIsCutByAByteIsTold) {
+  const ScratchFolder folder;
+  const auto path = folder.write("large", "begin");
+  std::filesystem::resize_file(path, (std::uint64_t{64} << 20) + 3);
+  const InputFile file(path, InputFile::Reading::mapped_where_large);
+  std::filesystem::resize_file(path, (std::uint64_t{64} << 20) + 2);
+  EXPECT_THAT(message_of<InputError>([&] { file.expect_unchanged(); }),
+              HasSubstr("large: has been cut short while it was read"));
+}
+
+/// Bytes that have been read stay as they are, whatever becomes of the file.
+TEST(InputFile, OfAFileThatWasReadNothingIsTakenAway) {
+  const ScratchFolder folder;
+  const auto path = folder.write("file", "0123456789");
   const InputFile file(path);
-  ASSERT_EQ(file.text().size(), size);
-  EXPECT_TRUE(file.text().starts_with("begin"));
-  EXPECT_EQ(file.text()[size / 2], '\0');
-  EXPECT_TRUE(file.text().ends_with("end"));
+  std::filesystem::resize_file(path, 3);
+  EXPECT_EQ(file.text(), "0123456789");
+  EXPECT_NO_THROW(file.expect_unchanged());
 }
 
 TEST(InputFile, NamesWhatCannotBeRead) {

@@ -109,7 +109,7 @@ TEST(MappedFile, WhatCannotBeMappedIsNot) {
   EXPECT_EQ(mapped_file_at(nullptr), nullptr);
 }
 
-/// A file of more than 64 MiB, which an InputFile maps unless it is told not to. The library itself
+/// A file of more than 64 MiB, which an InputFile maps where it is told to. The library itself
 /// installs no handler: what is read is safe from others, what is mapped is told by the signal.
 TEST(MappedFile, OnlyWhatIsMappedCanBeTakenAway) {
   const ScratchFolder folder;

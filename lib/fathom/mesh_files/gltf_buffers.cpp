@@ -160,4 +160,8 @@ Bytes GltfBuffers::load_file(const JsonValue& uri) {
   return bytes;
 }
 
+void GltfBuffers::expect_unchanged() const {
+  for (const auto& file : files_) file->expect_unchanged();
+}
+
 }  // namespace fathom::mesh_files

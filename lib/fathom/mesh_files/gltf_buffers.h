@@ -55,6 +55,8 @@ class GltfBuffers {
   };
   /// External files that have been loaded, in the order of loading, each once.
   [[nodiscard]] const std::vector<ExternalFile>& external_files() const { return external_files_; }
+  /// For what has been made of their bytes. Fails    as text::InputFile::expect_unchanged().
+  void expect_unchanged() const;
 
  private:
   Bytes load(const text::JsonValue& buffer, bool may_be_binary_chunk);

@@ -143,11 +143,11 @@ class ChunkVertices {
 class PlyStream : public TriangleStream {
  public:
   PlyStream(std::unique_ptr<RandomAccessFile> file, Scan scan, std::uint64_t vertex_count,
-            Warnings& warnings)
+            bool map_vertices, Warnings& warnings)
       : file_(std::move(file)),
         scan_(std::move(scan)),
         vertex_count_(vertex_count),
-        vertices_(scan_.layout ? std::make_unique<PlyVertices>(*file_, *scan_.layout)
+        vertices_(scan_.layout ? std::make_unique<PlyVertices>(*file_, *scan_.layout, map_vertices)
                                : std::make_unique<PlyVertices>(std::move(scan_.list))) {
     find_bounds();
     warn_of_faces(scan_.skipped, count_odd_shapes(), file_->name(), warnings);
@@ -182,6 +182,7 @@ class PlyStream : public TriangleStream {
     walk(number, 1, Reading::one, [&](Origin from, const CornerIndices& t) {
       result = {{(*vertices_)[t[0]], (*vertices_)[t[1]], (*vertices_)[t[2]]}, from.face};
     });
+    file_->expect_unchanged();
     return result;
   }
 
@@ -202,6 +203,7 @@ class PlyStream : public TriangleStream {
         label =
             common_label(vertices_->label(t[0]), vertices_->label(t[1]), vertices_->label(t[2]));
     });
+    file_->expect_unchanged();
     return label;
   }
 
@@ -414,12 +416,13 @@ Scan scan_of(const PlySupposedTriangles& supposed, bool big_endian) {
 }  // namespace
 
 std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<RandomAccessFile> file,
-                                                const PlyHeader& header, bool segments, bool check,
+                                                const PlyHeader& header, const ReadOptions& options,
                                                 Warnings& warnings) {
   Scan scan;
-  if (segments) scan.labels = find_ply_labels(header, file->name(), warnings);
-  const auto supposed =
-      check || segments ? std::nullopt : PlySupposedTriangles::of(header, file->size());
+  if (options.segments) scan.labels = find_ply_labels(header, file->name(), warnings);
+  const auto supposed = options.check_when_opened || options.segments
+                            ? std::nullopt
+                            : PlySupposedTriangles::of(header, file->size());
   if (supposed) {
     scan = scan_of(*supposed, header.encoding == PlyHeader::Encoding::big_endian);
   } else if (header.encoding == PlyHeader::Encoding::big_endian) {
@@ -428,7 +431,8 @@ std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<RandomAccessFile
     scan_file<false>(*file, header, scan, warnings);
   }
   const std::uint64_t vertices = header.find("vertex")->count;
-  return std::make_unique<PlyStream>(std::move(file), std::move(scan), vertices, warnings);
+  return std::make_unique<PlyStream>(std::move(file), std::move(scan), vertices,
+                                     options.map_large_files, warnings);
 }
 
 }  // namespace fathom::mesh_files

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <system_error>
 
 #include "fathom/mesh_files/ply_labels.h"
@@ -67,9 +68,13 @@ PlyVertexLayout layout_of_vertices(const PlyElement& element, std::uint64_t offs
   return layout;
 }
 
-PlyVertices::PlyVertices(const RandomAccessFile& file, const PlyVertexLayout& layout)
+PlyVertices::PlyVertices(const RandomAccessFile& file, const PlyVertexLayout& layout, bool mapped)
     : layout_(layout), name_(file.name()) {
   if (layout.count == 0) return;
+  if (!mapped) {
+    blocks_.emplace(file);
+    return;
+  }
   const std::uint64_t size = layout.count * layout.row_size;
   mapped_ = MappedFile(file.descriptor(), layout.offset, static_cast<std::size_t>(size), name_);
   if (!mapped_.is_mapped()) {
@@ -79,11 +84,18 @@ PlyVertices::PlyVertices(const RandomAccessFile& file, const PlyVertexLayout& la
   rows_ = reinterpret_cast<const char*>(mapped_.data());
 }
 
+double PlyVertices::value(std::uint32_t vertex, std::size_t place, PlyType type) const {
+  const std::uint64_t at = layout_.row_size * std::uint64_t{vertex} + place;
+  if (rows_) return value_at(rows_ + at, type, layout_.big_endian);
+  std::array<char, sizeof(double)> bytes;
+  blocks_->read(layout_.offset + at, std::as_writable_bytes(std::span(bytes).first(size_of(type))));
+  return value_at(bytes.data(), type, layout_.big_endian);
+}
+
 MeshPoint PlyVertices::operator[](std::uint32_t vertex) const {
-  if (!rows_) return list_.points[vertex];
-  const char* row = rows_ + layout_.row_size * vertex;
+  if (!rows_ && !blocks_) return list_.points[vertex];
   const auto coordinate = [&](std::size_t i) {
-    return value_at(row + layout_.places[i], layout_.types[i], layout_.big_endian);
+    return value(vertex, layout_.places[i], layout_.types[i]);
   };
   const MeshPoint point{coordinate(0), coordinate(1), coordinate(2)};
   if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
@@ -94,11 +106,10 @@ MeshPoint PlyVertices::operator[](std::uint32_t vertex) const {
 }
 
 std::uint32_t PlyVertices::label(std::uint32_t vertex) const {
-  if (!rows_) return list_.labels[vertex];
+  if (!rows_ && !blocks_) return list_.labels[vertex];
   // Integers of 32 bits are binary64 numbers.
-  const char* at = rows_ + layout_.row_size * vertex + layout_.label_place;
   return label_from(
-      static_cast<std::int64_t>(value_at(at, *layout_.label_type, layout_.big_endian)));
+      static_cast<std::int64_t>(value(vertex, layout_.label_place, *layout_.label_type)));
 }
 
 }  // namespace fathom::mesh_files

@@ -9,6 +9,7 @@
 
 #include "fathom/geometry/frames.h"
 #include "fathom/mesh_files/ply_header.h"
+#include "fathom/text/file_blocks.h"
 #include "fathom/text/mapped_file.h"
 #include "fathom/text/random_access_file.h"
 
@@ -40,30 +41,37 @@ struct PlyVertexList {
   std::vector<std::uint32_t> labels;
 };
 
-/// The vertices of a PLY file by number: mapped, so that they take addresses but no memory that the
-/// system could not take back; or, if their rows differ in length, a list.
+/// The vertices of a PLY file by number: read through a few blocks; or mapped, so that they take
+/// addresses but no memory that the system could not take back; or, if their rows differ in length,
+/// a list.
 class PlyVertices {
  public:
-  /// Fails    InputError if the block cannot be mapped, for instance for lack of addresses.
-  PlyVertices(const text::RandomAccessFile& file, const PlyVertexLayout& layout);
+  /// The file must outlive this.
+  /// Fails    InputError if the vertices cannot be mapped, for instance for lack of addresses.
+  PlyVertices(const text::RandomAccessFile& file, const PlyVertexLayout& layout, bool mapped);
   explicit PlyVertices(PlyVertexList list) : list_(std::move(list)) {}
   PlyVertices(const PlyVertices&) = delete;
   PlyVertices& operator=(const PlyVertices&) = delete;
 
-  /// Fails    InputError if the vertex is not finite, which it was when the file was checked.
+  /// Fails    InputError if the vertex is not finite, which it was when the file was checked, or
+  ///          cannot be read any more.
   [[nodiscard]] MeshPoint operator[](std::uint32_t vertex) const;
   /// Whether they have labels; the label of one, `unsegmented` where it is none.
   [[nodiscard]] bool have_labels() const {
-    return rows_ ? layout_.label_type.has_value() : !list_.labels.empty();
+    return layout_.label_type.has_value() || !list_.labels.empty();
   }
   [[nodiscard]] std::uint32_t label(std::uint32_t vertex) const;
 
  private:
+  /// The number at `place` in the row of a vertex.
+  [[nodiscard]] double value(std::uint32_t vertex, std::size_t place, PlyType type) const;
+
   PlyVertexLayout layout_;
   PlyVertexList list_;
   std::string name_;
   text::MappedFile mapped_;
   const char* rows_ = nullptr;
+  std::optional<text::FileBlocks> blocks_;
 };
 
 }  // namespace fathom::mesh_files

@@ -220,6 +220,7 @@ GltfAsset read_gltf(std::span<const std::byte> bytes, const std::filesystem::pat
   asset.reader = decoders.readers();
   for (const auto& [name, contents] : buffers.external_files())
     asset.buffers.push_back({name.string(), options.hash ? sha256(contents) : std::string()});
+  buffers.expect_unchanged();
   return asset;
 }
 

@@ -43,9 +43,11 @@ struct ReadOptions {
   /// How many times the bytes of its files a mesh, or a scene file with its meshes, may take in
   /// memory, beside 64 MiB; more is an error. See expansion_budget.h.
   std::uint64_t max_expansion = 64;
-  /// Map files of more than 64 MiB instead of reading them into memory. Where another program cuts
-  /// a mapped file short meanwhile, this one gets the signal SIGBUS (text/mapped_file.h).
-  bool map_large_files = true;
+  /// Map files of more than 64 MiB, and the vertices of a PLY that stays in its file, instead of
+  /// reading them into memory. Only for programs that handle the signal SIGBUS (text/mapped_file.h):
+  /// they get it where another program cuts a mapped file short meanwhile. Without mapping, that is
+  /// an InputError.
+  bool map_large_files = false;
 };
 
 }  // namespace fathom

@@ -53,6 +53,7 @@ class StlStream : public TriangleStream {
   [[nodiscard]] Triangle triangle(std::uint32_t number) const override {
     Triangle result{.corners = {}, .face = number};
     for_each(number, 1, [&](std::uint32_t, const auto& corners) { result.corners = corners; });
+    file_->expect_unchanged();
     return result;
   }
 

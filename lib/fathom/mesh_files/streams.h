@@ -13,10 +13,11 @@ namespace fathom::mesh_files {
 std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<text::RandomAccessFile> file,
                                                 bool check, Warnings& warnings);
 
-/// `header` is that of the file, and binary. Labels are found where `segments` are wanted. Without
-/// `check`, a file that can be taken for one of triangles alone is not read through, unless they are.
+/// `header` is that of the file, and binary. Of the options, `segments`, `check_when_opened` and
+/// `map_large_files` matter. A file that can be taken for one of triangles alone is not read through
+/// where neither a check nor segments are wanted.
 std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<text::RandomAccessFile> file,
-                                                const PlyHeader& header, bool segments, bool check,
+                                                const PlyHeader& header, const ReadOptions& options,
                                                 Warnings& warnings);
 
 }  // namespace fathom::mesh_files

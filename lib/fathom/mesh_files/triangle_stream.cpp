@@ -9,6 +9,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/sha256.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom {
 using namespace mesh_files;
@@ -49,8 +50,7 @@ std::unique_ptr<TriangleStream> open(std::unique_ptr<RandomAccessFile> file, Fil
   const PlyHeader header =
       read_ply_header({reinterpret_cast<const char*>(head.data()), head.size()}, name, warnings);
   if (header.encoding == PlyHeader::Encoding::ascii) fail_format(name);
-  return open_ply_stream(std::move(file), header, options.segments, options.check_when_opened,
-                         warnings);
+  return open_ply_stream(std::move(file), header, options, warnings);
 }
 
 }  // namespace
@@ -66,7 +66,10 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
   std::future<std::string> hash;
   if (options.hash) {
     hash = std::async(std::launch::async | std::launch::deferred,
-                      [&path] { return sha256(RandomAccessFile(path)); });
+                      [&path, request = current_interruption()] {
+                        const Interruptible here(request);
+                        return sha256(RandomAccessFile(path));
+                      });
   }
   std::unique_ptr<TriangleStream> stream = open(std::move(file), kind, options, warnings);
   stream->source.path = path.string();

@@ -25,8 +25,8 @@ struct TriangleChunk {
 ///
 /// The file has been read through once and checked, with the messages of the ordinary readers, unless
 /// that was not asked for (ReadOptions::check_when_opened); it must not change while the stream exists; where it is seen to have, reading fails. Memory: for an
-/// STL none that grows with the file; for a PLY the block of its vertices is mapped, and if not all
-/// faces have three corners, they take 24 bytes for every 256 of the file's faces; strips take 48
+/// STL none that grows with the file; for a PLY 4 MiB of its vertices, or all of them mapped
+/// (ReadOptions::map_large_files), and if not all faces have three corners, they take 24 bytes for every 256 of the file's faces; strips take 48
 /// for every 1024 corners. (If vertices have list properties: 24 bytes per vertex instead.)
 ///
 /// Several threads may read at the same time.
@@ -78,8 +78,8 @@ class TriangleStream {
   Source source;
 };
 
-/// Opens and checks a binary STL or PLY file. Of the options, only `format`, `hash`, `segments` and
-/// `check_when_opened` matter.
+/// Opens and checks a binary STL or PLY file. Of the options, only `format`, `hash`, `segments`,
+/// `check_when_opened` and `map_large_files` matter.
 /// Fails    InputError, as read_scene() does, and if the file is of another format or a pipe.
 std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path& path,
                                                      const ReadOptions& options,

@@ -20,6 +20,7 @@
 #include "fathom/text/input_file.h"
 #include "fathom/text/printable.h"
 #include "fathom/text/sha256.h"
+#include "fathom/threads/interruption.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
@@ -66,7 +67,9 @@ class SceneReader {
       : options_(options), warnings_(warnings) {}
 
   void add_file(const std::filesystem::path& path) {
-    add_input(InputFile(path, reading_of(options_)), path);
+    const InputFile input(path, reading_of(options_));
+    add_input(input, path);
+    input.expect_unchanged();
   }
 
   void add_input(const InputFile& input, const std::filesystem::path& path) {
@@ -121,7 +124,10 @@ class SceneReader {
     std::future<std::string> hash;
     if (options_.hash) {
       hash = std::async(std::launch::async | std::launch::deferred,
-                        [&] { return sha256(input.bytes()); });
+                        [&input, request = current_interruption()] {
+                          const Interruptible here(request);
+                          return sha256(input.bytes());
+                        });
     }
     const std::string file = path.string();
     const std::size_t source = scene_.sources.size(), first = scene_.objects.size();
@@ -185,6 +191,7 @@ class SceneReader {
         throw InputError(file + ": is no mesh, expected a mesh file");
       placements.budget.add_input(input.bytes().size());
       add_mesh_file(kind, input, placed.file);
+      input.expect_unchanged();
       placements.known[file].assign(scene_.objects.begin() + static_cast<std::ptrdiff_t>(first),
                                     scene_.objects.end());
     }

@@ -19,8 +19,8 @@ struct StreamedScene {
   std::vector<Source> sources;
 };
 
-/// Opens the files as one scene. Of the options, only `format`, `hash`, `segments` and
-/// `check_when_opened` matter.
+/// Opens the files as one scene. Of the options, only `format`, `hash`, `segments`,
+/// `check_when_opened` and `map_large_files` matter.
 /// Fails    InputError, as open_triangle_stream() and read_scene() do.
 StreamedScene stream_scene(const std::vector<std::filesystem::path>& files,
                            const ReadOptions& options, Warnings& warnings);

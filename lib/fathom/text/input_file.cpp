@@ -7,18 +7,21 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 #include "fathom/memory/huge_pages.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/text/descriptor.h"
 #include "fathom/text/system_failure.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::text {
 namespace {
 
-/// Files up to this size are read rather than mapped: below it memory is no concern, and what is
-/// read cannot be taken away again.
+/// Files up to this size are always read: below it memory is no concern.
 constexpr std::size_t largest_read = std::size_t{64} << 20;
+
+/// Between such pieces the reading can be interrupted.
+constexpr std::size_t read_at_once = std::size_t{32} << 20;
 
 bool is_device(const struct stat& status) {
   return S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode);
@@ -51,31 +54,43 @@ Descriptor opened(const std::string& name) {
 
 }  // namespace
 
-InputFile::InputFile(const std::filesystem::path& path, Reading reading) {
-  const std::string name = path.string();
-  if (name == "-") {
-    take(STDIN_FILENO, name, Reading::copied);
+InputFile::InputFile(const std::filesystem::path& path, Reading reading) : name_(path.string()) {
+  if (name_ == "-") {
+    take(Descriptor(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)), Reading::copied);
   } else {
-    take(opened(name).get(), name, reading);
+    take(opened(name_), reading);
   }
 }
 
 InputFile::InputFile(const std::filesystem::path& path, const std::vector<Boundary>& boundaries,
-                     Reading reading) {
-  take(open_confined(path, boundaries).get(), path.string(), reading);
+                     Reading reading)
+    : name_(path.string()) {
+  take(open_confined(path, boundaries), reading);
 }
 
-void InputFile::take(int descriptor, const std::string& name, Reading reading) {
+void InputFile::take(Descriptor file, Reading reading) {
   struct stat status {};
-  if (::fstat(descriptor, &status) != 0) fail_with_errno(name, "cannot be examined");
-  if (S_ISDIR(status.st_mode)) throw InputError(name + ": is a directory, expected a file");
-  const auto size = S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
+  if (::fstat(file.get(), &status) != 0) fail_with_errno(name_, "cannot be examined");
+  if (S_ISDIR(status.st_mode)) throw InputError(name_ + ": is a directory, expected a file");
+  if (!S_ISREG(status.st_mode)) return read(file.get(), 0);
+  opened_ = state_of(file.get(), name_);
+  const auto size = static_cast<std::size_t>(opened_.size);
   if (size > largest_read && reading == Reading::mapped_where_large) {
-    mapped_ = MappedFile(descriptor, 0, size, name);
+    mapped_ = MappedFile(file.get(), 0, size, name_);
     bytes_ = {mapped_.data(), size};
-    if (mapped_.is_mapped()) return;
+    if (mapped_.is_mapped()) {
+      file_ = std::move(file);
+      return;
+    }
   }
-  read(descriptor, size, name);
+  read(file.get(), size);
+  read_ = state_of(file.get(), name_);
+  expect_whole(opened_, read_, name_);
+}
+
+void InputFile::expect_unchanged() const {
+  text::expect_unchanged(opened_, mapped_.is_mapped() ? state_of(file_.get(), name_) : read_,
+                         name_);
 }
 
 void InputFile::resize(std::size_t capacity) {
@@ -87,7 +102,7 @@ void InputFile::resize(std::size_t capacity) {
   memory::prefer_huge_pages(bytes, capacity);
 }
 
-void InputFile::read(int descriptor, std::uint64_t size, const std::string& name) {
+void InputFile::read(int descriptor, std::uint64_t size) {
   // One byte more than the file has, so that its end is reached without growing.
   const std::uint64_t most = std::max(size, largest_unsized_input) + 1;
   std::size_t capacity = size > 0 ? static_cast<std::size_t>(size) + 1 : std::size_t{1} << 16;
@@ -95,7 +110,7 @@ void InputFile::read(int descriptor, std::uint64_t size, const std::string& name
   resize(capacity);
   while (true) {
     if (filled == most) {
-      throw InputError(name + ": has no end after " + std::to_string(most - 1) +
+      throw InputError(name_ + ": has no end after " + std::to_string(most - 1) +
                        " bytes, the most that is read from what is no regular file; expected a "
                        "file");
     }
@@ -103,9 +118,11 @@ void InputFile::read(int descriptor, std::uint64_t size, const std::string& name
       capacity = static_cast<std::size_t>(std::min<std::uint64_t>(2 * capacity, most));
       resize(capacity);
     }
-    const ssize_t got = ::read(descriptor, buffer_.get() + filled, capacity - filled);
+    check_interruption();
+    const ssize_t got =
+        ::read(descriptor, buffer_.get() + filled, std::min(capacity - filled, read_at_once));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail_with_errno(name, "cannot be read");
+    if (got < 0) fail_with_errno(name_, "cannot be read");
     if (got == 0) break;
     filled += static_cast<std::size_t>(got);
   }

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "fathom/text/confinement.h"
+#include "fathom/text/descriptor.h"
+#include "fathom/text/file_state.h"
 #include "fathom/text/mapped_file.h"
 
 namespace fathom::text {
@@ -21,20 +23,20 @@ inline constexpr std::uint64_t largest_unsized_input = std::uint64_t{1} << 30;
 
 /// The bytes of an input file, or of standard input if the path is "-".
 ///
-/// Large regular files are mapped, so that they take no memory of ours (see MappedFile for what
-/// that means where they are cut short meanwhile); small ones, pipes and standard input are read
-/// into memory, up to their end.
+/// They are read into memory, up to their end: bytes that have been read cannot be taken away. A
+/// program that handles the signal SIGBUS may have large regular files mapped instead, so that they
+/// take no memory of ours (see MappedFile).
 class InputFile {
  public:
-  enum class Reading { mapped_where_large, copied };
+  enum class Reading { copied, mapped_where_large };
 
   /// Fails    InputError "PATH: why": missing, not readable, a directory, a device other than what
-  ///          standard input is, or more than largest_unsized_input from what is no regular file.
-  explicit InputFile(const std::filesystem::path& path,
-                     Reading reading = Reading::mapped_where_large);
+  ///          standard input is, cut short while it is read, or more than largest_unsized_input from
+  ///          what is no regular file.
+  explicit InputFile(const std::filesystem::path& path, Reading reading = Reading::copied);
   /// A file that another file names; "-" is an ordinary name. Fails    as open_confined().
   InputFile(const std::filesystem::path& path, const std::vector<Boundary>& boundaries,
-            Reading reading = Reading::mapped_where_large);
+            Reading reading = Reading::copied);
   /// Bytes that are there already; they must outlive this.
   explicit InputFile(std::span<const std::byte> bytes) : bytes_(bytes) {}
   InputFile(const InputFile&) = delete;
@@ -45,19 +47,29 @@ class InputFile {
     return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
   }
 
+  /// For what has been made of the bytes: whether they were those of one state of the file.
+  /// Fails    InputError where a regular file was written to while it was read or, if it is mapped,
+  ///          since. (A mapped file that is cut within its last page ends in zeros, without a signal.)
+  void expect_unchanged() const;
+
  private:
   struct Free {
     void operator()(std::byte* bytes) const { std::free(bytes); }
   };
 
-  void take(int descriptor, const std::string& name, Reading reading);
+  void take(Descriptor file, Reading reading);
   /// Makes the buffer larger or smaller; what it holds stays.
   void resize(std::size_t capacity);
-  void read(int descriptor, std::uint64_t size, const std::string& name);
+  void read(int descriptor, std::uint64_t size);
 
+  std::string name_;
   std::span<const std::byte> bytes_;
   std::unique_ptr<std::byte, Free> buffer_;
   MappedFile mapped_;
+  /// A mapped file, to ask for its state.
+  Descriptor file_;
+  /// States of a regular file: when it was opened, and when it had been read.
+  FileState opened_, read_;
 };
 
 /// The folder in which an input looks for the files that it names: its own; for standard input or a

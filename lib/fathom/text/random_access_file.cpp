@@ -18,9 +18,7 @@ RandomAccessFile::RandomAccessFile(const std::filesystem::path& path) : name_(pa
   }
   descriptor_ = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) fail_with_errno(name_, "cannot be opened");
-  if (::fstat(descriptor_, &status) != 0) fail_with_errno(name_, "cannot be examined");
-  size_ = static_cast<std::uint64_t>(status.st_size);
-  written_ = status.st_mtim;
+  opened_ = state_of(descriptor_, name_);
 }
 
 RandomAccessFile::~RandomAccessFile() {
@@ -35,7 +33,7 @@ void RandomAccessFile::read(std::uint64_t offset, std::span<std::byte> bytes) co
     if (got < 0) fail_with_errno(name_, "cannot be read");
     if (got == 0) {
       throw InputError(name_ + ": byte " + std::to_string(offset) +
-                       ": the file ends, expected the " + std::to_string(size_) +
+                       ": the file ends, expected the " + std::to_string(opened_.size) +
                        " bytes that it had when it was opened");
     }
     bytes = bytes.subspan(static_cast<std::size_t>(got));
@@ -44,14 +42,7 @@ void RandomAccessFile::read(std::uint64_t offset, std::span<std::byte> bytes) co
 }
 
 void RandomAccessFile::expect_unchanged() const {
-  struct stat status {};
-  if (::fstat(descriptor_, &status) != 0) fail_with_errno(name_, "cannot be examined");
-  if (static_cast<std::uint64_t>(status.st_size) != size_ ||
-      status.st_mtim.tv_sec != written_.tv_sec || status.st_mtim.tv_nsec != written_.tv_nsec) {
-    throw InputError(name_ +
-                     ": has been written to since it was opened, expected a file that stays as it "
-                     "is while it is read");
-  }
+  text::expect_unchanged(opened_, state_of(descriptor_, name_), name_);
 }
 
 }  // namespace fathom::text

@@ -2,10 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <ctime>
 #include <filesystem>
 #include <span>
 #include <string>
+
+#include "fathom/text/file_state.h"
 
 namespace fathom::text {
 
@@ -20,7 +21,7 @@ class RandomAccessFile {
   ~RandomAccessFile();
 
   /// The size when the file was opened.
-  [[nodiscard]] std::uint64_t size() const { return size_; }
+  [[nodiscard]] std::uint64_t size() const { return opened_.size; }
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
@@ -35,9 +36,7 @@ class RandomAccessFile {
  private:
   std::string name_;
   int descriptor_ = -1;
-  std::uint64_t size_ = 0;
-  /// When it was last written to, as it was opened.
-  timespec written_{};
+  FileState opened_;
 };
 
 }  // namespace fathom::text

@@ -9,6 +9,8 @@
 #include <array>
 #include <vector>
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::text {
 
 namespace {
@@ -36,8 +38,12 @@ class Sha256 {
 }  // namespace
 
 std::string sha256(std::span<const std::byte> bytes) {
+  constexpr std::size_t at_once = std::size_t{1} << 20;
   Sha256 hash;
-  hash.add(bytes);
+  for (; !bytes.empty(); bytes = bytes.subspan(std::min(bytes.size(), at_once))) {
+    check_interruption();
+    hash.add(bytes.first(std::min(bytes.size(), at_once)));
+  }
   return hash.in_hexadecimal();
 }
 
@@ -48,6 +54,7 @@ std::string sha256(const RandomAccessFile& file) {
   for (std::uint64_t offset = 0; offset < file.size();) {
     const std::span part = std::span(bytes).first(
         static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), file.size() - offset)));
+    check_interruption();
     file.read(offset, part);
     hash.add(part);
     offset += part.size();
