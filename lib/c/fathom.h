@@ -59,6 +59,8 @@ FATHOM_API void fathom_scene_free(fathom_scene* scene);
  *   pose        mesh to world, 3 rows of 4 numbers; NULL: the identity
  *   name        of the object; may be NULL
  *   lent        not 0: the arrays are not copied, and stay as they are until the scene is freed
+ *
+ * FATHOM_USAGE where a count is above 2^32 - 2.
  */
 FATHOM_API fathom_status fathom_scene_add(fathom_scene* scene, const double* vertices,
                                           size_t vertex_count, const uint32_t* triangles,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "fathom/camera/camera_making.h"
 #include "fathom/image/map_files.h"
 #include "fathom/map_description.h"
+#include "fathom/mesh/mesh_faces.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/verify.h"
@@ -81,6 +83,16 @@ fathom_status status_of(const Work& work) noexcept {
 
 void require(bool holds, const char* message) {
   if (!holds) throw UsageError(message);
+}
+
+/// A count beyond what a mesh can have, such as a negative number made unsigned: refused before its
+/// bytes are computed, or an element is read.
+void require_count(const char* what, std::size_t count, std::size_t bytes_of_element) {
+  const std::uint64_t most =
+      std::min<std::uint64_t>(mesh::most_elements, SIZE_MAX / bytes_of_element);
+  if (count <= most) return;
+  throw UsageError(std::string(what) + ": expected at most " + std::to_string(most) + ", found " +
+                   std::to_string(count));
 }
 
 Camera camera_of(const fathom_camera* given) {
@@ -242,6 +254,8 @@ fathom_status fathom_scene_add(fathom_scene* scene, const double* vertices, size
     require(scene, "scene: NULL");
     require((vertices || vertex_count == 0) && (triangles || triangle_count == 0),
             "vertices and triangles: NULL");
+    require_count("vertex_count", vertex_count, sizeof(MeshPoint));
+    require_count("triangle_count", triangle_count, sizeof(CornerIndices));
     Object object;
     object.mesh = scene->scene.meshes.size();
     object.name = name ? name : "object " + std::to_string(scene->scene.objects.size());

@@ -117,6 +117,27 @@ static void progress_can_stop_it(void) {
   fathom_scene_free(scene);
 }
 
+/* Counts whose bytes are few, or none, once they have overflowed; none of them may be read. */
+static void counts_that_overflow_are_refused(void) {
+  const size_t counts[] = {(size_t)-1, SIZE_MAX / 24 + 1, SIZE_MAX / 12 + 1, SIZE_MAX / 3 + 1,
+                           (size_t)UINT32_MAX};
+  size_t i;
+  int lent;
+  for (i = 0; i < sizeof counts / sizeof counts[0]; ++i) {
+    for (lent = 0; lent < 2; ++lent) {
+      fathom_scene* scene = make_scene(NULL, 0);
+      CHECK(fathom_scene_add(scene, vertices, counts[i], triangles, 1, NULL, NULL, lent) ==
+                FATHOM_USAGE &&
+            strstr(fathom_error(), "vertex_count: expected at most 4294967294") != NULL);
+      CHECK(fathom_scene_add(scene, vertices, 3, triangles, counts[i], NULL, NULL, lent) ==
+                FATHOM_USAGE &&
+            strstr(fathom_error(), "triangle_count: expected at most 4294967294") != NULL);
+      CHECK(fathom_scene_triangle_count(scene) == 1);
+      fathom_scene_free(scene);
+    }
+  }
+}
+
 static void failures_say_why(void) {
   fathom_scene* scene = make_scene(NULL, 0);
   fathom_scene* other = NULL;
@@ -147,6 +168,7 @@ static void failures_say_why(void) {
   CHECK(fathom_render(scene, &camera, "Z", NULL, &map) == FATHOM_INPUT && map == NULL);
   CHECK(fathom_scene_add(scene, NULL, 3, beyond, 1, NULL, NULL, 1) == FATHOM_USAGE);
   fathom_scene_free(scene);
+  counts_that_overflow_are_refused();
   fathom_scene_free(NULL);
   fathom_map_free(NULL);
 }
