@@ -17,6 +17,7 @@
 #include "apps/options/channel_list.h"
 #include "apps/render/map_additions.h"
 #include "apps/render/map_warnings.h"
+#include "apps/shell/about_output.h"
 #include "apps/shell/stopwatch.h"
 #include "fathom/fast/some_tiles.h"
 #include "fathom/image/exr_bands.h"
@@ -145,7 +146,9 @@ class MapTogether {
     for (std::uint32_t from = 0; from < most; from += at_once) {
       const std::vector<TileRows> rows = parts_of(bands_, from, at_once);
       const DrawnTiles where{tiles_, camera_.width, camera_.height, drawing_.owners()};
-      const RowsDrawn drawn = [&](const TileRows& some) { return drawing_.rows(some); };
+      const RowsDrawn drawn = [&](const TileRows& some) {
+        return about_output(traffic_.map, [&] { return drawing_.rows(some); });
+      };
       std::vector<text::Bytes> messages;
       together(ranks_, [&] { messages = pixels_for_others(ranks_, where, rows, drawn); });
       traffic_.of_pixels.add(messages, ranks_.self());

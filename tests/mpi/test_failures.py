@@ -44,6 +44,12 @@ def test_what_all_ranks_refuse(tmp_path, arguments, status, text):
     expect_failure(render_in([tmp_path] * 3, *arguments, "-o", tmp_path / "map.exr"), status, text, tmp_path)
 
 
+def test_a_depth_that_a_png_cannot_hold(tmp_path):
+    outcome = render_in([tmp_path] * 2, spot, "--size", "200x150", "--png-scale", "30000", "-o", tmp_path / "map.png")
+    expect_failure(outcome, 4, f"fathom: error: {tmp_path / 'map.png'}: pixel (", tmp_path)
+    assert not (tmp_path / "map.png").exists()
+
+
 def test_a_file_that_one_rank_does_not_have(tmp_path):
     here, there = tmp_path / "here", tmp_path / "there"
     for folder in (here, there):
