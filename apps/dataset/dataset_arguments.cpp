@@ -16,8 +16,10 @@ void DatasetArguments::add_to(Command& command, const std::string& what) {
   command.option("--shard", "I/N", into(shard, parse_shard),
                  "Make every Nth map, beginning with the Ith: N machines make them all, without "
                  "knowing of each other");
-  command.flag("--overwrite", overwrites,
-               "Replace files that are there and that fathom has not made");
+  command.flag(
+      "--overwrite", overwrites,
+      "Overwrite existing files, even those not made by fathom; where a name is a symbolic "
+      "link, the link stays and the file it leads to is overwritten");
 }
 
 void DatasetArguments::add_scene_to(Command& command) {

@@ -169,6 +169,33 @@ TEST_F(DataSets, FilesOfOthersAreLeftAlone) {
   EXPECT_NE(read("out/2.npy"), "mine");
 }
 
+/// As all outputs do; the help of --overwrite says so.
+TEST_F(DataSets, OverwritingFollowsLinksButNotToAnInput) {
+  write("elsewhere.npy", "mine");
+  fs::create_directory(folder_.path() / "out");
+  const fs::path link = folder_.path() / "out/2.npy";
+  fs::create_symlink("../elsewhere.npy", link);
+  const Outcome refused = make();
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("out/2.npy: is there already"));
+  EXPECT_EQ(read("elsewhere.npy"), "mine");
+  ASSERT_EQ(make({"--overwrite"}).status, 0);
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(read("elsewhere.npy"), read("out/2.npy"));
+  EXPECT_THAT(read("elsewhere.npy"), StartsWith("\x93NUMPY"));
+  const Outcome help = run_fathom({"dataset", "maps", "--help"}, {.folder = folder_.path()});
+  EXPECT_THAT(help.out, HasSubstr("symbolic"));
+
+  const std::string cameras = read("cameras.json");
+  fs::remove_all(folder_.path() / "out");
+  fs::create_directory(folder_.path() / "out");
+  fs::create_symlink("../cameras.json", link);
+  const Outcome of_input = make({"--overwrite"});
+  EXPECT_EQ(of_input.status, 2);
+  EXPECT_THAT(of_input.err, HasSubstr("out/2.npy: is an input of this command"));
+  EXPECT_EQ(read("cameras.json"), cameras);
+}
+
 TEST_F(DataSets, TheFolderMayBeThatOfTheCameras) {
   const Outcome made = run_fathom(
       {"dataset", "maps", "cameras.json", "--mesh", spot_, "--out", ".", "--name", "{stem}.npy"},
