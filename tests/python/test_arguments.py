@@ -100,3 +100,49 @@ def test_cameras_of_a_stack_are_of_one_size():
     cameras = [fathom.Camera(w, 4, 4, 4, 2, 2, pixel_centre=0.5) for w in (4, 5)]
     with pytest.raises(ValueError, match="cameras of one size, found 4×4 and 5×4"):
         fathom.Scene().render(cameras)
+
+
+def every_call_with_a_path(map, camera, scene):
+    """The argument's name, and what is called with a path."""
+    C, deep = fathom.Camera, fathom.render_deep(scene, camera)
+    return [
+        ("files", fathom.Scene.read), ("file", fathom.Map.read), ("file", fathom.read_map), ("file", map.write),
+        ("file", map.write_points), ("file", lambda path: deep.write(path + ".exr" if isinstance(path, str) else path)),
+        ("file", C.read), ("file", camera.write), ("file", fathom.read_cameras),
+        ("file", lambda path: fathom.write_cameras(path, [camera])),
+        ("folder", C.from_colmap), ("file", C.from_nerf), ("file", C.from_bop), ("file", C.from_sfm_data),
+        ("file", lambda path: C.from_gltf(path, (4, 4))), ("trajectory", lambda path: C.from_tum(path, "ros")),
+        ("images", lambda path: C.from_tum("none", "ros", images=path)), ("folder", C.from_7scenes),
+        ("folder", C.from_scannet), ("file", C.from_scannetpp), ("folder", C.from_replica),
+        ("calibration", lambda path: C.from_kitti(path, size=(4, 4))),
+        ("poses", lambda path: C.from_kitti("none", poses=path, camera=2, size=(4, 4))),
+    ]
+
+
+@pytest.mark.parametrize("path, error", [("a\0b.exr", ValueError), ("\ud800.exr", ValueError), ("\udc41.exr", ValueError),
+                                         (3, TypeError), (None, TypeError)])
+def test_a_path_that_no_file_can_have(triangle, K, path, error):
+    scene = fathom.Scene()
+    scene.add_mesh(*triangle)
+    camera = fathom.Camera.from_opencv(K, np.eye(4), (8, 6), pixel_centre=0.5)
+    for name, call in every_call_with_a_path(scene.render(camera), camera, scene):
+        if path is None and name in ("images", "poses"):  # which may be None
+            continue
+        with pytest.raises(error) as caught:
+            call(path)
+        assert str(caught.value).startswith(f"{name}: expected "), (name, call, caught.value)
+        assert "\n" not in str(caught.value) and "incompatible function arguments" not in str(caught.value)
+
+
+def test_a_path_may_be_any_bytes(tmp_path, triangle, K):
+    scene = fathom.Scene()
+    scene.add_mesh(*triangle)
+    camera = fathom.Camera.from_opencv(K, np.eye(4), (8, 6), pixel_centre=0.5)
+    folder = tmp_path / "\udcff"
+    scene.render(camera).write(folder / "map.exr")
+    assert np.array_equal(fathom.read_map(folder / "map.exr")["Z"], scene.render(camera)["Z"])
+    camera.write(folder / "camera.json")
+    assert fathom.Camera.read(folder / "camera.json") == camera
+    (folder / "camera.json").write_text("{")
+    with pytest.raises(fathom.InputError, match=r"camera\.json: "):
+        fathom.Camera.read(folder / "camera.json")

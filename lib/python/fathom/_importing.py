@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 from . import _core
 from ._core import InputError
 from ._arguments import Size, as_count, as_finite, as_number, as_numbers, as_size, as_text, in_words, one_of
-from ._files import Path
+from ._files import Path, path_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -35,7 +35,7 @@ class ImportedCameras:
         Those with lens distortion are left out with a ViewWarning, unless `ignore_distortion` takes their pinhole
         part. Raises InputError where none is left.
         """
-        return dict(cls._imported(_core.import_colmap(os.fspath(folder), ignore_distortion)))
+        return dict(cls._imported(_core.import_colmap(path_of("folder", folder), ignore_distortion)))
 
     @classmethod
     def from_nerf(
@@ -48,7 +48,7 @@ class ImportedCameras:
         beyond π radians gives such), or the file has another size than the one that is given.
         """
         width, height = (0, 0) if size is None else as_size(size)
-        imported = _core.import_nerf(os.fspath(file), width, height, ignore_distortion)
+        imported = _core.import_nerf(path_of("file", file), width, height, ignore_distortion)
         made: dict[str, Camera] = {}
         for name, camera in cls._imported(imported):
             fault = _fault_of_frame(camera, size is not None and (width, height))
@@ -66,7 +66,7 @@ class ImportedCameras:
         folder and the two above.
         """
         width, height = (0, 0) if size is None else as_size(size)
-        return dict(cls._imported(_core.import_bop(os.fspath(file), width, height)))
+        return dict(cls._imported(_core.import_bop(path_of("file", file), width, height)))
 
     @classmethod
     def from_sfm_data(cls, file: Path, *, ignore_distortion: bool = False) -> dict[str, Camera]:
@@ -74,14 +74,14 @@ class ImportedCameras:
         all have in common. Views without a pose are left out with a ViewWarning; lens distortion is as in
         from_colmap(). Meshroom's meshes have y and z the other way round than its cameras.
         """
-        return dict(cls._imported(_core.import_sfm_data(os.fspath(file), ignore_distortion)))
+        return dict(cls._imported(_core.import_sfm_data(path_of("file", file), ignore_distortion)))
 
     @classmethod
     def from_gltf(cls, file: Path, size: Size) -> dict[str, Camera]:
         """The cameras of a .gltf or .glb, by the names of their nodes. `size`, (width, height) in pixels, must have the
         aspect ratio of a camera that has one.
         """
-        return dict(cls._imported(_core.import_gltf(os.fspath(file), *as_size(size))))
+        return dict(cls._imported(_core.import_gltf(path_of("file", file), *as_size(size))))
 
     # Data sets: `K` 3×3 or (fx, fy, cx, cy), `size` (width, height) and `pixel_centre` replace what the data set has.
 
@@ -150,11 +150,11 @@ class ImportedCameras:
         within 0.02 s are left out with a ViewWarning. "ros" is meant for depth images, the others for colour. 640×480
         pixels and pixel_centre 0 without others.
         """
-        lens = K if isinstance(K, str) else ""
+        lens = as_text("K", K) if isinstance(K, str) else ""
         given = _given(None if lens else K, size, pixel_centre)
-        list_of_images = None if images is None else os.fspath(images)
+        list_of_images = None if images is None else path_of("images", images)
         return dict(cls._imported(
-            _core.import_tum(os.fspath(trajectory), list_of_images, lens, given, ignore_distortion)))
+            _core.import_tum(path_of("trajectory", trajectory), list_of_images, lens, given, ignore_distortion)))
 
     @classmethod
     def from_7scenes(
@@ -168,7 +168,7 @@ class ImportedCameras:
         """The cameras of a sequence of 7-Scenes (frame-XXXXXX.pose.txt), by "frame-XXXXXX". 640×480 pixels, focal
         lengths 585, (320, 240) and pixel_centre 0 without others.
         """
-        return dict(cls._imported(_core.import_7scenes(os.fspath(folder), _given(K, size, pixel_centre))))
+        return dict(cls._imported(_core.import_7scenes(path_of("folder", folder), _given(K, size, pixel_centre))))
 
     @classmethod
     def from_scannet(
@@ -185,7 +185,7 @@ class ImportedCameras:
         others.
         """
         colour = one_of("stream", stream, ("depth", "colour")) == "colour"
-        return dict(cls._imported(_core.import_scannet(os.fspath(folder), colour, _given(K, size, pixel_centre))))
+        return dict(cls._imported(_core.import_scannet(path_of("folder", folder), colour, _given(K, size, pixel_centre))))
 
     @classmethod
     def from_scannetpp(
@@ -199,7 +199,7 @@ class ImportedCameras:
         """The cameras of ScanNet++'s iphone/pose_intrinsic_imu.json (aligned_pose, intrinsic), by their frames.
         1920×1440 pixels and pixel_centre 0 without others.
         """
-        return dict(cls._imported(_core.import_scannetpp(os.fspath(file), _given(K, size, pixel_centre))))
+        return dict(cls._imported(_core.import_scannetpp(path_of("file", file), _given(K, size, pixel_centre))))
 
     @classmethod
     def from_replica(
@@ -213,7 +213,7 @@ class ImportedCameras:
         """The cameras of a scene of Replica as iMAP and NICE-SLAM have it (traj.txt; cam_params.json beside it or in
         the folder above), by "frame000000", …. pixel_centre is 0 without another.
         """
-        return dict(cls._imported(_core.import_replica(os.fspath(folder), _given(K, size, pixel_centre))))
+        return dict(cls._imported(_core.import_replica(path_of("folder", folder), _given(K, size, pixel_centre))))
 
     @classmethod
     def from_kitti(
@@ -230,9 +230,9 @@ class ImportedCameras:
         number `camera` of each frame, by "000000", …. pixel_centre is 0 without another.
         """
         number = None if camera is None else as_count("camera", camera, 0, 3)
-        trajectory = None if poses is None else os.fspath(poses)
+        trajectory = None if poses is None else path_of("poses", poses)
         return dict(cls._imported(
-            _core.import_kitti(os.fspath(calibration), trajectory, number, _given(None, size, pixel_centre))))
+            _core.import_kitti(path_of("calibration", calibration), trajectory, number, _given(None, size, pixel_centre))))
 
     @classmethod
     def _of(cls, core: _core.Camera) -> Camera:

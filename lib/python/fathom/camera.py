@@ -25,7 +25,7 @@ from ._arguments import (
     pose_of,
     scene_handle,
 )
-from ._files import Path, make_folder_of
+from ._files import Path, make_folder_of, path_of
 from ._importing import ImportedCameras, ViewWarning, intrinsics_of
 
 if TYPE_CHECKING:
@@ -425,7 +425,12 @@ def cameras_from_json(text: str, name: str = "camera") -> list[Camera]:
     """The cameras of a camera file's text; `name` begins messages."""
     if not isinstance(text, str):
         raise TypeError(f"text: expected a string, found {text!r}")
-    cameras, notes = _core.cameras_from_json(text, name)
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise ValueError("text: expected a camera file's text, found one with lone surrogates") from None
+    # A file's name may stand for any bytes.
+    cameras, notes = _core.cameras_from_json(text, os.fsencode(path_of("name", name)))
     for note in notes:
         warnings.warn(note, ViewWarning, stacklevel=3)
     return [Camera._of(each) for each in cameras]
@@ -433,7 +438,7 @@ def cameras_from_json(text: str, name: str = "camera") -> list[Camera]:
 
 def read_cameras(file: Path) -> list[Camera]:
     """The cameras of a camera file: one, or a list (a camera path). Raises InputError, which names the file."""
-    name = os.fsdecode(file)
+    name = os.fsdecode(path_of("file", file))
     try:
         with open(file, encoding="utf-8") as stream:
             text = stream.read()
@@ -447,6 +452,7 @@ def read_cameras(file: Path) -> list[Camera]:
 def write_cameras(file: Path, cameras: Iterable[Camera]) -> None:
     """Writes a camera file. A single camera is an object, several are a list. A folder that is missing is made.
     Raises OutputError where it cannot be written."""
+    path_of("file", file)
     text = _core.cameras_to_json([camera_handle(camera) for camera in cameras])
     make_folder_of(file)
     try:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
-from ._arguments import as_count, as_threads, camera_handle, culls, in_pixels, one_of, scene_handle
-from ._files import Path, make_folder_of
+from ._arguments import as_count, as_text, as_threads, camera_handle, culls, in_pixels, one_of, scene_handle
+from ._files import Path, make_folder_of, path_of
 from ._render import Cull
 
 if TYPE_CHECKING:
@@ -63,7 +63,8 @@ class DeepMap:
         Raises ValueError unless the name ends in .exr, and for arrays that have been changed into what such a file
         cannot say: NaN, a pixel's fragments in another order than nearest first, ZBack nearer than Z.
         """
-        if not os.fsdecode(file).lower().endswith(".exr"):
+        path = path_of("file", file)
+        if not os.fsdecode(path).lower().endswith(".exr"):
             raise ValueError(f"{os.fsdecode(file)}: expected a name that ends in .exr")
         drawn = self._description.width, self._description.height
         if self.camera.size != drawn:
@@ -77,7 +78,7 @@ class DeepMap:
         self._expect_nearest_first(Z, ZBack)
         make_folder_of(file)
         _core.write_deep(self._description, Z, ZBack, area, A, id, np.ascontiguousarray(counts, np.uint32),
-                         os.fspath(file), compression, as_threads(threads))
+                         path, as_text("compression", compression), as_threads(threads))
 
     def _column(self, name: str, kind: type[np.generic]) -> npt.NDArray[Any]:
         column = getattr(self, name)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Union
 
@@ -11,7 +10,7 @@ import numpy as np
 from . import _core
 from ._core import OutputError
 from ._arguments import as_array, as_count, as_number, as_text, as_threads, camera_handle, culls, one_of, scene_handle
-from ._files import Path, make_folder_of
+from ._files import Path, make_folder_of, path_of
 from .camera import Camera, cameras_from_json
 
 if TYPE_CHECKING:
@@ -89,7 +88,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
     def read(cls, file: Path) -> Map:
         """Reads EXR (also of other programs), NPZ, NPY, PFM, 16-bit PNG or a dense map of COLMAP's (.bin), which is
         told by its content."""
-        return cls._of(_core.read_map(os.fspath(file)))
+        return cls._of(_core.read_map(path_of("file", file)))
 
     @classmethod
     def _of(cls, description: _core.Map) -> Map:
@@ -124,9 +123,9 @@ class Map(dict[str, "npt.NDArray[Any]"]):
             raise ValueError(f"channel: the map has no channel '{asked}', only {', '.join(self)}")
         compressed = as_text("compression", compression)
         handle = self._handle()
-        _core.require_map_name(os.fspath(file))
+        _core.require_map_name(path_of("file", file))
         make_folder_of(file)
-        _core.write_map(handle, os.fspath(file), asked, compressed,
+        _core.write_map(handle, path_of("file", file), asked, compressed,
                         as_threads(threads), others, None if self.camera is None else camera_handle(self.camera))
 
     @property
@@ -281,7 +280,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         one_of("frame", frame, ("world", "camera"))
         handle, view = self._handle(), camera_handle(self._camera(camera))
         make_folder_of(file)
-        _core.write_point_cloud(handle, view, os.fspath(file), frame,
+        _core.write_point_cloud(handle, view, path_of("file", file), frame,
                                 name == "float64")
 
     def add_cryptomatte(self, scene: Scene, camera: Camera | None = None, *, cull: str = "none", threads: int = 0) -> None:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
 from ._arguments import as_count, as_text, as_threads, check_elements, faces_of, labels_of, names_of, pose_of, vertices_of
-from ._files import Path
+from ._files import Path, path_of
 from ._render import Background, Cull, Normals, render_cameras
 
 if TYPE_CHECKING:
@@ -67,7 +66,7 @@ class Scene:
         scene = cls()
         import shutil  # which takes a while, and is not needed elsewhere
 
-        paths = [os.fspath(file) for file in files]
+        paths = [path_of("files", file) for file in files]
         formats = shutil.which("fathom-formats") or ""
         scene._handle, notes = _core.read_scene(paths, formats, as_threads(threads))
         for note in notes:

@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from ._arguments import as_count, as_number, camera_handle, scene_handle
 from ._core import UsageError
-from ._files import Path, make_folder
+from ._files import Path, make_folder, path_of
 from .camera import Camera
 
 if TYPE_CHECKING:
@@ -70,6 +70,7 @@ class Study:
 
     def write(self, folder: Path) -> None:
         """Writes the files to a folder, which is made if it is missing."""
+        path_of("folder", folder)
         make_folder(folder)
         for name, content in self.files.items():
             with open(os.path.join(folder, name), "wb") as file:
