@@ -21,7 +21,7 @@ namespace fathom::fast {
 ///
 /// Memory   about `most_bytes`, 8 bytes per tile, and 24 for each round and each bucket that it has
 ///          triangles for. A bucket that needs more is cut into smaller ones first. All triangles that
-///          meet one tile are in memory together, whatever they take: about 400 bytes each.
+///          meet one tile are in memory together, whatever they take: about 1000 bytes each.
 /// Disk     about 28 bytes for each triangle and bucket; 88 where vertices are not shared.
 class CoverageInRounds {
  public:
