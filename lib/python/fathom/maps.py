@@ -276,11 +276,12 @@ class Map(dict[str, "npt.NDArray[Any]"]):
     def write_points(self, file: Path, camera: Camera | None = None, *, frame: str = "world",
                      dtype: npt.DTypeLike = "float64") -> None:
         """Writes the points as PLY, with normals and identifiers where the map has these."""
+        path = path_of("file", file)
         name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64"))
         one_of("frame", frame, ("world", "camera"))
         handle, view = self._handle(), camera_handle(self._camera(camera))
         make_folder_of(file)
-        _core.write_point_cloud(handle, view, path_of("file", file), frame,
+        _core.write_point_cloud(handle, view, path, frame,
                                 name == "float64")
 
     def add_cryptomatte(self, scene: Scene, camera: Camera | None = None, *, cull: str = "none", threads: int = 0) -> None:
