@@ -392,7 +392,8 @@ class Exactly:
     def __init__(self):
         self.context = decimal.Context(prec=80)
         # Machin: π/4 = 4·arctan(1/5) − arctan(1/239).
-        self.pi = 4 * (4 * self.arctan_of_inverse(5) - self.arctan_of_inverse(239))
+        with decimal.localcontext(self.context):
+            self.pi = 4 * (4 * self.arctan_of_inverse(5) - self.arctan_of_inverse(239))
 
     def arctan_of_inverse(self, n):
         with decimal.localcontext(self.context):
