@@ -8,11 +8,13 @@
 #include "apps/options/cull_option.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
+#include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 #include "apps/surfaces/probe_report.h"
 #include "apps/surfaces/surface_commands.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom::app {
 namespace {
@@ -25,6 +27,15 @@ struct ProbeArguments {
   bool json = false;
 };
 
+std::vector<CoveringTriangle> covering(const Scene& scene, const Camera& camera,
+                                       const ProbeArguments& arguments, const Console& console) {
+  const auto [x, y] = arguments.pixel;
+  Progress progress(console, "probing");
+  return with_threads(arguments.scene.threads, [&, x = x, y = y] {
+    return probe(scene, camera, x, y, arguments.cull, progress.reporter());
+  });
+}
+
 int run_probe(const ProbeArguments& arguments, const Console& console) {
   const auto [x, y] = arguments.pixel;
   const Scene scene = arguments.scene.read(console, {.segments = true});
@@ -33,7 +44,7 @@ int run_probe(const ProbeArguments& arguments, const Console& console) {
     throw UsageError(fmt::format("--pixel: {},{} is outside the image of {}x{} pixels", x, y,
                                  camera.width, camera.height));
   }
-  const Probe result{scene, camera, x, y, probe(scene, camera, x, y, arguments.cull)};
+  const Probe result{scene, camera, x, y, covering(scene, camera, arguments, console)};
   print(arguments.json ? as_json(result) : as_text(result));
   return done;
 }
@@ -44,7 +55,7 @@ void add_probe(Command& program) {
   const auto arguments = std::make_shared<ProbeArguments>();
   Command& command =
       program.command("probe", "Show how the value of one pixel comes about",
-                      "  fathom probe data/meshes/spot.obj --pixel 640,360\n"
+                      "  fathom probe spot.obj --pixel 640,360\n"
                       "  fathom probe room.json --camera camera.json --pixel 12,34 --json");
   arguments->scene.add_to(command);
   arguments->camera.add_to(command);

@@ -138,6 +138,30 @@ TEST(SceneCost, ManyPlacementsAreRead) {
   EXPECT_THAT(outcome.out, HasSubstr("300000"));
 }
 
+/// Three million triangles in a scene file of 10 KB. Exact numbers of each took 40 s.
+TEST(SceneCost, ProbeLooksExactlyAtFewTriangles) {
+  constexpr int side = 70;
+  std::string mesh, scene;
+  for (int y = 0; y <= side; ++y)
+    for (int x = 0; x <= side; ++x)
+      mesh += "v " + std::to_string(x) + " " + std::to_string(y) + " 0.1\n";
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const int corner = y * (side + 1) + x + 1;
+      mesh += "f " + std::to_string(corner) + " " + std::to_string(corner + 1) + " " +
+              std::to_string(corner + side + 2) + " " + std::to_string(corner + side + 1) + "\n";
+    }
+  }
+  const TestFolder folder;
+  folder.write("t.obj", mesh);
+  folder.write("s.json", placements(300));
+  const Outcome outcome = run_fathom({"probe", "s.json", "--view", "10,20", "--size", "64x48",
+                                      "--pixel", "31,22", "--max-expansion", "100G"},
+                                     at_small_cost(folder));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("299"));
+}
+
 TEST(SceneCost, TrianglesThatArePlacedTooOftenAreRefused) {
   const TestFolder folder;
   std::string mesh = "v 0 0 1\nv 1 0 1\nv 0 1 1\n";

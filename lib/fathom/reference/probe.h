@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -36,11 +37,17 @@ struct CoveringTriangle {
 };
 
 /// Every triangle that covers the sample at the centre of pixel (x, y), column and row from the top
-/// left: nearest first, ties by number, and last those that do not count. Brute force.
+/// left: nearest first, ties by number, and last those that do not count. `progress` is called as
+/// RenderOptions::progress.
 ///
-/// Exact    everything; of the edges, signs are those of dyadic numbers whatever an interval says.
+/// Exact    everything: only triangles whose corners all lie on one side of the sample's column or
+///          row are left out by a bound; the signs of the edges of all
+///          others are those of dyadic numbers, whatever an interval says.
+/// Cost     two bounded products for each vertex, by all threads of with_threads(), and exact
+///          numbers for the triangles whose box contains the sample.
 /// Fails    InputError where scene or camera has a fault (find_fault).
 std::vector<CoveringTriangle> probe(const Scene& scene, const Camera& camera, std::uint32_t x,
-                                    std::uint32_t y, Cull cull = Cull::none);
+                                    std::uint32_t y, Cull cull = Cull::none,
+                                    const std::function<void(double)>& progress = {});
 
 }  // namespace fathom

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/triangle/image_rows.h"
+
 namespace fathom::triangle {
 namespace {
 
@@ -19,18 +21,9 @@ void near(const Interval& range, std::uint32_t count, std::int64_t& first, std::
                           : static_cast<std::int64_t>(std::clamp(high, -1.0, size - 1));
 }
 
-/// U, V and W as exact affine functions of the mesh point, from their values at four points.
-std::array<ApproximateRow, 3> image_rows(const Object& object, const Camera& camera) {
-  const auto image = [&](const MeshPoint& p) {
-    const HomogeneousImagePoint a = to_image(camera, to_camera(camera, object.world_from_mesh(p)));
-    return ExactVector3{a.U, a.V, a.W};
-  };
-  const ExactVector3 origin = image({0, 0, 0}), x = image({1, 0, 0}), y = image({0, 1, 0}),
-                     z = image({0, 0, 1});
-  const auto row = [&](std::size_t i) {
-    return ApproximateRow({x[i] - origin[i], y[i] - origin[i], z[i] - origin[i], origin[i]});
-  };
-  return {row(0), row(1), row(2)};
+std::array<ApproximateRow, 3> approximate_rows(const Object& object, const Camera& camera) {
+  const auto rows = image_rows(object, camera);
+  return {ApproximateRow(rows[0]), ApproximateRow(rows[1]), ApproximateRow(rows[2])};
 }
 
 }  // namespace
@@ -39,7 +32,7 @@ TriangleBoxes::TriangleBoxes(const Object& object, const Mesh& mesh, const Camer
     : object_(object),
       mesh_(mesh),
       camera_(camera),
-      rows_(image_rows(object, camera)),
+      rows_(approximate_rows(object, camera)),
       recent_(remembered_corners) {}
 
 const TriangleBoxes::Corner& TriangleBoxes::corner(std::uint32_t vertex) {

@@ -22,8 +22,9 @@ namespace {
 py::list probe_pixel(const SharedScene& shared, const Camera& camera, std::uint32_t x,
                      std::uint32_t y, const std::string& cull) {
   const std::shared_ptr<const Scene> scene = shared.scene;
-  const auto found =
-      run([&](const auto&) { return probe(*scene, camera, x, y, cull_named(cull)); });
+  const auto found = run([&](const auto& progress) {
+    return probe(*scene, camera, x, y, cull_named(cull), progress);
+  });
   py::list list;
   for (const CoveringTriangle& each : found) {
     const auto signs = each.edge_signs;
