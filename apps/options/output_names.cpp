@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/unknown_name.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {
@@ -14,8 +15,62 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has(const std::string& pattern, const char* field) {
-  return pattern.find(field) != std::string::npos;
+/// Part of a pattern: a text as it stands, or a field.
+struct Part {
+  enum class Kind { text, index, name, stem };
+  Kind kind = Kind::text;
+  std::string text = {};
+  /// The least number of digits of an index.
+  int digits = 1;
+};
+
+constexpr const char* fields =
+    "the fields are {index}, {index:04} with leading zeros, {name} and {stem}, and {{ stands for a "
+    "brace";
+
+/// The field between two braces. Fails with UsageError where there is no such field.
+Part field_named(const char* option, const std::string& field) {
+  const std::size_t colon = field.find(':');
+  const std::string name = field.substr(0, colon);
+  const std::string digits = colon == std::string::npos ? "" : field.substr(colon + 1);
+  const bool has_zeros =
+      digits.size() == 2 && digits[0] == '0' && '1' <= digits[1] && digits[1] <= '9';
+  if (name == "index" && colon == std::string::npos) return {Part::Kind::index};
+  if (name == "index" && has_zeros) return {Part::Kind::index, {}, digits[1] - '0'};
+  if (field == "name") return {Part::Kind::name};
+  if (field == "stem") return {Part::Kind::stem};
+  std::vector<std::string> near = nearest_names(field, {"index", "name", "stem"});
+  for (std::string& each : near) each = "{" + each + "}";
+  throw UsageError(fmt::format("{}: there is no field '{{{}}}'{}{}; {}", option,
+                               text::printable(field), near.empty() ? "" : ": ", did_you_mean(near),
+                               fields));
+}
+
+/// Fails with UsageError where a brace belongs to no field.
+std::vector<Part> parts_of(const char* option, const std::string& pattern) {
+  std::vector<Part> parts(1);
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    const char c = pattern[i];
+    const bool is_doubled = i + 1 < pattern.size() && pattern[i + 1] == c;
+    if ((c != '{' && c != '}') || is_doubled) {
+      parts.back().text += c;
+      i += c == '{' || c == '}' ? 1 : 0;
+      continue;
+    }
+    const std::size_t end = pattern.find('}', i);
+    if (c == '}' || end == std::string::npos) {
+      throw UsageError(fmt::format("{}: '{}' has a single '{}'; {}", option,
+                                   text::printable(pattern), c, fields));
+    }
+    parts.push_back(field_named(option, pattern.substr(i + 1, end - i - 1)));
+    parts.emplace_back();
+    i = end;
+  }
+  return parts;
+}
+
+bool has(const std::vector<Part>& parts, Part::Kind kind) {
+  return std::ranges::any_of(parts, [&](const Part& part) { return part.kind == kind; });
 }
 
 /// Times have no suffix: ".160407" of "1305031102.160407" is part of the number.
@@ -26,15 +81,25 @@ std::string stem_of(const std::string& name) {
   return (is_suffix ? path.stem() : path.filename()).string();
 }
 
-std::string formatted(const char* option, const std::string& pattern, std::size_t index,
-                      const std::string& name) {
-  try {
-    return fmt::format(fmt::runtime(pattern), fmt::arg("index", index), fmt::arg("name", name),
-                       fmt::arg("stem", stem_of(name)));
-  } catch (const fmt::format_error& error) {
-    throw UsageError(fmt::format("{}: '{}' is not a pattern like maps/{{index:04}}: {}", option,
-                                 pattern, error.what()));
+std::string filled_in(const std::vector<Part>& parts, std::size_t index, const std::string& name) {
+  std::string text;
+  for (const Part& part : parts) {
+    switch (part.kind) {
+      case Part::Kind::text:
+        text += part.text;
+        break;
+      case Part::Kind::index:
+        text += fmt::format("{:0{}}", index, part.digits);
+        break;
+      case Part::Kind::name:
+        text += name;
+        break;
+      case Part::Kind::stem:
+        text += stem_of(name);
+        break;
+    }
   }
+  return text;
 }
 
 void require_different(const char* option, const std::vector<std::string>& names) {
@@ -62,9 +127,9 @@ std::string require_within_folder(const std::string& where, const std::string& n
 
 std::vector<std::string> names_of_outputs(const char* option, const std::string& pattern,
                                           const std::vector<Camera>& cameras) {
-  const bool by_name = has(pattern, "{name") || has(pattern, "{stem");
-  if (!by_name && !has(pattern, "{index")) {
-    if (cameras.size() == 1) return {pattern};
+  const std::vector<Part> parts = parts_of(option, pattern);
+  const bool has_name = has(parts, Part::Kind::name), has_stem = has(parts, Part::Kind::stem);
+  if (!has_name && !has_stem && !has(parts, Part::Kind::index) && cameras.size() != 1) {
     throw UsageError(fmt::format(
         "the camera file is a path of {} cameras: {} needs a pattern such as maps/{{index:04}}{}",
         cameras.size(), option, fs::path(pattern).extension().string()));
@@ -72,15 +137,15 @@ std::vector<std::string> names_of_outputs(const char* option, const std::string&
   std::vector<std::string> names;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const std::string& name = cameras[i].name;
-    if (by_name && name.empty()) {
+    if ((has_name || has_stem) && name.empty()) {
       throw InputError(fmt::format(
           "camera {} has no name for '{}': camera files say it as \"name\"", i, pattern));
     }
     // Of a stem alone it does not matter where the image lies.
     const std::string where = fmt::format("camera {}", i);
-    if (has(pattern, "{name")) require_within_folder(where, name);
-    if (has(pattern, "{stem")) require_within_folder(where, stem_of(name));
-    names.push_back(formatted(option, pattern, i, name));
+    if (has_name) require_within_folder(where, name);
+    if (has_stem) require_within_folder(where, stem_of(name));
+    names.push_back(filled_in(parts, i, name));
   }
   require_different(option, names);
   return names;

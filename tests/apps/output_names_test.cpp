@@ -67,15 +67,39 @@ TEST(OutputNames, PatternsThatDoNotFitAreRefused) {
   };
   EXPECT_THAT(usage("map.exr", {"a", "b"}),
               HasSubstr("a path of 2 cameras: -o needs a pattern such as maps/{index:04}.exr"));
-  EXPECT_THAT(usage("{index:x}{nam}.exr", {"a", "b"}), HasSubstr("is not a pattern"));
-  EXPECT_THAT(usage("{name:9999999999}", {"a"}), HasSubstr("is not a pattern"));
   EXPECT_EQ(usage("m/{stem}.exr", {"a.jpg", "c.jpg", "b/a.png"}),
             "-o: cameras 0 and 2 would both be written as m/a.exr");
-  EXPECT_EQ(usage("{index:.0}", {"a", "b"}).find("-o: "), 0U);
   EXPECT_EQ(message_of<InputError>([&] {
               outputs("{stem}.exr", {"a", ""});
             }),
             "camera 1 has no name for '{stem}.exr': camera files say it as \"name\"");
+}
+
+TEST(OutputNames, UnknownFieldsAreRefusedWithThoseThereAre) {
+  const std::string fields =
+      "; the fields are {index}, {index:04} with leading zeros, {name} and {stem}, and {{ stands "
+      "for a brace";
+  // Of a single camera as of a path.
+  for (const std::vector<std::string>& cameras : {std::vector<std::string>{"a"}, {"a", "b"}}) {
+    const auto usage = [&](const std::string& pattern) {
+      return message_of<UsageError>([&] { outputs(pattern, cameras); });
+    };
+    EXPECT_EQ(usage("v/{stme}.exr"),
+              "-o: there is no field '{stme}': did you mean '{stem}'?" + fields);
+    for (const char* field : {"", "0", "stem:5", "name:9999999999", "index:", "index:x", "index:4",
+                              "index:>4", "index:00", "index:04d", "index:010", "Stem!", "{x"}) {
+      const std::string message = usage(std::string("{index}{") + field + "}.exr");
+      EXPECT_THAT(message, ::testing::StartsWith("-o: ")) << field;
+      EXPECT_THAT(message, ::testing::EndsWith(fields)) << field;
+    }
+    EXPECT_EQ(usage("{index}}.exr"), "-o: '{index}}.exr' has a single '}'" + fields);
+    EXPECT_EQ(usage("a{index.exr"), "-o: 'a{index.exr' has a single '{'" + fields);
+  }
+}
+
+TEST(OutputNames, DoubledBracesAreBraces) {
+  EXPECT_THAT(outputs("{{a}}.exr", {""}), ElementsAre("{a}.exr"));
+  EXPECT_THAT(outputs("{{{index}}}.exr", {"", ""}), ElementsAre("{0}.exr", "{1}.exr"));
 }
 
 }  // namespace
