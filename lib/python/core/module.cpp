@@ -3,6 +3,7 @@
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "What the modules of fathom call: see those.";
+  module.attr("version") = FATHOM_VERSION;
   using namespace fathom::python;
   bind_errors(module);
   bind_standard_arithmetic(module);

@@ -10,6 +10,7 @@
 
 from . import pipeline
 from ._core import Error, InputError, OutputError, UsageError
+from ._core import version as __version__
 from ._importing import ViewWarning
 from ._render import render
 from .camera import Camera, read_cameras, write_cameras
@@ -37,6 +38,7 @@ __all__ = [
     "UsageError",
     "Validation",
     "ViewWarning",
+    "__version__",
     "clip",
     "compare",
     "evaluate",

@@ -1,7 +1,8 @@
 """For test suites: assert_depth(), and a fixture of pytest's that keeps reports.
 
-In a conftest.py, `pytest_plugins = ["fathom.testing"]` gives tests the fixture `assert_depth`; packages that are
-installed by pip have it without that.
+pytest finds the fixture `assert_depth` by itself, wherever the module was installed or built with its metadata: by pip,
+from the Debian package, or for `scripts/python -m pytest`. Elsewhere, `pytest_plugins = ["fathom.testing"]` in a
+conftest.py gives it to the tests.
 """
 
 from __future__ import annotations
