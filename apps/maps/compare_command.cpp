@@ -24,6 +24,7 @@ struct CompareArguments {
   std::string truth, other;
   CompareOptions options;
   std::string json, heatmap;
+  DifferenceMeasure heatmap_measure = DifferenceMeasure::absolute;
   bool metrics = false, disparity_metrics = false;
 };
 
@@ -31,6 +32,12 @@ double parse_tolerance(const std::string& text) {
   const double tolerance = parse_number(text);
   if (tolerance < 0) throw UsageError("'" + text + "' is negative");
   return tolerance;
+}
+
+DifferenceMeasure parse_measure(const std::string& text) {
+  return parse_word<DifferenceMeasure>(text, {{"scene", DifferenceMeasure::absolute},
+                                              {"relative", DifferenceMeasure::relative},
+                                              {"ulp", DifferenceMeasure::ulp}});
 }
 
 int run_compare(const CompareArguments& arguments) {
@@ -51,7 +58,7 @@ int run_compare(const CompareArguments& arguments) {
   json.write(as_json(comparison));
   if (json.file() != nullptr) outputs.push_back(json.file());
   if (heatmap) {
-    const RgbImage picture = draw_differences(truth, other, options);
+    const RgbImage picture = draw_differences(truth, other, options, arguments.heatmap_measure);
     heatmap->write([&](const std::filesystem::path& path) { write_png(picture, path); });
     outputs.push_back(&*heatmap);
   }
@@ -91,7 +98,11 @@ void add_compare(Command& program) {
   command.option("--json", "FILE", arguments->json,
                  "Write the figures to this file (- is standard output, without the text)");
   command.option("--heatmap", "PNG", into(arguments->heatmap, parse_png_name),
-                 "Draw the differences (PNG)");
+                 "Draw the differences in --channel (default Z, or the first channel of depths) as "
+                 "a picture (PNG)");
+  command.option("--heatmap-unit", "NAME", into(arguments->heatmap_measure, parse_measure),
+                 "Unit of the colours of --heatmap: scene (default: as the channel is stored), "
+                 "relative or ulp (units in the last place)");
   command.option("--channel", "NAME", options.channel, "Compare this channel only");
   command.option("--other-channel", "NAME", options.other_channel,
                  "Its name in OTHER, where that differs");

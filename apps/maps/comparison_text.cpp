@@ -17,6 +17,11 @@ std::string figures_line(const char* name, const DifferenceSummary& s) {
                      s.max, s.mean, s.p50, s.p90, s.p99, s.p99_9);
 }
 
+std::string greatest_line(const DifferenceSummary& s, const char* unit) {
+  if (s.max == 0) return "";
+  return fmt::format("  greatest  {}{} at {},{}\n", s.max, unit, s.worst.x, s.worst.y);
+}
+
 std::string pixels_line(std::uint64_t pixels, std::uint64_t left_out) {
   return fmt::format("  metrics   over {}{}\n", text::counted(pixels, "pixel"),
                      left_out == 0 ? "" : fmt::format(", {} left out", left_out));
@@ -66,10 +71,11 @@ std::string to_text(const ChannelComparison& c) {
   } else {
     text += fmt::format("  {:<9} {:>13} {:>13} {:>13} {:>13} {:>13} {:>13}\n", "", "maximum",
                         "mean", "50 %", "90 %", "99 %", "99.9 %");
-    text += figures_line("absolute", c.absolute) + figures_line("relative", c.relative) +
-            figures_line("ulp", c.ulp);
-    if (c.ulp.max > 0) {
-      text += fmt::format("  greatest  {} ulp at {},{}\n", c.ulp.max, c.ulp.worst.x, c.ulp.worst.y);
+    text += figures_line("absolute", c.absolute) + figures_line("relative", c.relative);
+    if (c.is_around_zero) {
+      text += greatest_line(c.absolute, "");
+    } else {
+      text += figures_line("ulp", c.ulp) + greatest_line(c.ulp, " ulp");
     }
     if (c.incommensurable > 0) {
       text += fmt::format("  infinite or NaN in one only: {}{}\n", c.incommensurable,

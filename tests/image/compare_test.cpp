@@ -283,5 +283,39 @@ TEST(DifferencePicture, ShowsEachKindInItsColour) {
   EXPECT_GT(block(1)[0], 200);  // the hottest
 }
 
+/// The first channel by name differs everywhere, Z at one pixel.
+TEST(DifferencePicture, DrawsDepthsBeforeOtherChannels) {
+  DepthMap a = map_of(2, 1, "N.X", std::vector<float>{0.5, 0.5});
+  a.channels.push_back({"Z", std::vector<float>{1, 2}});
+  DepthMap b = map_of(2, 1, "N.X", std::vector<float>{0.25, 0.25});
+  b.channels.push_back({"Z", std::vector<float>{1, 3}});
+  const auto block = [](const RgbImage& image, std::uint32_t k) {
+    return image.at(20 + 240 * k + 120, 20 + 18 + 34 + 120);
+  };
+  const Rgb equal{44, 47, 54};
+  EXPECT_EQ(block(draw_differences(a, b), 0), equal);
+  EXPECT_NE(block(draw_differences(a, b), 1), equal);
+  EXPECT_NE(block(draw_differences(a, b, {.channel = "N.X"}), 0), equal);
+  // Without Z, another channel of depths.
+  a.channels[1].name = b.channels[1].name = "distance";
+  EXPECT_EQ(block(draw_differences(a, b), 0), equal);
+}
+
+/// 1 to 2 and 1000 to 1001: as far in scene units, not in others.
+TEST(DifferencePicture, ColoursMeasureTheUnitThatIsAskedFor) {
+  const DepthMap a = depths({1, 1000}), b = depths({2, 1001});
+  const auto colours = [&](DifferenceMeasure by) {
+    const RgbImage image = draw_differences(a, b, {}, by);
+    const std::uint32_t row = 20 + 18 + 34 + 120;
+    return std::pair(image.at(20 + 120, row), image.at(20 + 360, row));
+  };
+  const auto absolute = colours(DifferenceMeasure::absolute);
+  EXPECT_EQ(absolute.first, absolute.second);
+  const auto relative = colours(DifferenceMeasure::relative);
+  EXPECT_NE(relative.first, relative.second);
+  const auto ulp = colours(DifferenceMeasure::ulp);
+  EXPECT_NE(ulp.first, ulp.second);
+}
+
 }  // namespace
 }  // namespace fathom

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fathom/image/compare_internal.h"
+#include "fathom/image/missing_channel.h"
 #include "fathom/image/nearest_rank.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -59,13 +60,25 @@ const ImageChannel* lone_depth(const DepthMap& map) {
 
 const ImageChannel& named(const DepthMap& map, const std::string& name, const char* which) {
   if (const ImageChannel* channel = map.find(name)) return *channel;
-  throw UsageError(std::string("the ") + which + " map has no channel '" + name + "'");
+  throw missing_channel(map, name, std::string("the ") + which + " map");
 }
 
 /// What is measured at one pixel that shows a surface in both maps.
 struct Measure {
   bool bit_equal = false, commensurable = true;
   double absolute = 0, relative = 0, ulp = 0;
+
+  [[nodiscard]] double by(DifferenceMeasure measure) const {
+    switch (measure) {
+      case DifferenceMeasure::absolute:
+        return absolute;
+      case DifferenceMeasure::relative:
+        return relative;
+      case DifferenceMeasure::ulp:
+        return ulp;
+    }
+    return absolute;
+  }
 };
 
 Measure measure(const Reading& a, const Reading& b, std::size_t k) {
@@ -160,6 +173,8 @@ ChannelComparison compare_channel(const ChannelPair& pair, const CompareOptions&
   result.truth_channel = pair.truth.name;
   result.other_channel = pair.other.name;
   result.identifiers = pair.identifiers();
+  const ChannelKind kind = kind_of(pair.truth);
+  result.is_around_zero = kind == ChannelKind::direction || kind == ChannelKind::position;
   result.pixels = pair.truth_mask.size();
   add_notes(result, pair);
   const Reading a(pair.truth, pair.truth_scale), b(pair.other, pair.other_scale);
@@ -287,7 +302,8 @@ MapComparison compare_maps(const DepthMap& truth, const DepthMap& other,
   return result;
 }
 
-std::vector<PixelDifference> image::pixel_differences(const ChannelPair& pair) {
+std::vector<PixelDifference> image::pixel_differences(const ChannelPair& pair,
+                                                      DifferenceMeasure by) {
   const Reading a(pair.truth, pair.truth_scale), b(pair.other, pair.other_scale);
   std::vector<PixelDifference> result(pair.truth_mask.size());
   for (std::size_t k = 0; k < result.size(); ++k) {
@@ -300,10 +316,11 @@ std::vector<PixelDifference> image::pixel_differences(const ChannelPair& pair) {
       result[k].kind = a.bits(k) == b.bits(k) ? Kind::equal : Kind::incommensurable;
     } else {
       const Measure m = measure(a, b, k);
-      result[k] = {!m.commensurable ? Kind::incommensurable
-                   : m.ulp == 0     ? Kind::equal
-                                    : Kind::different,
-                   m.ulp};
+      const double difference = m.by(by);
+      result[k] = {!m.commensurable  ? Kind::incommensurable
+                   : difference == 0 ? Kind::equal
+                                     : Kind::different,
+                   difference};
     }
   }
   return result;

@@ -42,6 +42,9 @@ struct DifferenceSummary {
 struct ChannelComparison {
   std::string truth_channel, other_channel;
   bool identifiers = false;
+  /// Directions and positions: numbers of both signs, among which a count of ulps means little, since
+  /// half of all binary32 numbers lie between −1 and 1.
+  bool is_around_zero = false;
 
   std::uint64_t pixels = 0;
   std::uint64_t both = 0, only_truth = 0, only_other = 0, neither = 0;
@@ -113,11 +116,17 @@ struct CompareOptions {
 MapComparison compare_maps(const DepthMap& truth, const DepthMap& other,
                            const CompareOptions& options = {});
 
-/// A picture of the differences in one channel (empty: the first that compare_maps() compares):
-/// equal pixels dark, differing ones coloured by the logarithm of their ulp difference; surfaces in
-/// only one map, and values that cannot be compared, have colours of their own. With a legend.
+/// What the colours of draw_differences() measure; ChannelComparison defines each.
+enum class DifferenceMeasure { absolute, relative, ulp };
+
+/// A picture of the differences in one channel (empty: of those that compare_maps() compares Z, else
+/// the first of depths, else the first): equal pixels dark, differing ones coloured by the logarithm
+/// of their difference; surfaces in only one map, and values that cannot be compared, have colours
+/// of their own. With a legend, in which the colours of absolute and relative differences begin at a
+/// millionth of the greatest.
 /// Fails    as compare_maps(); OutputError if the font is missing.
 RgbImage draw_differences(const DepthMap& truth, const DepthMap& other,
-                          const CompareOptions& options = {});
+                          const CompareOptions& options = {},
+                          DifferenceMeasure by = DifferenceMeasure::absolute);
 
 }  // namespace fathom

@@ -76,9 +76,10 @@ PairedNames paired_channels(const DepthMap& truth, const DepthMap& other,
 struct PixelDifference {
   enum class Kind { neither, equal, different, only_truth, only_other, incommensurable };
   Kind kind = Kind::neither;
-  double ulp = 0;
+  /// By the measure that was asked for; above 0 where `kind` is `different`.
+  double difference = 0;
 };
 
-std::vector<PixelDifference> pixel_differences(const ChannelPair& pair);
+std::vector<PixelDifference> pixel_differences(const ChannelPair& pair, DifferenceMeasure by);
 
 }  // namespace fathom::image
