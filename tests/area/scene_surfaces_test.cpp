@@ -18,7 +18,9 @@ using testing::Kind;
 
 void check(const Scene& scene, const Camera& camera, Cull cull, int& pairs) {
   const CoverageFrame frame{scene, camera, cull};
-  const SceneSurfaces surfaces(frame);
+  const std::function<void(double)> nobody;
+  Progress progress(nobody, 1);
+  const SceneSurfaces surfaces(frame, progress);
   ASSERT_EQ(surfaces.count(), frame.triangles.count());
   for (std::uint32_t a = 0; a < surfaces.count(); ++a) {
     TierCounts counts;

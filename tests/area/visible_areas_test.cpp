@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
+#include "fathom/area/coplanar.h"
 #include "tests/effort.h"
 #include "tests/inputs/random_scenes.h"
 #include "tests/oracle/against_oracle.h"
@@ -114,6 +118,29 @@ TEST(VisibleAreas, SumsInTheMiddleAreRoundedToEven) {
     EXPECT_EQ(found.objects[0].unoccluded, expected);
     EXPECT_EQ(found.objects[0].ratio, 1.0);
   }
+}
+
+/// Also of the part before the first area, which of a million triangles lasts for minutes.
+TEST(VisibleAreas, ProgressIsReportedFromTheBeginning) {
+  constexpr std::uint32_t count = 20'000;
+  Scene scene;
+  scene.meshes.emplace_back();
+  scene.meshes[0].vertices = {{0, 0, 1}, {1, 0, 2}, {2, 0, 3}};  // seen edge on
+  scene.meshes[0].triangles.assign(count, {0, 1, 2});
+  scene.objects.emplace_back();
+  std::vector<double> shares;
+  RenderOptions options;
+  options.threads = 1;
+  options.progress = [&](double share) { shares.push_back(share); };
+  visible_areas(scene, testing::camera_of(4, 4, 2), options);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_EQ(shares.back(), 1);
+  EXPECT_GT(shares.size(), count / 64 + 4);
+  const std::size_t of_areas = shares.size();
+  shares.clear();
+  coplanar_pairs(scene, testing::camera_of(4, 4, 2), 0, options);
+  EXPECT_EQ(shares.back(), 1);
+  EXPECT_EQ(shares.size() - (count / 8 + 1), of_areas - (count / 64 + 1));
 }
 
 }  // namespace

@@ -155,8 +155,8 @@ std::vector<ConvexPolygon> between(const std::vector<ConvexPolygon>& polygons,
 
 class PairFinder {
  public:
-  PairFinder(const CoverageFrame& frame, double within)
-      : triangles_(frame.triangles), surfaces_(frame), within_(within) {}
+  PairFinder(const CoverageFrame& frame, double within, Progress& progress)
+      : triangles_(frame.triangles), surfaces_(frame, progress), within_(within) {}
 
   [[nodiscard]] std::uint32_t count() const { return surfaces_.count(); }
 
@@ -242,11 +242,11 @@ std::vector<CoplanarPair> coplanar_pairs(const TriangleSource& triangles, const 
   }
   return with_threads(options.threads, [&] {
     require_renderable(triangles, camera);
-    const PairFinder finder({triangles, camera, options.cull}, within);
-    std::vector<std::vector<CoplanarPair>> found(finder.count());
     constexpr std::uint32_t chunk = 8;
-    const std::uint32_t chunks = finder.count() / chunk + 1;
-    Progress progress(options.progress, chunks);
+    const std::uint32_t chunks = triangles.count() / chunk + 1;
+    Progress progress(options.progress, SceneSurfaces::parts(triangles.count()) + chunks);
+    const PairFinder finder({triangles, camera, options.cull}, within, progress);
+    std::vector<std::vector<CoplanarPair>> found(finder.count());
     parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
       const std::uint32_t end = std::min(finder.count(), (k + 1) * chunk);
       for (std::uint32_t t = k * chunk; t < end; ++t) found[t] = finder.pairs_of(t);

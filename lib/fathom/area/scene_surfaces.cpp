@@ -10,6 +10,8 @@ using namespace triangle;
 
 namespace {
 
+constexpr std::uint64_t triangles_per_part = 4096;
+
 bool meet(const PixelBox& a, const PixelBox& b) {
   return a.first_column <= b.last_column && b.first_column <= a.last_column &&
          a.first_row <= b.last_row && b.first_row <= a.last_row;
@@ -17,20 +19,23 @@ bool meet(const PixelBox& a, const PixelBox& b) {
 
 }  // namespace
 
-SceneSurfaces::SceneSurfaces(const CoverageFrame& frame)
+std::uint64_t SceneSurfaces::parts(std::uint32_t triangles) {
+  return triangles / triangles_per_part + 1;
+}
+
+SceneSurfaces::SceneSurfaces(const CoverageFrame& frame, Progress& progress)
     : columns_((frame.camera.width - 1) / side_of_tile + 1),
       boxes_(frame.triangles.count()),
       surfaces_(frame.triangles.count()),
       tiles_(std::size_t{columns_} * ((frame.camera.height - 1) / side_of_tile + 1)),
       first_(count()),
       first_of_object_(count()) {
-  parallel_for(std::uint32_t{0}, count(), [&](std::uint32_t number) {
-    TierCounts counts;
-    const ProjectedTriangle t =
-        project(frame.triangles.world_corners(number), number, frame.camera, counts);
-    if (t.orientation == Sign::zero || !is_kept(t, frame.cull)) return;
-    boxes_[number] = bounding_box(t, frame.camera);
-    if (!boxes_[number].is_empty()) surfaces_[number] = surface_region(t, frame.camera);
+  parallel_for(std::uint64_t{0}, parts(count()), [&](std::uint64_t part) {
+    const std::uint64_t first = part * triangles_per_part;
+    const std::uint64_t end = std::min<std::uint64_t>(count(), first + triangles_per_part);
+    for (std::uint64_t number = first; number < end; ++number)
+      set_surface(frame, static_cast<std::uint32_t>(number));
+    progress.part_done();
   });
   find_equal_triangles(frame.triangles);
   for (std::uint32_t number = 0; number < count(); ++number) {
@@ -43,6 +48,15 @@ SceneSurfaces::SceneSurfaces(const CoverageFrame& frame)
       }
     }
   }
+}
+
+void SceneSurfaces::set_surface(const CoverageFrame& frame, std::uint32_t number) {
+  TierCounts counts;
+  const ProjectedTriangle t =
+      project(frame.triangles.world_corners(number), number, frame.camera, counts);
+  if (t.orientation == Sign::zero || !is_kept(t, frame.cull)) return;
+  boxes_[number] = bounding_box(t, frame.camera);
+  if (!boxes_[number].is_empty()) surfaces_[number] = surface_region(t, frame.camera);
 }
 
 void SceneSurfaces::find_equal_triangles(const TriangleSource& triangles) {

@@ -4,13 +4,17 @@
 #include <vector>
 
 #include "fathom/area/coverage_image.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom::area {
 
 /// All triangles of a scene as areas on the image need them, with an index by place.
 class SceneSurfaces {
  public:
-  explicit SceneSurfaces(const CoverageFrame& frame);
+  /// Reports the parts() of its work to `progress`.
+  SceneSurfaces(const CoverageFrame& frame, Progress& progress);
+  /// Into how many parts the surfaces of so many triangles are made.
+  static std::uint64_t parts(std::uint32_t triangles);
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(boxes_.size()); }
   /// Null if the triangle covers nothing: seen edge on, culled, or outside the image.
@@ -36,6 +40,7 @@ class SceneSurfaces {
 
   template <class Take>
   void for_each_near(std::uint32_t number, const Take& take) const;
+  void set_surface(const CoverageFrame& frame, std::uint32_t number);
   void find_equal_triangles(const TriangleSource& triangles);
 
   std::uint32_t columns_;

@@ -40,7 +40,8 @@ VisibleArea rounded(const Ratio& visible, const Ratio& unoccluded) {
 
 class SceneAreas {
  public:
-  SceneAreas(const CoverageFrame& frame) : triangles_(frame.triangles), surfaces_(frame) {}
+  SceneAreas(const CoverageFrame& frame, Progress& progress)
+      : triangles_(frame.triangles), surfaces_(frame, progress) {}
 
   [[nodiscard]] std::uint32_t count() const { return surfaces_.count(); }
   [[nodiscard]] std::uint32_t object_of(std::uint32_t number) const {
@@ -155,14 +156,14 @@ VisibleArea rounded(const SceneAreas& areas, const ObjectSums& sums, std::uint32
 }
 
 VisibleAreas areas_in_arena(const CoverageFrame& frame, const RenderOptions& options) {
-  const SceneAreas areas(frame);
+  constexpr std::uint32_t chunk = 64;
+  const std::uint32_t chunks = frame.triangles.count() / chunk + 1;
+  Progress progress(options.progress, SceneSurfaces::parts(frame.triangles.count()) + chunks);
+  const SceneAreas areas(frame, progress);
   const std::size_t objects = frame.triangles.objects().size();
   VisibleAreas result;
   result.triangles.resize(areas.count());
   PerThread<std::vector<ObjectSums>> parts([&] { return std::vector<ObjectSums>(objects); });
-  constexpr std::uint32_t chunk = 64;
-  const std::uint32_t chunks = areas.count() / chunk + 1;
-  Progress progress(options.progress, chunks);
   parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
     const std::uint32_t end = std::min(areas.count(), (k + 1) * chunk);
     for (std::uint32_t number = k * chunk; number < end; ++number) {
