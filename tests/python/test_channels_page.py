@@ -34,7 +34,7 @@ def written(tmp_path_factory, run_program):
 
     run_program("render", source / "data/meshes/cube.obj", "--size", "64x48", "-o", folder / "z.exr")
     run_program("convert", folder / "z.exr", "--to", "disparity", "--baseline", "0.1", "-o", folder / "disparity.exr")
-    every = "Z,A,Zlow,distance,id,face,object,N,P,bary"
+    every = ",".join(fathom.maps.rendered)
     return {
         "unorm24": render("24.exr", "--channels", every, "--samples", "4", "--depth-format", "unorm24", "--against-exact"),
         "float32": render("32.exr", "--channels", "Z", "--depth-format", "float32", "--mapping", "reversed"),
@@ -45,7 +45,7 @@ def written(tmp_path_factory, run_program):
 
 def planes(maps):
     for name, array in maps.items():
-        parts = {"N": "XYZ", "P": "XYZ", "bary": "UV"}.get(name)
+        parts = fathom.maps.parts_of.get(name)
         yield from ([(name, array)] if parts is None else [(f"{name}.{part}", array[..., k]) for k, part in enumerate(parts)])
 
 
