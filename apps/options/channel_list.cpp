@@ -4,30 +4,16 @@
 #include <optional>
 
 #include "apps/shell/values.h"
+#include "fathom/image/missing_channel.h"
 #include "fathom/numeric/errors.h"
-#include "fathom/numeric/unknown_name.h"
 
 namespace fathom::app {
-
-namespace {
-
-std::vector<std::string> every_channel_name() {
-  std::vector<std::string> names;
-  names.reserve(channel_table.size());
-  for (const ChannelDescription& channel : channel_table) names.emplace_back(channel.name);
-  return names;
-}
-
-}  // namespace
 
 std::vector<Channel> parse_channels(const std::string& list) {
   std::vector<Channel> channels;
   for (const std::string& name : parse_list(list)) {
     const std::optional<Channel> channel = channel_named(name);
-    if (!channel) {
-      throw UnknownName("there is no channel '" + name + "'; there are " + channel_names(), name,
-                        every_channel_name());
-    }
+    if (!channel) throw unknown_channel(name);
     if (std::find(channels.begin(), channels.end(), *channel) != channels.end()) {
       throw UsageError("'" + name + "' is there twice");
     }

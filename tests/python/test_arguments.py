@@ -52,9 +52,11 @@ cases = [
     ({"size": (2**20, 2**20)}, MemoryError, "1048576×1048576 pixels needs 4398.0 GB; this machine has"),
     ({"size": (2**31, 2**3), "T": np.stack([np.eye(4)] * 9)}, MemoryError, "9 maps of 2147483648×8 pixels"),
     ({"pixel_centre": None}, TypeError, "pixel_centre: expected a number"),
-    ({"channels": "Z"}, TypeError, r"channels: expected a sequence of names such as \('Z',\)"),
+    ({"channels": "Z,depth"}, ValueError, r"channels: there is no channel 'depth'; .*; did you mean 'Z'\?"),
+    ({"channels": ("normals",)}, ValueError, r"channels: there is no channel 'normals'; .*; did you mean 'N'\?"),
+    ({"channels": (1,)}, TypeError, "channels: expected names, found 1"),
     ({"channels": ()}, ValueError, "channels: expected at least one"),
-    ({"channels": ("Y",)}, ValueError, "channels: expected 'Z', .* found 'Y'"),
+    ({"channels": ("Y",)}, ValueError, "channels: there is no channel 'Y'; there are Z, A, .* and Ns$"),
     ({"near": -1}, ValueError, "near"),
     ({"near": "x"}, TypeError, "near: expected a number"),
     ({"far": 0}, ValueError, "far"),
@@ -146,3 +148,26 @@ def test_a_path_may_be_any_bytes(tmp_path, triangle, K):
     (folder / "camera.json").write_text("{")
     with pytest.raises(fathom.InputError, match=r"camera\.json: "):
         fathom.Camera.read(folder / "camera.json")
+
+
+def test_pixel_centre_has_two_spellings_and_no_default():
+    british = fathom.render(**good)["Z"]
+    american = {**good, "pixel_center": good["pixel_centre"]}
+    del american["pixel_centre"]
+    assert np.array_equal(fathom.render(**american)["Z"], british)
+    with pytest.raises(TypeError, match="pixel_centre: it is given twice"):
+        fathom.render(**good, pixel_center=0)
+    assert fathom.Camera(4, 4, 4, 4, 2, 2, pixel_center=0).pixel_centre == 0
+    poses = dict(direction="world-to-camera", axes="opencv")
+    without = {name: value for name, value in good.items() if name != "pixel_centre"}
+    for call in (lambda: fathom.render(**without), lambda: fathom.Camera(4, 4, 4, 4, 2, 2),
+                 lambda: fathom.Camera.from_opencv(K, np.eye(4), (4, 4)),
+                 lambda: fathom.Camera.from_matrices(K, [np.eye(4)], (4, 4), **poses)):
+        with pytest.raises(TypeError, match=r"^pixel_centre: missing; expected .*: 0.5 \(COLMAP, OpenGL, NeRF\) or 0 \(OpenCV"):
+            call()
+
+
+def test_channels_may_be_one_text_as_on_the_command_line():
+    maps = fathom.render(**good, channels="Z,id")
+    assert list(maps) == ["Z", "id"]
+    assert list(fathom.render(**good, channels="Z")) == ["Z"]

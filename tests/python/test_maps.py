@@ -170,6 +170,21 @@ def test_codes(spot, camera, tmp_path):
     assert np.array_equal(again.mask(), codes.mask()) and codes.mask().any() and not codes.mask().all()
 
 
+def test_a_png_of_depths_takes_a_scale(map, tmp_path):
+    map.write(tmp_path / "a.png", channel="Z", scale=1000)
+    map.stored_as("uint16", channel="Z", scale=1000).write(tmp_path / "b.png")
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+    again = fathom.read_map(tmp_path / "a.png")
+    seen = map.mask()
+    assert again.scale == 1000 and np.array_equal(again.mask(), seen)
+    assert np.array_equal(again["Z"][seen], np.rint(1000 * map["Z"][seen].astype(float)))
+
+
+def test_a_part_of_a_channel_can_be_written(map, tmp_path):
+    map.write(tmp_path / "n.npy", channel="N.Y")
+    assert np.array_equal(np.load(tmp_path / "n.npy"), map["N"][..., 1])
+
+
 def test_mask(map):
     assert np.array_equal(map.mask(), np.isfinite(map["Z"])) and np.array_equal(map.mask(), map["id"] != fathom.NO_SURFACE)
     assert np.array_equal(fathom.Map({"Z": map["Z"]}).mask(), map.mask())

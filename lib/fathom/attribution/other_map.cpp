@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "fathom/image/missing_channel.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -10,19 +11,10 @@
 namespace fathom::attribution {
 namespace {
 
-/// "R, G, B".
-std::string names_of(const std::vector<ImageChannel>& channels) {
-  std::string names;
-  for (const ImageChannel& channel : channels) {
-    names += (names.empty() ? "" : ", ") + channel.name;
-  }
-  return names;
-}
-
 const ImageChannel& depth_channel(const DepthMap& map, const std::string& name) {
   if (!name.empty()) {
     if (const ImageChannel* channel = map.find(name)) return *channel;
-    throw InputError("the map has no channel '" + name + "', only " + names_of(map.channels));
+    throw InputError("the map has no channel '" + name + "', only " + list_of_channels(map));
   }
   if (const ImageChannel* channel = map.find("Z")) return *channel;
   for (const ImageChannel& channel : map.channels) {
@@ -30,7 +22,7 @@ const ImageChannel& depth_channel(const DepthMap& map, const std::string& name) 
     if (is_number && kind_of(channel) == ChannelKind::depth) return channel;
   }
   if (map.channels.size() == 1) return map.channels.front();
-  throw InputError("of the map's channels " + names_of(map.channels) +
+  throw InputError("of the map's channels " + list_of_channels(map) +
                    " none is called as depths are; expected Z, or the name of the one that holds "
                    "them");
 }

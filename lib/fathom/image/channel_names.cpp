@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "fathom/image/missing_channel.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom {
@@ -44,7 +45,7 @@ DepthMap with_channel_names(DepthMap map, const std::vector<ChannelName>& names)
   std::string text;
   for (const auto& [channel, in_file] : names) {
     ImageChannel* const one = map.find(channel);
-    if (one == nullptr) throw UsageError("the map has no channel '" + channel + "'");
+    if (one == nullptr) throw missing_channel(map, channel);
     if (std::find(found.begin(), found.end(), one) != found.end())
       throw UsageError("channel '" + channel + "' is given two names");
     if (!is_name(channel) || !is_name(in_file))

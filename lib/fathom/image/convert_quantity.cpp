@@ -3,6 +3,7 @@
 
 #include "fathom/image/background.h"
 #include "fathom/image/convert.h"
+#include "fathom/image/missing_channel.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -104,7 +105,7 @@ DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity
   require_valid(view);
   const std::string name = channel_of(from);
   const ImageChannel* source = map.find(name);
-  if (!source) throw UsageError("the map has no channel '" + name + "' to convert from");
+  if (!source) throw missing_channel(map, name);
   Converter convert{from, to, view, {}};
   if (from == DepthQuantity::disparity || to == DepthQuantity::disparity)
     convert.rig = checked(view, rig);

@@ -3,6 +3,7 @@
 
 #include "fathom/image/background.h"
 #include "fathom/image/convert.h"
+#include "fathom/image/missing_channel.h"
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
@@ -15,9 +16,9 @@ namespace {
 const ImageChannel& depth_channel(const DepthMap& map, const std::string& asked) {
   const ImageChannel* channel = map.find(asked.empty() ? "Z" : asked);
   if (!channel && asked.empty() && map.channels.size() == 1) channel = &map.channels.front();
-  if (!channel)
-    throw UsageError(asked.empty() ? "the map has several channels and no Z: name one"
-                                   : "the map has no channel '" + asked + "'");
+  if (!channel && asked.empty())
+    throw ambiguous_channel(names_of_channels(map), "the map has no Z, only", "convert");
+  if (!channel) throw missing_channel(map, asked);
   return *channel;
 }
 

@@ -7,6 +7,7 @@
 #include "fathom/image/channel_names.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/npy_array.h"
+#include "fathom/image/missing_channel.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/input_file.h"
@@ -19,14 +20,27 @@ using namespace text;
 
 namespace {
 
+const std::string one_channel = "this format holds one channel";
+
+/// The error of a channel of several parts, of which a file cannot hold more than one.
+UsageError one_part_only(const DepthMap& map, const std::string& name) {
+  std::vector<std::string> names;
+  for (const ImageChannel* part : parts_of(map, name)) names.push_back(part->name);
+  return ambiguous_channel(names, one_channel + ", and " + name + " is",
+                           "write, or write .npy or .exr");
+}
+
 const ImageChannel& channel_to_write(const DepthMap& map, const std::string& asked) {
   if (!asked.empty()) {
     if (const ImageChannel* channel = map.find(asked)) return *channel;
-    throw UsageError("the map has no channel '" + asked + "'");
+    if (!parts_of(map, asked).empty()) throw one_part_only(map, asked);
+    throw missing_channel(map, asked);
   }
-  if (map.channels.size() != 1)
-    throw UsageError("this format holds one channel, and the map has " +
-                     std::to_string(map.channels.size()) + ": name the one to write");
+  if (map.channels.size() != 1) {
+    const std::vector<std::string> names = names_of_channels(map);
+    if (names.size() == 1) throw one_part_only(map, names[0]);
+    throw ambiguous_channel(names, one_channel + ", and the map has", "write");
+  }
   return map.channels.front();
 }
 

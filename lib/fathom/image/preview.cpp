@@ -7,6 +7,7 @@
 
 #include "fathom/image/compare_internal.h"
 #include "fathom/image/files/name_tables.h"
+#include "fathom/image/missing_channel.h"
 #include "fathom/image/pictures/legend.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
@@ -211,7 +212,7 @@ RgbImage draw_preview(const DepthMap& map, const PreviewOptions& options) {
     const ImageChannel* channel = options.channel.empty() && !map.find("Z") && !map.channels.empty()
                                       ? &map.channels.front()
                                       : map.find(options.channel.empty() ? "Z" : options.channel);
-    if (!channel) throw UsageError("the map has no channel '" + options.channel + "'");
+    if (!channel) throw missing_channel(map, options.channel.empty() ? "Z" : options.channel);
     sheet.title = title_of(map, *channel);
     if (!options.unit.empty()) sheet.title += " [" + options.unit + "]";
     if (kind_of(*channel) == ChannelKind::identifier)

@@ -86,7 +86,11 @@ std::vector<std::uint8_t> group_mask(const DepthMap& map, const ImageChannel& ch
 
 ChannelKind kind_of(const ImageChannel& channel) {
   if (std::holds_alternative<Samples<std::uint32_t>>(channel.values)) {
-    return channel.name == "Zwindow" ? ChannelKind::quantity : ChannelKind::identifier;
+    // Of a depth buffer: codes, halves of binary64 numbers, and 1 where another surface wins.
+    static constexpr std::array<std::string_view, 4> numbers{"Zwindow", "Zwindow.high",
+                                                             "Zwindow.low", "Zfight"};
+    const bool is_number = std::ranges::find(numbers, channel.name) != numbers.end();
+    return is_number ? ChannelKind::quantity : ChannelKind::identifier;
   }
   const auto [group, last] = tail_of(channel.name);
   if (std::holds_alternative<Samples<std::uint16_t>>(channel.values)) return ChannelKind::depth;

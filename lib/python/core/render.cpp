@@ -8,6 +8,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/image/missing_channel.h"
 #include "fathom/memory/available_memory.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/view_warnings.h"
@@ -46,7 +47,7 @@ RenderOptions make_options(const std::vector<std::string>& channels, const std::
   for (const std::string& name : channels) {
     const auto channel = channel_named(name);
     if (!channel) {
-      throw UsageError("channels: there is no '" + name + "', expected some of " + channel_names());
+      throw UsageError(std::string("channels: ") + unknown_channel(name).what());
     }
     options.channels.push_back(*channel);
   }
@@ -225,6 +226,8 @@ void bind_render(Module& core) {
   core.def("render_stack", &render_stack);
   core.def("require_bytes", &require_bytes);
   core.def("array_in_small_pages", &array_in_small_pages);
+  core.def("unknown_channel",
+           [](const std::string& name) { return std::string(unknown_channel(name).what()); });
   core.def("channels", [] {
     py::dict channels;
     for (const ChannelDescription& each : channel_table)

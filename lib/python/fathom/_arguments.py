@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import functools
 import operator
+import os
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Callable, TypeVar, Union, cast
 
 import numpy as np
 
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
     Numbers = npt.NDArray[np.float64]
 
 Rows = tuple[tuple[float, ...], ...]
+Function = TypeVar("Function", bound=Callable[..., Any])
 Size = Union[tuple[int, int], Sequence[int]]
 
 most_rows = 2**32 - 2
@@ -134,8 +137,32 @@ def scene_handle(scene: object) -> _core.Scene:
 def camera_handle(camera: object) -> _core.Camera:
     handle = getattr(camera, "_handle", None)
     if not isinstance(handle, _core.Camera):
-        raise TypeError(f"camera: expected a Camera, found {camera!r}")
+        raise no_camera("camera", "a Camera", camera)
     return handle
+
+
+def no_camera(name: str, expected: str, found: object) -> TypeError:
+    """The error of what is no Camera. The path of a camera file is a common one."""
+    hint = f"; fathom.read_cameras({found!r}) reads a camera file" if isinstance(found, (str, os.PathLike)) else ""
+    return TypeError(f"{name}: expected {expected}, found {found!r}{hint}")
+
+
+def takes_pixel_centre(function: Function) -> Function:
+    """For functions that need a `pixel_centre`: they take the spelling `pixel_center`, as camera files do, and say what is
+    missing where there is neither."""
+
+    @functools.wraps(function)
+    def checked(*args: Any, **options: Any) -> Any:
+        if "pixel_center" in options:
+            if "pixel_centre" in options:
+                raise TypeError("pixel_centre: it is given twice, also as pixel_center")
+            options["pixel_centre"] = options.pop("pixel_center")
+        if "pixel_centre" not in options:
+            raise TypeError("pixel_centre: missing; expected the image coordinate of the first pixel's centre: 0.5 (COLMAP, "
+                            "OpenGL, NeRF) or 0 (OpenCV, BOP)")
+        return function(*args, **options)
+
+    return cast("Function", checked)
 
 
 def in_words(shape: tuple[int, ...]) -> str:

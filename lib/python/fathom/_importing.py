@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 from . import _core
 from ._core import InputError
-from ._arguments import Size, as_count, as_finite, as_number, as_numbers, as_size, as_text, in_words, one_of
+from ._arguments import Size, as_count, as_finite, as_number, as_numbers, as_size, as_text, in_words, one_of, takes_pixel_centre
 from ._files import Path, path_of
 
 if TYPE_CHECKING:
@@ -86,6 +86,7 @@ class ImportedCameras:
     # Data sets: `K` 3×3 or (fx, fy, cx, cy), `size` (width, height) and `pixel_centre` replace what the data set has.
 
     @classmethod
+    @takes_pixel_centre
     def from_matrices(
         cls,
         K: npt.ArrayLike,
@@ -132,7 +133,7 @@ class ImportedCameras:
             one_of("axes", axes, ("opencv", "opengl")) == "opengl",
             as_number("pixel_centre", pixel_centre),
             *as_size(size),
-        )))
+        ), stacklevel=4))
 
     @classmethod
     def from_tum(
@@ -239,10 +240,10 @@ class ImportedCameras:
         raise NotImplementedError
 
     @classmethod
-    def _imported(cls, imported: tuple[_core.Named, list[str]]) -> list[tuple[str, Camera]]:
+    def _imported(cls, imported: tuple[_core.Named, list[str]], stacklevel: int = 3) -> list[tuple[str, Camera]]:
         cameras, notes = imported
         for note in notes:
-            warnings.warn(note, ViewWarning, stacklevel=3)
+            warnings.warn(note, ViewWarning, stacklevel=stacklevel)
         return [(name, cls._of(core)) for name, core in cameras]
 
 

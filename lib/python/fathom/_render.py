@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Union, cast
@@ -18,9 +19,11 @@ from ._arguments import (
     culls,
     in_pixels,
     in_words,
+    no_camera,
     one_of,
     require_one_matrix,
     scene_handle,
+    takes_pixel_centre,
 )
 from ._importing import ViewWarning
 from .camera import Camera
@@ -48,7 +51,9 @@ def render_cameras(
     threads: int,
     normals: str,
     out: Mapping[str, npt.NDArray[Any]] | None = None,
+    stacklevel: int = 3,
 ) -> Map:
+    """`stacklevel` is that of the caller whom warnings are for."""
     names = channel_names(channels)
     stored = stored_type(dtype)
     options = _core.RenderOptions(
@@ -85,7 +90,7 @@ def render_cameras(
     if nothing is not None:
         result._set_background(nothing)
     for note in notes:
-        warnings.warn(note, ViewWarning, stacklevel=3)
+        warnings.warn(note, ViewWarning, stacklevel=stacklevel)
     return result
 
 
@@ -142,8 +147,8 @@ def several_cameras(name: str, cameras: object) -> list[Camera]:
     """What is in a sequence that may be one of cameras."""
     if isinstance(cameras, Mapping):
         raise TypeError(f"{name}: expected a Camera or a sequence of them, found a dict: take its values()")
-    if not isinstance(cameras, Iterable):
-        raise TypeError(f"{name}: expected a Camera or a sequence of them, found {cameras!r}")
+    if isinstance(cameras, (str, os.PathLike)) or not isinstance(cameras, Iterable):
+        raise no_camera(name, "a Camera or a sequence of them", cameras)
     return list(cameras)
 
 
@@ -163,12 +168,15 @@ def list_of_cameras(cameras: Sequence[Camera]) -> list[Camera]:
 
 def channel_names(channels: Sequence[str]) -> list[str]:
     if isinstance(channels, str):
-        raise TypeError(f"channels: expected a sequence of names such as ({channels!r},), found a string")
+        channels = channels.split(",")
     if not isinstance(channels, Iterable):
         raise TypeError(f"channels: expected a sequence of names, found {channels!r}")
     names: list[str] = []
     for name in channels:
-        one_of("channels", name, rendered)
+        if not isinstance(name, str):
+            raise TypeError(f"channels: expected names, found {name!r}")
+        if name not in rendered:
+            raise ValueError(f"channels: {_core.unknown_channel(name)}")
         if name not in names:
             names.append(name)
     if not names:
@@ -210,6 +218,7 @@ def require_room(cameras: list[Camera], names: list[str], stored: str) -> None:
         _core.require_bytes(f"{maps}{in_pixels(cameras[0].size)} pixels", needed)
 
 
+@takes_pixel_centre
 def render(
     vertices: npt.ArrayLike,
     faces: npt.ArrayLike,
@@ -238,7 +247,7 @@ def render(
     size          (width, height) in pixels
     pixel_centre  the image coordinate of the first pixel's centre, as K counts: 0.5 (COLMAP, OpenGL) or 0 (OpenCV,
                   BOP). There is no default: half a pixel is the error that is made most often.
-    channels      what to render: Z (planar depth), A (coverage), Zlow (exact depth minus Z), distance (along the ray),
+    channels      what to render, ("Z", "id") or "Z,id": Z (planar depth), A (coverage), Zlow (exact depth minus Z), distance (along the ray),
                   id, face, object (numbers of what is visible; NO_SURFACE where nothing is), material, group, part
                   and label (of a Scene; NO_SEGMENT where what is visible has none), N (normal) and P (position), both
                   in the world, bary (weights of a triangle's second and third corner), Nc (normal in the camera
@@ -277,7 +286,8 @@ def render(
     scene = Scene()
     scene.add_mesh(vertices, faces)
     cameras = cameras_of(K, T, size, pixel_centre, near, far)
-    return render_cameras(scene, cameras, channels, cull, dtype, scale, background, "fast", threads, normals, out)
+    return render_cameras(scene, cameras, channels, cull, dtype, scale, background, "fast", threads, normals, out,
+                          stacklevel=4)
 
 
 def cameras_of(

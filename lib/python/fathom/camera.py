@@ -24,6 +24,7 @@ from ._arguments import (
     one_of,
     pose_of,
     scene_handle,
+    takes_pixel_centre,
 )
 from ._files import Path, make_folder_of, path_of
 from ._importing import ImportedCameras, ViewWarning, intrinsics_of
@@ -64,6 +65,7 @@ class Camera(ImportedCameras):
     __slots__ = ("_handle",)
     _handle: _core.Camera
 
+    @takes_pixel_centre
     def __init__(
         self,
         width: int,
@@ -110,6 +112,7 @@ class Camera(ImportedCameras):
     # Made
 
     @classmethod
+    @takes_pixel_centre
     def from_opencv(
         cls,
         K: npt.ArrayLike,

@@ -100,6 +100,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         file: Path,
         *,
         channel: str | None = None,
+        scale: float | None = None,
         names: Mapping[str, str] | None = None,
         compression: str = "zip",
         threads: int = 0,
@@ -108,21 +109,28 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
         .exr, .npz        all channels, with camera and metadata
         .npy, .pfm, .png  one channel, `channel` where the map has several: .npy also those of several parts, .png
-                          codes of uint16 and identifiers
+                          identifiers, codes of uint16 and, with `scale`, depths
         .bin              a dense map of COLMAP's: Z, or Nc if it is the channel; 0 where no surface is
         .tif              a GeoTIFF, for others to read: a band for each channel. The camera has to be orthographic and
                           to look straight along the world's z axis
 
+        scale  for .png of depths: codes of uint16 per scene unit, as stored_as("uint16", scale=…) makes them
         names  what channels are called in an EXR: {"Z": "Y"} is for cv2.imread(), which shows R, G, B and Y alone
         """
         if names is not None and not isinstance(names, Mapping):
             raise TypeError(f"names: expected a dict of names by the names of channels, found {names!r}")
         others = [(as_text("names", own), as_text("names", other)) for own, other in (names or {}).items()]
         asked = "" if channel is None else as_text("channel", channel)
-        if asked and asked not in self:
+        parts = [name for name, _ in _planes(self)] if asked else []
+        if asked and asked not in self and asked not in parts:
             raise ValueError(f"channel: the map has no channel '{asked}', only {', '.join(self)}")
         compressed = as_text("compression", compression)
         handle = self._handle()
+        if scale is not None:
+            if not path_of("file", file).lower().endswith(".png"):
+                raise ValueError("scale: only .png holds codes; stored_as('uint16', scale=…) makes them for other formats")
+            handle = self.stored_as("uint16", channel=asked, scale=scale)._handle()
+            asked = ""
         _core.require_map_name(path_of("file", file))
         make_folder_of(file)
         _core.write_map(handle, path_of("file", file), asked, compressed,

@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "fathom/image/missing_channel.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_text.h"
@@ -18,8 +19,8 @@ std::string json_member(const char* name, const std::string& json) {
 const ImageChannel& channel_in_png(const DepthMap& map, const std::string& name) {
   if (name.empty() && map.channels.size() == 1) return map.channels.front();
   if (const ImageChannel* channel = map.find(name)) return *channel;
-  throw UsageError(name.empty() ? "the map has several channels: name the one in the PNG"
-                                : "the map has no channel '" + name + "'");
+  if (!name.empty()) throw missing_channel(map, name);
+  throw ambiguous_channel(names_of_channels(map), "the map has", "describe");
 }
 
 std::string scale_as_json(double value) {

@@ -10,6 +10,7 @@
 #include "fathom/image/files/png_stream.h"
 #include "fathom/image/mask_picture.h"
 #include "fathom/image/rgb_image.h"
+#include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
 
@@ -155,7 +156,10 @@ Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::st
     codes.assign(stored->begin(), stored->end());
   else
     throw OutputError(name + ": PNG holds 16-bit codes, and channel '" + channel.name +
-                      "' is stored as floating point; give a scale");
+                      "' is stored as floating point; " +
+                      (kind_of(channel) == ChannelKind::depth
+                           ? "give a scale, in codes per scene unit"
+                           : ".exr, .npz and .npy hold it"));
   Picture picture{map.width, map.height, 16, PNG_COLOR_TYPE_GRAY, {}, {}};
   picture.pixels.resize(2 * codes.size());
   for (std::size_t k = 0; k < codes.size(); ++k)
