@@ -4,28 +4,15 @@
 
 #include <optional>
 
-#include "apps/shell/known_files.h"
-#include "fathom/camera/camera_files.h"
+#include "apps/options/camera_options.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
 namespace {
 
-/// The camera that a map carries; nullopt if it carries none.
-std::optional<Camera> camera_of(const DepthMap& map, const std::string& file) {
-  const auto text = map.texts.find("fathom.camera");
-  if (text == map.texts.end()) return std::nullopt;
-  const std::vector<Camera> cameras = read_cameras(text->second, file + ": fathom.camera");
-  if (cameras.size() != 1) throw InputError(file + ": fathom.camera does not hold one camera");
-  return cameras[0];
-}
-
 /// The one camera of a file, of the size of the map.
 Camera camera_in(const std::string& file, const DepthMap& map, const Console& console) {
-  note_input(file);
-  Warnings warnings;
-  const std::vector<Camera> cameras = read_cameras(file, warnings);
-  console.warn(warnings);
+  const std::vector<Camera> cameras = read_camera_file(file, console);
   if (cameras.size() != 1) {
     throw UsageError(fmt::format("--camera: a path of {} cameras; a map has one", cameras.size()));
   }
@@ -41,7 +28,7 @@ Camera camera_in(const std::string& file, const DepthMap& map, const Console& co
 Camera camera_for(const DepthMap& map, const std::string& map_file, const std::string& camera_file,
                   const Console& console) {
   if (!camera_file.empty()) return camera_in(camera_file, map, console);
-  const std::optional<Camera> camera = camera_of(map, map_file);
+  const std::optional<Camera> camera = camera_in_map(map, map_file);
   if (!camera) throw InputError(map_file + ": carries no camera; expected --camera FILE");
   return *camera;
 }

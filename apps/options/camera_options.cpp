@@ -4,10 +4,14 @@
 
 #include <algorithm>
 
+#include "apps/options/map_argument.h"
 #include "apps/shell/known_files.h"
 #include "fathom/camera/camera_files.h"
+#include "fathom/camera/camera_import.h"
+#include "fathom/image/recognise_map.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/framing.h"
+#include "fathom/text/input_file.h"
 
 namespace fathom::app {
 namespace {
@@ -26,11 +30,27 @@ Camera framing_camera(const Scene& scene, const View& view, const Lens& lens) {
   }
 }
 
+std::vector<Camera> cameras_of_map(std::span<const std::byte> bytes, const std::string& file) {
+  const std::optional<Camera> camera = camera_in_map(read_map_argument(bytes, file), file);
+  if (!camera) throw InputError(file + ": the map carries no camera, expected a camera file");
+  return {*camera};
+}
+
 }  // namespace
 
+std::optional<Camera> camera_in_map(const DepthMap& map, const std::string& file) {
+  const auto text = map.texts.find("fathom.camera");
+  if (text == map.texts.end()) return std::nullopt;
+  const std::vector<Camera> cameras = read_cameras(text->second, file + ": fathom.camera");
+  if (cameras.size() != 1) throw InputError(file + ": fathom.camera does not hold one camera");
+  return cameras[0];
+}
+
 void CameraOptions::add_to(Command& command) {
-  const Option camera = command.option(
-      "--camera", "FILE", file_, "Camera file (JSON); without it, a camera that frames the scene");
+  const Option camera =
+      command.option("--camera", "FILE", file_,
+                     "Camera file (JSON), or a map, which carries its camera; without it, a camera "
+                     "that frames the scene");
   for (Option& framing : add_view_options(command, view_)) framing.excludes(camera);
   for (Option& part : add_lens_options(command, lens_)) part.excludes(camera);
 }
@@ -52,8 +72,16 @@ Camera CameraOptions::get_one(const Scene& scene, const char* command,
 
 std::vector<Camera> read_camera_file(const std::string& file, const Console& console) {
   note_input(file);
+  if (is_colmap_model(file)) {
+    throw InputError(fmt::format(
+        "{0}: is a COLMAP model, expected a camera file; 'fathom camera import colmap {0} -o "
+        "cameras.json' makes one",
+        file));
+  }
+  const text::InputFile input(file);
   Warnings warnings;
-  std::vector<Camera> cameras = read_cameras(file, warnings);
+  std::vector<Camera> cameras = is_map(input.bytes()) ? cameras_of_map(input.bytes(), file)
+                                                      : read_cameras(input.text(), file, warnings);
   console.warn(warnings);
   if (cameras.empty()) throw InputError(file + ": an empty list; expected at least one camera");
   for (std::size_t i = 0; i < cameras.size(); ++i) {

@@ -1,13 +1,29 @@
 #include "apps/options/scene_options.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 
 #include "apps/shell/known_files.h"
 #include "apps/shell/values.h"
+#include "fathom/image/map_files.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
 
 namespace fathom::app {
+namespace {
+
+/// A map is a common mistake, since maps carry their camera, but no scene.
+void refuse_map(const std::string& file) {
+  const std::optional<MapFormat> format = map_format_of(file);
+  std::error_code error;
+  if (!format || *format == MapFormat::colmap || !std::filesystem::is_regular_file(file, error))
+    return;
+  throw InputError(file + ": is a map, expected a mesh or a scene file; '--camera " + file +
+                   "' takes the camera that a map carries");
+}
+
+}  // namespace
 
 int parse_thread_count(const std::string& text) {
   const std::uint32_t count = parse_count(text);
@@ -52,6 +68,7 @@ ReadOptions SceneOptions::read_options() const {
 Scene SceneOptions::read(const Console& console, const Extras& extras) const {
   const auto standard_inputs = std::count(files.begin(), files.end(), "-");
   if (standard_inputs > 1) throw UsageError("SCENE: '-', standard input, can be read only once");
+  if (!mesh_format) std::ranges::for_each(files, refuse_map);
   ReadOptions options = read_options();
   options.hash = extras.hash;
   options.attributes = extras.attributes;

@@ -1,7 +1,7 @@
 #include "apps/validate/validate_input.h"
 
+#include "apps/options/camera_options.h"
 #include "apps/shell/known_files.h"
-#include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
 
@@ -9,10 +9,7 @@ namespace fathom::app {
 
 Camera read_camera(const std::string& file, const Console& console) {
   if (file.empty()) throw UsageError("--camera FILE is missing");
-  note_input(file);
-  Warnings warnings;
-  const std::vector<Camera> cameras = read_cameras(file, warnings);
-  console.warn(warnings);
+  const std::vector<Camera> cameras = read_camera_file(file, console);
   if (cameras.size() != 1) {
     throw UsageError(file + ": is a camera path; expected a single camera");
   }

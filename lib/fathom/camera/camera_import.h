@@ -52,7 +52,10 @@ std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
 /// Sorted by image name. Takes SIMPLE_PINHOLE and PINHOLE, and the pinhole part of SIMPLE_RADIAL,
 /// RADIAL, OPENCV, FULL_OPENCV, FOV, SIMPLE_DIVISION, DIVISION and EUCM; fisheye and spherical models
 /// have none. Rigs and frames (COLMAP 3.12) are not needed: images has the pose of each image.
+/// A folder that has models in folders below it (sparse/0) is refused with their names.
 std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder);
+/// Whether a folder has the files of a COLMAP model.
+bool is_colmap_model(const std::filesystem::path& folder);
 
 /// NeRF's transforms.json (also Nerfstudio's and instant-ngp's), in the order of its frames.
 /// Camera to world, OpenGL axes, the image's corner at 0. Intrinsics for all frames or each: fl_x,

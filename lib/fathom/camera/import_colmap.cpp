@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -11,6 +12,7 @@
 #include "fathom/camera/pose.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/numeric/unknown_name.h"
 
 namespace fathom {
 using namespace camera;
@@ -271,6 +273,35 @@ std::vector<ImportedCamera> finished(std::vector<ImportedCamera> images, const s
   return images;
 }
 
+/// The folders in a folder, in the order of their names; none where it cannot be read.
+std::vector<std::filesystem::path> folders_in(const std::filesystem::path& folder) {
+  constexpr std::size_t most = 1000;
+  std::vector<std::filesystem::path> found;
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator() && found.size() < most;
+       entry.increment(error)) {
+    std::error_code unreadable;
+    if (entry->is_directory(unreadable)) found.push_back(entry->path());
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+/// "; did you mean 'sparse/0'?", of the models one or two folders below, at most three.
+std::string models_in(const std::filesystem::path& folder) {
+  std::vector<std::string> found;
+  const auto note = [&](const std::filesystem::path& place) {
+    if (found.size() < 3 && is_colmap_model(place)) found.push_back(place.string());
+  };
+  for (const std::filesystem::path& below : folders_in(folder)) {
+    note(below);
+    for (const std::filesystem::path& next : folders_in(below)) note(next);
+  }
+  const std::string question = did_you_mean(found);
+  return question.empty() ? question : "; " + question;
+}
+
 }  // namespace
 
 std::vector<ImportedCamera> camera::parse_colmap_binary(NamedStream cameras, NamedStream images) {
@@ -299,7 +330,16 @@ std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder) {
   }
   throw InputError(folder.string() +
                    ": expected a COLMAP model, a folder with cameras.bin and images.bin or "
-                   "cameras.txt and images.txt");
+                   "cameras.txt and images.txt" +
+                   models_in(folder));
+}
+
+bool is_colmap_model(const std::filesystem::path& folder) {
+  const auto has = [&](const char* name) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(folder / name, error);
+  };
+  return (has("cameras.bin") && has("images.bin")) || (has("cameras.txt") && has("images.txt"));
 }
 
 }  // namespace fathom

@@ -7,6 +7,16 @@
 namespace fathom::scene {
 using namespace text;
 
+namespace {
+
+/// Whether this is a camera, or a list of cameras (camera_files.h).
+bool looks_like_cameras(const JsonValue& root) {
+  if (root.is_list()) return root.size() > 0 && looks_like_cameras(root.elements().front());
+  return root.is_object() && !root.find("meshes") && root.find("width") && root.find("height");
+}
+
+}  // namespace
+
 WorldFromMesh read_transform(const JsonValue& value) {
   WorldFromMesh result;
   const bool square = value.is_list() && value.size() == 4;
@@ -27,6 +37,10 @@ WorldFromMesh read_transform(const JsonValue& value) {
 std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesystem::path& path) {
   const JsonDocument document(text, path.string());
   const JsonValue root = document.root();
+  if (looks_like_cameras(root)) {
+    root.fail(
+        "is a camera file, expected a mesh or a scene file; give it as the camera (--camera)");
+  }
   if (!root.is_object()) root.fail("is no object, expected a scene file: {\"meshes\": […]}");
   root.expect_only({"meshes"});
   const std::filesystem::path folder = folder_of_input(path);
