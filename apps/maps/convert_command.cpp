@@ -10,6 +10,7 @@
 #include "apps/options/storage_options.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
+#include "apps/shell/output_option.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/world_from_image.h"
 #include "fathom/image/convert.h"
@@ -211,11 +212,10 @@ void add_convert(Command& program) {
       .argument("MAP", arguments->map,
                 "The map: EXR, PFM, PNG, NPY, NPZ or a dense map of COLMAP's (.bin)")
       .required();
-  command
-      .option(
-          "-o,--output", "FILE", arguments->output,
-          "A map (.exr, .pfm, .png, .npy, .npz, .bin for COLMAP, .tif for GIS) or a point cloud "
-          "(.ply)")
+  add_output_option(
+      command, "FILE", arguments->output,
+      "A map (.exr, .pfm, .png, .npy, .npz, .bin for COLMAP, .tif for GIS) or a point cloud "
+      "(.ply)")
       .required();
   command.option("--channel", "NAME", arguments->channel,
                  "The channel to convert (default Z, or the only one)");

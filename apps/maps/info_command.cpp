@@ -29,10 +29,10 @@ std::string info_of_meshes(const InfoArguments& arguments, const text::InputFile
   options.hash = true;
   options.segments = true;
   Warnings warnings;
-  const Scene scene = read_scene(input.bytes(), arguments.file, options, warnings);
+  Scene scene = read_scene(input.bytes(), arguments.file, options, warnings);
   input.expect_unchanged();
   console.warn(warnings);
-  return info_of_scene(scene, kind, arguments.file, form);
+  return info_of_scene(std::move(scene), kind, arguments.file, form);
 }
 
 /// The file is read once, so that it can be a pipe.
@@ -59,7 +59,7 @@ int run_info(const InfoArguments& arguments, const Console& console) {
 void add_info(Command& program) {
   const auto arguments = std::make_shared<InfoArguments>();
   Command& command = program.command("info", "Describe a mesh, scene, camera or map",
-                                     "  fathom info data/meshes/spot.obj\n"
+                                     "  fathom info spot.obj\n"
                                      "  fathom info spot.exr --json");
   command.argument("FILE", arguments->file, "A mesh, scene, camera or map; - is standard input")
       .required();

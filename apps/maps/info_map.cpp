@@ -52,10 +52,21 @@ const char* type_name(std::uint32_t) {
   return "uint32";
 }
 
+/// One byte per pixel: 1 where the channel shows a surface. Coverage shows one wherever it is not 0,
+/// also at pixels whose centre no surface covers.
+std::vector<std::uint8_t> pixels_with_surface(const DepthMap& map, const ImageChannel& channel) {
+  const auto* coverage = map.values<float>(channel.name);
+  if (coverage == nullptr || (channel.name != "A" && channel.name != "Asampled"))
+    return surface_mask(map, channel);
+  std::vector<std::uint8_t> mask(coverage->size());
+  std::ranges::transform(*coverage, mask.begin(), [](float value) { return value != 0; });
+  return mask;
+}
+
 /// The values where the channel shows a surface; codes are shown as the depths they stand for.
 ChannelSummary summarise(const DepthMap& map, const ImageChannel& channel) {
   ChannelSummary summary;
-  const std::vector<std::uint8_t> surface = surface_mask(map, channel);
+  const std::vector<std::uint8_t> surface = pixels_with_surface(map, channel);
   const bool codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
   if (codes && map.png_scale) summary.scale = *map.png_scale;
   if (shows_segments(channel.name) &&

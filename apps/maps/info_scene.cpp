@@ -1,7 +1,9 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -88,15 +90,29 @@ std::string describe_segments_as_text(const Scene& scene) {
   return text + name_line("labels", numbers);
 }
 
-const char* name_of(FileKind kind) {
-  return kind == FileKind::scene ? "scene" : "mesh";
+/// Whether a mesh file holds vertices and nothing that uses them.
+bool is_point_cloud(const Scene& scene, FileKind kind) {
+  const auto is_cloud = [](const Mesh& mesh) { return mesh.is_empty() && !mesh.vertices.empty(); };
+  return kind != FileKind::scene && !scene.meshes.empty() &&
+         std::ranges::all_of(scene.meshes, is_cloud);
 }
 
-Json describe(const Scene& scene, FileKind kind, const std::string& file) {
+/// Makes every vertex a point, so that it counts.
+void use_all_vertices(Scene& scene) {
+  for (Mesh& mesh : scene.meshes) {
+    mesh.points.resize(mesh.vertices.size());
+    std::iota(mesh.points.begin(), mesh.points.end(), 0U);
+  }
+}
+
+Json describe(const Scene& scene, const char* kind, const std::string& file) {
   const SceneTotals totals = totals_of(scene);
-  Json answer{{"kind", name_of(kind)},         {"file", file},
-              {"vertices", totals.vertices},   {"faces", totals.faces},
-              {"triangles", totals.triangles}, {"bounds", to_json(world_bounds(scene))}};
+  Json answer{{"kind", kind},
+              {"file", file},
+              {"vertices", totals.vertices},
+              {"faces", totals.faces},
+              {"triangles", totals.triangles},
+              {"bounds", to_json(world_bounds(scene))}};
   Json objects = Json::array();
   for (const Object& object : scene.objects) {
     const Mesh& mesh = scene.meshes[object.mesh];
@@ -122,13 +138,14 @@ std::string to_text(const std::optional<WorldBounds>& bounds) {
                      bounds->lower[2], bounds->upper[0], bounds->upper[1], bounds->upper[2]);
 }
 
-std::string describe_as_text(const Scene& scene, FileKind kind, const std::string& file) {
+std::string describe_as_text(const Scene& scene, const char* kind, bool lists_objects,
+                             const std::string& file) {
   const SceneTotals totals = totals_of(scene);
   std::string text =
       fmt::format("{}: a {}\n  vertices   {}\n  faces      {}\n  triangles  {}\n  bounds     {}\n",
-                  text::printable(file), name_of(kind), totals.vertices, totals.faces,
-                  totals.triangles, to_text(world_bounds(scene)));
-  if (scene.objects.size() > 1 || kind == FileKind::scene) {
+                  text::printable(file), kind, totals.vertices, totals.faces, totals.triangles,
+                  to_text(world_bounds(scene)));
+  if (lists_objects) {
     for (const Object& object : scene.objects) {
       text += fmt::format("  object     {}: {}, {}\n", text::printable(object.name),
                           text::counted(scene.meshes[object.mesh].triangles.size(), "triangle"),
@@ -146,10 +163,13 @@ std::string describe_as_text(const Scene& scene, FileKind kind, const std::strin
 
 }  // namespace
 
-std::string info_of_scene(const Scene& scene, FileKind kind, const std::string& file,
-                          AnswerForm form) {
-  if (form == AnswerForm::text) return describe_as_text(scene, kind, file);
-  return json_answer(describe(scene, kind, file));
+std::string info_of_scene(Scene scene, FileKind kind, const std::string& file, AnswerForm form) {
+  const bool is_cloud = is_point_cloud(scene, kind);
+  if (is_cloud) use_all_vertices(scene);
+  const char* const name = is_cloud ? "point cloud" : kind == FileKind::scene ? "scene" : "mesh";
+  if (form == AnswerForm::json) return json_answer(describe(scene, name, file));
+  const bool lists_objects = scene.objects.size() > 1 || kind == FileKind::scene;
+  return describe_as_text(scene, name, lists_objects, file);
 }
 
 }  // namespace fathom::app

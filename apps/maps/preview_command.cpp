@@ -6,6 +6,7 @@
 #include "apps/options/map_argument.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
+#include "apps/shell/output_option.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/image/preview.h"
@@ -47,9 +48,8 @@ void add_preview(Command& program) {
       .argument("MAP", arguments->map,
                 "The map: EXR, PFM, PNG, NPY, NPZ or a dense map of COLMAP's")
       .required();
-  command
-      .option("-o,--output", "FILE", into(arguments->output, parse_png_name),
-              "The picture (PNG, 8 bit)")
+  add_output_option(command, "FILE", into(arguments->output, parse_png_name),
+                    "The picture (PNG, 8 bit)")
       .required();
   command.option("--channel", "NAME", options.channel, "The channel to draw (default Z)");
   command.option("--colormap", "NAME", into(options.colours, parse_colour_map),

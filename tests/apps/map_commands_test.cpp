@@ -93,6 +93,56 @@ TEST_F(MapCommands, CompareSaysNoByOneUnitInTheLastPlace) {
   EXPECT_EQ(with_tolerance("0.5").status, 1);
 }
 
+TEST_F(MapCommands, CompareCountsNoUlpsOfNormals) {
+  for (const std::string view : {"0,0", "1,0"}) {
+    expect_done({"render", "square.obj", "--view", view, "--size", "8x6", "--channels", "Z,N", "-o",
+                 "view" + view.substr(0, 1) + ".exr"});
+  }
+  const std::string text = fathom({"compare", "view0.exr", "view1.exr"}).out;
+  const std::size_t normals = text.find("channel N.X"), depths = text.find("channel Z");
+  ASSERT_LT(normals, depths);
+  ASSERT_LT(depths, text.size());
+  EXPECT_EQ(text.substr(normals, depths - normals).find("ulp"), std::string::npos) << text;
+  EXPECT_THAT(text.substr(normals, depths - normals), HasSubstr("  greatest  "));
+  EXPECT_THAT(text.substr(depths), HasSubstr(" ulp at "));
+}
+
+TEST_F(MapCommands, CompareDrawsTheUnitThatIsAskedFor) {
+  for (const char* unit : {"scene", "relative", "ulp"}) {
+    EXPECT_EQ(fathom({"compare", "square.exr", "farther.exr", "--heatmap",
+                      unit + std::string(".png"), "--heatmap-unit", unit})
+                  .status,
+              1);
+  }
+  // They differ in their titles and in what stands beside the bar.
+  EXPECT_NE(folder_.read("scene.png"), folder_.read("relative.png"));
+  EXPECT_NE(folder_.read("scene.png"), folder_.read("ulp.png"));
+}
+
+/// Columns 2 to 5 of rows 1 to 4 show the square: 16 of 48 pixels.
+TEST_F(MapCommands, InfoCountsPixelsWithASurfaceByCoverage) {
+  expect_done({"render", "square.obj", "--camera", "camera.json", "--channels", "Z,A,N",
+               "--depth-format", "unorm16", "--near", "1", "--far", "4", "--against-exact", "-o",
+               "all.exr"});
+  const Json channels = Json::parse(fathom({"info", "all.exr", "--json"}).out)["channels"];
+  ASSERT_GE(channels.size(), 9U);
+  for (const auto& [name, channel] : channels.items())
+    EXPECT_EQ(channel["surface_pixels"], 16) << name;
+}
+
+TEST_F(MapCommands, InfoOfAPointCloud) {
+  folder_.write("cloud.ply",
+                "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float "
+                "y\nproperty float z\nend_header\n0 1 2\n-3 4 0.5\n");
+  EXPECT_THAT(fathom({"info", "cloud.ply"}).out,
+              HasSubstr("cloud.ply: a point cloud\n  vertices   2\n  faces      0\n  triangles  0\n"
+                        "  bounds     (-3, 1, 0.5) to (0, 4, 2)\n"));
+  const Json cloud = Json::parse(fathom({"info", "cloud.ply", "--json"}).out);
+  EXPECT_EQ(cloud["kind"], "point cloud");
+  EXPECT_EQ(cloud["bounds"], Json::parse("[[-3, 1, 0.5], [0, 4, 2]]"));
+  EXPECT_EQ(Json::parse(fathom({"info", "square.obj", "--json"}).out)["kind"], "mesh");
+}
+
 TEST_F(MapCommands, CompareOfDifferentSizesIsAnInputError) {
   folder_.write("wide.json", camera_with("width", "9"));
   expect_done({"render", "square.obj", "--camera", "wide.json", "-o", "wide.exr"});
