@@ -33,7 +33,7 @@ Peers parse_peers(const std::string& list) {
   }
   if ((peers.vtk || peers.embree) && !bench::peers_are_built()) {
     throw UsageError(
-        "VTK and Embree are not built in: 'scripts/fathom bench' installs "
+        "VTK and Embree are not built in: 'scripts/fathom bench' in a clone of Fathom installs "
         "them and builds with them (-DFATHOM_PEERS=ON)");
   }
   if (peers.masked_occlusion_culling && !bench::masked_occlusion_culling_is_built()) {

@@ -120,7 +120,8 @@ int run_bench(const BenchArguments& arguments, const Console& console) {
   JsonReport json(arguments.json);
   if (peers.by_default && !bench::peers_are_built()) {
     console.warn(
-        "VTK and Embree are not built in: 'scripts/fathom bench' installs them and builds "
+        "VTK and Embree are not built in: 'scripts/fathom bench' in a clone of Fathom installs "
+        "them and builds "
         "with them");
   }
 

@@ -2,6 +2,7 @@
 
 #include "apps/options/channel_list.h"
 #include "apps/options/scene_options.h"
+#include "apps/shell/output_option.h"
 
 namespace fathom::app {
 namespace {
@@ -39,7 +40,7 @@ void MpiBenchArguments::add_to(Command& command) {
                  "Of each rank (default 1)");
   command.option("--traffic", "FILE", rendering.traffic,
                  "Keep what 'fathom-mpi render --traffic' tells");
-  command.option("-o,--output", "FILE", render.output, "The map").required();
+  add_output_option(command, "FILE", render.output, "The map").required();
 }
 
 }  // namespace fathom::app

@@ -7,6 +7,7 @@
 #include "apps/camera/camera_command.h"
 #include "apps/camera/import_sources.h"
 #include "apps/shell/exit_status.h"
+#include "apps/shell/output_option.h"
 #include "apps/shell/text_output.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/text/printable.h"
@@ -39,8 +40,7 @@ void add_source(Command& parent, const ImportSource& source) {
   command.option("--image", "NAME", arguments->choice.image, "Only the camera of this image");
   add_distortion_option(command, arguments->choice);
   command.flag("--list", arguments->list, "Write the names of the images instead");
-  command.option("-o,--output", "FILE", arguments->output,
-                 "Camera file (default: standard output)");
+  add_output_option(command, "FILE", arguments->output, "Camera file (default: standard output)");
   command.runs([arguments, read = source.read](const Console& console) {
     Warnings warnings;
     const std::vector<ImportedCamera> imported = read(*arguments, warnings);
@@ -57,8 +57,9 @@ void add_import(Command& camera) {
       "  fathom camera import colmap sparse/0 -o cameras.json\n"
       "  fathom camera import nerf transforms.json --size 800x800 -o cameras.json\n"
       "  fathom camera import tum groundtruth.txt --images depth.txt --K ros -o cameras.json\n"
-      "\nCameras with lens distortion are left out with a warning; docs/conventions.md has the "
-      "formulas,\ndocs/data-sets.md the layouts.\nEach camera has the name of its image: render -o "
+      "\nCameras with lens distortion are left out with a warning. Formulas and layouts: "
+      "conventions.md and\ndata-sets.md in the documentation.\nEach camera has the name of its "
+      "image: render -o "
       "'maps/{stem}.exr' writes maps of the same names.");
   family.requires_command();
   for (const ImportSource& source : program_sources()) add_source(family, source);

@@ -68,7 +68,8 @@ std::vector<ImportSource> program_sources() {
        add_size_option, read_bop},
       {"sfmdata", "AliceVision (Meshroom): sfmData as JSON", "cameras.sfm",
        "  fathom camera import sfmdata cameras.sfm -o cameras.json\n"
-       "\nMeshroom's meshes have y and z the other way round than its cameras: docs/data-sets.md.",
+       "\nMeshroom's meshes have y and z the other way round than its cameras: data-sets.md in the "
+       "documentation.",
        no_options, read_sfm_data},
       {"gltf", "glTF: the cameras of a scene", "model.gltf or model.glb",
        "  fathom camera import gltf model.glb --size 1920x1080 -o cameras.json", add_size_option,

@@ -5,6 +5,7 @@
 #include "apps/camera/camera_command.h"
 #include "apps/options/lens_options.h"
 #include "apps/shell/exit_status.h"
+#include "apps/shell/output_option.h"
 #include "apps/shell/text_output.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/camera_files.h"
@@ -38,8 +39,7 @@ void add_look_at(Command& camera) {
                  "X,Y,Z of the point it looks at (default 0,0,0)");
   add_up_option(command, arguments->up);
   add_lens_options(command, arguments->lens);
-  command.option("-o,--output", "FILE", arguments->output,
-                 "Camera file (default: standard output)");
+  add_output_option(command, "FILE", arguments->output, "Camera file (default: standard output)");
   command.runs([arguments](const Console&) { return run_look_at(*arguments); });
 }
 

@@ -7,6 +7,7 @@
 #include "apps/options/lens_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
+#include "apps/shell/output_option.h"
 #include "apps/shell/text_output.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/camera_files.h"
@@ -52,8 +53,8 @@ void add_orbit(Command& camera) {
   const auto arguments = std::make_shared<OrbitArguments>();
   Command& command = camera.command(
       "orbit", "A camera path around a scene or a point",
-      "  fathom camera orbit data/meshes/spot.obj --views 12 -o path.json\n"
-      "  fathom render data/meshes/spot.obj --camera path.json -o 'maps/{index:04}.exr'\n"
+      "  fathom camera orbit spot.obj --views 12 -o path.json\n"
+      "  fathom render spot.obj --camera path.json -o 'maps/{index:04}.exr'\n"
       "  fathom camera orbit --views 36 --centre 0,0,1 --distance 4 --view 0,30 --up z");
   command.arguments("SCENE", arguments->scene.files, "Meshes and scene files to frame");
   arguments->scene.add_reading_to(command);
@@ -65,8 +66,7 @@ void add_orbit(Command& camera) {
   command.option("--distance", "D", into(arguments->distance, parse_number),
                  "Of the eye from the centre");
   add_lens_options(command, arguments->lens);
-  command.option("-o,--output", "FILE", arguments->output,
-                 "Camera file (default: standard output)");
+  add_output_option(command, "FILE", arguments->output, "Camera file (default: standard output)");
   command.runs([arguments](const Console& console) { return run_orbit(*arguments, console); });
 }
 

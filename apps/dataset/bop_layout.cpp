@@ -89,7 +89,7 @@ void add_bop_layout(Command& family) {
   const auto arguments = std::make_shared<BopArguments>();
   Command& command = family.command(
       "bop", "BOP: depth images, masks and scene_gt_info.json of a scene",
-      "  fathom dataset bop test/000001 --models models --out exact/000001\n"
+      "  fathom dataset bop test/000001 --models models -o exact/000001\n"
       "\nINPUT has scene_camera.json and scene_gt.json; the image size is that of the data set's "
       "camera.json, unless --size says it. Visible is what is nearest at the centre of a pixel, "
       "without a tolerance.");

@@ -53,7 +53,7 @@ void add_colmap_layout(Command& family) {
   const auto arguments = std::make_shared<ColmapArguments>();
   Command& command = family.command(
       "colmap", "COLMAP: stereo/depth_maps and stereo/normal_maps of a dense workspace",
-      "  fathom dataset colmap dense/sparse --mesh mesh.ply --out exact\n"
+      "  fathom dataset colmap dense/sparse --mesh mesh.ply -o exact\n"
       "\nWith links to dense/images and dense/sparse in it, 'colmap stereo_fusion' takes the "
       "folder "
       "as its workspace.");

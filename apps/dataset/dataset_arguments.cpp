@@ -1,15 +1,15 @@
 #include "apps/dataset/dataset_arguments.h"
 
 #include "apps/options/cull_option.h"
+#include "apps/shell/output_option.h"
 #include "apps/shell/values.h"
 
 namespace fathom::app {
 
 void DatasetArguments::add_to(Command& command, const std::string& what) {
   command.argument("INPUT", input, what).required();
-  command
-      .option("-o,--out", "DIR", folder,
-              "The folder of the data set; it is made where it is missing")
+  add_output_option(command, "DIR", folder,
+                    "The folder of the data set; it is made where it is missing")
       .required();
   render.scene.add_reading_to(command);
   add_cull_option(command, render.cull);

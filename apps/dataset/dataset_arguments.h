@@ -15,7 +15,7 @@ struct DatasetArguments {
   Shard shard;
   bool overwrites = false;
 
-  /// INPUT, which `input` describes, --out, --threads, --shard, --overwrite and the like.
+  /// INPUT, which `input` describes, --output, --threads, --shard, --overwrite and the like.
   void add_to(Command& command, const std::string& input);
   /// --mesh, where the scene is the same in every map.
   void add_scene_to(Command& command);

@@ -8,10 +8,10 @@ void add_dataset(Command& program) {
   Command& family = program.command(
       "dataset", "Maps of a whole data set, in its own layout; goes on where it was interrupted",
       "  fathom camera import colmap sparse/0 -o cameras.json\n"
-      "  fathom dataset maps cameras.json --mesh room.ply --name 'depth/{stem}.npy' --out room\n"
+      "  fathom dataset maps cameras.json --mesh room.ply --name 'depth/{stem}.npy' -o room\n"
       "\nEach map is in its place as soon as it is finished; DIR/fathom-manifest.jsonl says which "
       "are. The same command, given again, makes those that are missing, damaged, or of other "
-      "inputs. docs/data-sets.md has the layouts.");
+      "inputs. Layouts: data-sets.md in the documentation.");
   family.requires_command();
   add_maps_layout(family);
   add_colmap_layout(family);

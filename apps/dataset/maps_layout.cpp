@@ -61,10 +61,10 @@ void add_maps_layout(Command& family) {
   const auto arguments = std::make_shared<MapsArguments>();
   Command& command = family.command(
       "maps", "Maps of the cameras of a camera file, in any format",
-      "  fathom dataset maps cameras.json --mesh room.ply --out maps\n"
-      "  fathom dataset maps cameras.json --mesh room.ply --name 'depth/{stem}.npy' --out room\n"
+      "  fathom dataset maps cameras.json --mesh room.ply -o maps\n"
+      "  fathom dataset maps cameras.json --mesh room.ply --name 'depth/{stem}.npy' -o room\n"
       "  fathom dataset maps cameras.json --mesh room.ply --name '{index:05}.png' --png-scale "
-      "1000 --out room\n");
+      "1000 -o room\n");
   arguments->add_to(command, "Camera file (JSON), such as camera import makes");
   arguments->add_scene_to(command);
   command.option("--name", "PATTERN", arguments->pattern,

@@ -12,7 +12,8 @@ namespace fathom::app {
 
 void MotionOptions::add_to(Command& command) {
   command.option("--motion", "FILE", file,
-                 "Keyframes of objects that move (JSON; docs/pipeline.md); the camera frames the "
+                 "Keyframes of objects that move (JSON; pipeline.md in the documentation); the "
+                 "camera frames the "
                  "scene without it");
   command.option("--time", "T", into(time, parse_number),
                  "Where the objects of --motion are (default 0)");

@@ -6,6 +6,7 @@
 #include "apps/options/channel_list.h"
 #include "apps/options/cull_option.h"
 #include "apps/options/pipeline_words.h"
+#include "apps/shell/output_option.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/numeric/errors.h"
@@ -42,11 +43,11 @@ std::vector<MatteKind> parse_mattes(const std::string& list) {
 }
 
 void add_outputs(Command& command, RenderArguments& arguments) {
-  command
-      .option("-o,--output", "FILE", arguments.output,
-              "The map; its suffix decides the format: .exr, .pfm, .png (16 bit), .npy, .npz, "
-              ".bin (COLMAP's) or .tif (GeoTIFF, of a camera that looks straight down); a folder "
-              "that is missing is made")
+  add_output_option(
+      command, "FILE", arguments.output,
+      "The map; its suffix decides the format: .exr, .pfm, .png (16 bit), .npy, .npz, "
+      ".bin (COLMAP's) or .tif (GeoTIFF, of a camera that looks straight down); a folder "
+      "that is missing is made")
       .required();
   arguments.camera.add_to(command);
   command.option("--save-camera", "FILE", arguments.save_camera,

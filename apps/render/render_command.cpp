@@ -8,7 +8,7 @@ void add_render(Command& program, const Render& by_exact_engine, const Render& b
   const auto arguments = std::make_shared<RenderArguments>();
   Command& command = program.command(
       "render", "Render an exact depth map of a scene",
-      "  fathom render data/meshes/spot.obj -o spot.exr\n"
+      "  fathom render spot.obj -o spot.exr\n"
       "  fathom render room.json --camera camera.json --channels Z,id,N -o room.exr\n"
       "  fathom render spot.obj --view 90,0 --size 640x480 --save-camera side.json -o side.pfm\n"
       "  fathom render spot.obj -o spot.png --png-scale 1000      # 16 bits: 1000 codes per scene "
@@ -23,9 +23,8 @@ void add_render(Command& program, const Render& by_exact_engine, const Render& b
       "  fathom render spot.obj --engine pipeline --shading phong --antialias msaa:4 --image "
       "spot.png "
       "-o spot.exr\n"
-      "\ndocs/camera-files.md and docs/scene-files.md have the keys of camera and scene files, and "
-      "what "
-      "is warned of.");
+      "\nKeys of camera and scene files, and warnings: camera-files.md and scene-files.md in the "
+      "documentation.");
   arguments->add_to(command);
   command.runs([arguments, by_exact_engine, by_pipeline](const Console& console) {
     return arguments->engine == EngineName::pipeline ? by_pipeline(*arguments, console)

@@ -8,19 +8,20 @@
 #include "apps/shell/help_page.h"
 #include "apps/shell/misspelling.h"
 #include "apps/shell/standard_streams.h"
+#include "apps/shell/values.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
 namespace {
 
 constexpr const char* examples =
-    "  fathom render data/meshes/spot.obj -o spot.exr\n"
+    "  fathom render spot.obj -o spot.exr\n"
     "  fathom preview spot.exr -o spot.png\n"
-    "  fathom probe data/meshes/spot.obj --pixel 640,360\n"
+    "  fathom probe spot.obj --pixel 640,360\n"
     "\n'fathom COMMAND --help' or 'fathom help COMMAND' explains a command.";
 
 constexpr const char* companion_heading =
-    "Programs of their own, which 'scripts/fathom COMMAND' builds when they are first asked for";
+    "Programs of their own; 'scripts/fathom COMMAND' in a clone of Fathom builds them";
 
 /// The innermost command that the arguments name.
 const CLI::App& chosen_command(const CLI::App& app) {
@@ -38,8 +39,13 @@ std::string names_above(const CLI::App& command) {
 /// What is misspelt is named before what is missing.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = chosen_command(app);
-  const std::string unexpected = unexpected_argument(app);
-  return (unexpected.empty() ? error.what() : unexpected) + "; see '" + names_above(command) +
+  std::string message = unexpected_argument(app);
+  const std::vector<std::string> below = commands_below(command);
+  if (message.empty() && !below.empty() && dynamic_cast<const CLI::RequiredError*>(&error)) {
+    message = "'" + names_above(command) + command.get_name() +
+              "' needs a command: " + joined(below, " or ");
+  }
+  return (message.empty() ? error.what() : message) + "; see '" + names_above(command) +
          command.get_name() + " --help'";
 }
 
@@ -82,6 +88,10 @@ int run_arguments(const std::vector<std::string>& given, const std::vector<AddCo
     app.add_subcommand(companion.command, companion.description)->group(companion_heading);
   }
 
+  if (given.empty() && !companions.empty()) {
+    print(help_page(text_of(app), help_width()));
+    return done;
+  }
   const std::vector<std::string> asked = with_help_as_option(given);
   start_other_program(app, asked, companions);
   if (const auto help = asked_help(app, program, asked)) {

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "apps/shell/output_option.h"
 #include "apps/shell/values.h"
 
 namespace fathom::app {
@@ -37,6 +38,7 @@ OptionText option_text(const CLI::Option& option, const std::vector<const CLI::O
   } else {
     for (const std::string& name : option.get_snames()) text.names.push_back("-" + name);
     for (const std::string& name : option.get_lnames()) text.names.push_back("--" + name);
+    if (text.names.size() > 1) std::erase(text.names, other_name_of_output);
     if (option.get_items_expected_max() > 0) text.value = option.get_type_name();
   }
   text.help = option.get_description();

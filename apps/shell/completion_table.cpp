@@ -14,8 +14,8 @@ namespace {
 using Files = CompletedValue::Files;
 
 /// What values and arguments are called that are names of files.
-constexpr std::array<std::string_view, 9> files{"FILE",  "MAP",    "SCENE", "TRUTH", "OTHER",
-                                                "INPUT", "REPORT", "PNG",   "SVG"};
+constexpr std::array<std::string_view, 10> files{"FILE",  "MAP",    "SCENE", "TRUTH", "OTHER",
+                                                 "INPUT", "REPORT", "PNG",   "SVG",   "PATH"};
 
 Files files_called(const std::string& name) {
   if (name == "DIR") return Files::folders;

@@ -12,6 +12,7 @@
 #include "apps/shell/help_page.h"
 #include "apps/shell/man_page.h"
 #include "apps/shell/misspelling.h"
+#include "apps/shell/output_option.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/text_output.h"
 #include "apps/shell/values.h"
@@ -93,7 +94,7 @@ std::vector<std::string> with_help_as_option(std::vector<std::string> arguments)
       asked.push_back(argument);
     } else if (argument == "--man") {
       form = form_option + "man";
-    } else if (argument.starts_with("--out")) {
+    } else if (argument.starts_with("--out") || argument.starts_with("-o")) {
       return arguments;
     } else if (argument != "--quiet") {
       return {"help", argument};  // about `help` itself, or wrong
@@ -134,14 +135,14 @@ void add_help(Command& program, const CLI::App& app, const std::vector<Companion
   Command& command = program.command("help", "Explain a command, or show its manual page",
                                      "  fathom help camera look-at\n"
                                      "  fathom help --man render | man -l -\n"
-                                     "  fathom help --man --out ~/.local/share/man/man1");
+                                     "  fathom help --man -o ~/.local/share/man/man1");
   command.arguments("COMMAND", help->names, "The command, with those above it before it");
   command.flag("--man", help->man, "As a manual page (roff), which man -l shows");
-  command.option("--out", "DIR", help->folder,
-                 "With --man: write the pages of all commands that are built to this folder");
+  add_output_option(command, "DIR", help->folder,
+                    "With --man: write the pages of all commands that are built to this folder");
   command.runs([help, &program, &app, companions](const Console&) -> int {
     if (!help->man || !help->names.empty())
-      throw UsageError("--out goes with --man, and without a COMMAND");
+      throw UsageError("--output goes with --man, and without a COMMAND");
     const std::string folder = help->folder;  // which the table overwrites
     write_pages(folder, whole_table(program, companions), app, companions);
     return done;

@@ -16,7 +16,7 @@ namespace fathom::app {
 /// `fathom help [--man] COMMAND…` asks the program that has the command by an argument that every
 /// program understands: --help=text, --help=man, or --help=completion, to which it answers with its
 /// completion_table(). Returns the arguments in that form: "COMMAND… --help=man". Others are
-/// returned as they are, and so are those of `help --man --out DIR`; of others of `help`, such as
+/// returned as they are, and so are those of `help --man -o DIR`; of others of `help`, such as
 /// `help --help`, the first option that is none of these remains.
 std::vector<std::string> with_help_as_option(std::vector<std::string> arguments);
 
@@ -25,7 +25,7 @@ std::vector<std::string> with_help_as_option(std::vector<std::string> arguments)
 std::optional<std::string> asked_help(const CLI::App& program, const Command& commands,
                                       const std::vector<std::string>& arguments);
 
-/// Declares `help`, which all but for --out is carried out before arguments are read, and
+/// Declares `help`, which all but for --output is carried out before arguments are read, and
 /// `completion`.
 void add_help(Command& program, const CLI::App& app, const std::vector<Companion>& companions);
 

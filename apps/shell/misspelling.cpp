@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "apps/shell/output_option.h"
 #include "apps/shell/values.h"
 #include "fathom/numeric/unknown_name.h"
 
@@ -33,11 +34,13 @@ std::string behind_name(const std::vector<std::string>& near) {
   return text.empty() ? text : ": " + text;
 }
 
-/// Suggestions are looked for without the dashes, of which every option has as many.
+/// Suggestions are looked for without the dashes, of which every option has as many. Names that the
+/// help does not show are not suggested.
 std::string suggested_option(const std::string& name, const CLI::App& command) {
   const std::size_t dashes = name.starts_with("--") ? 2 : 1;
   std::vector<std::string> bare;
   for (const std::string& each : option_names(command)) {
+    if (each == other_name_of_output) continue;
     if ((each.starts_with("--") ? 2U : 1U) == dashes) bare.push_back(each.substr(dashes));
   }
   std::vector<std::string> near = nearest_names(name.substr(dashes), bare);
@@ -47,6 +50,12 @@ std::string suggested_option(const std::string& name, const CLI::App& command) {
 
 std::string unexpected_of(const CLI::App& command) {
   const std::vector<std::string> rest = command.remaining();
+  const std::vector<std::string> existing = commands_below(command);
+  // The options behind a misspelt command are unknown too, but they are those of the right one.
+  if (!rest.empty() && !rest[0].starts_with('-') && !existing.empty() &&
+      command.get_subcommands().empty()) {
+    return unknown_command(rest[0], existing);
+  }
   const auto option = std::ranges::find_if(
       rest, [](const std::string& text) { return text.size() > 1 && text.starts_with('-'); });
   if (option != rest.end() && *option != "--") {
@@ -54,7 +63,6 @@ std::string unexpected_of(const CLI::App& command) {
     return fmt::format("there is no option '{}'{}", name, suggested_option(name, command));
   }
   if (rest.empty()) return "";
-  const std::vector<std::string> existing = commands_below(command);
   if (!existing.empty()) return unknown_command(rest[0], existing);
   return fmt::format("unexpected argument '{}'", rest[0]);
 }

@@ -112,6 +112,7 @@ void OutputFile::write(const std::function<void(const fs::path&)>& writer) const
   } catch (const OutputError& error) {
     throw OutputError(with_target_for(staged, target_, error.what()));
   } catch (const UsageError& error) {
+    if (!error.setting().empty()) throw;  // is about an option, not about the file
     throw UsageError(with_target_for(staged, target_, error.what()));
   }
 }

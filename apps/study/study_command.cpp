@@ -1,4 +1,4 @@
-// fathom study NAME --out DIR
+// fathom study NAME -o DIR
 
 #include <fmt/core.h>
 
@@ -12,6 +12,7 @@
 #include "apps/shell/folder.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"
+#include "apps/shell/output_option.h"
 #include "apps/shell/program.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
@@ -88,7 +89,7 @@ void write_files(const std::filesystem::path& folder, const std::vector<StudyFil
 const Study& study_of(const StudyArguments& arguments) {
   if (arguments.name.empty()) throw UsageError("NAME is missing: 'fathom study --list' lists them");
   const Study& study = studies::study_named(arguments.name);
-  if (arguments.out.empty()) throw UsageError("--out DIR is missing: where the files go");
+  if (arguments.out.empty()) throw UsageError("-o DIR is missing: where the files go");
   if (!arguments.scene.empty() && !study.takes_scene) {
     throw UsageError(fmt::format("the study {} takes no --scene", study.name));
   }
@@ -110,7 +111,7 @@ std::vector<StudyFile> run_with_progress(const Study& study, const studies::Stud
 int run_study(const StudyArguments& arguments, const Console& console) {
   if (arguments.list) {
     if (!arguments.name.empty() || !arguments.out.empty())
-      throw UsageError("--list lists all studies; leave out NAME and --out");
+      throw UsageError("--list lists all studies; leave out NAME and --output");
     print(list_of_studies());
     return done;
   }
@@ -138,12 +139,12 @@ void add_study(Command& program) {
   Command& command = program.command(
       "study", "Precision of depth buffers, and what textbooks teach, measured: figures and pages",
       "  fathom study --list\n"
-      "  fathom study depth-resolution --near 0.1 --far 1000 --out resolution\n"
-      "  fathom study indistinguishable --out reed\n"
-      "  fathom study mitigation --scene data/meshes/spot.obj --near 0.001 --out cures");
+      "  fathom study depth-resolution --near 0.1 --far 1000 -o resolution\n"
+      "  fathom study indistinguishable -o reed\n"
+      "  fathom study mitigation --scene spot.obj --near 0.001 -o cures");
   command.argument("NAME", into(arguments->name, parse_study), "Its name; --list shows them");
-  command.option("--out", "DIR", arguments->out,
-                 "Folder for CSV, PNG, SVG, summary.json, index.html");
+  add_output_option(command, "DIR", arguments->out,
+                    "Folder for CSV, PNG, SVG, summary.json, index.html");
   command.option_with_values(
       "--scene", "FILE", arguments->scene,
       "Meshes or scene files to study, for antialiasing, hidden-surface, mitigation, subpixel and z-fighting; "

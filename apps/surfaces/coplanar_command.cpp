@@ -103,7 +103,7 @@ void add_coplanar(Command& program) {
   const auto arguments = std::make_shared<CoplanarArguments>();
   Command& command = program.command(
       "coplanar", "Find visible surfaces that coincide or nearly do, where z-buffers fight",
-      "  fathom coplanar data/scenes/hard/coplanar-overlaps.obj\n"
+      "  fathom coplanar room.json\n"
       "  fathom coplanar room.json --camera camera.json --within 0.001 --json");
   arguments->scene.add_to(command);
   arguments->camera.add_to(command);

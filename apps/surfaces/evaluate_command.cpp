@@ -9,6 +9,7 @@
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/output_file.h"
+#include "apps/shell/output_option.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/text_output.h"
 #include "apps/shell/values.h"
@@ -115,8 +116,8 @@ void add_evaluate(Command& program) {
   command.option("--completeness-points", "PLY", arguments->completeness_points,
                  "The same of the truth");
   command.flag("--json", arguments->json, "Answer in JSON");
-  command.option("-o,--output", "FILE", arguments->output,
-                 "Write the answer to this file (default -, standard output)");
+  add_output_option(command, "FILE", arguments->output,
+                    "Write the answer to this file (default -, standard output)");
   command.runs([arguments](const Console& console) { return run_evaluate(*arguments, console); });
 }
 

@@ -10,6 +10,7 @@
 #include "apps/options/scene_options.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/json_answer.h"
+#include "apps/shell/output_option.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/text_output.h"
 #include "apps/surfaces/surface_commands.h"
@@ -147,7 +148,7 @@ void add_visible(Command& program) {
   const auto arguments = std::make_shared<VisibleArguments>();
   Command& command =
       program.command("visible", "Measure how much of each triangle and object is visible, exactly",
-                      "  fathom visible data/meshes/spot.obj\n"
+                      "  fathom visible spot.obj\n"
                       "  fathom visible room.json --camera camera.json --json\n"
                       "  fathom visible room.json --camera camera.json --csv -o visible.csv");
   arguments->scene.add_to(command);
@@ -156,8 +157,8 @@ void add_visible(Command& program) {
   command.flag("--json", arguments->json,
                "Every object and every triangle in JSON: areas in pixels, their ratio");
   command.flag("--csv", arguments->csv, "Every object and every triangle in CSV");
-  command.option("-o,--output", "FILE", arguments->output,
-                 "Write the answer to this file (default -, standard output)");
+  add_output_option(command, "FILE", arguments->output,
+                    "Write the answer to this file (default -, standard output)");
   command.runs([arguments](const Console& console) { return run_visible(*arguments, console); });
 }
 

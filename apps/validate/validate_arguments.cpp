@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "apps/shell/output_option.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/numeric/unknown_name.h"
 #include "validation/scenes/validation_scenes.h"
@@ -74,7 +75,6 @@ void ValidateArguments::add_to(Command& command) {
   command.option("--time-limit", "SECONDS", into(seconds, parse_positive),
                  "Seconds after which a renderer is ended (default 300)");
   command.option("--render", "NAME", into(render, parse_renderer), "Only draw, with this renderer");
-  command.option("-o,--output", "MAP", output, "Where --render puts its map");
   command.option("--map", "MAP", map,
                  "The map of another renderer (EXR, PFM, PNG, NPY, NPZ, COLMAP's)");
   command.option("--channel", "NAME", channel, "Its channel of depths (default: detected)");
@@ -86,16 +86,16 @@ void ValidateArguments::add_to(Command& command) {
       "What is assumed of the renderer; auto: what fits best. With --against, their maps are "
       "judged as maps that someone brings, in binary32; matching: each by the model of "
       "its variant");
-  command.option(
-      "--out", "DIR", out,
-      "Folder for report.json and report.html; with --colour, colours.json and pictures");
+  add_output_option(command, "PATH", output,
+                    "Folder for report.json and report.html; with --colour, for colours.json and "
+                    "pictures; with --render, the map");
   command.option("--baseline", "REPORT", baseline,
                  "An earlier report.json: says what changed, exit status 1 if something got worse; "
-                 "with --out also comparison.html");
+                 "with --output also comparison.html");
   command.option("--junit", "FILE", junit, "Also a JUnit XML file, as CI services read it");
   command.flag("--ctest", for_ctest,
                "Of --map: the cause in the first line, measurements and pictures for CTest and "
-               "CDash; see fathom_add_depth_test in docs/validation.md");
+               "CDash; see fathom_add_depth_test in validation.md of the documentation");
 }
 
 int ValidateArguments::time_limit() const {

@@ -19,7 +19,7 @@ inline constexpr const char* matching = "matching";
 /// The arguments of `fathom validate`.
 struct ValidateArguments {
   std::vector<std::string> scenes;
-  std::string map, camera, model, channel, out, baseline, junit;
+  std::string map, camera, model, channel, baseline, junit;
   std::string against, scene_names, variants, render, output;
   bool colour = false, faults = false, for_ctest = false;
   /// Codes per scene unit of a map of integers that does not say it itself.

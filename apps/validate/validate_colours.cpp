@@ -21,8 +21,7 @@ void require_colour_options(const ValidateArguments& a) {
   for (const auto& [option, value] : {std::pair{"--variants", &a.variants},
                                       {"--baseline", &a.baseline},
                                       {"--model", &a.model},
-                                      {"--channel", &a.channel},
-                                      {"-o", &a.output}}) {
+                                      {"--channel", &a.channel}}) {
     if (!value->empty()) throw UsageError(std::string(option) + ": has no meaning with --colour");
   }
 }
@@ -63,7 +62,7 @@ int validate_colours(const ValidateArguments& given, const Console& console) {
   if (arguments.scenes.empty() && arguments.scene_names.empty())
     arguments.scene_names = "sphere,spot,teapot";
   const std::vector<SceneToMake> scenes = scenes_of(arguments, console);
-  prepare_answer(arguments.out);
+  prepare_answer(arguments.output);
   std::vector<ColourCase> cases;
   {
     Progress progress(console, "drawing");
@@ -78,7 +77,7 @@ int validate_colours(const ValidateArguments& given, const Console& console) {
         scene, {&*c.ours, c.pair->our_model, validation::binary64_pipeline},
         {&*c.theirs, c.pair->their_model, validation::vtk_on_llvmpipe});
   }
-  return report_colours(cases, arguments.out);
+  return report_colours(cases, arguments.output);
 }
 
 }  // namespace fathom::app

@@ -48,20 +48,20 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
 void add_validate(Command& program) {
   Command& command = program.command(
       "validate", "Check another renderer's maps against the truth and explain every difference",
-      "  fathom validate --against vtk,opengl,embree,blender --out report\n"
+      "  fathom validate --against vtk,opengl,embree,blender -o report\n"
       "  fathom validate --against opengl --scene sheets,room --variants unorm16,float32\n"
       "  fathom validate --against vtk spot.obj --camera camera.json\n"
       "  fathom validate --against vtk,opengl,embree --model matching\n"
       "  fathom validate --map other.exr --camera camera.json --model gl-unorm24 spot.obj\n"
-      "  fathom validate --against opengl --out new --junit new.xml --baseline old/report.json\n"
-      "  fathom validate --faults --against vtk --scene spot --out faults\n"
+      "  fathom validate --against opengl -o new --junit new.xml --baseline old/report.json\n"
+      "  fathom validate --faults --against vtk --scene spot -o faults\n"
       "  fathom validate --colour --scene spot\n"
       "  fathom validate --render vtk spot.obj --camera camera.json -o vtk.exr\n"
       "\nScenes: " +
           fmt::format("{}", fmt::join(validation::scene_names(), ", ")) +
           ".\nModels: " + attribution::model_names() + "; auto; with --against, matching" +
           ".\nExit status 1 where a pixel is unexplained or a fault was found; see "
-          "docs/validation.md.");
+          "validation.md in the documentation.");
   const auto arguments = std::make_shared<ValidateArguments>();
   arguments->add_to(command);
   command.runs([arguments](const Console& console) { return run_validate(*arguments, console); });

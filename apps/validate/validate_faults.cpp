@@ -169,7 +169,7 @@ int validate_faults(const ValidateArguments& arguments, const Console& console) 
         about_option("--against", [&] { return spoiled(validation::renderer_named(name)); }));
   }
   expect_standard_output();
-  if (!arguments.out.empty()) make_folder(arguments.out);
+  if (!arguments.output.empty()) make_folder(arguments.output);
   const std::vector<Fault> faults = validation::fault_catalogue();
   std::vector<SpoiledMaps> maps;
   {
@@ -186,7 +186,7 @@ int validate_faults(const ValidateArguments& arguments, const Console& console) 
   FaultStudy study;
   for (const SpoiledMaps& m : maps) judge(m, study);
   print(lines_of(study));
-  if (!arguments.out.empty()) write_files(study, arguments.out);
+  if (!arguments.output.empty()) write_files(study, arguments.output);
   if (!study.is_good()) return answer_is_no;
   return all_drawn(study) ? done : unusable_input;
 }

@@ -61,13 +61,13 @@ void prepare_answer(const std::string& out) {
 }
 
 ValidationReport::ValidationReport(const ValidateArguments& arguments)
-    : out_(arguments.out),
+    : out_(arguments.output),
       baseline_name_(arguments.baseline),
       for_ctest_(arguments.for_ctest),
       junit_is_the_answer_(arguments.junit == "-"),
       junit_(arguments.junit) {
   if (for_ctest_ && out_.empty()) {
-    throw UsageError("--ctest needs --out DIR, where the pictures go");
+    throw UsageError("--ctest needs -o DIR, where the pictures go");
   }
   if (!arguments.baseline.empty()) baseline_ = read_baseline(arguments.baseline);
   prepare_answer(out_);
@@ -87,7 +87,7 @@ ValidationReport::ValidationReport(const ValidateArguments& arguments)
 std::string ValidationReport::obstacle_of(const Comparison& comparison) const {
   const std::string obstacle = comparison.obstacle();
   if (obstacle.empty()) return "";
-  return fmt::format("{}: {}: expected a report of the same scenes and size, written with --out",
+  return fmt::format("{}: {}: expected a report of the same scenes and size, written with --output",
                      baseline_name_, obstacle);
 }
 

@@ -20,8 +20,8 @@ void prepare_answer(const std::string& out);
 /// before the work, which need not be done where a file cannot be written or the baseline not read.
 class ValidationReport {
  public:
-  /// Takes --out, --junit, --baseline and --ctest.
-  /// Fails    OutputError, InputError; UsageError where --ctest has no --out.
+  /// Takes --output, --junit, --baseline and --ctest.
+  /// Fails    OutputError, InputError; UsageError where --ctest has no --output.
   explicit ValidationReport(const ValidateArguments& arguments);
 
   /// Prints a line for each case and what was found (with --junit - the JUnit XML instead), puts the files in their places, all or none,

@@ -5,7 +5,7 @@
 set -euo pipefail
 
 # What to change. The data set, as one command would make it,
-dataset=(fathom dataset maps cameras.json --mesh room.ply --out maps)
+dataset=(fathom dataset maps cameras.json --mesh room.ply -o maps)
 # and in how many parts: a few for each process, so that none waits long for the last.
 shards=4
 # Processes at a time on each machine, and the threads of each: together as many as it has processors.

@@ -11,7 +11,7 @@
 set -euo pipefail
 
 # What to change, beside the lines above. The data set, as one command would make it,
-dataset=(fathom dataset maps cameras.json --mesh room.ply --out maps)
+dataset=(fathom dataset maps cameras.json --mesh room.ply -o maps)
 # and in how many parts.
 shards=8
 

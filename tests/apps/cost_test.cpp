@@ -156,7 +156,7 @@ TEST(SceneCost, ProbeLooksExactlyAtFewTriangles) {
   folder.write("t.obj", mesh);
   folder.write("s.json", placements(300));
   const Outcome outcome = run_fathom({"probe", "s.json", "--view", "10,20", "--size", "64x48",
-                                      "--pixel", "31,22", "--max-expansion", "100G"},
+                                      "--pixel", "31,22", "--max-expansion", "4000000000"},
                                      at_small_cost(folder));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("299"));

@@ -94,11 +94,13 @@ TEST_F(MapCommands, CompareSaysNoByOneUnitInTheLastPlace) {
 }
 
 TEST_F(MapCommands, CompareCountsNoUlpsOfNormals) {
-  for (const std::string view : {"0,0", "1,0"}) {
-    expect_done({"render", "square.obj", "--view", view, "--size", "8x6", "--channels", "Z,N", "-o",
-                 "view" + view.substr(0, 1) + ".exr"});
+  folder_.write("tilted.json", R"({"meshes": [{"file": "square.obj",
+      "transform": [[1,0,0,0],[0,1,0,0],[0.125,0,1,0]]}]})");
+  for (const std::string scene : {"square.obj", "tilted.json"}) {
+    expect_done({"render", scene, "--camera", "camera.json", "--channels", "Z,N", "-o",
+                 scene.substr(0, 6) + ".exr"});
   }
-  const std::string text = fathom({"compare", "view0.exr", "view1.exr"}).out;
+  const std::string text = fathom({"compare", "square.exr", "tilted.exr"}).out;
   const std::size_t normals = text.find("channel N.X"), depths = text.find("channel Z");
   ASSERT_LT(normals, depths);
   ASSERT_LT(depths, text.size());
@@ -121,9 +123,12 @@ TEST_F(MapCommands, CompareDrawsTheUnitThatIsAskedFor) {
 
 /// Columns 2 to 5 of rows 1 to 4 show the square: 16 of 48 pixels.
 TEST_F(MapCommands, InfoCountsPixelsWithASurfaceByCoverage) {
-  expect_done({"render", "square.obj", "--camera", "camera.json", "--channels", "Z,A,N",
-               "--depth-format", "unorm16", "--near", "1", "--far", "4", "--against-exact", "-o",
-               "all.exr"});
+  Json camera = Json::parse(square_camera);
+  camera["near"] = 1;
+  camera["far"] = 4;
+  folder_.write("ranged.json", camera.dump());
+  expect_done({"render", "square.obj", "--camera", "ranged.json", "--channels", "Z,A,N",
+               "--depth-format", "unorm16", "--against-exact", "-o", "all.exr"});
   const Json channels = Json::parse(fathom({"info", "all.exr", "--json"}).out)["channels"];
   ASSERT_GE(channels.size(), 9U);
   for (const auto& [name, channel] : channels.items())

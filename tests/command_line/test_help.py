@@ -79,6 +79,19 @@ def test_manual_page_has_what_help_has_and_no_more(name):
         line.strip() for line in examples.split("\n")]
 
 
+def test_every_output_has_one_name():
+    """It is -o and --output, of every command that has either, and --out is taken too, without being shown."""
+    writing = [each for each in all_commands() if {"-o", "--output", "--out"} & {name for names in each.options for name in names}]
+    assert {"render", "study", "validate", "help"} <= {each.path[0] for each in writing}
+    assert len(writing) >= 25
+    for command in writing:
+        assert ("-o", "--output") in command.options, command.name
+        assert "--out " not in command.text, command.name
+        for spelling in ("-o", "--output", "--out"):
+            told = run(*command.path, spelling).stderr
+            assert "there is no option" not in told and "requires" in told, (command.name, spelling, told)
+
+
 def test_all_pages_are_written_to_a_folder(tmp_path, monkeypatch):
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "86400")
     answer("help", "--man", "--out", str(tmp_path / "new" / "man1"))
@@ -94,7 +107,7 @@ def test_all_pages_are_written_to_a_folder(tmp_path, monkeypatch):
     (["help", "camera", "orbti"], "did you mean 'orbit'?"),
     (["help", "render", "map"], "'render' has no command 'map' below it"),
     (["help", "--mna"], "did you mean '--man'?"),
-    (["help", "--out", "pages"], "--out goes with --man"),
+    (["help", "--out", "pages"], "--output goes with --man"),
     (["render", "--help=mna"], "did you mean 'man'?"),
     (["completion", "bsh"], "did you mean 'bash' or 'zsh'?"),
     (["completion"], "SHELL is required"),

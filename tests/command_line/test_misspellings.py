@@ -79,6 +79,13 @@ def test_of_commands():
     expect_questions(cases, 100)
 
 
+def test_of_commands_with_the_options_of_the_right_one():
+    expect_questions([(["camera", "lookat", "--eye", "1,2,3"], "look-at"),
+                      (["camera", "import", "colmp", "x", "-o", "y"], "colmap"),
+                      (["depth", "resolutoin", "--near", "0.1", "--far", "1000", "1"], "resolution"),
+                      (["dataset", "mpas", "cameras.json", "--mesh", "a.obj", "--out", "a"], "maps")], 4)
+
+
 def enumerated() -> list[tuple[tuple[str, ...], str, list[str]]]:
     """The words that options take, as the program tells completion: command, option, words."""
     found = []
@@ -123,8 +130,8 @@ def test_of_values():
             if len(word) < 2 or word.isdigit() or ":" in word or word.startswith("-"):
                 continue
             for wrong in mistakes(word, words, chance):
-                # A letter that is left over of a short word is no misspelling but another text.
-                if len(wrong) < 2 or wrong in (name + ":" for name in words):
+                # A letter that is left over of a short word is another text, and what begins with a dash an option.
+                if len(wrong) < 2 or wrong.startswith("-") or wrong in (name + ":" for name in words):
                     continue
                 if re.fullmatch(r"sphere-\d+[km]", wrong):
                     continue  # a sphere of another size

@@ -73,19 +73,22 @@ TEST(Probe, FindsWhatEveryTriangleLookedAtExactlyGives) {
   EXPECT_GT(covered, 1000 / effort);
 }
 
-/// What is behind the camera covers samples too, without counting.
-TEST(Probe, ShowsTrianglesBehindTheCamera) {
+/// What is beyond far covers samples too, without counting; what is behind the camera does not.
+TEST(Probe, ShowsTrianglesThatDoNotCount) {
   Scene scene;
   scene.meshes.emplace_back();
-  scene.meshes[0].vertices = {{-1, -1, -2}, {1, -1, -2}, {0, 2, -2}};
-  scene.meshes[0].triangles = {{0, 1, 2}};
+  scene.meshes[0].vertices = {{-1, -1, -2}, {1, -1, -2}, {0, 2, -2},
+                              {-1, -1, 2},  {1, -1, 2},  {0, 2, 2}};
+  scene.meshes[0].triangles = {{0, 1, 2}, {3, 4, 5}};
   scene.objects.emplace_back();
   Camera camera;
   camera.width = camera.height = 3;
   camera.fx = camera.fy = 3;
   camera.cx = camera.cy = 1.5;
+  camera.far = 1;
   const auto found = probe(scene, camera, 1, 1);
   ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].number, 1U);
   EXPECT_FALSE(found[0].counts);
 }
 

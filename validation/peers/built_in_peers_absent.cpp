@@ -5,10 +5,10 @@ namespace fathom::validation {
 namespace {
 
 [[noreturn]] void refuse(Renderer renderer) {
-  throw InputError(
-      name_of(renderer) +
-      " is not built in: 'scripts/fathom validate' installs it (scripts/install-dependencies "
-      "peers) and builds with it (-DFATHOM_PEERS=ON)");
+  throw InputError(name_of(renderer) +
+                   " is not built in: 'scripts/fathom validate' in a clone of Fathom installs it "
+                   "(scripts/install-dependencies "
+                   "peers) and builds with it (-DFATHOM_PEERS=ON)");
 }
 
 }  // namespace

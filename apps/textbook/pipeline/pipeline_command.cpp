@@ -98,8 +98,8 @@ void add_trace(Command& family) {
   const auto arguments = std::make_shared<TraceArguments>();
   Command& command = family.command(
       "trace", "Follow a triangle, a line or a point through the stages of the pipeline",
-      "  fathom pipeline trace data/meshes/spot.obj --triangle 238 --pixel 640,360\n"
-      "  fathom pipeline trace data/meshes/spot.obj --triangle 238 --fragments\n"
+      "  fathom pipeline trace spot.obj --triangle 238 --pixel 640,360\n"
+      "  fathom pipeline trace spot.obj --triangle 238 --fragments\n"
       "  fathom pipeline trace cube.obj --triangle 3 --precision binary64 --json");
   arguments->scene.add_to(command);
   arguments->camera.add_to(command);

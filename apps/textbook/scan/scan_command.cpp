@@ -113,7 +113,7 @@ void add_scan(Command& program) {
       "x grows to the right and y down, as on the screen. Pixel (x, y) has its centre at (x + 1/2, "
       "y + 1/2).\n"
       "Counter-clockwise on the screen is positive.\n"
-      "docs/scan.md has every algorithm's keys, answer and trace.");
+      "Every algorithm's keys, answer and trace: scan.md in the documentation.");
   command
       .option("--algorithm", "NAME", into(arguments->algorithm, scan::parse_algorithm),
               "Lines: explicit, dda, bresenham, midpoint (ends are pixels), diamond-exit (ends are "

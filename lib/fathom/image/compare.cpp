@@ -266,7 +266,8 @@ PairedNames image::paired_channels(const DepthMap& truth, const DepthMap& other,
   if (!options.channel.empty() || !options.other_channel.empty()) {
     const std::string& a = options.channel.empty() ? options.other_channel : options.channel;
     const std::string& b = options.other_channel.empty() ? a : options.other_channel;
-    result.pairs.emplace_back(&named(truth, a, "first"), &named(other, b, "second"));
+    const ImageChannel& of_truth = named(truth, a, "first");
+    result.pairs.emplace_back(&of_truth, &named(other, b, "second"));
     return result;
   }
   for (const ImageChannel& channel : truth.channels)

@@ -1,0 +1,151 @@
+// Mistakes that many make: the message says what to do instead, or the program does what was meant.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "run_program.h"
+#include "sample_files.h"
+#include "test_folder.h"
+
+namespace fathom::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class Mistakes : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("square.obj", square_obj);
+    folder_.write("camera.json", square_camera);
+  }
+  Outcome fathom(const std::vector<std::string>& arguments) const {
+    return run_fathom(arguments, {.folder = folder_.path()});
+  }
+  void expect_done(const std::vector<std::string>& arguments) const {
+    const Outcome outcome = fathom(arguments);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.err, "");
+  }
+  /// The one line of an error, without "fathom: error: ".
+  std::string refusal(const std::vector<std::string>& arguments, int status) const {
+    const Outcome outcome = fathom(arguments);
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    const std::string start = "fathom: error: ";
+    EXPECT_THAT(outcome.err, StartsWith(start));
+    return outcome.err.substr(std::min(start.size(), outcome.err.size()));
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(Mistakes, AMapAsTheCameraGivesItsCamera) {
+  expect_done({"render", "square.obj", "--camera", "camera.json", "-o", "map.exr"});
+  expect_done({"render", "square.obj", "--camera", "map.exr", "-o", "again.exr"});
+  const Outcome same = fathom({"compare", "map.exr", "again.exr"});
+  EXPECT_EQ(same.status, 0) << same.out;
+  const Outcome probe = fathom({"probe", "square.obj", "--camera", "map.exr", "--pixel", "3,3"});
+  EXPECT_EQ(probe.status, 0) << probe.err;
+  EXPECT_EQ(probe.out,
+            fathom({"probe", "square.obj", "--camera", "camera.json", "--pixel", "3,3"}).out);
+  // One without a camera.
+  expect_done({"convert", "map.exr", "-o", "map.npy"});
+  EXPECT_EQ(refusal({"render", "square.obj", "--camera", "map.npy", "-o", "no.exr"}, 3),
+            "map.npy: the map carries no camera, expected a camera file\n");
+}
+
+TEST_F(Mistakes, AMapAsTheSceneIsRefusedWithTheWayToItsCamera) {
+  expect_done({"render", "square.obj", "--camera", "camera.json", "-o", "map.exr"});
+  EXPECT_EQ(
+      refusal({"probe", "map.exr", "--pixel", "3,3"}, 3),
+      "map.exr: is a map, expected a mesh or a scene file; '--camera map.exr' takes the camera "
+      "that a map carries\n");
+}
+
+TEST_F(Mistakes, ACameraFileAsTheScene) {
+  folder_.write("path.json", "[" + square_camera + "," + square_camera + "]");
+  for (const std::string file : {"camera.json", "path.json"}) {
+    EXPECT_EQ(refusal({"render", "square.obj", file, "-o", "no.exr"}, 3),
+              file +
+                  ": is a camera file, expected a mesh or a scene file; give it as the camera "
+                  "(--camera)\n");
+  }
+}
+
+TEST_F(Mistakes, FoldersAroundAColmapModelNameIt) {
+  std::filesystem::create_directories(folder_ / "dense/sparse");
+  std::filesystem::create_directories(folder_ / "sparse/0");
+  for (const char* model : {"dense/sparse/", "sparse/0/"}) {
+    folder_.write(model + std::string("cameras.txt"), "1 PINHOLE 8 6 4 4 4 3\n");
+    folder_.write(model + std::string("images.txt"), "1 1 0 0 0 0 0 0 1 a.jpg\n\n");
+  }
+  EXPECT_THAT(refusal({"camera", "import", "colmap", "sparse", "-o", "c.json"}, 3),
+              AllOf(StartsWith("sparse: expected a COLMAP model"),
+                    EndsWith("; did you mean 'sparse/0'?\n")));
+  EXPECT_THAT(refusal({"camera", "import", "colmap", "dense", "-o", "c.json"}, 3),
+              EndsWith("; did you mean 'dense/sparse'?\n"));
+  EXPECT_THAT(refusal({"camera", "import", "colmap", ".", "-o", "c.json"}, 3),
+              EndsWith("; did you mean './dense/sparse' or './sparse/0'?\n"));
+  EXPECT_EQ(refusal({"render", "square.obj", "--camera", "sparse/0", "-o", "no.exr"}, 3),
+            "sparse/0: is a COLMAP model, expected a camera file; 'fathom camera import colmap "
+            "sparse/0 -o cameras.json' makes one\n");
+  expect_done({"camera", "import", "colmap", "sparse/0", "-o", "c.json"});
+}
+
+TEST_F(Mistakes, NamesOfChannels) {
+  expect_done(
+      {"render", "square.obj", "--camera", "camera.json", "--channels", "Z,N", "-o", "map.exr"});
+  EXPECT_THAT(refusal({"render", "square.obj", "--channels", "depth", "-o", "no.exr"}, 2),
+              EndsWith("; did you mean 'Z'?\n"));
+  EXPECT_THAT(refusal({"render", "square.obj", "--channels", "normals", "-o", "no.exr"}, 2),
+              EndsWith("; did you mean 'N'?\n"));
+  EXPECT_EQ(refusal({"preview", "map.exr", "--channel", "z", "-o", "no.png"}, 2),
+            "the map has no channel 'z', only N, Z; did you mean 'Z'?\n");
+  EXPECT_EQ(refusal({"compare", "map.exr", "map.exr", "--channel", "depth"}, 2),
+            "the first map has no channel 'depth', only N, Z; did you mean 'Z'?\n");
+  EXPECT_EQ(refusal({"convert", "map.exr", "--channel", "id", "-o", "no.npy"}, 2),
+            "the map has no channel 'id', only N, Z\n");
+}
+
+TEST_F(Mistakes, AChannelOfSeveralPartsInAFormatOfOne) {
+  expect_done(
+      {"render", "square.obj", "--camera", "camera.json", "--channels", "Z,N", "-o", "map.exr"});
+  const std::string parts =
+      "--channel: this format holds one channel, and N is N.X, N.Y, N.Z; name "
+      "the one to write, or write .npy or .exr\n";
+  EXPECT_EQ(refusal({"convert", "map.exr", "--channel", "N", "-o", "no.pfm"}, 2), parts);
+  EXPECT_EQ(refusal({"convert", "map.exr", "--channel", "N", "-o", "no.png"}, 2), parts);
+  EXPECT_THAT(refusal({"convert", "map.exr", "--channel", "N.X", "-o", "no.png"}, 4),
+              EndsWith(".exr, .npz and .npy hold it\n"));
+  expect_done({"convert", "map.exr", "--channel", "N.X", "-o", "n.pfm"});
+}
+
+TEST_F(Mistakes, UnknownFieldsOfAnOutputAreRefused) {
+  EXPECT_THAT(
+      refusal({"render", "square.obj", "-o", "v/{stme}.exr"}, 2),
+      StartsWith("-o: there is no field '{stme}': did you mean '{stem}'?; the fields are "));
+  EXPECT_THAT(refusal({"render", "square.obj", "-o", "{index:4}.exr"}, 2), StartsWith("-o: "));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "v"));
+}
+
+TEST_F(Mistakes, TheProgramByItselfListsItsCommands) {
+  const Outcome outcome = fathom({});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out, fathom({"--help"}).out);
+  EXPECT_EQ(
+      refusal({"camera"}, 2),
+      "'fathom camera' needs a command: look-at, orbit or import; see 'fathom camera --help'\n");
+}
+
+TEST_F(Mistakes, TheOtherSpellingOfOutput) {
+  expect_done({"render", "square.obj", "--camera", "camera.json", "--out", "map.exr"});
+  expect_done({"convert", "map.exr", "--out", "map.npy"});
+  expect_done({"dataset", "maps", "camera.json", "--mesh", "square.obj", "--output", "room"});
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "room/000000.exr"));
+}
+
+}  // namespace
+}  // namespace fathom::test
