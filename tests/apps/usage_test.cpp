@@ -32,7 +32,7 @@ std::vector<Usage> wrong_usages() {
     return more;
   };
   return {
-      {"NoCommand", {}, "--help"},
+      {"NoCommand", {"camera"}, "needs a command: look-at, orbit or import; see"},
       {"UnknownCommand", {"rendre", "square.obj"}, "did you mean 'render'"},
       {"UnknownOption", render({"--frobnicate"}), "--frobnicate"},
       {"NoOutput", {"render", "square.obj"}, "--output"},
@@ -109,7 +109,7 @@ std::vector<Usage> wrong_usages() {
       {"PathWithoutPattern", render({"--camera", "path.json"}), "{index"},
       {"PatternWrong",
        {"render", "square.obj", "--camera", "path.json", "-o", "{index:x!}.exr"},
-       "pattern"},
+       "there is no field"},
       {"ProbeWithoutPixel", {"probe", "square.obj"}, "--pixel"},
       {"ProbePixelOutside",
        {"probe", "square.obj", "--camera", "camera.json", "--pixel", "8,0"},

@@ -89,7 +89,7 @@ def test_every_output_has_one_name():
         assert "--out " not in command.text, command.name
         for spelling in ("-o", "--output", "--out"):
             told = run(*command.path, spelling).stderr
-            assert "there is no option" not in told and "requires" in told, (command.name, spelling, told)
+            assert "there is no option" not in told and "--output: 1 required" in told, (command.name, spelling, told)
 
 
 def test_all_pages_are_written_to_a_folder(tmp_path, monkeypatch):
