@@ -166,7 +166,7 @@ void add_run(Command& family) {
       "\n"
       "A record comes out with the stage's results, so the answer of a stage is the case of the "
       "next. "
-      "docs/pipeline.md has the keys of each stage.");
+      "Keys of each stage: pipeline.md in the documentation.");
   command
       .argument("STAGE", into(arguments->stage, parse_stage),
                 "Name of the stage, in the order of the data: " + names_of_stages())
