@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Union
 
@@ -127,7 +128,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         compressed = as_text("compression", compression)
         handle = self._handle()
         if scale is not None:
-            if not path_of("file", file).lower().endswith(".png"):
+            if not os.fsdecode(path_of("file", file)).lower().endswith(".png"):
                 raise ValueError("scale: only .png holds codes; stored_as('uint16', scale=…) makes them for other formats")
             handle = self.stored_as("uint16", channel=asked, scale=scale)._handle()
             asked = ""
