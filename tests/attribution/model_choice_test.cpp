@@ -46,7 +46,7 @@ TEST(ModelChoice, SixteenBits) {
   EXPECT_EQ(choice.chosen.attribution.count(PixelClass::unexplained), 0U);
   ASSERT_EQ(choice.evidence.size(), 7U);  // none of VTK's is needed
   EXPECT_THAT(choice.evidence[0],
-              testing::StartsWith("gl-unorm16: 0 pixels unexplained, 0 findings, bounds "));
+              testing::StartsWith("gl-unorm16: every pixel is explained, bounds "));
 }
 
 // Of those that explain all, the one with the narrowest bounds.

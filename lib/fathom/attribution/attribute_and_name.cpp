@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fathom/attribution/background.h"
+#include "fathom/attribution/diagnosis.h"
 #include "fathom/attribution/faults/depth_relation.h"
 #include "fathom/attribution/faults/deviation_fit.h"
 #include "fathom/attribution/faults/deviation_hypothesis.h"
@@ -23,65 +24,6 @@
 // unexplained is taken.
 namespace fathom::attribution {
 namespace {
-
-class Diagnosis {
- public:
-  Diagnosis(const Truth& truth, const OtherMap& other, const RendererModel& model)
-      : truth_(truth),
-        other_(other),
-        model_(model),
-        found_(attribute(truth, other, model)),
-        searched_(found_) {}
-
-  /// Looks for what is wrong until most is explained.
-  void search();
-  [[nodiscard]] Attribution result() && { return std::move(found_); }
-
- private:
-  /// Takes a coarse storage for known from here on: that it is coarse is in the values themselves.
-  void name_storage();
-  /// Each of these names what it finds and says whether it found something.
-  bool by_triangles();
-  bool by_hypotheses();
-  bool by_relations(bool gross);
-  bool by_deviation();
-  bool by_pixels();
-
-  [[nodiscard]] const std::vector<DepthRelation>& relations();
-  void name(const Finding& finding, const std::vector<std::uint8_t>& explained);
-  void name_bias();
-  void name_what_is_within_bounds();
-
-  [[nodiscard]] std::uint64_t unexplained() const {
-    return searched_.count(PixelClass::unexplained);
-  }
-
-  const Truth& truth_;
-  const OtherMap& other_;
-  RendererModel model_;
-  Attribution found_;     ///< as the model was given
-  Attribution searched_;  ///< as it is known by now
-  std::optional<std::vector<DepthRelation>> relations_;
-};
-
-/// Unexplained pixels that are explained become a convention, and `finding` is its name.
-void Diagnosis::name(const Finding& finding, const std::vector<std::uint8_t>& explained) {
-  for (std::size_t i = 0; i < found_.classes.size(); ++i) {
-    PixelClass& c = found_.classes[i];
-    if (c == PixelClass::unexplained && explained[i] != 0) c = PixelClass::convention;
-  }
-  found_.counts = {};
-  for (const PixelClass c : found_.classes) ++found_.counts[static_cast<std::size_t>(c)];
-  found_.findings.push_back(finding);
-}
-
-void Diagnosis::name_bias() {
-  found_.findings.push_back(
-      {"bias",
-       fmt::format("window depths are biased by {:+.3g} steps of the storage on average",
-                   found_.bias_steps),
-       found_.bias_pixels});
-}
 
 /// 1 for each pixel that is explained.
 std::vector<std::uint8_t> explained_by(const Attribution& found) {
@@ -118,21 +60,87 @@ class BestTrial {
     if (trial.explained.empty() || trial.left >= fewest_) return;
     fewest_ = trial.left;
     explained_ = std::move(trial.explained);
-    finding_ = Finding{h.kind, h.text, unexplained_ - trial.left, h.estimates, h.alternatives};
+    best_ = h;
   }
   [[nodiscard]] bool is_perfect() const { return fewest_ == 0; }
-  [[nodiscard]] bool has_one() const { return finding_.has_value(); }
-  [[nodiscard]] const Finding& finding() const { return *finding_; }
+  [[nodiscard]] bool has_one() const { return best_.has_value(); }
+  [[nodiscard]] const Hypothesis& hypothesis() const { return *best_; }
+  [[nodiscard]] Finding finding() const {
+    return {best_->kind, best_->text, unexplained_ - fewest_, best_->estimates,
+            best_->alternatives};
+  }
   [[nodiscard]] const std::vector<std::uint8_t>& explained() const { return explained_; }
 
  private:
   const Truth& truth_;
   std::uint64_t unexplained_, fewest_;
   std::vector<std::uint8_t> explained_;
-  std::optional<Finding> finding_;
+  std::optional<Hypothesis> best_;
 };
 
-void Diagnosis::name_storage() {
+class Search {
+ public:
+  Search(const Truth& truth, const OtherMap& other, const RendererModel& model, Attribution found)
+      : truth_(truth), other_(other), model_(model), found_(std::move(found)), searched_(found_) {}
+
+  /// Looks for what is wrong until most is explained.
+  void run();
+  [[nodiscard]] Diagnosis result() && { return {std::move(found_), std::move(put_right_)}; }
+
+ private:
+  /// Takes a coarse storage for known from here on: that it is coarse is in the values themselves.
+  void name_storage();
+  /// Each of these names what it finds and says whether it found something.
+  bool by_triangles();
+  bool by_hypotheses();
+  bool by_relations(bool gross);
+  bool by_deviation();
+  bool by_pixels();
+
+  [[nodiscard]] const std::vector<DepthRelation>& relations();
+  void name(const Finding& finding, const std::vector<std::uint8_t>& explained);
+  void name(const BestTrial& trial);
+  void name_bias();
+  void name_what_is_within_bounds();
+
+  [[nodiscard]] std::uint64_t unexplained() const {
+    return searched_.count(PixelClass::unexplained);
+  }
+
+  const Truth& truth_;
+  const OtherMap& other_;
+  RendererModel model_;
+  Attribution found_;     ///< as the model was given
+  Attribution searched_;  ///< as it is known by now
+  std::optional<Hypothesis> put_right_;
+  std::optional<std::vector<DepthRelation>> relations_;
+};
+
+/// Unexplained pixels that are explained become a convention, and `finding` is its name.
+void Search::name(const Finding& finding, const std::vector<std::uint8_t>& explained) {
+  for (std::size_t i = 0; i < found_.classes.size(); ++i) {
+    PixelClass& c = found_.classes[i];
+    if (c == PixelClass::unexplained && explained[i] != 0) c = PixelClass::convention;
+  }
+  found_.counts = {};
+  for (const PixelClass c : found_.classes) ++found_.counts[static_cast<std::size_t>(c)];
+  found_.findings.push_back(finding);
+}
+
+void Search::name(const BestTrial& best) {
+  put_right_ = best.hypothesis();
+  name(best.finding(), best.explained());
+}
+
+void Search::name_bias() {
+  found_.findings.push_back(
+      {"bias",
+       fmt::format("window depths are biased by {:+.3g} steps of the storage on average",
+                   found_.bias_steps),
+       found_.bias_pixels});
+}
+
+void Search::name_storage() {
   if (!other_.windows.empty()) return;
   std::optional<CoarseStorage> storage = coarse_storage(truth_.camera, other_, model_);
   const bool is_known = !storage && model_.recorded;
@@ -154,9 +162,10 @@ void Diagnosis::name_storage() {
         fmt::format("depths are stored as {}{}", storage->text, down ? ", rounded down" : ""),
         before - left},
        explained_by(searched_));
+  put_right_ = Hypothesis{"storage", found_.findings.back().text, model_, other_};
 }
 
-bool Diagnosis::by_triangles() {
+bool Search::by_triangles() {
   const std::vector<Finding> findings = triangles_at_fault(truth_, other_, searched_);
   std::uint64_t named = 0;
   for (const Finding& finding : findings) named += finding.pixels;
@@ -165,25 +174,25 @@ bool Diagnosis::by_triangles() {
   return true;
 }
 
-bool Diagnosis::by_hypotheses() {
+bool Search::by_hypotheses() {
   BestTrial best(truth_, unexplained());
   for (const MakeHypothesis& make : hypotheses(truth_, other_, model_, searched_)) {
     if (best.is_perfect()) break;
     if (const std::optional<Hypothesis> h = make()) best.add(*h);
   }
   if (!best.has_one()) return false;
-  name(best.finding(), best.explained());
+  name(best);
   return true;
 }
 
 /// Looked for when they are first asked for.
-const std::vector<DepthRelation>& Diagnosis::relations() {
+const std::vector<DepthRelation>& Search::relations() {
   if (!relations_) relations_ = depth_relations(truth_, other_);
   return *relations_;
 }
 
 /// One that is gross has one constant at most: then no camera need be doubted.
-bool Diagnosis::by_relations(bool gross) {
+bool Search::by_relations(bool gross) {
   BestTrial best(truth_, unexplained());
   for (const DepthRelation& relation : relations()) {
     if (best.has_one()) break;
@@ -193,22 +202,27 @@ bool Diagnosis::by_relations(bool gross) {
     best.add(h);
   }
   if (!best.has_one()) return false;
-  name(best.finding(), best.explained());
+  name(best);
   return true;
 }
 
-bool Diagnosis::by_deviation() {
+bool Search::by_deviation() {
   const std::optional<FittedDeviation> fit = fitted_deviation(truth_, other_, model_, searched_);
   if (!fit) return false;
   BestTrial best(truth_, unexplained());
   best.add(deviation_hypothesis(truth_, other_, model_, *fit));
   if (!best.has_one()) return false;
-  name(best.finding(), best.explained());
+  name(best);
   return true;
 }
 
-bool Diagnosis::by_pixels() {
-  for (const auto look : {isolated, clipped, lost_lines, mixed}) {
+/// Pixels that are wrong by themselves stay unexplained: that they are few is no cause.
+bool Search::by_pixels() {
+  if (const std::optional<PixelFinding> some = isolated(truth_, other_, searched_)) {
+    found_.findings.push_back(some->finding);
+    return true;
+  }
+  for (const auto look : {clipped, lost_lines, mixed}) {
     if (const std::optional<PixelFinding> some = look(truth_, other_, searched_)) {
       name(some->finding, some->explained);
       return true;
@@ -218,7 +232,7 @@ bool Diagnosis::by_pixels() {
 }
 
 /// What is off within what roundings allow: on the whole it shows.
-void Diagnosis::name_what_is_within_bounds() {
+void Search::name_what_is_within_bounds() {
   if (!found_.is_biased()) return;
   const std::optional<FittedDeviation> fit = fitted_deviation(truth_, other_, model_, searched_);
   if (!fit || std::string_view(fit->set->kind) == "bias") {
@@ -229,7 +243,7 @@ void Diagnosis::name_what_is_within_bounds() {
   found_.findings.push_back({h.kind, h.text, found_.bias_pixels, h.estimates, h.alternatives});
 }
 
-void Diagnosis::search() {
+void Search::run() {
   if (unexplained() == 0) {
     name_what_is_within_bounds();
     return;
@@ -242,18 +256,29 @@ void Diagnosis::search() {
 
 }  // namespace
 
-Attribution attribute_and_name(const Truth& truth, const OtherMap& other,
-                               const RendererModel& model) {
+Diagnosis diagnose(const Truth& truth, const OtherMap& other, const RendererModel& model,
+                   Attribution found) {
   const StandardArithmetic standard;
-  KnownBackground known = known_background(truth, other);
-  RendererModel known_model = model;
-  if (!known_model.recorded && other.code_scale) {
-    known_model.recorded =
+  Search search(truth, other, model, std::move(found));
+  search.run();
+  return std::move(search).result();
+}
+
+RendererModel as_recorded(const RendererModel& model, const OtherMap& other) {
+  RendererModel known = model;
+  if (!known.recorded && other.code_scale) {
+    known.recorded =
         RecordedDepth{.rounding = RecordedDepth::Rounding::nearest, .step = 1 / *other.code_scale};
   }
-  Diagnosis diagnosis(truth, known.map, known_model);
-  diagnosis.search();
-  Attribution result = std::move(diagnosis).result();
+  return known;
+}
+
+Attribution attribute_and_name(const Truth& truth, const OtherMap& other,
+                               const RendererModel& model) {
+  KnownBackground known = known_background(truth, other);
+  const RendererModel known_model = as_recorded(model, other);
+  Attribution result =
+      diagnose(truth, known.map, known_model, attribute(truth, known.map, known_model)).attribution;
   if (known.note) result.notes.push_back(*known.note);
   return result;
 }

@@ -1,7 +1,9 @@
 #include "fathom/attribution/attribution.h"
 
 #include <algorithm>
+#include <numeric>
 
+#include "fathom/attribution/attribute_bands.h"
 #include "fathom/attribution/fragment_source.h"
 #include "fathom/attribution/pixels/pixel_judge.h"
 #include "fathom/attribution/pixels/statistics.h"
@@ -10,8 +12,6 @@
 
 namespace fathom::attribution {
 namespace {
-
-constexpr std::uint32_t rows_per_band = 8;
 
 /// The fragments of all triangles at the pixels of some rows, pixel by pixel.
 std::vector<std::vector<Fragment>> fragments_in(const FragmentSource& source,
@@ -33,7 +33,8 @@ std::vector<std::vector<Fragment>> fragments_in(const FragmentSource& source,
 
 }  // namespace
 
-Attribution attribute(const Truth& truth, const OtherMap& other, const RendererModel& model) {
+Attribution attribute_bands(const Truth& truth, const OtherMap& other, const RendererModel& model,
+                            const std::vector<std::uint32_t>& bands) {
   const StandardArithmetic standard;
   const std::uint32_t width = truth.camera.width, height = truth.camera.height;
   const auto source = fragments(truth.mesh, truth.camera, model);
@@ -43,9 +44,8 @@ Attribution attribute(const Truth& truth, const OtherMap& other, const RendererM
 
   const PixelJudge judge(truth, other, model);
   std::vector<PixelResult> pixels(std::size_t{width} * height);
-  const std::uint32_t bands = (height + rows_per_band - 1) / rows_per_band;
-  parallel_for(std::uint32_t{0}, bands, [&](std::uint32_t band) {
-    const std::uint32_t first = band * rows_per_band;
+  parallel_for(std::size_t{0}, bands.size(), [&](std::size_t k) {
+    const std::uint32_t first = bands[k] * rows_per_band;
     const std::uint32_t last = std::min(first + rows_per_band, height) - 1;
     const auto found = fragments_in(*source, boxes, width, first, last);
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -54,6 +54,12 @@ Attribution attribute(const Truth& truth, const OtherMap& other, const RendererM
     }
   });
   return summary_of(pixels, truth);
+}
+
+Attribution attribute(const Truth& truth, const OtherMap& other, const RendererModel& model) {
+  std::vector<std::uint32_t> bands((truth.camera.height + rows_per_band - 1) / rows_per_band);
+  std::iota(bands.begin(), bands.end(), 0U);
+  return attribute_bands(truth, other, model, bands);
 }
 
 }  // namespace fathom::attribution

@@ -39,6 +39,13 @@ std::string finding_line(const Finding& f) {
   return f.kind + ": " + finding_text(f);
 }
 
+std::string verdict_of(const Truth& truth, const OtherMap& other, const Attribution& found) {
+  const StandardArithmetic standard;
+  if (!found.findings.empty()) return "failed: " + finding_text(found.findings.front());
+  const std::string cause = cause_of(truth, other, found);
+  return cause.empty() ? "every pixel is explained" : "failed: " + cause;
+}
+
 std::string cause_of(const Truth& truth, const OtherMap& other, const Attribution& found) {
   const StandardArithmetic standard;
   if (!found.findings.empty()) return finding_line(found.findings.front());

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "fathom/attribution/attribute_and_name.h"
@@ -10,6 +11,7 @@
 #include "fathom/attribution/model_choice.h"
 #include "fathom/attribution/other_scene.h"
 #include "fathom/attribution/other_size.h"
+#include "fathom/camera/clip_planes.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
@@ -29,15 +31,36 @@ bool explains_more(const Judgement& a, const Judgement& b) {
   return faults(a) < faults(b);
 }
 
+void set_trial(Judgement& judgement, ModelTrial trial) {
+  judgement.model = std::move(trial.model);
+  judgement.attribution = std::move(trial.attribution);
+}
+
 void judge_by_any(Judgement& judgement) {
   ModelChoice choice = chosen_model(*judgement.truth, judgement.other);
-  judgement.model = std::move(choice.chosen.model);
-  judgement.attribution = std::move(choice.chosen.attribution);
+  set_trial(judgement, std::move(choice.chosen));
   judgement.attribution.notes.push_back(
       {.kind = "model",
        .text = "taken for " + judgement.model.name + ", the model that fits best",
        .pixels = judgement.attribution.classes.size(),
        .evidence = std::move(choice.evidence)});
+}
+
+/// Models of rasterizers mean nothing without near and far: where pixels stay open or the model is in
+/// doubt, that is worth a line.
+void note_untried_models(Judgement& judgement) {
+  const std::vector<Finding>& findings = judgement.attribution.findings;
+  const bool is_in_doubt =
+      unexplained(judgement) > 0 ||
+      std::any_of(findings.begin(), findings.end(),
+                  [](const Finding& finding) { return finding.kind == "model"; });
+  if (!is_in_doubt || has_clip_planes(judgement.truth->camera)) return;
+  judgement.attribution.notes.push_back(
+      {.kind = "model",
+       .text =
+           "no model of a rasterizer was tried: the camera has not both near and far; give those "
+           "of the renderer, if it has a depth buffer",
+       .pixels = unexplained(judgement)});
 }
 
 /// Identifiers are indices of the scene's triangles from here on.
@@ -56,22 +79,42 @@ Judgement judge_of_camera(const OtherMap& other, const Scene& scene, const Camer
   return judge(std::make_shared<Truth>(make_truth(scene, camera)), other, model);
 }
 
+/// By the named model alone, which is enough to tell readings of a size apart.
+Judgement judge_reading(const SizedMap& sized, const Scene& scene,
+                        const std::optional<RendererModel>& model) {
+  auto truth = std::make_shared<const Truth>(make_truth(scene, sized.camera));
+  if (!model) return judge(std::move(truth), sized.map, model);
+  Judgement judgement{.model = *model, .truth = std::move(truth)};
+  judgement.other = known_background(*judgement.truth, sized.map).map;
+  judgement.attribution = attribute_and_name(*judgement.truth, sized.map, *model);
+  return judgement;
+}
+
+void name_size(Judgement& judgement, Finding finding) {
+  finding.pixels = judgement.attribution.classes.size();
+  std::vector<Finding>& findings = judgement.attribution.findings;
+  findings.insert(findings.begin(), std::move(finding));
+}
+
 /// A map of another size is judged as what explains it best, if that explains half of it.
 Judgement judge_other_size(const std::string& name, const OtherMap& other, const Scene& scene,
                            const Camera& camera, const std::optional<RendererModel>& model) {
+  const std::vector<SizedMap> readings = readings_of_other_size(camera, other);
   std::optional<Judgement> best;
-  for (const SizedMap& sized : readings_of_other_size(camera, other)) {
-    Judgement next = judge_of_camera(sized.map, scene, sized.camera, model);
-    Finding finding = sized.finding;
-    finding.pixels = next.attribution.classes.size();
-    next.attribution.findings.insert(next.attribution.findings.begin(), std::move(finding));
-    if (!best || explains_more(next, *best)) best = std::move(next);
+  const SizedMap* reading = nullptr;
+  for (const SizedMap& sized : readings) {
+    Judgement next = judge_reading(sized, scene, model);
+    if (best && !explains_more(next, *best)) continue;
+    best = std::move(next);
+    reading = &sized;
   }
+  if (best && model && unexplained(*best) > 0) best = judge(best->truth, reading->map, model);
   if (!best || unexplained(*best) * 2 > best->attribution.classes.size()) {
     throw InputError(fmt::format(
         "{}: has {}x{} pixels, the camera {}x{}; expected the camera that it was drawn with", name,
         other.width, other.height, camera.width, camera.height));
   }
+  name_size(*best, reading->finding);
   return std::move(*best);
 }
 
@@ -95,13 +138,15 @@ Judgement judge(std::shared_ptr<const Truth> truth, const OtherMap& other,
                 const std::optional<RendererModel>& model) {
   const StandardArithmetic standard;
   Judgement judgement{.truth = std::move(truth)};
-  judgement.other = known_background(*judgement.truth, other).map;
-  if (!model) {
+  KnownBackground known = known_background(*judgement.truth, other);
+  judgement.other = std::move(known.map);
+  if (model) {
+    set_trial(judgement, judged_by(*judgement.truth, judgement.other, *model));
+  } else {
     judge_by_any(judgement);
-    return judgement;
   }
-  judgement.model = *model;
-  judgement.attribution = attribute_and_name(*judgement.truth, judgement.other, *model);
+  if (known.note) judgement.attribution.notes.push_back(std::move(*known.note));
+  note_untried_models(judgement);
   return judgement;
 }
 

@@ -15,7 +15,8 @@ namespace fathom::attribution {
 
 /// What is found in such a map.
 struct Judgement {
-  /// The one that it was judged by.
+  /// The model that it was judged by: the one that was named, unless another explains what that
+  /// leaves open (model_choice.h).
   RendererModel model;
   /// Of the camera that sees the map: the one that was given unless the map has another size.
   std::shared_ptr<const Truth> truth;
@@ -29,7 +30,8 @@ struct Judgement {
 ///          far and the camera has not both.
 RendererModel model_for(const std::string& name, const Camera& camera);
 
-/// Judges by a model, or, without one, by the model that fits best, which is noted.
+/// Judges by a model, or, without one, by the model that fits best, which is noted. Where the named
+/// model leaves pixels open and another does not, that is a finding of kind `model`.
 /// Needs    a map of the size of the truth's camera.
 Judgement judge(std::shared_ptr<const Truth> truth, const OtherMap& other,
                 const std::optional<RendererModel>& model);

@@ -3,56 +3,289 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
-#include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/diagnosis.h"
 #include "fathom/attribution/model/named_models.h"
+#include "fathom/attribution/model_survey.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/counted.h"
 
+// How to read this file: chosen_model() and judged_by() at the end. A sample of rows excludes most
+// models; those that are left are asked one by one.
 namespace fathom::attribution {
 namespace {
 
+std::uint64_t unexplained(const Attribution& found) {
+  return found.count(PixelClass::unexplained);
+}
+
+bool explains_all(const Attribution& found) {
+  return unexplained(found) == 0 && found.findings.empty();
+}
+
 /// The less, the better.
-auto rank(const ModelTrial& trial) {
-  const Attribution& found = trial.attribution;
-  return std::tuple(found.count(PixelClass::unexplained), found.findings.size(),
-                    found.median_relative_width);
+auto rank(const Attribution& found) {
+  return std::tuple(unexplained(found), found.findings.size(), found.median_relative_width);
 }
 
-bool explains_all(const ModelTrial& trial) {
+std::string text_of(const ModelTrial& trial) {
   const Attribution& found = trial.attribution;
-  return found.count(PixelClass::unexplained) == 0 && found.findings.empty();
+  const std::string bounds = fmt::format("bounds {:.2g} of the depth", found.median_relative_width);
+  if (explains_all(found)) return trial.model.name + ": every pixel is explained, " + bounds;
+  return fmt::format("{}: {} unexplained, {}, {}", trial.model.name,
+                     text::counted(unexplained(found), "pixel"),
+                     text::counted(found.findings.size(), "finding"), bounds);
 }
 
-std::string evidence_of(const ModelTrial& trial) {
-  const Attribution& found = trial.attribution;
-  return fmt::format("{}: {} unexplained, {}, bounds {:.2g} of the depth", trial.model.name,
-                     text::counted(found.count(PixelClass::unexplained), "pixel"),
-                     text::counted(found.findings.size(), "finding"), found.median_relative_width);
+/// A model after a fault has been put right: samples lie elsewhere, depths are recorded otherwise.
+RendererModel put_right(RendererModel model, const Hypothesis& h) {
+  model.recorded = h.model.recorded;
+  model.sample.x = h.model.sample.x;
+  model.sample.y = h.model.sample.y;
+  model.sample.k1 = h.model.sample.k1;
+  model.sample.k2 = h.model.sample.k2;
+  const auto* const from = std::get_if<RasterModel>(&h.model.kind);
+  auto* const raster = std::get_if<RasterModel>(&model.kind);
+  if (raster != nullptr) raster->affine = from != nullptr && from->affine;
+  return model;
+}
+
+/// The models that may have drawn a map, but one.
+class Candidates {
+ public:
+  Candidates(const Truth& truth, const OtherMap& other, std::string except)
+      : truth_(truth), other_(other), except_(std::move(except)) {}
+
+  /// The one with the narrowest bounds that explains the map.
+  std::optional<ModelTrial> explaining();
+  /// What is wrong with a map that none explains, by the model that then fits best. After
+  /// explaining().
+  std::optional<ModelTrial> at_fault();
+  [[nodiscard]] std::vector<std::string> evidence() const;
+  /// ", perhaps also as gl-unorm24, gl-float32": other models whose sample is explained.
+  [[nodiscard]] std::string text_of_others(const RendererModel& chosen) const;
+
+ private:
+  std::optional<ModelTrial> explaining(bool of_vtk);
+  [[nodiscard]] std::vector<ModelSurvey> by_what_they_leave() const;
+  [[nodiscard]] ModelTrial diagnosed(const RendererModel& model, std::optional<Hypothesis>& fault);
+  [[nodiscard]] std::vector<RendererModel> narrowest_after(const Hypothesis& fault) const;
+
+  const Truth& truth_;
+  const OtherMap& other_;
+  std::string except_;
+  std::vector<ModelSurvey> surveys_;
+  std::vector<ModelTrial> trials_;
+};
+
+std::optional<ModelTrial> Candidates::explaining(bool of_vtk) {
+  std::vector<ModelSurvey> possible;
+  for (RendererModel& model : named_models()) {
+    if (is_of_vtk(model) != of_vtk || model.name == except_) continue;
+    if (!has_clip_planes_for(model, truth_.camera)) continue;
+    surveys_.push_back(surveyed(truth_, other_, model));
+    if (surveys_.back().may_explain_all()) possible.push_back(surveys_.back());
+  }
+  std::stable_sort(possible.begin(), possible.end(),
+                   [](const ModelSurvey& a, const ModelSurvey& b) { return a.width < b.width; });
+  for (const ModelSurvey& survey : possible) {
+    const RendererModel known = as_recorded(survey.model, other_);
+    Attribution found = attribute(truth_, other_, known);
+    if (unexplained(found) == 0) {
+      found = diagnose(truth_, other_, known, std::move(found)).attribution;
+    }
+    trials_.push_back({survey.model, std::move(found)});
+    if (explains_all(trials_.back().attribution)) return trials_.back();
+  }
+  return std::nullopt;
+}
+
+std::optional<ModelTrial> Candidates::explaining() {
+  for (const bool of_vtk : {false, true}) {
+    if (auto trial = explaining(of_vtk)) return trial;
+  }
+  return std::nullopt;
+}
+
+/// Fewest pixels first; of those that leave as many, the one with the widest bounds, which sees a gross
+/// fault alone.
+std::vector<ModelSurvey> Candidates::by_what_they_leave() const {
+  std::vector<ModelSurvey> sorted = surveys_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const ModelSurvey& a, const ModelSurvey& b) {
+    return std::tuple(a.foreign, a.unexplained, -a.width) <
+           std::tuple(b.foreign, b.unexplained, -b.width);
+  });
+  return sorted;
+}
+
+ModelTrial Candidates::diagnosed(const RendererModel& model, std::optional<Hypothesis>& fault) {
+  const RendererModel known = as_recorded(model, other_);
+  Diagnosis diagnosis = diagnose(truth_, other_, known, attribute(truth_, other_, known));
+  fault = std::move(diagnosis.put_right);
+  ModelTrial trial{model, std::move(diagnosis.attribution)};
+  trials_.push_back(trial);
+  return trial;
+}
+
+/// Of models that explain a sample of the map that was put right.
+std::vector<RendererModel> Candidates::narrowest_after(const Hypothesis& fault) const {
+  std::vector<std::pair<double, RendererModel>> possible;
+  const Truth& truth = fault.truth ? *fault.truth : truth_;
+  for (const ModelSurvey& survey : surveys_) {
+    const ModelSurvey after = surveyed(truth, fault.map, put_right(survey.model, fault));
+    if (after.may_explain_all()) possible.emplace_back(after.width, survey.model);
+  }
+  std::stable_sort(possible.begin(), possible.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<RendererModel> models;
+  for (auto& [width, model] : possible) models.push_back(std::move(model));
+  return models;
+}
+
+std::optional<ModelTrial> Candidates::at_fault() {
+  std::optional<ModelTrial> best;
+  std::array<bool, 2> is_tried{};  // rasterizers, rays
+  for (const ModelSurvey& survey : by_what_they_leave()) {
+    if (std::exchange(is_tried[survey.model.kind.index()], true)) continue;
+    std::optional<Hypothesis> fault;
+    ModelTrial trial = diagnosed(survey.model, fault);
+    if (!best || rank(trial.attribution) < rank(best->attribution)) best = trial;
+    if (!fault) continue;
+    constexpr std::size_t most = 2;
+    std::size_t tries = 0;
+    for (const RendererModel& model : narrowest_after(*fault)) {
+      if (model.name == best->model.name || ++tries > most) break;
+      std::optional<Hypothesis> same;
+      ModelTrial next = diagnosed(model, same);
+      if (rank(next.attribution) < rank(best->attribution)) best = next;
+      if (unexplained(next.attribution) == 0) break;
+    }
+    if (unexplained(best->attribution) == 0) break;
+  }
+  return best;
+}
+
+/// In the order in which they were asked: a model that was asked about every pixel has that line.
+std::vector<std::string> Candidates::evidence() const {
+  std::vector<std::string> lines;
+  for (const ModelSurvey& survey : surveys_) {
+    const auto trial = std::find_if(trials_.rbegin(), trials_.rend(), [&](const ModelTrial& t) {
+      return t.model.name == survey.model.name;
+    });
+    lines.push_back(trial == trials_.rend() ? attribution::text_of(survey) : text_of(*trial));
+  }
+  return lines;
+}
+
+std::string Candidates::text_of_others(const RendererModel& chosen) const {
+  std::string names;
+  for (const ModelSurvey& survey : surveys_) {
+    if (!survey.may_explain_all() || survey.model.name == chosen.name) continue;
+    names += (names.empty() ? ", perhaps also as " : ", ") + survey.model.name;
+  }
+  return names;
+}
+
+/// Not holes alone: whether there is one does not depend on how wide bounds of depths are.
+bool shows_surfaces_where_open(const Attribution& found, const OtherMap& other) {
+  for (std::size_t i = 0; i < found.classes.size(); ++i) {
+    if (found.classes[i] == PixelClass::unexplained && std::isfinite(other.depths[i])) return true;
+  }
+  return false;
+}
+
+/// How many times as wide as the named model's the bounds of another may be, where that explains what
+/// the named one calls a fault: wide bounds explain much. Faults of where surfaces are seen have no
+/// such limit: if another model explains them, they are as small as the roundings of a camera.
+double widest_for(const Attribution& mine, const OtherMap& other) {
+  const std::string_view kind = mine.findings.empty() ? "" : mine.findings.front().kind;
+  if (kind == "isolated-pixels" && shows_surfaces_where_open(mine, other)) return 10;
+  const bool is_of_depths = kind == "scale" || kind == "decoding" || kind == "bias";
+  return is_of_depths && unexplained(mine) == 0 ? 2 : std::numeric_limits<double>::infinity();
+}
+
+/// Whether what the named model finds wrong comes before another model, which explains everything.
+bool comes_before(const Attribution& mine, const Attribution& right, const OtherMap& other) {
+  return right.median_relative_width > widest_for(mine, other) * mine.median_relative_width;
+}
+
+bool has_storage(const Attribution& found) {
+  return std::any_of(found.findings.begin(), found.findings.end(),
+                     [](const Finding& finding) { return finding.kind == "storage"; });
+}
+
+/// Whether a fault and another model say more than what the named model finds: they leave a tenth of
+/// its pixels, or none with fewer findings, where it needs a storage beside the fault.
+bool says_more(const Attribution& best, const Attribution& mine) {
+  if (unexplained(mine) > 0) return unexplained(best) * 10 <= unexplained(mine);
+  return unexplained(best) == 0 && best.findings.size() < mine.findings.size();
+}
+
+std::string text_of_fit(const Attribution& found) {
+  if (explains_all(found)) return "every pixel is explained";
+  return unexplained(found) == 0 ? "the fault explains every pixel"
+                                 : "fewer pixels are unexplained";
+}
+
+/// `pixels`: that the named model leaves open.
+void name_model(ModelTrial& trial, const RendererModel& named, std::uint64_t pixels,
+                const Candidates& candidates) {
+  trial.attribution.findings.push_back(
+      {.kind = "model",
+       .text = fmt::format(
+           "the model {} does not fit: as {} {}{}; give the model {}", named.name, trial.model.name,
+           text_of_fit(trial.attribution),
+           explains_all(trial.attribution) ? candidates.text_of_others(trial.model) : "",
+           trial.model.name),
+       .pixels = pixels,
+       .evidence = candidates.evidence()});
 }
 
 }  // namespace
 
 ModelChoice chosen_model(const Truth& truth, const OtherMap& other) {
   const StandardArithmetic standard;
-  std::vector<ModelTrial> trials;
-  const auto try_those = [&](bool of_vtk) {
-    for (RendererModel& model : named_models()) {
-      if (is_of_vtk(model) != of_vtk || !has_clip_planes_for(model, truth.camera)) continue;
-      Attribution found = attribute_and_name(truth, other, model);
-      trials.push_back({std::move(model), std::move(found)});
+  Candidates candidates(truth, other, "");
+  std::optional<ModelTrial> chosen = candidates.explaining();
+  if (!chosen) chosen = candidates.at_fault();
+  return {std::move(*chosen), candidates.evidence()};
+}
+
+ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererModel& named) {
+  const StandardArithmetic standard;
+  const RendererModel known = as_recorded(named, other);
+  Attribution found = attribute(truth, other, known);
+  const std::uint64_t open = unexplained(found);
+  ModelTrial mine{named, diagnose(truth, other, known, std::move(found)).attribution};
+  if (explains_all(mine.attribution)) return mine;
+  std::vector<Finding>& faults = mine.attribution.findings;
+  const bool is_named = unexplained(mine.attribution) == 0;
+
+  Candidates candidates(truth, other, named.name);
+  if (std::optional<ModelTrial> right = candidates.explaining()) {
+    if (comes_before(mine.attribution, right->attribution, other)) {
+      faults.front().alternatives.emplace_back("model");
+      return mine;
     }
-  };
-  try_those(false);
-  if (std::none_of(trials.begin(), trials.end(), explains_all)) try_those(true);
-  ModelChoice choice;
-  for (const ModelTrial& trial : trials) choice.evidence.push_back(evidence_of(trial));
-  choice.chosen = std::move(*std::min_element(
-      trials.begin(), trials.end(),
-      [](const ModelTrial& a, const ModelTrial& b) { return rank(a) < rank(b); }));
-  return choice;
+    name_model(*right, named, open, candidates);
+    // A storage is part of a model.
+    if (is_named && faults.front().kind != "storage") {
+      right->attribution.findings.front().alternatives.push_back(faults.front().kind);
+    }
+    return std::move(*right);
+  }
+  if (is_named && !(faults.size() > 1 && has_storage(mine.attribution))) return mine;
+  std::optional<ModelTrial> best = candidates.at_fault();
+  if (!best || !says_more(best->attribution, mine.attribution)) return mine;
+  name_model(*best, named, open, candidates);
+  return std::move(*best);
 }
 
 }  // namespace fathom::attribution

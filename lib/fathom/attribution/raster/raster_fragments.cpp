@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -91,9 +92,9 @@ class RasterFragments final : public FragmentSource {
   void each(std::uint32_t triangle, const PixelBox& box, const TakeFragment& take) const override;
 
  private:
-  [[nodiscard]] std::vector<RasterPolygon> polygons(std::uint32_t triangle) const {
+  [[nodiscard]] std::array<const ClipVertex*, 3> corners(std::uint32_t triangle) const {
     const CornerIndices& t = mesh_.triangles[triangle];
-    return polygons_.of({&vertices_[t[0]], &vertices_[t[1]], &vertices_[t[2]]});
+    return {&vertices_[t[0]], &vertices_[t[1]], &vertices_[t[2]]};
   }
   [[nodiscard]] std::optional<Fragment> on(const RasterPolygon& polygon, double x, double y) const;
 
@@ -108,7 +109,7 @@ class RasterFragments final : public FragmentSource {
 
 PixelBox RasterFragments::box(std::uint32_t triangle) const {
   ImageBox box;
-  for (const RasterPolygon& p : polygons(triangle)) {
+  for (const RasterPolygon& p : polygons_.outlines_of(corners(triangle))) {
     if (p.anywhere) return whole_image(camera_);
     for (const WindowVertex& c : p.corners) {
       const double more = sample_.error + grid_.reach();
@@ -133,8 +134,9 @@ std::optional<Fragment> RasterFragments::on(const RasterPolygon& p, double x, do
 
 void RasterFragments::each(std::uint32_t triangle, const PixelBox& box,
                            const TakeFragment& take) const {
-  const std::vector<RasterPolygon> found = polygons(triangle);
-  if (found.empty() || box.is_empty()) return;
+  if (box.is_empty()) return;
+  const std::vector<RasterPolygon> found = polygons_.of(corners(triangle));
+  if (found.empty()) return;
   for (std::uint32_t row = box.first_row; row <= box.last_row; ++row) {
     for (std::uint32_t column = box.first_column; column <= box.last_column; ++column) {
       const auto [x, y] = grid_.at(column, row);

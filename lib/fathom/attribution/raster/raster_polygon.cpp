@@ -21,17 +21,28 @@ double area_of(const std::vector<WindowVertex>& corners) {
 
 std::vector<RasterPolygon> RasterPolygons::of(
     const std::array<const ClipVertex*, 3>& triangle) const {
-  std::vector<RasterPolygon> found;
-  const bool whole = is_certainly_inside(triangle);
-  const bool cut = !whole && model_.border != RasterModel::Cut::never;
-  if (auto p = polygon(triangle, cut)) found.push_back(std::move(*p));
-  if (!whole && model_.border == RasterModel::Cut::unknown) {
-    if (auto p = polygon(triangle, false)) found.push_back(std::move(*p));
+  std::vector<RasterPolygon> found = outlines_of(triangle);
+  for (RasterPolygon& polygon : found) {
+    if (polygon.anywhere) continue;
+    set_planes(polygon);
+    polygon.turned = area_of(polygon.corners) < 0;
   }
   return found;
 }
 
-std::optional<RasterPolygon> RasterPolygons::polygon(
+std::vector<RasterPolygon> RasterPolygons::outlines_of(
+    const std::array<const ClipVertex*, 3>& triangle) const {
+  std::vector<RasterPolygon> found;
+  const bool whole = is_certainly_inside(triangle);
+  const bool cut = !whole && model_.border != RasterModel::Cut::never;
+  if (auto p = outline(triangle, cut)) found.push_back(std::move(*p));
+  if (!whole && model_.border == RasterModel::Cut::unknown) {
+    if (auto p = outline(triangle, false)) found.push_back(std::move(*p));
+  }
+  return found;
+}
+
+std::optional<RasterPolygon> RasterPolygons::outline(
     const std::array<const ClipVertex*, 3>& triangle, bool at_border) const {
   if (is_certainly_outside(triangle)) return std::nullopt;
   RasterPolygon polygon;
@@ -39,10 +50,7 @@ std::optional<RasterPolygon> RasterPolygons::polygon(
     if (!(v.value[3] - 2 * v.error[3] > 0)) polygon.anywhere = true;
     if (!polygon.anywhere) polygon.corners.push_back(to_window(v, camera_, model_));
   }
-  if (polygon.anywhere) return polygon;
-  if (polygon.corners.size() < 3) return std::nullopt;
-  set_planes(polygon);
-  polygon.turned = area_of(polygon.corners) < 0;
+  if (!polygon.anywhere && polygon.corners.size() < 3) return std::nullopt;
   return polygon;
 }
 

@@ -37,9 +37,12 @@ class RasterPolygons {
 
   [[nodiscard]] std::vector<RasterPolygon> of(
       const std::array<const ClipVertex*, 3>& triangle) const;
+  /// The same without planes: where a triangle may be seen.
+  [[nodiscard]] std::vector<RasterPolygon> outlines_of(
+      const std::array<const ClipVertex*, 3>& triangle) const;
 
  private:
-  [[nodiscard]] std::optional<RasterPolygon> polygon(
+  [[nodiscard]] std::optional<RasterPolygon> outline(
       const std::array<const ClipVertex*, 3>& triangle, bool at_border) const;
   void set_planes(RasterPolygon& polygon) const;
 

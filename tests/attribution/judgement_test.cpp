@@ -1,0 +1,203 @@
+#include "fathom/attribution/judgement.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fathom/attribution/cause.h"
+#include "fathom/attribution/model/named_models.h"
+#include "fathom/attribution/model/window_depth.h"
+#include "fathom/attribution/other_scene.h"
+#include "fathom/attribution/pixels/foreign_values.h"
+#include "fathom/camera/camera_making.h"
+#include "validation/bench/shapes.h"
+
+/// What is said of maps whose renderer was called by a wrong name.
+namespace fathom::attribution {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Camera sphere_camera(double near, double far) {
+  Camera camera = look_from({.azimuth = 35, .elevation = 25}, {0, 0, 0}, 3,
+                            {.width = 160, .height = 120, .vertical_fov = 45});
+  camera.near = near;
+  camera.far = far;
+  return camera;
+}
+
+std::shared_ptr<const Truth> sphere_seen_by(const Camera& camera) {
+  return std::make_shared<Truth>(make_truth(bench::as_scene({bench::sphere(128)}, "s"), camera));
+}
+
+/// The exact depths, stored as window depths of so many bits between near and far, read in binary32.
+OtherMap in_codes(const Truth& truth, int bits, double near, double far) {
+  const WindowDepth window = window_depth(Projection::perspective, Mapping::opengl, near, far);
+  const double greatest = std::exp2(bits) - 1;
+  OtherMap map{.width = truth.camera.width, .height = truth.camera.height, .depths = truth.depths};
+  for (double& depth : map.depths) {
+    if (!(depth < infinity)) continue;
+    const double code = std::nearbyint(window.of_depth(depth) * greatest);
+    depth = double{static_cast<float>(window.to_depth(code / greatest))};
+  }
+  map.values = map.depths;
+  return map;
+}
+
+OtherMap in_binary32(const Truth& truth) {
+  OtherMap map{.width = truth.camera.width, .height = truth.camera.height, .depths = truth.depths};
+  for (double& depth : map.depths) depth = double{static_cast<float>(depth)};
+  map.values = map.depths;
+  return map;
+}
+
+Judgement judged(const std::shared_ptr<const Truth>& truth, const OtherMap& map,
+                 const std::string& model) {
+  Judgement found = judge(truth, map, model_for(model, truth->camera));
+  name_other_scene(found);
+  return found;
+}
+
+std::vector<std::string> kinds(const Judgement& found) {
+  std::vector<std::string> kinds;
+  for (const Finding& finding : found.attribution.findings) kinds.push_back(finding.kind);
+  return kinds;
+}
+
+std::size_t first_surface(const Truth& truth) {
+  std::size_t i = truth.depths.size() / 2 + truth.camera.width / 2;
+  while (!(truth.depths[i] < infinity)) ++i;
+  return i;
+}
+
+// 24 bits between near 0.001 and far are coarser at depth 3 than binary32 is.
+TEST(Judgement, ARightMapOfAnotherModelBlamesTheModelAlone) {
+  const auto truth = sphere_seen_by(sphere_camera(0.001, 20));
+  const Judgement found = judged(truth, in_codes(*truth, 24, 0.001, 20), "float32-ray");
+  ASSERT_EQ(kinds(found), std::vector<std::string>{"model"});
+  EXPECT_EQ(found.model.name.substr(0, 3), "gl-");
+  EXPECT_EQ(found.attribution.count(PixelClass::unexplained), 0U);
+  EXPECT_GT(found.attribution.findings[0].pixels, 16U);
+  EXPECT_THAT(found.attribution.findings[0].text,
+              StartsWith("the model float32-ray does not fit: as " + found.model.name +
+                         " every pixel is explained"));
+  EXPECT_THAT(found.attribution.findings[0].text,
+              testing::EndsWith("; give the model " + found.model.name));
+  EXPECT_THAT(found.attribution.findings[0].evidence,
+              testing::Contains(StartsWith("gl-unorm24: ")));
+}
+
+// Where depths and outlines are those of the scene, it is the scene, whatever model was named.
+TEST(Judgement, AShiftIsFoundThoughTheModelIsWrong) {
+  const auto truth = sphere_seen_by(sphere_camera(0.01, 20));
+  Camera aside = truth->camera;
+  aside.cx += 0.125;
+  aside.cy += 0.375;
+  const Truth drawn = seen_by(*truth, aside);
+  const Judgement found = judged(truth, in_codes(drawn, 24, 0.01, 20), "float32-ray");
+  ASSERT_EQ(kinds(found), (std::vector<std::string>{"shift", "model"}))
+      << cause_of(*found.truth, found.other, found.attribution);
+  EXPECT_EQ(found.attribution.count(PixelClass::unexplained), 0U);
+  const std::vector<Estimate>& shift = found.attribution.findings[0].estimates;
+  ASSERT_EQ(shift.size(), 2U);
+  EXPECT_NEAR(shift[0].value, 0.125, 0.001);
+  EXPECT_NEAR(shift[1].value, 0.375, 0.001);
+  EXPECT_THAT(found.attribution.findings[1].text,
+              HasSubstr("does not fit: as " + found.model.name +
+                        " the fault explains every pixel; give the model"));
+  EXPECT_THAT(verdict_of(*found.truth, found.other, found.attribution),
+              StartsWith("failed: the image is shifted by (-0.12"));
+}
+
+// A storage that is coarse would allow the pixel; but no code of it is what the others hold.
+TEST(Judgement, APixelThatIsWrongByItselfIsUnexplainedWhateverOtherModelsAllow) {
+  const auto truth = sphere_seen_by(sphere_camera(0.1, 20));
+  OtherMap map = in_binary32(*truth);
+  const std::size_t wrong = first_surface(*truth);
+  map.depths[wrong] = map.values[wrong] = double{static_cast<float>(1.0002 * truth->depths[wrong])};
+  const Judgement named = judged(truth, map, "float32-ray");
+  EXPECT_EQ(kinds(named), std::vector<std::string>{"isolated-pixels"});
+  EXPECT_EQ(named.model.name, "float32-ray");
+  EXPECT_EQ(named.attribution.classes[wrong], PixelClass::unexplained);
+  EXPECT_EQ(named.attribution.count(PixelClass::convention), 0U);
+  const Judgement any = judge(truth, map, std::nullopt);
+  EXPECT_EQ(kinds(any), std::vector<std::string>{"isolated-pixels"}) << any.model.name;
+}
+
+TEST(Judgement, WithoutNearAndFarItSaysThatNoRasterizerWasTried) {
+  Camera camera = sphere_camera(0.001, 20);
+  const auto clipped = sphere_seen_by(camera);
+  camera.near = 0;
+  camera.far = infinity;
+  const auto truth = sphere_seen_by(camera);
+  const Judgement found = judged(truth, in_codes(*clipped, 24, 0.001, 20), "float32-ray");
+  ASSERT_FALSE(found.attribution.notes.empty());
+  EXPECT_EQ(found.attribution.notes.back().kind, "model");
+  EXPECT_THAT(found.attribution.notes.back().text, HasSubstr("has not both near and far"));
+}
+
+// A thousandth of noise, which no model has; a sphere on its background is not another scene for it.
+TEST(Judgement, ASceneWithNoiseIsNoOtherScene) {
+  const auto truth = sphere_seen_by(sphere_camera(0.5, 20));
+  OtherMap map = in_binary32(*truth);
+  std::uint32_t seed = 1;
+  for (double& depth : map.depths) {
+    seed = seed * 1664525U + 1013904223U;
+    if (depth < infinity) depth *= 1 + ((seed >> 8) / 16777216.0 - 0.5) * 0.004;
+  }
+  map.values = map.depths;
+  const Judgement found = judged(truth, map, "float32-ray");
+  EXPECT_THAT(kinds(found), testing::Not(testing::Contains("other-scene")));
+  EXPECT_THAT(cause_of(*found.truth, found.other, found.attribution), HasSubstr("unexplained"));
+}
+
+TEST(Judgement, AnotherSceneIsCalledSo) {
+  const auto truth = sphere_seen_by(sphere_camera(0.5, 20));
+  Camera elsewhere = truth->camera;
+  elsewhere.fx /= 3;
+  elsewhere.fy /= 5;
+  const Judgement found = judged(truth, in_binary32(seen_by(*truth, elsewhere)), "gl-unorm24");
+  EXPECT_TRUE(kinds(found) == std::vector<std::string>{"other-scene"} ||
+              found.attribution.count(PixelClass::convention) > 0)
+      << cause_of(*found.truth, found.other, found.attribution);
+  OtherMap wall = in_binary32(*truth);
+  for (std::size_t i = 0; i < wall.depths.size(); ++i) {
+    wall.depths[i] = wall.values[i] = 1.0 + 0.001 * static_cast<double>(i % 160 * (i / 160) % 97);
+  }
+  const Judgement other = judged(truth, wall, "gl-unorm24");
+  EXPECT_EQ(kinds(other), std::vector<std::string>{"other-scene"});
+  EXPECT_THAT(other.attribution.findings[0].text, testing::Not(HasSubstr("  ")));
+}
+
+TEST(ForeignValues, OfCodesThereAreNoneInTheirOwnStorage) {
+  const auto truth = sphere_seen_by(sphere_camera(0.1, 20));
+  const Camera& camera = truth->camera;
+  EXPECT_EQ(foreign_values(camera, in_codes(*truth, 16, 0.1, 20), model_named("gl-unorm16")), 0U);
+  EXPECT_EQ(foreign_values(camera, in_codes(*truth, 24, 0.1, 20), model_named("gl-unorm24")), 0U);
+  EXPECT_EQ(foreign_values(camera, in_binary32(*truth), model_named("float32-ray")), 0U);
+  EXPECT_EQ(foreign_values(camera, in_binary32(*truth), model_named("gl-float32-reversed")), 0U);
+}
+
+// Nearly every depth lies between two codes of 16 bits; of 24 bits there are too few codes for them,
+// where near is so small that a code is 10⁻³ of the depth.
+TEST(ForeignValues, OfDepthsInBinary32MostAreForeignToACoarseStorage) {
+  const auto truth = sphere_seen_by(sphere_camera(0.00005, 20));
+  std::uint64_t surfaces = 0;
+  for (const double depth : truth->depths) surfaces += depth < infinity ? 1 : 0;
+  const OtherMap map = in_binary32(*truth);
+  EXPECT_GT(foreign_values(truth->camera, map, model_named("gl-unorm24")), surfaces / 2);
+  Camera ordinary = truth->camera;
+  ordinary.near = 0.1;
+  EXPECT_GT(foreign_values(ordinary, map, model_named("gl-unorm16")), surfaces / 2);
+}
+
+}  // namespace
+}  // namespace fathom::attribution
