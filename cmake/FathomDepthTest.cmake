@@ -1,6 +1,6 @@
 # Tests of a renderer's depth maps, for ctest: docs/validation.md, "In your own test suite".
 #
-#   fathom_add_depth_test(NAME name SCENE file… CAMERA file MODEL model COMMAND program argument…
+#   fathom_add_depth_test(NAME name SCENE file… CAMERA file [MODEL model] COMMAND program argument…
 #                         [MAP_FORMAT exr|pfm|png|npy|bin] [CHANNEL channel] [PNG_SCALE codes-per-unit]
 #                         [BASELINE report.json] [TIMEOUT seconds] [LABELS label…] [WORKING_DIRECTORY folder])
 #
@@ -10,7 +10,8 @@
 #   {camera}  is CAMERA,
 #   {scene}   is SCENE: an argument that is nothing else becomes one for each file,
 # and program may be a target. Paths are relative to the source folder of the calling CMakeLists.txt. TIMEOUT
-# (default 300) is how long COMMAND may take, and the judging again.
+# (default 300) is how long COMMAND may take, and the judging again. MODEL is what is assumed of the renderer
+# (default auto: the model that fits best).
 # What is wrong with the arguments is an error at configure time.
 
 # Where the package lies, for calls from any folder.
@@ -58,7 +59,7 @@ function(_fathom_folder_of result name)
 endfunction()
 
 function(fathom_add_depth_test)
-  set(needed NAME SCENE CAMERA MODEL COMMAND)
+  set(needed NAME SCENE CAMERA COMMAND)
   set(one NAME CAMERA MODEL MAP_FORMAT CHANNEL PNG_SCALE BASELINE TIMEOUT WORKING_DIRECTORY)
   cmake_parse_arguments(PARSE_ARGV 0 TEST "" "${one}" "SCENE;COMMAND;LABELS")
   foreach(keyword IN LISTS needed)
@@ -79,6 +80,9 @@ function(fathom_add_depth_test)
   get_property(program GLOBAL PROPERTY FATHOM_VALIDATE)
   if(NOT EXISTS "${program}")
     message(FATAL_ERROR "fathom_add_depth_test: there is no ${program}: build all of Fathom and install it again")
+  endif()
+  if(NOT DEFINED TEST_MODEL)
+    set(TEST_MODEL auto)
   endif()
   _fathom_models(models "${program}")
   if(models AND NOT TEST_MODEL IN_LIST models AND NOT TEST_MODEL STREQUAL "auto")

@@ -83,9 +83,9 @@ void ValidateArguments::add_to(Command& command) {
   command.option("--camera", "FILE", camera, "Camera file (JSON)");
   command.option(
       "--model", "NAME", into(model, parse_model),
-      "What is assumed of the renderer; auto: what fits best. With --against, their maps are "
-      "judged as maps that someone brings, in binary32; matching: each by the model of "
-      "its variant");
+      "What is assumed of the renderer (default of --map: auto, what fits best). With --against, "
+      "their maps are judged as maps that someone brings, in binary32; matching: each by the model "
+      "of its variant");
   add_output_option(command, "PATH", output,
                     "Folder for report.json and report.html; with --colour, for colours.json and "
                     "pictures; with --render, the map");
@@ -94,7 +94,7 @@ void ValidateArguments::add_to(Command& command) {
                  "with --output also comparison.html");
   command.option("--junit", "FILE", junit, "Also a JUnit XML file, as CI services read it");
   command.flag("--ctest", for_ctest,
-               "Of --map: the cause in the first line, measurements and pictures for CTest and "
+               "Of --map: the verdict in the first line, measurements and pictures for CTest and "
                "CDash; see fathom_add_depth_test in validation.md of the documentation");
 }
 

@@ -52,6 +52,7 @@ void add_validate(Command& program) {
       "  fathom validate --against opengl --scene sheets,room --variants unorm16,float32\n"
       "  fathom validate --against vtk spot.obj --camera camera.json\n"
       "  fathom validate --against vtk,opengl,embree --model matching\n"
+      "  fathom validate --map other.exr --camera camera.json spot.obj\n"
       "  fathom validate --map other.exr --camera camera.json --model gl-unorm24 spot.obj\n"
       "  fathom validate --against opengl -o new --junit new.xml --baseline old/report.json\n"
       "  fathom validate --faults --against vtk --scene spot -o faults\n"

@@ -19,9 +19,19 @@ using attribution::Attribution;
 using attribution::PixelClass;
 using validation::ValidationCase;
 
+/// A finding, in full or, where the verdict has said it, by its kind.
+std::string line_of(const attribution::Finding& f, bool is_said) {
+  std::string text =
+      is_said ? "  found: " + f.kind + "\n" : "  " + attribution::finding_line(f) + "\n";
+  if (!f.alternatives.empty()) {
+    text += fmt::format("    as good an explanation: {}\n", fmt::join(f.alternatives, ", "));
+  }
+  return text;
+}
+
 /// "spot, vtk unorm24: 70000 equal, 20 edge; median bound 3.1e-07 of the depth, 1.20 % of the pixels
-/// undecided".
-std::string line_of(const ValidationCase& c) {
+/// undecided". `after_verdict`: its first finding has been said.
+std::string line_of(const ValidationCase& c, bool after_verdict) {
   if (!c.is_done()) return fmt::format("{}: {}\n", title_of(c), c.failure);
   const Attribution& a = c.attribution;
   std::string counts;
@@ -38,14 +48,12 @@ std::string line_of(const ValidationCase& c) {
   std::string text =
       fmt::format("{}: {}; median bound {:.2g} of the depth, {:.2f} % of the pixels undecided\n",
                   title_of(c), counts, a.median_relative_width, 100 * a.may_share);
+  for (const attribution::Finding& f : a.findings) {
+    text += line_of(f, after_verdict && &f == &a.findings.front());
+  }
   for (const attribution::Finding& f : a.notes) {
     text += "  note: " + attribution::finding_text(f) + "\n";
     for (const std::string& line : f.evidence) text += "    " + line + "\n";
-  }
-  for (const attribution::Finding& f : a.findings) {
-    text += "  " + attribution::finding_line(f) + "\n";
-    if (f.alternatives.empty()) continue;
-    text += fmt::format("    as good an explanation: {}\n", fmt::join(f.alternatives, ", "));
   }
   return text;
 }
@@ -53,8 +61,8 @@ std::string line_of(const ValidationCase& c) {
 }  // namespace
 
 std::string lines_of(const std::vector<ValidationCase>& cases) {
-  std::string text;
-  for (const ValidationCase& c : cases) text += line_of(c);
+  std::string text = validation::verdict_of(cases) + "\n";
+  for (const ValidationCase& c : cases) text += line_of(c, cases.size() == 1);
   return text;
 }
 
@@ -62,8 +70,8 @@ std::string lines_for_ctest(const ValidationCase& c, const std::string& cause,
                             const std::string& more, const std::string& folder) {
   const std::filesystem::path out(folder);
   std::string text;
-  if (!cause.empty()) text += cause + "\n";
-  text += line_of(c) + more;
+  text += (cause.empty() ? validation::verdict_of(c) : cause) + "\n";
+  text += line_of(c, !c.is_good()) + more;
   if (!cause.empty()) {
     constexpr std::size_t listed_pixels = 8;
     for (const std::size_t i :

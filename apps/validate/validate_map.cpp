@@ -49,14 +49,15 @@ OtherMap read_other_map(const ValidateArguments& arguments) {
 ValidationCase judge_brought(const ValidateArguments& arguments, const Console& console) {
   const Camera camera = read_camera(arguments.camera, console);
   // What is wrong with it is said before the files are read.
+  const std::string name = arguments.model.empty() ? any_model : arguments.model;
   std::optional<attribution::RendererModel> model;
-  if (arguments.model != any_model) model = attribution::model_for(arguments.model, camera);
+  if (name != any_model) model = attribution::model_for(name, camera);
   const OtherMap other = read_other_map(arguments);
   const Scene scene = read_files(arguments.scenes, arguments.limits, console);
   ValidationCase made{.scene = std::filesystem::path(arguments.scenes.front()).stem(),
                       .renderer = "map",
-                      .variant = arguments.model,
-                      .version = arguments.map};
+                      .variant = name,
+                      .file = arguments.map};
   set_judgement(made, attribution::judge_map(arguments.map, other, scene, camera, model));
   return made;
 }
@@ -64,10 +65,6 @@ ValidationCase judge_brought(const ValidateArguments& arguments, const Console& 
 }  // namespace
 
 int validate_map(const ValidateArguments& arguments, const Console& console) {
-  if (arguments.model.empty()) {
-    throw UsageError("--model is missing: there are " + attribution::model_names() +
-                     ", and auto for the one that fits best");
-  }
   ValidationReport report(arguments);
   Stopwatch watch;
   std::vector<ValidationCase> cases{judge_brought(arguments, console)};

@@ -101,7 +101,8 @@ int ValidationReport::finish(const std::vector<ValidationCase>& cases) {
     obstacle = obstacle_of(*comparison);
     if (!obstacle.empty()) changes += obstacle + "\n";
   }
-  std::string cause = for_ctest_ ? validation::cause_of(cases.front()) : "";
+  std::string cause =
+      for_ctest_ && !cases.front().is_good() ? validation::verdict_of(cases.front()) : "";
   if (cause.empty() && comparison != nullptr) cause = comparison->regression();
   if (cause.empty()) cause = obstacle;
   write_files(cases, comparison);

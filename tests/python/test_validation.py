@@ -85,6 +85,15 @@ def test_a_map_of_another_scene_is_called_so(camera, depths):
     assert fathom.validate(depths, scene, camera, "float32-ray").findings[0].kind == "other-scene"
 
 
+def test_a_wrong_model_is_blamed_alone_and_the_one_that_fits_is_named(spot, depths):
+    near = fathom.Camera.frame(spot, size=(80, 60), near=0.001, far=10)
+    found = fathom.validate(stored(depths, near), spot, near, "float32-ray")
+    assert [finding.kind for finding in found.findings] == ["model"] and found.unexplained == 0
+    assert found.verdict.startswith(f"failed: the model float32-ray does not fit: as {found.model} every pixel is")
+    assert found.report().startswith(found.verdict + f"\nmodel: {found.model}\n")
+    assert fathom.validate(stored(depths, near), spot, near).verdict == "every pixel is explained"
+
+
 def test_a_report_of_another_size_is_kept(spot, camera, depths, tmp_path):
     with pytest.raises(AssertionError, match="2 columns missing"):
         assert_depth(depths[:, 2:].copy(), spot, camera, "float32-ray", report=tmp_path)

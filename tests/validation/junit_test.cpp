@@ -83,6 +83,39 @@ TEST(Cause, OnePixelIsNotPlural) {
   EXPECT_EQ(cause_of(c), "shift: it is shifted (1 pixel)");
 }
 
+TEST(Verdict, BeginsWithTheFault) {
+  ValidationCase c = case_of("spot", "own", good);
+  EXPECT_EQ(verdict_of(c), "every pixel is explained");
+  c.attribution.findings = {{"shift", "the image is shifted", 3}};
+  EXPECT_EQ(verdict_of(c), "failed: the image is shifted (3 pixels)");
+  EXPECT_THAT(verdict_of(case_of("spot", "own", bad)),
+              testing::StartsWith("failed: 2 of 4 pixels unexplained, the worst "));
+  c.failure = "it crashed";
+  EXPECT_EQ(verdict_of(c), "not drawn: it crashed");
+}
+
+TEST(Verdict, OfSeveralMapsCountsThoseThatFailed) {
+  std::vector<ValidationCase> cases{case_of("spot", "a", good), case_of("spot", "b", good)};
+  EXPECT_EQ(verdict_of(cases), "every pixel of 2 maps is explained");
+  cases[1].attribution.findings = {{"shift", "it is shifted", 3}};
+  cases.push_back(case_of("spot", "c", {}));
+  cases[2].failure = "it crashed";
+  EXPECT_EQ(verdict_of(cases),
+            "failed: 1 of 2 maps; 1 not drawn; the first is spot, vtk b: shift: it is shifted "
+            "(3 pixels)");
+  cases.erase(cases.begin(), cases.begin() + 2);
+  EXPECT_EQ(verdict_of(cases), "not drawn: it crashed");
+}
+
+TEST(Junit, ABroughtMapHasAFileAndNoVersion) {
+  ValidationCase c = case_of("spot", "auto", good);
+  c.version.clear();
+  c.file = "theirs.exr";
+  const std::string xml = to_junit({c}, nullptr);
+  EXPECT_THAT(xml, HasSubstr("<property name=\"map\" value=\"theirs.exr\"/>"));
+  EXPECT_THAT(xml, testing::Not(HasSubstr("name=\"version\"")));
+}
+
 TEST(Junit, HasASuiteForEachSceneAndACaseForEachRenderer) {
   std::vector<ValidationCase> cases{case_of("spot", "unorm24", good), case_of("room", "own", bad),
                                     case_of("spot", "own", {})};
@@ -113,7 +146,7 @@ TEST(Junit, HasASuiteForEachSceneAndACaseForEachRenderer) {
   EXPECT_FALSE(spot[3][1][1].contains("time")) << "it was not measured";
   const auto& failure = room[3][0][3][1];
   EXPECT_EQ(failure[0], "failure");
-  EXPECT_EQ(failure[1]["message"], cause_of(cases[1]));
+  EXPECT_EQ(failure[1]["message"], "failed: " + cause_of(cases[1]));
   EXPECT_EQ(failure[1]["type"], "unexplained");
   EXPECT_THAT(failure[2].get<std::string>(), HasSubstr("unexplained (2, 0): 1.5 instead of 1"));
 }
@@ -173,7 +206,7 @@ TEST(Junit, TextsThatAreNotOursStayTexts) {
   EXPECT_EQ(test_case[1]["name"], "vtk ]]>??[31m");
   EXPECT_EQ(test_case[3][0][3][0][1]["value"], "tab\tline\nnul?\ufffd\ufffd? ünï");
   EXPECT_THAT(test_case[3][1][1]["message"].get<std::string>(),
-              HasSubstr("shift: <![CDATA[ & ? \ufffd"));
+              HasSubstr("failed: <![CDATA[ & ? \ufffd"));
 }
 
 /// Every byte and every pair of bytes that begins like a character makes a document that is read.

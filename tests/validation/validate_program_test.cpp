@@ -101,6 +101,28 @@ TEST_F(ValidateProgram, ExplainsWhatThePipelineStores) {
             0);
 }
 
+/// As in Python, no model need be named; the report begins with the verdict, and a map has no version.
+TEST_F(ValidateProgram, JudgesAMapByTheModelThatFitsWhereNoneIsNamed) {
+  const auto run_without_model = [&](const std::string& map) {
+    return run_fathom(
+        {"validate", "--map", map, "--camera", "camera.json", cube, "--out", "report"},
+        {.folder = folder.path()});
+  };
+  const Outcome good = run_without_model("map.exr");
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_THAT(good.out, testing::StartsWith("every pixel is explained\ncube, map auto: "));
+  const auto report = nlohmann::json::parse(folder.read("report/report.json"));
+  EXPECT_EQ(report["verdict"], "every pixel is explained");
+  const nlohmann::json& result = report["results"][0];
+  EXPECT_EQ(result["verdict"], "every pixel is explained");
+  EXPECT_EQ(result["version"], "");
+  EXPECT_EQ(result["file"], "map.exr");
+  const Outcome bad = run_without_model("aside.exr");
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_THAT(bad.out, testing::StartsWith("failed: the image is shifted by (-0.5, "));
+  EXPECT_THAT(bad.out, HasSubstr("\n  found: shift\n"));
+}
+
 /// A line for each model, and the one that is taken above them.
 TEST_F(ValidateProgram, SaysWhatEachModelMakesOfTheMap) {
   const Outcome outcome = run_fathom({"validate", "--map", "map.exr", "--camera", "camera.json",
@@ -110,11 +132,14 @@ TEST_F(ValidateProgram, SaysWhatEachModelMakesOfTheMap) {
   std::istringstream text(outcome.out);
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(line);
-  ASSERT_EQ(lines.size(), 9U) << outcome.out;
-  EXPECT_EQ(lines[1], "  note: taken for float32-ray, the model that fits best (1200 pixels)");
-  EXPECT_THAT(std::vector(lines.begin() + 2, lines.end()),
+  ASSERT_EQ(lines.size(), 10U) << outcome.out;
+  EXPECT_EQ(lines[0], "every pixel is explained");
+  EXPECT_EQ(lines[2], "  note: taken for float32-ray, the model that fits best (1200 pixels)");
+  EXPECT_THAT(std::vector(lines.begin() + 3, lines.end()),
               testing::Each(testing::MatchesRegex(
-                  "    [a-z0-9-]+: [0-9]+ pixels? unexplained, [0-9]+ findings?, bounds .*")));
+                  "    [a-z0-9-]+: (every pixel is explained, bounds .*|a sample is explained, "
+                  "bounds .*|[0-9]+ pixels? of a sample unexplained|[0-9]+ pixels? holds? what its "
+                  "storage cannot)")));
   const auto note =
       nlohmann::json::parse(folder.read("report/report.json"))["results"][0]["notes"][0];
   EXPECT_EQ(note["kind"], "model");
@@ -171,7 +196,7 @@ TEST_F(ValidateProgram, WritesJunitWithTheReportOrNeither) {
                             "print(case.get('name'), case.find('failure').get('message'))",
                             folder / "junit.xml"});
   EXPECT_THAT(read.out,
-              testing::StartsWith("map gl-unorm24 shift: the image is shifted by (-0.5, "))
+              testing::StartsWith("map gl-unorm24 failed: the image is shifted by (-0.5, "))
       << read.err;
   const Outcome printed = validate("map.exr", {"--junit", "-"});
   EXPECT_EQ(printed.status, 0);
@@ -184,7 +209,7 @@ TEST_F(ValidateProgram, WritesJunitWithTheReportOrNeither) {
 TEST_F(ValidateProgram, TellsCtestTheCauseFirstAndThePictures) {
   const Outcome bad = validate("aside.exr", {"--ctest", "--out", "report"});
   EXPECT_EQ(bad.status, 1);
-  EXPECT_THAT(bad.out, testing::StartsWith("shift: the image is shifted by (-0.5, "));
+  EXPECT_THAT(bad.out, testing::StartsWith("failed: the image is shifted by (-0.5, "));
   EXPECT_THAT(bad.out, HasSubstr("<CTestMeasurementFile type=\"image/png\" "
                                  "name=\"Classes of pixels\">" +
                                  folder / "report/classes.png" + "</CTestMeasurementFile>\n"));
@@ -193,7 +218,8 @@ TEST_F(ValidateProgram, TellsCtestTheCauseFirstAndThePictures) {
   }
   const Outcome good = validate("map.exr", {"--ctest", "--out", "report"});
   EXPECT_EQ(good.status, 0);
-  EXPECT_THAT(good.out, testing::StartsWith("cube, map gl-unorm24: 1200 equal"));
+  EXPECT_THAT(good.out,
+              testing::StartsWith("every pixel is explained\ncube, map gl-unorm24: 1200 equal"));
 }
 
 /// What a map lacks, or what does not belong to it, is said with what to give instead.
@@ -254,17 +280,17 @@ TEST_F(ValidateProgram, SaysWhatToGiveForMapsThatDoNotFit) {
          "--png-scale: map.exr holds no 16-bit integers");
 
   const std::string fits_nowhere =
-      "other-scene: neither outlines nor depths fit: expected the SCENE and the camera that the "
-      "map was drawn from";
+      "failed: neither outlines nor depths fit: expected the SCENE and the camera that the map was "
+      "drawn from, and its channel of depths (";
   expect(validate_with("camera.json", "spot.obj"), 1, fits_nowhere);
   expect(validate_with("camera.json", "teapot.obj"), 1, fits_nowhere);
   EXPECT_THAT(validate_with("camera.json", "teapot.obj").out,
               testing::Not(HasSubstr("missing-triangle")));
   write_camera("away.json", {{"world_to_camera", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, -9}}}});
   expect(validate_with("away.json", "cube.obj"), 1,
-         "other-scene: SCENE is out of the camera's sight: expected the camera");
+         "failed: SCENE is out of the camera's sight: expected the camera");
   folder.write("empty.pfm", "Pf\n40 30\n-1\n" + pixels.substr(0, 4 * 40 * 30));
-  expect(validate("empty.pfm"), 1, "other-scene: the map shows no surface at all");
+  expect(validate("empty.pfm"), 1, "failed: the map shows no surface at all");
 }
 
 TEST_F(ValidateProgram, RefusesInOneLine) {
@@ -294,8 +320,6 @@ TEST_F(ValidateProgram, RefusesInOneLine) {
                  "--model: there is no model 'voxel'");
   expect_refused(run({"--map", "map.exr", "--model", "cycles", cube}), 2,
                  "--camera FILE is missing");
-  expect_refused(run({"--map", "map.exr", "--camera", "camera.json", cube}), 2,
-                 "--model is missing");
   expect_refused(run({"--map", "map.exr", "--camera", "camera.json", "--model", "cycles"}), 2,
                  "SCENE is missing");
   expect_refused(validate("map.exr", {"--ctest"}), 2, "--ctest needs --out DIR");

@@ -39,7 +39,7 @@ std::optional<Complaint> complaint_about(const ValidationCase& c, const ResultCh
   if (!c.is_good()) {
     const auto& findings = c.attribution.findings;
     return Complaint{"failure", findings.empty() ? "unexplained" : findings.front().kind,
-                     cause_of(c), details_of(c)};
+                     verdict_of(c), details_of(c)};
   }
   if (change == nullptr) return std::nullopt;
   if (change->verdict == Verdict::incomparable) {
@@ -57,7 +57,8 @@ XmlElement properties_of(const ValidationCase& c) {
   const auto add = [&](const std::string& name, const std::string& value) {
     properties.elements.push_back({"property", {{"name", name}, {"value", value}}, {}, ""});
   };
-  add("version", c.version);
+  if (!c.version.empty()) add("version", c.version);
+  if (!c.file.empty()) add("map", c.file);
   if (!c.is_done()) return properties;
   const attribution::Attribution& a = c.attribution;
   for (std::size_t k = 0; k < attribution::pixel_class_count; ++k) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/attribution/worst_pixels.h"
+#include "validation/report/cause.h"
 #include "validation/report/reported_result.h"
 
 namespace fathom::validation {
@@ -68,6 +69,8 @@ Json list_of(const std::vector<Finding>& findings) {
 Json result(const ValidationCase& c) {
   Json json{
       {"scene", c.scene}, {"renderer", c.renderer}, {"variant", c.variant}, {"version", c.version}};
+  if (!c.file.empty()) json["file"] = c.file;
+  json["verdict"] = verdict_of(c);
   if (!c.is_done()) {
     json["failure"] = c.failure;
     return json;
@@ -108,7 +111,10 @@ Json result(const ValidationCase& c) {
 }  // namespace
 
 std::string to_json(const std::vector<ValidationCase>& cases) {
-  Json json{{"fathom", FATHOM_VERSION}, {"format", report_format}, {"results", Json::array()}};
+  Json json{{"fathom", FATHOM_VERSION},
+            {"format", report_format},
+            {"verdict", verdict_of(cases)},
+            {"results", Json::array()}};
   for (const ValidationCase& c : cases) json["results"].push_back(result(c));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

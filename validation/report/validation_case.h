@@ -16,8 +16,10 @@ struct ValidationCase {
   std::string scene;
   /// vtk, opengl, blender, embree or map; and its variant or model: "unorm24", "robust", …
   std::string renderer, variant;
-  /// Its version and what it runs on.
+  /// Its version and what it runs on; empty of a map that someone brings.
   std::string version;
+  /// Where a map that someone brings was read from.
+  std::string file;
   /// Why there is no map, in one line; empty where there is one.
   std::string failure;
   /// What drawing and judging took, by the clock; none where it was not measured.

@@ -25,13 +25,14 @@ _unexplained = CLASSES.index("unexplained")
 class Validation:
     """What was found out about a map.
 
-    model     the name of the model that it was judged by
+    model     the name of the model that it was judged by: another than the named one where a finding says so
     camera    the Camera that sees it: the one that was given, unless the map has another size
     classes   H×W uint8: for each pixel, the number of its class in CLASSES
     findings  what is wrong: each has kind, text, pixels, estimates (name, value, deviation, unit), alternatives and
               evidence
     notes     conventions that were recognised, in which nothing is wrong
     cause     one line that says what is wrong; empty where nothing is
+    verdict   "every pixel is explained", or "failed: " and what is wrong
     least, greatest  H×W: between which depths the model allows the visible surface; NaN where there is none
     """
 
@@ -39,6 +40,7 @@ class Validation:
         self.model: str = found["model"]
         self.camera: Camera = Camera._of(found["camera"])
         self.cause: str = found["cause"]
+        self.verdict: str = found["verdict"]
         self.classes: npt.NDArray[np.uint8] = found["classes"]
         self.least: npt.NDArray[np.float32] = found["least"]
         self.greatest: npt.NDArray[np.float32] = found["greatest"]
@@ -62,7 +64,7 @@ class Validation:
 
     def report(self) -> str:
         """All of it in words, for people."""
-        lines = [f"model: {self.model}", self.cause or "every pixel is explained"]
+        lines = [self.verdict, f"model: {self.model}"]
         lines += [f"{count:>10} pixels {name}" for name, count in self.counts.items()]
         for title, found in (("wrong", self.findings), ("noted", self.notes)):
             for each in found:
@@ -71,7 +73,7 @@ class Validation:
         return "\n".join(lines) + "\n"
 
     def __repr__(self) -> str:
-        return f"Validation({self.cause or 'every pixel is explained'})"
+        return f"Validation({self.verdict})"
 
 
 def validate(
@@ -89,7 +91,8 @@ def validate(
              of them missing or added, the whole view larger or smaller
     camera   near and far as the renderer had them, where it has a depth buffer
     model    what the renderer computes with, such as "gl-unorm24", "vtk-float32", "float32-ray": `fathom validate
-             --help` lists them; "auto" for the one that fits best
+             --help` lists them; "auto" for the one that fits best. Where the named model leaves pixels unexplained and
+             another does not, a finding of kind "model" names the other
     channel  of a Map of several
 
     A pixel has a class only where the bounds of the model prove it. See docs/validation.md.

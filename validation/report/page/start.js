@@ -3,17 +3,20 @@ const sums = [
   { name: "unexplained", word: "unexplained", of: (r) => r.failure ? 0 : r.pixels.unexplained, tone: "fault" },
   { name: "findings", word: "finding", of: (r) => r.failure ? 0 : r.findings.length, tone: "fault" },
   { name: "not drawn", word: "not drawn", of: (r) => r.failure ? 1 : 0, tone: "none" }];
+/// The fault first, then sums.
 function verdict() {
   const drawn = results.filter((r) => !r.failure), [bad, found, failures] = sums.map((sum) => results.reduce((s, r) => s + sum.of(r), 0));
-  return counted(drawn.length, "map") + " of " + counted(distinct(drawn, (r) => r.scene).length, "scene") + ": "
-    + (bad ? counted(bad, "pixel is", "pixels are") + " unexplained" : "every pixel is explained")
-    + (found ? ", " + counted(found, "finding") : "") + (failures ? ", " + failures + " not drawn" : "") + ". Fathom " + report.fathom + ".";
+  const failed = !drawn.every(isGood);
+  return (failed ? report.verdict[0].toUpperCase() + report.verdict.slice(1) + ". " : "")
+    + counted(drawn.length, "map") + " of " + counted(distinct(drawn, (r) => r.scene).length, "scene") + ": "
+    + (failed ? counted(bad, "pixel") + " unexplained, " + counted(found, "finding") : "every pixel is explained")
+    + (failures ? ", " + failures + " not drawn" : "") + ". Fathom " + report.fathom + ".";
 }
 function cellOf(k) {
   const r = results[k];
   if (r.failure) return { text: "not drawn", tone: "none", says: r.failure };
   const kinds = r.findings.map((f) => f.kind).join(", ");
-  return { text: r.pixels.unexplained + (kinds ? " + " + kinds : ""), tone: faults(r) || kinds ? "fault" : "good",
+  return { text: [...(r.pixels.unexplained || !kinds ? [r.pixels.unexplained] : []), ...(kinds ? [kinds] : [])].join(" + "), tone: faults(r) || kinds ? "fault" : "good",
     says: counted(r.pixels.unexplained, "pixel") + " unexplained" + (kinds ? "; found: " + kinds : "") };
 }
 function allResults(shown) {
@@ -30,7 +33,7 @@ function allResults(shown) {
 function versions() {
   const table = byId("versions");
   row(table, ["renderer", element("th", "version", { class: "text" })], "th");
-  for (const text of new Set(results.map((r) => JSON.stringify([label(r), r.version || r.failure])))) { const [l, v] = JSON.parse(text); row(table, [l, element("td", v, { class: "text" })]); }
+  for (const text of new Set(results.map((r) => JSON.stringify([label(r), r.version || r.failure || r.file])))) { const [l, v] = JSON.parse(text); row(table, [l, element("td", v, { class: "text" })]); }
 }
 /// A link to the page that shows a result: report.html#spot,%20vtk%20unorm24.
 const linkTo = (r) => "#" + encodeURI(titleOf(r));
