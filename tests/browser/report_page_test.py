@@ -135,6 +135,20 @@ class ReportPage(PageCase):
         self.assertEqual(said.groups()[:5], ("0", "0", "equal", "background", "background"))
         self.assertEqual([self.colour(truth, 0, 0), self.colour(other, 0, 0)], [WHITE, WHITE])
 
+    # As previews have them: viridis, violet at the nearest depth and yellow at the farthest.
+    def test_near_is_violet_and_far_is_yellow(self):
+        number = next(k for k, r in enumerate(self.results) if r["scene"] == "sphere")
+        self.show(number)
+        truth = self.all("#maps-shown canvas")[0]
+        readings = [self.point_at(truth, x, HEIGHT // 2) for x in range(0, WIDTH, 4)]
+        seen = sorted((as_shown(r[4]), int(r[1])) for r in readings if r[4] != "background")
+        (near, near_x), (far, far_x) = seen[0], seen[-1]
+        self.assertLess(near, far)
+        nearest, farthest = self.colour(truth, near_x, HEIGHT // 2), self.colour(truth, far_x, HEIGHT // 2)
+        self.assertLess(nearest[1], farthest[1])  # green grows from violet to yellow
+        self.assertEqual(self.driver.execute_script("return [depthColourAt(0), depthColourAt(1)]"),
+                         [[71, 1, 85], [252, 231, 33]])
+
     def test_plots_show_every_renderer_and_pixels_at_many_places(self):
         for number, _ in enumerate(self.results):
             result = self.show(number)

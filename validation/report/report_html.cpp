@@ -7,6 +7,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "fathom/image/preview.h"
 #include "validation/report/page.h"
 #include "validation/report/report_json.h"
 #include "validation/report/script_data.h"
@@ -83,6 +84,16 @@ nlohmann::json case_data(const ValidationCase& c) {
   return {{"differences", compressed(in_planes(differences))}, {"classes", compressed(classes)}};
 }
 
+/// From the nearest depth to the farthest, as previews have them.
+nlohmann::json depth_colours() {
+  constexpr int count = 256;
+  nlohmann::json colours = nlohmann::json::array();
+  for (int k = 0; k < count; ++k) {
+    colours.push_back(colour_at(PreviewOptions{}.colours, static_cast<double>(k) / (count - 1)));
+  }
+  return colours;
+}
+
 }  // namespace
 
 std::string to_html(const std::vector<ValidationCase>& cases) {
@@ -96,6 +107,7 @@ std::string to_html(const std::vector<ValidationCase>& cases) {
   std::string html;
   for (const std::string_view part : {page::head, page::style, page::body}) html += part;
   html += script_data("report", to_json(cases));
+  html += script_data("depth-colours", depth_colours().dump());
   html += script_data("maps", data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   html += "<script>\n";
   for (const std::string_view part :

@@ -1,9 +1,6 @@
-function viridis(t) {
-  const c = [[0.2777,0.0054,0.3341],[0.1051,1.4046,1.3846],[-0.3309,0.2148,0.0951],[-4.6342,-5.7991,-19.3324],[6.2283,14.1799,56.6906],[4.7764,-13.7451,-65.353],[-5.4355,4.6459,26.3124]];
-  const rgb = [0, 0, 0];
-  for (let k = 6; k >= 0; --k) for (let j = 0; j < 3; ++j) rgb[j] = rgb[j] * t + c[k][j];
-  return rgb.map((x) => Math.round(255 * Math.min(1, Math.max(0, x))));
-}
+/// The colours of `fathom preview`, from the nearest depth to the farthest.
+const depthColours = JSON.parse(byId("depth-colours").textContent);
+const depthColourAt = (t) => depthColours[Math.round((depthColours.length - 1) * Math.min(1, Math.max(0, t)))];
 const diverging = (t) => t < 0 ? [255 + 220 * t, 255 + 150 * t, 255 + 40 * t] : [255 - 40 * t, 255 - 180 * t, 255 - 215 * t];
 
 function drawn(width, height, colour) {

@@ -11,17 +11,18 @@ async function show(k) {
   const r = results[k];
   for (const b of document.querySelectorAll("#matrix button")) b.setAttribute("aria-pressed", b.dataset.case == k);
   byId("title").textContent = titleOf(r);
-  byId("version").textContent = r.version || "";
+  byId("version").textContent = r.version || r.file || "";
   for (const id of ["findings", "maps-shown", "classes", "bounds", "scatter", "formats", "worst"]) byId(id).replaceChildren();
   if (r.failure) { byId("findings").append(element("div", r.failure, { class: "finding" })); return; }
-  for (const f of r.notes) byId("findings").append(findingBox(f, "note"));
+  if (!r.findings.length) byId("findings").append(element("div", r.verdict, { class: isGood(r) ? "note" : "finding" }));
   for (const f of r.findings) byId("findings").append(findingBox(f, "finding"));
+  for (const f of r.notes) byId("findings").append(findingBox(f, "note"));
   const scene = await sceneOf(r.scene), map = await mapOf(k), n = scene.depths.length;
   if (current != k) return;
   let low = Infinity, high = -Infinity;
   for (const d of scene.depths) if (isFinite(d)) { low = Math.min(low, d); high = Math.max(high, d); }
   const log = high / low > 20, place = (d) => log ? Math.log(d / low) / Math.log(high / low) : (d - low) / (high - low || 1);
-  const depthColour = (d) => isFinite(d) ? viridis(1 - Math.min(1, Math.max(0, place(d)))) : [255, 255, 255];
+  const depthColour = (d) => isFinite(d) ? depthColourAt(place(d)) : [255, 255, 255];
   const relative = new Float64Array(n), sizes = [];
   for (let i = 0; i < n; ++i) {
     const t = scene.depths[i], o = map.depths[i];
@@ -37,7 +38,7 @@ async function show(k) {
   };
   const key = element("div"); key.style.fontSize = ".8rem";
   classNames.forEach((name, c) => { if (!r.pixels[name]) return; const s = element("span"); s.style.marginRight = ".8em"; s.style.display = "inline-block"; s.append(colourKey(c), term(name)); key.append(s); });
-  const scale = () => bar((t) => viridis(1 - t), short(low), short(high) + (log ? " (logarithmic)" : ""));
+  const scale = () => bar(depthColourAt, short(low), short(high) + (log ? " (logarithmic)" : ""));
   const w = scene.width, h = scene.height;
   const differenceKey = bar((t) => diverging(2 * t - 1), short(-most, 2), short(most, 2));
   differenceKey.append(element("div", "black: surface missing, violet: surface added", { class: "dim small" }));
