@@ -113,7 +113,7 @@ TEST(Judgement, AShiftIsFoundThoughTheModelIsWrong) {
   EXPECT_THAT(found.attribution.findings[1].text,
               HasSubstr("does not fit: as " + found.model.name +
                         " the fault explains every pixel; give the model"));
-  EXPECT_THAT(verdict_of(*found.truth, found.other, found.attribution),
+  EXPECT_THAT(verdict_text(*found.truth, found.other, found.attribution),
               StartsWith("failed: the image is shifted by (-0.12"));
 }
 

@@ -15,7 +15,7 @@ std::string cause_of(const ValidationCase& c) {
 }
 
 std::string verdict_of(const ValidationCase& c) {
-  return c.is_done() ? attribution::verdict_of(*c.truth, c.other, c.attribution)
+  return c.is_done() ? attribution::verdict_text(*c.truth, c.other, c.attribution)
                      : "not drawn: " + c.failure;
 }
 

@@ -12,7 +12,7 @@ namespace fathom::validation {
 /// pixels are unexplained and the one to look at first. Empty where the result is good.
 std::string cause_of(const ValidationCase& validated);
 
-/// What is to be said first of a result: as attribution::verdict_of(), or why there is no map.
+/// What is to be said first of a result: as attribution::verdict_text(), or why there is no map.
 std::string verdict_of(const ValidationCase& validated);
 
 /// The same of several: how many failed, and the first of them.

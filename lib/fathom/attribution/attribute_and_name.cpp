@@ -275,6 +275,7 @@ RendererModel as_recorded(const RendererModel& model, const OtherMap& other) {
 
 Attribution attribute_and_name(const Truth& truth, const OtherMap& other,
                                const RendererModel& model) {
+  const StandardArithmetic standard;
   KnownBackground known = known_background(truth, other);
   const RendererModel known_model = as_recorded(model, other);
   Attribution result =

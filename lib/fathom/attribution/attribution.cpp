@@ -57,6 +57,7 @@ Attribution attribute_bands(const Truth& truth, const OtherMap& other, const Ren
 }
 
 Attribution attribute(const Truth& truth, const OtherMap& other, const RendererModel& model) {
+  const StandardArithmetic standard;
   std::vector<std::uint32_t> bands((truth.camera.height + rows_per_band - 1) / rows_per_band);
   std::iota(bands.begin(), bands.end(), 0U);
   return attribute_bands(truth, other, model, bands);

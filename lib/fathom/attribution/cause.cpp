@@ -39,7 +39,7 @@ std::string finding_line(const Finding& f) {
   return f.kind + ": " + finding_text(f);
 }
 
-std::string verdict_of(const Truth& truth, const OtherMap& other, const Attribution& found) {
+std::string verdict_text(const Truth& truth, const OtherMap& other, const Attribution& found) {
   const StandardArithmetic standard;
   if (!found.findings.empty()) return "failed: " + finding_text(found.findings.front());
   const std::string cause = cause_of(truth, other, found);

@@ -19,7 +19,7 @@ std::string cause_of(const Truth& truth, const OtherMap& other, const Attributio
 
 /// What is to be said first of a map: "failed: the image is mirrored (1 pixel)", or that every pixel is
 /// explained.
-std::string verdict_of(const Truth& truth, const OtherMap& other, const Attribution& found);
+std::string verdict_text(const Truth& truth, const OtherMap& other, const Attribution& found);
 
 /// A pixel with its depths: "(12, 7): 3.25 instead of 3.21, allowed 3.2099 to 3.2101". Depths are in
 /// scene units, to 9 digits.

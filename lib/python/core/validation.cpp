@@ -33,7 +33,7 @@ py::dict validate(const SharedMap& map, const std::string& channel, const Shared
   py::dict result;
   result["model"] = judged.model.name;
   result["cause"] = cause_of(*judged.truth, judged.other, found);
-  result["verdict"] = verdict_of(*judged.truth, judged.other, found);
+  result["verdict"] = verdict_text(*judged.truth, judged.other, found);
   result["camera"] = seen_by;
   result["classes"] = array_of(std::move(classes), shape);
   result["least"] = array_of(Samples(found.least), shape);
