@@ -47,6 +47,66 @@ print("works on", flush=True)
     assert process.returncode == 0
 
 
+# Work for hours, in which no progress is made for minutes: a few rows of pixels, each under thousands of surfaces.
+heavy = """
+import numpy as np, fathom, time
+source = np.random.default_rng(1)
+vertices = source.uniform(-1, 1, (60000, 3)) + (0, 0, 3)
+K = np.array([(40, 0, 24), (0, 40, 8), (0, 0, 1)], float)
+scene = fathom.Scene()
+scene.add_mesh(vertices, np.arange(60000).reshape(-1, 3))
+camera = fathom.Camera.from_opencv(K, np.eye(4), (48, 16), pixel_centre=0.5)
+depth = scene.render(camera)
+"""
+
+
+@pytest.mark.parametrize("call", ["fathom.render_deep(scene, camera)", "depth.add_cryptomatte(scene, camera)",
+                                  "fathom.visible(scene, camera)"])
+def test_ctrl_c_ends_a_call_within_a_part(call):
+    code = heavy + f"""
+print("started", flush=True)
+try:
+    {call}
+    print("it was done before it was interrupted", flush=True)
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "started\n"
+    time.sleep(1)
+    process.send_signal(signal.SIGINT)
+    # docs/python.md says a second; other programs run beside the tests.
+    assert process.communicate(timeout=20)[0] == "interrupted\n"
+    assert process.returncode == 0
+
+
+@pytest.mark.parametrize("call", ["scene.render(camera)", "fathom.visible(scene, camera)"])
+@pytest.mark.parametrize("made", ["crowd", "heavy"])
+def test_python_exits_while_a_daemon_thread_works(call, made):
+    code = {"crowd": crowd, "heavy": heavy}[made] + f"""
+import threading, time
+def work():
+    while True:
+        {call}
+threads = [threading.Thread(target=work, daemon=True) for _ in range(2)]
+for thread in threads: thread.start()
+time.sleep(0.5)
+print("exits", flush=True)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "exits\n", "")
+
+
+def test_work_at_exit_is_done():
+    """By functions that are called at exit, in the main thread: nothing is stopped there."""
+    code = """
+import atexit
+atexit.register(lambda: print(np.isfinite(scene.render(camera)["Z"]).any()))
+""" + crowd
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "True\n", "")
+
+
 def test_other_threads_run_meanwhile(spot):
     camera = fathom.Camera.frame(spot, size=(640, 480))
     ended = threading.Event()
@@ -102,11 +162,9 @@ def resident():
 
 
 def test_memory_does_not_grow_with_calls(triangle, K):
-    K = K * [(5,), (5,), (1,)]
-
     def work(calls):
         for _ in range(calls):
-            fathom.render(*triangle, K, np.eye(4), (320, 240), pixel_centre=0.5)  # work for several threads
+            fathom.render(*triangle, K, np.eye(4), (64, 48), pixel_centre=0.5)
 
     work(300)
     before = resident()

@@ -1,5 +1,7 @@
 #include "fathom/area/cell_division.h"
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::area {
 namespace {
 
@@ -57,6 +59,7 @@ class DividedPolygons {
     for (const ImageCell::Half& half : halves) {
       DividedPolygons& inside = result.emplace_back(*cell_, half.part, *counts_);
       for (const ConvexPolygon& polygon : polygons_) {
+        check_interruption();
         if (inside.complete_) break;
         if (auto piece = in_half(polygon, half, *counts_)) inside.add(std::move(*piece));
       }

@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::area {
 namespace {
 
@@ -84,6 +86,7 @@ void add_edges(std::span<const ConvexPolygon> polygons, std::size_t i, const Con
       part = within->part;
     }
     hidden.clear();
+    check_interruption();
     for (std::size_t j = 0; j < polygons.size(); ++j) {
       if (j == i || !polygon.bounds().may_meet(polygons[j].bounds())) continue;
       const auto by_j = overlap(e, part, polygons[j], counts);

@@ -2,6 +2,7 @@
 
 #include "fathom/area/cell_coverage.h"
 #include "fathom/area/equal_triangles.h"
+#include "fathom/threads/interruption.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 
@@ -21,6 +22,7 @@ std::vector<BoxedRegion> regions_of(const CoverageFrame& frame, const TriangleBa
   EqualTriangles equal(frame.triangles);
   TierCounts counts;
   for (const BoxedTriangle& triangle : band.triangles) {
+    check_interruption();
     if (!equal.is_first(triangle.number)) continue;
     const ProjectedTriangle t = project(frame.triangles.world_corners(triangle.number),
                                         triangle.number, frame.camera, counts);
@@ -42,7 +44,9 @@ void visit_row(const std::vector<BoxedRegion>& regions, std::uint32_t row, std::
     }
   }
   for (std::uint32_t column = 0; column < width; ++column) {
-    if (!columns[column].empty()) visit(column, row, columns[column]);
+    if (columns[column].empty()) continue;
+    check_interruption();
+    visit(column, row, columns[column]);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "fathom/area/triangle_bands.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_fault.h"
+#include "fathom/threads/interruption.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/certified_surfaces.h"
@@ -90,6 +91,7 @@ void fill(const TriangleBands::Band& band, const Camera& camera, const SamplePat
                                camera.width);
   const std::size_t count = pattern.count();
   for (const BoxedTriangle& boxed : band.triangles) {
+    check_interruption();
     if (!test.take(boxed.number)) continue;
     const PixelBox& box = boxed.box;
     const std::uint32_t end_row = std::min(box.last_row + 1, band.end_row);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fathom/area/equal_triangles.h"
+#include "fathom/threads/interruption.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::area {
@@ -39,6 +40,7 @@ SceneSurfaces::SceneSurfaces(const CoverageFrame& frame, Progress& progress)
   });
   find_equal_triangles(frame.triangles);
   for (std::uint32_t number = 0; number < count(); ++number) {
+    check_interruption();
     if (!surfaces_[number]) continue;
     const PixelBox& box = boxes_[number];
     for (std::uint32_t y = box.first_row / side_of_tile; y <= box.last_row / side_of_tile; ++y) {
@@ -64,6 +66,7 @@ void SceneSurfaces::find_equal_triangles(const TriangleSource& triangles) {
   std::optional<EqualTriangles> in_object;
   std::optional<std::uint32_t> object;
   for (std::uint32_t number = 0; number < count(); ++number) {
+    check_interruption();
     if (!surfaces_[number]) continue;
     if (const std::uint32_t its = triangles.origin(number).object; its != object) {
       in_object.emplace(triangles);

@@ -8,6 +8,7 @@
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_fault.h"
+#include "fathom/threads/interruption.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 
@@ -64,6 +65,7 @@ class SceneAreas {
     std::vector<std::uint32_t> others;
     if (!is_hidden || !is_hidden_in_object) others = surfaces_.in_front(number);
     for (const std::uint32_t other : others) {
+      check_interruption();
       const bool counts = !is_hidden && surfaces_.is_first(other);
       const bool counts_in_object = !is_hidden_in_object && object_of(other) == object_of(number) &&
                                     surfaces_.is_first_of_object(other);
@@ -140,6 +142,7 @@ VisibleArea rounded(const ExactAreas& areas) {
 VisibleArea rounded_exactly(const SceneAreas& areas, std::uint32_t object) {
   std::vector<Ratio> visible, in_object;
   for (std::uint32_t number = 0; number < areas.count(); ++number) {
+    check_interruption();
     if (areas.object_of(number) != object) continue;
     const ExactAreas exact = areas.of(number);
     visible.insert(visible.end(), exact.visible.begin(), exact.visible.end());

@@ -8,6 +8,7 @@
 #include "fathom/area/disjoint_surfaces.h"
 #include "fathom/area/remainder.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::area {
 namespace {
@@ -62,6 +63,7 @@ void CellVisibility::add_visible(std::span<const SurfaceRegion* const> surfaces)
   double farthest = -infinity;
   std::uint32_t last = 0;
   for (; !left.empty(); left.pop_back()) {
+    check_interruption();
     std::pop_heap(left.begin(), left.end(), is_after);
     const SurfaceRegion& surface = *left.back();
     const bool is_behind = surface.depths.lower > farthest ||
@@ -131,6 +133,7 @@ void CellVisibility::drop_hidden() {
   if (!nearest) return;
   drop_behind(*nearest);
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    check_interruption();
     if (!pieces_[i].is_whole) continue;
     const SurfaceRegion* hiding = pieces_[i].surface;
     drop_behind(i);
@@ -142,6 +145,7 @@ std::vector<CellVisibility> CellVisibility::divided(
     const std::vector<ImageCell::Half>& halves) const {
   std::vector<CellVisibility> result;
   for (const ImageCell::Half& its : halves) {
+    check_interruption();
     CellVisibility half(*cell_, its.part);
     half.is_merged_ = is_merged_;
     for (const PieceOfSurface& piece : pieces_) {
@@ -220,6 +224,7 @@ std::vector<ConvexPolygon> CellVisibility::hidden_parts(std::size_t piece) {
   const ConvexPolygon& polygon = pieces_[piece].polygon;
   std::vector<ConvexPolygon> hidden;
   for (std::size_t s = 0; s < pieces_.size(); ++s) {
+    check_interruption();
     if (s == piece) continue;
     auto part = hidden_part(polygon, piece, s);
     if (!part) continue;

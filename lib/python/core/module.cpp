@@ -1,11 +1,13 @@
 #include "bindings.h"
 #include "errors.h"
+#include "running.h"
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "What the modules of fathom call: see those.";
   module.attr("version") = FATHOM_VERSION;
   using namespace fathom::python;
   bind_errors(module);
+  end_work_at_exit();
   bind_standard_arithmetic(module);
   Module core(module);
   bind_camera(core);

@@ -2,55 +2,40 @@
 
 #include <pybind11/pybind11.h>
 
-#include <chrono>
 #include <functional>
-#include <thread>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "fathom/threads/interruption.h"
 
 namespace fathom::python {
 
-/// Thrown through the library where Python's signal handlers have raised an exception.
-struct Interrupted {};
-
-/// Lets Python handle its signals while the library works, so that Ctrl-C ends a long call.
+/// Does work of the library with Python's other threads running meanwhile. The work must not touch
+/// Python's objects.
 ///
-/// Progress is reported from any thread, but Python handles signals in its main thread alone: only
-/// reports from the thread that called look, at most twenty times a second. Elsewhere than in the
-/// main thread Python has no signals to handle, and the look costs nothing.
-class SignalWatch {
- public:
-  [[nodiscard]] std::function<void(double)> progress() {
-    return [this](double) {
-      if (std::this_thread::get_id() == caller_) look();
-    };
-  }
+/// In Python's main thread, which alone handles signals: a thread of its own does the work, and the
+/// main thread looks for signals twenty times a second. Where one raises an exception, as Ctrl-C does,
+/// the work is asked to end (threads/interruption.h), and the exception leaves this call.
+///
+/// In another thread, when Python exits: the work is asked to end, and the thread stands still until the
+/// process is gone, as Python's own daemon threads do.
+void run_apart(const std::function<void()>& work);
 
- private:
-  using Clock = std::chrono::steady_clock;
+/// Asks work in other threads to end when Python exits. To be called once by each extension module.
+void end_work_at_exit();
 
-  void look() {
-    const auto now = Clock::now();
-    if (now < next_) return;
-    next_ = now + std::chrono::milliseconds(50);
-    const PyGILState_STATE state = PyGILState_Ensure();
-    const bool raised = PyErr_CheckSignals() != 0;
-    PyGILState_Release(state);
-    if (raised) throw Interrupted();
-  }
-
-  std::thread::id caller_ = std::this_thread::get_id();
-  Clock::time_point next_ = Clock::now() + std::chrono::milliseconds(50);
-};
-
-/// work(progress) with Python's other threads running meanwhile, and Ctrl-C noticed wherever the
-/// work reports progress. The work must not touch Python's objects.
+/// The result of work(progress) as run_apart() does it. Where the work reports progress it can end, too.
 template <class Work>
 auto run(const Work& work) {
-  SignalWatch watch;
-  try {
-    const pybind11::gil_scoped_release others_run;
-    return work(watch.progress());
-  } catch (const Interrupted&) {
-    throw pybind11::error_already_set();
+  const std::function<void(double)> progress = [](double) { check_interruption(); };
+  using Result = decltype(work(progress));
+  if constexpr (std::is_void_v<Result>) {
+    run_apart([&] { work(progress); });
+  } else {
+    std::optional<Result> result;
+    run_apart([&] { result.emplace(work(progress)); });
+    return *std::move(result);
   }
 }
 

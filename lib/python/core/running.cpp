@@ -1,0 +1,181 @@
+#include "running.h"
+
+#include <cxxabi.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+
+namespace py = pybind11;
+
+namespace fathom::python {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// The thread does nothing any more. It does not end either: that would unwind its stack, with
+/// Python's objects in it, while Python is taken down.
+[[noreturn]] void stand_still() {
+  while (true) ::pause();
+}
+
+/// Without the GIL until take() is called. Not in a destructor: once Python exits, a thread that wants
+/// the GIL is unwound (before Python 3.14), which nothing noexcept survives.
+class WithoutGil {
+ public:
+  WithoutGil() : state_(PyEval_SaveThread()) {}
+  WithoutGil(const WithoutGil&) = delete;
+  WithoutGil& operator=(const WithoutGil&) = delete;
+
+  void take() {
+    try {
+      PyEval_RestoreThread(state_);
+    } catch (const abi::__forced_unwind&) {
+      stand_still();
+    }
+  }
+  void leave() { state_ = PyEval_SaveThread(); }
+
+ private:
+  PyThreadState* state_;
+};
+
+/// Work in other threads than the main one.
+struct OtherThreads {
+  std::atomic<bool> end_is_near{false};
+  std::atomic<int> working{0};
+  /// To which `working` belongs: a process that is forked off has none of these threads.
+  std::atomic<pid_t> process{0};
+};
+
+/// Never freed: threads may ask until the process is gone.
+OtherThreads& other_threads() {
+  static auto* const all = new OtherThreads;
+  if (all->process.exchange(::getpid()) != ::getpid()) all->working = 0;
+  return *all;
+}
+
+bool is_main_thread() {
+  return ::syscall(SYS_gettid) == ::getpid();
+}
+
+/// In the calling thread, which is not the main one.
+void run_here(const std::function<void()>& work) {
+  OtherThreads& threads = other_threads();
+  WithoutGil gil;
+  ++threads.working;
+  if (threads.end_is_near) {
+    --threads.working;
+    stand_still();
+  }
+  std::exception_ptr failure;
+  try {
+    const Interruptible here(&threads.end_is_near);
+    work();
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  --threads.working;
+  if (threads.end_is_near) stand_still();
+  gil.take();
+  if (failure) std::rethrow_exception(failure);
+}
+
+/// Work in a thread of its own.
+class Worker {
+ public:
+  explicit Worker(const std::function<void()>& work)
+      : thread_([this, &work] {
+          try {
+            const Interruptible here(&is_to_end_);
+            work();
+          } catch (...) {
+            failure_ = std::current_exception();
+          }
+          const std::lock_guard lock(mutex_);
+          has_ended_ = true;
+          ended_.notify_one();
+        }) {}
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+  ~Worker() { thread_.join(); }
+
+  [[nodiscard]] bool ends_within(std::chrono::milliseconds time) {
+    std::unique_lock lock(mutex_);
+    return ended_.wait_for(lock, time, [this] { return has_ended_; });
+  }
+  void ask_to_end() { is_to_end_ = true; }
+  /// What the work failed with, once it has ended.
+  [[nodiscard]] std::exception_ptr failure() const { return failure_; }
+
+ private:
+  std::atomic<bool> is_to_end_{false};
+  bool has_ended_ = false;
+  std::exception_ptr failure_;
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  std::thread thread_;  // the last one: it uses the others
+};
+
+/// Waits for the worker in the main thread; whether a signal has raised an exception meanwhile.
+bool wait_for(Worker& worker) {
+  WithoutGil gil;
+  bool raised = false;
+  while (!worker.ends_within(50ms)) {
+    if (raised) continue;
+    gil.take();
+    raised = PyErr_CheckSignals() != 0;
+    gil.leave();
+    if (raised) worker.ask_to_end();
+  }
+  gil.take();
+  return raised;
+}
+
+void run_in_main_thread(const std::function<void()>& work) {
+  std::optional<Worker> worker;
+  try {
+    worker.emplace(work);
+  } catch (const std::system_error&) {
+    // The system gives no thread: signals are handled when the work has ended.
+    const py::gil_scoped_release others_run;
+    return work();
+  }
+  const bool raised = wait_for(*worker);
+  const std::exception_ptr failure = worker->failure();
+  worker.reset();
+  if (raised) throw py::error_already_set();
+  if (failure) std::rethrow_exception(failure);
+}
+
+/// Work notices within a second that it is to end; what does not is not waited for much longer.
+void end_work() {
+  OtherThreads& threads = other_threads();
+  threads.end_is_near = true;
+  const py::gil_scoped_release others_run;
+  const auto latest = std::chrono::steady_clock::now() + 5s;
+  while (threads.working > 0 && std::chrono::steady_clock::now() < latest)
+    std::this_thread::sleep_for(1ms);
+}
+
+}  // namespace
+
+void run_apart(const std::function<void()>& work) {
+  if (is_main_thread()) {
+    run_in_main_thread(work);
+  } else {
+    run_here(work);
+  }
+}
+
+void end_work_at_exit() {
+  py::module_::import("atexit").attr("register")(py::cpp_function(&end_work));
+}
+
+}  // namespace fathom::python
