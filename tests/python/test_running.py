@@ -162,9 +162,11 @@ def resident():
 
 
 def test_memory_does_not_grow_with_calls(triangle, K):
+    K = K * [(5,), (5,), (1,)]
+
     def work(calls):
         for _ in range(calls):
-            fathom.render(*triangle, K, np.eye(4), (64, 48), pixel_centre=0.5)
+            fathom.render(*triangle, K, np.eye(4), (320, 240), pixel_centre=0.5)  # work for several threads
 
     work(300)
     before = resident()

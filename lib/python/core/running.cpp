@@ -8,9 +8,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace py = pybind11;
 
@@ -87,41 +89,90 @@ void run_here(const std::function<void()>& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Work in a thread of its own.
+/// A thread that does one piece of work after the other for the main thread: to start a thread for each
+/// call takes longer than to render a small map.
 class Worker {
  public:
-  explicit Worker(const std::function<void()>& work)
-      : thread_([this, &work] {
-          try {
-            const Interruptible here(&is_to_end_);
-            work();
-          } catch (...) {
-            failure_ = std::current_exception();
-          }
-          const std::lock_guard lock(mutex_);
-          has_ended_ = true;
-          ended_.notify_one();
-        }) {}
+  Worker() : thread_([this] { work_on(); }) {}
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
-  ~Worker() { thread_.join(); }
+  ~Worker() {
+    {
+      const std::lock_guard lock(mutex_);
+      leaves_ = true;
+    }
+    changed_.notify_one();
+    thread_.join();
+  }
 
+  /// Begins a piece of work, which lives until it has ended.
+  void begin(const std::function<void()>& work) {
+    {
+      const std::lock_guard lock(mutex_);
+      is_to_end_ = false;
+      failure_ = nullptr;
+      work_ = &work;
+    }
+    changed_.notify_one();
+  }
   [[nodiscard]] bool ends_within(std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
-    return ended_.wait_for(lock, time, [this] { return has_ended_; });
+    return ended_.wait_for(lock, time, [this] { return work_ == nullptr; });
   }
   void ask_to_end() { is_to_end_ = true; }
   /// What the work failed with, once it has ended.
-  [[nodiscard]] std::exception_ptr failure() const { return failure_; }
+  [[nodiscard]] std::exception_ptr take_failure() { return std::exchange(failure_, nullptr); }
 
  private:
+  void work_on() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [this] { return work_ != nullptr || leaves_; });
+      if (leaves_) return;
+      lock.unlock();
+      try {
+        const Interruptible here(&is_to_end_);
+        (*work_)();
+      } catch (...) {
+        failure_ = std::current_exception();
+      }
+      lock.lock();
+      work_ = nullptr;
+      ended_.notify_one();
+    }
+  }
+
   std::atomic<bool> is_to_end_{false};
-  bool has_ended_ = false;
+  const std::function<void()>* work_ = nullptr;
+  bool leaves_ = false;
   std::exception_ptr failure_;
   std::mutex mutex_;
-  std::condition_variable ended_;
+  std::condition_variable changed_, ended_;
   std::thread thread_;  // the last one: it uses the others
 };
+
+/// The worker of the main thread while it has nothing to do. Only that thread asks, with the GIL.
+/// Never freed: nobody joins it at exit.
+struct IdleWorker {
+  Worker* worker = nullptr;
+  /// A process that is forked off does not have the thread.
+  pid_t process = 0;
+};
+IdleWorker idle_worker;
+
+/// Fails    std::system_error where the system gives no thread.
+std::unique_ptr<Worker> take_worker() {
+  std::unique_ptr<Worker> idle(std::exchange(idle_worker.worker, nullptr));
+  if (idle && idle_worker.process == ::getpid()) return idle;
+  static_cast<void>(idle.release());
+  return std::make_unique<Worker>();
+}
+
+/// A handler of a signal may have called within a call: then there are two.
+void put_back(std::unique_ptr<Worker> worker) {
+  if (idle_worker.worker != nullptr) return;
+  idle_worker = {worker.release(), ::getpid()};
+}
 
 /// Waits for the worker in the main thread; whether a signal has raised an exception meanwhile.
 bool wait_for(Worker& worker) {
@@ -139,17 +190,18 @@ bool wait_for(Worker& worker) {
 }
 
 void run_in_main_thread(const std::function<void()>& work) {
-  std::optional<Worker> worker;
+  std::unique_ptr<Worker> worker;
   try {
-    worker.emplace(work);
+    worker = take_worker();
   } catch (const std::system_error&) {
     // The system gives no thread: signals are handled when the work has ended.
     const py::gil_scoped_release others_run;
     return work();
   }
+  worker->begin(work);
   const bool raised = wait_for(*worker);
-  const std::exception_ptr failure = worker->failure();
-  worker.reset();
+  const std::exception_ptr failure = worker->take_failure();
+  put_back(std::move(worker));
   if (raised) throw py::error_already_set();
   if (failure) std::rethrow_exception(failure);
 }

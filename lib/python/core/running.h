@@ -14,8 +14,8 @@ namespace fathom::python {
 /// Does work of the library with Python's other threads running meanwhile. The work must not touch
 /// Python's objects.
 ///
-/// In Python's main thread, which alone handles signals: a thread of its own does the work, and the
-/// main thread looks for signals twenty times a second. Where one raises an exception, as Ctrl-C does,
+/// In Python's main thread, which alone handles signals: another thread does the work, and the main
+/// thread looks for signals twenty times a second. Where one raises an exception, as Ctrl-C does,
 /// the work is asked to end (threads/interruption.h), and the exception leaves this call.
 ///
 /// In another thread, when Python exits: the work is asked to end, and the thread stands still until the
