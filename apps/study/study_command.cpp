@@ -145,10 +145,10 @@ void add_study(Command& program) {
   command.argument("NAME", into(arguments->name, parse_study), "Its name; --list shows them");
   add_output_option(command, "DIR", arguments->out,
                     "Folder for CSV, PNG, SVG, summary.json, index.html");
-  command.option_with_values(
-      "--scene", "FILE", arguments->scene,
-      "Meshes or scene files to study, for antialiasing, hidden-surface, mitigation, subpixel and z-fighting; "
-      "without it each study uses its own scene");
+  command.option_with_values("--scene", "FILE", arguments->scene,
+                             "Meshes or scene files to study, for antialiasing, hidden-surface, "
+                             "mitigation, subpixel and z-fighting; "
+                             "without it each study uses its own scene");
   arguments->limits.add_to(command);
   command.option("--camera", "FILE", arguments->camera,
                  "Camera file (JSON) for --scene; without it, one that frames the scene");
