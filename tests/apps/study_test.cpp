@@ -88,7 +88,7 @@ TEST_F(StudyTest, WhatCannotBeMeantIsRefused) {
   refused({}, "--list");
   refused({"course", "--list"}, "leave out NAME");
   refused({"--list", "--out", "out"}, "leave out NAME");
-  refused({"depth-resolution"}, "--out");
+  refused({"depth-resolution"}, "-o DIR is missing");
   refused({"resolution", "--out", "out"}, "indistinguishable");
   refused({"z-fighting", "--separation", "0", "--out", "out"}, "--separation");
   refused({"z-fighting", "--near", "1", "--far", "2", "--out", "out"}, "8 times near");

@@ -105,7 +105,7 @@ def enumerated() -> list[tuple[tuple[str, ...], str, list[str]]]:
 values = {"FILE": "a.exr", "D": "1", "N": "1", "X,Y": "0,0", "X,Y,Z": "1,2,3", "SCENE...": "a.obj", "SCENE": "a.obj", "MAP": "a.exr",
           "INPUT": "a.json", "TRUTH": "a.exr", "OTHER": "b.exr", "SHELL": "bash", "PNG": "a.png", "DIR": "a", "FILE...": "a.obj",
           "LENS": "ros", "WxH": "4x4", "fx,fy,cx,cy": "1,1,1,1", "world-to-camera|camera-to-world": "world-to-camera",
-          "opencv|opengl": "opencv", "0|0.5": "0"}
+          "opencv|opengl": "opencv", "0|0.5": "0", "STAGE": "clipping"}
 of_commands = {("clip", "--algorithm"): "plane", ("scan", "--algorithm"): "dda", ("preview", "--output"): "a.png"}
 
 

@@ -248,8 +248,9 @@ TEST(Png, HoldsSegmentsThatFit) {
 TEST(WriteMap, ChoosesTheChannel) {
   const Folder folder;
   const DepthMap map = full_map(3, 3);
-  EXPECT_THAT(message_of<UsageError>([&] { write_map(map, folder / "a.pfm", MapFormat::pfm); }),
-              HasSubstr("holds one channel, and the map has 4"));
+  EXPECT_THAT(
+      message_of<UsageError>([&] { write_map(map, folder / "a.pfm", MapFormat::pfm); }),
+      HasSubstr("holds one channel, and the map has Z, N.X, object, id; name the one to write"));
   WriteOptions options;
   options.channel = "nothing";
   EXPECT_THAT(

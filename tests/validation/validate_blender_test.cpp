@@ -19,6 +19,7 @@ TEST(ValidateBlender, CamerasThatBlenderCannotExpressAreRefused) {
       run_fathom({"validate", "--against", "blender", "--scene", "calibrated", "--size", "32x24"});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_EQ(outcome.out,
+            "not drawn: blender: cannot express a camera with skew\n"
             "calibrated, blender cycles: blender: cannot express a camera with skew\n");
   EXPECT_EQ(outcome.err, "");
 }

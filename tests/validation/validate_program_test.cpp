@@ -322,7 +322,7 @@ TEST_F(ValidateProgram, RefusesInOneLine) {
                  "--camera FILE is missing");
   expect_refused(run({"--map", "map.exr", "--camera", "camera.json", "--model", "cycles"}), 2,
                  "SCENE is missing");
-  expect_refused(validate("map.exr", {"--ctest"}), 2, "--ctest needs --out DIR");
+  expect_refused(validate("map.exr", {"--ctest"}), 2, "--ctest needs -o DIR");
   expect_refused(run({"--against", "embree", "--scene", "spot", "--ctest", "--out", "o"}), 2,
                  "--ctest goes with --map");
   expect_refused(run({"--colour", "--junit", "o.xml"}), 2, "--junit goes with --map and --against");

@@ -58,7 +58,8 @@ std::map<std::string, nlohmann::json> results_on_sheets(const TestFolder& folder
                                      {.folder = folder.path()});
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   std::map<std::string, nlohmann::json> found;
-  for (const auto& result : nlohmann::json::parse(folder.read("report/report.json"))["results"]) {
+  const auto report = nlohmann::json::parse(folder.read("report/report.json"));
+  for (const auto& result : report["results"]) {
     EXPECT_EQ(result["pixels"]["unexplained"], 0) << result.dump();
     found[result["variant"]] = result;
   }
@@ -178,7 +179,7 @@ TEST(ValidateVtk, ColoursThatCannotBeComparedAreRefused) {
   EXPECT_THAT(outcome.out, HasSubstr("colours are compared for perspective cameras"));
   EXPECT_THAT(outcome.out, HasSubstr("sphere: phong, VTK Phong: "));
   EXPECT_EQ(run_fathom({"validate", "--colour", "--against", "vtk"}).status, 2);
-  for (const auto& option : {"--variants", "--baseline", "--model", "--channel", "-o"}) {
+  for (const auto& option : {"--variants", "--baseline", "--model", "--channel"}) {
     const std::string value = option == std::string("--model") ? "float32-ray" : "x";
     const Outcome refused = run_fathom({"validate", "--colour", option, value});
     EXPECT_EQ(refused.status, 2) << option;
