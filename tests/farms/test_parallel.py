@@ -47,7 +47,7 @@ def test_without_the_mesh_nothing_is_written(farm):
 @pytest.mark.parametrize("machines", [":", ":,:"])
 def test_names_with_blanks_and_braces_reach_the_program(farm, machines):
     text = SCRIPT.read_text(encoding="utf-8")
-    changes = [("--out maps", "--out 'my maps' --name 'a {index:03} b.exr'"), ("machines=:", f"machines={machines}")]
+    changes = [("-o maps", "-o 'my maps' --name 'a {index:03} b.exr'"), ("machines=:", f"machines={machines}")]
     for old, new in changes:
         assert text.count(old) == 1
         text = text.replace(old, new)

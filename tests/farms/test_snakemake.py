@@ -56,8 +56,8 @@ def test_a_mesh_that_is_missing_or_damaged_fails_and_one_that_has_changed_makes_
 
 def test_another_command_makes_all_maps_anew(farm):
     text = COMMAND[-1].read_text(encoding="utf-8")
-    assert text.count(" --out maps") == 1
-    (farm.folder / "Snakefile").write_text(text.replace(" --out maps", " --out maps --channels Z"), encoding="utf-8")
+    assert text.count(" -o maps") == 1
+    (farm.folder / "Snakefile").write_text(text.replace(" -o maps", " -o maps --channels Z"), encoding="utf-8")
     farm.run("snakemake", "--cores", "2")
     told = farm.run(*COMMAND)
     assert told.count(", 3 made now, of 12 in 4 shards") == 4 and "maps: 12 maps, 0 made now\n" in told

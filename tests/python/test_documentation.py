@@ -73,4 +73,4 @@ def test_numpy_alone_is_imported():
     code = "import sys, numpy; before = set(sys.modules); import fathom; print(*sorted(set(sys.modules) - before))"
     loaded = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout.split()
     others = {name for name in loaded if not name.startswith("fathom")}
-    assert others <= {"fractions", "decimal", "_decimal", "numbers", "_typing", "typing", "typing.io", "typing.re"}, others
+    assert others <= {"atexit", "fractions", "decimal", "_decimal", "numbers", "_typing", "typing", "typing.io", "typing.re"}, others

@@ -30,6 +30,14 @@ bool explains_all(const Attribution& found) {
   return unexplained(found) == 0 && found.findings.empty();
 }
 
+/// Whether the map shows surfaces and the depth of none could be compared: each of their pixels may be an edge, as
+/// where a huge triangle passes the eye, so that nearly any map would be explained.
+bool is_vacuous(const Attribution& found, const OtherMap& other) {
+  return found.median_relative_width == 0 &&
+         std::any_of(other.depths.begin(), other.depths.end(),
+                     [](double depth) { return std::isfinite(depth); });
+}
+
 /// The less, the better.
 auto rank(const Attribution& found) {
   return std::tuple(unexplained(found), found.findings.size(), found.median_relative_width);
@@ -94,7 +102,10 @@ std::optional<ModelTrial> Candidates::explaining(bool of_vtk) {
     if (surveys_.back().may_explain_all()) possible.push_back(surveys_.back());
   }
   std::stable_sort(possible.begin(), possible.end(),
-                   [](const ModelSurvey& a, const ModelSurvey& b) { return a.width < b.width; });
+                   [](const ModelSurvey& a, const ModelSurvey& b) {
+                     // Without a width no depth of the sample was compared: the least evidence.
+                     return std::pair(a.width == 0, a.width) < std::pair(b.width == 0, b.width);
+                   });
   for (const ModelSurvey& survey : possible) {
     const RendererModel known = as_recorded(survey.model, other_);
     Attribution found = attribute(truth_, other_, known);
@@ -269,7 +280,8 @@ ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererMo
   const bool is_named = unexplained(mine.attribution) == 0;
 
   Candidates candidates(truth, other, named.name);
-  if (std::optional<ModelTrial> right = candidates.explaining()) {
+  std::optional<ModelTrial> right = candidates.explaining();
+  if (right && !is_vacuous(right->attribution, other)) {
     if (comes_before(mine.attribution, right->attribution, other)) {
       faults.front().alternatives.emplace_back("model");
       return mine;
@@ -283,7 +295,8 @@ ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererMo
   }
   if (is_named && !(faults.size() > 1 && has_storage(mine.attribution))) return mine;
   std::optional<ModelTrial> best = candidates.at_fault();
-  if (!best || !says_more(best->attribution, mine.attribution)) return mine;
+  if (!best || is_vacuous(best->attribution, other)) return mine;
+  if (!says_more(best->attribution, mine.attribution)) return mine;
   name_model(*best, named, open, candidates);
   return std::move(*best);
 }

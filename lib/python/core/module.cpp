@@ -7,9 +7,9 @@ PYBIND11_MODULE(_core, module) {
   module.attr("version") = FATHOM_VERSION;
   using namespace fathom::python;
   bind_errors(module);
-  end_work_at_exit();
   bind_standard_arithmetic(module);
   Module core(module);
+  end_work_at_exit(core);
   bind_camera(core);
   bind_scene(core);
   bind_maps(core);

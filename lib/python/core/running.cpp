@@ -226,8 +226,9 @@ void run_apart(const std::function<void()>& work) {
   }
 }
 
-void end_work_at_exit() {
-  py::module_::import("atexit").attr("register")(py::cpp_function(&end_work));
+void end_work_at_exit(Module& module) {
+  module.def("_end_work", &end_work);
+  py::module_::import("atexit").attr("register")(module.attr("_end_work"));
 }
 
 }  // namespace fathom::python

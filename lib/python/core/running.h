@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "entry_points.h"
 #include "fathom/threads/interruption.h"
 
 namespace fathom::python {
@@ -23,7 +24,7 @@ namespace fathom::python {
 void run_apart(const std::function<void()>& work);
 
 /// Asks work in other threads to end when Python exits. To be called once by each extension module.
-void end_work_at_exit();
+void end_work_at_exit(Module& module);
 
 /// The result of work(progress) as run_apart() does it. Where the work reports progress it can end, too.
 template <class Work>

@@ -111,6 +111,7 @@ py::tuple run_study(const std::string& name, const SharedScene* scene, const Cam
 PYBIND11_MODULE(_studies, module) {
   using namespace fathom::python;
   module.doc() = "What fathom.studies calls.";
-  end_work_at_exit();
-  Module(module).def("names_of_studies", &names_of_studies).def("run_study", &run_study);
+  Module studies(module);
+  end_work_at_exit(studies);
+  studies.def("names_of_studies", &names_of_studies).def("run_study", &run_study);
 }

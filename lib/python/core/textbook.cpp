@@ -191,8 +191,8 @@ py::tuple render(const SharedScene& shared, const Camera& camera, const Words& w
 PYBIND11_MODULE(_textbook, module) {
   using namespace fathom::python;
   module.doc() = "What fathom.scan and fathom.pipeline call.";
-  end_work_at_exit();
   Module textbook(module);
+  end_work_at_exit(textbook);
   Class<ScanRequest>(textbook, "ScanRequest").def(pybind11::init(&scan_request));
   textbook.def("scan_algorithms", &fathom::app::scan::algorithm_names)
       .def("scan_case", &scan_case)
