@@ -47,7 +47,7 @@ nitpicky = True
 nitpick_ignore_regex = [
     ("py:class", r"(np|npt|numpy|_core|os|pathlib|fractions|pytest|collections|typing)\..*"),
     ("py:class", r"((_files\.)?Path|Size|Rows|Ring|Number|Numbers|Cull|Normals|Up|Projection|Background|Mapping|Sequence|Iterable|Fraction|"
-                 r"Any|Callable|Literal|optional|Union|Iterator)"),
+                 r"Any|Callable|Literal|optional|Union|Iterator|Answer|Arithmetic|Ties|Edges|Option|Precision)"),
     ("py:class", r"fathom\._\w+(\..*)?"),
     ("c:identifier", r"u?int\d+_t|size_t"),
 ]

@@ -17,7 +17,7 @@ GROUPS = {
     "Validation": ["validate", "Validation", "testing.assert_depth"],
     "Studies": ["studies.run", "studies.names", "studies.Study", "studies.Description"],
     "Clipping": ["clip", "clipping.Polygon"],
-    "Scan conversion": ["scan", "scanning.algorithms"],
+    "Scan conversion": ["scan", "scanning.algorithms", "scanning.Answer"],
     "The textbooks' pipeline": ["pipeline.render", "pipeline.Picture", "pipeline.trace", "pipeline.run", "pipeline.stages"],
     "Errors": ["Error", "InputError", "UsageError", "OutputError"],
 }
@@ -32,8 +32,8 @@ def public_names():
 
 def directive(name):
     word = name.rpartition(".")[2]
-    if word == "NO_SURFACE":
-        return ".. autodata:: fathom.NO_SURFACE\n"
+    if word in ("NO_SURFACE", "__version__"):
+        return f".. autodata:: fathom.{name}\n"
     if not word[0].isupper():
         return f".. autofunction:: fathom.{name}\n"
     if word.endswith(("Error", "Warning")):
