@@ -1,5 +1,6 @@
 """A run of several ranks fails as one: with one line, its exit status, and nothing of its outputs left."""
 
+import filecmp
 import math
 import os
 import signal
@@ -122,18 +123,19 @@ def start_run(output):
 
 
 @pytest.fixture(scope="module")
-def time_of_a_run(tmp_path_factory):
-    """Seconds from the start of MPI to the end of a run that nobody kills."""
-    process = start_run(tmp_path_factory.mktemp("undisturbed") / "map.exr")
+def undisturbed(tmp_path_factory):
+    """The map of a run that nobody kills, and the seconds from the start of MPI to its end."""
+    output = tmp_path_factory.mktemp("undisturbed") / "map.exr"
+    process = start_run(output)
     processes_of(process, 3)
     start = time.monotonic()
     _, err = process.communicate(timeout=60)
     assert process.returncode == 0, err
-    return time.monotonic() - start
+    return output, time.monotonic() - start
 
 
 def kill_a_rank(output, rank, delay):
-    """The run's standard error and exit status after one of its ranks was killed; None where the run was faster."""
+    """The exit status and the error messages of a run after one of its ranks was killed."""
     process = start_run(output)
     victim = processes_of(process, 3)[rank]
     time.sleep(delay)
@@ -142,22 +144,22 @@ def kill_a_rank(output, rank, delay):
     except ProcessLookupError:
         pass
     _, err = process.communicate(timeout=60)
-    return None if process.returncode == 0 else (err, process.returncode)
+    return process.returncode, err
 
 
-# While they read, draw and write: from the start of MPI to 9/10 of the time of a run. A run that ends before the kill
-# is tried again with half the delay.
+# While they read, draw and write: from the start of MPI to 9/10 of the time of a run. A run that has written its map
+# before the kill has written all of it, and is tried again with half the delay.
 @pytest.mark.parametrize("attempt", range(50) if is_long else [0, 13, 29, 48])
-def test_a_rank_that_is_killed(tmp_path, time_of_a_run, attempt):
+def test_a_rank_that_is_killed(tmp_path, undisturbed, attempt):
+    expected, seconds = undisturbed
     output = tmp_path / "map.exr"
-    delay = 0.9 * time_of_a_run * attempt / 50
-    outcome = kill_a_rank(output, attempt % 3, delay)
-    while outcome is None:
-        assert output.exists()
+    delay = 0.9 * seconds * attempt / 50
+    status, err = kill_a_rank(output, attempt % 3, delay)
+    while output.exists():
+        assert filecmp.cmp(output, expected, shallow=False)
         output.unlink()
         delay /= 2
-        outcome = kill_a_rank(output, attempt % 3, delay)
-    err, status = outcome
+        status, err = kill_a_rank(output, attempt % 3, delay)
     assert status == 128 + signal.SIGKILL, err
     lines = [line for line in err.splitlines() if line.startswith("fathom: ")]
     assert lines == ["fathom: error: a rank of the run has ended, or all were told to: nothing is written"], err
