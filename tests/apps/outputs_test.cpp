@@ -12,6 +12,7 @@
 #include <fstream>
 #include <thread>
 
+#include "fathom/text/version.h"
 #include "run_program.h"
 #include "sample_files.h"
 #include "test_folder.h"
@@ -22,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class Outputs : public ::testing::Test {
@@ -100,6 +102,28 @@ TEST_F(Outputs, FollowASymbolicLinkToAFileThatIsNotThereYet) {
   ASSERT_EQ(render_to("link.exr").status, 0);
   EXPECT_TRUE(fs::is_symlink(folder_ / "link.exr"));
   EXPECT_THAT(folder_.read("maps/real.exr"), StartsWith(exr_magic));
+}
+
+TEST_F(Outputs, ContainTheVersionThatTheEnvironmentNames) {
+  const RunOptions replaced{.folder = folder_.path(),
+                            .prepare = [] { ::setenv(text::version_variable, "9.8-test", 1); }};
+  const RunOptions plain{.folder = folder_.path(),
+                         .prepare = [] { ::setenv(text::version_variable, "", 1); }};
+  folder_.write(
+      "down.json",
+      R"({"width": 8, "height": 6, "fx": 2, "fy": 2, "cx": 4, "cy": 3, "pixel_centre": 0.5,
+                    "projection": "orthographic",
+                    "world_to_camera": [[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 5]]})");
+  for (const std::string name : {"map.exr", "map.png", "map.npz", "map.tif", "view.png"}) {
+    std::vector<std::string> command{"render", "square.obj", "--camera", "down.json"};
+    if (name == "view.png") command = {"preview", "map.exr"};
+    command.insert(command.end(), {"-o", name});
+    ASSERT_EQ(run_fathom(command, replaced).status, 0) << name;
+    EXPECT_THAT(folder_.read(name), HasSubstr("Fathom 9.8-test")) << name;
+    ASSERT_EQ(run_fathom(command, plain).status, 0) << name;
+    EXPECT_THAT(folder_.read(name), AllOf(HasSubstr("Fathom "), Not(HasSubstr("9.8-test"))))
+        << name;
+  }
 }
 
 TEST_F(Outputs, RefuseALinkToItself) {

@@ -8,6 +8,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/parse_json.h"
+#include "fathom/text/version.h"
 
 namespace fathom::validation {
 namespace {
@@ -50,7 +51,7 @@ Report report_of(const Json& json, const std::string& name) {
   if (format != report_format) {
     throw InputError(fmt::format(
         "{}: is a report of layout {}, by Fathom {}, and this Fathom ({}) reads layout {}{}", name,
-        format, report.fathom, FATHOM_VERSION, report_format, remedy));
+        format, report.fathom, text::version_in_outputs(), report_format, remedy));
   }
   for (const Json& result : json.at("results")) report.results.push_back(result_of(result));
   return report;

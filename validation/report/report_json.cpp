@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/attribution/worst_pixels.h"
+#include "fathom/text/version.h"
 #include "validation/report/cause.h"
 #include "validation/report/reported_result.h"
 
@@ -111,7 +112,7 @@ Json result(const ValidationCase& c) {
 }  // namespace
 
 std::string to_json(const std::vector<ValidationCase>& cases) {
-  Json json{{"fathom", FATHOM_VERSION},
+  Json json{{"fathom", text::version_in_outputs()},
             {"format", report_format},
             {"verdict", verdict_of(cases)},
             {"results", Json::array()}};

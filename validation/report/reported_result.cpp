@@ -1,5 +1,7 @@
 #include "validation/report/reported_result.h"
 
+#include "fathom/text/version.h"
+
 namespace fathom::validation {
 
 std::string title_of(const std::string& scene, const std::string& renderer,
@@ -8,7 +10,7 @@ std::string title_of(const std::string& scene, const std::string& renderer,
 }
 
 Report reported(const std::vector<ValidationCase>& cases) {
-  Report report{.fathom = FATHOM_VERSION, .results = {}};
+  Report report{.fathom = text::version_in_outputs(), .results = {}};
   for (const ValidationCase& c : cases) {
     ReportedResult result{.scene = c.scene,
                           .renderer = c.renderer,

@@ -14,6 +14,7 @@
 #include "fathom/image/files/exr_id_manifest.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/name_tables.h"
+#include "fathom/text/version.h"
 
 namespace fathom::image {
 namespace {
@@ -114,7 +115,7 @@ void set_attributes(Imf::Header& header, const DepthMap& map) {
   set_window(header, map);
   for (const auto& [name, text] : map.texts)
     if (!is_reserved(name) && !is_name_table(name)) header.insert(name, Imf::StringAttribute(text));
-  header.insert("software", Imf::StringAttribute("Fathom " FATHOM_VERSION));
+  header.insert("software", Imf::StringAttribute(text::software_in_outputs()));
   if (map.world_to_camera && fits_binary32(*map.world_to_camera))
     Imf::addWorldToCamera(header, for_row_vectors(*map.world_to_camera));
   if (map.world_to_ndc && fits_binary32(*map.world_to_ndc))

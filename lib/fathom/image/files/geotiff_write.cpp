@@ -15,6 +15,7 @@
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
+#include "fathom/text/version.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 
@@ -246,7 +247,7 @@ TiffDirectory directory_of(const DepthMap& map, float none, std::uint32_t rows,
   directory.add_short(tag::samples_per_pixel, bands);
   directory.add_long(tag::rows_per_strip, rows);
   directory.add_short(tag::planar_configuration, separate_planes);
-  directory.add_text(tag::software, "Fathom " FATHOM_VERSION);
+  directory.add_text(tag::software, software_in_outputs());
   directory.add_short(tag::predictor, floating_point_predictor);
   if (bands > 1) directory.add_short(tag::extra_samples, Shorts(bands - 1U, unspecified));
   directory.add_short(tag::sample_format, Shorts(bands, floating_point));

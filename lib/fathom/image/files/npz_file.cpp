@@ -11,6 +11,7 @@
 #include "fathom/text/json_text.h"
 #include "fathom/text/json_value.h"
 #include "fathom/text/printable.h"
+#include "fathom/text/version.h"
 
 /// NPZ ([Ker07]): a ZIP archive with a file NAME.npy for each channel or, where channels are the parts
 /// of one, for them together. The array `fathom` is a text, the JSON object of the map's texts:
@@ -33,7 +34,7 @@ std::string texts_as_json(const DepthMap& map) {
   std::map<std::string, std::string> texts = map.texts;
   for (auto& [key, text] : name_tables(map)) texts[key] = text;
   if (map.png_scale) texts[scale_text] = scale_as_text(*map.png_scale);
-  texts["software"] = "Fathom " FATHOM_VERSION;
+  texts["software"] = software_in_outputs();
   std::vector<std::string> members;
   members.reserve(texts.size());
   for (const auto& [key, value] : texts)

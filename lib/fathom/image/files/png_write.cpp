@@ -13,6 +13,7 @@
 #include "fathom/image/surface.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/byte_order.h"
+#include "fathom/text/version.h"
 
 namespace fathom::image {
 using namespace text;
@@ -127,7 +128,7 @@ std::string to_shortest(double value) {
 
 void add_texts(Picture& picture, const DepthMap& map, const ImageChannel& channel,
                const std::string& name) {
-  picture.texts = {{"Software", "Fathom " FATHOM_VERSION}, {"fathom:channel", channel.name}};
+  picture.texts = {{"Software", software_in_outputs()}, {"fathom:channel", channel.name}};
   if (std::holds_alternative<Samples<std::uint32_t>>(channel.values))
     picture.texts.emplace_back("fathom:type", "identifier");
   else if (map.png_scale)
@@ -180,7 +181,7 @@ void write_png(const RgbImage& image, const std::filesystem::path& path) {
   image::Picture picture{image.width, image.height, 8, PNG_COLOR_TYPE_RGB, {}, {}};
   const auto bytes = std::as_bytes(std::span(image.pixels));
   picture.pixels.assign(bytes.begin(), bytes.end());
-  picture.texts = {{"Software", "Fathom " FATHOM_VERSION}};
+  picture.texts = {{"Software", text::software_in_outputs()}};
   text::write_file(path, image::encode(picture, path.string()));
 }
 
@@ -196,7 +197,7 @@ std::vector<std::byte> encode_mask(std::span<const std::uint8_t> mask, std::uint
   std::ranges::transform(mask, picture.pixels.begin(), [](std::uint8_t shown) {
     return shown != 0 ? std::byte{255} : std::byte{0};
   });
-  picture.texts = {{"Software", "Fathom " FATHOM_VERSION}};
+  picture.texts = {{"Software", text::software_in_outputs()}};
   return image::encode(picture, name);
 }
 
