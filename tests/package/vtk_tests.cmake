@@ -1,15 +1,15 @@
-# The ten lines of README.md as a regression test of VTK, in a project outside the tree; and with a fault in VTK.
+# The ten lines of docs/validation.md as a regression test of VTK, in a project outside the tree; and with a fault in VTK.
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 set(build "${WORK}/vtk_tests")
 file(REMOVE_RECURSE "${build}")
-file(READ "${SOURCE}/README.md" readme)
-string(REGEX MATCH "```cpp\n(#include <fathom/vtk[^`]*)```" found "${readme}")
+file(READ "${SOURCE}/docs/validation.md" page)
+string(REGEX MATCH "```cpp\n(#include <fathom/vtk[^`]*)```" found "${page}")
 if(NOT found)
-  message(FATAL_ERROR "README.md has no test of VTK")
+  message(FATAL_ERROR "docs/validation.md has no test of VTK")
 endif()
-file(WRITE "${WORK}/readme_vtk_test.cpp" "${CMAKE_MATCH_1}")
+file(WRITE "${WORK}/vtk_example.cpp" "${CMAKE_MATCH_1}")
 run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/vtk_tests" -B "${build}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
-    "-DEXAMPLE=${WORK}/readme_vtk_test.cpp" "-DCMAKE_CXX_COMPILER=${COMPILER}"
+    "-DEXAMPLE=${WORK}/vtk_example.cpp" "-DCMAKE_CXX_COMPILER=${COMPILER}"
     "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}")
 run("${CMAKE_COMMAND}" --build "${build}" --parallel ${PROCESSORS})
 
