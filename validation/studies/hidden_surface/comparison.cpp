@@ -94,7 +94,13 @@ HiddenSurfaceCase compare_hidden_surfaces(const std::string& name, const Scene& 
   result.order = frame.painter;
   result.picture = pipeline::to_rgb(frame.picture);
   result.warnock = different(exact, warnock(scene, camera).ids);
-  result.bsp_tree = different(exact, bsp_tree(scene, camera).ids);
+  const auto tree_errors = [&](TreeArithmetic arithmetic) {
+    const Sight sight = bsp_tree(scene, camera, arithmetic);
+    return TreeErrors{different(exact, sight.ids), sight.polygons};
+  };
+  result.bsp_tree = tree_errors(TreeArithmetic::binary64);
+  result.bsp_exact_outlines = tree_errors(TreeArithmetic::exact_outlines);
+  result.bsp_exact = tree_errors(TreeArithmetic::exact);
   result.files = std::move(drawn.files);
   return result;
 }

@@ -24,11 +24,18 @@ std::vector<HiddenSurfaceScene> hidden_surface_scenes();
 /// What sees them: 160 × 160 pixels, and no edge runs through a sample, where snapping would decide.
 Camera hidden_surface_camera();
 
+struct TreeErrors {
+  std::size_t wrong = 0;     ///< pixels
+  std::uint64_t pieces = 0;  ///< of polygons, one in each node
+};
+
 /// One of the textbooks' cases: pixels at which another triangle than the exact one is seen.
 struct HiddenSurfaceCase {
   std::string name;
   std::size_t seen = 0;  ///< pixels with a surface
-  std::size_t buffer16 = 0, buffer32 = 0, painter = 0, warnock = 0, bsp_tree = 0;
+  std::size_t buffer16 = 0, buffer32 = 0, painter = 0, warnock = 0;
+  /// The same tree in three arithmetics.
+  TreeErrors bsp_tree, bsp_exact_outlines, bsp_exact;
   pipeline::PainterStatistics order;
   RgbImage picture;              ///< the painter's, by the pipeline
   std::vector<StudyFile> files;  ///< the scene and the camera that it is drawn from

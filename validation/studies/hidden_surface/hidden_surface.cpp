@@ -20,7 +20,14 @@ Table scenes_table(const std::vector<HiddenSurfaceCase>& rows) {
            {Column("wrong_unorm16").page("z-buffer unorm16"), &Row::buffer16},
            {Column("wrong_painter").page("painter"), &Row::painter},
            {Column("wrong_warnock").page("Warnock"), &Row::warnock},
-           {Column("wrong_bsp_tree").page("BSP tree"), &Row::bsp_tree},
+           {Column("wrong_bsp_tree").page("BSP tree in binary64"),
+            [](const Row& r) { return r.bsp_tree.wrong; }},
+           {Column("wrong_bsp_exact_outlines").page("BSP tree, exact outlines"),
+            [](const Row& r) { return r.bsp_exact_outlines.wrong; }},
+           {Column("wrong_bsp_exact").page("BSP tree, exact"),
+            [](const Row& r) { return r.bsp_exact.wrong; }},
+           {Column("bsp_tree_pieces"), [](const Row& r) { return r.bsp_tree.pieces; }},
+           {Column("bsp_exact_pieces"), [](const Row& r) { return r.bsp_exact.pieces; }},
            {Column("moved").page("moved"), [](const Row& r) { return r.order.moved; }},
            {Column("splits").page("splits"), [](const Row& r) { return r.order.splits; }}}};
 }
@@ -143,8 +150,14 @@ std::vector<StudyFile> study_scene(const StudyOptions& options,
   for (const auto& [name, wrong] :
        {std::pair("buffer32", seen.buffer32), std::pair("buffer16", seen.buffer16),
         std::pair("painter", seen.painter), std::pair("warnock", seen.warnock),
-        std::pair("bsp_tree", seen.bsp_tree)})
+        std::pair("bsp_tree", seen.bsp_tree.wrong),
+        std::pair("bsp_exact_outlines", seen.bsp_exact_outlines.wrong),
+        std::pair("bsp_exact", seen.bsp_exact.wrong)})
     results.quote(std::string("wrong_") + name, wrong);
+  if (seen.bsp_tree.wrong > seen.bsp_exact.wrong)
+    results.quote("tree_is_wrong", seen.bsp_tree.wrong);
+  results.quote("pieces", seen.bsp_tree.pieces);
+  results.quote("exact_pieces", seen.bsp_exact.pieces);
   results.quote("seen", seen.seen);
   add_cases(results, {seen});
   add_costs(results, costs);
@@ -167,7 +180,7 @@ std::vector<StudyFile> study_hidden_surface(const StudyOptions& options,
   Results results("hidden-surface", page_texts::hidden_surface, options);
   std::size_t wrong = 0;
   for (const HiddenSurfaceCase& c : scenes)
-    wrong += c.buffer32 + c.painter + c.warnock + c.bsp_tree;
+    wrong += c.buffer32 + c.painter + c.warnock + c.bsp_tree.wrong;
   results.quote("wrong", wrong);
   results.quote("most", costs.back().triangles);
   results.quote("painter_to_buffer", costs.back().painter.ms / costs.back().buffer.ms, ".1f");
