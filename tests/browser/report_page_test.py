@@ -32,7 +32,21 @@ return getComputedStyle(row.querySelector(".key")).backgroundColor.match(/\\d+/g
 """
 SIZE = "return [arguments[0].width, arguments[0].height]"
 DOTS = "return [...document.querySelectorAll('#scatter circle')].map((c) => [c.cx.baseVal.value, c.cy.baseVal.value])"
-LINES = "return [...document.querySelectorAll('#formats polyline')].map((line) => line.getAttribute('points'))"
+STYLES = """
+return [...document.querySelectorAll("#formats polyline.sample")].map((line) => {
+  const marker = line.nextSibling, label = marker.nextSibling, box = label.getBoundingClientRect();
+  return {dashes: line.getAttribute("stroke-dasharray"), marker: marker.getAttribute("d"),
+          hollow: marker.getAttribute("fill") == "#fff", name: label.textContent, top: box.top, bottom: box.bottom};
+});
+"""
+# The page's own plot, of as many lines as renderers and variants there can be, all at one place.
+CROWD = """
+const plot = axes(1, 2, 1e-8, 1e-5, {W: 680, H: 440, right: 225});
+labelLines(plot, Array.from({length: 36}, (_, j) => (
+  {style: styleOf(j), name: "line " + j, points: [[60, 100], [400, 100]], end: 100, width: 1})));
+document.querySelector("#formats").replaceChildren(plot.svg);
+"""
+LINES = "return [...document.querySelectorAll('#formats polyline.format')].map((line) => line.getAttribute('points'))"
 WHITE = [255, 255, 255]  # background, in pictures of depth
 
 
@@ -159,6 +173,23 @@ class ReportPage(PageCase):
                 self.assertEqual(len(lines), 2)
                 for line in lines:
                     self.assertGreater(len(line.split()), 1)
+
+    def expect_lines_told_apart(self, names):
+        """By dashes and markers, without colours, and by labels that do not lie upon each other."""
+        styles = self.driver.execute_script(STYLES)
+        self.assertEqual(sorted(style["name"].removesuffix(": no error") for style in styles), sorted(names))
+        self.assertEqual(len({(s["dashes"], s["marker"], s["hollow"]) for s in styles}), len(names))
+        rows = sorted((style["top"], style["bottom"]) for style in styles)
+        for (above, _), (below, _) in zip(rows, rows[1:]):
+            self.assertGreater(below - above, 8)
+        return styles
+
+    def test_lines_of_formats_need_no_colour(self):
+        result = self.show(0)
+        names = [f"{r['renderer']} {r['variant']}" for r in self.results if r["scene"] == result["scene"]]
+        self.expect_lines_told_apart(names)
+        self.driver.execute_script(CROWD)
+        self.expect_lines_told_apart([f"line {j}" for j in range(36)])
 
     def test_the_button_of_a_pixel_reads_it(self):
         result = self.show(next(k for k, r in enumerate(self.results) if r["pixels"]["missed surface"]))
