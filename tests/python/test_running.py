@@ -60,10 +60,8 @@ depth = scene.render(camera)
 """
 
 
-@pytest.mark.parametrize("call", ["fathom.render_deep(scene, camera)", "depth.add_cryptomatte(scene, camera)",
-                                  "fathom.visible(scene, camera)"])
-def test_ctrl_c_ends_a_call_within_a_part(call):
-    code = heavy + f"""
+def assert_interrupted(preparation, call):
+    code = preparation + f"""
 print("started", flush=True)
 try:
     {call}
@@ -78,6 +76,40 @@ except KeyboardInterrupt:
     # docs/python.md says a second; other programs run beside the tests.
     assert process.communicate(timeout=20)[0] == "interrupted\n"
     assert process.returncode == 0
+
+
+@pytest.mark.parametrize("call", ["fathom.render_deep(scene, camera)", "depth.add_cryptomatte(scene, camera)",
+                                  "fathom.visible(scene, camera)"])
+def test_ctrl_c_ends_a_call_within_a_part(call):
+    assert_interrupted(heavy, call)
+
+
+# Pictures of the textbook pipeline that take minutes, each by another stage.
+pipeline = """
+import numpy as np, fathom, fathom.pipeline
+source = np.random.default_rng(1)
+def soup(count, size=0.1):
+    centres = source.uniform(-1, 1, (count, 1, 3)) + (0, 0, 3)
+    corners = centres + source.uniform(-size, size, (count, 3, 3))
+    scene = fathom.Scene()
+    scene.add_mesh(corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3))
+    return scene
+K = np.array([(600, 0, 640), (0, 600, 360), (0, 0, 1)], float)
+camera = fathom.Camera.from_opencv(K, np.eye(4), (1280, 720), pixel_centre=0.5)
+scene = soup(100000)
+render = fathom.pipeline.render
+"""
+
+
+@pytest.mark.parametrize("call", [
+    "render(scene, camera, antialias='ssaa:16')", "render(scene, camera, antialias='taa:256')",
+    "render(scene, camera, antialias='jitter:256')", "render(scene, camera, antialias='area')",
+    "render(scene, camera, antialias='msaa:16', blocks=False)", "render(soup(100000, 1), camera, scan='scan-line')",
+    "render(scene, camera, hidden_surface='painter')",
+    "render(scene, camera, shading='wireframe', antialias='ssaa:16')",
+])
+def test_ctrl_c_ends_a_call_of_the_pipeline(call):
+    assert_interrupted(pipeline, call)
 
 
 @pytest.mark.parametrize("call", ["scene.render(camera)", "fathom.visible(scene, camera)"])

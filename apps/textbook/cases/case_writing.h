@@ -7,6 +7,7 @@
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/points.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/threads/interruption.h"
 
 /// Writing the answers to cases.
 namespace fathom::app::cases {
@@ -20,6 +21,7 @@ struct Form {
 };
 
 inline Json to_json(double x, Form form) {
+  check_interruption();
   if (!std::isfinite(x))
     throw InputError("a result is too large; exact arithmetic with --exact writes any number");
   if (form.exact) return clipping::to_fraction(clipping::Rational(x));
@@ -27,6 +29,7 @@ inline Json to_json(double x, Form form) {
 }
 
 inline Json to_json(const clipping::Rational& x, Form form) {
+  check_interruption();
   return form.exact ? Json(clipping::to_fraction(x)) : to_json(clipping::to_binary64(x), form);
 }
 

@@ -5,6 +5,7 @@
 
 #include "apps/textbook/pipeline/merge_json.h"
 #include "fathom/text/counted.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::app {
 namespace {
@@ -76,7 +77,10 @@ Json painter_json(const pipeline::PainterTrace& painter) {
     Json& polygon = polygons.emplace_back(Json{{"triangle", p.triangle}, {"corners", p.corners}});
     if (p.part_of) polygon["part_of"] = *p.part_of;
   }
-  for (const auto& step : painter.steps) steps.push_back(step_json(step));
+  for (const auto& step : painter.steps) {
+    check_interruption();
+    steps.push_back(step_json(step));
+  }
   return {{"polygons", polygons}, {"steps", steps}};
 }
 
@@ -208,12 +212,14 @@ Json to_json(const PrimitiveTrace& t) {
       {"vertex_transform", corners},  {"clipping", polygon}};
   put_facing(answer, t);
   answer["fragments"] = t.fragments;
-  for (const auto& f : t.fragment_list)
+  for (const auto& f : t.fragment_list) {
+    check_interruption();
     answer["fragment_list"].push_back({{"pixel", {f.pixel.x, f.pixel.y}},
                                        {"window_z", f.window_z},
                                        {"depth", f.depth},
                                        {"stored", stored_json(t.storage, f.stored)},
                                        {"colour", f.colour}});
+  }
   if (t.sample) answer["sample"] = sample_json(*t.sample);
   for (const auto& step : t.merger) answer["output_merger"].push_back(merge_json(step, t.storage));
   if (!t.painter.polygons.empty()) answer["painter"] = painter_json(t.painter);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::app::scan {
 namespace {
@@ -19,6 +20,7 @@ void PixelList::make_room(std::int64_t entries) {
 }
 
 void PixelList::add(const pipeline::Pixel& p) {
+  check_interruption();
   // Neighbours along a row join to a run, in either direction.
   if (runs_ && !spans_.empty() && spans_.back().y == p.y) {
     if (spans_.back().x_end == p.x) {
@@ -43,6 +45,7 @@ void PixelList::add(const pipeline::Span& span) {
 Json PixelList::json(bool with_values) const {
   Json list = Json::array();
   for (const auto& [y, x_begin, x_end] : spans_) {
+    check_interruption();
     if (runs_) {
       list.push_back({y, x_begin, x_end});
     } else {

@@ -6,6 +6,7 @@
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/geometry/surface_motion.h"
 #include "fathom/pipeline/rasterization/grid_samples.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -124,6 +125,7 @@ class TemporalAntialiasing {
     const std::size_t width = camera_.width, height = camera_.height;
     std::vector<std::optional<std::size_t>> nearest(width * height);
     for (std::size_t y = 0; y < height; ++y) {
+      check_interruption();
       for (std::size_t x = 0; x < width; ++x) {
         std::optional<std::size_t>& best = nearest[y * width + x];
         for (std::size_t j = y == 0 ? 0 : y - 1; j <= std::min(y + 1, height - 1); ++j) {

@@ -12,6 +12,7 @@
 #include "fathom/pipeline/output/fxaa.h"
 #include "fathom/pipeline/rasterization/rasterizer.h"
 #include "fathom/scene/scene_fault.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -109,6 +110,7 @@ class Frame {
     frame_.depth_written.resize(pixels);
     frame_.stencil.resize(pixels);
     for (std::uint32_t y = 0; y < centres.height(); ++y) {
+      check_interruption();
       for (std::uint32_t x = 0; x < centres.width(); ++x) {
         const StoredSample& s = centres.at({x, y}, 0);
         const std::size_t i = std::size_t{y} * centres.width() + x;

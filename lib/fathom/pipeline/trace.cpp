@@ -10,6 +10,7 @@
 #include "fathom/pipeline/rasterization/rasterizer.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/scene/scene_fault.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -190,6 +191,7 @@ class Tracer {
     const PixelWindow box = t.grid().bounding_box();
     for (std::int64_t y = std::max(window_.y_begin, box.y_begin);
          y < std::min(box.y_end, window_.y_end); ++y) {
+      check_interruption();
       const Span span = t.grid().span_of_row(y, window_);
       trace_.fragments +=
           static_cast<std::uint64_t>(std::max<std::int64_t>(0, span.x_end - span.x_begin));

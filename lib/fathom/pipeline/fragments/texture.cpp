@@ -12,6 +12,7 @@
 #include "fathom/numeric/errors.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/input_file.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -51,6 +52,7 @@ Texture::Texture(const RgbImage& image) {
         std::max<std::int64_t>(1, fine.width / 2), std::max<std::int64_t>(1, fine.height / 2), {}};
     coarse.texels.reserve(static_cast<std::size_t>(coarse.width * coarse.height));
     for (std::int64_t y = 0; y < coarse.height; ++y) {
+      check_interruption();
       for (std::int64_t x = 0; x < coarse.width; ++x) {
         const std::int64_t x1 = std::min(2 * x + 1, fine.width - 1);
         const std::int64_t y1 = std::min(2 * y + 1, fine.height - 1);

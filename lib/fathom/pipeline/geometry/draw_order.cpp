@@ -4,11 +4,14 @@
 #include <functional>
 #include <random>
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::pipeline {
 namespace {
 
 template <class Real>
 Real depth_of(const WindowTriangle<Real>& t) {
+  check_interruption();  // in every comparison of a sort
   constexpr std::size_t D = attribute::depth;
   return t.corners[0].attributes[D] + t.corners[1].attributes[D] + t.corners[2].attributes[D];
 }
@@ -17,8 +20,10 @@ Real depth_of(const WindowTriangle<Real>& t) {
 template <class T>
 void shuffle(std::vector<T>& list, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  for (std::size_t left = list.size(); left > 1; --left)
+  for (std::size_t left = list.size(); left > 1; --left) {
+    check_interruption();
     std::swap(list[left - 1], list[random() % left]);
+  }
 }
 
 }  // namespace

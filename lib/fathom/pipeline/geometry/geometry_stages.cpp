@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fathom/pipeline/fragments/shading.h"
+#include "fathom/threads/interruption.h"
 
 // How to read this file: GeometryStages::run() is the order of the stages, for one triangle.
 namespace fathom::pipeline {
@@ -31,6 +32,7 @@ class GeometryStages {
         count_(statistics) {}
 
   void run(const InputTriangle& input, const VertexTransform<Real>& transform) {
+    check_interruption();
     ++count_.triangles;
     std::vector<ClipVertex<Real>> corners;
     for (const InputVertex& corner : input.corners) corners.push_back(transform(corner));
@@ -64,6 +66,7 @@ class GeometryStages {
 
   /// A line of a file; a point where `is_point`.
   void run(const InputLine& input, const VertexTransform<Real>& transform, bool is_point) {
+    check_interruption();
     const ClipVertex<Real> a = transform(input.ends[0]), b = transform(input.ends[1]);
     if (!is_finite(a) || !is_finite(b)) {
       ++count_.not_finite;

@@ -9,6 +9,7 @@
 #include "fathom/geometry/eigen_arrays.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/geometry/plane_sides.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -55,6 +56,7 @@ class Painter {
 
   std::vector<WindowTriangle<Real>> run(std::vector<WindowTriangle<Real>> triangles) {
     for (WindowTriangle<Real>& t : triangles) {
+      check_interruption();
       Polygon<Real> p;
       p.corners.assign(t.corners.begin(), t.corners.end());
       p.plane = planes_.size();
@@ -91,6 +93,7 @@ class Painter {
   }
 
   static bool is_farther(const Polygon<Real>& a, const Polygon<Real>& b) {
+    check_interruption();  // in every comparison of a sort
     return a.high[2] > b.high[2];
   }
 
@@ -136,6 +139,7 @@ class Painter {
   bool settle_first() {
     const Place P = todo_.begin();
     for (Place Q = std::next(P); Q != todo_.end(); ++Q) {
+      check_interruption();
       // Polygons that were moved are out of order, so the list is searched to its end.
       if (Q->high[2] <= P->low[2]) {
         ++count_.z_disjoint;

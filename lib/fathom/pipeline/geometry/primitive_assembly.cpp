@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fathom/mesh/vertex_normals.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -23,6 +24,7 @@ std::vector<std::array<double, 3>> smooth_normals(const Mesh& mesh, FrontFace fr
   const std::vector<std::uint32_t> first = mesh::sharing_vertices(mesh, shared);
   std::vector<Vector> sums(mesh.vertices.size(), Vector::Zero());
   for (const CornerIndices& t : mesh.triangles) {
+    check_interruption();
     const Vector n = area_vector(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
     for (const std::uint32_t v : t) sums[first[v]] += n;
   }
@@ -89,6 +91,7 @@ std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t 
                                                       : std::vector<std::array<double, 3>>();
   std::vector<InputTriangle> triangles(mesh.triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
+    check_interruption();
     triangles[t].number = first_number + static_cast<std::uint32_t>(t);
     triangles[t].object = object;
     for (std::size_t k = 0; k < 3; ++k) {

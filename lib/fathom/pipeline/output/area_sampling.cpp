@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fathom/pipeline/output/pixel_partition.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -45,6 +46,7 @@ class AreaSampler {
         in_column_(static_cast<std::size_t>(
             std::max<std::int64_t>(0, window.is_empty() ? 0 : window.x_end - window.x_begin))) {
     for (const auto& t : triangles) {
+      check_interruption();
       if (const auto i = Interpolator<Real>::of(t, options)) triangles_.push_back(prepared(*i));
     }
   }
@@ -115,6 +117,7 @@ class AreaSampler {
 
   /// Notes a triangle in each pixel of a row that it can touch.
   void note(std::uint32_t i, std::int64_t y) {
+    check_interruption();
     const PixelWindow box = box_of(i);
     const GridTriangle& grid = triangles_[i].interpolator.grid();
     for (auto x = std::max(box.x_begin, window_.x_begin); x < std::min(box.x_end, window_.x_end);

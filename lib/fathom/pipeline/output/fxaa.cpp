@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::pipeline {
 namespace {
 
@@ -111,9 +113,11 @@ Colour filtered(const ColourImage& image, double x, double y, const FxaaSettings
 
 ColourImage fxaa(const ColourImage& image, const FxaaSettings& settings) {
   ColourImage result = image;
-  for (std::uint32_t y = 0; y < image.height; ++y)
+  for (std::uint32_t y = 0; y < image.height; ++y) {
+    check_interruption();
     for (std::uint32_t x = 0; x < image.width; ++x)
       result.pixels[std::size_t{y} * image.width + x] = filtered(image, x, y, settings);
+  }
   return result;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::pipeline {
 namespace {
 
@@ -113,6 +115,7 @@ void OutputMerger::write(const Pixel& p, std::size_t sample, const MergedFragmen
 ColourImage FrameBuffer::resolve() const {
   ColourImage image{width_, height_, std::vector<Colour>(std::size_t{width_} * height_)};
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    check_interruption();
     for (std::size_t s = 0; s < samples_; ++s)
       for (std::size_t k = 0; k < 3; ++k)
         image.pixels[i][k] += static_cast<double>(buffer_[i * samples_ + s].colour[k]);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::pipeline {
 namespace {
 
@@ -74,6 +76,7 @@ void PixelPartition::cut(const PixelForm& line, std::size_t seen_in, std::size_t
 }
 
 void PixelPartition::add(const PixelSurface& surface, bool always) {
+  check_interruption();
   const std::size_t before = count_;
   for (std::size_t i = 0; i < before; ++i) {
     inside_.polygon = pieces_[i].polygon;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::pipeline {
 namespace {
 
@@ -73,6 +75,7 @@ void TemporalHistory::add(const ColourImage& present, const PixelMoves& moves) {
   }
   ColourImage next = present;
   for (std::uint32_t y = 0; y < present.height; ++y) {
+    check_interruption();
     for (std::uint32_t x = 0; x < present.width; ++x) {
       const Colour before = earlier(present, moves, x, y);
       Colour& colour = next.pixels[std::size_t{y} * present.width + x];

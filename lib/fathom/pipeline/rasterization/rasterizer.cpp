@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fathom/pipeline/scan/polygon_fill.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -25,6 +26,7 @@ class Rasterizer {
         count_(statistics) {}
 
   void draw(const WindowTriangle<Real>& triangle) {
+    check_interruption();
     const auto interpolator = Interpolator<Real>::of(triangle, s_.options);
     if (!interpolator) return;
     if (shader_) shader_->begin(triangle);
@@ -48,6 +50,7 @@ class Rasterizer {
       return x - (x % block_size + block_size) % block_size;
     };
     for (std::int64_t y = start(box.y_begin); y < box.y_end; y += block_size) {
+      check_interruption();
       for (std::int64_t x = start(box.x_begin); x < box.x_end; x += block_size) {
         const auto coverage = t.grid().test_block({x, y}, block_size);
         const bool full = coverage == GridTriangle::BlockCoverage::all;
@@ -64,6 +67,7 @@ class Rasterizer {
   /// `full`: every sample is known to be covered.
   void draw_part(const Interpolator<Real>& t, const PixelWindow& part, bool full) {
     for (std::int64_t y = part.y_begin; y < part.y_end; ++y) {
+      check_interruption();
       for (std::int64_t x = part.x_begin; x < part.x_end; ++x) {
         if (s_.rate == ShadingRate::per_pixel) {
           draw_pixel(t, {x, y}, full);

@@ -6,6 +6,7 @@
 #include "fathom/pipeline/rasterization/rasterizer.h"
 #include "fathom/pipeline/scan/diamond_exit.h"
 #include "fathom/pipeline/scan/line.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -52,6 +53,7 @@ class OutlineDrawer {
  private:
   void begin(std::uint32_t number, std::uint32_t object, const WindowVertex<Real>& a,
              const WindowVertex<Real>& b) {
+    check_interruption();
     a_ = &a, b_ = &b, number_ = number;
     is_point_ = &a == &b;
     length_ = std::hypot(b.x - a.x, b.y - a.y);
@@ -86,9 +88,11 @@ class OutlineDrawer {
     const Real one(1);
     const std::int64_t x_end = std::min(column(right + one) + 1, s_.window.x_end);
     const std::int64_t y_end = std::min(column(bottom + one) + 1, s_.window.y_end);
-    for (std::int64_t y = std::max(column(top - one), s_.window.y_begin); y < y_end; ++y)
+    for (std::int64_t y = std::max(column(top - one), s_.window.y_begin); y < y_end; ++y) {
+      check_interruption();
       for (std::int64_t x = std::max(column(left - one), s_.window.x_begin); x < x_end; ++x)
         fill({x, y});
+    }
   }
 
   void fill(const Pixel& p) {

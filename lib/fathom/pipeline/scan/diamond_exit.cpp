@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::pipeline {
 namespace {
 
@@ -108,6 +110,7 @@ void diamond_exit_passages(const WindowSegment<Number>& ends, const PixelWindow&
   const std::int64_t last =
       std::min(floor_of(std::max(from, to)) + 1, (steep ? window.y_end : window.x_end) - 1);
   for (std::int64_t k = 0; k <= last - first; ++k) {
+    check_interruption();
     const std::int64_t major = backwards ? last - k : first + k;
     // The diamonds of a column are inside it: their order along the segment is that of the columns.
     std::vector<Passage<Number>> column;

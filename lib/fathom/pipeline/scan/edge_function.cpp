@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::pipeline {
 namespace {
 
@@ -50,6 +52,7 @@ void rasterize_triangle(const std::array<Point<Number>, 3>& corners, const Pixel
   const PixelWindow box = bounding_box(corners, window);
   for (std::int64_t y = box.y_begin; y < box.y_end; ++y) {
     for (std::int64_t x = box.x_begin; x < box.x_end; ++x) {
+      check_interruption();
       CoveredPixel<Number> covered{{x, y}, {}, {}};
       bool inside = true;
       for (std::size_t k = 0; k < 3 && inside; ++k) {

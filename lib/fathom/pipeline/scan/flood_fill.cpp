@@ -1,5 +1,7 @@
 #include "fathom/pipeline/scan/flood_fill.h"
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::pipeline {
 namespace {
 
@@ -16,6 +18,7 @@ class Flood {
   void run(const Pixel& seed) {
     waiting_.push_back(seed);
     while (!waiting_.empty()) {
+      check_interruption();
       const Pixel p = waiting_.back();
       waiting_.pop_back();
       if (is_open(p)) fill_span(p);

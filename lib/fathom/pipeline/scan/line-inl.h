@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "fathom/pipeline/scan/line.h"
+#include "fathom/threads/interruption.h"
 
 /// The lines that compute with Number, for line.cpp and for tests that count what a step costs.
 namespace fathom::pipeline {
@@ -33,6 +34,7 @@ void explicit_line(const LineEnds& ends, const PixelWindow& window,
   const Number m = slope_of<Number>(a);
   const auto [first, last] = a.steps_in(window);
   for (std::int64_t step = first; step <= last; ++step) {
+    check_interruption();
     const Number y = m * number_of<Number>(step) + number_of<Number>(a.minor0);
     const Pixel pixel = a.pixel(step, nearest_minor(a, y));
     if (window.contains(pixel)) visit(pixel, y);
@@ -51,6 +53,7 @@ void dda_line(const LineEnds& ends, const PixelWindow& window, const VisitLine<N
     for (std::int64_t step = 0; step < first; ++step) y += m;
   }
   for (std::int64_t step = first; step <= last; ++step, y += m) {
+    check_interruption();
     const Pixel pixel = a.pixel(step, nearest_minor(a, y));
     if (window.contains(pixel)) visit(pixel, y);
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::pipeline {
 namespace {
 
@@ -105,6 +107,7 @@ void fill_polygon(const FillPolygon<Number>& polygon, FillRule rule, const Pixel
   std::size_t next = 0;
   std::int64_t y = 0;
   while (next < edges.size() || !active.empty()) {
+    check_interruption();
     if (active.empty()) y = edges[next].y_begin;
     for (; next < edges.size() && edges[next].y_begin == y; ++next)
       active.push_back(std::move(edges[next]));
@@ -125,6 +128,7 @@ std::vector<std::vector<Number>> values_along(const FilledSpan<Number>& span) {
   std::vector<std::vector<Number>> values;
   std::vector<Number> value = span.first;
   for (std::int64_t x = span.pixels.x_begin; x < span.pixels.x_end; ++x) {
+    check_interruption();
     values.push_back(value);
     for (std::size_t i = 0; i < value.size(); ++i) value[i] += span.dr_dx[i];
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fathom/pipeline/scan/arithmetic.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {
 namespace {
@@ -50,6 +51,7 @@ template <class Number>
 bool all_corners_on_one_side(const Ring<Number>& ring) {
   bool some_left = false, some_right = false;
   for (std::size_t i = 0; i < ring.size(); ++i) {
+    check_interruption();
     for (const Point<Number>& p : ring) {
       const int side = sign_of(left_of(ring[i], ring[(i + 1) % ring.size()], p));
       some_left = some_left || side > 0;
@@ -87,6 +89,7 @@ bool is_on_one_side_of_every_edge(const Ring<Number>& ring, const Point<Number>&
 
 template <class Number>
 RayCrossings ray_crossings(const Rings<Number>& rings, const Point<Number>& p) {
+  check_interruption();
   RayCrossings result;
   for (const Ring<Number>& ring : rings) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -146,6 +149,7 @@ Ring<Number> convex_hull(std::vector<Point<Number>> points) {
 
 template <class Number>
 bool is_in_hull(const Ring<Number>& hull, const Point<Number>& p) {
+  check_interruption();
   if (hull.size() == 1) return p == hull[0];
   if (hull.size() == 2) return is_on_edge(hull[0], hull[1], p);
   for (std::size_t i = 0; i < hull.size(); ++i)

@@ -5,6 +5,8 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Triangulation_data_structure_2.h>
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::pipeline {
 namespace {
 
@@ -28,6 +30,7 @@ std::vector<std::array<Point<Exact>, 3>> tessellate(const Rings<Exact>& polygon)
   Triangulation triangulation;
   for (const Ring<Exact>& ring : polygon) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
+      check_interruption();
       const auto &a = ring[i], &b = ring[(i + 1) % ring.size()];
       if (!(a == b)) triangulation.insert_constraint({a.x, a.y}, {b.x, b.y});
     }
