@@ -73,8 +73,9 @@ TEST_F(FormatsProgram, ThatIsNotThereIsNamed) {
   EXPECT_EQ(outcome.status, 3);
   EXPECT_EQ(
       outcome.err,
-      "fathom: error: a.dae: is read by a program of its own, fathom-formats, that is not built: "
-      "'scripts/fathom formats' installs what it needs and builds it\n");
+      "fathom: error: a.dae: is read by a program of its own, fathom-formats, that is not "
+      "installed: "
+      "the package fathom contains it; 'scripts/fathom formats' in a clone of Fathom builds it\n");
 }
 
 TEST_F(FormatsProgram, IsProvidedWhenItIsFirstNeeded) {
@@ -94,8 +95,8 @@ TEST_F(FormatsProgram, ThatCannotBeProvidedIsNamed) {
   put("#!/bin/sh\necho no network\nexit 1\n", "provider");
   const Outcome outcome = info(folder_ / "provider");
   EXPECT_EQ(outcome.status, 3);
-  EXPECT_THAT(outcome.err, AllOf(StartsWith("no network\n"), HasSubstr("that is not built")));
-  EXPECT_THAT(info(folder_ / "nowhere").err, HasSubstr("that is not built"));
+  EXPECT_THAT(outcome.err, AllOf(StartsWith("no network\n"), HasSubstr("that is not installed")));
+  EXPECT_THAT(info(folder_ / "nowhere").err, HasSubstr("that is not installed"));
 }
 
 TEST_F(FormatsProgram, ThatCannotBeStartedIsNamed) {
@@ -109,7 +110,8 @@ TEST_F(FormatsProgram, ThatCannotBeStartedIsNamed) {
 TEST_F(FormatsProgram, OfAnotherVersionIsNamed) {
   expect_failure("#!/bin/sh\n[ \"$1\" = --serve ] && exit 64\nexit 1\n",
                  "assimp could not read it: " + (folder_ / "fathom-formats") +
-                     " belongs to another version: 'scripts/fathom formats' builds it anew");
+                     " belongs to another version: install the package fathom of this version, or "
+                     "build it again by 'scripts/fathom formats' in a clone of Fathom");
   const Outcome other = run({program("fathom-formats"), "--serve", "0"});
   EXPECT_EQ(other.status, mesh_files::formats_program::other_version);
 }

@@ -7,8 +7,8 @@ namespace {
 
 [[noreturn]] void refuse(const char* peer) {
   throw UsageError(std::string(peer) +
-                   " is not built in: 'scripts/install-dependencies bench' installs it, and "
-                   "-DFATHOM_PEERS=ON builds with it; 'scripts/fathom bench' does both");
+                   " is not built in: 'scripts/fathom bench' in a clone of Fathom installs it and "
+                   "builds with it (-DFATHOM_PEERS=ON)");
 }
 
 }  // namespace

@@ -32,9 +32,10 @@ std::filesystem::path find_program(const ReadOptions& options, const std::string
       options.formats_program ? options.formats_program() : beside_this_program();
   std::error_code error;
   if (std::filesystem::exists(path, error)) return path;
-  throw InputError(file + ": is read by a program of its own, " + program_name +
-                   ", that is not built: 'scripts/fathom formats' installs what it needs and "
-                   "builds it");
+  throw InputError(
+      file + ": is read by a program of its own, " + program_name +
+      ", that is not installed: the package fathom contains it; 'scripts/fathom formats' "
+      "in a clone of Fathom builds it");
 }
 
 /// Both ends close themselves in programs that this process starts.
@@ -76,7 +77,10 @@ struct StartActions {
 /// What became of the program, by its status.
 std::string ending(int status, const Limits& limits, const std::string& program) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == other_version)
-    return program + " belongs to another version: 'scripts/fathom formats' builds it anew";
+    return program +
+           " belongs to another version: install the package fathom of this version, or build it "
+           "again by "
+           "'scripts/fathom formats' in a clone of Fathom";
   if (!WIFSIGNALED(status)) return program + " does not answer";
   switch (const int signal = WTERMSIG(status)) {
     case SIGXCPU:
