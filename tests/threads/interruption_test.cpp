@@ -80,6 +80,14 @@ TEST(Interruption, EndsOnePieceThatWouldNotEnd) {
   EXPECT_THROW(forever(), Interrupted);
 }
 
+TEST(Interruption, IsFoundWithin256OccasionalChecks) {
+  const std::atomic<bool> request{true};
+  const Interruptible here(&request);
+  OccasionalInterruption check;
+  for (int i = 0; i < 255; ++i) check();
+  EXPECT_THROW(check(), Interrupted);
+}
+
 TEST(Interruption, OfOneCallIsNoneOfOthers) {
   const std::atomic<bool> request{true};
   std::thread([&] {

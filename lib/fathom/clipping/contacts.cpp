@@ -11,6 +11,7 @@
 
 #include "fathom/clipping/boxes.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {
 namespace {
@@ -40,13 +41,16 @@ std::vector<PlacedEdge<Number>> edges_by_xmin(const Rings<Number>& rings) {
   std::vector<PlacedEdge<Number>> edges;
   for (std::size_t r = 0; r < rings.size(); ++r)
     for (std::size_t i = 0; i < rings[r].size(); ++i) {
+      check_interruption();
       const Point2<Number>&a = rings[r][i], &b = rings[r][(i + 1) % rings[r].size()];
       edges.push_back({{a, b}, box_of(a), box_of(b), r, i});
     }
   const auto xmin = [](const Segment2<Number>& s) -> const Number& {
     return std::min(s.start.x, s.end.x);
   };
+  OccasionalInterruption check;
   std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) {
+    check();
     const Number &a_min = xmin(a.segment), &b_min = xmin(b.segment);
     return a_min < b_min ||
            (a_min == b_min && std::pair(a.ring, a.edge) < std::pair(b.ring, b.edge));
@@ -90,13 +94,39 @@ bool meet_in_an_end_at_most(const PlacedEdge<Number>& a, const PlacedEdge<Number
   return false;
 }
 
+/// A kernel of CGAL's as is_simple_2() needs it. Its predicates are where that can be interrupted.
+template <class Kernel>
+class InterruptibleTraits {
+ public:
+  template <class Predicate>
+  struct InterruptiblePredicate : Predicate {
+    OccasionalInterruption* check;
+    template <class... Points>
+    auto operator()(const Points&... points) const {
+      (*check)();
+      return Predicate::operator()(points...);
+    }
+  };
+  using Point_2 = typename Kernel::Point_2;
+  using Less_xy_2 = InterruptiblePredicate<typename Kernel::Less_xy_2>;
+  using Orientation_2 = InterruptiblePredicate<typename Kernel::Orientation_2>;
+
+  explicit InterruptibleTraits(OccasionalInterruption& check) : check_(&check) {}
+  [[nodiscard]] Less_xy_2 less_xy_2_object() const { return {{}, check_}; }
+  [[nodiscard]] Orientation_2 orientation_2_object() const { return {{}, check_}; }
+
+ private:
+  OccasionalInterruption* check_;
+};
+
 /// Whether the ring meets itself nowhere.
 template <class Kernel, class ToPoint>
 bool is_simple(const Ring<Rational>& ring, const ToPoint& to_point) {
   std::vector<typename Kernel::Point_2> corners;
   corners.reserve(ring.size());
   for (const Point2<Rational>& p : ring) corners.push_back(to_point(p));
-  return CGAL::is_simple_2(corners.begin(), corners.end(), Kernel());
+  OccasionalInterruption check;
+  return CGAL::is_simple_2(corners.begin(), corners.end(), InterruptibleTraits<Kernel>(check));
 }
 
 bool is_simple(const Ring<Rational>& ring) {
@@ -136,6 +166,7 @@ std::vector<Rings<Number>> contacts_on_edges(const Rings<Number>& rings,
   const auto edges = edges_by_xmin(rings);
   std::size_t count = 0;
   visit_meeting_edges(edges, first_of_clip, [&](std::size_t i, std::size_t k) {
+    check_interruption();
     // Over double it matters which comes first.
     const PlacedEdge<Number>&a = edges[std::min(i, k)], &b = edges[std::max(i, k)];
     if (std::is_same_v<Number, Rational> && meet_in_an_end_at_most(a, b)) return;
@@ -156,6 +187,7 @@ std::vector<Rings<Number>> contacts_on_edges(const Rings<Number>& rings,
 /// Appends the start of an edge and the contacts strictly inside it, in order along it.
 template <class Number>
 void append_split(Ring<Number>& ring, const Segment2<Number>& edge, Ring<Number> contacts) {
+  check_interruption();
   const Point2<Number>&start = edge.start, &end = edge.end;
   const bool ascending = start < end;
   const auto comes_before = [&](const Point2<Number>& a, const Point2<Number>& b) {
@@ -237,6 +269,7 @@ std::optional<SelfContact> self_contact(const Ring<Rational>& ring) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Box box = edges[i].box();
     for (std::size_t k = i + 1; k < edges.size(); ++k) {
+      check_interruption();
       const Box other = edges[k].box();
       if (box.x.is_below(other.x)) break;
       if (!box.meets(other)) continue;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fathom/threads/interruption.h"
+
 namespace fathom::clipping {
 namespace {
 
@@ -32,7 +34,10 @@ template <class Number>
 std::vector<Box> boxes_of(const std::vector<Point2<Number>>& points) {
   std::vector<Box> boxes;
   boxes.reserve(points.size());
-  for (const Point2<Number>& p : points) boxes.push_back(box_of(p));
+  for (const Point2<Number>& p : points) {
+    check_interruption();
+    boxes.push_back(box_of(p));
+  }
   return boxes;
 }
 
@@ -64,12 +69,16 @@ NumberedCorners<Number> numbered(const Rings<Number>& rings) {
   std::vector<BoxedPoint<Number>> corners;
   for (const Ring<Number>& ring : rings)
     for (const Point2<Number>& p : ring) corners.push_back({&p, box_of(p), corners.size()});
-  std::sort(corners.begin(), corners.end(),
-            [](const auto& a, const auto& b) { return compare(a, b) < 0; });
+  OccasionalInterruption check;
+  std::sort(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
+    check();
+    return compare(a, b) < 0;
+  });
 
   NumberedCorners<Number> result;
   std::vector<std::size_t> number_at(corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
+    check_interruption();
     if (i == 0 || compare(corners[i - 1], corners[i]) != 0)
       result.points.push_back(*corners[i].point);
     number_at[corners[i].place] = result.points.size() - 1;

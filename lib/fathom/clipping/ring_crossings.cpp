@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fathom/clipping/sweep.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {
 namespace {
@@ -77,6 +78,7 @@ std::vector<PassageEnd> ends_about(const std::vector<Passage>& passages, const N
 std::optional<std::pair<Passage, Passage>> crossing_about(const std::vector<Passage>& passages,
                                                           const NumberedRings& rings,
                                                           const PointOrder& points) {
+  check_interruption();
   std::vector<std::size_t> begun;
   for (const PassageEnd& end : ends_about(passages, rings, points)) {
     if (end.other_direction > end.direction) {
@@ -118,6 +120,7 @@ class SharedPieces {
     if (found == runs_.end()) return std::nullopt;
     const std::size_t n = rings_[ring].size();
     for (const Run& other : found->second) {
+      check_interruption();
       if (other.ring <= ring) continue;
       std::size_t first = corner, last = corner;
       if (run_along(other.ring, ring, (corner + n - 1) % n) != nullptr) continue;  // goes on

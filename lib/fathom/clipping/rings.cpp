@@ -10,6 +10,7 @@
 #include "fathom/clipping/nesting.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {
 namespace {
@@ -41,7 +42,11 @@ Ring<Number> without_repetitions(Ring<Number> ring) {
 
 void check_corners(const Ring<Rational>& ring, const std::string& side, std::size_t number) {
   Ring<Rational> corners = ring;
-  std::sort(corners.begin(), corners.end());
+  OccasionalInterruption check;
+  std::sort(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
+    check();
+    return a < b;
+  });
   const auto distinct = std::unique(corners.begin(), corners.end()) - corners.begin();
   if (distinct < 3)
     refuse(side, number,
@@ -79,6 +84,7 @@ Number sum_of(std::vector<Number> terms) {
 template <class Number>
 Number signed_area(const Ring<Number>& ring) {
   const StandardArithmetic standard;
+  check_interruption();
   std::vector<Number> terms;
   for (std::size_t i = 2; i < ring.size(); ++i)
     terms.push_back(cross(ring[0], ring[i - 1], ring[i]));

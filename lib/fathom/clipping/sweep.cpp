@@ -5,6 +5,7 @@
 #include <set>
 
 #include "fathom/clipping/sweep_order.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {
 namespace {
@@ -21,7 +22,9 @@ std::vector<std::size_t> in_order(std::size_t count, const IsBefore& is_before) 
 }  // namespace
 
 std::vector<SweptEdge> sweep(const std::vector<UndirectedEdge>& edges, const PointOrder& points) {
+  OccasionalInterruption check;
   const auto beginning = in_order(edges.size(), [&](std::size_t a, std::size_t b) {
+    check();
     const UndirectedEdge &p = edges[a], &q = edges[b];
     return p.left != q.left ? p.left < q.left : points.comes_before(p.left, p.right, q.right);
   });
@@ -34,6 +37,7 @@ std::vector<SweptEdge> sweep(const std::vector<UndirectedEdge>& edges, const Poi
   std::vector<Line::const_iterator> places(edges.size());
   auto ended = ending.begin();
   for (auto begun = beginning.begin(); begun != beginning.end();) {
+    check_interruption();
     const std::size_t point = edges[*begun].left;
     while (ended != ending.end() && edges[*ended].right <= point) line.erase(places[*ended++]);
     const auto above = line.lower_bound(IsBelow::Point{point});

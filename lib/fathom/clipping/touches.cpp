@@ -10,6 +10,7 @@
 #include "fathom/clipping/contacts.h"
 #include "fathom/clipping/sweep_order.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {
 namespace {
@@ -44,6 +45,7 @@ class TouchSweep {
   std::variant<std::vector<std::vector<std::size_t>>, EdgeCrossing> run() {
     auto next = std::size_t{0};  // edges are in the order of their left ends
     for (std::size_t point = 0; point < points_.size(); ++point) {
+      check_interruption();
       pass(point);
       for (; next < all_.edges.size() && all_.edges[next].left == point; ++next) line_.insert(next);
       look_around(point);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "fathom/numeric/errors.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {
 namespace {
@@ -42,6 +43,7 @@ NumberedRings joined_by_wedges(const std::vector<DirectedEdge>& edges, const Poi
   std::vector<EdgeEnd> ends = ends_by_point(edges);
   std::vector<std::size_t> next(edges.size(), none);
   for (auto first = ends.begin(), last = first; first != ends.end(); first = last) {
+    check_interruption();
     while (last != ends.end() && last->point == first->point) ++last;
     if (last - first > 2)
       std::sort(first, last, [&](const EdgeEnd& a, const EdgeEnd& b) {

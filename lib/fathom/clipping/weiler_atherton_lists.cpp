@@ -7,6 +7,7 @@
 
 #include "fathom/clipping/sweep.h"
 #include "fathom/clipping/wedges.h"
+#include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {
 namespace {
@@ -122,6 +123,7 @@ std::vector<ContactKind> cross(std::span<Visit> subject, std::span<Visit> clip,
                                SetOperation operation) {
   std::vector<ContactKind> kinds;
   while (!subject.empty() && !clip.empty()) {
+    check_interruption();
     const auto s = first_point(subject), c = first_point(clip);
     const std::size_t P = s[0].point;
     if (P == c[0].point) {
